@@ -1,0 +1,73 @@
+# Every target of the project is declared by one of these functions, so that the language level, the
+# warnings and the sanitizers are the same everywhere.
+
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+
+add_library(crane_build_flags INTERFACE)
+target_compile_features(crane_build_flags INTERFACE cxx_std_20)
+target_compile_options(crane_build_flags INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wconversion -Wshadow -Werror>)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 sees both in the standard library itself (bugs 105329 and 105562), at -O2 and above.
+  target_compile_options(crane_build_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict -Wno-maybe-uninitialized>)
+endif()
+
+if(CRANE_SANITIZE)
+  add_compile_options(-fsanitize=${CRANE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${CRANE_SANITIZE})
+endif()
+
+# crane_library(NAME [SOURCES ...] [LINK ...] [PRIVATE_LINK ...])
+#   Library target crane_NAME with alias crane::NAME and public headers in include/.
+#   LINK is public, PRIVATE_LINK stays inside.
+function(crane_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(crane_${name} STATIC ${ARG_SOURCES})
+    target_include_directories(crane_${name} PUBLIC include PRIVATE src)
+    target_link_libraries(crane_${name} PUBLIC ${ARG_LINK} PRIVATE crane_build_flags ${ARG_PRIVATE_LINK})
+    target_compile_features(crane_${name} PUBLIC cxx_std_20)
+  else()
+    add_library(crane_${name} INTERFACE)
+    target_include_directories(crane_${name} INTERFACE include)
+    target_link_libraries(crane_${name} INTERFACE ${ARG_LINK})
+    target_compile_features(crane_${name} INTERFACE cxx_std_20)
+  endif()
+  add_library(crane::${name} ALIAS crane_${name})
+endfunction()
+
+# crane_executable(NAME SOURCES ... LINK ...): program NAME in bin/.
+function(crane_executable name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK})
+endfunction()
+
+# crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL])
+#   GoogleTest program; each TEST becomes one CTest test. SERIAL: never beside another test (real time).
+function(crane_test name)
+  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_options(${name} PRIVATE -O1)  # optimising tests costs more time than it saves
+  set(properties "")
+  if(ARG_LABELS)
+    list(APPEND properties LABELS "${ARG_LABELS}")
+  endif()
+  if(ARG_SERIAL)
+    list(APPEND properties RUN_SERIAL TRUE)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 60)
+  endif()
+  list(APPEND properties TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+endfunction()
+
+# crane_benchmark(NAME SOURCES ... LINK ...): Google Benchmark program in bin/, not a test.
+function(crane_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK} benchmark::benchmark benchmark::benchmark_main)
+endfunction()

@@ -1,0 +1,61 @@
+#pragma once
+/// The loop between board and bus, and the stack's clock master. At tick k: latch the encoders, write command
+/// k-1, publish state k. One loop for every board: an encoder/DAC card or the simulated plant.
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "crane/bridge/board.hpp"
+#include "crane/bridge/last_line.hpp"
+#include "crane/bridge/measurement.hpp"
+#include "crane/runtime/component.hpp"
+#include "crane/runtime/node.hpp"
+#include "crane/runtime/request_inbox.hpp"
+#include "crane/runtime/tick_join.hpp"
+
+namespace crane::bridge {
+
+class Bridge : public runtime::Component {
+ public:
+  Bridge(const runtime::Context& context, std::unique_ptr<Board> board);
+  /// Leaves the board at 0 V, brakes closed.
+  ~Bridge() override;
+  Bridge(const Bridge&) = delete;
+  Bridge& operator=(const Bridge&) = delete;
+
+  [[nodiscard]] std::string_view name() const override { return node_.identity().name; }
+  bool poll(std::int64_t now_ns) override;
+  [[nodiscard]] std::int64_t wake_at_ns() const override;
+  [[nodiscard]] bool paced() const override { return clock_ == runtime::Clock::realtime; }
+  [[nodiscard]] bool connected() const override { return states_.matched() > 0 && commands_.matched() > 0; }
+  [[nodiscard]] std::string waiting_for() const override;
+
+ private:
+  [[nodiscard]] bool tick_is_due(std::int64_t now_ns);
+  void take_commands();
+  void take_requests();
+  void tick(std::int64_t now_ns);
+  void report_latches();
+  [[nodiscard]] msg::State state(const Inputs& inputs, const std::array<double, kDrives>& applied_v,
+                                 std::int64_t sample_time_ns);
+
+  runtime::Node& node_;
+  runtime::Clock clock_;
+  std::int64_t period_ns_;
+  std::unique_ptr<Board> board_;
+  MeasurementPipeline measurement_;
+  LastLine last_line_;
+  bus::Publisher<msg::State> states_;
+  bus::Subscriber<msg::Command> commands_;
+  runtime::RequestInbox requests_;
+  runtime::JoinCounts counts_;
+  std::optional<CommandView> command_;
+  std::optional<std::uint32_t> command_epoch_;
+  std::optional<std::uint64_t> tick_;  ///< last tick published
+  std::uint64_t until_tick_ = 0;       ///< lockstep: runs up to this tick
+  std::int64_t start_ns_ = 0;          ///< realtime: when tick 0 was
+  std::uint32_t overruns_ = 0;
+  bool reported_stale_ = false, reported_invalid_ = false;
+};
+
+}  // namespace crane::bridge

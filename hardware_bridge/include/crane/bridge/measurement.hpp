@@ -1,0 +1,56 @@
+#pragma once
+/// From raw counts to positions, swing angles, speeds and rates (dissertation section 4.3). The same for
+/// every board: nothing here knows whether a plant or a simulation made the counts.
+#include <array>
+#include <cstdint>
+
+#include "crane/bridge/board.hpp"
+#include "crane/control/filters.hpp"
+#include "crane/control/law.hpp"
+#include "crane/runtime/rig.hpp"
+
+namespace crane::bridge {
+
+/// A 24-bit counter continued beyond its range: successive readings differ by less than 2^23 counts.
+class CountUnwrapper {
+ public:
+  [[nodiscard]] std::int64_t step(std::int32_t raw_counts) noexcept;
+
+ private:
+  std::int64_t counts_ = 0;
+  bool started_ = false;
+};
+
+/// Position and its rate from one encoder.
+class Coordinate {
+ public:
+  /// @param cut_off_ratio  of the low-pass in front of the differentiator; 0: none
+  Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio);
+  void step(std::int32_t raw_counts) noexcept;
+  [[nodiscard]] std::int64_t counts() const { return counts_; }
+  [[nodiscard]] double position() const { return position_; }  ///< m or rad, quantised, not filtered
+  [[nodiscard]] double rate() const { return rate_; }          ///< per second
+
+ private:
+  CountUnwrapper unwrapper_;
+  double units_per_count_;
+  control::FilterSection low_pass_;
+  control::FilterSection differentiator_;
+  control::FilterMemory low_pass_memory_, differentiator_memory_;
+  bool started_ = false;
+  std::int64_t counts_ = 0;
+  double position_ = 0, rate_ = 0;
+};
+
+class MeasurementPipeline {
+ public:
+  explicit MeasurementPipeline(const runtime::Rig& rig);
+  /// One tick. @return positions, speeds, swing angles and rates in SI units
+  control::Measurement step(const std::array<std::int32_t, kCounters>& raw_counts) noexcept;
+  [[nodiscard]] const std::array<Coordinate, kCounters>& coordinates() const { return coordinates_; }
+
+ private:
+  std::array<Coordinate, kCounters> coordinates_;
+};
+
+}  // namespace crane::bridge

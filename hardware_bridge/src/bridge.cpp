@@ -1,0 +1,165 @@
+#include "crane/bridge/bridge.hpp"
+
+#include <chrono>
+#include <string>
+
+#include "crane/runtime/convert.hpp"
+
+namespace crane::bridge {
+namespace {
+
+LastLineParameters last_line_parameters(const runtime::Rig& rig) {
+  LastLineParameters parameters;
+  parameters.stale_after_ticks = static_cast<std::uint64_t>(rig.limits.stale_after_ticks);
+  for (std::size_t i = 0; i < kDrives; ++i) parameters.volt_limit_v[i] = rig.drives[i].volt_limit_v;
+  return parameters;
+}
+
+}  // namespace
+
+Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
+    : node_{context.node},
+      clock_{context.clock},
+      period_ns_{static_cast<std::int64_t>(context.rig.period_s * 1e9 + 0.5)},
+      board_{std::move(board)},
+      measurement_{context.rig},
+      last_line_{last_line_parameters(context.rig)},
+      states_{context.bus.publisher(topics::state)},
+      commands_{context.bus.subscriber(topics::command, runtime::loop_input(context.clock))},
+      requests_{context, {crane_REQUEST_ADVANCE, crane_REQUEST_KICK}} {
+  board_->make_safe();
+}
+
+Bridge::~Bridge() { board_->make_safe(); }
+
+std::int64_t Bridge::wake_at_ns() const {
+  if (clock_ == runtime::Clock::lockstep) return runtime::kNever;
+  return tick_ ? start_ns_ + static_cast<std::int64_t>(*tick_ + 1) * period_ns_ : 0;
+}
+
+std::string Bridge::waiting_for() const {
+  if (!tick_) return "an advance request";
+  if (*tick_ >= until_tick_) return "an advance request beyond tick " + std::to_string(until_tick_);
+  return "the command of tick " + std::to_string(*tick_);
+}
+
+bool Bridge::poll(std::int64_t now_ns) {
+  take_requests();
+  take_commands();
+  node_.beat(now_ns, connected() ? crane_PHASE_READY : crane_PHASE_STARTING, counts_,
+             commands_.counts().rejected);
+  if (!tick_is_due(now_ns)) return false;
+  const auto begin = std::chrono::steady_clock::now();
+  tick(now_ns);
+  const auto spent = std::chrono::steady_clock::now() - begin;
+  node_.stepped(*tick_, 0, std::chrono::nanoseconds{spent}.count());
+  return true;
+}
+
+bool Bridge::tick_is_due(std::int64_t now_ns) {
+  if (clock_ == runtime::Clock::realtime) {
+    if (!tick_) start_ns_ = now_ns;
+    return now_ns >= wake_at_ns();
+  }
+  if (!tick_) return until_tick_ > 0;
+  return *tick_ < until_tick_ && command_ && command_->tick == *tick_;
+}
+
+void Bridge::take_commands() {
+  while (const auto command = commands_.take()) {
+    if (command_epoch_ && command->header.epoch < *command_epoch_) {  // an older supervisor has no say
+      ++counts_.conflicting;
+      continue;
+    }
+    const bool younger = command_epoch_ && command->header.epoch > *command_epoch_;
+    command_epoch_ = command->header.epoch;
+    if (command_ && !younger && command->header.tick <= command_->tick) {
+      ++(command->header.tick == command_->tick ? counts_.duplicate : counts_.late);
+      continue;
+    }
+    command_ = CommandView{
+        .tick = command->header.tick,
+        .drive_v = runtime::values(command->drive_v),
+        .brake_release = {command->brake_release[0], command->brake_release[1], command->brake_release[2]},
+        .watchdog_permission = command->watchdog_permission};
+  }
+}
+
+void Bridge::take_requests() {
+  requests_.receive();
+  while (const auto request = requests_.take_due(tick_.value_or(0) + 1)) {
+    if (request->kind == crane_REQUEST_ADVANCE) {
+      until_tick_ = std::max(until_tick_, request->until_tick);
+    } else {
+      const bool kicked = board_->kick(request->target[0], request->target[1]);
+      requests_.reply(*request, request->header, kicked,
+                      kicked ? "" : "this board is a real rig: push the load by hand");
+    }
+  }
+}
+
+void Bridge::tick(std::int64_t now_ns) {
+  std::uint64_t next = tick_ ? *tick_ + 1 : 0;
+  std::int64_t sample_time_ns = static_cast<std::int64_t>(next) * period_ns_;
+  if (clock_ == runtime::Clock::realtime) {
+    const auto elapsed = static_cast<std::uint64_t>((now_ns - start_ns_) / period_ns_);
+    if (now_ns - wake_at_ns() > period_ns_ / 10 && tick_) ++overruns_;
+    counts_.lost += elapsed - next;
+    next = elapsed;  // what could not be kept is skipped, not caught up with
+    sample_time_ns = now_ns;
+  }
+  tick_ = next;
+  board_->advance_to(static_cast<std::int64_t>(next) * period_ns_);
+  const auto inputs = board_->read();
+  const auto applied_v = board_->write(last_line_.decide(command_, next));
+  auto sample = state(inputs, applied_v, sample_time_ns);
+  states_.publish(sample);
+  ++counts_.completed;
+  report_latches();
+}
+
+msg::State Bridge::state(const Inputs& inputs, const std::array<double, kDrives>& applied_v,
+                         std::int64_t sample_time_ns) {
+  const auto measured = measurement_.step(inputs.raw_counts);
+  msg::State sample{};
+  sample.header.tick = *tick_;
+  sample.header.sample_time_ns = sample_time_ns;
+  for (std::size_t i = 0; i < kCounters; ++i) sample.counts[i] = measurement_.coordinates()[i].counts();
+  sample.trolley_position_m = measured.position[control::kTrolley];
+  sample.slew_angle_rad = measured.position[control::kSlew];
+  sample.cable_length_m = measured.position[control::kHoist];
+  sample.trolley_speed_mps = measured.speed[control::kTrolley];
+  sample.slew_speed_radps = measured.speed[control::kSlew];
+  sample.cable_speed_mps = measured.speed[control::kHoist];
+  sample.swing_radial_rad = measured.swing_radial_rad;
+  sample.swing_tangential_rad = measured.swing_tangential_rad;
+  sample.swing_radial_radps = measured.swing_radial_radps;
+  sample.swing_tangential_radps = measured.swing_tangential_radps;
+  runtime::assign(sample.applied_v, applied_v);
+  sample.applied_command_tick = command_ ? command_->tick : 0;
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    sample.brake_closed[i] = inputs.brake_closed[i];
+    sample.limit_low[i] = inputs.limit_low[i];
+    sample.limit_high[i] = inputs.limit_high[i];
+  }
+  sample.estop_pressed = inputs.estop_pressed;
+  sample.command_stale = last_line_.command_stale();
+  sample.command_invalid = last_line_.command_invalid();
+  sample.watchdog_dropped = inputs.watchdog_dropped;
+  sample.overruns = overruns_;
+  return sample;
+}
+
+void Bridge::report_latches() {
+  if (last_line_.command_stale() && !reported_stale_)
+    node_.error("command_stale", "commands stopped coming: 0 V, brakes closed, latched",
+                "look for a dead or hung supervisor, then `crane reset`");
+  if (last_line_.command_invalid() && !reported_invalid_)
+    node_.error("command_invalid",
+                "a command was not finite or beyond the drive's limit: 0 V, brakes closed, latched",
+                "restart the supervisor, then `crane reset`");
+  reported_stale_ = last_line_.command_stale();
+  reported_invalid_ = last_line_.command_invalid();
+}
+
+}  // namespace crane::bridge

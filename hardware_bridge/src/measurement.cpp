@@ -1,0 +1,65 @@
+#include "crane/bridge/measurement.hpp"
+
+namespace crane::bridge {
+
+std::int64_t CountUnwrapper::step(std::int32_t raw_counts) noexcept {
+  constexpr std::int64_t kRange = 1 << 24;
+  if (!started_) {
+    started_ = true;
+    counts_ = raw_counts;
+    return counts_;
+  }
+  std::int64_t change = (raw_counts - counts_) % kRange;  // the counter shows counts_ modulo 2^24
+  if (change >= kRange / 2) change -= kRange;
+  if (change < -kRange / 2) change += kRange;
+  return counts_ += change;
+}
+
+Coordinate::Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio)
+    : units_per_count_{encoder.counts_per_unit > 0 ? encoder.sign / encoder.counts_per_unit : 0},
+      low_pass_{control::butterworth_low_pass(cut_off_ratio)},
+      differentiator_{control::al_alaoui_second_order(1 / period_s)} {}
+
+void Coordinate::step(std::int32_t raw_counts) noexcept {
+  counts_ = unwrapper_.step(raw_counts);
+  position_ = static_cast<double>(counts_) * units_per_count_;
+  if (!started_) {
+    started_ = true;
+    low_pass_memory_ = control::settled(low_pass_, position_);
+    differentiator_memory_ = control::settled(differentiator_, position_);
+  }
+  const double smooth = control::step(low_pass_, low_pass_memory_, position_);
+  rate_ = control::step(differentiator_, differentiator_memory_, smooth);
+}
+
+namespace {
+
+/// The filter in front of the trolley's differentiator makes its motion oscillate on the rig (section 4.4.1),
+/// so the rig file says per axis whether there is one; swing rates always have it.
+Coordinate coordinate(const runtime::Rig& rig, std::size_t counter) {
+  const bool filtered = counter >= plant::kAxes || rig.sensing.filter_speed[counter];
+  return {rig.encoders[counter], rig.period_s, filtered ? rig.sensing.swing_filter_ratio : 0.0};
+}
+
+}  // namespace
+
+MeasurementPipeline::MeasurementPipeline(const runtime::Rig& rig)
+    : coordinates_{coordinate(rig, 0), coordinate(rig, 1), coordinate(rig, 2), coordinate(rig, 3),
+                   coordinate(rig, 4)} {}
+
+control::Measurement MeasurementPipeline::step(
+    const std::array<std::int32_t, kCounters>& raw_counts) noexcept {
+  for (std::size_t i = 0; i < kCounters; ++i) coordinates_[i].step(raw_counts[i]);
+  control::Measurement measured;
+  for (std::size_t i = 0; i < plant::kAxes; ++i) {
+    measured.position[i] = coordinates_[i].position();
+    measured.speed[i] = coordinates_[i].rate();
+  }
+  measured.swing_radial_rad = coordinates_[3].position();
+  measured.swing_radial_radps = coordinates_[3].rate();
+  measured.swing_tangential_rad = coordinates_[4].position();
+  measured.swing_tangential_radps = coordinates_[4].rate();
+  return measured;
+}
+
+}  // namespace crane::bridge

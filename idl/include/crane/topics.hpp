@@ -1,0 +1,78 @@
+#pragma once
+/// The topic set: one line per topic. Everything that has to know all topics (bus, recorder, `crane topic`)
+/// walks this list; nothing else has to be touched when a topic is added.
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "crane.h"  // generated from crane.idl by idlc
+
+namespace crane::msg {
+using Header = crane_Header;
+using State = crane_CraneState;
+using AxisReference = crane_AxisReference;
+using Reference = crane_Reference;
+using Contribution = crane_Contribution;
+using Demand = crane_Demand;
+using Command = crane_Command;
+using SupervisorStatus = crane_SupervisorStatus;
+using Request = crane_Request;
+using Reply = crane_Reply;
+using NodeStatus = crane_NodeStatus;
+using Event = crane_Event;
+}  // namespace crane::msg
+
+namespace crane::topics {
+
+/// Quality of service by purpose. The back ends translate it; see libs/bus.
+enum class Qos : std::uint8_t {
+  loop,    ///< every tick: reliable, history long enough for a lockstep run's chunk
+  script,  ///< requests and replies: reliable, nothing dropped that an operator typed
+  status,  ///< last value per instance, also for a late joiner
+  log      ///< events: the last ones also for a late joiner
+};
+
+/// A topic without its C++ type.
+struct Description {
+  std::string_view name;                     ///< "crane/state"
+  std::string_view type;                     ///< IDL name "crane::CraneState"
+  const dds_topic_descriptor_t* descriptor;  ///< made by idlc
+  Qos qos;
+  bool every_tick;  ///< published once per tick, joined by tick number
+};
+
+/// A topic with its C++ type: `bus.subscriber(topics::state)`.
+template <class T>
+struct Topic {
+  Description description;
+};
+
+// name, C++ type, IDL type, topic, QoS, every tick
+#define CRANE_TOPICS(X)                                           \
+  X(state, CraneState, "crane/state", loop, true)                 \
+  X(reference, Reference, "crane/reference", loop, true)          \
+  X(tracking, Contribution, "crane/tracking", loop, true)         \
+  X(anti_swing, Contribution, "crane/anti_swing", loop, true)     \
+  X(demand, Demand, "crane/demand", loop, true)                   \
+  X(command, Command, "crane/command", loop, true)                \
+  X(supervisor, SupervisorStatus, "crane/supervisor", loop, true) \
+  X(request, Request, "crane/request", script, false)             \
+  X(reply, Reply, "crane/reply", script, false)                   \
+  X(node, NodeStatus, "crane/node", status, false)                \
+  X(event, Event, "crane/event", log, false)
+
+#define CRANE_DECLARE_TOPIC(variable, type, name, qos, every_tick) \
+  inline const Topic<crane_##type> variable{                       \
+      Description{name, "crane::" #type, &crane_##type##_desc, Qos::qos, every_tick}};
+CRANE_TOPICS(CRANE_DECLARE_TOPIC)
+#undef CRANE_DECLARE_TOPIC
+
+#define CRANE_LIST_TOPIC(variable, type, name, qos, every_tick) variable.description,
+/// All topics, in the order in which one tick writes them.
+inline const std::array kAll{CRANE_TOPICS(CRANE_LIST_TOPIC)};
+#undef CRANE_LIST_TOPIC
+
+/// Text of crane.idl: schema of recordings, names of fields.
+std::string_view idl_text();
+
+}  // namespace crane::topics

@@ -1,0 +1,13 @@
+#pragma once
+/// CRC-32C (Castagnoli: reflected polynomial 0x1EDC6F41, start and final exclusive-or 0xFFFFFFFF).
+#include <cstdint>
+#include <span>
+
+namespace crane::bus {
+
+/// With the processor's CRC instruction where it has one.
+[[nodiscard]] std::uint32_t crc32c(std::span<const std::uint8_t> bytes);
+/// The same from Boost.CRC, on any processor.
+[[nodiscard]] std::uint32_t crc32c_portable(std::span<const std::uint8_t> bytes);
+
+}  // namespace crane::bus

@@ -1,0 +1,227 @@
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "cyclone/domain.hpp"
+
+namespace crane::bus {
+namespace {
+
+using cyclone::checked_entity;
+
+struct QosDeleter {
+  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using QosPointer = std::unique_ptr<dds_qos_t, QosDeleter>;
+struct ListenerDeleter {
+  void operator()(dds_listener_t* listener) const { dds_delete_listener(listener); }
+};
+using ListenerPointer = std::unique_ptr<dds_listener_t, ListenerDeleter>;
+
+dds_duration_t duration(std::chrono::nanoseconds time) {
+  return time.count() > 0 ? time.count() : DDS_INFINITY;
+}
+
+QosPointer endpoint_qos(const Quality& quality, bool history, const EndpointOptions& endpoint) {
+  QosPointer qos{dds_create_qos()};
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_MSECS(10));
+  dds_qset_durability(qos.get(), history ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, quality.depth, DDS_LENGTH_UNLIMITED,
+                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, quality.depth);
+  dds_qset_deadline(qos.get(), duration(endpoint.deadline));
+  const bool leased = endpoint.liveliness_lease.count() > 0;
+  dds_qset_liveliness(qos.get(), leased ? DDS_LIVELINESS_MANUAL_BY_TOPIC : DDS_LIVELINESS_AUTOMATIC,
+                      duration(endpoint.liveliness_lease));
+  dds_qset_writer_data_lifecycle(qos.get(), false);  // an instance stays when its writer leaves
+  const dds_data_representation_id_t plain_cdr = DDS_DATA_REPRESENTATION_XCDR1;
+  dds_qset_data_representation(qos.get(), 1, &plain_cdr);
+  return qos;
+}
+
+/// What listeners are given: who to tell, and the bell of the bus.
+struct Context {
+  Announcer announce;
+  std::shared_ptr<Doorbell> doorbell;
+};
+const Context& context(void* argument) { return *static_cast<const Context*>(argument); }
+
+void set_writer_listeners(dds_listener_t* listener) {
+  dds_lset_publication_matched(listener, [](dds_entity_t, const dds_publication_matched_status_t s, void* c) {
+    context(c).announce.matched(s.current_count_change, static_cast<int>(s.current_count));
+  });
+  dds_lset_offered_incompatible_qos(
+      listener, [](dds_entity_t, const dds_offered_incompatible_qos_status_t s, void* c) {
+        context(c).announce(EventKind::incompatible_qos, 0, policy_name(static_cast<int>(s.last_policy_id)));
+      });
+  dds_lset_offered_deadline_missed(listener,
+                                   [](dds_entity_t, const dds_offered_deadline_missed_status_t, void* c) {
+                                     context(c).announce(EventKind::deadline_missed);
+                                   });
+  dds_lset_liveliness_lost(listener, [](dds_entity_t, const dds_liveliness_lost_status_t, void* c) {
+    context(c).announce(EventKind::liveliness_lost);
+  });
+}
+
+void set_reader_listeners(dds_listener_t* listener) {
+  dds_lset_data_available(listener, [](dds_entity_t, void* c) { context(c).doorbell->ring(); });
+  dds_lset_subscription_matched(
+      listener, [](dds_entity_t, const dds_subscription_matched_status_t s, void* c) {
+        context(c).announce.matched(s.current_count_change, static_cast<int>(s.current_count));
+      });
+  dds_lset_requested_incompatible_qos(
+      listener, [](dds_entity_t, const dds_requested_incompatible_qos_status_t s, void* c) {
+        context(c).announce(EventKind::incompatible_qos, 0, policy_name(static_cast<int>(s.last_policy_id)));
+      });
+  dds_lset_requested_deadline_missed(listener,
+                                     [](dds_entity_t, const dds_requested_deadline_missed_status_t, void* c) {
+                                       context(c).announce(EventKind::deadline_missed);
+                                     });
+  dds_lset_liveliness_changed(listener, [](dds_entity_t, const dds_liveliness_changed_status_t s, void* c) {
+    const bool gained = s.alive_count_change > 0;
+    context(c).announce(gained ? EventKind::liveliness_gained : EventKind::liveliness_lost,
+                        static_cast<int>(s.alive_count));
+  });
+  dds_lset_sample_lost(listener, [](dds_entity_t, const dds_sample_lost_status_t s, void* c) {
+    context(c).announce(EventKind::sample_lost, static_cast<int>(s.total_count));
+  });
+}
+
+/// A topic entity and the context of one endpoint; deleted after the endpoint itself.
+class Endpoint {
+ public:
+  Endpoint(std::shared_ptr<BackEnd> back_end, dds_entity_t participant, const topics::Description& topic,
+           const EndpointOptions& endpoint, std::shared_ptr<Doorbell> doorbell)
+      : back_end_{std::move(back_end)},
+        context_{{endpoint.on_event, topic.name}, std::move(doorbell)},
+        topic_{checked_entity(dds_create_topic(participant, topic.descriptor, std::string{topic.name}.c_str(),
+                                               nullptr, nullptr),
+                              "cannot create topic " + std::string{topic.name})} {}
+  Endpoint(const Endpoint&) = delete;
+  Endpoint& operator=(const Endpoint&) = delete;
+  ~Endpoint() { dds_delete(topic_); }
+
+  ListenerPointer listener() { return ListenerPointer{dds_create_listener(&context_)}; }
+  [[nodiscard]] dds_entity_t topic() const { return topic_; }
+
+ private:
+  std::shared_ptr<BackEnd> back_end_;
+  Context context_;
+  dds_entity_t topic_;
+};
+
+class CycloneWriter final : public detail::Writer {
+ public:
+  CycloneWriter(std::unique_ptr<Endpoint> endpoint, dds_entity_t publisher, const dds_qos_t* qos)
+      : endpoint_{std::move(endpoint)} {
+    const auto listener = endpoint_->listener();
+    set_writer_listeners(listener.get());
+    writer_ = checked_entity(dds_create_writer(publisher, endpoint_->topic(), qos, listener.get()),
+                             "cannot create writer");
+  }
+  CycloneWriter(const CycloneWriter&) = delete;
+  CycloneWriter& operator=(const CycloneWriter&) = delete;
+  ~CycloneWriter() override { dds_delete(writer_); }
+
+  bool write(const void* sample) override { return dds_write(writer_, sample) == DDS_RETCODE_OK; }
+  bool dispose(const void* sample) override { return dds_dispose(writer_, sample) == DDS_RETCODE_OK; }
+  bool assert_liveliness() override { return dds_assert_liveliness(writer_) == DDS_RETCODE_OK; }
+  [[nodiscard]] int matched() const override {
+    dds_publication_matched_status_t status{};
+    dds_get_publication_matched_status(writer_, &status);
+    return static_cast<int>(status.current_count);
+  }
+
+ private:
+  std::unique_ptr<Endpoint> endpoint_;
+  dds_entity_t writer_ = 0;
+};
+
+class CycloneReader final : public detail::Reader {
+ public:
+  CycloneReader(std::unique_ptr<Endpoint> endpoint, dds_entity_t subscriber, const dds_qos_t* qos,
+                std::size_t sample_bytes)
+      : endpoint_{std::move(endpoint)}, sample_bytes_{sample_bytes} {
+    const auto listener = endpoint_->listener();
+    set_reader_listeners(listener.get());
+    reader_ = checked_entity(dds_create_reader(subscriber, endpoint_->topic(), qos, listener.get()),
+                             "cannot create reader");
+  }
+  CycloneReader(const CycloneReader&) = delete;
+  CycloneReader& operator=(const CycloneReader&) = delete;
+  ~CycloneReader() override { dds_delete(reader_); }
+
+  bool take(void* sample, SampleInfo& info) override {
+    std::memset(sample, 0, sample_bytes_);  // Cyclone leaves the rest of a string as it was
+    dds_sample_info_t from{};
+    void* into[1] = {sample};
+    if (dds_take(reader_, into, &from, 1, 1) != 1) return false;
+    info = {.source_time_ns = from.source_timestamp,
+            .valid = from.valid_data,
+            .disposed = from.instance_state == DDS_IST_NOT_ALIVE_DISPOSED};
+    return true;
+  }
+  [[nodiscard]] int matched() const override {
+    dds_subscription_matched_status_t status{};
+    dds_get_subscription_matched_status(reader_, &status);
+    return static_cast<int>(status.current_count);
+  }
+
+ private:
+  std::unique_ptr<Endpoint> endpoint_;
+  std::size_t sample_bytes_;
+  dds_entity_t reader_ = 0;
+};
+
+class CycloneBackEnd final : public BackEnd {
+ public:
+  CycloneBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell)
+      : domain_{options}, doorbell_{std::move(doorbell)} {
+    const QosPointer qos{dds_create_qos()};
+    dds_qset_entity_name(qos.get(), options.participant.c_str());
+    participant_ = checked_entity(dds_create_participant(options.domain, qos.get(), nullptr),
+                                  "cannot create participant in domain " + std::to_string(options.domain));
+    const char* partition = options.crane.c_str();
+    const QosPointer group{dds_create_qos()};
+    dds_qset_partition(group.get(), 1, &partition);
+    publisher_ =
+        checked_entity(dds_create_publisher(participant_, group.get(), nullptr), "cannot create publisher");
+    subscriber_ =
+        checked_entity(dds_create_subscriber(participant_, group.get(), nullptr), "cannot create subscriber");
+  }
+  CycloneBackEnd(const CycloneBackEnd&) = delete;
+  CycloneBackEnd& operator=(const CycloneBackEnd&) = delete;
+  ~CycloneBackEnd() override { dds_delete(participant_); }
+
+  std::unique_ptr<detail::Writer> writer(const topics::Description& topic,
+                                         const EndpointOptions& options) override {
+    const auto qos = endpoint_qos(quality(topic, options), true, options);
+    return std::make_unique<CycloneWriter>(endpoint(topic, options), publisher_, qos.get());
+  }
+  std::unique_ptr<detail::Reader> reader(const topics::Description& topic,
+                                         const EndpointOptions& options) override {
+    const Quality q = quality(topic, options);
+    const auto qos = endpoint_qos(q, q.reader_history, options);
+    return std::make_unique<CycloneReader>(endpoint(topic, options), subscriber_, qos.get(),
+                                           topic.descriptor->m_size);
+  }
+
+ private:
+  std::unique_ptr<Endpoint> endpoint(const topics::Description& topic, const EndpointOptions& options) {
+    return std::make_unique<Endpoint>(shared_from_this(), participant_, topic, options, doorbell_);
+  }
+
+  cyclone::Domain domain_;
+  std::shared_ptr<Doorbell> doorbell_;
+  dds_entity_t participant_ = 0;
+  dds_entity_t publisher_ = 0;
+  dds_entity_t subscriber_ = 0;
+};
+
+}  // namespace
+
+std::shared_ptr<BackEnd> make_cyclone(const Options& options, std::shared_ptr<Doorbell> doorbell) {
+  return std::make_shared<CycloneBackEnd>(options, std::move(doorbell));
+}
+
+}  // namespace crane::bus

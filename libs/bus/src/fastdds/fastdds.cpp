@@ -1,0 +1,172 @@
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "fastdds/endpoints.hpp"
+#include "fastdds/topic_type.hpp"
+
+namespace crane::bus {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace fastrtps = eprosima::fastrtps;
+using fastdds::duration;
+using namespace std::chrono_literals;
+
+/// Two buses of one process talk as two processes would.
+void switch_intraprocess_delivery_off() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    fastrtps::LibrarySettingsAttributes settings;
+    settings.intraprocess_delivery = fastrtps::INTRAPROCESS_OFF;
+    fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+  });
+}
+
+void bind_to_interfaces(dds::DomainParticipantQos& qos, const Options& options) {
+  constexpr std::uint32_t kBufferBytes = 1U << 20U;
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->interfaceWhiteList = options.interfaces;
+  udp->sendBufferSize = kBufferBytes;
+  udp->receiveBufferSize = kBufferBytes;
+  udp->non_blocking_send = true;
+  qos.transport().use_builtin_transports = false;  // no shared memory
+  qos.transport().user_transports.push_back(std::move(udp));
+}
+
+void discover_peers_by_unicast(dds::DomainParticipantQos& qos, const Options& options) {
+  constexpr std::uint32_t kParticipantsPerHost = 20;  // a stack is about 10 processes
+  auto& builtin = qos.wire_protocol().builtin;
+  auto hosts = options.peers;
+  hosts.insert(hosts.end(), options.interfaces.begin(), options.interfaces.end());
+  fastrtps::rtps::Locator_t locator;
+  locator.kind = LOCATOR_KIND_UDPv4;
+  for (const auto& host : hosts) {
+    fastrtps::rtps::IPLocator::setIPv4(locator, host);
+    for (std::uint32_t index = 0; index < kParticipantsPerHost; ++index) {
+      locator.port = qos.wire_protocol().port.getUnicastPort(options.domain, index);
+      builtin.initialPeersList.push_back(locator);
+    }
+  }
+  builtin.avoid_builtin_multicast = true;
+  fastrtps::rtps::Locator_t any;
+  any.kind = LOCATOR_KIND_UDPv4;
+  builtin.metatrafficUnicastLocatorList.push_back(any);
+}
+
+dds::DomainParticipantQos participant_qos(const Options& options, int number) {
+  dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
+  qos.wire_protocol().participant_id = number;
+  qos.name(options.participant);
+  auto& builtin = qos.wire_protocol().builtin;
+  builtin.discovery_config.leaseDuration = duration(10s);
+  builtin.discovery_config.leaseDuration_announcementperiod = duration(2500ms);
+  builtin.discovery_config.initial_announcements.count = 20;
+  builtin.discovery_config.initial_announcements.period = duration(50ms);
+  builtin.typelookup_config.use_client = false;
+  builtin.typelookup_config.use_server = false;
+  bind_to_interfaces(qos, options);
+  if (!options.peers.empty()) discover_peers_by_unicast(qos, options);
+  return qos;
+}
+
+/// Participant numbers of this process. Left alone, Fast DDS never uses a number twice, and a participant
+/// whose number is above 30 has ports that unicast discovery does not try.
+class ParticipantNumber {
+ public:
+  ParticipantNumber() {
+    const std::lock_guard lock{mutex()};
+    while (used().contains(number_)) ++number_;
+    used().insert(number_);
+  }
+  ParticipantNumber(const ParticipantNumber&) = delete;
+  ParticipantNumber& operator=(const ParticipantNumber&) = delete;
+  ~ParticipantNumber() {
+    const std::lock_guard lock{mutex()};
+    used().erase(number_);
+  }
+  [[nodiscard]] int value() const { return number_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+  static std::set<int>& used() {
+    static std::set<int> instance;
+    return instance;
+  }
+  int number_ = 0;
+};
+
+struct ParticipantDeleter {
+  void operator()(dds::DomainParticipant* participant) const {
+    participant->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+  }
+};
+
+class FastBackEnd final : public BackEnd {
+ public:
+  FastBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell) : doorbell_{std::move(doorbell)} {
+    switch_intraprocess_delivery_off();
+    auto* factory = dds::DomainParticipantFactory::get_instance();
+    participant_.reset(factory->create_participant(options.domain, participant_qos(options, number_.value()),
+                                                   nullptr, dds::StatusMask::none()));
+    if (!participant_)
+      throw Error{"Fast DDS: cannot create participant in domain " + std::to_string(options.domain) + " on " +
+                  options.interfaces.front() + "; is the interface up, and are UDP ports " +
+                  std::to_string(7400 + 250 * options.domain) + " and up free?"};
+    dds::PublisherQos publisher_qos = dds::PUBLISHER_QOS_DEFAULT;
+    publisher_qos.partition().push_back(options.crane.c_str());
+    publisher_ = participant_->create_publisher(publisher_qos);
+    dds::SubscriberQos subscriber_qos = dds::SUBSCRIBER_QOS_DEFAULT;
+    subscriber_qos.partition().push_back(options.crane.c_str());
+    subscriber_ = participant_->create_subscriber(subscriber_qos);
+    if (publisher_ == nullptr || subscriber_ == nullptr)
+      throw Error{"Fast DDS: cannot use the crane name '" + options.crane + "' as a partition"};
+  }
+
+  std::unique_ptr<detail::Writer> writer(const topics::Description& description,
+                                         const EndpointOptions& options) override {
+    return fastdds::make_writer(shared_from_this(), *publisher_, topic(description), description, options);
+  }
+  std::unique_ptr<detail::Reader> reader(const topics::Description& description,
+                                         const EndpointOptions& options) override {
+    return fastdds::make_reader(shared_from_this(), *subscriber_, topic(description), description, options,
+                                doorbell_);
+  }
+
+ private:
+  dds::Topic& topic(const topics::Description& description) {
+    const std::string name{description.name};
+    const std::string type{description.descriptor->m_typename};
+    if (auto* known = participant_->lookup_topicdescription(name)) return *dynamic_cast<dds::Topic*>(known);
+    if (participant_->find_type(type).empty())
+      dds::TypeSupport{new fastdds::TopicType{*description.descriptor}}.register_type(participant_.get());
+    dds::Topic* created = participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT);
+    if (created == nullptr) throw Error{"Fast DDS: cannot create topic " + name};
+    return *created;
+  }
+
+  std::shared_ptr<Doorbell> doorbell_;
+  ParticipantNumber number_;  // free again after the participant is gone
+  std::unique_ptr<dds::DomainParticipant, ParticipantDeleter> participant_;
+  dds::Publisher* publisher_ = nullptr;
+  dds::Subscriber* subscriber_ = nullptr;
+};
+
+}  // namespace
+
+std::shared_ptr<BackEnd> make_fastdds(const Options& options, std::shared_ptr<Doorbell> doorbell) {
+  return std::make_shared<FastBackEnd>(options, std::move(doorbell));
+}
+
+}  // namespace crane::bus

@@ -1,0 +1,28 @@
+#pragma once
+/// Every topic's type for Fast DDS: the idlc struct, carried by the project's own codec.
+#include <fastdds/dds/topic/TopicDataType.hpp>
+
+#include "crane/bus/cdr.hpp"
+
+namespace crane::bus::fastdds {
+
+class TopicType final : public eprosima::fastdds::dds::TopicDataType {
+ public:
+  explicit TopicType(const dds_topic_descriptor_t& descriptor);
+
+  bool serialize(void* sample, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
+  /// A payload that is not a sample of this type becomes one whose CRC is wrong: the subscriber rejects and
+  /// counts it, whereas Fast DDS would drop it without a word.
+  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* sample) override;
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* sample) override;
+  bool getKey(void* sample, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool force_md5) override;
+  void* createData() override;
+  void deleteData(void* sample) override;
+  bool is_bounded() const override { return true; }
+  bool is_plain() const override { return false; }
+
+ private:
+  const CdrCodec& codec_;
+};
+
+}  // namespace crane::bus::fastdds

@@ -1,0 +1,97 @@
+#include <cstring>
+#include <utility>
+
+#include "memory/network.hpp"
+
+namespace crane::bus {
+namespace {
+
+using memory::ReaderPort;
+using memory::WriterPort;
+
+class MemoryWriter final : public detail::Writer {
+ public:
+  MemoryWriter(std::shared_ptr<MemoryNetwork> network, WriterPort port)
+      : network_{std::move(network)}, port_{std::move(port)} {
+    for (const auto& field : CdrCodec::of(*port_.topic->descriptor).fields())
+      if (field.kind == CdrCodec::Field::Kind::string) strings_.push_back(field);
+    network_->add(port_);
+  }
+  MemoryWriter(const MemoryWriter&) = delete;
+  MemoryWriter& operator=(const MemoryWriter&) = delete;
+  ~MemoryWriter() override { network_->remove(port_); }
+
+  bool write(const void* sample) override {
+    const auto* bytes = static_cast<const char*>(sample);
+    for (const auto& string : strings_)  // vendors refuse an unterminated string too
+      if (strnlen(bytes + string.offset, string.count) == string.count) return false;
+    network_->publish(port_, sample, false);
+    return true;
+  }
+  bool dispose(const void* sample) override {
+    network_->publish(port_, sample, true);
+    return true;
+  }
+  bool assert_liveliness() override { return true; }
+  [[nodiscard]] int matched() const override { return network_->matched(port_); }
+
+ private:
+  std::shared_ptr<MemoryNetwork> network_;
+  std::vector<CdrCodec::Field> strings_;
+  WriterPort port_;
+};
+
+class MemoryReader final : public detail::Reader {
+ public:
+  MemoryReader(std::shared_ptr<MemoryNetwork> network, ReaderPort port)
+      : network_{std::move(network)}, port_{std::move(port)} {
+    network_->add(port_);
+  }
+  MemoryReader(const MemoryReader&) = delete;
+  MemoryReader& operator=(const MemoryReader&) = delete;
+  ~MemoryReader() override { network_->remove(port_); }
+
+  bool take(void* sample, SampleInfo& info) override { return network_->take(port_, sample, info); }
+  [[nodiscard]] int matched() const override { return network_->matched(port_); }
+
+ private:
+  std::shared_ptr<MemoryNetwork> network_;
+  ReaderPort port_;
+};
+
+class MemoryBackEnd final : public BackEnd {
+ public:
+  MemoryBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell)
+      : network_{options.network}, partition_{options.crane}, doorbell_{std::move(doorbell)} {}
+
+  std::unique_ptr<detail::Writer> writer(const topics::Description& topic,
+                                         const EndpointOptions& options) override {
+    const CdrCodec& codec = CdrCodec::of(*topic.descriptor);
+    const auto depth = static_cast<std::size_t>(quality(topic, options).depth);
+    return std::make_unique<MemoryWriter>(network_,
+                                          WriterPort{port(topic, options), memory::History{codec, depth}});
+  }
+  std::unique_ptr<detail::Reader> reader(const topics::Description& topic,
+                                         const EndpointOptions& options) override {
+    return std::make_unique<MemoryReader>(
+        network_, ReaderPort{port(topic, options), doorbell_, memory::SampleQueue{topic.descriptor->m_size},
+                             quality(topic, options).reader_history});
+  }
+
+ private:
+  [[nodiscard]] memory::Port port(const topics::Description& topic, const EndpointOptions& options) const {
+    return {&topic, partition_, {options.on_event, topic.name}};
+  }
+
+  std::shared_ptr<MemoryNetwork> network_;
+  std::string partition_;
+  std::shared_ptr<Doorbell> doorbell_;
+};
+
+}  // namespace
+
+std::shared_ptr<BackEnd> make_memory(const Options& options, std::shared_ptr<Doorbell> doorbell) {
+  return std::make_shared<MemoryBackEnd>(options, std::move(doorbell));
+}
+
+}  // namespace crane::bus

@@ -1,0 +1,145 @@
+#include "memory/network.hpp"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+
+namespace crane::bus {
+
+using memory::ReaderPort;
+using memory::Stamp;
+using memory::WriterPort;
+
+namespace memory {
+namespace {
+bool fits(const std::string& pattern, const std::string& name) {
+  return fnmatch(pattern.c_str(), name.c_str(), FNM_NOESCAPE) == 0;
+}
+}  // namespace
+
+bool connects(const Port& a, const Port& b) {
+  return a.topic->name == b.topic->name && a.topic->descriptor == b.topic->descriptor &&
+         (fits(a.partition, b.partition) || fits(b.partition, a.partition));
+}
+}  // namespace memory
+
+/// Events found under the lock, told after it: a handler may call back.
+struct MemoryNetwork::News {
+  struct Item {
+    Announcer announce;
+    int change;
+    int current;
+  };
+  std::vector<Item> items;
+  template <class PortType, class Peers>
+  void add(const PortType& port, int change, const Peers& peers) {
+    if (port.announce.handler) items.push_back({port.announce, change, static_cast<int>(peers.size())});
+  }
+  void tell() const {
+    for (const Item& item : items) item.announce.matched(item.change, item.current);
+  }
+};
+
+void MemoryNetwork::add(WriterPort& writer) {
+  News news;
+  {
+    const std::lock_guard lock{mutex_};
+    writers_.push_back(&writer);
+    for (ReaderPort* reader : readers_) {
+      if (!connects(writer, *reader)) continue;
+      writer.readers.push_back(reader);
+      reader->writers.push_back(&writer);
+      news.add(writer, +1, writer.readers);
+      news.add(*reader, +1, reader->writers);
+    }
+  }
+  news.tell();
+}
+
+void MemoryNetwork::add(ReaderPort& reader) {
+  News news;
+  {
+    const std::lock_guard lock{mutex_};
+    readers_.push_back(&reader);
+    std::vector<std::pair<const void*, Stamp>> past;
+    for (WriterPort* writer : writers_) {
+      if (!connects(*writer, reader)) continue;
+      writer->readers.push_back(&reader);
+      reader.writers.push_back(writer);
+      news.add(*writer, +1, writer->readers);
+      news.add(reader, +1, reader.writers);
+      if (reader.wants_history)
+        writer->history.each(
+            [&](const void* sample, const Stamp& stamp) { past.emplace_back(sample, stamp); });
+    }
+    std::sort(past.begin(), past.end(),
+              [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
+    for (const auto& [sample, stamp] : past) reader.queue.push(sample, stamp);
+    if (!past.empty()) reader.doorbell->ring();
+  }
+  news.tell();
+}
+
+void MemoryNetwork::remove(WriterPort& writer) {
+  News news;
+  {
+    const std::lock_guard lock{mutex_};
+    std::erase(writers_, &writer);
+    for (ReaderPort* reader : writer.readers) {
+      std::erase(reader->writers, &writer);
+      news.add(*reader, -1, reader->writers);
+    }
+  }
+  news.tell();
+}
+
+void MemoryNetwork::remove(ReaderPort& reader) {
+  News news;
+  {
+    const std::lock_guard lock{mutex_};
+    std::erase(readers_, &reader);
+    for (WriterPort* writer : reader.writers) {
+      std::erase(writer->readers, &reader);
+      news.add(*writer, -1, writer->readers);
+    }
+  }
+  news.tell();
+}
+
+void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose) {
+  // An in-process stack has one clock: that of its plant. Its time makes two runs equal bit for bit.
+  const auto time_ns = static_cast<const msg::Header*>(sample)->sample_time_ns;
+  const std::lock_guard lock{mutex_};
+  const Stamp stamp{++published_, {.source_time_ns = time_ns, .valid = !dispose, .disposed = dispose}};
+  for (ReaderPort* reader : writer.readers) {
+    reader->queue.push(sample, stamp);
+    reader->doorbell->ring();
+  }
+  if (dispose)
+    writer.history.forget(sample);
+  else
+    writer.history.keep(sample, stamp);
+}
+
+bool MemoryNetwork::take(ReaderPort& reader, void* sample, SampleInfo& info) {
+  const std::lock_guard lock{mutex_};
+  if (reader.queue.size() == 0) return false;
+  std::memcpy(sample, reader.queue.sample(0), reader.topic->descriptor->m_size);
+  info = reader.queue.stamp(0).info;
+  reader.queue.pop();
+  return true;
+}
+
+int MemoryNetwork::matched(const WriterPort& port) const {
+  const std::lock_guard lock{mutex_};
+  return static_cast<int>(port.readers.size());
+}
+
+int MemoryNetwork::matched(const ReaderPort& port) const {
+  const std::lock_guard lock{mutex_};
+  return static_cast<int>(port.writers.size());
+}
+
+std::shared_ptr<MemoryNetwork> make_memory_network() { return std::make_shared<MemoryNetwork>(); }
+
+}  // namespace crane::bus

@@ -1,0 +1,58 @@
+#pragma once
+/// The in-process network: who is connected to whom, and the queues between them.
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "back_end.hpp"
+#include "memory/history.hpp"
+
+namespace crane::bus::memory {
+
+/// What decides whether a writer and a reader are connected, and how their owners are told.
+struct Port {
+  const topics::Description* topic;
+  std::string partition;
+  Announcer announce;
+};
+[[nodiscard]] bool connects(const Port& a, const Port& b);
+
+struct ReaderPort;
+struct WriterPort : Port {
+  History history;
+  std::vector<ReaderPort*> readers{};  ///< in order of their creation
+};
+struct ReaderPort : Port {
+  std::shared_ptr<Doorbell> doorbell;
+  SampleQueue queue;
+  bool wants_history = false;
+  std::vector<WriterPort*> writers{};
+};
+
+}  // namespace crane::bus::memory
+
+namespace crane::bus {
+
+/// Thread-safe. Endpoints register themselves and outlive nothing: removed before they die.
+class MemoryNetwork {
+ public:
+  void add(memory::WriterPort& writer);
+  void add(memory::ReaderPort& reader);
+  void remove(memory::WriterPort& writer);
+  void remove(memory::ReaderPort& reader);
+
+  void publish(memory::WriterPort& writer, const void* sample, bool dispose);
+  bool take(memory::ReaderPort& reader, void* sample, SampleInfo& info);
+  [[nodiscard]] int matched(const memory::WriterPort& writer) const;
+  [[nodiscard]] int matched(const memory::ReaderPort& reader) const;
+
+ private:
+  struct News;
+  mutable std::mutex mutex_;
+  std::vector<memory::WriterPort*> writers_;
+  std::vector<memory::ReaderPort*> readers_;
+  std::uint64_t published_ = 0;
+};
+
+}  // namespace crane::bus

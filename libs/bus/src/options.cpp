@@ -1,0 +1,86 @@
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <netdb.h>
+#include <netinet/in.h>
+
+#include <algorithm>
+#include <array>
+
+#include "back_end.hpp"
+
+namespace crane::bus {
+namespace {
+
+std::string text_of(const sockaddr* address) {
+  std::array<char, INET_ADDRSTRLEN> text{};
+  const auto* ipv4 = reinterpret_cast<const sockaddr_in*>(address);
+  inet_ntop(AF_INET, &ipv4->sin_addr, text.data(), text.size());
+  return text.data();
+}
+
+std::vector<std::string> addresses_of_this_host() {
+  std::vector<std::string> found;
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) return found;
+  for (const ifaddrs* i = list; i != nullptr; i = i->ifa_next)
+    if (i->ifa_addr != nullptr && i->ifa_addr->sa_family == AF_INET) found.push_back(text_of(i->ifa_addr));
+  freeifaddrs(list);
+  return found;
+}
+
+std::string joined(const std::vector<std::string>& parts, const char* separator) {
+  std::string text;
+  for (const auto& part : parts) text += (text.empty() ? "" : separator) + part;
+  return text;
+}
+
+/// @return empty when the host is unknown
+std::string ipv4_of(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  if (host.empty() || getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0) return {};
+  std::string address = text_of(found->ai_addr);
+  freeaddrinfo(found);
+  return address;
+}
+
+void check_interfaces(const Options& options, std::vector<std::string>& problems) {
+  const auto here = addresses_of_this_host();
+  if (options.interfaces.empty())
+    problems.push_back("interfaces is empty: name at least one address of this host (" + joined(here, ", ") +
+                       ")");
+  for (const auto& wanted : options.interfaces)
+    if (std::find(here.begin(), here.end(), wanted) == here.end())
+      problems.push_back("interfaces: " + wanted + " is not an address of this host; it has " +
+                         joined(here, ", "));
+}
+
+}  // namespace
+
+Options checked(Options options) {
+  constexpr std::uint32_t kMaxDomain = 100;
+  std::vector<std::string> problems;
+  if (options.crane.empty()) problems.push_back("crane is empty: give the crane a name");
+  if (options.vendor == Vendor::memory) {
+    if (!options.network)
+      problems.push_back("network is not set: every memory bus of a stack shares one make_memory_network()");
+  } else {
+    if (options.domain > kMaxDomain)
+      problems.push_back("domain = " + std::to_string(options.domain) +
+                         ": must be 0..100, because the ports of higher domains belong to other programs");
+    check_interfaces(options, problems);
+    for (auto& peer : options.peers) {
+      const std::string address = ipv4_of(peer);
+      if (address.empty())
+        problems.push_back("peers: no IPv4 address for '" + peer +
+                           "'; give an address or a name this host knows");
+      peer = address;
+    }
+  }
+  if (!problems.empty()) throw Error{"bus options: " + joined(problems, "; ")};
+  return options;
+}
+
+}  // namespace crane::bus

@@ -1,0 +1,45 @@
+#include <array>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "crane/bus/bus.hpp"
+#include "crane/bus/cdr.hpp"
+#include "crc32c.hpp"
+
+namespace crane::bus::detail {
+namespace {
+
+constexpr std::size_t kCrcBytes = sizeof(std::uint32_t);
+
+/// CRC of everything before the final field. @return false when the sample cannot be encoded
+bool checksum(const CdrCodec& codec, const void* sample, std::uint32_t& crc) {
+  thread_local std::vector<std::uint8_t> buffer;  // keeps its size: no allocation per sample
+  if (buffer.size() < codec.max_encoded_bytes()) buffer.resize(codec.max_encoded_bytes());
+  const std::size_t bytes = codec.encode(sample, buffer);
+  if (bytes < kCrcBytes) return false;
+  crc = crc32c(std::span{buffer}.first(bytes - kCrcBytes));
+  return true;
+}
+
+}  // namespace
+
+void seal(const topics::Description& topic, void* sample, crane_Source source, std::uint32_t epoch) {
+  const CdrCodec& codec = CdrCodec::of(*topic.descriptor);
+  auto* header = static_cast<msg::Header*>(sample);  // the first member of every topic: is_sealable()
+  header->source = source;
+  header->epoch = epoch;
+  std::uint32_t crc = 0;
+  if (!checksum(codec, sample, crc)) return;  // an unterminated string: write() refuses it too
+  std::memcpy(static_cast<std::uint8_t*>(sample) + codec.fields().back().offset, &crc, kCrcBytes);
+}
+
+bool intact(const topics::Description& topic, const void* sample) {
+  const CdrCodec& codec = CdrCodec::of(*topic.descriptor);
+  std::uint32_t carried = 0;
+  std::memcpy(&carried, static_cast<const std::uint8_t*>(sample) + codec.fields().back().offset, kCrcBytes);
+  std::uint32_t computed = 0;
+  return checksum(codec, sample, computed) && computed == carried;
+}
+
+}  // namespace crane::bus::detail

@@ -1,0 +1,57 @@
+/// The experiments whose response fuzzy_generated maps, in normalised time (load period 1, lengths over L).
+#include <cmath>
+#include <numbers>
+
+#include "crane/control/delay_line.hpp"
+#include "crane/control/fuzzy.hpp"
+#include "crane/control/trajectory.hpp"
+
+namespace crane::control {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kStep = 5e-4;   // integration step
+constexpr int kSampleEvery = 2;  // steps between samples
+constexpr double kDuration = 2;  // load periods
+
+/// (3.27), (3.28) with tracking (3.40) and delayed_1 (3.47), semi-implicit Euler.
+void append_response(const Design& design, double swing, double transfer, std::vector<FuzzySample>& samples) {
+  constexpr double kA = 4 * pi * pi;  // (3.33) in normalised time
+  const AxisProfile profile = timed_profile(0, transfer, 1, 0.25);
+  const double delay_ticks = design.delayed_1_delay / kStep;
+  DelayLine past(delay_ticks);
+  past.reset(swing);
+  double position = 0, speed = 0, rate = 0;
+  // A delayed_1 so badly chosen that it overturns the load teaches nothing more from there on.
+  for (int k = 0; k * kStep < kDuration && std::abs(swing) < pi; ++k) {
+    past.push(swing);
+    const double late = past.at(delay_ticks);
+    if (k % kSampleEvery == 0)
+      samples.push_back({swing / design.fuzzy_swing_rad, rate / design.fuzzy_swing_rate,
+                         design.delayed_1_gain * late / (design.fuzzy_gain * design.fuzzy_swing_rad)});
+    const AxisReference wanted = profile.at(k * kStep);
+    const double acceleration = design.tracking_proportional * (wanted.position - position) +
+                                design.tracking_derivative * (wanted.speed - speed) +
+                                design.delayed_1_gain * late;
+    speed += kStep * acceleration;
+    position += kStep * speed;
+    rate += kStep * (acceleration - kA * swing);
+    swing += kStep * rate;
+  }
+}
+
+}  // namespace
+
+std::vector<FuzzySample> delayed_1_response(const Design& design) {
+  std::vector<FuzzySample> samples;
+  for (const double direction : {1.0, -1.0}) {
+    for (int degrees = 2; degrees <= 30; degrees += 2)
+      append_response(design, direction * degrees * pi / 180, 0, samples);
+    for (int quarters = 1; quarters <= 6; ++quarters)
+      append_response(design, 0, direction * quarters / 4, samples);
+  }
+  return samples;
+}
+
+}  // namespace crane::control

@@ -1,0 +1,144 @@
+#include "crane/control/gain_scheduling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "crane/control/hoist.hpp"
+
+namespace crane::control {
+namespace {
+
+using std::numbers::pi;
+using std::numbers::sqrt2;
+
+/// w/w0 with which K_phi' vanishes: positive root of (4/pi) r^2 - sqrt(2) (1 - 4/pi^2) r - 4/pi = 0.
+double partial_frequency_ratio() noexcept {
+  const double linear = sqrt2 * (1 - 4 / (pi * pi));
+  return (linear + std::sqrt(linear * linear + 64 / (pi * pi))) * pi / 8;
+}
+
+using Scheduler = TowerGains (*)(const Design&, const Schedule&) noexcept;
+
+template <Scheduler gains_at>
+class Tracking final : public Law {
+ public:
+  explicit Tracking(const Design& design) : design_(design) {}
+
+  Contribution step(const Measurement& raw, const Reference& raw_reference) noexcept override {
+    const Measurement measured = bounded(raw);
+    const Reference reference = bounded(raw_reference);
+    const TowerGains gains = gains_at(design_, schedule(design_, measured));
+    const auto volts = [&](plant::Axis axis, const Gains& k) {
+      return k.position *
+             (reference[axis].position - measured.position[axis] - k.speed * measured.speed[axis]);
+    };
+    Contribution result;
+    result.drive_v[kTrolley] = volts(kTrolley, gains.trolley);
+    result.drive_v[kSlew] = volts(kSlew, gains.slew);
+    result.drive_v[kHoist] = hoist_volts(design_, measured, reference);
+    return result;
+  }
+  void reset(const Measurement& /*measured*/) noexcept override {}
+
+ private:
+  Design design_;
+};
+
+template <Scheduler gains_at>
+class AntiSwing final : public Law {
+ public:
+  explicit AntiSwing(const Design& design) : design_(design) {}
+
+  Contribution step(const Measurement& raw, const Reference& /*reference*/) noexcept override {
+    const Measurement measured = bounded(raw);
+    const auto [trolley, slew] = gains_at(design_, schedule(design_, measured));
+    Contribution result;
+    result.drive_v[kTrolley] = -trolley.position * (trolley.swing * measured.swing_radial_rad +
+                                                    trolley.swing_rate * measured.swing_radial_radps);
+    result.drive_v[kSlew] = slew.position * (slew.swing * measured.swing_tangential_rad +
+                                             slew.swing_rate * measured.swing_tangential_radps);
+    return result;
+  }
+  void reset(const Measurement& /*measured*/) noexcept override {}
+
+ private:
+  Design design_;
+};
+
+Gains over_position(Gains gains, const Schedule& at) noexcept {
+  gains.swing *= at.inverse_position_pm;
+  gains.swing_rate *= at.inverse_position_pm;
+  return gains;
+}
+
+}  // namespace
+
+SwingAxis trolley_axis(const plant::Parameters& crane, double cable_length_m) noexcept {
+  return {crane.gravity_mps2, cable_length_m, crane.trolley_gain_mps2pv, crane.load_to_trolley_ratio()};
+}
+
+SwingAxis slew_axis(const plant::Parameters& crane, double cable_length_m,
+                    double trolley_position_m) noexcept {
+  const double square = trolley_position_m * trolley_position_m;
+  const double inertia = 1 + crane.trolley_to_jib_ratio() * square;
+  return {crane.gravity_mps2, cable_length_m, crane.slew_gain_radps2pv / inertia,
+          crane.load_to_jib_ratio() * square / inertia};
+}
+
+Gains partial_state_gains(const SwingAxis& axis) noexcept {
+  static const double kRatio = partial_frequency_ratio();
+  const double w0_squared = axis.gravity_mps2 / axis.cable_length_m;
+  const double forward_gain = 4 / (pi * pi) * kRatio * kRatio * w0_squared / axis.drive_gain;
+  Gains gains = full_state_gains(axis, forward_gain);
+  gains.swing_rate = 0;  // zero by the choice of K but for rounding
+  return gains;
+}
+
+Gains full_state_gains(const SwingAxis& axis, double forward_gain) noexcept {
+  const double loop = forward_gain * axis.drive_gain;
+  const double w0_squared = axis.gravity_mps2 / axis.cable_length_m;
+  const double a = 2 / pi * std::sqrt(w0_squared);
+  const double w = pi / 2 * std::sqrt(loop);
+  Gains gains;
+  gains.position = forward_gain;
+  gains.speed = 2 / a + sqrt2 / w;
+  gains.swing = axis.cable_length_m *
+                ((a * a + 2 * sqrt2 * a * w + w * w - w0_squared * (1 + axis.load_ratio)) / loop - 1);
+  gains.swing_rate = axis.cable_length_m * ((2 * a + sqrt2 * w) / loop - gains.speed);
+  return gains;
+}
+
+TowerGains partial_state_gains(const Design& design, const Schedule& at) noexcept {
+  return {partial_state_gains(trolley_axis(design.crane, at.cable_length_m)),
+          over_position(
+              partial_state_gains(slew_axis(design.crane, at.cable_length_m, at.trolley_position_m)), at)};
+}
+
+TowerGains full_state_gains(const Design& design, const Schedule& at) noexcept {
+  const double forward_gain = design.full_feedback_gain_pm;
+  return {full_state_gains(trolley_axis(design.crane, at.cable_length_m), forward_gain),
+          over_position(full_state_gains(slew_axis(design.crane, at.cable_length_m, at.trolley_position_m),
+                                         forward_gain),
+                        at)};
+}
+
+double forward_gain_within(double volt_limit_v, double distance, double gain_limit) noexcept {
+  const double reach = std::abs(distance) * gain_limit;
+  return reach > volt_limit_v ? volt_limit_v / std::abs(distance) : gain_limit;
+}
+
+std::unique_ptr<Law> make_partial_tracking(const Design& design) {
+  return std::make_unique<Tracking<partial_state_gains>>(design);
+}
+std::unique_ptr<Law> make_partial_anti_swing(const Design& design) {
+  return std::make_unique<AntiSwing<partial_state_gains>>(design);
+}
+std::unique_ptr<Law> make_full_tracking(const Design& design) {
+  return std::make_unique<Tracking<full_state_gains>>(design);
+}
+std::unique_ptr<Law> make_full_anti_swing(const Design& design) {
+  return std::make_unique<AntiSwing<full_state_gains>>(design);
+}
+
+}  // namespace crane::control

@@ -1,0 +1,37 @@
+#pragma once
+/// One form for every complaint about a number from a file: "name = value: rule".
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace crane::control {
+
+struct Requirements {
+  std::vector<std::string> found;
+
+  void require(bool fulfilled, const char* name, double value, const std::string& rule) {
+    if (fulfilled) return;
+    std::ostringstream text;
+    text << name << " = " << value << ": " << rule;
+    found.push_back(text.str());
+  }
+  /// NaN fails every comparison, so it never passes a range.
+  void in_range(const char* name, double value, double low, double high) {
+    require(value >= low && value <= high, name, value,
+            "must be in [" + text_of(low) + ", " + text_of(high) + "]");
+  }
+  void above_up_to(const char* name, double value, double low, double high) {
+    require(value > low && value <= high, name, value,
+            "must be in (" + text_of(low) + ", " + text_of(high) + "]");
+  }
+
+ private:
+  static std::string text_of(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  }
+};
+
+}  // namespace crane::control

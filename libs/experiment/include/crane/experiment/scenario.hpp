@@ -1,0 +1,54 @@
+#pragma once
+/// A scenario says what is asked of a rig, independent of controller: where it starts, the moves, the kicks.
+/// Files: deploy/scenarios/*.toml; maneuver_1.toml is the annotated example.
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crane/plant/parameters.hpp"
+#include "crane/runtime/rig.hpp"
+
+namespace crane::experiment {
+
+/// A request to move. Times count from the moment the crane holds (armed, brakes open).
+struct Move {
+  double at_s = 0;
+  std::array<std::optional<double>, plant::kAxes> target;  ///< m, rad, m of cable; nothing: the axis stays
+};
+
+/// A disturbance: the load gets these swing rates added at once.
+struct Kick {
+  double at_s = 0;
+  double radial_radps = 0;
+  double tangential_radps = 0;
+};
+
+struct Scenario {
+  std::string name;         ///< file name without .toml
+  std::string description;  ///< one sentence
+  std::string path;
+  std::array<std::optional<double>, plant::kAxes> start;  ///< m, rad, m of cable; nothing: the rig's own
+  double swing_radial_rad = 0, swing_tangential_rad = 0;  ///< at the start
+  double duration_s = 20;                                 ///< after the first move or kick
+  std::vector<Move> moves;                                ///< in order of time
+  std::vector<Kick> kicks;                                ///< in order of time
+  std::optional<double> load_mass_kg;  ///< true load; the controllers go on believing the rig file
+
+  [[nodiscard]] double first_action_s() const;  ///< first move or kick, 0 when there is none
+  [[nodiscard]] double last_action_s() const;
+  [[nodiscard]] double end_s() const { return first_action_s() + duration_s; }
+};
+
+/// @throws runtime::ConfigurationError with every problem as "file:line: name = value: rule": unknown keys,
+/// wrong
+///   types, and with `rig` also targets outside its travel or on axes it does not have
+[[nodiscard]] Scenario load_scenario(const std::filesystem::path& file, const runtime::Rig* rig = nullptr);
+[[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& file,
+                                      const runtime::Rig* rig = nullptr);
+
+/// The rig as the scenario starts it: positions, swing and true load.
+[[nodiscard]] runtime::Rig started_by(runtime::Rig rig, const Scenario& scenario);
+
+}  // namespace crane::experiment

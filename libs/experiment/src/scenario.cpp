@@ -1,0 +1,179 @@
+#include "crane/experiment/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "crane/recording/csv.hpp"
+#include "crane/runtime/toml_reader.hpp"
+
+namespace crane::experiment {
+namespace {
+
+using recording::shortest;
+using runtime::Range;
+using runtime::Rig;
+using runtime::TomlTable;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+constexpr Range kTimes = Range::closed(0, 86'400);
+/// Farther than any rig goes; without a rig, positions are only kept finite.
+constexpr Range kPositions = Range::closed(-1000, 1000);
+
+/// An angle or rate that may be given in either unit; both at once is a problem.
+struct AngleKey {
+  const char* rad;
+  const char* deg;
+};
+
+std::optional<double> angle(TomlTable& table, const AngleKey& key, const Range& range) {
+  const bool in_rad = table.has(key.rad);
+  const bool in_deg = table.has(key.deg);
+  if (in_rad && in_deg) table.problem(key.deg, std::string{"give it or "} + key.rad + ", not both");
+  if (in_rad) return table.number(key.rad, range);
+  if (in_deg)
+    return table.number(key.deg, Range::closed(range.low / kRadPerDeg, range.high / kRadPerDeg)) * kRadPerDeg;
+  return std::nullopt;
+}
+
+std::optional<double> length(TomlTable& table, const char* key, const Range& range) {
+  if (!table.has(key)) return std::nullopt;
+  return table.number(key, range);
+}
+
+const char* axis_name(std::size_t axis) {
+  constexpr std::array kNames{"trolley", "slew", "hoist"};
+  return kNames.at(axis);
+}
+
+/// Reads the position of each axis and holds it against the travel of a rig.
+class PositionReader {
+ public:
+  /// @param inside_margin targets keep the soft margin, a crane at rest need not
+  PositionReader(const Rig* rig, bool inside_margin) : rig_{rig}, inside_margin_{inside_margin} {}
+
+  std::array<std::optional<double>, plant::kAxes> read(TomlTable& table) const {
+    std::array<std::optional<double>, plant::kAxes> positions;
+    positions[plant::kTrolley] = length(table, "trolley_position_m", kPositions);
+    positions[plant::kSlew] = angle(table, {"slew_angle_rad", "slew_angle_deg"}, kPositions);
+    positions[plant::kHoist] = length(table, "cable_length_m", kPositions);
+    const char* slew_key = table.has("slew_angle_deg") ? "slew_angle_deg" : "slew_angle_rad";
+    const std::array<const char*, plant::kAxes> keys{"trolley_position_m", slew_key, "cable_length_m"};
+    for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
+      if (rig_ != nullptr && positions[axis]) check(table, keys[axis], axis, *positions[axis]);
+    return positions;
+  }
+
+ private:
+  void check(TomlTable& table, const std::string& key, std::size_t axis, double position) const {
+    const runtime::Drive& drive = rig_->drives[axis];
+    if (!drive.present) {
+      // A rig without a drive may still stand anywhere: a pendulum has a cable, but no hoist.
+      if (inside_margin_) table.problem(key, rig_->name + " has no " + axis_name(axis) + " drive");
+      return;
+    }
+    const double margin = inside_margin_ ? drive.soft_margin : 0;
+    const double low = drive.low_limit + margin;
+    const double high = drive.high_limit - margin;
+    // Degrees do not convert to radians exactly: a target on the limit is allowed.
+    constexpr double kRounding = 1e-9;
+    if (!(position < low - kRounding || position > high + kRounding)) return;
+    const double scale = key.ends_with("_deg") ? 1 / kRadPerDeg : 1;
+    const auto rounded = [scale](double value) { return shortest(std::round(value * scale * 1e6) / 1e6); };
+    table.problem(key, "must lie in [" + rounded(low) + ", " + rounded(high) + "], the travel of " +
+                           rig_->name + (inside_margin_ ? " less its margin" : ""));
+  }
+
+  const Rig* rig_;
+  bool inside_margin_;
+};
+
+void read_start(TomlTable& root, const Rig* rig, Scenario& scenario) {
+  constexpr Range kSwings = Range::open(-std::numbers::pi / 2, std::numbers::pi / 2);
+  TomlTable start = root.table("start");
+  scenario.start = PositionReader{rig, false}.read(start);
+  if (scenario.start[plant::kHoist] && !(*scenario.start[plant::kHoist] > 0))
+    start.problem("cable_length_m", Range::positive().rule());
+  scenario.swing_radial_rad = angle(start, {"swing_radial_rad", "swing_radial_deg"}, kSwings).value_or(0);
+  scenario.swing_tangential_rad =
+      angle(start, {"swing_tangential_rad", "swing_tangential_deg"}, kSwings).value_or(0);
+}
+
+void read_moves(TomlTable& root, const Rig* rig, Scenario& scenario) {
+  for (TomlTable& table : root.tables("move")) {
+    Move move;
+    move.at_s = table.number("at_s", kTimes);
+    move.target = PositionReader{rig, true}.read(table);
+    if (!(move.target[0] || move.target[1] || move.target[2]))
+      table.problem("at_s",
+                    "the move names no axis: give trolley_position_m, slew_angle_deg or cable_length_m");
+    if (!scenario.moves.empty() && move.at_s <= scenario.moves.back().at_s)
+      table.problem("at_s", "must be later than the move before");
+    scenario.moves.push_back(move);
+  }
+}
+
+void read_kicks(TomlTable& root, Scenario& scenario) {
+  constexpr Range kRates = Range::closed(-20, 20);
+  for (TomlTable& table : root.tables("kick")) {
+    Kick kick;
+    kick.at_s = table.number("at_s", kTimes);
+    kick.radial_radps = angle(table, {"radial_radps", "radial_degps"}, kRates).value_or(0);
+    kick.tangential_radps = angle(table, {"tangential_radps", "tangential_degps"}, kRates).value_or(0);
+    if (kick.radial_radps == 0 && kick.tangential_radps == 0)
+      table.problem("at_s", "the kick has no rate: give radial_degps or tangential_degps");
+    if (!scenario.kicks.empty() && kick.at_s <= scenario.kicks.back().at_s)
+      table.problem("at_s", "must be later than the kick before");
+    scenario.kicks.push_back(kick);
+  }
+}
+
+}  // namespace
+
+double Scenario::first_action_s() const {
+  if (moves.empty()) return kicks.empty() ? 0 : kicks.front().at_s;
+  return kicks.empty() ? moves.front().at_s : std::min(moves.front().at_s, kicks.front().at_s);
+}
+
+double Scenario::last_action_s() const {
+  return std::max(moves.empty() ? 0 : moves.back().at_s, kicks.empty() ? 0 : kicks.back().at_s);
+}
+
+Scenario parse_scenario(const std::string& text, const std::string& file, const Rig* rig) {
+  TomlTable root{text, file};
+  Scenario scenario;
+  scenario.name = std::filesystem::path{file}.stem().string();
+  scenario.path = file;
+  scenario.description = root.text("description");
+  scenario.duration_s = root.number("duration_s", Range::above(0, kTimes.high), scenario.duration_s);
+  if (root.has("load_mass_kg")) scenario.load_mass_kg = root.number("load_mass_kg", Range::closed(0, 1e6));
+  read_start(root, rig, scenario);
+  read_moves(root, rig, scenario);
+  read_kicks(root, scenario);
+  if (scenario.last_action_s() >= scenario.end_s())
+    root.problem("duration_s", "the run ends before its last move or kick, at " +
+                                   shortest(scenario.last_action_s()) + " s");
+  root.finish();
+  return scenario;
+}
+
+Scenario load_scenario(const std::filesystem::path& file, const Rig* rig) {
+  std::ifstream in{file, std::ios::binary};
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in || in.bad()) throw runtime::ConfigurationError({file.string() + ": cannot be read"});
+  return parse_scenario(text.str(), file.string(), rig);
+}
+
+Rig started_by(Rig rig, const Scenario& scenario) {
+  for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
+    rig.start.position[axis] = scenario.start[axis].value_or(rig.start.position[axis]);
+  rig.start.swing_radial_rad = scenario.swing_radial_rad;
+  rig.start.swing_tangential_rad = scenario.swing_tangential_rad;
+  rig.plant.load_mass_kg = scenario.load_mass_kg.value_or(rig.plant.load_mass_kg);
+  return rig;
+}
+
+}  // namespace crane::experiment

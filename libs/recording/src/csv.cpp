@@ -1,0 +1,176 @@
+#include "crane/recording/csv.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <ostream>
+#include <set>
+#include <sstream>
+#include <system_error>
+
+namespace crane::recording {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+void require_writable(const Table& table) {
+  std::set<std::string_view> names;
+  for (const Table::Column& column : table.columns) {
+    if (column.name.empty() || column.name.find_first_of(",\"\n\r") != std::string::npos)
+      throw CsvError("column name \"" + column.name +
+                     "\": must not be empty or hold a comma, quote or line end");
+    if (!names.insert(column.name).second) throw CsvError("column " + column.name + " occurs twice");
+    if (column.values.size() != table.rows())
+      throw CsvError("column " + column.name + " has " + std::to_string(column.values.size()) + " rows, " +
+                     table.columns.front().name + " has " + std::to_string(table.rows()));
+  }
+}
+
+/// One pass over the text, a line at a time.
+class Parser {
+ public:
+  Parser(std::string file, const std::vector<std::string>& wanted)
+      : file_{std::move(file)}, wanted_{wanted} {}
+
+  void line(std::string_view text) {
+    ++line_;
+    const std::string_view content = trimmed(text);
+    if (content.empty() || content.front() == '#') return;
+    if (table_.columns.empty())
+      header(content);
+    else
+      row(content);
+  }
+
+  Table take() {
+    if (table_.columns.empty()) throw CsvError(file_ + ": has no header line");
+    if (wanted_.empty()) return std::move(table_);
+    Table chosen;
+    for (const std::string& name : wanted_)
+      for (Table::Column& column : table_.columns)
+        if (column.name == name) chosen.columns.push_back(std::move(column));
+    return chosen;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw CsvError(file_ + ":" + std::to_string(line_) + ": " + what);
+  }
+
+  void header(std::string_view text) {
+    std::set<std::string_view> names;
+    for (const std::string_view name : cells_of(text)) {
+      if (name.empty()) fail("column " + std::to_string(names.size() + 1) + " has no name");
+      if (!names.insert(name).second) fail("column " + std::string{name} + " occurs twice");
+      table_.columns.push_back({std::string{name}, {}});
+      kept_.push_back(wanted_.empty() || std::find(wanted_.begin(), wanted_.end(), name) != wanted_.end());
+    }
+  }
+
+  void row(std::string_view text) {
+    const std::vector<std::string_view> cells = cells_of(text);
+    if (cells.size() != table_.columns.size())
+      fail(std::to_string(cells.size()) + " cells, the header has " + std::to_string(table_.columns.size()));
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (kept_[i]) table_.columns[i].values.push_back(number(cells[i], table_.columns[i].name));
+  }
+
+  [[nodiscard]] double number(std::string_view cell, const std::string& column) const {
+    if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+    std::string_view digits = cell;
+    if (digits.front() == '+') digits.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size())
+      fail(column + " = \"" + std::string{cell} + "\": is not a number");
+    return value;
+  }
+
+  std::string file_;
+  const std::vector<std::string>& wanted_;
+  Table table_;
+  std::vector<bool> kept_;
+  int line_ = 0;
+};
+
+}  // namespace
+
+const std::vector<double>* Table::find(std::string_view name) const {
+  for (const Column& column : columns)
+    if (column.name == name) return &column.values;
+  return nullptr;
+}
+
+std::string shortest(double value) {
+  if (std::isnan(value)) return "nan";  // to_chars tells nan from -nan, which is no difference in the data
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+void write_csv(std::ostream& out, const Table& table) {
+  require_writable(table);
+  std::string line;
+  for (const Table::Column& column : table.columns) line += (line.empty() ? "" : ",") + column.name;
+  out << line << '\n';
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    line.clear();
+    for (const Table::Column& column : table.columns) {
+      if (&column != &table.columns.front()) line += ',';
+      line += shortest(column.values[row]);
+    }
+    line += '\n';
+    out << line;
+  }
+}
+
+void write_csv(const std::filesystem::path& file, const Table& table) {
+  require_writable(table);
+  errno = 0;
+  std::ofstream out{file, std::ios::binary};
+  if (out) write_csv(out, table);
+  out.close();
+  if (!out) throw CsvError(file.string() + ": cannot write: " + std::generic_category().message(errno));
+}
+
+Table parse_csv(std::string_view text, const std::string& file, const std::vector<std::string>& wanted) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  Parser parser{file, wanted};
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    parser.line(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return parser.take();
+}
+
+Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& wanted) {
+  errno = 0;
+  std::ifstream in{file, std::ios::binary};
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in || in.bad())
+    throw CsvError(file.string() + ": cannot read: " + std::generic_category().message(errno));
+  return parse_csv(text.str(), file.string(), wanted);
+}
+
+}  // namespace crane::recording

@@ -1,0 +1,210 @@
+#include <charconv>
+#include <utility>
+
+#include "idl_tokens.hpp"
+#include "schema_layout.hpp"
+
+namespace crane::recording {
+namespace {
+
+constexpr std::uint32_t kMaxCount = 1U << 24U;  // of array elements and string bounds: more is a mistake
+
+const std::map<std::string, Kind, std::less<>> kPrimitives{{"boolean", Kind::boolean},
+                                                           {"octet", Kind::uint8},
+                                                           {"char", Kind::uint8},
+                                                           {"int8", Kind::int8},
+                                                           {"uint8", Kind::uint8},
+                                                           {"int16", Kind::int16},
+                                                           {"uint16", Kind::uint16},
+                                                           {"int32", Kind::int32},
+                                                           {"uint32", Kind::uint32},
+                                                           {"int64", Kind::int64},
+                                                           {"uint64", Kind::uint64},
+                                                           {"short", Kind::int16},
+                                                           {"long", Kind::int32},
+                                                           {"long long", Kind::int64},
+                                                           {"unsigned short", Kind::uint16},
+                                                           {"unsigned long", Kind::uint32},
+                                                           {"unsigned long long", Kind::uint64},
+                                                           {"float", Kind::float32},
+                                                           {"double", Kind::float64}};
+
+/// Recursive descent over the tokens.
+class Parser {
+ public:
+  Parser(std::string_view text, IdlTypes& types) : tokens_{tokens_of(text)}, types_{types} {}
+
+  void run() {
+    while (!peek().empty()) definition();
+  }
+
+ private:
+  [[nodiscard]] std::string_view peek() const { return tokens_[at_].text; }
+  [[nodiscard]] int line() const { return tokens_[at_].line; }
+  [[noreturn]] void fail(const std::string& what) const { fail_at(line(), what); }
+
+  std::string_view next() {
+    if (peek().empty()) fail("the text ends inside a definition");
+    return tokens_[at_++].text;
+  }
+  bool accept(std::string_view text) {
+    if (peek() != text) return false;
+    ++at_;
+    return true;
+  }
+  void expect(std::string_view text) {
+    if (accept(text)) return;
+    const std::string found = peek().empty() ? "the end" : "'" + std::string{peek()} + "'";
+    fail("expected '" + std::string{text} + "', found " + found);
+  }
+  std::string word() {
+    const char first = peek().empty() ? '0' : peek().front();
+    if (!(first == '_' || (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z')))
+      fail("expected a name, found '" + std::string{peek()} + "'");
+    return std::string{next()};
+  }
+  std::uint32_t count() {
+    const std::string_view text = peek();
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || value == 0 || value > kMaxCount)
+      fail("expected a size from 1 to " + std::to_string(kMaxCount) + ", found '" + std::string{text} + "'");
+    ++at_;
+    return value;
+  }
+
+  void definition() {
+    bool final = false;
+    while (accept("@")) {
+      if (word() != "final") fail("only @final and @key are supported");
+      final = true;
+    }
+    if (accept("module")) return module();
+    if (accept("enum")) return enumeration();
+    if (!accept("struct")) fail("expected module, enum or struct, found '" + std::string{peek()} + "'");
+    if (!final) fail("the struct must be @final: other layouts are not supported");
+    structure();
+  }
+
+  void module() {
+    scope_.push_back(word());
+    expect("{");
+    while (!accept("}")) definition();
+    expect(";");
+    scope_.pop_back();
+  }
+
+  [[nodiscard]] std::string scoped(const std::string& name) const {
+    std::string full;
+    for (const std::string& each : scope_) full += each + "::";
+    return full + name;
+  }
+
+  std::string new_name() {
+    const int at = line();
+    std::string name = scoped(word());
+    if (types_.structures.contains(name) || types_.enumerations.contains(name))
+      fail_at(at, name + " is defined twice");
+    return name;
+  }
+
+  void enumeration() {
+    Enumeration type{new_name(), {}};
+    expect("{");
+    do type.values.push_back(word());
+    while (accept(","));
+    expect("}");
+    expect(";");
+    std::string name = type.name;
+    types_.enumerations.emplace(std::move(name), std::move(type));
+  }
+
+  void structure() {
+    Structure type{new_name(), {}};
+    expect("{");
+    while (!accept("}")) fields(type);
+    expect(";");
+    types_.order.push_back(type.name);
+    std::string name = type.name;
+    types_.structures.emplace(std::move(name), std::move(type));
+  }
+
+  /// One member declaration: type name [n], name ...;
+  void fields(Structure& of) {
+    Field field;
+    while (accept("@")) {
+      if (word() != "key") fail("only @final and @key are supported");
+      field.key = true;
+    }
+    type_of(field);
+    do {
+      const int at = line();
+      Field named = field;
+      named.name = word();
+      for (const Field& other : of.fields)
+        if (other.name == named.name) fail_at(at, of.name + "." + named.name + " is defined twice");
+      if (accept("[")) {
+        named.is_array = true;
+        named.count = count();
+        expect("]");
+        if (peek() == "[") fail("arrays of arrays are not supported");
+      }
+      of.fields.push_back(std::move(named));
+    } while (accept(","));
+    expect(";");
+  }
+
+  void type_of(Field& field) {
+    const int at = line();
+    std::string name = word();
+    if (name == "string") {
+      field.kind = Kind::string;
+      if (accept("<")) {
+        field.max_length = count();
+        expect(">");
+      }
+      return;
+    }
+    while ((name == "unsigned" || name == "long" || name == "unsigned long") &&
+           (peek() == "long" || peek() == "short"))
+      name += " " + word();
+    if (const auto found = kPrimitives.find(name); found != kPrimitives.end()) {
+      field.kind = found->second;
+      return;
+    }
+    while (accept("::")) name += "::" + word();
+    resolve(name, at, field);
+  }
+
+  /// A name means the innermost definition around it.
+  void resolve(const std::string& name, int at, Field& field) const {
+    for (std::size_t depth = scope_.size() + 1; depth-- > 0;) {
+      std::string full;
+      for (std::size_t i = 0; i < depth; ++i) full += scope_[i] + "::";
+      full += name;
+      if (const auto found = types_.structures.find(full); found != types_.structures.end()) {
+        field.kind = Kind::structure;
+        field.structure = &found->second;
+        return;
+      }
+      if (const auto found = types_.enumerations.find(full); found != types_.enumerations.end()) {
+        field.kind = Kind::enumeration;
+        field.enumeration = &found->second;
+        return;
+      }
+    }
+    fail_at(at, "type " + name +
+                    " is not known (supported: primitives, strings, enums and structs defined before)");
+  }
+
+  std::vector<Token> tokens_;
+  IdlTypes& types_;
+  std::size_t at_ = 0;
+  std::vector<std::string> scope_;
+};
+
+}  // namespace
+
+void IdlTypes::parse(std::string_view text) { Parser{text, *this}.run(); }
+
+}  // namespace crane::recording

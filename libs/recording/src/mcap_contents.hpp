@@ -1,0 +1,46 @@
+#pragma once
+/// Where things are in an MCAP file: from its index, or by walking it.
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crane/recording/mcap_reader.hpp"
+#include "input_file.hpp"
+
+namespace crane::recording {
+
+/// A record in the file, opcode and length included.
+struct Place {
+  std::uint64_t offset = 0, length = 0;
+};
+
+struct ChunkPlace {
+  Place place;
+  std::int64_t first_ns = 0, last_ns = 0;
+  bool has_messages = false;
+};
+
+struct Contents {
+  std::map<std::uint16_t, SchemaRecord> schemas;
+  std::map<std::uint16_t, ChannelRecord> channels;
+  std::vector<ChunkPlace> chunks;
+  std::vector<Place> metadata, attachments;
+  std::uint64_t message_count = 0;  ///< as the index says
+};
+
+/// @return nothing when index or footer are missing or damaged
+[[nodiscard]] std::optional<Contents> read_index(const InputFile& file);
+
+/// Walks the file record by record, passes over damage. @param problems what was wrong is appended
+[[nodiscard]] Contents walk(const InputFile& file, std::vector<std::string>& problems);
+
+/// Unpacked records of a chunk, checked against its CRC. @throws mcap::FormatError saying what is wrong
+[[nodiscard]] std::string unpack_chunk(const InputFile& file, const Place& chunk);
+
+/// Takes a schema or channel record's content in. @throws mcap::FormatError
+void add_schema(Contents& contents, std::string_view content);
+void add_channel(Contents& contents, std::string_view content);
+
+}  // namespace crane::recording

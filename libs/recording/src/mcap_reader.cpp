@@ -1,0 +1,211 @@
+#include "crane/recording/mcap_reader.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "mcap_contents.hpp"
+#include "mcap_format.hpp"
+
+namespace crane::recording {
+namespace {
+
+using mcap::Cursor;
+using mcap::FormatError;
+using mcap::Op;
+
+Bytes as_bytes(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// A message and the chunk that holds its data.
+struct Pending {
+  Message message;
+  std::uint64_t chunk_offset = 0;
+  std::size_t position = 0;  // in the chunk
+  std::shared_ptr<const std::string> chunk;
+};
+
+bool earlier(const Pending& a, const Pending& b) {
+  return std::tie(a.message.log_time_ns, a.chunk_offset, a.position) <
+         std::tie(b.message.log_time_ns, b.chunk_offset, b.position);
+}
+
+template <class Record>
+std::vector<Record> values(const std::map<std::uint16_t, Record>& by_id) {
+  std::vector<Record> list;
+  for (const auto& [id, value] : by_id) list.push_back(value);
+  return list;
+}
+
+}  // namespace
+
+struct McapReader::State {
+  explicit State(const std::filesystem::path& path) : file{path} {}
+
+  InputFile file;
+  Contents contents;
+  std::vector<SchemaRecord> schemas;
+  std::vector<ChannelRecord> channels;
+  std::vector<std::string> problems;
+  std::set<std::uint64_t> reported;  // offsets of problems, so that reading twice does not report twice
+  bool indexed = false;
+
+  void open();
+  void report(std::uint64_t at, const std::string& what);
+  void load(const ChunkPlace& chunk, const Selection& selection, std::vector<Pending>& pending);
+  [[nodiscard]] std::string content_of(const Place& place) const;
+  [[nodiscard]] const ChannelRecord* channel(std::uint16_t id) const;
+};
+
+void McapReader::State::open() {
+  if (file.size() == 0) throw ReadError(file.name() + ": is empty");
+  if (file.read(0, mcap::kMagic.size()) != mcap::kMagic)
+    throw ReadError(file.name() + ": is not an MCAP recording");
+  if (std::optional<Contents> index = read_index(file)) {
+    contents = std::move(*index);
+    indexed = true;
+  } else {
+    problems.push_back(file.name() + ": has no usable index: it was cut, damaged or not closed");
+    contents = walk(file, problems);
+  }
+  schemas = values(contents.schemas);
+  channels = values(contents.channels);
+}
+
+void McapReader::State::report(std::uint64_t at, const std::string& what) {
+  if (reported.insert(at).second)
+    problems.push_back(file.name() + ": byte " + std::to_string(at) + ": " + what);
+}
+
+const ChannelRecord* McapReader::State::channel(std::uint16_t id) const {
+  const auto found =
+      std::lower_bound(channels.begin(), channels.end(), id,
+                       [](const ChannelRecord& c, std::uint16_t wanted) { return c.id < wanted; });
+  return found != channels.end() && found->id == id ? &*found : nullptr;
+}
+
+/// Content of a record. @throws FormatError when it is cut
+std::string McapReader::State::content_of(const Place& place) const {
+  std::string bytes = file.read(place.offset, place.length);
+  if (bytes.size() != place.length || bytes.size() < mcap::kRecordHead) throw FormatError("record is cut");
+  return bytes.substr(mcap::kRecordHead);
+}
+
+void McapReader::State::load(const ChunkPlace& chunk, const Selection& selection,
+                             std::vector<Pending>& pending) {
+  const std::size_t before = pending.size();
+  try {
+    const auto records = std::make_shared<const std::string>(unpack_chunk(file, chunk.place));
+    Cursor cursor{*records};
+    for (std::size_t position = 0; !cursor.empty(); ++position) {
+      const auto op = static_cast<Op>(cursor.number<std::uint8_t>());
+      Cursor content{cursor.raw(cursor.number<std::uint64_t>())};
+      if (op != Op::message) continue;
+      const ChannelRecord* of = channel(content.number<std::uint16_t>());
+      if (of == nullptr) throw FormatError("a message belongs to an unknown channel");
+      Message message;
+      message.channel = of;
+      message.sequence = content.number<std::uint32_t>();
+      message.log_time_ns = content.time();
+      message.publish_time_ns = content.time();
+      message.data = as_bytes(content.rest());
+      const auto& topics = selection.topics;
+      const bool wanted =
+          topics.empty() || std::find(topics.begin(), topics.end(), of->topic) != topics.end();
+      if (wanted && message.log_time_ns >= selection.from_ns && message.log_time_ns <= selection.until_ns)
+        pending.push_back({message, chunk.place.offset, position, records});
+    }
+  } catch (const FormatError& error) {
+    pending.resize(before);
+    report(chunk.place.offset, std::string{"chunk is damaged and left out: "} + error.what());
+  }
+}
+
+McapReader::McapReader(const std::filesystem::path& file) : state_{std::make_unique<State>(file)} {
+  state_->open();
+}
+McapReader::~McapReader() = default;
+McapReader::McapReader(McapReader&&) noexcept = default;
+McapReader& McapReader::operator=(McapReader&&) noexcept = default;
+
+const std::vector<SchemaRecord>& McapReader::schemas() const { return state_->schemas; }
+const std::vector<ChannelRecord>& McapReader::channels() const { return state_->channels; }
+bool McapReader::indexed() const { return state_->indexed; }
+const std::vector<std::string>& McapReader::problems() const { return state_->problems; }
+
+const SchemaRecord* McapReader::find_schema(std::uint16_t id) const {
+  for (const SchemaRecord& schema : state_->schemas)
+    if (schema.id == id) return &schema;
+  return nullptr;
+}
+
+std::int64_t McapReader::first_time_ns() const {
+  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  for (const ChunkPlace& chunk : state_->contents.chunks)
+    if (chunk.has_messages) first = std::min(first, chunk.first_ns);
+  return first == std::numeric_limits<std::int64_t>::max() ? 0 : first;
+}
+
+std::int64_t McapReader::last_time_ns() const {
+  std::int64_t last = std::numeric_limits<std::int64_t>::min();
+  for (const ChunkPlace& chunk : state_->contents.chunks)
+    if (chunk.has_messages) last = std::max(last, chunk.last_ns);
+  return last == std::numeric_limits<std::int64_t>::min() ? 0 : last;
+}
+
+std::vector<MetadataRecord> McapReader::metadata() {
+  std::vector<MetadataRecord> list;
+  for (const Place& place : state_->contents.metadata) try {
+      const std::string content = state_->content_of(place);
+      Cursor cursor{content};
+      std::string name{cursor.text()};
+      list.push_back({std::move(name), cursor.map()});
+    } catch (const FormatError& error) {
+      state_->report(place.offset, std::string{"metadata are damaged and left out: "} + error.what());
+    }
+  return list;
+}
+
+std::vector<AttachmentRecord> McapReader::attachments() {
+  std::vector<AttachmentRecord> list;
+  for (const Place& place : state_->contents.attachments) try {
+      const std::string content = state_->content_of(place);
+      Cursor cursor{content};
+      AttachmentRecord attachment;
+      attachment.time_ns = cursor.time();
+      (void)cursor.time();
+      attachment.name = cursor.text();
+      attachment.media_type = cursor.text();
+      const Bytes data = as_bytes(cursor.raw(cursor.number<std::uint64_t>()));
+      attachment.data.assign(data.begin(), data.end());
+      const std::size_t covered = content.size() - cursor.rest().size();
+      const auto crc = cursor.number<std::uint32_t>();
+      if (crc != 0 && crc != mcap::crc32(content.data(), covered)) throw FormatError("CRC is wrong");
+      list.push_back(std::move(attachment));
+    } catch (const FormatError& error) {
+      state_->report(place.offset, std::string{"attachment is damaged and left out: "} + error.what());
+    }
+  return list;
+}
+
+void McapReader::for_each(const Selection& selection, const std::function<bool(const Message&)>& visit) {
+  std::vector<const ChunkPlace*> order;
+  for (const ChunkPlace& chunk : state_->contents.chunks)
+    if (chunk.has_messages && chunk.last_ns >= selection.from_ns && chunk.first_ns <= selection.until_ns)
+      order.push_back(&chunk);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const ChunkPlace* a, const ChunkPlace* b) { return a->first_ns < b->first_ns; });
+  std::vector<Pending> pending;  // sorted by time; may still be preceded by messages of chunks not loaded
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    state_->load(*order[i], selection, pending);
+    std::sort(pending.begin(), pending.end(), earlier);
+    const bool last = i + 1 == order.size();
+    auto ready = pending.begin();
+    for (; ready != pending.end() && (last || ready->message.log_time_ns < order[i + 1]->first_ns); ++ready)
+      if (!visit(ready->message)) return;
+    pending.erase(pending.begin(), ready);
+  }
+}
+
+}  // namespace crane::recording

@@ -1,0 +1,294 @@
+#include "crane/recording/mcap_writer.hpp"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "mcap_format.hpp"
+#include "output_file.hpp"
+
+namespace crane::recording {
+namespace {
+
+using mcap::Content;
+using mcap::Op;
+using mcap::record;
+
+std::string_view view(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+/// First and last log time of what was added.
+struct TimeSpan {
+  std::int64_t first = 0, last = 0;
+  bool empty = true;
+  void add(std::int64_t time_ns) {
+    first = empty ? time_ns : std::min(first, time_ns);
+    last = empty ? time_ns : std::max(last, time_ns);
+    empty = false;
+  }
+};
+
+std::string compress(std::string_view data, int level) {
+  std::string out(ZSTD_compressBound(data.size()), '\0');
+  const std::size_t size = ZSTD_compress(out.data(), out.size(), data.data(), data.size(), level);
+  if (ZSTD_isError(size) != 0U) throw WriteError(std::string{"zstd: "} + ZSTD_getErrorName(size));
+  out.resize(size);
+  return out;
+}
+
+}  // namespace
+
+struct McapWriter::State {
+  State(const std::filesystem::path& path, const WriterOptions& chosen) : options{chosen}, file{path} {
+    file.append(std::string{mcap::kMagic} + record(Op::header, Content{}.text("").text("crane").bytes()));
+  }
+
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    try {
+      close();
+    } catch (const WriteError&) {
+      // Nobody is left to be told: whoever needs to know calls close().
+    }
+  }
+
+  WriterOptions options;
+  OutputFile file;
+  bool closed = false;
+  std::string chunk;    // records of the open chunk
+  TimeSpan chunk_span;  // of the messages in it
+  std::map<std::uint16_t, Content>
+      chunk_index;  // per channel: (log time, offset in the chunk) of each message
+  TimeSpan file_span;
+  std::map<std::uint16_t, std::uint64_t> counts;  // messages per channel
+  // Records repeated in the summary at the end of the file.
+  std::vector<std::string> schemas, channels, chunks, attachments, metadata;
+
+  void require_open() const;
+  void end_chunk();
+  void write_summary();
+  void close();
+};
+
+void McapWriter::State::require_open() const {
+  if (closed) throw std::logic_error("recording is closed");
+  file.require_good();
+}
+
+/// One append per chunk, its message indexes included: after a failure the file ends with the chunk before.
+void McapWriter::State::end_chunk() {
+  if (chunk.empty()) return;
+  const std::string packed = compress(chunk, options.compression_level);
+  const std::uint64_t start = file.size();
+  const auto unpacked_size = static_cast<std::uint64_t>(chunk.size());
+  const auto packed_size = static_cast<std::uint64_t>(packed.size());
+  std::string out = record(Op::chunk, Content{}
+                                          .time(chunk_span.first)
+                                          .time(chunk_span.last)
+                                          .number(unpacked_size)
+                                          .number(mcap::crc32(chunk.data(), chunk.size()))
+                                          .text("zstd")
+                                          .number(packed_size)
+                                          .raw(packed)
+                                          .bytes());
+  const auto length = static_cast<std::uint64_t>(out.size());
+  Content offsets;
+  for (const auto& [channel, entries] : chunk_index) {
+    offsets.number(channel).number(start + out.size());
+    out += record(Op::message_index, Content{}.number(channel).text(entries.bytes()).bytes());
+  }
+  file.append(out);
+  if (options.sync) file.sync();
+  chunks.push_back(record(Op::chunk_index, Content{}
+                                               .time(chunk_span.first)
+                                               .time(chunk_span.last)
+                                               .number(start)
+                                               .number(length)
+                                               .text(offsets.bytes())
+                                               .number(static_cast<std::uint64_t>(out.size()) - length)
+                                               .text("zstd")
+                                               .number(packed_size)
+                                               .number(unpacked_size)
+                                               .bytes()));
+  chunk.clear();
+  chunk_index.clear();
+  chunk_span = {};
+}
+
+void McapWriter::State::write_summary() {
+  std::string out = record(Op::data_end, Content{}.number(std::uint32_t{0}).bytes());
+  const std::size_t summary_at = out.size();
+  const std::uint64_t base = file.size();
+  std::string offsets;
+  const auto group = [&](Op op, const std::vector<std::string>& records) {
+    const std::size_t at = out.size();
+    for (const std::string& each : records) out += each;
+    if (out.size() == at) return;
+    offsets += record(Op::summary_offset, Content{}
+                                              .number(static_cast<std::uint8_t>(op))
+                                              .number(base + at)
+                                              .number(static_cast<std::uint64_t>(out.size() - at))
+                                              .bytes());
+  };
+  Content per_channel;
+  std::uint64_t total = 0;
+  for (const auto& [channel, count] : counts) {
+    per_channel.number(channel).number(count);
+    total += count;
+  }
+  const auto size32 = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+  group(Op::schema, schemas);
+  group(Op::channel, channels);
+  group(Op::statistics, {record(Op::statistics, Content{}
+                                                    .number(total)
+                                                    .number(static_cast<std::uint16_t>(schemas.size()))
+                                                    .number(size32(channels))
+                                                    .number(size32(attachments))
+                                                    .number(size32(metadata))
+                                                    .number(size32(chunks))
+                                                    .time(file_span.first)
+                                                    .time(file_span.last)
+                                                    .text(per_channel.bytes())
+                                                    .bytes())});
+  group(Op::chunk_index, chunks);
+  group(Op::attachment_index, attachments);
+  group(Op::metadata_index, metadata);
+  const std::uint64_t offsets_at = base + out.size();
+  out += offsets;
+  const Content footer = Content{}.number(base + summary_at).number(offsets_at);
+  // The CRC covers the summary and the footer up to the CRC itself.
+  Content head;
+  head.number(static_cast<std::uint8_t>(Op::footer))
+      .number(std::uint64_t{mcap::kFooterSize})
+      .raw(footer.bytes());
+  out += head.bytes();
+  out += Content{}.number(mcap::crc32(out.data() + summary_at, out.size() - summary_at)).bytes();
+  out += mcap::kMagic;
+  file.append(out);
+}
+
+void McapWriter::State::close() {
+  if (closed) return;
+  file.require_good();
+  end_chunk();
+  write_summary();
+  if (options.sync) file.sync();
+  file.close();
+  closed = true;
+}
+
+McapWriter::McapWriter(const std::filesystem::path& file, const WriterOptions& options)
+    : state_{std::make_unique<State>(file, options)} {}
+
+McapWriter::~McapWriter() = default;
+McapWriter::McapWriter(McapWriter&&) noexcept = default;
+McapWriter& McapWriter::operator=(McapWriter&&) noexcept = default;
+
+std::uint16_t McapWriter::schema(std::string_view name, std::string_view encoding, std::string_view text) {
+  State& s = *state_;
+  s.require_open();
+  const auto id = static_cast<std::uint16_t>(s.schemas.size() + 1);
+  s.schemas.push_back(record(Op::schema, Content{}.number(id).text(name).text(encoding).text(text).bytes()));
+  s.chunk += s.schemas.back();
+  return id;
+}
+
+std::uint16_t McapWriter::channel(std::uint16_t schema, std::string_view topic,
+                                  std::string_view message_encoding, const Metadata& metadata) {
+  State& s = *state_;
+  s.require_open();
+  if (schema > s.schemas.size())
+    throw std::invalid_argument("schema " + std::to_string(schema) + " is not declared");
+  const auto id = static_cast<std::uint16_t>(s.channels.size());
+  s.channels.push_back(
+      record(Op::channel,
+             Content{}.number(id).number(schema).text(topic).text(message_encoding).map(metadata).bytes()));
+  s.chunk += s.channels.back();
+  return id;
+}
+
+void McapWriter::message(std::uint16_t channel, std::uint32_t sequence, std::int64_t log_time_ns,
+                         std::int64_t publish_time_ns, Bytes data) {
+  State& s = *state_;
+  s.require_open();
+  if (channel >= s.channels.size())
+    throw std::invalid_argument("channel " + std::to_string(channel) + " is not declared");
+  s.chunk_index[channel].time(log_time_ns).number(static_cast<std::uint64_t>(s.chunk.size()));
+  s.chunk += record(Op::message, Content{}
+                                     .number(channel)
+                                     .number(sequence)
+                                     .time(log_time_ns)
+                                     .time(publish_time_ns)
+                                     .raw(view(data))
+                                     .bytes());
+  ++s.counts[channel];
+  s.chunk_span.add(log_time_ns);
+  s.file_span.add(log_time_ns);
+  const bool long_enough = s.chunk_span.last - s.chunk_span.first >= s.options.flush_interval_ns;
+  if (long_enough || s.chunk.size() >= s.options.chunk_bytes) s.end_chunk();
+}
+
+void McapWriter::metadata(std::string_view name, const Metadata& entries) {
+  State& s = *state_;
+  s.require_open();
+  s.end_chunk();
+  const std::uint64_t start = s.file.size();
+  const std::string out = record(Op::metadata, Content{}.text(name).map(entries).bytes());
+  s.file.append(out);
+  s.metadata.push_back(
+      record(Op::metadata_index,
+             Content{}.number(start).number(static_cast<std::uint64_t>(out.size())).text(name).bytes()));
+}
+
+void McapWriter::attachment(std::string_view name, std::string_view media_type, std::int64_t time_ns,
+                            Bytes data) {
+  State& s = *state_;
+  s.require_open();
+  s.end_chunk();
+  const std::uint64_t start = s.file.size();
+  Content content;
+  content.time(time_ns).time(time_ns).text(name).text(media_type);
+  content.number(static_cast<std::uint64_t>(data.size())).raw(view(data));
+  content.number(mcap::crc32(content.bytes().data(), content.bytes().size()));
+  const std::string out = record(Op::attachment, content.bytes());
+  s.file.append(out);
+  s.attachments.push_back(record(Op::attachment_index, Content{}
+                                                           .number(start)
+                                                           .number(static_cast<std::uint64_t>(out.size()))
+                                                           .time(time_ns)
+                                                           .time(time_ns)
+                                                           .number(static_cast<std::uint64_t>(data.size()))
+                                                           .text(name)
+                                                           .text(media_type)
+                                                           .bytes()));
+}
+
+void McapWriter::flush() {
+  state_->require_open();
+  state_->end_chunk();
+}
+
+void McapWriter::close() { state_->close(); }
+
+std::uint64_t McapWriter::message_count() const {
+  std::uint64_t total = 0;
+  for (const auto& [channel, count] : state_->counts) total += count;
+  return total;
+}
+
+std::uint64_t McapWriter::bytes_written() const { return state_->file.size(); }
+
+TopicChannels add_topic_channels(McapWriter& writer) {
+  std::map<std::string_view, std::uint16_t> schemas;
+  TopicChannels channels{};
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const topics::Description& topic = topics::kAll[i];
+    const auto [entry, added] = schemas.try_emplace(topic.type, std::uint16_t{0});
+    if (added) entry->second = writer.schema(topic.type, "omgidl", topics::idl_text());
+    channels[i] = writer.channel(entry->second, topic.name, "cdr");
+  }
+  return channels;
+}
+
+}  // namespace crane::recording

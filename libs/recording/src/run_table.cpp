@@ -1,0 +1,149 @@
+#include "crane/recording/run_table.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "crane/recording/schema.hpp"
+
+namespace crane::recording {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+/// Builds a table column by column name, one row at a time.
+class RowWriter {
+ public:
+  explicit RowWriter(Table& table) : table_{table} {}
+  void begin() { next_ = 0; }
+  void cell(const char* name, double value) {
+    if (next_ == table_.columns.size()) table_.columns.push_back({name, {}});
+    table_.columns[next_++].values.push_back(value);
+  }
+
+ private:
+  Table& table_;
+  std::size_t next_ = 0;
+};
+
+void canonical_cells(RowWriter& row, const msg::State& state, double time_s) {
+  row.cell("time_s", time_s);
+  row.cell("trolley_voltage_v", state.applied_v[0]);
+  row.cell("slew_voltage_v", state.applied_v[1]);
+  row.cell("trolley_position_m", state.trolley_position_m);
+  row.cell("slew_angle_rad", state.slew_angle_rad);
+  row.cell("swing_radial_rad", state.swing_radial_rad);
+  row.cell("swing_tangential_rad", state.swing_tangential_rad);
+  row.cell("cable_length_m", state.cable_length_m);
+  row.cell("tick", static_cast<double>(state.header.tick));
+  row.cell("hoist_voltage_v", state.applied_v[2]);
+}
+
+msg::State state_from(const ordered_json& j) {
+  msg::State state{};
+  state.header.tick = j.at("header").at("tick");
+  state.header.sample_time_ns = j.at("header").at("sample_time_ns");
+  state.trolley_position_m = j.at("trolley_position_m");
+  state.slew_angle_rad = j.at("slew_angle_rad");
+  state.cable_length_m = j.at("cable_length_m");
+  state.swing_radial_rad = j.at("swing_radial_rad");
+  state.swing_tangential_rad = j.at("swing_tangential_rad");
+  for (std::size_t i = 0; i < 3; ++i) state.applied_v[i] = j.at("applied_v").at(i);
+  return state;
+}
+
+msg::Reference reference_from(const ordered_json& j) {
+  msg::Reference reference{};
+  reference.header.tick = j.at("header").at("tick");
+  for (std::size_t i = 0; i < 3; ++i) reference.axis[i].position = j.at("axis").at(i).at("position");
+  return reference;
+}
+
+msg::Demand demand_from(const ordered_json& j) {
+  msg::Demand demand{};
+  demand.header.tick = j.at("header").at("tick");
+  for (std::size_t i = 0; i < 3; ++i) {
+    demand.control_v[i] = j.at("control_v").at(i);
+    demand.friction_v[i] = j.at("friction_v").at(i);
+  }
+  return demand;
+}
+
+/// By name: the numbers of an older recording may differ.
+msg::SupervisorStatus supervisor_from(const ordered_json& j) {
+  static const std::array kNames{"STATE_BOOT",    "STATE_SELFTEST", "STATE_LOCKED", "STATE_READY",
+                                 "STATE_ARMING",  "STATE_HOLD",     "STATE_RUN",    "STATE_STOP_C1",
+                                 "STATE_STOP_C0", "STATE_ESTOP",    "STATE_FAULT"};
+  msg::SupervisorStatus status{};
+  status.header.tick = j.at("header").at("tick");
+  const auto* const found = std::find(kNames.begin(), kNames.end(), j.at("state").get<std::string>());
+  if (found == kNames.end())
+    throw DecodeError("crane/supervisor.state: " + j.at("state").dump() + " is not known");
+  status.state = static_cast<crane_SupervisorState>(found - kNames.begin());
+  return status;
+}
+
+void add_message(RunTable& run, const std::string& topic, const ordered_json& sample) {
+  if (topic == topics::state.description.name) run.add(state_from(sample));
+  if (topic == topics::reference.description.name) run.add(reference_from(sample));
+  if (topic == topics::demand.description.name) run.add(demand_from(sample));
+  if (topic == topics::supervisor.description.name) run.add(supervisor_from(sample));
+}
+
+}  // namespace
+
+Table RunTable::table() const {
+  for (const auto& [tick, row] : rows_)
+    if (row.state) return table(row.state->header.sample_time_ns);
+  return table(0);
+}
+
+Table RunTable::table(std::int64_t zero_time_ns) const {
+  Table result;
+  RowWriter row{result};
+  for (const auto& [tick, of] : rows_) {
+    if (!of.state) continue;
+    row.begin();
+    canonical_cells(row, *of.state,
+                    static_cast<double>(of.state->header.sample_time_ns - zero_time_ns) / 1e9);
+    const auto reference = [&of](std::size_t axis) {
+      return of.reference ? of.reference->axis[axis].position : kMissing;
+    };
+    row.cell("trolley_reference_m", reference(0));
+    row.cell("slew_reference_rad", reference(1));
+    row.cell("hoist_reference_m", reference(2));
+    row.cell("trolley_control_v", of.demand ? of.demand->control_v[0] : kMissing);
+    row.cell("slew_control_v", of.demand ? of.demand->control_v[1] : kMissing);
+    row.cell("hoist_control_v", of.demand ? of.demand->control_v[2] : kMissing);
+    row.cell("trolley_friction_v", of.demand ? of.demand->friction_v[0] : kMissing);
+    row.cell("slew_friction_v", of.demand ? of.demand->friction_v[1] : kMissing);
+    row.cell("hoist_friction_v", of.demand ? of.demand->friction_v[2] : kMissing);
+    row.cell("supervisor_state", of.supervisor ? static_cast<double>(of.supervisor->state) : kMissing);
+  }
+  return result;
+}
+
+Table run_table(McapReader& recording) {
+  RunTable run;
+  std::map<std::uint16_t, Schema> schemas;
+  Selection selection;
+  for (const topics::Description* topic : {&topics::state.description, &topics::reference.description,
+                                           &topics::demand.description, &topics::supervisor.description})
+    selection.topics.emplace_back(topic->name);
+  recording.for_each(selection, [&](const Message& message) {
+    const std::uint16_t id = message.channel->schema_id;
+    const SchemaRecord* record = recording.find_schema(id);
+    if (record == nullptr) throw SchemaError(message.channel->topic + " has no schema");
+    const Schema& schema = schemas.try_emplace(id, record->text).first->second;
+    try {
+      add_message(run, message.channel->topic, schema.decode(record->name, message.data));
+    } catch (const ordered_json::exception& error) {
+      throw DecodeError(message.channel->topic + ": " + error.what());
+    }
+    return true;
+  });
+  return run.table();
+}
+
+}  // namespace crane::recording

@@ -1,0 +1,204 @@
+#include "crane/recording/schema.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "schema_layout.hpp"
+
+namespace crane::recording {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Plain CDR: every primitive is aligned to its size, counted from the end of the encapsulation header.
+class Decoder {
+ public:
+  Decoder(const Structure& type, std::span<const std::uint8_t> payload) : path_{type.name} {
+    if (payload.size() < 4) fail("has no encapsulation header");
+    if (payload[0] != 0 || payload[1] > 1) fail("is not plain CDR");
+    big_endian_ = payload[1] == 0;
+    body_ = payload.subspan(4);
+  }
+
+  ordered_json structure(const Structure& type) {
+    ordered_json object = ordered_json::object();
+    for (const Field& field : type.fields) {
+      const std::size_t length = path_.size();
+      path_ += "." + field.name;
+      object[field.name] = field.is_array ? array(field) : value(field);
+      path_.resize(length);
+    }
+    return object;
+  }
+
+  void finish() const {
+    if (body_.size() - at_ > 3) fail(std::to_string(body_.size() - at_) + " bytes are left over");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw DecodeError(path_ + ": " + what); }
+
+  ordered_json array(const Field& field) {
+    ordered_json list = ordered_json::array();
+    for (std::uint32_t i = 0; i < field.count; ++i) {
+      const std::size_t length = path_.size();
+      path_ += "[" + std::to_string(i) + "]";
+      list.push_back(value(field));
+      path_.resize(length);
+    }
+    return list;
+  }
+
+  ordered_json value(const Field& field) {
+    switch (field.kind) {
+      case Kind::boolean:
+        return boolean();
+      case Kind::int8:
+        return static_cast<std::int8_t>(number<std::uint8_t>());
+      case Kind::uint8:
+        return number<std::uint8_t>();
+      case Kind::int16:
+        return static_cast<std::int16_t>(number<std::uint16_t>());
+      case Kind::uint16:
+        return number<std::uint16_t>();
+      case Kind::int32:
+        return static_cast<std::int32_t>(number<std::uint32_t>());
+      case Kind::uint32:
+        return number<std::uint32_t>();
+      case Kind::int64:
+        return static_cast<std::int64_t>(number<std::uint64_t>());
+      case Kind::uint64:
+        return number<std::uint64_t>();
+      case Kind::float32:
+        return std::bit_cast<float>(number<std::uint32_t>());
+      case Kind::float64:
+        return std::bit_cast<double>(number<std::uint64_t>());
+      case Kind::string:
+        return text(field.max_length);
+      case Kind::enumeration:
+        return enumerator(*field.enumeration);
+      case Kind::structure:
+        return structure(*field.structure);
+    }
+    fail("has an unknown kind");
+  }
+
+  std::span<const std::uint8_t> take(std::size_t size) {
+    if (size > body_.size() - at_)
+      fail("ends after " + std::to_string(body_.size()) + " of at least " + std::to_string(at_ + size) +
+           " bytes");
+    const auto bytes = body_.subspan(at_, size);
+    at_ += size;
+    return bytes;
+  }
+
+  template <class T>
+  T number() {
+    at_ = std::min((at_ + sizeof(T) - 1) / sizeof(T) * sizeof(T), body_.size());
+    const auto bytes = take(sizeof(T));
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+      value |= static_cast<std::uint64_t>(bytes[big_endian_ ? sizeof(T) - 1 - i : i]) << (8 * i);
+    return static_cast<T>(value);
+  }
+
+  bool boolean() {
+    const auto byte = number<std::uint8_t>();
+    if (byte > 1) fail("is " + std::to_string(byte) + ", a boolean is 0 or 1");
+    return byte == 1;
+  }
+
+  std::string enumerator(const Enumeration& type) {
+    const auto index = number<std::uint32_t>();
+    if (index >= type.values.size())
+      fail("is " + std::to_string(index) + ", which " + type.name + " does not have");
+    return type.values[index];
+  }
+
+  std::string text(std::uint32_t max_length) {
+    const auto size = number<std::uint32_t>();
+    const auto bytes = take(size);
+    if (bytes.empty() || bytes.back() != 0) fail("is not terminated");
+    const std::string value(bytes.begin(), bytes.end() - 1);
+    if (max_length > 0 && value.size() > max_length)
+      fail("has " + std::to_string(value.size()) + " characters, at most " + std::to_string(max_length) +
+           " are allowed");
+    return printable(value);
+  }
+
+  /// JSON wants UTF-8; a text cut inside a character gets a replacement mark there.
+  static std::string printable(const std::string& value) {
+    const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return (c & 0x80) == 0; });
+    if (ascii) return value;
+    return ordered_json::parse(
+        ordered_json(value).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  }
+
+  std::string path_;
+  std::span<const std::uint8_t> body_;
+  std::size_t at_ = 0;
+  bool big_endian_ = false;
+};
+
+void flatten_into(const ordered_json& value, const std::string& name, std::vector<Leaf>& leaves) {
+  if (value.is_object()) {
+    for (const auto& [key, member] : value.items())
+      flatten_into(member, name.empty() ? key : name + "." + key, leaves);
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      flatten_into(value[i], name + "[" + std::to_string(i) + "]", leaves);
+  } else {
+    leaves.emplace_back(name, value);
+  }
+}
+
+void columns_into(const Structure& type, const std::string& prefix, std::vector<std::string>& names) {
+  for (const Field& field : type.fields)
+    for (std::uint32_t i = 0; i < field.count; ++i) {
+      const std::string name = prefix + field.name + (field.is_array ? "[" + std::to_string(i) + "]" : "");
+      if (field.kind == Kind::structure)
+        columns_into(*field.structure, name + ".", names);
+      else
+        names.push_back(name);
+    }
+}
+
+const Structure& find(const IdlTypes& types, std::string_view type) {
+  const auto found = types.structures.find(type);
+  if (found == types.structures.end()) throw std::out_of_range("the schema has no type " + std::string{type});
+  return found->second;
+}
+
+}  // namespace
+
+Schema::Schema(std::string_view idl_text) {
+  auto types = std::make_shared<IdlTypes>();
+  types->parse(idl_text);
+  types_ = std::move(types);
+}
+
+bool Schema::contains(std::string_view type) const { return types_->structures.contains(type); }
+
+std::vector<std::string> Schema::types() const { return types_->order; }
+
+ordered_json Schema::decode(std::string_view type, std::span<const std::uint8_t> payload) const {
+  const Structure& structure = find(*types_, type);
+  Decoder decoder{structure, payload};
+  ordered_json sample = decoder.structure(structure);
+  decoder.finish();
+  return sample;
+}
+
+std::vector<std::string> Schema::columns(std::string_view type) const {
+  std::vector<std::string> names;
+  columns_into(find(*types_, type), "", names);
+  return names;
+}
+
+std::vector<Leaf> flatten(const ordered_json& sample) {
+  std::vector<Leaf> leaves;
+  flatten_into(sample, "", leaves);
+  return leaves;
+}
+
+}  // namespace crane::recording

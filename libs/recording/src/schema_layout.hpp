@@ -1,0 +1,60 @@
+#pragma once
+/// Types of an IDL text, ready for decoding.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace crane::recording {
+
+enum class Kind : std::uint8_t {
+  boolean,
+  int8,
+  uint8,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  float32,
+  float64,
+  string,
+  enumeration,
+  structure
+};
+
+struct Enumeration {
+  std::string name;
+  std::vector<std::string> values;
+};
+
+struct Structure;
+
+struct Field {
+  std::string name;
+  Kind kind = Kind::uint8;
+  bool is_array = false;
+  std::uint32_t count = 1;       ///< elements of the array
+  std::uint32_t max_length = 0;  ///< string: without the terminator, 0: unbounded
+  bool key = false;
+  const Enumeration* enumeration = nullptr;
+  const Structure* structure = nullptr;
+};
+
+struct Structure {
+  std::string name;  ///< with its modules: "crane::Header"
+  std::vector<Field> fields;
+};
+
+struct IdlTypes {
+  std::map<std::string, Structure, std::less<>> structures;  ///< addresses stay: fields point here
+  std::map<std::string, Enumeration, std::less<>> enumerations;
+  std::vector<std::string> order;  ///< of the structures
+
+  /// @throws SchemaError
+  void parse(std::string_view text);
+};
+
+}  // namespace crane::recording

@@ -1,0 +1,43 @@
+#pragma once
+/// Topic samples as the control laws see them, and back.
+#include "crane/control/law.hpp"
+#include "crane/topics.hpp"
+
+namespace crane::runtime {
+
+[[nodiscard]] inline control::Measurement measurement(const msg::State& state) {
+  return {.position = {state.trolley_position_m, state.slew_angle_rad, state.cable_length_m},
+          .speed = {state.trolley_speed_mps, state.slew_speed_radps, state.cable_speed_mps},
+          .swing_radial_rad = state.swing_radial_rad,
+          .swing_radial_radps = state.swing_radial_radps,
+          .swing_tangential_rad = state.swing_tangential_rad,
+          .swing_tangential_radps = state.swing_tangential_radps};
+}
+
+[[nodiscard]] inline control::Reference reference(const msg::AxisReference (&axes)[control::kAxes]) {
+  control::Reference result;
+  for (std::size_t i = 0; i < control::kAxes; ++i)
+    result[i] = {axes[i].position, axes[i].speed, axes[i].acceleration};
+  return result;
+}
+
+inline void assign(msg::AxisReference (&axes)[control::kAxes], const control::Reference& reference) {
+  for (std::size_t i = 0; i < control::kAxes; ++i)
+    axes[i] = {reference[i].position, reference[i].speed, reference[i].acceleration};
+}
+
+inline void assign(double (&field)[control::kAxes], const std::array<double, control::kAxes>& values) {
+  for (std::size_t i = 0; i < control::kAxes; ++i) field[i] = values[i];
+}
+
+[[nodiscard]] inline std::array<double, control::kAxes> values(const double (&field)[control::kAxes]) {
+  return {field[0], field[1], field[2]};
+}
+
+/// Header of a sample that answers `cause`: same tick, same sample time.
+[[nodiscard]] inline msg::Header answer_to(const msg::Header& cause) {
+  return {
+      .tick = cause.tick, .sample_time_ns = cause.sample_time_ns, .source = crane_SOURCE_NONE, .epoch = 0};
+}
+
+}  // namespace crane::runtime

@@ -1,0 +1,78 @@
+#pragma once
+/// The ordinary component: joins the samples of one tick, steps once, publishes.
+#include <chrono>
+#include <string>
+
+#include "crane/runtime/component.hpp"
+#include "crane/runtime/node.hpp"
+#include "crane/runtime/tick_join.hpp"
+
+namespace crane::runtime {
+
+/// How long a realtime component waits for the rest of a tick, as a share of the period.
+[[nodiscard]] inline JoinPolicy join_policy(const Context& context, double share_of_period,
+                                            std::size_t depth = 8) {
+  return {.in_order = context.clock == Clock::lockstep,
+          .bound_ns = static_cast<std::int64_t>(share_of_period * context.rig.period_s * 1e9),
+          .depth = depth};
+}
+
+template <class... Inputs>
+class JoinedComponent : public Component {
+ public:
+  [[nodiscard]] std::string_view name() const override { return node_.identity().name; }
+
+  bool poll(std::int64_t now_ns) override {
+    handle_requests(now_ns);
+    const auto result = join_.poll(now_ns);
+    node_.beat(now_ns, connected() ? crane_PHASE_READY : crane_PHASE_STARTING, join_.counts(),
+               join_.rejected());
+    if (result == JoinResult::waiting) return on_idle(now_ns);
+    if (result == JoinResult::incomplete && !steps_incomplete_ticks()) return true;
+    const auto begin = std::chrono::steady_clock::now();
+    std::apply([this](const auto*... sample) { on_tick(join_.tick(), sample...); }, samples());
+    const auto spent = std::chrono::steady_clock::now() - begin;
+    const auto* leader = join_.template get<0>();
+    node_.stepped(join_.tick(), leader != nullptr ? leader->header.sample_time_ns : 0,
+                  std::chrono::nanoseconds{spent}.count());
+    return true;
+  }
+  [[nodiscard]] std::int64_t wake_at_ns() const override { return join_.due_ns().value_or(kNever); }
+  [[nodiscard]] bool connected() const override { return join_.connected() && outputs_connected(); }
+  [[nodiscard]] std::string waiting_for() const override {
+    return "tick " + std::to_string(join_.next_tick()) +
+           ", inputs missing (bit mask): " + std::to_string(join_.missing());
+  }
+
+ protected:
+  JoinedComponent(const Context& context, const JoinPolicy& policy, bus::Subscriber<Inputs>... inputs)
+      : node_{context.node}, join_{policy, std::move(inputs)...} {}
+
+  /// Steps tick `tick`. A pointer is null only when the tick is incomplete and steps_incomplete_ticks().
+  virtual void on_tick(std::uint64_t tick, const Inputs*... samples) = 0;
+  [[nodiscard]] virtual bool outputs_connected() const = 0;
+  [[nodiscard]] virtual bool steps_incomplete_ticks() const { return false; }
+  virtual void handle_requests(std::int64_t /*now_ns*/) {}
+  /// No tick to step. @return true when something was done
+  virtual bool on_idle(std::int64_t /*now_ns*/) { return false; }
+
+  /// The leader's sample of the tick that is waiting for its other inputs; null when none is.
+  [[nodiscard]] const auto* open_leader() const {
+    return join_.open_tick() ? join_.template get<0>() : nullptr;
+  }
+  [[nodiscard]] const JoinCounts& counts() const { return join_.counts(); }
+  Node& node() { return node_; }
+
+ private:
+  [[nodiscard]] std::tuple<const Inputs*...> samples() const {
+    return samples(std::index_sequence_for<Inputs...>{});
+  }
+  template <std::size_t... I>
+  [[nodiscard]] std::tuple<const Inputs*...> samples(std::index_sequence<I...>) const {
+    return {join_.template get<I>()...};
+  }
+  Node& node_;
+  TickJoin<Inputs...> join_;
+};
+
+}  // namespace crane::runtime

@@ -1,0 +1,74 @@
+#pragma once
+/// A component in a process of its own: command line, rig file, bus, signals, the loop.
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crane/bus/bus.hpp"
+#include "crane/runtime/component.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace crane::runtime {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitFailed = 1;    ///< it did not work; the reason is on standard error
+inline constexpr int kExitBadInput = 2;  ///< arguments or files
+
+/// What a process of the stack is. One of these per component; `crane up` and the in-process host read them
+/// too.
+struct ComponentSpec {
+  std::string_view name;     ///< "tracking"
+  std::string_view program;  ///< "crane_tracking"
+  std::string_view summary;
+  crane_Source source;
+  bool runs_controller;                       ///< its law depends on --controller
+  const topics::Description* sole_writer_of;  ///< refuses to start beside another writer of it; null: nothing
+  std::unique_ptr<Component> (*make)(const Context&);
+};
+
+/// Options every process of a stack and every tool has.
+struct BusOptions {
+  std::string vendor = "cyclone";
+  std::uint32_t domain = 0;
+  std::string crane = "crane";
+  std::vector<std::string> interfaces{"127.0.0.1"};
+  std::vector<std::string> peers;
+};
+void add_bus_options(CLI::App& app, BusOptions& options);
+[[nodiscard]] bus::Options bus_options(const BusOptions& options, std::string participant,
+                                       crane_Source source, std::uint32_t epoch);
+/// The same options as command-line arguments, for a child process.
+[[nodiscard]] std::vector<std::string> arguments(const BusOptions& options);
+
+/// Options of a process in the loop.
+struct LoopOptions {
+  BusOptions bus;
+  std::string rig;
+  std::string controller;  ///< empty: the rig file's
+  std::string clock = "realtime";
+  std::uint32_t epoch = 0;  ///< 0: seconds since 1970, so that a restarted process is younger
+  int priority = 50;        ///< SCHED_FIFO priority in realtime, 0: ordinary scheduling
+  bool verbose = false;
+};
+void add_loop_options(CLI::App& app, LoopOptions& options);
+
+/// The controller a loop runs. @throws ConfigurationError when the name does not exist, listing those that do
+[[nodiscard]] const control::Controller& chosen_controller(const std::string& name, const Rig& rig);
+
+/// main() of every process of the stack. @return exit code
+int run_process(int argc, char** argv, const ComponentSpec& spec);
+
+/// Set by SIGINT and SIGTERM once install_stop_signals() was called.
+[[nodiscard]] bool stop_requested();
+void install_stop_signals();
+
+[[nodiscard]] std::int64_t monotonic_ns();
+
+}  // namespace crane::runtime

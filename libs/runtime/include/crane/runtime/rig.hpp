@@ -1,0 +1,95 @@
+#pragma once
+/// One rig file describes one crane: geometry, masses, drives, sensors, board, limits, controller and model
+/// terms. deploy/rigs/virginia_tech_tower.toml is the dissertation's rig and the annotated example.
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "crane/control/law.hpp"
+#include "crane/plant/parameters.hpp"
+
+namespace crane::runtime {
+
+enum class RigKind { tower, gantry, drive_axis, pendulum };
+
+/// Incremental encoder of one coordinate.
+struct Encoder {
+  int channel = 0;  ///< board counter channel, 0..7
+  double counts_per_unit =
+      0;         ///< counts per m or rad of the coordinate (quadrature and gear included); 0: no such encoder
+  int sign = 1;  ///< +1 or -1: which way it counts
+};
+
+/// One motor axis: wiring, limits, brake.
+struct Drive {
+  bool present = false;
+  int dac_channel = 0;                ///< board analog output, 0..7
+  int sign = 1;                       ///< +1 or -1: which way a positive voltage moves it
+  double volt_limit_v = 10;           ///< |V| <=, in (0, 10]
+  double volt_rate_limit_vps = 1000;  ///< gate clamps faster changes, > 0
+  double low_limit = 0;               ///< hard limit, m or rad
+  double high_limit = 0;
+  double soft_margin = 0;         ///< operator targets stay this far inside the hard limits, >= 0
+  double max_speed = 0;           ///< overspeed trip, per second, > 0
+  double brake_deceleration = 0;  ///< what the closed brake gives at least, per second squared, > 0
+  double brake_close_time_s = 0.02;
+  double brake_open_time_s = 0.02;
+  double reference_speed = 0;         ///< planner: V_max of (3.43), per second, > 0
+  double reference_acceleration = 0;  ///< planner: a_max of (3.43), per second squared, > 0
+};
+
+/// Differentiators and filters of the measurement pipeline (dissertation 4.3).
+struct Sensing {
+  double swing_filter_ratio = 0.05;  ///< Butterworth cut-off / sampling frequency, in (0, 0.5); 0: none
+  std::array<bool, plant::kAxes> filter_speed{false, true,
+                                              false};  ///< per axis: differentiate the filtered position
+};
+
+struct Limits {
+  double swing_limit_rad = 0.7;      ///< trip when either swing angle exceeds it
+  int stale_after_ticks = 5;         ///< bridge: command age that stops the crane
+  int demand_stale_after_ticks = 3;  ///< supervisor: missing demands in a row that stop the crane
+  double idle_lock_s = 60;           ///< HOLD without a move for so long locks the crane
+};
+
+struct Start {
+  std::array<double, plant::kAxes> position{0.25, 0,
+                                            1.0};  ///< where the simulated plant begins: m, rad, m of cable
+  double swing_radial_rad = 0, swing_tangential_rad = 0;
+};
+
+struct Rig {
+  std::string name;
+  std::string path;  ///< file it came from
+  RigKind kind = RigKind::tower;
+  double period_s = 0.01;   ///< tick
+  plant::Parameters plant;  ///< the simulated plant
+  std::vector<plant::TermSetting> terms;
+  std::array<Drive, plant::kAxes> drives;
+  std::array<Encoder, 5> encoders;  ///< trolley, slew, hoist, radial swing, tangential swing
+  Sensing sensing;
+  Limits limits;
+  Start start;
+  std::string board = "simulated";  ///< simulated (hardware boards: servo_to_go, comedi, emulated)
+  std::string controller = "gain_scheduling_partial";
+  control::Design design;  ///< what the controllers believe; crane = plant unless the file says otherwise
+};
+
+/// Every problem of the input files at once, one line each: "file:line: name = value: rule".
+class ConfigurationError : public std::runtime_error {
+ public:
+  explicit ConfigurationError(std::vector<std::string> problems);
+  [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  std::vector<std::string> problems_;
+};
+
+/// @throws ConfigurationError
+[[nodiscard]] Rig load_rig(const std::filesystem::path& file);
+/// Same, from text; `file` is used in messages only. @throws ConfigurationError
+[[nodiscard]] Rig parse_rig(const std::string& text, const std::string& file);
+
+}  // namespace crane::runtime

@@ -1,0 +1,183 @@
+#pragma once
+/// Brings together the samples of exactly one tick from several topics. The first input leads: its sample k
+/// opens tick k. Realtime: the newest tick is worked on, for at most a bounded time; what does not come
+/// together is counted lost. Lockstep: every tick in order, however long it takes.
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "crane/bus/bus.hpp"
+
+namespace crane::runtime {
+
+struct JoinPolicy {
+  bool in_order = true;       ///< lockstep
+  std::int64_t bound_ns = 0;  ///< realtime: how long the rest of a tick is waited for after its leader came
+  std::size_t depth = 8;      ///< ticks an input may run ahead of the slowest
+};
+
+/// Counted since creation.
+struct JoinCounts {
+  std::uint64_t completed = 0;
+  std::uint64_t lost = 0;         ///< ticks that never came together, or whose leader never came
+  std::uint64_t late = 0;         ///< samples of a tick already left behind
+  std::uint64_t duplicate = 0;    ///< second sample of the same tick
+  std::uint64_t conflicting = 0;  ///< samples of an older writer while a younger one exists
+};
+
+/// Samples of one topic, kept by tick until they are used.
+template <class T>
+class TickInput {
+ public:
+  TickInput(bus::Subscriber<T> subscriber, std::size_t depth)
+      : subscriber_{std::move(subscriber)}, ring_(depth) {}
+
+  /// Takes what has arrived. @return true when a younger writer took over and the past is void
+  bool drain(std::uint64_t first_useful_tick, JoinCounts& counts) {
+    bool restarted = false;
+    while (const auto sample = subscriber_.take()) {
+      const auto& header = sample->header;
+      if (epoch_ && header.epoch < *epoch_) {
+        ++counts.conflicting;
+        continue;
+      }
+      if (epoch_ && header.epoch > *epoch_) {
+        restarted = true;
+        first_useful_tick = 0;
+        for (auto& slot : ring_) slot.reset();
+        newest_.reset();
+      }
+      epoch_ = header.epoch;
+      store(*sample, first_useful_tick, counts);
+    }
+    return restarted;
+  }
+  [[nodiscard]] const T* find(std::uint64_t tick) const {
+    const auto& slot = ring_[tick % ring_.size()];
+    return slot && slot->header.tick == tick ? &*slot : nullptr;
+  }
+  [[nodiscard]] std::optional<std::uint64_t> newest() const { return newest_; }
+  [[nodiscard]] std::optional<std::uint64_t> oldest() const {
+    std::optional<std::uint64_t> tick;
+    for (const auto& slot : ring_)
+      if (slot && (!tick || slot->header.tick < *tick)) tick = slot->header.tick;
+    return tick;
+  }
+  [[nodiscard]] bool connected() const { return subscriber_.matched() > 0; }
+  [[nodiscard]] std::uint64_t rejected() const { return subscriber_.counts().rejected; }
+
+ private:
+  void store(const T& sample, std::uint64_t first_useful_tick, JoinCounts& counts) {
+    const auto tick = sample.header.tick;
+    if (find(tick) != nullptr) {
+      ++counts.duplicate;
+    } else if (tick < first_useful_tick) {
+      ++counts.late;
+    } else {
+      ring_[tick % ring_.size()] = sample;
+      newest_ = std::max(newest_.value_or(0), tick);
+    }
+  }
+  bus::Subscriber<T> subscriber_;
+  std::vector<std::optional<T>> ring_;
+  std::optional<std::uint64_t> newest_;
+  std::optional<std::uint32_t> epoch_;
+};
+
+enum class JoinResult : std::uint8_t {
+  waiting,    ///< nothing to do yet
+  complete,   ///< every input of tick() is there
+  incomplete  ///< the bound passed: get() is null for what is missing
+};
+
+template <class... T>
+class TickJoin {
+ public:
+  explicit TickJoin(const JoinPolicy& policy, bus::Subscriber<T>... inputs)
+      : policy_{policy}, inputs_{TickInput<T>{std::move(inputs), policy.depth}...} {}
+
+  JoinResult poll(std::int64_t now_ns) {
+    drain();
+    if (!open(now_ns)) return JoinResult::waiting;
+    if (missing() == 0) return finish(JoinResult::complete);
+    if (!policy_.in_order && now_ns >= opened_ns_ + policy_.bound_ns) return finish(JoinResult::incomplete);
+    return JoinResult::waiting;
+  }
+
+  /// The tick of the last result, and its samples: valid until the next poll.
+  [[nodiscard]] std::uint64_t tick() const { return tick_; }
+  template <std::size_t I>
+  [[nodiscard]] auto get() const {
+    return std::get<I>(inputs_).find(tick_);
+  }
+  /// The tick being waited for, once its leader has come.
+  [[nodiscard]] std::optional<std::uint64_t> open_tick() const {
+    return opened_ ? std::optional{tick_} : std::nullopt;
+  }
+  /// When poll() is due to notice a tick that does not come together.
+  [[nodiscard]] std::optional<std::int64_t> due_ns() const {
+    if (policy_.in_order || !opened_) return std::nullopt;
+    return opened_ns_ + policy_.bound_ns;
+  }
+  [[nodiscard]] const JoinCounts& counts() const { return counts_; }
+  [[nodiscard]] bool connected() const {
+    return std::apply([](const auto&... input) { return (input.connected() && ...); }, inputs_);
+  }
+  [[nodiscard]] std::uint64_t rejected() const {
+    return std::apply([](const auto&... input) { return (input.rejected() + ...); }, inputs_);
+  }
+  /// Bit i: input i of the open tick has not come; bit 0 also when no tick is open.
+  [[nodiscard]] std::uint32_t missing() const { return missing(std::index_sequence_for<T...>{}); }
+  [[nodiscard]] std::uint64_t next_tick() const { return opened_ ? tick_ : first_useful_; }
+
+ private:
+  void drain() {
+    const bool restarted = std::get<0>(inputs_).drain(first_useful_, counts_);
+    if (restarted) {
+      first_useful_ = 0;
+      started_ = opened_ = false;
+    }
+    std::apply([this](auto&, auto&... others) { (others.drain(first_useful_, counts_), ...); }, inputs_);
+  }
+  /// Decides which tick is worked on. @return false when there is none
+  bool open(std::int64_t now_ns) {
+    const auto candidate = policy_.in_order ? next_in_order() : std::get<0>(inputs_).newest();
+    if (!candidate || (started_ && *candidate < first_useful_)) return false;
+    if (opened_ && *candidate == tick_) return true;
+    if (started_) counts_.lost += *candidate - first_useful_;
+    tick_ = first_useful_ = *candidate;
+    started_ = opened_ = true;
+    opened_ns_ = now_ns;
+    return true;
+  }
+  [[nodiscard]] std::optional<std::uint64_t> next_in_order() const {
+    const auto& leader = std::get<0>(inputs_);
+    if (!started_) return leader.oldest();
+    return leader.find(first_useful_) != nullptr ? std::optional{first_useful_} : std::nullopt;
+  }
+  template <std::size_t... I>
+  [[nodiscard]] std::uint32_t missing(std::index_sequence<I...>) const {
+    if (!opened_) return 1;
+    return ((get<I>() == nullptr ? 1U << I : 0U) | ...);
+  }
+  JoinResult finish(JoinResult result) {
+    ++(result == JoinResult::complete ? counts_.completed : counts_.lost);
+    opened_ = false;
+    first_useful_ = tick_ + 1;
+    return result;
+  }
+
+  JoinPolicy policy_;
+  std::tuple<TickInput<T>...> inputs_;
+  JoinCounts counts_;
+  std::uint64_t tick_ = 0;
+  std::uint64_t first_useful_ = 0;  ///< ticks before it are left behind
+  std::int64_t opened_ns_ = 0;
+  bool started_ = false, opened_ = false;
+};
+
+}  // namespace crane::runtime

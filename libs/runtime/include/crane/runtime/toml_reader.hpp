@@ -1,0 +1,115 @@
+#pragma once
+/// Declarative reader of TOML input files: every value is asked for by its unit-bearing key and its rule,
+/// every problem is collected, and finish() reports them all at once, sorted by line:
+///
+///   TomlTable root(text, "tower.toml");
+///   auto drive = root.required_table("trolley");
+///   const double limit_v = drive.number("volt_limit_v", Range::above(0, 10), 10.0);
+///   root.finish();  // throws "tower.toml:12: trolley.volt_limit_v = 12: must be in (0, 10]"
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace crane::runtime {
+
+/// Interval of allowed finite numbers.
+struct Range {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double low = -kInfinity;
+  double high = kInfinity;
+  bool low_included = true;
+  bool high_included = true;
+
+  static constexpr Range any() { return {}; }
+  static constexpr Range positive() { return {0, kInfinity, false, true}; }
+  static constexpr Range not_negative() { return {0, kInfinity, true, true}; }
+  static constexpr Range closed(double low, double high) { return {low, high, true, true}; }  ///< [low, high]
+  static constexpr Range above(double low, double high) { return {low, high, false, true}; }  ///< (low, high]
+  static constexpr Range open(double low, double high) { return {low, high, false, false}; }  ///< (low, high)
+
+  /// False for NaN and infinities.
+  [[nodiscard]] bool contains(double value) const;
+  /// "must be > 0", "must be in (0, 10]", ...
+  [[nodiscard]] std::string rule() const;
+};
+
+/// One table of a TOML document; a cheap handle, copies speak of the same table. A table that the file does
+/// not have is absent: its getters give their defaults, and required keys in it are not missed.
+///
+/// Every getter marks its key as known. With a default the key is optional, without one it is required. Where
+/// a value breaks its rule the problem is noted and the getter gives NaN (number), the default or INT_MIN
+/// (integer), or an empty text: comparisons with NaN are false, so cross checks written as `if
+/// (low >= high)` do not add a second problem, and finish() throws before the value is used.
+class TomlTable {
+ public:
+  /// Root table. `file` is used in messages only. @throws ConfigurationError (rig.hpp) on a syntax error
+  TomlTable(const std::string& text, const std::string& file);
+
+  /// Root tables only, before any sub-table is opened: keys that this file lacks come from `base`, table by
+  /// table; arrays are taken whole. Problems name the file and line that the value comes from.
+  void inherit(TomlTable base);
+
+  [[nodiscard]] bool present() const;
+  /// Is the key there? Marks it as known.
+  [[nodiscard]] bool has(std::string_view key);
+  /// Keys of this table in alphabetical order, without marking them as known (tables whose keys are data).
+  [[nodiscard]] std::vector<std::string> keys() const;
+
+  /// Finite number within the range; integers are accepted.
+  [[nodiscard]] double number(std::string_view key, const Range& range);
+  [[nodiscard]] double number(std::string_view key, const Range& range, double fallback);
+  /// low <= value <= high
+  [[nodiscard]] int integer(std::string_view key, int low, int high);
+  [[nodiscard]] int integer(std::string_view key, int low, int high, int fallback);
+  [[nodiscard]] bool boolean(std::string_view key, bool fallback);
+  [[nodiscard]] std::string text(std::string_view key);
+  [[nodiscard]] std::string text(std::string_view key, std::string_view fallback);
+  /// One of `choices`.
+  [[nodiscard]] std::string choice(std::string_view key, const std::vector<std::string>& choices);
+  [[nodiscard]] std::string choice(std::string_view key, const std::vector<std::string>& choices,
+                                   std::string_view fallback);
+  /// Array of numbers, each finite and within the range; empty when the key is absent.
+  [[nodiscard]] std::vector<double> numbers(std::string_view key, const Range& range);
+  /// Array of texts; empty when the key is absent.
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key);
+
+  /// Sub-table, absent when the file does not have it.
+  [[nodiscard]] TomlTable table(std::string_view key);
+  /// Sub-table whose absence is a problem.
+  [[nodiscard]] TomlTable required_table(std::string_view key);
+  /// [[key]]: array of tables, empty when the key is absent.
+  [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);
+
+  /// Keys of this table are not judged by finish().
+  void ignore_unknown();
+
+  /// Note a problem of the value of `key` (cross checks): "file:line: name = value: rule". Where the table
+  /// has no such key, the table's own line is named, and the value is left out.
+  void problem(std::string_view key, const std::string& rule);
+  /// Note a problem of the table as a whole: "file:line: name: rule".
+  void problem(const std::string& rule);
+  /// "file:line: " of the key, or of the table if the key is absent.
+  [[nodiscard]] std::string place(std::string_view key) const;
+
+  /// Adds unknown and missing keys to the problems of the whole document.
+  /// @throws ConfigurationError when there are any problems
+  void finish();
+
+ private:
+  struct Place;
+  struct Document;
+  struct Value;
+  TomlTable(std::shared_ptr<Document> document, Place* place);
+  Value find(std::string_view key, bool required);
+  double checked_number(const Value& value, std::string_view key, const Range& range);
+  int checked_integer(const Value& value, std::string_view key, int low, int high, int fallback);
+  std::string checked_text(const Value& value, std::string_view key);
+  TomlTable open(std::string_view key, bool required);
+
+  std::shared_ptr<Document> document_;
+  Place* place_;
+};
+
+}  // namespace crane::runtime

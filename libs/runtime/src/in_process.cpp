@@ -1,0 +1,51 @@
+#include "crane/runtime/in_process.hpp"
+
+namespace crane::runtime {
+namespace {
+constexpr std::uint32_t kEpoch = 1;  // as `crane run` gives its processes in lockstep
+}
+
+bus::Options memory_options(std::shared_ptr<bus::MemoryNetwork> network, std::string participant,
+                            crane_Source source) {
+  bus::Options options;
+  options.vendor = bus::Vendor::memory;
+  options.participant = std::move(participant);
+  options.source = source;
+  options.epoch = kEpoch;
+  options.network = std::move(network);
+  return options;
+}
+
+InProcessStack::InProcessStack(std::span<const ComponentSpec> specs, const Rig& rig,
+                               const control::Controller& controller)
+    : network_{bus::make_memory_network()} {
+  for (const auto& spec : specs) {
+    Room room;
+    room.bus = std::make_unique<bus::Bus>(memory_options(network_, std::string{spec.program}, spec.source));
+    room.node = std::make_unique<Node>(
+        *room.bus,
+        NodeIdentity{std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""});
+    room.component = spec.make(Context{*room.bus, *room.node, rig, controller, Clock::lockstep});
+    rooms_.push_back(std::move(room));
+  }
+}
+
+bool InProcessStack::pump() {
+  const auto now_ns = monotonic_ns();
+  bool anything = false;
+  for (bool progress = true; progress;) {
+    progress = false;
+    for (auto& room : rooms_)
+      while (room.component->poll(now_ns)) progress = anything = true;
+  }
+  return anything;
+}
+
+std::string InProcessStack::waiting_for() const {
+  std::string lines;
+  for (const auto& room : rooms_)
+    lines += std::string{room.component->name()} + ": " + room.component->waiting_for() + '\n';
+  return lines;
+}
+
+}  // namespace crane::runtime

@@ -1,0 +1,17 @@
+#pragma once
+/// What the writer of an unknown key probably meant.
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace crane::runtime {
+
+struct KeyHint {
+  std::string rule =
+      "unknown key";  ///< "unknown key; did you mean load_mass_kg?", "unit must be rad: slew_angle_rad"
+  std::string meant;  ///< the known key, empty when nothing is near
+};
+
+[[nodiscard]] KeyHint key_hint(std::string_view unknown, const std::set<std::string, std::less<>>& known);
+
+}  // namespace crane::runtime

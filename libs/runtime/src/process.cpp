@@ -1,0 +1,181 @@
+#include "crane/runtime/process.hpp"
+
+#include <sched.h>
+#include <spdlog/spdlog.h>
+#include <sys/mman.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
+#include <ctime>
+#include <iostream>
+
+#include "crane/runtime/node.hpp"
+
+namespace crane::runtime {
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+void sleep_until(std::int64_t time_ns) {
+  const timespec at{.tv_sec = time_ns / 1'000'000'000, .tv_nsec = time_ns % 1'000'000'000};
+  ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+}
+
+/// Realtime scheduling and locked memory where the system permits them; says so where it does not.
+void enter_realtime(Node& node, int priority) {
+  if (priority <= 0) return;
+  const sched_param parameters{.sched_priority = priority};
+  if (::sched_setscheduler(0, SCHED_FIFO, &parameters) != 0)
+    node.warning("no_realtime_scheduling", std::string{"SCHED_FIFO not permitted: "} + std::strerror(errno),
+                 "ticks may be late under load; grant CAP_SYS_NICE or start with --priority 0");
+  if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+    node.warning("memory_not_locked", std::string{"mlockall failed: "} + std::strerror(errno),
+                 "grant CAP_IPC_LOCK or raise the memlock limit");
+}
+
+void loop(Component& component, bus::Bus& bus) {
+  constexpr std::int64_t kLongest_ns = 100'000'000;  // so that a signal is noticed
+  while (!stop_requested()) {
+    const auto now_ns = monotonic_ns();
+    if (component.poll(now_ns)) continue;
+    const auto wake_ns = std::min(component.wake_at_ns(), now_ns + kLongest_ns);
+    if (component.paced())
+      sleep_until(wake_ns);
+    else
+      bus.wait(std::chrono::nanoseconds{std::max<std::int64_t>(wake_ns - now_ns, 0)});
+  }
+}
+
+/// Only one process may write what moves the crane or stands for its rig.
+void refuse_second_writer(bus::Bus& bus, const ComponentSpec& spec) {
+  if (spec.sole_writer_of == nullptr) return;
+  constexpr std::int64_t kDiscovery_ns = 400'000'000;
+  const auto probe = bus.cdr_subscriber(*spec.sole_writer_of);
+  for (const auto end_ns = monotonic_ns() + kDiscovery_ns; monotonic_ns() < end_ns && !stop_requested();) {
+    bus.wait(std::chrono::milliseconds{10});
+    if (probe.matched() > 0)
+      throw bus::Error("somebody already writes " + std::string{spec.sole_writer_of->name} + " of crane '" +
+                       bus.options().crane + "' in domain " + std::to_string(bus.options().domain) +
+                       ": stop that stack first, or choose another --crane or --domain");
+  }
+}
+
+int run(const ComponentSpec& spec, const LoopOptions& options) {
+  const auto rig = load_rig(options.rig);
+  const auto& controller = chosen_controller(options.controller, rig);
+  const auto clock = options.clock == "lockstep" ? Clock::lockstep : Clock::realtime;
+  const auto epoch = options.epoch != 0 ? options.epoch : static_cast<std::uint32_t>(std::time(nullptr));
+  bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
+  refuse_second_writer(bus, spec);
+  Node node{bus, {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""}};
+  const auto component = spec.make(Context{bus, node, rig, controller, clock});
+  if (clock == Clock::realtime) enter_realtime(node, options.priority);
+  loop(*component, bus);
+  node.beat(monotonic_ns(), crane_PHASE_STOPPING, {}, 0);
+  return kExitDone;
+}
+
+}  // namespace
+
+std::int64_t monotonic_ns() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
+}
+
+bool stop_requested() { return stop_signal != 0; }
+
+void install_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) { stop_signal = signal; };
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+void add_bus_options(CLI::App& app, BusOptions& options) {
+  app.add_option("--dds", options.vendor, "DDS implementation: cyclone or fastdds")
+      ->check(CLI::IsMember({"cyclone", "fastdds"}))
+      ->capture_default_str();
+  app.add_option("--domain", options.domain, "DDS domain, 0 to 100")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  app.add_option("--crane", options.crane, "name of the crane: separates several cranes in one domain")
+      ->capture_default_str();
+  app.add_option(
+         "--interface", options.interfaces,
+         "address of the network interface to use (repeatable); 127.0.0.1 keeps everything on this host")
+      ->capture_default_str();
+  app.add_option("--peer", options.peers,
+                 "address of a host to look for by unicast (repeatable); turns multicast discovery off");
+}
+
+bus::Options bus_options(const BusOptions& options, std::string participant, crane_Source source,
+                         std::uint32_t epoch) {
+  bus::Options result;
+  result.vendor = bus::vendor_from_string(options.vendor).value_or(bus::Vendor::cyclone);
+  result.domain = options.domain;
+  result.crane = options.crane;
+  result.participant = std::move(participant);
+  result.source = source;
+  result.epoch = epoch;
+  result.interfaces = options.interfaces;
+  result.peers = options.peers;
+  return result;
+}
+
+std::vector<std::string> arguments(const BusOptions& options) {
+  std::vector<std::string> result{"--dds",   options.vendor, "--domain", std::to_string(options.domain),
+                                  "--crane", options.crane};
+  for (const auto& interface : options.interfaces) result.insert(result.end(), {"--interface", interface});
+  for (const auto& peer : options.peers) result.insert(result.end(), {"--peer", peer});
+  return result;
+}
+
+void add_loop_options(CLI::App& app, LoopOptions& options) {
+  add_bus_options(app, options.bus);
+  app.add_option("--rig", options.rig, "rig file (deploy/rigs/*.toml)")->required();
+  app.add_option("--controller", options.controller, "controller; default: the one named in the rig file");
+  app.add_option("--clock", options.clock, "realtime, or lockstep: the plant waits for every command")
+      ->check(CLI::IsMember({"realtime", "lockstep"}))
+      ->capture_default_str();
+  app.add_option("--epoch", options.epoch,
+                 "start-up number; the process with the higher one is the younger one");
+  app.add_option("--priority", options.priority, "SCHED_FIFO priority in realtime, 0: ordinary scheduling")
+      ->check(CLI::Range(0, 98))
+      ->capture_default_str();
+  app.add_flag("--verbose", options.verbose, "log every detail");
+}
+
+const control::Controller& chosen_controller(const std::string& name, const Rig& rig) {
+  const auto& wanted = name.empty() ? rig.controller : name;
+  if (const auto* controller = control::find_controller(wanted)) return *controller;
+  std::string known;
+  for (const auto& controller : control::controllers())
+    known += (known.empty() ? "" : ", ") + std::string{controller.name};
+  throw ConfigurationError({"controller = " + wanted + ": must be one of " + known});
+}
+
+int run_process(int argc, char** argv, const ComponentSpec& spec) {
+  CLI::App app{std::string{spec.summary}, std::string{spec.program}};
+  LoopOptions options;
+  add_loop_options(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+  }
+  spdlog::set_level(options.verbose ? spdlog::level::debug : spdlog::level::warn);
+  install_stop_signals();
+  try {
+    return run(spec, options);
+  } catch (const ConfigurationError& error) {
+    std::cerr << error.what() << '\n';
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << spec.program << ": " << error.what() << '\n';
+    return kExitFailed;
+  }
+}
+
+}  // namespace crane::runtime

@@ -1,0 +1,82 @@
+#include <cmath>
+
+#include "rig_sections.hpp"
+
+namespace crane::runtime {
+namespace {
+
+std::vector<std::string> controller_names() {
+  std::vector<std::string> names;
+  for (const auto& controller : control::controllers()) names.emplace_back(controller.name);
+  return names;
+}
+
+/// The laws take a measured cable length into what this rig can have.
+void read_cable(TomlTable& table, const Rig& rig, control::Design& design) {
+  const Drive& hoist = rig.drives[plant::kHoist];
+  const double length_m = rig.start.position[plant::kHoist];
+  design.shortest_cable_length_m = hoist.present ? hoist.low_limit : length_m;
+  design.longest_cable_length_m = hoist.present ? hoist.high_limit : length_m;
+  const Range range = Range::closed(design.shortest_cable_length_m, design.longest_cable_length_m);
+  design.cable_length_m = table.number("cable_length_m", range, length_m);
+}
+
+void read_gains(TomlTable& table, control::Design& design) {
+  design.full_feedback_gain_pm =
+      table.number("full_feedback_gain_pm", Range::above(0, 1000), design.full_feedback_gain_pm);
+  design.tracking_proportional =
+      table.number("tracking_proportional", Range::above(0, 1e5), design.tracking_proportional);
+  // (3.42): critically damped unless the file says otherwise.
+  design.tracking_derivative =
+      table.number("tracking_derivative", Range::closed(0, 1e5), 2 * std::sqrt(design.tracking_proportional));
+  design.delayed_1_gain = table.number("delayed_1_gain", Range::closed(-1e5, 1e5), design.delayed_1_gain);
+  design.delayed_1_delay = table.number("delayed_1_delay", Range::above(0, 2), design.delayed_1_delay);
+  design.hoist_proportional_ps =
+      table.number("hoist_proportional_ps", Range::above(0, 100), design.hoist_proportional_ps);
+  design.minimum_trolley_position_m =
+      table.number("minimum_trolley_position_m", Range::closed(1e-3, 100), design.minimum_trolley_position_m);
+}
+
+void read_friction(TomlTable& table, const AxisText& axis, control::DriveFriction& friction) {
+  const Range volts = Range::closed(0, 1000);
+  const auto viscous = [&axis](std::string_view direction) {
+    return with_unit(direction, axis.volt_per_speed);
+  };
+  friction.viscous_positive_vspm = table.number(viscous("viscous_positive"), volts, 0);
+  friction.viscous_negative_vspm = table.number(viscous("viscous_negative"), volts, 0);
+  friction.coulomb_positive_v = table.number("coulomb_positive_v", volts, 0);
+  friction.coulomb_negative_v = table.number("coulomb_negative_v", volts, 0);
+  // The pull-away friction is the Coulomb friction unless the file says otherwise.
+  friction.stiction_positive_v = table.number("stiction_positive_v", volts, friction.coulomb_positive_v);
+  friction.stiction_negative_v = table.number("stiction_negative_v", volts, friction.coulomb_negative_v);
+  friction.stiction_slope_per_v =
+      table.number("stiction_slope_per_v", Range::above(0, 1e6), friction.stiction_slope_per_v);
+  friction.zero_band_mps =
+      table.number(with_unit("zero_band", axis.speed), Range::above(0, 1), friction.zero_band_mps);
+  friction.factor = table.number("factor", Range::closed(0, 1.5), 1);
+}
+
+}  // namespace
+
+void read_controller(TomlTable& root, Rig& rig) {
+  TomlTable table = root.table("controller");
+  const bool swings = rig.kind == RigKind::tower || rig.kind == RigKind::gantry;
+  rig.controller = table.choice("name", controller_names(), swings ? rig.controller : "none");
+  control::Design& design = rig.design;
+  design.crane = rig.plant;
+  design.period_s = rig.period_s;
+  read_cable(table, rig, design);
+  for (std::size_t i = 0; i < plant::kAxes; ++i) design.volt_limit_v[i] = rig.drives[i].volt_limit_v;
+  read_gains(table, design);
+  TomlTable believes = table.table("believes");
+  override_plant(believes, design.crane);
+  TomlTable friction = table.table("friction");
+  for (std::size_t i = 0; i < plant::kAxes; ++i) {
+    TomlTable section = friction.table(kAxisTexts[i].name);
+    if (!section.present()) continue;
+    if (!rig.drives[i].present) section.problem("this rig has no such drive");
+    read_friction(section, kAxisTexts[i], design.friction[i]);
+  }
+}
+
+}  // namespace crane::runtime

@@ -1,0 +1,35 @@
+#include "rig_sections.hpp"
+
+namespace crane::runtime {
+
+void read_limits(TomlTable& root, Rig& rig) {
+  TomlTable table = root.table("limits");
+  Limits& limits = rig.limits;
+  limits.swing_limit_rad = table.number("swing_limit_rad", Range::above(0, 1.5), limits.swing_limit_rad);
+  limits.stale_after_ticks = table.integer("stale_after_ticks", 1, 100, limits.stale_after_ticks);
+  limits.demand_stale_after_ticks =
+      table.integer("demand_stale_after_ticks", 1, 100, limits.demand_stale_after_ticks);
+  limits.idle_lock_s = table.number("idle_lock_s", Range::above(0, 86400), limits.idle_lock_s);
+}
+
+void read_start(TomlTable& root, Rig& rig) {
+  TomlTable table = root.table("start");
+  Start& start = rig.start;
+  // A slewing axis without a trolley has its jib inertia alone: gamma'' = K_mgamma V holds at x = 0.
+  if (!rig.drives[plant::kTrolley].present) start.position[plant::kTrolley] = 0;
+  for (std::size_t i = 0; i < plant::kAxes; ++i) {
+    const Drive& drive = rig.drives[i];
+    const AxisText& axis = kAxisTexts[i];
+    const Range allowed = i == plant::kHoist ? Range::above(0, 1000) : Range::closed(-1000, 1000);
+    start.position[i] = table.number(axis.position, allowed, start.position[i]);
+    if (drive.present && drive.low_limit < drive.high_limit &&
+        (start.position[i] < drive.low_limit || start.position[i] > drive.high_limit)) {
+      table.problem(axis.position, "must be inside the limits of the " + std::string(axis.name) + " drive");
+    }
+  }
+  const Range swing = Range::closed(-1.5, 1.5);
+  start.swing_radial_rad = table.number("swing_radial_rad", swing, 0);
+  start.swing_tangential_rad = table.number("swing_tangential_rad", swing, 0);
+}
+
+}  // namespace crane::runtime

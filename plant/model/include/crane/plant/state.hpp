@@ -1,0 +1,47 @@
+#pragma once
+/// Where the crane is and how fast it moves. The load in the frame of the jib, (2.11):
+///   r_L = {x - L cos(theta) sin(phi), L sin(theta), -L cos(theta) cos(phi)}
+/// phi (radial swing) is positive when the load is towards the tower, theta (tangential swing) when it is
+/// ahead in the direction of +slew.
+#include <array>
+#include <bit>
+
+#include "crane/plant/parameters.hpp"
+
+namespace crane::plant {
+
+struct State {
+  double trolley_m = 0;       ///< x, distance from the tower axis
+  double radial_rad = 0;      ///< phi, |phi| < pi/2 for meaningful results
+  double slew_rad = 0;        ///< gamma
+  double tangential_rad = 0;  ///< theta, |theta| < pi/2: the equations are singular there
+  double cable_m = 1;         ///< L, > 0
+  double trolley_mps = 0;
+  double radial_radps = 0;
+  double slew_radps = 0;
+  double tangential_radps = 0;
+  double cable_mps = 0;
+
+  friend bool operator==(const State&, const State&) = default;
+};
+
+/// The same ten numbers in the order above, as integrators want them.
+inline constexpr std::size_t kStateSize = 10;
+using StateArray = std::array<double, kStateSize>;
+static_assert(sizeof(State) == sizeof(StateArray));
+[[nodiscard]] inline StateArray to_array(const State& state) { return std::bit_cast<StateArray>(state); }
+[[nodiscard]] inline State to_state(const StateArray& values) { return std::bit_cast<State>(values); }
+
+/// Index of an axis's position in StateArray; its speed is kSpeedOffset further.
+inline constexpr std::array<std::size_t, kAxes> kPositionIndex{0, 2, 4};
+inline constexpr std::size_t kSpeedOffset = 5;
+
+/// Position [m, rad, m of cable] and speed of one driven axis.
+[[nodiscard]] inline double position(const State& s, Axis axis) {
+  return PerAxis{s.trolley_m, s.slew_rad, s.cable_m}[axis];
+}
+[[nodiscard]] inline double speed(const State& s, Axis axis) {
+  return PerAxis{s.trolley_mps, s.slew_radps, s.cable_mps}[axis];
+}
+
+}  // namespace crane::plant

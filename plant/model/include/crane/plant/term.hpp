@@ -1,0 +1,74 @@
+#pragma once
+/// Terms: effects the bare equations do not have, each with a name, parameters and a place where it acts. A
+/// rig file switches them on; simulator and diagnosis share the list. A term is one file in src/terms and one
+/// line in src/terms/registered.def.
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crane/plant/equations.hpp"
+#include "crane/plant/parameters.hpp"
+#include "crane/plant/state.hpp"
+
+namespace crane::plant {
+
+/// One effect. A kind overrides the one function that belongs to its `acts_on`.
+class Term {
+ public:
+  Term() = default;
+  Term(const Term&) = delete;
+  Term& operator=(const Term&) = delete;
+  virtual ~Term() = default;
+
+  /// Command terms, once a tick and in the order of the rig file: turns the amplifier's input into its output
+  /// [V].
+  virtual void change_command(PerAxis& /*drive_v*/) noexcept {}
+  /// Drive terms: adds the friction the drive meets, in volts of its amplifier (F / K_m); positive opposes
+  /// +speed.
+  virtual void add_friction(const State& /*state*/, PerAxis& /*friction_v*/) const noexcept {}
+  /// Load terms: adds generalised forces.
+  virtual void add_force(const Parameters& /*crane*/, const State& /*state*/,
+                         Forces& /*sum*/) const noexcept {}
+};
+
+enum class ActsOn { command, drive, load };
+
+/// One number of a term. The default of all of them together has no effect.
+struct TermParameter {
+  std::string_view name;
+  std::string_view unit;
+  double default_value = 0;
+  double low = 0;  ///< allowed range, both ends included
+  double high = 0;
+  std::string_view meaning;
+};
+
+/// What may be written in a rig file.
+struct TermKind {
+  std::string_view name;
+  std::string_view equation;
+  std::string_view source;
+  ActsOn acts_on = ActsOn::drive;
+  std::vector<std::string_view> axes;  ///< allowed TermSetting::axis; "" stands for an empty one
+  std::vector<TermParameter> parameters;
+  /// @pre the setting has no problems and names every parameter
+  std::unique_ptr<Term> (*make)(const TermSetting& setting) = nullptr;
+};
+
+/// All terms, in the order of the documentation.
+[[nodiscard]] const std::vector<TermKind>& term_kinds();
+/// @return nullptr when there is none of that name
+[[nodiscard]] const TermKind* find_term(std::string_view name);
+
+/// All problems at once as "terms[2] drive_friction: name = value: rule"; empty when usable.
+[[nodiscard]] std::vector<std::string> problems(const std::vector<TermSetting>& settings);
+
+/// @return the term, parameters left out taking their defaults
+/// @throws std::invalid_argument naming every problem of the setting
+[[nodiscard]] std::unique_ptr<Term> make_term(const TermSetting& setting);
+
+/// "trolley", "slew", "hoist" to the axis. @pre it is one of them
+[[nodiscard]] Axis drive_axis(std::string_view name) noexcept;
+
+}  // namespace crane::plant

@@ -1,0 +1,238 @@
+#include "crane/plant/equations.hpp"
+
+#include <cmath>
+
+namespace crane::plant {
+namespace {
+
+/// M(q) without its zero M24.
+struct Mass {
+  double m11, m12, m13, m14, m22, m23, m33, m34, m44;
+};
+
+/// Right-hand sides or solutions, ordered (x, phi, gamma, theta).
+struct Column {
+  double x, phi, gamma, theta;
+};
+
+/// Everything of the state that the equations use more than once.
+struct Angles {
+  explicit Angles(const State& s)
+      : sf(std::sin(s.radial_rad)),
+        cf(std::cos(s.radial_rad)),
+        st(std::sin(s.tangential_rad)),
+        ct(std::cos(s.tangential_rad)) {}
+  double sf, cf, st, ct;  // sin and cos of phi, of theta
+};
+
+Mass mass(const Parameters& p, const State& s, const Angles& a) {
+  const double m = p.load_mass_kg, l = s.cable_m, x = s.trolley_m;
+  const double ml = m * l, ml2 = ml * l;
+  const double horizontal =
+      1 - a.cf * a.cf * a.ct * a.ct;  // squared horizontal part of the cable's direction
+  return {.m11 = p.trolley_inertia_kg + m,
+          .m12 = -ml * a.cf * a.ct,
+          .m13 = -ml * a.st,
+          .m14 = ml * a.sf * a.st,
+          .m22 = ml2 * a.ct * a.ct,
+          .m23 = ml2 * a.cf * a.st * a.ct,
+          .m33 = p.jib_inertia_kgm2 + p.trolley_mass_kg * x * x +
+                 m * (x * x - 2 * l * x * a.sf * a.ct + l * l * horizontal),
+          .m34 = ml * (x * a.ct - l * a.sf),
+          .m44 = ml2};
+}
+
+/// h1 of (2.17)
+double trolley_bias(const Parameters& p, const State& s, const Angles& a, double cable_mps2) {
+  const double m = p.load_mass_kg, ml = m * s.cable_m;
+  const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
+  return ml * a.sf * a.ct * (f * f + g * g + t * t) - (p.trolley_mass_kg + m) * s.trolley_m * g * g +
+         2 * ml * a.st * a.cf * f * t - 2 * ml * a.ct * g * t -
+         2 * m * s.cable_mps * (a.cf * a.ct * f + a.st * g - a.sf * a.st * t) - m * a.sf * a.ct * cable_mps2;
+}
+
+/// h2 of (2.18), multiplied by m L cos(theta)
+double radial_bias(const Parameters& p, const State& s, const Angles& a) {
+  const double l = s.cable_m;
+  const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
+  return p.load_mass_kg * l * a.ct *
+         (p.gravity_mps2 * a.sf + (s.trolley_m - l * a.sf * a.ct) * a.cf * g * g +
+          2 * l * a.cf * a.ct * g * t - 2 * l * a.st * f * t +
+          2 * s.cable_mps * (a.ct * f + a.cf * a.st * g));
+}
+
+/// h3 of (2.19)
+double slew_bias(const Parameters& p, const State& s, const Angles& a, double cable_mps2) {
+  const double m = p.load_mass_kg, l = s.cable_m, x = s.trolley_m, ml = m * l, ml2 = ml * l;
+  const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
+  const double horizontal = 1 - a.cf * a.cf * a.ct * a.ct;
+  const double coriolis = 2 * g * s.trolley_mps * ((p.trolley_mass_kg + m) * x - ml * a.sf * a.ct) +
+                          2 * ml * g * f * a.cf * a.ct * (l * a.sf * a.ct - x) +
+                          2 * ml * g * t * a.st * (l * a.cf * a.cf * a.ct + x * a.sf);
+  const double hoisting =
+      2 * m * s.cable_mps *
+          (g * (l * horizontal - x * a.sf * a.ct) + t * (x * a.ct - l * a.sf) + l * f * a.cf * a.st * a.ct) +
+      m * x * a.st * cable_mps2;
+  const double swinging =
+      -ml2 * f * f * a.sf * a.st * a.ct - 2 * ml2 * f * t * a.st * a.st * a.cf - ml * x * a.st * t * t;
+  return coriolis + hoisting + swinging;
+}
+
+/// h4 of (2.20), multiplied by m L
+double tangential_bias(const Parameters& p, const State& s, const Angles& a) {
+  const double l = s.cable_m;
+  const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
+  return p.load_mass_kg * l *
+         (p.gravity_mps2 * a.cf * a.st + 2 * s.trolley_mps * g * a.ct + l * f * f * a.st * a.ct -
+          2 * l * f * g * a.cf * a.ct * a.ct - g * g * a.st * (l * a.cf * a.cf * a.ct + s.trolley_m * a.sf) +
+          2 * s.cable_mps * (t - a.sf * g));
+}
+
+/// Solves M q = r for the free coordinates: the swing equations (M24 = 0) are eliminated first, a 2x2 system
+/// stays.
+Column solve(const Mass& m, const Column& r, const Locks& locks) {
+  const bool radial = !locks.radial && m.m22 > 0;
+  const bool tangential = !locks.tangential && m.m44 > 0;
+  double s11 = m.m11, s13 = m.m13, s33 = m.m33, rx = r.x, rg = r.gamma;
+  if (radial) {
+    const double a = m.m12 / m.m22, b = m.m23 / m.m22;
+    s11 -= a * m.m12, s13 -= a * m.m23, s33 -= b * m.m23;
+    rx -= a * r.phi, rg -= b * r.phi;
+  }
+  if (tangential) {
+    const double a = m.m14 / m.m44, b = m.m34 / m.m44;
+    s11 -= a * m.m14, s13 -= a * m.m34, s33 -= b * m.m34;
+    rx -= a * r.theta, rg -= b * r.theta;
+  }
+  Column q{};
+  if (!locks.axis[kTrolley] && !locks.axis[kSlew]) {
+    const double inverse = 1 / (s11 * s33 - s13 * s13);
+    q.x = (s33 * rx - s13 * rg) * inverse;
+    q.gamma = (s11 * rg - s13 * rx) * inverse;
+  } else if (!locks.axis[kTrolley]) {
+    q.x = rx / s11;
+  } else if (!locks.axis[kSlew]) {
+    q.gamma = rg / s33;
+  }
+  if (radial) q.phi = (r.phi - m.m12 * q.x - m.m23 * q.gamma) / m.m22;
+  if (tangential) q.theta = (r.theta - m.m14 * q.x - m.m34 * q.gamma) / m.m44;
+  return q;
+}
+
+}  // namespace
+
+Accelerations accelerations(const Parameters& p, const State& s, const Forces& forces, double cable_mps2,
+                            const Locks& locks) noexcept {
+  const double hoisting = locks.axis[kHoist] ? 0.0 : cable_mps2;
+  const Angles angles{s};
+  const Column right{.x = forces.trolley_n - trolley_bias(p, s, angles, hoisting),
+                     .phi = forces.radial_nm - radial_bias(p, s, angles),
+                     .gamma = forces.slew_nm - slew_bias(p, s, angles, hoisting),
+                     .theta = forces.tangential_nm - tangential_bias(p, s, angles)};
+  const Column q = solve(mass(p, s, angles), right, locks);
+  return {.trolley_mps2 = q.x,
+          .radial_radps2 = q.phi,
+          .slew_radps2 = q.gamma,
+          .tangential_radps2 = q.theta,
+          .cable_mps2 = hoisting};
+}
+
+State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& locks) noexcept {
+  const Angles a{s};
+  const Mass m = mass(p, s, a);
+  const double lost = speed(s, axis);
+  Column impulse{};  // M_fs q'_s for the coordinate that loses its rate
+  if (axis == kTrolley) {
+    impulse = {.x = 0, .phi = m.m12 * lost, .gamma = m.m13 * lost, .theta = m.m14 * lost};
+  } else if (axis == kSlew) {
+    impulse = {.x = m.m13 * lost, .phi = m.m23 * lost, .gamma = 0, .theta = m.m34 * lost};
+  } else {  // the coupling of L'' in (2.17) and (2.19)
+    impulse.x = -p.load_mass_kg * a.sf * a.ct * lost;
+    impulse.gamma = p.load_mass_kg * s.trolley_m * a.st * lost;
+  }
+  Locks held = locks;
+  held.axis[axis] = true;
+  const Column change = solve(m, impulse, held);
+  State after = s;
+  after.trolley_mps += change.x;
+  after.radial_radps += change.phi;
+  after.slew_radps += change.gamma;
+  after.tangential_radps += change.theta;
+  if (axis == kTrolley) after.trolley_mps = 0;
+  if (axis == kSlew) after.slew_radps = 0;
+  if (axis == kHoist) after.cable_mps = 0;
+  return after;
+}
+
+Eigen::Matrix4d mass_matrix(const Parameters& p, const State& s) noexcept {
+  const Mass m = mass(p, s, Angles{s});
+  Eigen::Matrix4d matrix;
+  matrix << m.m11, m.m12, m.m13, m.m14,  //
+      m.m12, m.m22, m.m23, 0,            //
+      m.m13, m.m23, m.m33, m.m34,        //
+      m.m14, 0, m.m34, m.m44;
+  return matrix;
+}
+
+Eigen::Matrix<double, 3, 4> load_jacobian(const State& s) noexcept {
+  const Angles a{s};
+  const double l = s.cable_m;
+  Eigen::Matrix<double, 3, 4> j;
+  j << 1, -l * a.ct * a.cf, -l * a.st, l * a.st * a.sf,  //
+      0, 0, s.trolley_m - l * a.ct * a.sf, l * a.ct,     //
+      0, l * a.ct * a.sf, 0, l * a.st * a.cf;
+  return j;
+}
+
+Eigen::Vector3d load_velocity_mps(const State& s) noexcept {
+  const Angles a{s};
+  const Eigen::Vector4d rates{s.trolley_mps, s.radial_radps, s.slew_radps, s.tangential_radps};
+  const Eigen::Vector3d along_cable{-a.ct * a.sf, a.st, -a.ct * a.cf};
+  return load_jacobian(s) * rates + along_cable * s.cable_mps;
+}
+
+double energy_j(const Parameters& p, const State& s) noexcept {
+  const double slewing = p.jib_inertia_kgm2 + p.trolley_mass_kg * s.trolley_m * s.trolley_m;
+  const double kinetic =
+      0.5 * (p.trolley_inertia_kg * s.trolley_mps * s.trolley_mps + slewing * s.slew_radps * s.slew_radps +
+             p.load_mass_kg * load_velocity_mps(s).squaredNorm());
+  return kinetic -
+         p.load_mass_kg * p.gravity_mps2 * s.cable_m * std::cos(s.tangential_rad) * std::cos(s.radial_rad);
+}
+
+GantryAccelerations gantry_accelerations(const Parameters& p, double swing_rad, double swing_radps,
+                                         double cable_m, double cable_mps, double cable_mps2,
+                                         double force_n) noexcept {
+  const double m = p.load_mass_kg, sine = std::sin(swing_rad), cosine = std::cos(swing_rad);
+  const double pull = force_n - m * cable_mps2 * sine - 2 * m * cable_mps * swing_radps * cosine +
+                      m * cable_m * swing_radps * swing_radps * sine;
+  const double free_swing = -p.gravity_mps2 * sine - 2 * cable_mps * swing_radps;  // L phi'' without x''
+  const double trolley = (pull - m * cosine * free_swing) / (p.trolley_inertia_kg + m * sine * sine);
+  return {.trolley_mps2 = trolley, .swing_radps2 = (free_swing - trolley * cosine) / cable_m};
+}
+
+LinearModel linear_translation(const Parameters& p, double cable_m) noexcept {
+  const double pull = p.load_to_trolley_ratio() * p.gravity_mps2;
+  LinearModel model;
+  model.a << 0, 0, 1, 0,  //
+      0, 0, 0, 1,         //
+      0, -pull, 0, 0,     //
+      0, -(p.gravity_mps2 + pull) / cable_m, 0, 0;
+  model.b << 0, 0, p.trolley_gain_mps2pv, p.trolley_gain_mps2pv / cable_m;
+  return model;
+}
+
+LinearModel linear_rotation(const Parameters& p, double trolley_m, double cable_m) noexcept {
+  const double inertia = 1 + p.trolley_to_jib_ratio() * trolley_m * trolley_m;
+  const double pull = p.load_to_jib_ratio() * p.gravity_mps2 * trolley_m / inertia;
+  const double gain = p.slew_gain_radps2pv / inertia;
+  LinearModel model;
+  model.a << 0, 0, 1, 0,  //
+      0, 0, 0, 1,         //
+      0, pull, 0, 0,      //
+      0, -(p.gravity_mps2 + trolley_m * pull) / cable_m, 0, 0;
+  model.b << 0, 0, gain, -trolley_m * gain / cable_m;
+  return model;
+}
+
+}  // namespace crane::plant

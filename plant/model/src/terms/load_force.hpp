@@ -1,0 +1,15 @@
+#pragma once
+/// A force on the load [N, jib frame] as generalised forces Q = J^T F.
+#include "crane/plant/equations.hpp"
+
+namespace crane::plant {
+
+inline void add_load_force(const State& state, const Eigen::Vector3d& force_n, Forces& sum) {
+  const Eigen::Vector4d q = load_jacobian(state).transpose() * force_n;
+  sum.trolley_n += q[0];
+  sum.radial_nm += q[1];
+  sum.slew_nm += q[2];
+  sum.tangential_nm += q[3];
+}
+
+}  // namespace crane::plant

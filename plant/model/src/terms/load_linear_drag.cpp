@@ -1,0 +1,33 @@
+#include "crane/plant/term.hpp"
+#include "terms/load_force.hpp"
+
+namespace crane::plant {
+namespace {
+
+class LoadLinearDrag final : public Term {
+ public:
+  explicit LoadLinearDrag(const TermSetting& s) : coefficient_nspm_(s.parameters.at("coefficient_nspm")) {}
+
+  void add_force(const Parameters& /*crane*/, const State& state, Forces& sum) const noexcept override {
+    add_load_force(state, -coefficient_nspm_ * load_velocity_mps(state), sum);
+  }
+
+ private:
+  double coefficient_nspm_;
+};
+
+}  // namespace
+
+TermKind load_linear_drag() {
+  return {.name = "load_linear_drag",
+          .equation = "F = -d r_L'",
+          .source = "viscous drag of the load over ground, r_L' of (2.12)",
+          .acts_on = ActsOn::load,
+          .axes = {""},
+          .parameters = {{"coefficient_nspm", "N s/m", 0, 0, 1000, "d"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<LoadLinearDrag>(s);
+          }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,35 @@
+#include "crane/plant/term.hpp"
+#include "terms/load_force.hpp"
+
+namespace crane::plant {
+namespace {
+
+class LoadQuadraticDrag final : public Term {
+ public:
+  explicit LoadQuadraticDrag(const TermSetting& s)
+      : coefficient_ns2pm2_(s.parameters.at("coefficient_ns2pm2")) {}
+
+  void add_force(const Parameters& /*crane*/, const State& state, Forces& sum) const noexcept override {
+    const Eigen::Vector3d velocity_mps = load_velocity_mps(state);
+    add_load_force(state, -coefficient_ns2pm2_ * velocity_mps.norm() * velocity_mps, sum);
+  }
+
+ private:
+  double coefficient_ns2pm2_;
+};
+
+}  // namespace
+
+TermKind load_quadratic_drag() {
+  return {.name = "load_quadratic_drag",
+          .equation = "F = -d |r_L'| r_L'",
+          .source = "aerodynamic drag of the load, d = rho c_w A / 2",
+          .acts_on = ActsOn::load,
+          .axes = {""},
+          .parameters = {{"coefficient_ns2pm2", "N s2/m2", 0, 0, 1000, "d"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<LoadQuadraticDrag>(s);
+          }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,38 @@
+#include <cmath>
+
+#include "crane/plant/term.hpp"
+#include "terms/load_force.hpp"
+
+namespace crane::plant {
+namespace {
+
+class SteadyWind final : public Term {
+ public:
+  explicit SteadyWind(const TermSetting& s)
+      : force_n_(s.parameters.at("force_n")), direction_rad_(s.parameters.at("direction_rad")) {}
+
+  void add_force(const Parameters& /*crane*/, const State& state, Forces& sum) const noexcept override {
+    const double angle_rad = direction_rad_ - state.slew_rad;  // the jib turns under the wind
+    add_load_force(state, force_n_ * Eigen::Vector3d{std::cos(angle_rad), std::sin(angle_rad), 0}, sum);
+  }
+
+ private:
+  double force_n_, direction_rad_;
+};
+
+}  // namespace
+
+TermKind steady_wind() {
+  return {
+      .name = "steady_wind",
+      .equation = "F = F_w {cos(a - gamma), sin(a - gamma), 0}",
+      .source = "constant force on the load, fixed to the ground",
+      .acts_on = ActsOn::load,
+      .axes = {""},
+      .parameters = {{"force_n", "N", 0, 0, 1000, "F_w"},
+                     {"direction_rad", "rad", 0, -7, 7,
+                      "a, towards which it blows; 0 along the jib at gamma = 0"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SteadyWind>(s); }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,44 @@
+#include <cmath>
+
+#include "crane/plant/term.hpp"
+
+namespace crane::plant {
+namespace {
+
+class StribeckFriction final : public Term {
+ public:
+  explicit StribeckFriction(const TermSetting& s)
+      : axis_(drive_axis(s.axis)),
+        excess_v_(s.parameters.at("excess_v")),
+        decay_speed_(s.parameters.at("decay_speed")),
+        smoothing_speed_(s.parameters.at("smoothing_speed")) {}
+
+  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
+    const double v = speed(state, axis_), ratio = v / decay_speed_;
+    friction_v[axis_] += excess_v_ * std::exp(-ratio * ratio) * std::tanh(v / smoothing_speed_);
+  }
+
+ private:
+  Axis axis_;
+  double excess_v_, decay_speed_, smoothing_speed_;
+};
+
+}  // namespace
+
+TermKind stribeck_friction() {
+  return {.name = "stribeck_friction",
+          .equation = "f = a exp(-(v/v_d)^2) tanh(v/v_s)",
+          .source = "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083, Gaussian form",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"excess_v", "V", 0, 0, 10, "a, excess over Coulomb friction at low speed"},
+                         {"decay_speed", "m/s or rad/s", 0.05, 1e-3, 10,
+                          "v_d, speed at which it has decayed to 37 %"},
+                         {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+                          "v_s, width of the step at v = 0"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<StribeckFriction>(s);
+          }};
+}
+
+}  // namespace crane::plant

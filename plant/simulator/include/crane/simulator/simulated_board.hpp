@@ -1,0 +1,72 @@
+#pragma once
+/// A rig that exists in memory only, behind the interface of a real board: encoders, converters, brakes,
+/// switches and the watchdog relay around the equations of motion.
+///
+/// Encoders: raw counts are absolute, nearest integer of sign * coordinate * counts_per_unit with coordinate
+/// 0 at the
+///   rig's zero (tower axis, slew zero, no cable, hanging load), wrapped to 24 bits and sign-extended.
+/// Converters: 13 bit, +-10 V, inverted offset binary; LSB 20 V / 8192. Not finite: 0 V.
+/// Drives: the board's voltage times the drive's sign, then the model's command terms.
+/// Brakes: closed without supply. Supply = brake_release and relay closed and (e-stop released or not wired
+/// in).
+///   After the closing time a brake is dry friction of `brake_deceleration` until standstill, then the axis
+///   is locked exactly, whatever pulls at it, until the brake has opened.
+/// Watchdog relay: open at start. It closes when the watchdog output has changed at least every
+///   `watchdog_timeout_s` for `watchdog_permit_s`, drops when it has not changed for longer than
+///   `watchdog_timeout_s` of rig time, and then stays dropped until it may close again by the same rule.
+/// End stops: the axis is stopped dead; it leaves when its acceleration points inwards (looked at every 10 ms
+/// or
+///   less).
+/// Deterministic: the same calls give the same bits.
+#include <memory>
+
+#include "crane/bridge/board.hpp"
+#include "crane/plant/state.hpp"
+#include "crane/simulator/integrator.hpp"
+#include "crane/simulator/simulated_rig.hpp"
+
+namespace crane::simulator {
+
+inline constexpr std::int32_t kConverterZero = 0x1000;
+inline constexpr std::int32_t kConverterLargest = 0x1FFF;
+inline constexpr double kConverterRange_v = 10;
+
+/// Code of a voltage: clamp(0x1000 - round(V / 10 * 0x1000), 0, 0x1FFF); not finite: 0x1000 (0 V).
+[[nodiscard]] std::int32_t converter_code(double voltage_v) noexcept;
+/// Voltage of a code, from +10 V (0) to -9.99756 V (0x1FFF).
+[[nodiscard]] double converter_voltage_v(std::int32_t code) noexcept;
+
+/// Low 24 bits, sign-extended.
+[[nodiscard]] std::int32_t wrap_24_bit(std::int64_t counts) noexcept;
+
+class SimulatedBoard final : public bridge::Board {
+ public:
+  /// The rig rests at its start with brakes closed and relay open; its clock shows `start_time_ns`.
+  /// @throws std::invalid_argument naming every problem of the rig
+  explicit SimulatedBoard(const SimulatedRig& rig, std::int64_t start_time_ns = 0,
+                          const Tolerances& tolerances = {});
+  ~SimulatedBoard() override;
+
+  [[nodiscard]] std::string_view name() const override { return "simulated"; }
+  [[nodiscard]] bridge::Inputs read() override;
+  std::array<double, bridge::kDrives> write(const bridge::Outputs& outputs) override;
+  void make_safe() noexcept override;
+  /// Integrates to `time_ns`; nothing happens when that is not later than now().
+  /// @throws std::runtime_error when integration fails; the rig then stays where it was
+  void advance_to(std::int64_t time_ns) override;
+  /// Ways the cable cannot swing are left out. @return true
+  bool kick(double radial_radps, double tangential_radps) override;
+
+  /// The emergency stop button.
+  void press_estop(bool pressed) noexcept;
+
+  /// What no sensor knows; for tests and pictures.
+  [[nodiscard]] const plant::State& truth() const noexcept;
+  [[nodiscard]] std::int64_t now_ns() const noexcept;
+
+ private:
+  struct Rig;
+  std::unique_ptr<Rig> rig_;
+};
+
+}  // namespace crane::simulator

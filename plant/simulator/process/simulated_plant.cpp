@@ -1,0 +1,55 @@
+#include "process/simulated_plant.hpp"
+
+#include "crane/bridge/bridge.hpp"
+#include "crane/simulator/simulated_board.hpp"
+
+namespace crane::simulator {
+
+SimulatedRig simulated_rig_of(const runtime::Rig& rig) {
+  constexpr double kStopBeyondSwitch = 0.02;  // m, rad
+  SimulatedRig simulated;
+  simulated.parameters = rig.plant;
+  simulated.terms = rig.terms;
+  for (std::size_t i = 0; i < bridge::kDrives; ++i) {
+    const auto& drive = rig.drives[i];
+    auto& target = simulated.drives[i];
+    target.present = drive.present;
+    if (!drive.present) continue;
+    target.sign = drive.sign;
+    target.brake_deceleration = drive.brake_deceleration;
+    target.brake_close_time_s = drive.brake_close_time_s;
+    target.brake_open_time_s = drive.brake_open_time_s;
+    target.low_switch = drive.low_limit;
+    target.high_switch = drive.high_limit;
+    target.low_stop = drive.low_limit - kStopBeyondSwitch;
+    target.high_stop = drive.high_limit + kStopBeyondSwitch;
+  }
+  for (std::size_t i = 0; i < bridge::kCounters; ++i)
+    if (rig.encoders[i].counts_per_unit > 0)
+      simulated.encoders[i] = {.counts_per_unit = rig.encoders[i].counts_per_unit,
+                               .sign = rig.encoders[i].sign};
+  simulated.tangential_swing = rig.kind == runtime::RigKind::tower;
+  simulated.radial_swing = rig.kind != runtime::RigKind::drive_axis;
+  simulated.start.trolley_m = rig.start.position[plant::kTrolley];
+  simulated.start.slew_rad = rig.start.position[plant::kSlew];
+  simulated.start.cable_m = rig.start.position[plant::kHoist];
+  simulated.start.radial_rad = rig.start.swing_radial_rad;
+  simulated.start.tangential_rad = rig.start.swing_tangential_rad;
+  return simulated;
+}
+
+runtime::ComponentSpec simulated_plant_spec() {
+  return {.name = "plant",
+          .program = "crane_plant",
+          .summary =
+              "The simulated plant: crane, drives, encoders, converters and brakes behind the bridge's loop.",
+          .source = crane_SOURCE_PLANT,
+          .runs_controller = false,
+          .sole_writer_of = &topics::state.description,
+          .make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
+            return std::make_unique<bridge::Bridge>(
+                context, std::make_unique<SimulatedBoard>(simulated_rig_of(context.rig)));
+          }};
+}
+
+}  // namespace crane::simulator

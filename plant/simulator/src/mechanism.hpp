@@ -1,0 +1,42 @@
+#pragma once
+/// The mechanical side of the rig: equations of motion with brakes and end stops.
+#include "crane/simulator/integrator.hpp"
+#include "crane/simulator/simulated_rig.hpp"
+
+namespace crane::simulator {
+
+class Mechanism {
+ public:
+  /// @throws std::invalid_argument naming every problem of the rig
+  Mechanism(const SimulatedRig& rig, const Tolerances& tolerances);
+
+  [[nodiscard]] const plant::State& state() const noexcept { return state_; }
+  /// Board voltages of this tick.
+  void set_command(const plant::PerAxis& board_v) noexcept;
+  void set_brake(plant::Axis axis, bool closed) noexcept { brake_closed_[axis] = closed; }
+  void kick(double radial_radps, double tangential_radps) noexcept;
+
+  /// Runs on with constant command and brakes. @throws std::runtime_error when integration fails
+  void run(double seconds);
+
+ private:
+  struct Situation {
+    plant::Actuation actuation;
+    Watch watch;
+  };
+  [[nodiscard]] Situation situation();
+  void brake(plant::Axis axis, Situation& now);
+  void meet_stop(plant::Axis axis, Situation& now);
+  void stop(plant::Axis axis, const plant::Locks& locks);
+  [[nodiscard]] double brake_effort(plant::Axis axis) const;
+
+  std::array<SimulatedDrive, plant::kAxes> drives_;
+  plant::Model model_;
+  Integrator integrator_;
+  plant::State state_;
+  plant::Locks absent_;
+  std::array<bool, plant::kAxes> brake_closed_{true, true, true};
+  plant::PerAxis drive_v_{};
+};
+
+}  // namespace crane::simulator

@@ -1,0 +1,54 @@
+#include "anti_swing/anti_swing.hpp"
+
+#include "crane/runtime/convert.hpp"
+
+namespace crane::services {
+namespace {
+
+using runtime::Context;
+constexpr double kWaitShare = 0.4;  // of a period, for the rest of a tick
+
+class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
+ public:
+  explicit AntiSwing(const Context& context)
+      : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
+                        context.bus.subscriber(topics::state, runtime::loop_input(context.clock)),
+                        context.bus.subscriber(topics::reference, runtime::loop_input(context.clock))},
+        law_{context.controller.make_anti_swing(context.rig.design)},
+        output_{context.bus.publisher(topics::anti_swing)} {}
+
+ protected:
+  void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Reference* reference) override {
+    const auto measured = runtime::measurement(*state);
+    if (!started_) law_->reset(measured);
+    started_ = true;
+    const auto contribution = law_->step(measured, runtime::reference(reference->axis));
+    msg::Contribution sample{};
+    sample.header = runtime::answer_to(state->header);
+    runtime::assign(sample.drive_v, contribution.drive_v);
+    runtime::assign(sample.correction, contribution.correction);
+    output_.publish(sample);
+  }
+  [[nodiscard]] bool outputs_connected() const override { return output_.matched() > 0; }
+
+ private:
+  std::unique_ptr<control::Law> law_;
+  bus::Publisher<msg::Contribution> output_;
+  bool started_ = false;
+};
+
+}  // namespace
+
+runtime::ComponentSpec anti_swing_spec() {
+  return {.name = "anti_swing",
+          .program = "crane_anti_swing",
+          .summary = "Volts, or a correction of the reference, that damp the load's swing.",
+          .source = crane_SOURCE_ANTI_SWING,
+          .runs_controller = true,
+          .sole_writer_of = &topics::anti_swing.description,
+          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+            return std::make_unique<AntiSwing>(context);
+          }};
+}
+
+}  // namespace crane::services

@@ -1,0 +1,27 @@
+#pragma once
+/// The commands of `crane`, one file and one line each. A command registers its options and, when it is the
+/// one on the command line, puts what there is to do into `chosen`. The action returns the exit code; errors
+/// it throws are reported by main().
+#include <functional>
+
+#include "crane/runtime/process.hpp"
+
+namespace crane::cli {
+
+using Action = std::function<int()>;
+
+void add_up(CLI::App& app, Action& chosen);
+void add_demo(CLI::App& app, Action& chosen);
+void add_run(CLI::App& app, Action& chosen);
+void add_status(CLI::App& app, Action& chosen);
+void add_reset(CLI::App& app, Action& chosen);
+void add_arm(CLI::App& app, Action& chosen);
+void add_disarm(CLI::App& app, Action& chosen);
+void add_move(CLI::App& app, Action& chosen);
+void add_stop(CLI::App& app, Action& chosen);
+void add_estop(CLI::App& app, Action& chosen);
+void add_topic(CLI::App& app, Action& chosen);
+void add_record(CLI::App& app, Action& chosen);
+void add_log(CLI::App& app, Action& chosen);
+
+}  // namespace crane::cli

@@ -1,0 +1,140 @@
+/// crane demo: the stack in real time, the dissertation's three maneuvers one after another, as an operator
+/// would run them on the rig; a table, and a recording and a picture of each.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "cli/commands/commands.hpp"
+#include "crane/experiment/metrics.hpp"
+#include "crane/experiment/picture.hpp"
+#include "recorder/recorder.hpp"
+#include "stack/data_files.hpp"
+#include "stack/launch.hpp"
+#include "stack/realtime_session.hpp"
+#include "stack/stack.hpp"
+
+namespace crane::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+struct DemoOptions {
+  stack::LaunchOptions launch;
+  std::string rig = "virginia_tech_tower";
+  std::string out = "out/demo";
+  double seconds_per_maneuver = 8;
+};
+
+constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
+
+/// Where the scenario begins, reached by a move like any other.
+void go_to_start(stack::RealtimeSession& session, const experiment::Scenario& scenario) {
+  const auto& state = *session.state();
+  const std::array<double, 3> here{state.trolley_position_m, state.slew_angle_rad, state.cable_length_m};
+  constexpr double kThere = 0.005;  // m, rad
+  std::array<bool, 3> selected{};
+  std::array<double, 3> target{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!scenario.start[i] || std::abs(*scenario.start[i] - here[i]) < kThere) continue;
+    selected[i] = true;
+    target[i] = *scenario.start[i];
+  }
+  if (selected[0] || selected[1] || selected[2]) session.move_to(selected, target, 12s);
+}
+
+/// Records while somebody waits.
+using RecorderSlot = std::optional<recorder::Recorder>;
+
+experiment::NamedMetrics run_maneuver(stack::RealtimeSession& session, bus::Bus& bus, RecorderSlot& recorder,
+                                      const runtime::Rig& rig, const std::string& controller,
+                                      experiment::Scenario scenario, const DemoOptions& options) {
+  std::cerr << "  " << scenario.name << ": " << scenario.description << '\n';
+  go_to_start(session, scenario);
+  const fs::path directory{options.out};
+  recorder.emplace(bus, recorder::Options{.file = directory / (scenario.name + ".mcap"), .topics = {}});
+  session.start_table();
+  const auto zero_ns = session.state()->header.sample_time_ns;
+  for (auto& move : scenario.moves) {
+    stack::Wish wish{.kind = crane_REQUEST_MOVE};
+    for (std::size_t i = 0; i < 3; ++i) {
+      wish.selected[i] = move.target[i].has_value();
+      wish.target[i] = move.target[i].value_or(0);
+    }
+    move.at_s = static_cast<double>(session.state()->header.sample_time_ns - zero_ns) * 1e-9;
+    session.request(wish, "move");
+  }
+  session.wait(std::chrono::nanoseconds{static_cast<std::int64_t>(options.seconds_per_maneuver * 1e9)});
+  const bool recorded = recorder->close();
+  recorder.reset();
+  if (!recorded) throw stack::SessionError("the recording of " + scenario.name + " could not be written");
+
+  const auto table = session.table().table(zero_ns);
+  recording::write_csv(directory / (scenario.name + ".csv"), table);
+  const auto samples = experiment::samples_from(table);
+  const auto maneuver = experiment::maneuver_of(scenario, rig);
+  experiment::NamedMetrics result{scenario.name, controller, experiment::evaluate(samples, maneuver)};
+  experiment::draw_maneuver(directory / (scenario.name + ".svg"), {rig.name, controller, scenario.name},
+                            samples, maneuver, result.metrics);
+  return result;
+}
+
+int demo(DemoOptions options) {
+  runtime::install_stop_signals();
+  options.launch.rig = stack::find_rig(options.rig).string();
+  const auto rig = runtime::load_rig(options.launch.rig);
+  const std::string controller{runtime::chosen_controller(options.launch.controller, rig).name};
+  std::vector<experiment::Scenario> scenarios;
+  for (const auto* name : kManeuvers)
+    scenarios.push_back(experiment::load_scenario(stack::find_scenario(name), &rig));
+  fs::create_directories(options.out);
+
+  const auto specs = stack::simulated_stack();
+  stack::ChildProcesses children;
+  std::cerr << "starting " << specs.size() << " processes\n";
+  stack::launch(children, specs, options.launch);
+  auto observer = options.launch.bus;
+  observer.vendor = "fastdds";  // observers run on the other vendor
+  bus::Bus bus{runtime::bus_options(observer, "crane_demo", crane_SOURCE_OPERATOR, 0)};
+  stack::wait_until_ready(children, specs, bus, 15s);
+  RecorderSlot recorder;
+  const auto meanwhile = [&children, &recorder] {
+    if (recorder) recorder->poll();
+    if (const auto ended = children.ended()) throw stack::SessionError(stack::describe(*ended));
+    if (runtime::stop_requested()) throw stack::SessionError("interrupted");
+  };
+  stack::RealtimeSession session{bus, meanwhile};
+  std::cerr << "reset, arm\n";
+  session.arm();
+  std::vector<experiment::NamedMetrics> table;
+  for (const auto& scenario : scenarios)
+    table.push_back(run_maneuver(session, bus, recorder, rig, controller, scenario, options));
+  session.request({.kind = crane_REQUEST_DISARM}, "disarm");
+  session.wait(300ms);
+  children.stop();
+  experiment::print_table(std::cout, table);
+  std::cout << "recordings, CSV files and pictures: " << options.out << '\n';
+  return runtime::kExitDone;
+}
+
+}  // namespace
+
+void add_demo(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<DemoOptions>();
+  options->launch.bus.crane = "demo";
+  auto* command =
+      app.add_subcommand("demo", "Three maneuvers in real time: a table, recordings and pictures");
+  command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
+  command->add_option("--controller", options->launch.controller, "controller; default: the rig file's");
+  command->add_option("--out", options->out, "directory for recordings, CSV files and pictures")
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds_per_maneuver, "measured after each move")
+      ->check(CLI::Range(5.0, 60.0))
+      ->capture_default_str();
+  runtime::add_bus_options(*command, options->launch.bus);
+  command->footer("Example: crane demo --controller delayed_1");
+  command->callback([options, &chosen] { chosen = [options] { return demo(*options); }; });
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,155 @@
+/// crane log: what is in a recording, whether it is whole, and out of it again.
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "cli/log_export.hpp"
+#include "cli/text_table.hpp"
+#include "commands.hpp"
+#include "crane/recording/run_table.hpp"
+
+namespace crane::cli {
+namespace {
+
+using recording::McapReader;
+
+struct LogOptions {
+  std::filesystem::path file, out;
+  std::string topic;
+  bool json = false;
+};
+using Shared = std::shared_ptr<LogOptions>;
+
+void print_problems(const std::vector<std::string>& problems) {
+  for (const auto& problem : problems) std::cerr << problem << '\n';
+}
+
+int info(const LogOptions& options) {
+  McapReader recording{options.file};
+  const auto found = describe(recording, options.file);
+  if (options.json) {
+    std::cout << found.dump(2) << '\n';
+    return runtime::kExitDone;
+  }
+  std::cout << options.file.string() << ": " << found["messages"] << " samples, "
+            << fixed(found["bytes"].get<double>() / 1e6, 2) << " MB, "
+            << fixed(found["duration_s"].get<double>(), 3) << " s, "
+            << (recording.indexed() ? "closed properly" : "not closed properly (crane log repair)") << '\n';
+  TextTable table{{"topic", "type", "samples"}};
+  for (const auto& topic : found["topics"])
+    table.add({topic["topic"], topic["type"], topic["messages"].dump()});
+  table.print(std::cout);
+  for (const auto& record : found["metadata"])
+    for (const auto& [key, value] : record["entries"].items())
+      std::cout << record["name"].get<std::string>() << '.' << key << " = " << value.get<std::string>()
+                << '\n';
+  for (const auto& attachment : found["attachments"])
+    std::cout << "attachment " << attachment["name"].get<std::string>() << ", " << attachment["bytes"]
+              << " bytes\n";
+  print_problems(recording.problems());
+  return runtime::kExitDone;
+}
+
+int check(const LogOptions& options) {
+  const auto found = recording::check(options.file);
+  if (options.json)
+    std::cout << nlohmann::ordered_json{{"messages", found.messages}, {"problems", found.problems}}.dump(2)
+              << '\n';
+  else
+    std::cout << options.file.string() << ": " << found.messages << " samples readable, "
+              << (found.problems.empty() ? "whole" : "damaged (crane log repair)") << '\n';
+  print_problems(found.problems);
+  return found.problems.empty() ? runtime::kExitDone : runtime::kExitFailed;
+}
+
+int repair(const LogOptions& options) {
+  auto out = options.out;
+  if (out.empty()) out = std::filesystem::path{options.file}.replace_extension("repaired.mcap");
+  const auto found = recording::repair(options.file, out);
+  std::cout << out.string() << ": " << found.messages << " samples saved\n";
+  print_problems(found.problems);
+  return runtime::kExitDone;
+}
+
+/// Calls `write` with --out or standard output. @throws std::runtime_error when the file cannot be written
+template <class Write>
+void to_output(const std::filesystem::path& out, const Write& write) {
+  if (out.empty()) return write(std::cout);
+  std::ofstream file{out, std::ios::binary};
+  if (file) write(file);
+  file.close();
+  if (!file) throw std::runtime_error(out.string() + ": cannot write: " + std::strerror(errno));
+}
+
+int export_csv(const LogOptions& options) {
+  McapReader recording{options.file};
+  to_output(options.out, [&](std::ostream& out) {
+    options.topic.empty() ? recording::write_csv(out, recording::run_table(recording))
+                          : write_topic_csv(out, recording, options.topic);
+  });
+  print_problems(recording.problems());
+  return runtime::kExitDone;
+}
+
+int export_json(const LogOptions& options) {
+  McapReader recording{options.file};
+  to_output(options.out, [&](std::ostream& out) { write_json_lines(out, recording, options.topic); });
+  print_problems(recording.problems());
+  return runtime::kExitDone;
+}
+
+/// A file that is no recording is a bad argument like a rig file with mistakes.
+int run(int (*action)(const LogOptions&), const LogOptions& options) {
+  try {
+    return action(options);
+  } catch (const recording::ReadError& error) {
+    std::cerr << "crane: " << error.what() << '\n';
+    return runtime::kExitBadInput;
+  }
+}
+
+CLI::App* add(CLI::App& log, Action& chosen, const Shared& options, int (*action)(const LogOptions&),
+              const char* name, const char* summary) {
+  auto* command = log.add_subcommand(name, summary);
+  command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(CLI::ExistingFile);
+  command->callback(
+      [options, action, &chosen] { chosen = [options, action] { return run(action, *options); }; });
+  return command;
+}
+
+void add_export(CLI::App& log, Action& chosen, const Shared& options) {
+  auto* command = log.add_subcommand("export", "Write a recording in another format");
+  auto* csv = add(*command, chosen, options, export_csv, "csv",
+                  "The run as one table, or one topic with all its fields");
+  csv->footer(
+      "Example: crane log export csv run.mcap --out run.csv\n"
+      "Without --topic: canonical columns (time_s, trolley_voltage_v, ...), one row per tick of "
+      "crane/state.");
+  auto* json = add(*command, chosen, options, export_json, "json", "One JSON object a line and sample");
+  json->footer("Example: crane log export json run.mcap --topic event");
+  for (auto* format : {csv, json}) {
+    format->add_option("--topic", options->topic, "only this topic");
+    format->add_option("--out", options->out, "file to write; default: standard output");
+  }
+}
+
+}  // namespace
+
+void add_log(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<LogOptions>();
+  auto* log = app.add_subcommand("log", "Inspect, check, repair and export recordings");
+  auto* described = add(*log, chosen, options, info, "info", "Topics, counts, times, metadata");
+  described->add_flag("--json", options->json, "one JSON object");
+  described->footer("Example: crane log info run.mcap");
+  auto* checked = add(*log, chosen, options, check, "check", "Read everything and verify every CRC");
+  checked->add_flag("--json", options->json, "one JSON object");
+  checked->footer("Example: crane log check run.mcap\nExit code 1 when anything is damaged.");
+  auto* repaired =
+      add(*log, chosen, options, repair, "repair", "Save what is readable of a damaged recording");
+  repaired->add_option("--out", options->out, "file to write; default: FILE with .repaired.mcap");
+  repaired->footer("Example: crane log repair run.mcap --out saved.mcap");
+  add_export(*log, chosen, options);
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,112 @@
+/// crane record: topics of a running crane into an MCAP file.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "cli/sample_json.hpp"
+#include "cli/text_table.hpp"
+#include "cli/tool_bus.hpp"
+#include "commands.hpp"
+#include "recorder/recorder.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct RecordOptions {
+  recorder::Options recorder;
+  double duration_s = 1e9;
+  bool force = false;
+  runtime::BusOptions bus = tool_bus();
+};
+
+std::string summary(const recorder::Recorder& recorder, double elapsed_s) {
+  const auto& thread = recorder.thread();
+  auto text = std::to_string(thread.written()) + " samples, " +
+              fixed(static_cast<double>(thread.bytes()) / 1e6, 2) + " MB, " + fixed(elapsed_s, 1) + " s";
+  if (thread.dropped() > 0)
+    text += ", " + std::to_string(thread.dropped()) + " dropped" +
+            (thread.failure() ? "" : ": the disk is too slow");
+  if (recorder.rejected() > 0) text += ", " + std::to_string(recorder.rejected()) + " rejected: wrong CRC";
+  return text;
+}
+
+/// A line that is written over on a terminal, and a hint when nothing comes.
+class Progress {
+ public:
+  explicit Progress(const bus::Options& options) : options_{options} {}
+
+  void show(const recorder::Recorder& recorder, double elapsed_s) {
+    constexpr double kHintAfter_s = 3;
+    if (!hinted_ && !recorder.heard_others() && elapsed_s > kHintAfter_s) {
+      hinted_ = true;
+      std::cerr << "crane record: nothing heard yet" << where_and_remedy(options_) << '\n';
+    }
+    if (!terminal_ || elapsed_s < next_s_) return;
+    next_s_ = elapsed_s + 0.5;
+    std::cerr << '\r' << summary(recorder, elapsed_s) << "   " << std::flush;
+  }
+  void end() const {
+    if (terminal_) std::cerr << '\r';
+  }
+
+ private:
+  const bus::Options& options_;
+  bool terminal_ = ::isatty(STDERR_FILENO) != 0;
+  bool hinted_ = false;
+  double next_s_ = 0;
+};
+
+int record(const RecordOptions& options) {
+  auto bus = open_bus(options.bus, crane_SOURCE_RECORDER);
+  recorder::Recorder recorder{bus, options.recorder};
+  Progress progress{bus.options()};
+  const auto begin_ns = runtime::monotonic_ns();
+  const auto elapsed_s = [begin_ns] {
+    return static_cast<double>(runtime::monotonic_ns() - begin_ns) * 1e-9;
+  };
+  wait_until(bus, options.duration_s, [&] {
+    progress.show(recorder, elapsed_s());
+    return !recorder.poll();
+  });
+  const bool complete = recorder.close();
+  progress.end();
+  std::cout << options.recorder.file.string() << ": " << summary(recorder, elapsed_s()) << '\n';
+  return complete ? runtime::kExitDone : runtime::kExitFailed;
+}
+
+void check_file(const RecordOptions& options) {
+  const auto& file = options.recorder.file;
+  if (!options.force && std::filesystem::exists(file))
+    throw CLI::ValidationError("FILE", file.string() + " exists; choose another name or --force");
+}
+
+}  // namespace
+
+void add_record(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<RecordOptions>();
+  auto* command = app.add_subcommand("record", "Record topics into an MCAP file until Ctrl-C");
+  command->add_option("FILE", options->recorder.file, "file to create")->required();
+  command->add_option("--duration", options->duration_s, "stop after so many s")->check(CLI::PositiveNumber);
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--topic",
+          [options](const std::vector<std::string>& names) {
+            for (const auto& name : names) options->recorder.topics.push_back(&topic_named(name));
+          },
+          "topic to record (repeatable); default: all")
+      ->type_name("TOPIC");
+  command->add_flag("--force", options->force, "overwrite FILE");
+  runtime::add_bus_options(*command, options->bus);
+  command->footer(
+      "Example: crane record run.mcap --duration 60\n"
+      "The file is brought up to date every second and at every error, so it is readable whatever happens\n"
+      "(crane log info, crane log repair).");
+  command->callback([options, &chosen] {
+    check_file(*options);
+    chosen = [options] { return record(*options); };
+  });
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,63 @@
+/// crane reset, arm, disarm, stop, estop: one request without arguments each.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/operator_request.hpp"
+#include "commands.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct Verb {
+  const char* name;
+  crane_RequestKind kind;
+  const char* summary;
+  const char* footer;
+};
+
+void add(CLI::App& app, Action& chosen, const Verb& verb) {
+  auto options = std::make_shared<runtime::BusOptions>(tool_bus());
+  auto* command = app.add_subcommand(verb.name, verb.summary);
+  runtime::add_bus_options(*command, *options);
+  command->footer(verb.footer);
+  command->callback([options, verb, &chosen] {
+    chosen = [options, verb] {
+      auto bus = open_bus(*options, crane_SOURCE_OPERATOR);
+      return report(verb.name, ask(bus, {.kind = verb.kind}));
+    };
+  });
+}
+
+}  // namespace
+
+void add_reset(CLI::App& app, Action& chosen) {
+  add(app, chosen,
+      {"reset", crane_REQUEST_RESET, "Acknowledge a stop: from LOCKED or a released emergency stop to READY",
+       "Example: crane reset && crane arm"});
+}
+
+void add_arm(CLI::App& app, Action& chosen) {
+  add(app, chosen,
+      {"arm", crane_REQUEST_ARM, "Open the brakes under control: from READY to HOLD",
+       "Example: crane arm\nRefused unless the crane is READY; `crane status` says what is in the way."});
+}
+
+void add_disarm(CLI::App& app, Action& chosen) {
+  add(app, chosen,
+      {"disarm", crane_REQUEST_DISARM, "Close the brakes and lock the crane", "Example: crane disarm"});
+}
+
+void add_stop(CLI::App& app, Action& chosen) {
+  add(app, chosen,
+      {"stop", crane_REQUEST_STOP, "Bring the axes to rest under control, then close the brakes",
+       "Example: crane stop"});
+}
+
+void add_estop(CLI::App& app, Action& chosen) {
+  add(app, chosen,
+      {"estop", crane_REQUEST_ESTOP, "Emergency stop: 0 V and brakes closed at once",
+       "Example: crane estop\nThis travels over the network. It does not replace the emergency-stop "
+       "button."});
+}
+
+}  // namespace crane::cli

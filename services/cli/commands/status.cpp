@@ -1,0 +1,44 @@
+/// crane status: who runs, in which state the crane is, and what to do about it.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "cli/snapshot.hpp"
+#include "cli/tool_bus.hpp"
+#include "commands.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct StatusOptions {
+  bool json = false;
+  double timeout_s = 3;
+  runtime::BusOptions bus = tool_bus();
+};
+
+int status(const StatusOptions& options) {
+  auto bus = open_bus(options.bus);
+  const auto snapshot = listen(bus, options.timeout_s);
+  if (snapshot.empty()) throw std::runtime_error("nothing heard" + where_and_remedy(bus.options()));
+  if (options.json)
+    std::cout << to_json(snapshot).dump(2) << '\n';
+  else
+    print(std::cout, snapshot);
+  return runtime::kExitDone;
+}
+
+}  // namespace
+
+void add_status(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<StatusOptions>();
+  auto* command = app.add_subcommand("status", "Show the processes, the supervisor's state and the axes");
+  command->add_flag("--json", options->json, "one JSON object");
+  command->add_option("--timeout", options->timeout_s, "longest wait in s for somebody to be heard")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  runtime::add_bus_options(*command, options->bus);
+  command->footer("Example: crane status --json | jq .supervisor.state");
+  command->callback([options, &chosen] { chosen = [options] { return status(*options); }; });
+}
+
+}  // namespace crane::cli

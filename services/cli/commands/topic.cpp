@@ -1,0 +1,17 @@
+/// crane topic: what goes over the bus.
+#include "topic.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace crane::cli {
+
+void add_topic(CLI::App& app, Action& chosen) {
+  auto* topic = app.add_subcommand("topic", "List, print and time what goes over the bus");
+  topic->footer("Example: crane topic ls\nidl/README.md lists the topics, their writers and readers.");
+  add_topic_ls(*topic, chosen);
+  add_topic_echo(*topic, chosen);
+  add_topic_hz(*topic, chosen);
+  add_topic_delay(*topic, chosen);
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,98 @@
+/// crane up: the stack, until Ctrl-C.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <limits>
+#include <memory>
+
+#include "cli/commands/commands.hpp"
+#include "stack/data_files.hpp"
+#include "stack/launch.hpp"
+#include "stack/operator_client.hpp"
+#include "stack/realtime_session.hpp"
+#include "stack/stack.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct UpOptions {
+  stack::LaunchOptions launch;
+  std::string rig = "virginia_tech_tower";
+  std::string plant = "sim";
+  std::string record;
+  std::vector<std::string> vendors;
+};
+
+/// The recorder observes: it runs on the other vendor, so that every ordinary run crosses vendors.
+void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
+  auto bus = options.launch.bus;
+  bus.vendor = "fastdds";
+  auto arguments = runtime::arguments(bus);
+  arguments.insert(arguments.begin(), {"record", options.record});
+  children.start("recorder", "crane", arguments);
+}
+
+/// Waits for Ctrl-C. @return false when a process of the loop ended by itself
+bool watch(stack::ChildProcesses& children) {
+  while (!runtime::stop_requested()) {
+    if (const auto ended = children.ended()) {
+      std::cerr << "crane up: " << stack::describe(*ended) << "; stopping the others\n";
+      if (ended->name != "recorder") return false;
+    }
+    ::usleep(50'000);
+  }
+  return true;
+}
+
+int up(UpOptions options) {
+  runtime::install_stop_signals();
+  options.launch.rig = stack::find_rig(options.rig).string();
+  const auto rig = runtime::load_rig(options.launch.rig);
+  const auto& controller = runtime::chosen_controller(options.launch.controller, rig);
+  const auto specs = stack::simulated_stack();
+  options.launch.vendors = stack::vendors_from(options.vendors, specs);
+
+  stack::ChildProcesses children;
+  stack::launch(children, specs, options.launch);
+  if (!options.record.empty()) start_recorder(children, options);
+  {
+    bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};
+    stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
+    if (options.launch.clock == "lockstep")
+      stack::OperatorClient{bus, "crane_up", stack::unique_first_id()}.send(
+          {.kind = crane_REQUEST_ADVANCE, .until_tick = std::numeric_limits<std::uint64_t>::max()});
+  }
+  std::cout << rig.name << " is up with " << controller.name << " (crane '" << options.launch.bus.crane
+            << "', domain " << options.launch.bus.domain << ", " << options.launch.clock << ")\n"
+            << "next: crane status, crane reset, crane arm, crane move --trolley 0.8; Ctrl-C ends it"
+            << std::endl;
+  const bool orderly = watch(children);
+  children.stop();
+  return orderly ? runtime::kExitDone : runtime::kExitFailed;
+}
+
+}  // namespace
+
+void add_up(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<UpOptions>();
+  auto* command = app.add_subcommand("up", "Run the stack until Ctrl-C");
+  command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
+  command->add_option("--plant", options->plant, "what is moved: sim, the simulated plant")
+      ->check(CLI::IsMember({"sim"}))
+      ->capture_default_str();
+  command->add_option("--controller", options->launch.controller, "controller; default: the rig file's");
+  command->add_option("--clock", options->launch.clock, "realtime, or lockstep: as fast as the machine can")
+      ->check(CLI::IsMember({"realtime", "lockstep"}))
+      ->capture_default_str();
+  command->add_option("--record", options->record, "record every topic to this MCAP file");
+  command->add_option("--dds-for", options->vendors,
+                      "NAME=VENDOR: another DDS implementation for one process");
+  command->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")
+      ->check(CLI::Range(0, 98))
+      ->capture_default_str();
+  command->add_flag("--verbose", options->launch.verbose, "processes log every detail");
+  runtime::add_bus_options(*command, options->launch.bus);
+  command->footer("Example: crane up --rig virginia_tech_tower --record run.mcap");
+  command->callback([options, &chosen] { chosen = [options] { return up(*options); }; });
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,76 @@
+/// The `crane` command: finds the command on the command line, runs it, and turns errors into one line and an
+/// exit code (0 done, 1 it did not work, 2 bad arguments or files).
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <iostream>
+
+#include "commands/commands.hpp"
+#include "crane/runtime/rig.hpp"
+
+namespace {
+
+using namespace crane;
+
+constexpr const char* kFooter = R"(A first session, the stack in one terminal, you in another:
+  crane status                      who runs, in which state the crane is and what to do about it
+  crane reset && crane arm          from LOCKED by way of READY to HOLD
+  crane move --trolley 1.05 --slew 90deg --wait
+  crane topic echo crane/state --count 1
+  crane record run.mcap --duration 10
+Exit code: 0 done, 1 it did not work (the reason is on standard error), 2 bad arguments or files.
+`crane COMMAND --help` explains a command.)";
+
+/// In the order of --help.
+constexpr std::array kCommands{cli::add_up,    cli::add_demo,  cli::add_run,    cli::add_status,
+                               cli::add_reset, cli::add_arm,   cli::add_disarm, cli::add_move,
+                               cli::add_stop,  cli::add_estop, cli::add_topic,  cli::add_record,
+                               cli::add_log};
+
+/// Standard output belongs to what was asked for.
+void log_to_standard_error() {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("crane"));
+  spdlog::set_level(spdlog::level::warn);
+  spdlog::set_pattern("%^%l%$: %v");
+}
+
+/// The command named on the command line, however deep: "crane", "crane topic", ...
+const CLI::App& deepest_of(const CLI::App& app) {
+  const auto named = app.get_subcommands();
+  return named.empty() ? app : deepest_of(*named.front());
+}
+
+int run(const cli::Action& action) {
+  try {
+    return action();
+  } catch (const runtime::ConfigurationError& error) {
+    std::cerr << error.what() << '\n';
+    return runtime::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "crane: " << error.what() << '\n';
+    return runtime::kExitFailed;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Control of gantry and tower cranes as separate processes over DDS.", "crane"};
+  app.set_version_flag("--version", "crane " CRANE_VERSION);
+  app.footer(kFooter);
+  cli::Action chosen;
+  for (const auto add : kCommands) add(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? runtime::kExitDone : runtime::kExitBadInput;
+  }
+  if (!chosen) {
+    std::cerr << deepest_of(app).help();
+    return runtime::kExitBadInput;
+  }
+  log_to_standard_error();
+  return run(chosen);
+}

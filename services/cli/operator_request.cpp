@@ -1,0 +1,96 @@
+#include "cli/operator_request.hpp"
+
+#include <unistd.h>
+
+#include <iostream>
+#include <vector>
+
+namespace crane::cli {
+namespace {
+
+/// Differs between tools that run at the same time, and between one tool and the next of the same pid.
+std::uint64_t first_id() {
+  constexpr std::uint64_t kPidBits = 22, kPidMask = (1U << kPidBits) - 1;
+  const auto now_us = static_cast<std::uint64_t>(runtime::monotonic_ns() / 1000);
+  return (now_us << kPidBits) | (static_cast<std::uint64_t>(::getpid()) & kPidMask);
+}
+
+bool may_be_repeated(crane_RequestKind kind) {
+  return kind == crane_REQUEST_STOP || kind == crane_REQUEST_ESTOP;
+}
+
+class Conversation {
+ public:
+  Conversation(bus::Bus& bus, const stack::Wish& wish)
+      : bus_{bus},
+        wish_{wish},
+        client_{bus, "crane " + std::to_string(::getpid()), first_id()},
+        supervisor_{bus.subscriber(topics::supervisor)} {}
+
+  void find_supervisor(double timeout_s) {
+    if (!wait_until(bus_, timeout_s, [this] { return found(); }))
+      throw NoAnswer("no supervisor" + where_and_remedy(bus_.options()));
+  }
+
+  Answer exchange(double timeout_s) {
+    constexpr std::int64_t kRepeat_ns = 100'000'000;
+    std::int64_t repeat_at_ns = 0;
+    std::optional<Answer> answer;
+    wait_until(bus_, timeout_s, [&] {
+      const auto now_ns = runtime::monotonic_ns();
+      if (sent_.empty() || (may_be_repeated(wish_.kind) && now_ns >= repeat_at_ns)) {
+        sent_.push_back(client_.send(wish_));
+        repeat_at_ns = now_ns + kRepeat_ns;
+      }
+      answer = take_answer();
+      return answer.has_value();
+    });
+    if (!answer)
+      throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
+                     " s: see whether its ticks advance (crane status)");
+    return *answer;
+  }
+
+ private:
+  /// Other processes listen to requests, too; a supervisor is known by its status. Whoever may answer must
+  /// have been found in both directions.
+  bool found() {
+    while (supervisor_.take()) heard_ = true;
+    if (client_.listeners() == 0 || client_.answerers() == 0) return false;
+    return may_be_repeated(wish_.kind) || (heard_ && client_.listeners() >= client_.answerers());
+  }
+
+  std::optional<Answer> take_answer() {
+    client_.receive();
+    for (const auto id : sent_)
+      if (const auto reply = client_.take_reply(id, crane_SOURCE_SUPERVISOR))
+        return Answer{id, reply->accepted, reply->reason};
+    return std::nullopt;
+  }
+
+  bus::Bus& bus_;
+  const stack::Wish& wish_;
+  stack::OperatorClient client_;
+  bus::Subscriber<msg::SupervisorStatus> supervisor_;
+  bool heard_ = false;
+  std::vector<std::uint64_t> sent_;
+};
+
+}  // namespace
+
+Answer ask(bus::Bus& bus, const stack::Wish& wish, const Patience& patience) {
+  Conversation conversation{bus, wish};
+  conversation.find_supervisor(patience.find_s);
+  return conversation.exchange(patience.reply_s);
+}
+
+int report(const char* what, const Answer& answer) {
+  if (answer.accepted) {
+    std::cout << what << ": accepted\n";
+    return runtime::kExitDone;
+  }
+  std::cerr << what << ": refused: " << answer.reason << '\n';
+  return runtime::kExitFailed;
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,118 @@
+#include "cli/snapshot.hpp"
+
+#include <numbers>
+#include <ostream>
+
+#include "cli/sample_json.hpp"
+#include "cli/text_table.hpp"
+#include "cli/tool_bus.hpp"
+#include "crane/supervisor/states.hpp"
+
+namespace crane::cli {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+template <class T>
+void keep_newest(bus::Subscriber<T>& subscriber, std::optional<T>& newest) {
+  while (const auto sample = subscriber.take()) newest = sample;
+}
+
+const char* remedy(const msg::SupervisorStatus& status) {
+  return status.cause == crane_CAUSE_NONE
+             ? ""
+             : supervisor::remedy_for(static_cast<supervisor::Cause>(status.cause));
+}
+
+const char* phase_name(crane_NodePhase phase) {
+  switch (phase) {
+    case crane_PHASE_STARTING:
+      return "starting";
+    case crane_PHASE_READY:
+      return "ready";
+    case crane_PHASE_STOPPING:
+      return "stopping";
+  }
+  return "?";
+}
+
+void print_nodes(std::ostream& out, const Snapshot& snapshot) {
+  TextTable table{{"process", "vendor", "pid", "phase", "controller", "ticks", "lost", "late", "duplicate",
+                   "rejected", "step mean us", "max us"}};
+  for (const auto& [number, node] : snapshot.nodes)
+    table.add({node.name, node.vendor, std::to_string(node.pid), phase_name(node.phase), node.controller,
+               std::to_string(node.ticks), std::to_string(node.lost_ticks), std::to_string(node.late_samples),
+               std::to_string(node.duplicate_samples), std::to_string(node.rejected_samples),
+               fixed(node.step_mean_us, 1), fixed(node.step_max_us, 1)});
+  table.print(out);
+}
+
+void print_supervisor(std::ostream& out, const msg::SupervisorStatus& status) {
+  out << "supervisor  " << supervisor::name_of(static_cast<supervisor::State>(status.state));
+  if (status.cause != crane_CAUSE_NONE)
+    out << " because of " << supervisor::name_of(static_cast<supervisor::Cause>(status.cause)) << ": "
+        << remedy(status);
+  out << '\n';
+}
+
+void print_axes(std::ostream& out, const msg::State& state) {
+  const auto brake = [&](std::size_t axis) { return state.brake_closed[axis] ? "closed" : "open"; };
+  TextTable table{{"axis", "position", "", "speed", "", "volts", "brake"}};
+  table.add({"trolley", fixed(state.trolley_position_m, 4), "m", fixed(state.trolley_speed_mps, 4), "m/s",
+             fixed(state.applied_v[0], 3), brake(0)});
+  table.add({"slew", fixed(state.slew_angle_rad * kDegrees, 2), "deg",
+             fixed(state.slew_speed_radps * kDegrees, 2), "deg/s", fixed(state.applied_v[1], 3), brake(1)});
+  table.add({"hoist", fixed(state.cable_length_m, 4), "m", fixed(state.cable_speed_mps, 4), "m/s",
+             fixed(state.applied_v[2], 3), brake(2)});
+  table.print(out);
+  out << "swing  radial " << fixed(state.swing_radial_rad * kDegrees, 2) << " deg, tangential "
+      << fixed(state.swing_tangential_rad * kDegrees, 2) << " deg  (tick " << state.header.tick << ")\n";
+}
+
+}  // namespace
+
+Snapshot listen(bus::Bus& bus, double timeout_s) {
+  constexpr std::int64_t kQuiet_ns = 300'000'000;  // nobody new for so long: all have been found
+  auto nodes = bus.subscriber(topics::node);
+  auto supervisors = bus.subscriber(topics::supervisor);
+  auto states = bus.subscriber(topics::state);
+  Snapshot snapshot;
+  std::int64_t changed_ns = runtime::monotonic_ns();
+  int writers = 0;
+  wait_until(bus, timeout_s, [&] {
+    while (const auto node = nodes.take()) snapshot.nodes[node->node] = *node;
+    keep_newest(supervisors, snapshot.supervisor);
+    keep_newest(states, snapshot.state);
+    const auto now_ns = runtime::monotonic_ns();
+    if (nodes.matched() != writers) changed_ns = now_ns;
+    writers = nodes.matched();
+    const bool all = writers > 0 && snapshot.nodes.size() >= static_cast<std::size_t>(writers);
+    return all && snapshot.supervisor && snapshot.state && now_ns - changed_ns > kQuiet_ns;
+  });
+  return snapshot;
+}
+
+nlohmann::ordered_json to_json(const Snapshot& snapshot) {
+  nlohmann::ordered_json result;
+  result["nodes"] = nlohmann::ordered_json::array();
+  for (const auto& [number, node] : snapshot.nodes) result["nodes"].push_back(to_json(topics::node, node));
+  result["supervisor"] = nullptr;
+  if (snapshot.supervisor) {
+    result["supervisor"] = to_json(topics::supervisor, *snapshot.supervisor);
+    result["supervisor"]["remedy"] = remedy(*snapshot.supervisor);
+  }
+  result["state"] =
+      snapshot.state ? to_json(topics::state, *snapshot.state) : nlohmann::ordered_json(nullptr);
+  return result;
+}
+
+void print(std::ostream& out, const Snapshot& snapshot) {
+  print_nodes(out, snapshot);
+  out << '\n';
+  if (snapshot.supervisor) print_supervisor(out, *snapshot.supervisor);
+  if (snapshot.state) print_axes(out, *snapshot.state);
+  if (!snapshot.supervisor) out << "supervisor  not heard: nothing may move the crane\n";
+  if (!snapshot.state) out << "crane/state  not heard: neither the bridge nor the plant publishes\n";
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,26 @@
+#pragma once
+/// What a running crane says about itself right now.
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "crane/bus/bus.hpp"
+
+namespace crane::cli {
+
+struct Snapshot {
+  std::map<std::uint32_t, msg::NodeStatus> nodes;  ///< by node number (Source)
+  std::optional<msg::SupervisorStatus> supervisor;
+  std::optional<msg::State> state;
+  [[nodiscard]] bool empty() const { return nodes.empty() && !supervisor && !state; }
+};
+
+/// Listens until every process that was found has said something and a state has come, at most `timeout_s`.
+[[nodiscard]] Snapshot listen(bus::Bus& bus, double timeout_s);
+
+/// {"nodes": [...], "supervisor": {..., "remedy": ...} or null, "state": {...} or null}
+[[nodiscard]] nlohmann::ordered_json to_json(const Snapshot& snapshot);
+/// Table of processes, state of the supervisor with cause and remedy, the axes.
+void print(std::ostream& out, const Snapshot& snapshot);
+
+}  // namespace crane::cli

@@ -1,0 +1,35 @@
+#include "cli/tool_bus.hpp"
+
+#include <ctime>
+
+namespace crane::cli {
+
+bus::Bus open_bus(const runtime::BusOptions& options, crane_Source source) {
+  runtime::install_stop_signals();
+  const auto epoch = static_cast<std::uint32_t>(std::time(nullptr));
+  return bus::Bus{runtime::bus_options(options, "crane_tool", source, epoch)};
+}
+
+std::string where_and_remedy(const bus::Options& options) {
+  std::string interfaces;
+  for (const auto& interface : options.interfaces) interfaces += (interfaces.empty() ? "" : ", ") + interface;
+  return " for crane '" + options.crane + "' in domain " + std::to_string(options.domain) + " on " +
+         interfaces +
+         ": either no stack runs there (start one: crane up), or --crane, --domain or --interface differ "
+         "from the "
+         "stack's";
+}
+
+bool wait_until(bus::Bus& bus, double timeout_s, const std::function<bool()>& poll) {
+  constexpr std::int64_t kLongest_ns = 20'000'000;  // matches and signals ring no bell
+  const auto end_ns = runtime::monotonic_ns() + static_cast<std::int64_t>(timeout_s * 1e9);
+  while (!runtime::stop_requested()) {
+    if (poll()) return true;
+    const auto left_ns = end_ns - runtime::monotonic_ns();
+    if (left_ns <= 0) return false;
+    bus.wait(std::chrono::nanoseconds{std::min(left_ns, kLongest_ns)});
+  }
+  return false;
+}
+
+}  // namespace crane::cli

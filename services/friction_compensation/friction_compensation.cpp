@@ -1,0 +1,58 @@
+#include "friction_compensation/friction_compensation.hpp"
+
+#include "crane/control/friction_compensation.hpp"
+#include "crane/runtime/convert.hpp"
+
+namespace crane::services {
+namespace {
+
+using runtime::Context;
+constexpr double kWaitShare =
+    0.5;  // of a period, for the rest of a tick: one hop after tracking and anti-swing
+
+class FrictionCompensation
+    : public runtime::JoinedComponent<msg::State, msg::Contribution, msg::Contribution> {
+ public:
+  explicit FrictionCompensation(const Context& context)
+      : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
+                        context.bus.subscriber(topics::state, runtime::loop_input(context.clock)),
+                        context.bus.subscriber(topics::tracking, runtime::loop_input(context.clock)),
+                        context.bus.subscriber(topics::anti_swing, runtime::loop_input(context.clock))},
+        friction_{context.rig.design.friction},
+        output_{context.bus.publisher(topics::demand)} {}
+
+ protected:
+  void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Contribution* tracking,
+               const msg::Contribution* anti_swing) override {
+    const auto speed = runtime::measurement(*state).speed;
+    msg::Demand sample{};
+    sample.header = runtime::answer_to(state->header);
+    for (std::size_t i = 0; i < control::kAxes; ++i) {
+      sample.control_v[i] = tracking->drive_v[i] + anti_swing->drive_v[i];
+      sample.friction_v[i] = control::friction_compensation_v(friction_[i], sample.control_v[i], speed[i]);
+      sample.total_v[i] = sample.control_v[i] + sample.friction_v[i];
+    }
+    output_.publish(sample);
+  }
+  [[nodiscard]] bool outputs_connected() const override { return output_.matched() > 0; }
+
+ private:
+  std::array<control::DriveFriction, control::kAxes> friction_;
+  bus::Publisher<msg::Demand> output_;
+};
+
+}  // namespace
+
+runtime::ComponentSpec friction_compensation_spec() {
+  return {.name = "friction_compensation",
+          .program = "crane_friction_compensation",
+          .summary = "Sums the contributions and adds what friction takes away.",
+          .source = crane_SOURCE_FRICTION,
+          .runs_controller = false,
+          .sole_writer_of = &topics::demand.description,
+          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+            return std::make_unique<FrictionCompensation>(context);
+          }};
+}
+
+}  // namespace crane::services

@@ -1,0 +1,48 @@
+#pragma once
+/// The processes of a stack as children of one command. They die with their parent, whatever happens to it.
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace crane::stack {
+
+/// A child that ended by itself.
+struct Ended {
+  std::string name;
+  std::string how;     ///< "exit code 2", "signal 9 (Killed)"
+  int exit_code = -1;  ///< -1: a signal
+};
+
+class ChildProcesses {
+ public:
+  ChildProcesses() = default;
+  ~ChildProcesses() { stop(); }
+  ChildProcesses(const ChildProcesses&) = delete;
+  ChildProcesses& operator=(const ChildProcesses&) = delete;
+
+  /// Starts `program` from the directory of the running executable. @throws std::runtime_error
+  void start(const std::string& name, const std::string& program, const std::vector<std::string>& arguments);
+  /// The first child that has ended since it was started; nothing while all of them run.
+  [[nodiscard]] std::optional<Ended> ended();
+  /// SIGTERM to all, SIGKILL to who is still there after `patience`; waits for all. Last started, first
+  /// stopped.
+  void stop(std::chrono::milliseconds patience = std::chrono::milliseconds{3000}) noexcept;
+  [[nodiscard]] std::optional<pid_t> pid_of(const std::string& name) const;
+
+ private:
+  struct Child {
+    std::string name;
+    pid_t pid = 0;
+    bool running = true;
+  };
+  std::vector<Child> children_;
+};
+
+/// Directory of the running executable, where its siblings are.
+[[nodiscard]] std::filesystem::path program_directory();
+
+}  // namespace crane::stack

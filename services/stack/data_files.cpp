@@ -1,0 +1,41 @@
+#include "stack/data_files.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "crane/runtime/rig.hpp"
+
+#ifndef CRANE_DATA_DIRECTORY
+#error "CRANE_DATA_DIRECTORY is set by the build"
+#endif
+
+namespace crane::stack {
+namespace {
+
+std::filesystem::path locate(const std::string& what, const std::string& folder,
+                             const std::string& name_or_path) {
+  namespace fs = std::filesystem;
+  if (fs::is_regular_file(name_or_path)) return fs::absolute(name_or_path).lexically_normal();
+  const fs::path directory = fs::path{CRANE_DATA_DIRECTORY} / folder;
+  if (const auto known = directory / (name_or_path + ".toml"); fs::is_regular_file(known)) return known;
+  std::vector<std::string> names;
+  if (fs::is_directory(directory))
+    for (const auto& entry : fs::directory_iterator{directory})
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  std::string known;
+  for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
+  throw runtime::ConfigurationError({what + " = " + name_or_path + ": must be a file, or one of " + known});
+}
+
+}  // namespace
+
+std::filesystem::path find_rig(const std::string& name_or_path) {
+  return locate("rig", "rigs", name_or_path);
+}
+
+std::filesystem::path find_scenario(const std::string& name_or_path) {
+  return locate("scenario", "scenarios", name_or_path);
+}
+
+}  // namespace crane::stack

@@ -1,0 +1,39 @@
+#pragma once
+/// One experiment: a scenario, a rig and a controller, run in lockstep, with everything it leaves behind:
+///   recording.mcap  every topic of every tick      run.csv       canonical columns and more
+///   metrics.json    figures of merit               picture.svg   the maneuver
+///   rig.toml        the rig as it was run
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "crane/experiment/metrics.hpp"
+#include "crane/runtime/process.hpp"
+#include "stack/lockstep_run.hpp"
+
+namespace crane::stack {
+
+struct ExperimentOptions {
+  std::filesystem::path scenario, rig;
+  std::string controller;           ///< empty: the rig's
+  std::filesystem::path directory;  ///< created when missing
+  bool in_process = false;          ///< one process over the memory bus instead of one per component
+  bool picture = true;
+  runtime::BusOptions bus;  ///< processes only
+  std::map<std::string, std::string> vendors;
+};
+
+struct ExperimentResult {
+  RunOutcome outcome;
+  experiment::Metrics metrics;
+  std::string scenario, controller, rig;
+  double real_time_factor = 0;  ///< simulated time over wall time, from the first tick to the last
+};
+
+/// @throws runtime::ConfigurationError for bad files or names (nothing has been started then), RunError,
+///   recording::WriteError, experiment::PictureError
+[[nodiscard]] ExperimentResult run_experiment(const ExperimentOptions& options);
+
+[[nodiscard]] nlohmann::ordered_json to_json(const ExperimentResult& result);
+
+}  // namespace crane::stack

@@ -1,0 +1,66 @@
+#include "stack/launch.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace crane::stack {
+
+std::map<std::string, std::string> vendors_from(const std::vector<std::string>& entries,
+                                                const std::vector<runtime::ComponentSpec>& specs) {
+  std::map<std::string, std::string> vendors;
+  std::vector<std::string> problems;
+  for (const auto& entry : entries) {
+    const auto equals = entry.find('=');
+    const auto name = entry.substr(0, equals);
+    const auto vendor = equals == std::string::npos ? "" : entry.substr(equals + 1);
+    const bool known = std::any_of(specs.begin(), specs.end(),
+                                   [&](const runtime::ComponentSpec& spec) { return spec.name == name; });
+    if (!known) problems.push_back("--dds-for " + entry + ": no process is called '" + name + "'");
+    if (vendor != "cyclone" && vendor != "fastdds")
+      problems.push_back("--dds-for " + entry + ": vendor must be cyclone or fastdds");
+    vendors[name] = vendor;
+  }
+  if (!problems.empty()) throw runtime::ConfigurationError{std::move(problems)};
+  return vendors;
+}
+
+void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
+            const LaunchOptions& options) {
+  for (const auto& spec : specs) {
+    auto bus = options.bus;
+    if (const auto chosen = options.vendors.find(std::string{spec.name}); chosen != options.vendors.end())
+      bus.vendor = chosen->second;
+    auto arguments = runtime::arguments(bus);
+    arguments.insert(arguments.end(), {"--rig", options.rig, "--clock", options.clock, "--priority",
+                                       std::to_string(options.priority)});
+    if (!options.controller.empty()) arguments.insert(arguments.end(), {"--controller", options.controller});
+    if (options.epoch != 0) arguments.insert(arguments.end(), {"--epoch", std::to_string(options.epoch)});
+    if (options.verbose) arguments.emplace_back("--verbose");
+    children.start(std::string{spec.name}, std::string{spec.program}, arguments);
+  }
+}
+
+std::string describe(const Ended& ended) { return ended.name + " has ended: " + ended.how; }
+
+void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
+                      bus::Bus& bus, std::chrono::milliseconds patience) {
+  auto statuses = bus.subscriber(topics::node);
+  std::set<std::string> missing;
+  for (const auto& spec : specs) missing.insert(std::string{spec.name});
+  const auto give_up_ns = runtime::monotonic_ns() + std::chrono::nanoseconds{patience}.count();
+  while (!missing.empty()) {
+    bus.wait(std::chrono::milliseconds{20});
+    while (const auto status = statuses.take())
+      if (status->phase == crane_PHASE_READY) missing.erase(status->name);
+    if (const auto ended = children.ended()) throw std::runtime_error(describe(*ended));
+    if (runtime::stop_requested()) throw std::runtime_error("interrupted");
+    if (runtime::monotonic_ns() < give_up_ns) continue;
+    std::string names;
+    for (const auto& name : missing) names += (names.empty() ? "" : ", ") + name;
+    throw std::runtime_error("not ready after " + std::to_string(patience.count()) + " ms: " + names +
+                             "; look at their messages above, at --interface and at --domain");
+  }
+}
+
+}  // namespace crane::stack

@@ -1,0 +1,47 @@
+#include "stack/operator_client.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "crane/runtime/node.hpp"
+
+namespace crane::stack {
+
+OperatorClient::OperatorClient(bus::Bus& bus, std::string client, std::uint64_t first_id)
+    : requests_{bus.publisher(topics::request)},
+      replies_{bus.subscriber(topics::reply)},
+      client_{std::move(client)},
+      next_id_{first_id} {}
+
+std::uint64_t OperatorClient::send(const Wish& wish) {
+  msg::Request request{};
+  request.id = next_id_++;
+  runtime::assign(request.client, client_);
+  request.kind = wish.kind;
+  request.apply_tick = wish.apply_tick;
+  for (std::size_t i = 0; i < wish.selected.size(); ++i) {
+    request.selected[i] = wish.selected[i];
+    request.target[i] = wish.target[i];
+  }
+  request.until_tick = wish.until_tick;
+  requests_.publish(request);
+  return request.id;
+}
+
+void OperatorClient::receive() {
+  while (const auto reply = replies_.take())
+    if (client_ == reply->client) received_.push_back(*reply);
+}
+
+std::optional<msg::Reply> OperatorClient::take_reply(std::uint64_t id, crane_Source source, bool scheduled) {
+  const auto found = std::find_if(received_.begin(), received_.end(), [&](const msg::Reply& reply) {
+    const bool is_schedule = reply.accepted && std::string_view{reply.reason} == "scheduled";
+    return reply.request_id == id && reply.header.source == source && is_schedule == scheduled;
+  });
+  if (found == received_.end()) return std::nullopt;
+  const auto reply = *found;
+  received_.erase(found);
+  return reply;
+}
+
+}  // namespace crane::stack

@@ -1,0 +1,50 @@
+#pragma once
+/// The planner's memory without the bus: what is being followed and since when.
+#include <array>
+#include <cstdint>
+
+#include "crane/control/law.hpp"
+#include "crane/control/trajectory.hpp"
+#include "crane/runtime/rig.hpp"
+
+namespace crane::services {
+
+/// What a move asks for. Axes that are not selected stay where their reference is.
+struct MoveTarget {
+  std::array<bool, control::kAxes> selected{};
+  std::array<double, control::kAxes> target{};  ///< m, rad, m of cable
+};
+
+class Motion {
+ public:
+  /// @param rig  limits of the reference per drive; must outlive the motion
+  Motion(const runtime::Rig& rig, control::ReferenceShape shape) : rig_{rig}, shape_{shape} {}
+
+  /// Rest at what is measured: the crane is not under control.
+  void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
+  /// Begin a move at `tick` from the present reference.
+  void start(const MoveTarget& move, std::uint64_t tick);
+  /// Come to rest from the measured speed at the reference acceleration.
+  void stop(const control::Measurement& measured, std::uint64_t tick) noexcept;
+  /// Reference at `tick`.
+  [[nodiscard]] control::Reference at(std::uint64_t tick) const noexcept;
+  /// The reference has ended and the crane rests on it.
+  [[nodiscard]] bool arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept;
+
+ private:
+  /// Braking from a speed to rest at constant deceleration; a profile at rest where `speed` is 0.
+  struct Braking {
+    double start = 0, speed = 0, deceleration = 1;
+    [[nodiscard]] control::AxisReference at(double time_s) const noexcept;
+  };
+  [[nodiscard]] double time_s(std::uint64_t tick) const noexcept;
+
+  const runtime::Rig& rig_;
+  control::ReferenceShape shape_;
+  control::Trajectory trajectory_{};
+  std::array<Braking, control::kAxes> braking_{};
+  bool is_braking_ = false;
+  std::uint64_t start_tick_ = 0;
+};
+
+}  // namespace crane::services

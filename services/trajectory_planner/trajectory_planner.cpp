@@ -1,0 +1,119 @@
+#include "trajectory_planner/trajectory_planner.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "crane/runtime/convert.hpp"
+#include "crane/runtime/request_inbox.hpp"
+#include "trajectory_planner/motion.hpp"
+
+namespace crane::services {
+namespace {
+
+using runtime::Context;
+constexpr double kWaitShare =
+    0.8;  // of a period: off the critical path, the reference is needed at the next tick
+
+class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::SupervisorStatus> {
+ public:
+  explicit TrajectoryPlanner(const Context& context)
+      : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
+                        context.bus.subscriber(topics::state, runtime::loop_input(context.clock)),
+                        context.bus.subscriber(topics::supervisor, runtime::loop_input(context.clock))},
+        requests_{context, {crane_REQUEST_MOVE}},
+        output_{context.bus.publisher(topics::reference)},
+        stale_after_ticks_{context.rig.limits.stale_after_ticks},
+        motion_{context.rig, context.controller.reference} {}
+
+ protected:
+  void handle_requests(std::int64_t /*now_ns*/) override {
+    requests_.receive();
+    while (const auto request = requests_.take_due(std::numeric_limits<std::uint64_t>::max()))
+      wanted_.push_back(*request);  // until the supervisor accepts it
+  }
+
+  /// At the first tick, and after a gap, nobody has published the reference of the tick that waits for it.
+  bool on_idle(std::int64_t /*now_ns*/) override {
+    const auto* state = open_leader();
+    if (state == nullptr || published_ == state->header.tick) return false;
+    if (!published_) motion_.follow(runtime::measurement(*state), state->header.tick);
+    publish(*state, state->header.tick);
+    return true;
+  }
+
+  void on_tick(std::uint64_t tick, const msg::State* state, const msg::SupervisorStatus* status) override {
+    if (state == nullptr) return;
+    missing_statuses_ = status == nullptr ? missing_statuses_ + 1 : 0;
+    if (status != nullptr) supervisor_ = status->state;
+    if (missing_statuses_ >= stale_after_ticks_) supervisor_ = crane_STATE_BOOT;
+    const auto measured = runtime::measurement(*state);
+    const auto next = tick + 1;
+    if (supervisor_ == crane_STATE_STOP_C1) {
+      if (!stopping_) motion_.stop(measured, next);
+    } else if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) {
+      motion_.follow(measured, next);
+    } else if (status != nullptr) {
+      start_if_accepted(status->request_id, next);
+    }
+    stopping_ = supervisor_ == crane_STATE_STOP_C1;
+    publish(*state, next);
+  }
+  [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
+  [[nodiscard]] bool outputs_connected() const override { return output_.matched() > 0; }
+
+ private:
+  void start_if_accepted(std::uint64_t accepted_id, std::uint64_t tick) {
+    const auto accepted =
+        std::find_if(wanted_.begin(), wanted_.end(),
+                     [accepted_id](const msg::Request& request) { return request.id == accepted_id; });
+    if (accepted == wanted_.end()) return;
+    MoveTarget move;
+    for (std::size_t i = 0; i < control::kAxes; ++i) {
+      move.selected[i] = accepted->selected[i];
+      move.target[i] = accepted->target[i];
+    }
+    motion_.start(move, tick);
+    request_id_ = accepted_id;
+    wanted_.erase(wanted_.begin(), accepted + 1);  // what was asked for before is out of date
+  }
+
+  void publish(const msg::State& state, std::uint64_t tick) {
+    msg::Reference sample{};
+    sample.header = runtime::answer_to(state.header);
+    sample.header.tick = tick;
+    runtime::assign(sample.axis, motion_.at(tick));
+    sample.request_id = request_id_;
+    sample.moving = !motion_.arrived(runtime::measurement(state), tick);
+    output_.publish(sample);
+    published_ = tick;
+  }
+
+  runtime::RequestInbox requests_;
+  bus::Publisher<msg::Reference> output_;
+  int stale_after_ticks_;
+  Motion motion_;
+  std::vector<msg::Request> wanted_;
+  std::optional<std::uint64_t> published_;
+  crane_SupervisorState supervisor_ = crane_STATE_BOOT;
+  int missing_statuses_ = 0;
+  bool stopping_ = false;
+  std::uint64_t request_id_ = 0;
+};
+
+}  // namespace
+
+runtime::ComponentSpec trajectory_planner_spec() {
+  return {.name = "trajectory_planner",
+          .program = "crane_trajectory_planner",
+          .summary = "Where each axis is to be: step and accelerate-coast-brake references.",
+          .source = crane_SOURCE_PLANNER,
+          .runs_controller = true,
+          .sole_writer_of = &topics::reference.description,
+          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+            return std::make_unique<TrajectoryPlanner>(context);
+          }};
+}
+
+}  // namespace crane::services

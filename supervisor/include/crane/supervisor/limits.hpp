@@ -1,0 +1,71 @@
+#pragma once
+/// Every number the supervisor decides by, in force from the load of the rig file on.
+#include <string>
+#include <vector>
+
+#include "crane/supervisor/states.hpp"
+
+namespace crane::supervisor {
+
+/// One drive axis; "unit" is m (trolley, hoist) or rad (slew).
+struct AxisLimits {
+  bool present = false;
+  double volt_limit_v = 10;           ///< |V| <=, in (0, 10]
+  double volt_rate_limit_vps = 1000;  ///< V/s, > 0
+  double low_limit = 0;               ///< hard limit, unit
+  double high_limit = 0;              ///< hard limit, unit, > low_limit
+  double soft_margin =
+      0;                 ///< targets stay this far inside the hard limits; >= stopping distance at max_speed
+  double max_speed = 0;  ///< overspeed trip, unit/s, > 0
+  double brake_deceleration = 0;     ///< what the closed brake gives at least, unit/s^2, > 0
+  double brake_close_time_s = 0.02;  ///< >= 0
+  double brake_open_time_s = 0.02;   ///< >= 0
+  double standstill_speed = 0.005;   ///< slower than this for standstill_time_s is standing, unit/s, > 0
+  double brake_slip = 0.02;  ///< displacement a closed brake may allow beyond the braking distance, unit, > 0
+};
+
+struct Limits {
+  std::array<AxisLimits, kAxes> axis{};
+  double period_s = 0.01;             ///< tick, > 0
+  double swing_limit_rad = 0.7;       ///< controlled stop above it, in (0, pi/2)
+  double swing_runaway_ratio = 1.25;  ///< ramped stop above this multiple of it, >= 1
+  int state_stale_after_ticks = 3;    ///< missing states in a row that stop the crane, >= 1
+  int demand_stale_after_ticks = 3;   ///< ticks in a row without a usable demand that stop the crane, >= 1
+  int demand_invalid_in_row =
+      3;                    ///< demands in a row with a value that is not finite that stop the crane, >= 1
+  int overruns_in_row = 3;  ///< late ticks in a row that stop the crane; 0: late ticks are only counted
+  double clear_time_s = 1;  ///< causes clear for so long before a reset, streams fresh before arming, >= 0
+  double standstill_time_s = 0.1;  ///< > 0
+  double c1_ramp_time_s = 0.02;    ///< from the full to no voltage, in [0, 0.02]
+  double stop_timeout_s = 8;       ///< controlled stop not at standstill by then: ramped stop, > 0
+  double arm_match_time_s = 5;     ///< demand near zero and bridge ready within this time, > 0
+  double arm_volt_limit_v = 2.5;   ///< demand that counts as near zero, > 0
+  double brake_test_time_s =
+      0.2;  ///< longer than the opening time: brakes have to report open within it, > 0
+  double brake_report_time_s = 0.1;  ///< beyond the closing time: brakes have to report closed by then, > 0
+  double idle_lock_s = 60;           ///< HOLD without a move for so long locks the crane, > 0
+};
+
+/// Ticks a ramped stop takes, at least 1; the command of the last one is 0 V with the brakes closed.
+[[nodiscard]] int ramp_ticks(const Limits& limits) noexcept;
+
+/// t_detect + t_react + t_brake: one tick until the next sample can show the hazard, the ramp with the
+/// one-tick delay of every command in it, and the closing of the brake.
+[[nodiscard]] double stopping_time_s(const Limits& limits, std::size_t axis) noexcept;
+
+/// v (t_detect + t_react + t_brake) + v^2 / 2a, for |speed|; unit.
+[[nodiscard]] double stopping_distance(const Limits& limits, std::size_t axis, double speed) noexcept;
+
+/// From the last demand of a dead controller to 0 V and closed brakes, in s.
+[[nodiscard]] double demand_loss_to_braked_s(const Limits& limits) noexcept;
+
+/// Largest permitted value of demand_loss_to_braked_s.
+inline constexpr double kDemandLossToBrakedMax_s = 0.1;
+
+/// True when an operator may ask for this target: finite and soft_margin inside the hard limits.
+[[nodiscard]] bool target_allowed(const AxisLimits& axis, double target) noexcept;
+
+/// Every problem as "name = value: rule"; empty when the crane may be armed with these limits.
+[[nodiscard]] std::vector<std::string> problems(const Limits& limits);
+
+}  // namespace crane::supervisor

@@ -1,0 +1,39 @@
+#pragma once
+/// Speeds and standstill from the positions alone, independent of the speeds and filters of the bridge.
+#include "crane/supervisor/limits.hpp"
+
+namespace crane::supervisor {
+
+struct MotionMemory {
+  bool started = false;
+  std::uint64_t tick = 0;     ///< of `position`
+  PerAxis position{};         ///< newest sample, unit
+  PerAxis speed{};            ///< backward difference of the two newest samples, unit/s
+  PerAxis window_position{};  ///< middle of the window the axis has not left since ...
+  PerAxis window_since_s{};   ///< ... this time
+};
+
+/// Takes the positions of one tick. A sample of the same or an earlier tick is ignored.
+void observe(const Limits& limits, double now_s, std::uint64_t tick, const PerAxis& position,
+             MotionMemory& memory) noexcept;
+
+/// Every present axis has stayed within standstill_speed * standstill_time_s for standstill_time_s.
+[[nodiscard]] bool standstill(const Limits& limits, double now_s, const MotionMemory& memory) noexcept;
+
+/// What has happened since the brakes were told to close.
+struct BrakeMemory {
+  bool anchored = false;  ///< the fields below are valid
+  double since_s = 0;
+  PerAxis position{};
+  PerAxis speed{};
+};
+
+/// Call once a tick in which a sample arrived while the brakes are told to close. The first such tick sets
+/// the anchor; afterwards
+/// @return true when a brake has not closed: an axis is farther from its anchor than twice its braking
+/// distance
+///         plus brake_slip, or its brake does not report closed in time
+[[nodiscard]] bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
+                                const AxisFlags& brake_closed, BrakeMemory& memory) noexcept;
+
+}  // namespace crane::supervisor

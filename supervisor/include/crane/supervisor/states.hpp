@@ -1,0 +1,75 @@
+#pragma once
+/// States, causes and reactions of the supervisor. docs/safety.md draws them; the numbers are those of
+/// idl/crane.idl.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace crane::supervisor {
+
+inline constexpr std::size_t kAxes = 3;  ///< 0 trolley (m), 1 slew (rad), 2 hoist (m of cable)
+using PerAxis = std::array<double, kAxes>;
+using AxisFlags = std::array<bool, kAxes>;
+
+enum class State : std::uint8_t {
+  boot,
+  selftest,
+  locked,
+  ready,
+  arming,
+  hold,
+  run,
+  stop_c1,
+  stop_c0,
+  estop,
+  fault
+};
+inline constexpr std::size_t kStates = 11;
+
+enum class Cause : std::uint8_t {
+  none,
+  start,
+  operator_stop,
+  operator_disarm,
+  operator_estop,
+  estop_input,
+  idle,
+  state_stale,
+  demand_stale,
+  demand_invalid,
+  demand_rate,
+  bridge_latched,
+  position_limit,
+  stopping_envelope,
+  limit_switch,
+  overspeed,
+  swing_limit,
+  brake_did_not_close,
+  brake_did_not_open,
+  second_writer,
+  overrun,
+  selftest_failed,
+  stop_timeout
+};
+inline constexpr std::size_t kCauses = 23;
+
+/// What a cause leads to, in rising severity.
+enum class Reaction : std::uint8_t {
+  none,
+  controlled_stop,  ///< STOP_C1: the controllers bring the axes to rest, then the brakes close
+  ramped_stop,      ///< STOP_C1: voltage to zero within the ramp time, then the brakes close at once
+  power_off,        ///< STOP_C0: 0 V and brakes closed in the same tick
+  estop,            ///< ESTOP: as STOP_C0, and stays until released and reset
+  fault             ///< FAULT: as STOP_C0, and stays until the program starts anew
+};
+
+[[nodiscard]] Reaction reaction_to(Cause cause) noexcept;
+
+/// "STOP_C1", "SWING_LIMIT": the IDL's names without their prefix.
+[[nodiscard]] const char* name_of(State state) noexcept;
+[[nodiscard]] const char* name_of(Cause cause) noexcept;
+
+/// What the operator can do about it; never empty.
+[[nodiscard]] const char* remedy_for(Cause cause) noexcept;
+
+}  // namespace crane::supervisor

@@ -1,0 +1,79 @@
+#pragma once
+/// One tick of the supervisor: sample and demand in, command and status out. Everything between the topics,
+/// without them.
+#include "crane/supervisor/gate.hpp"
+#include "crane/supervisor/motion.hpp"
+#include "crane/supervisor/state_machine.hpp"
+
+namespace crane::supervisor {
+
+/// What crane/state says.
+struct Sample {
+  PerAxis position{};
+  double swing_radial_rad = 0;
+  double swing_tangential_rad = 0;
+  AxisFlags brake_closed{};
+  AxisFlags limit_low{}, limit_high{};
+  bool estop_pressed = false;
+  bool command_stale = false;    ///< latched by the bridge
+  bool command_invalid = false;  ///< latched by the bridge
+  bool watchdog_dropped = false;
+  std::uint32_t overruns = 0;  ///< late ticks so far
+};
+
+struct TickInput {
+  double now_s = 0;
+  std::uint64_t tick = 0;
+  bool state_arrived = false;  ///< false: the wait for the state ran out; the step is due all the same
+  Sample sample{};  ///< read only when state_arrived; a value that is not finite makes it not arrived
+  bool demand_arrived = false;
+  PerAxis demand_v{};
+  bool reference_moving = false;
+  bool second_writer = false;
+  SelfTest self_test = SelfTest::not_started;
+  Requests requests{};
+};
+
+struct TickMemory {
+  Memory machine{};
+  GateMemory gate{};
+  MotionMemory motion{};
+  BrakeMemory brakes{};
+  Sample sample{};  ///< newest
+  int state_missing_in_row = 0;
+  int overruns_in_row = 0;
+  PerAxis ramp_from_v{};       ///< voltage at the beginning of the ramp
+  PerAxis release_position{};  ///< where the axes stood when the brakes were told to open
+};
+
+/// Fields of crane/supervisor; false = healthy.
+struct StatusFlags {
+  bool state_stale = false;
+  bool demand_stale = false;
+  bool demand_invalid = false;
+  bool demand_clamped = false;
+  bool envelope_violated = false;
+  bool swing_exceeded = false;
+  bool bridge_latched = false;
+  bool estop_active = false;
+  bool second_writer = false;
+};
+
+struct TickOutput {
+  State state = State::boot;
+  Cause cause = Cause::start;
+  StatusFlags flags{};
+  PerAxis drive_v{};  ///< V
+  AxisFlags brake_release{};
+  bool watchdog_permission = false;
+  bool stop_motion = false;
+  std::array<Answer, kRequests> answers{};
+  std::uint64_t clamped_count = 0;
+  std::uint64_t rejected_count = 0;
+  std::uint64_t missing_demand_count = 0;
+};
+
+/// @pre problems(limits).empty()
+[[nodiscard]] TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory) noexcept;
+
+}  // namespace crane::supervisor

@@ -1,0 +1,6 @@
+#include "crane/runtime/process.hpp"
+#include "process/supervisor_component.hpp"
+
+int main(int argc, char** argv) {
+  return crane::runtime::run_process(argc, argv, crane::supervisor::supervisor_spec());
+}

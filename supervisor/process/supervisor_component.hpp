@@ -1,0 +1,14 @@
+#pragma once
+/// The supervisor on the bus: joins crane/state, crane/demand and crane/reference, answers requests, and is
+/// the only writer of crane/command. It decides nothing itself; crane/supervisor/supervisor.hpp does.
+#include "crane/runtime/process.hpp"
+#include "crane/supervisor/limits.hpp"
+
+namespace crane::supervisor {
+
+[[nodiscard]] runtime::ComponentSpec supervisor_spec();
+
+/// What the rig file says, as the logic wants it.
+[[nodiscard]] Limits limits_of(const runtime::Rig& rig);
+
+}  // namespace crane::supervisor

@@ -1,0 +1,84 @@
+#include "decisions.hpp"
+
+namespace crane::supervisor {
+namespace {
+
+Answer refuse(const char* reason) { return {.asked = true, .accepted = false, .reason = reason}; }
+constexpr Answer kAccepted{.asked = true, .accepted = true, .reason = ""};
+
+Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
+  switch (m.state) {
+    case State::ready:
+      return kAccepted;
+    case State::locked:
+    case State::estop:
+      break;
+    case State::boot:
+    case State::selftest:
+      return refuse("the self-test is not finished: wait for LOCKED");
+    case State::stop_c1:
+    case State::stop_c0:
+      return refuse("the crane is still stopping: wait for LOCKED");
+    case State::fault:
+      return refuse("a fault outlives a reset: remove its cause, then restart the supervisor");
+    default:
+      return refuse("the crane is armed: there is nothing to reset");
+  }
+  if (asked(in, Request::estop))
+    return refuse("an emergency stop was asked for in the same tick: reset again");
+  if (m.reset_was_up) return refuse("the reset was already on: take it back, then reset again");
+  if (const Cause c = blocking_cause(in); c != Cause::none) return refuse(remedy_for(c));
+  if (m.state == State::estop && !in.standstill) return refuse("the crane is still moving: wait, then reset");
+  if (in.now_s - m.clear_since_s < limits.clear_time_s) {
+    return refuse("the causes have been clear for less than a second: wait, then reset again");
+  }
+  return kAccepted;
+}
+
+Answer answer_arm(const Limits& limits, const Inputs& in, const Memory& m) {
+  switch (m.state) {
+    case State::ready:
+      break;
+    case State::arming:
+    case State::hold:
+    case State::run:
+      return refuse("the crane is armed already");
+    default:
+      return refuse("the crane is not READY: reset first");
+  }
+  if (const Cause c = blocking_cause(in); c != Cause::none) return refuse(remedy_for(c));
+  if (asked(in, Request::stop) || asked(in, Request::disarm)) {
+    return refuse("a stop was asked for in the same tick: reset, then arm again");
+  }
+  if (in.gate_cause == Cause::demand_invalid) return refuse(remedy_for(Cause::demand_invalid));
+  if (in.demand_stale) return refuse(remedy_for(Cause::demand_stale));
+  if (in.now_s - m.fresh_since_s < limits.clear_time_s) {
+    return refuse("state and demand have been complete for less than a second: wait, then arm again");
+  }
+  return kAccepted;
+}
+
+Answer answer_move(const Memory& m) {
+  if (m.state == State::hold || m.state == State::run) return kAccepted;
+  if (m.state == State::arming) return refuse("the brakes are being tested: wait for HOLD");
+  if (m.state == State::ready) return refuse("the crane is not armed: arm it first");
+  return refuse("the crane is stopped: reset and arm it first");
+}
+
+}  // namespace
+
+Answers answer_all(const Limits& limits, const Inputs& in, const Memory& m) noexcept {
+  Answers answers;
+  const auto put = [&](Request request, const Answer& answer) {
+    if (asked(in, request)) answers[static_cast<std::size_t>(request)] = answer;
+  };
+  put(Request::reset, answer_reset(limits, in, m));
+  put(Request::arm, answer_arm(limits, in, m));
+  put(Request::move, answer_move(m));
+  put(Request::disarm, kAccepted);
+  put(Request::stop, kAccepted);
+  put(Request::estop, kAccepted);
+  return answers;
+}
+
+}  // namespace crane::supervisor

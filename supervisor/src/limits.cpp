@@ -1,0 +1,132 @@
+#include "crane/supervisor/limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace crane::supervisor {
+namespace {
+
+constexpr std::array<const char*, kAxes> kAxisNames{"trolley", "slew", "hoist"};
+
+class Problems {
+ public:
+  /// `ok` has to be false for NaN.
+  void require(bool ok, const std::string& name, double value, const std::string& rule) {
+    if (ok) return;
+    std::ostringstream line;
+    line << name << " = " << value << ": " << rule;
+    found_.push_back(line.str());
+  }
+  void positive(const std::string& name, double value) {
+    require(value > 0 && std::isfinite(value), name, value, "must be > 0");
+  }
+  void at_least(const std::string& name, double value, double low) {
+    require(value >= low && std::isfinite(value), name, value,
+            "must be >= " + std::to_string(static_cast<int>(low)));
+  }
+  [[nodiscard]] bool empty() const { return found_.empty(); }
+  [[nodiscard]] std::vector<std::string> take() { return std::move(found_); }
+
+ private:
+  std::vector<std::string> found_;
+};
+
+void check_axis(const std::string& prefix, const AxisLimits& axis, Problems& problems) {
+  problems.require(axis.volt_limit_v > 0 && axis.volt_limit_v <= 10, prefix + "volt_limit_v",
+                   axis.volt_limit_v, "must be in (0, 10]");
+  problems.positive(prefix + "volt_rate_limit_vps", axis.volt_rate_limit_vps);
+  problems.require(std::isfinite(axis.low_limit), prefix + "low_limit", axis.low_limit, "must be finite");
+  problems.require(axis.high_limit > axis.low_limit && std::isfinite(axis.high_limit), prefix + "high_limit",
+                   axis.high_limit, "must be finite and above low_limit");
+  problems.at_least(prefix + "soft_margin", axis.soft_margin, 0);
+  problems.require(2 * axis.soft_margin < axis.high_limit - axis.low_limit, prefix + "soft_margin",
+                   axis.soft_margin, "must leave room between the hard limits");
+  problems.positive(prefix + "max_speed", axis.max_speed);
+  problems.positive(prefix + "brake_deceleration", axis.brake_deceleration);
+  problems.at_least(prefix + "brake_close_time_s", axis.brake_close_time_s, 0);
+  problems.at_least(prefix + "brake_open_time_s", axis.brake_open_time_s, 0);
+  problems.positive(prefix + "standstill_speed", axis.standstill_speed);
+  problems.positive(prefix + "brake_slip", axis.brake_slip);
+}
+
+void check_common(const Limits& limits, Problems& problems) {
+  problems.positive("period_s", limits.period_s);
+  problems.require(limits.swing_limit_rad > 0 && limits.swing_limit_rad < 1.57, "swing_limit_rad",
+                   limits.swing_limit_rad, "must be in (0, 1.57)");
+  problems.at_least("swing_runaway_ratio", limits.swing_runaway_ratio, 1);
+  problems.at_least("state_stale_after_ticks", limits.state_stale_after_ticks, 1);
+  problems.at_least("demand_stale_after_ticks", limits.demand_stale_after_ticks, 1);
+  problems.at_least("demand_invalid_in_row", limits.demand_invalid_in_row, 1);
+  problems.at_least("overruns_in_row", limits.overruns_in_row, 0);
+  problems.at_least("clear_time_s", limits.clear_time_s, 0);
+  problems.positive("standstill_time_s", limits.standstill_time_s);
+  problems.require(limits.c1_ramp_time_s >= 0 && limits.c1_ramp_time_s <= 0.02, "c1_ramp_time_s",
+                   limits.c1_ramp_time_s, "must be in [0, 0.02]");
+  problems.positive("stop_timeout_s", limits.stop_timeout_s);
+  problems.positive("arm_match_time_s", limits.arm_match_time_s);
+  problems.positive("arm_volt_limit_v", limits.arm_volt_limit_v);
+  problems.positive("brake_test_time_s", limits.brake_test_time_s);
+  problems.positive("brake_report_time_s", limits.brake_report_time_s);
+  problems.positive("idle_lock_s", limits.idle_lock_s);
+  problems.require(std::ranges::any_of(limits.axis, &AxisLimits::present), "axis", 0,
+                   "at least one must be present");
+}
+
+// Rules that relate several values; they need each value to be in its range.
+void check_margins(const Limits& limits, Problems& problems) {
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const AxisLimits& axis = limits.axis[i];
+    if (!axis.present) continue;
+    const std::string prefix = std::string{kAxisNames[i]} + ".";
+    const double distance = stopping_distance(limits, i, axis.max_speed);
+    problems.require(axis.soft_margin >= distance, prefix + "soft_margin", axis.soft_margin,
+                     "must be >= " + std::to_string(distance) +
+                         ", the way to a stop from max_speed: v (t_detect + t_react + t_brake) + v^2/2a");
+    problems.require(axis.brake_open_time_s < limits.brake_test_time_s, prefix + "brake_open_time_s",
+                     axis.brake_open_time_s, "must be below brake_test_time_s");
+  }
+  const double loss_s = demand_loss_to_braked_s(limits);
+  problems.require(loss_s <= kDemandLossToBrakedMax_s + 1e-9, "demand_loss_to_braked_s", loss_s,
+                   "must be <= 0.1: lower demand_stale_after_ticks, period_s or brake_close_time_s");
+}
+
+}  // namespace
+
+int ramp_ticks(const Limits& limits) noexcept {
+  constexpr double kRounding = 1e-9;
+  return std::max(1, static_cast<int>(std::ceil(limits.c1_ramp_time_s / limits.period_s - kRounding)));
+}
+
+double stopping_time_s(const Limits& limits, std::size_t axis) noexcept {
+  return (1 + ramp_ticks(limits)) * limits.period_s + limits.axis[axis].brake_close_time_s;
+}
+
+double stopping_distance(const Limits& limits, std::size_t axis, double speed) noexcept {
+  const double v = std::abs(speed);
+  return v * stopping_time_s(limits, axis) + v * v / (2 * limits.axis[axis].brake_deceleration);
+}
+
+double demand_loss_to_braked_s(const Limits& limits) noexcept {
+  double brake_s = 0;
+  for (const AxisLimits& axis : limits.axis) {
+    if (axis.present) brake_s = std::max(brake_s, axis.brake_close_time_s);
+  }
+  return (limits.demand_stale_after_ticks + ramp_ticks(limits)) * limits.period_s + brake_s;
+}
+
+bool target_allowed(const AxisLimits& axis, double target) noexcept {
+  return target >= axis.low_limit + axis.soft_margin && target <= axis.high_limit - axis.soft_margin;
+}
+
+std::vector<std::string> problems(const Limits& limits) {
+  Problems found;
+  check_common(limits, found);
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (limits.axis[i].present) check_axis(std::string{kAxisNames[i]} + ".", limits.axis[i], found);
+  }
+  if (found.empty()) check_margins(limits, found);
+  return found.take();
+}
+
+}  // namespace crane::supervisor

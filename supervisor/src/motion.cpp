@@ -1,0 +1,55 @@
+#include "crane/supervisor/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crane::supervisor {
+
+void observe(const Limits& limits, double now_s, std::uint64_t tick, const PerAxis& position,
+             MotionMemory& memory) noexcept {
+  if (memory.started && tick <= memory.tick) return;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (memory.started) {
+      const double elapsed_s = static_cast<double>(tick - memory.tick) * limits.period_s;
+      memory.speed[i] = (position[i] - memory.position[i]) / elapsed_s;
+    }
+    const double window = limits.axis[i].standstill_speed * limits.standstill_time_s;
+    if (!memory.started || std::abs(position[i] - memory.window_position[i]) > window) {
+      memory.window_position[i] = position[i];
+      memory.window_since_s[i] = now_s;
+    }
+  }
+  memory.position = position;
+  memory.tick = tick;
+  memory.started = true;
+}
+
+bool standstill(const Limits& limits, double now_s, const MotionMemory& memory) noexcept {
+  if (!memory.started) return false;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (limits.axis[i].present && now_s - memory.window_since_s[i] < limits.standstill_time_s) return false;
+  }
+  return true;
+}
+
+bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
+                  const AxisFlags& brake_closed, BrakeMemory& memory) noexcept {
+  if (!memory.anchored) {
+    memory = {.anchored = true, .since_s = now_s, .position = motion.position, .speed = motion.speed};
+    return false;
+  }
+  bool failed = false;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const AxisLimits& axis = limits.axis[i];
+    if (!axis.present) continue;
+    // Twice the braking distance: the axis may have been accelerating when the brakes were told to close.
+    const double allowed = 2 * stopping_distance(limits, i, memory.speed[i]) + axis.brake_slip;
+    const bool slipped = std::abs(motion.position[i] - memory.position[i]) > allowed;
+    const double report_s = limits.period_s + axis.brake_close_time_s + limits.brake_report_time_s;
+    const bool silent = !brake_closed[i] && now_s - memory.since_s > report_s;
+    failed = failed || slipped || silent;
+  }
+  return failed;
+}
+
+}  // namespace crane::supervisor

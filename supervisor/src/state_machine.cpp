@@ -1,0 +1,190 @@
+#include "crane/supervisor/state_machine.hpp"
+
+#include "decisions.hpp"
+
+namespace crane::supervisor {
+namespace {
+
+// What the present state already amounts to: only a severer reaction changes it.
+Reaction severity(const Memory& m) {
+  switch (m.state) {
+    case State::stop_c1:
+      return m.ramping ? Reaction::ramped_stop : Reaction::controlled_stop;
+    case State::locked:
+    case State::stop_c0:
+      return Reaction::power_off;
+    case State::estop:
+      return Reaction::estop;
+    case State::fault:
+      return Reaction::fault;
+    default:
+      return Reaction::none;
+  }
+}
+
+void enter(State state, Cause cause, const Inputs& in, Memory& m) {
+  m.state = state;
+  m.cause = cause;
+  m.entered_s = in.now_s;
+}
+
+void start_ramp(Memory& m) {
+  m.ramping = true;
+  m.ramp_tick = 0;
+}
+
+void react(Finding finding, const Inputs& in, Memory& m) {
+  const bool was_arming = m.state == State::arming;
+  switch (finding.reaction) {
+    case Reaction::none:
+      return;
+    case Reaction::controlled_stop:
+      enter(State::stop_c1, finding.cause, in, m);
+      m.ramping = false;
+      if (was_arming) start_ramp(m);  // the drives are not active yet: nothing to bring to rest
+      return;
+    case Reaction::ramped_stop:
+      enter(State::stop_c1, finding.cause, in, m);
+      start_ramp(m);
+      return;
+    case Reaction::power_off:
+      enter(State::stop_c0, finding.cause, in, m);
+      break;
+    case Reaction::estop:
+      enter(State::estop, finding.cause, in, m);
+      break;
+    case Reaction::fault:
+      enter(State::fault, finding.cause, in, m);
+      break;
+  }
+  m.releasing = false;
+}
+
+bool accepted(const Answers& answers, Request request) {
+  return answers[static_cast<std::size_t>(request)].accepted;
+}
+
+void step_ready(const Inputs& in, const Answers& answers, Memory& m) {
+  const Cause blocking = blocking_cause(in);
+  if (blocking != Cause::none) {
+    enter(State::locked, blocking, in, m);
+  } else if (asked(in, Request::stop) || asked(in, Request::disarm)) {
+    const bool stop = asked(in, Request::stop);
+    enter(State::locked, stop ? Cause::operator_stop : Cause::operator_disarm, in, m);
+  } else if (accepted(answers, Request::arm)) {
+    enter(State::arming, Cause::none, in, m);
+    m.releasing = false;
+  }
+}
+
+void step_arming(const Inputs& in, Memory& m) {
+  if (!m.releasing) {
+    if (!in.demand_near_zero || in.bridge_latched || in.watchdog_dropped) return;
+    m.releasing = true;
+    m.release_since_s = in.now_s;
+  } else if (in.brakes_open) {
+    enter(State::hold, Cause::none, in, m);
+    m.idle_since_s = in.now_s;
+  }
+}
+
+void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, Memory& m) {
+  if (m.state == State::hold && (accepted(answers, Request::move) || in.reference_moving)) {
+    enter(State::run, Cause::none, in, m);
+    m.maneuver_seen = false;
+  } else if (m.state == State::run && accepted(answers, Request::move)) {
+    m.entered_s = in.now_s;
+    m.maneuver_seen = false;
+  }
+  if (m.state != State::run) return;
+  m.maneuver_seen = m.maneuver_seen || in.reference_moving;
+  // A move that the planner never begins ends as well, after the time other signals get to settle.
+  const bool never_began = !m.maneuver_seen && in.now_s - m.entered_s >= limits.clear_time_s;
+  if ((m.maneuver_seen && !in.reference_moving) || never_began) {
+    enter(State::hold, Cause::none, in, m);
+    m.idle_since_s = in.now_s;
+  }
+}
+
+void step_stop(const Limits& limits, const Inputs& in, Memory& m) {
+  if (m.state == State::stop_c1 && !m.ramping && in.standstill) start_ramp(m);
+  if (m.state == State::stop_c1 && m.ramping && m.ramp_tick < ramp_ticks(limits)) {
+    ++m.ramp_tick;
+    if (m.ramp_tick == ramp_ticks(limits)) m.releasing = false;
+    return;
+  }
+  const bool braking = m.state == State::stop_c0 || m.ramping;
+  if (braking && in.standstill && in.brakes_closed && !in.state_stale) enter(State::locked, m.cause, in, m);
+}
+
+void transition(const Limits& limits, const Inputs& in, const Answers& answers, Memory& m) {
+  switch (m.state) {
+    case State::boot:
+      if (in.self_test != SelfTest::not_started) enter(State::selftest, Cause::start, in, m);
+      break;
+    case State::selftest:
+      if (in.self_test != SelfTest::passed) break;
+      m.self_test_passed = true;
+      enter(State::locked, Cause::start, in, m);
+      break;
+    case State::locked:
+    case State::estop:
+      if (!accepted(answers, Request::reset)) break;
+      if (m.self_test_passed) {
+        enter(State::ready, Cause::none, in, m);
+      } else {
+        enter(State::selftest, Cause::start, in, m);
+      }
+      break;
+    case State::ready:
+      step_ready(in, answers, m);
+      break;
+    case State::arming:
+      step_arming(in, m);
+      break;
+    case State::hold:
+    case State::run:
+      step_armed(limits, in, answers, m);
+      break;
+    case State::stop_c1:
+    case State::stop_c0:
+      step_stop(limits, in, m);
+      break;
+    case State::fault:
+      break;
+  }
+}
+
+Outputs outputs_of(const Limits& limits, const Memory& m, const Answers& answers) {
+  Outputs out{.state = m.state, .cause = m.cause, .answers = answers};
+  const bool ramp = m.state == State::stop_c1 && m.ramping && m.ramp_tick < ramp_ticks(limits);
+  if (drives_active(m)) out.volts = Volts::pass;
+  if (ramp) {
+    out.volts = Volts::ramp;
+    out.ramp_factor = 1 - static_cast<double>(m.ramp_tick) / ramp_ticks(limits);
+  }
+  out.brake_release = m.releasing && armed(m);
+  out.watchdog_permission = m.state == State::ready || armed(m);
+  out.stop_motion = m.state != State::hold && m.state != State::run;
+  return out;
+}
+
+}  // namespace
+
+bool drives_active(const Memory& m) noexcept {
+  return m.state == State::hold || m.state == State::run || (m.state == State::stop_c1 && !m.ramping);
+}
+
+Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
+  if (blocking_cause(in) != Cause::none || m.state == State::boot) m.clear_since_s = in.now_s;
+  if (in.state_stale || in.demand_stale || m.state == State::boot) m.fresh_since_s = in.now_s;
+
+  const Finding finding = worst_cause(limits, in, m);
+  if (finding.reaction > severity(m)) react(finding, in, m);
+  const Answers answers = answer_all(limits, in, m);
+  transition(limits, in, answers, m);
+  m.reset_was_up = asked(in, Request::reset);
+  return outputs_of(limits, m, answers);
+}
+
+}  // namespace crane::supervisor

@@ -1,0 +1,53 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crane/bus/bus.hpp"
+
+namespace crane::bus {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string refusal(const Options& options) {
+  try {
+    const Bus bus{options};
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Options, DomainAboveAHundredIsRefusedByBothVendors) {
+  for (const Vendor vendor : {Vendor::cyclone, Vendor::fastdds})
+    EXPECT_THAT(refusal({.vendor = vendor, .domain = 101}),
+                AllOf(HasSubstr("domain = 101"), HasSubstr("0..100")));
+}
+
+TEST(Options, AnInterfaceThatThisHostHasNotIsRefusedWithTheOnesItHas) {
+  EXPECT_THAT(refusal({.domain = 40, .interfaces = {"203.0.113.9"}}),
+              AllOf(HasSubstr("203.0.113.9 is not an address of this host"), HasSubstr("127.0.0.1")));
+}
+
+TEST(Options, APeerWithoutAnAddressIsRefused) {
+  EXPECT_THAT(refusal({.domain = 40, .peers = {"256.1.1.1"}}), HasSubstr("256.1.1.1"));
+}
+
+TEST(Options, AllProblemsAreToldAtOnce) {
+  EXPECT_THAT(
+      refusal({.domain = 200, .crane = "", .interfaces = {}}),
+      AllOf(HasSubstr("domain = 200"), HasSubstr("crane is empty"), HasSubstr("interfaces is empty")));
+}
+
+TEST(Options, AMemoryBusNeedsANetwork) {
+  EXPECT_THAT(refusal({.vendor = Vendor::memory}), HasSubstr("make_memory_network()"));
+}
+
+TEST(Vendor, HasANameThatCanBeReadBack) {
+  for (const Vendor vendor : {Vendor::cyclone, Vendor::fastdds, Vendor::memory})
+    EXPECT_EQ(vendor_from_string(to_string(vendor)), vendor);
+  EXPECT_EQ(vendor_from_string("opendds"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace crane::bus

@@ -1,0 +1,192 @@
+/// The tools' side of a running crane, over the memory bus: recorder, snapshot, requests.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <sstream>
+#include <thread>
+
+#include "cli/log_export.hpp"
+#include "cli/operator_request.hpp"
+#include "cli/sample_json.hpp"
+#include "cli/snapshot.hpp"
+#include "recorder/recorder.hpp"
+#include "temporary_directory.hpp"
+
+namespace crane::cli {
+namespace {
+
+using recording::TemporaryDirectory;
+using testing::HasSubstr;
+
+bus::Options on(const std::shared_ptr<bus::MemoryNetwork>& network, crane_Source source) {
+  bus::Options options;
+  options.vendor = bus::Vendor::memory;
+  options.network = network;
+  options.source = source;
+  options.epoch = 1;
+  return options;
+}
+
+class Observers : public testing::Test {
+ protected:
+  std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
+  bus::Bus crane_{on(network_, crane_SOURCE_SUPERVISOR)};
+  bus::Bus tool_{on(network_, crane_SOURCE_RECORDER)};
+};
+
+TEST_F(Observers, RecorderWritesWhatWasPublishedWithTheTickAsSequence) {
+  const TemporaryDirectory directory;
+  const auto file = directory / "run.mcap";
+  auto states = crane_.publisher(topics::state);
+  recorder::Recorder recorder{tool_, {.file = file, .topics = {&topics::kAll.front()}}};
+  EXPECT_FALSE(recorder.heard_others());
+  for (std::uint64_t tick = 1; tick <= 50; ++tick) {
+    msg::State state{};
+    state.header.tick = tick;
+    state.trolley_position_m = 0.01 * static_cast<double>(tick);
+    states.publish(state);
+    ASSERT_TRUE(recorder.poll());
+  }
+  ASSERT_TRUE(recorder.close());
+  EXPECT_TRUE(recorder.heard_others());
+
+  recording::McapReader reader{file};
+  std::uint32_t tick = 0;
+  std::int64_t newest_ns = 0;
+  reader.for_each({}, [&](const recording::Message& message) {
+    EXPECT_EQ(message.sequence, ++tick);
+    EXPECT_GE(message.log_time_ns, newest_ns);
+    newest_ns = message.log_time_ns;
+    const auto decoded = schema().decode("crane::CraneState", message.data);
+    EXPECT_EQ(decoded.at("trolley_position_m"), 0.01 * tick);
+    return true;
+  });
+  EXPECT_EQ(tick, 50U);
+  EXPECT_TRUE(recording::check(file).problems.empty());
+}
+
+TEST_F(Observers, ExportQuotesTextAndKeepsNumbersAsTheyAre) {
+  const TemporaryDirectory directory;
+  const auto file = directory / "run.mcap";
+  auto replies = crane_.publisher(topics::reply);
+  recorder::Recorder recorder{tool_, {.file = file}};
+  msg::Reply reply{};
+  reply.request_id = 18'446'744'073'709'551'615U;
+  reply.accepted = true;
+  runtime::assign(reply.reason, "say \"no\", then stop");
+  replies.publish(reply);
+  recorder.poll();
+  recorder.close();
+
+  recording::McapReader reader{file};
+  std::ostringstream csv, json;
+  write_topic_csv(csv, reader, "reply");
+  EXPECT_THAT(csv.str(), HasSubstr("log_time_ns,publish_time_ns,header.tick"));
+  EXPECT_THAT(csv.str(), HasSubstr(",18446744073709551615,,1,\"say \"\"no\"\", then stop\","));
+  write_json_lines(json, reader, "crane/reply");
+  EXPECT_EQ(nlohmann::json::parse(json.str()).at("data").at("request_id"), 18'446'744'073'709'551'615U);
+  EXPECT_EQ(describe(reader, file).at("metadata").at(0).at("entries").at("crane"), "crane");
+  EXPECT_THROW(write_topic_csv(csv, reader, "nothing"), std::runtime_error);
+}
+
+TEST_F(Observers, SnapshotNamesTheCauseAndItsRemedy) {
+  auto states = crane_.publisher(topics::state);
+  auto statuses = crane_.publisher(topics::supervisor);
+  runtime::Node node{crane_, {"supervisor", ""}};
+  std::atomic<bool> done = false;
+  std::thread stack{[&] {
+    while (!done) {
+      msg::State state{};
+      state.brake_closed[0] = true;
+      states.publish(state);
+      msg::SupervisorStatus status{};
+      status.state = crane_STATE_LOCKED;
+      status.cause = crane_CAUSE_SWING_LIMIT;
+      statuses.publish(status);
+      node.beat(runtime::monotonic_ns(), crane_PHASE_READY, {}, 0);
+      crane_.wait(std::chrono::milliseconds{1});
+    }
+  }};
+  const auto snapshot = listen(tool_, 10);
+  done = true;
+  stack.join();
+  std::ostringstream text;
+  print(text, snapshot);
+  EXPECT_THAT(text.str(), HasSubstr("LOCKED because of SWING_LIMIT: "));
+  const auto json = to_json(snapshot);
+  EXPECT_EQ(json.at("supervisor").at("state"), "STATE_LOCKED");
+  EXPECT_NE(json.at("supervisor").at("remedy"), "");
+  EXPECT_EQ(json.at("nodes").at(0).at("name"), "supervisor");
+  EXPECT_EQ(json.at("state").at("brake_closed").at(0), true);
+}
+
+TEST_F(Observers, SnapshotOfNobodyIsEmpty) { EXPECT_TRUE(listen(tool_, 0.01).empty()); }
+
+/// Answers every request the same way, and publishes its status as a supervisor does.
+class FakeSupervisor {
+ public:
+  FakeSupervisor(bus::Bus& bus, bool accepts) : bus_{bus}, thread_{[this, accepts] { run(accepts); }} {}
+  ~FakeSupervisor() {
+    done_ = true;
+    thread_.join();
+  }
+  FakeSupervisor(const FakeSupervisor&) = delete;
+  FakeSupervisor& operator=(const FakeSupervisor&) = delete;
+
+ private:
+  void run(bool accepts) {
+    auto requests = bus_.subscriber(topics::request);
+    auto replies = bus_.publisher(topics::reply);
+    auto statuses = bus_.publisher(topics::supervisor);
+    while (!done_) {
+      msg::SupervisorStatus status{};
+      statuses.publish(status);
+      bus_.wait(std::chrono::milliseconds{1});
+      while (const auto request = requests.take()) {
+        msg::Reply reply{};
+        reply.request_id = request->id;
+        runtime::assign(reply.client, request->client);
+        reply.accepted = accepts;
+        runtime::assign(reply.reason, accepts ? "" : "the crane is LOCKED");
+        replies.publish(reply);
+      }
+    }
+  }
+  bus::Bus& bus_;
+  std::atomic<bool> done_ = false;
+  std::thread thread_;
+};
+
+TEST_F(Observers, RequestIsAnsweredByTheSupervisor) {
+  const FakeSupervisor supervisor{crane_, true};
+  EXPECT_TRUE(ask(tool_, {.kind = crane_REQUEST_ARM}, {.find_s = 10, .reply_s = 10}).accepted);
+  EXPECT_TRUE(ask(tool_, {.kind = crane_REQUEST_STOP}, {.find_s = 10, .reply_s = 10}).accepted);
+}
+
+TEST_F(Observers, RefusalCarriesItsReason) {
+  const FakeSupervisor supervisor{crane_, false};
+  const auto answer = ask(tool_, {.kind = crane_REQUEST_ARM}, {.find_s = 10, .reply_s = 10});
+  EXPECT_FALSE(answer.accepted);
+  EXPECT_EQ(answer.reason, "the crane is LOCKED");
+}
+
+TEST_F(Observers, RequestToNobodySaysWhereItLooked) {
+  EXPECT_THAT([&] { (void)ask(tool_, {.kind = crane_REQUEST_ARM}, {.find_s = 0.01, .reply_s = 0.01}); },
+              testing::ThrowsMessage<NoAnswer>(
+                  testing::AllOf(HasSubstr("'crane'"), HasSubstr("domain 0"), HasSubstr("--interface"))));
+}
+
+TEST(SampleJson, FieldNamesALeafOrWhatIsBelowIt) {
+  const msg::Reference reference{};
+  const auto sample = to_json(topics::reference, reference);
+  EXPECT_EQ(leaves_below(sample, "axis[1]").size(), 3U);
+  EXPECT_EQ(leaves_below(sample, "axis").size(), 9U);
+  EXPECT_EQ(leaves_below(sample, "header.tick").size(), 1U);
+  EXPECT_TRUE(leaves_below(sample, "head").empty());
+  EXPECT_EQ(find_topic("state"), find_topic("crane/state"));
+  EXPECT_EQ(find_topic("rane/state"), nullptr);
+}
+
+}  // namespace
+}  // namespace crane::cli

@@ -1,0 +1,42 @@
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+#include "crane/control/friction_compensation.hpp"
+#include "crane/control/law.hpp"
+
+namespace crane::control {
+namespace {
+
+void step_law(benchmark::State& state, std::unique_ptr<Law> (*make)(const Design&)) {
+  const auto law = make(Design{});
+  Measurement measured;
+  measured.position = {0.7, 0.3, 1.2};
+  law->reset(measured);
+  Reference reference;
+  for (auto _ : state) {
+    measured.swing_radial_rad = measured.swing_tangential_rad = 0.1 - measured.swing_radial_rad;
+    benchmark::DoNotOptimize(law->step(measured, reference));
+  }
+}
+
+void friction(benchmark::State& state) {
+  DriveFriction parameters;
+  parameters.stiction_positive_v = parameters.stiction_negative_v = parameters.factor = 1;
+  double control_v = 0.001;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(friction_compensation_v(parameters, control_v = -control_v, 0));
+}
+
+const bool kRegistered = [] {
+  for (const auto& controller : controllers()) {
+    const std::string name(controller.name);
+    benchmark::RegisterBenchmark((name + "/tracking").c_str(), step_law, controller.make_tracking);
+    benchmark::RegisterBenchmark((name + "/anti_swing").c_str(), step_law, controller.make_anti_swing);
+  }
+  benchmark::RegisterBenchmark("friction_compensation", friction);
+  return true;
+}();
+
+}  // namespace
+}  // namespace crane::control

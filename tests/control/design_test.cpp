@@ -1,0 +1,56 @@
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "crane/control/law.hpp"
+
+namespace crane::control {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(Design, IsUsableAsItComes) { EXPECT_THAT(problems(Design{}), IsEmpty()); }
+
+TEST(Design, ReportsEveryProblemByNameValueAndRule) {
+  Design design;
+  design.period_s = 0;
+  design.delayed_1_delay = std::numeric_limits<double>::quiet_NaN();
+  design.volt_limit_v[kSlew] = -1;
+  design.friction[kTrolley].zero_band_mps = 0;
+  design.friction[kHoist].factor = 1.6;
+  EXPECT_THAT(problems(design),
+              ElementsAre("period_s = 0: must be in (0, 1]", "delayed_1_delay = nan: must be in [0, 2]",
+                          "friction.trolley.zero_band_mps = 0: must be in (0, 10]",
+                          "volt_limit_v.slew = -1: must be in (0, 1000]",
+                          "friction.hoist.factor = 1.6: must be in [0, 1.5]"));
+}
+
+TEST(Design, WantsItsCableBetweenShortestAndLongest) {
+  Design design;
+  design.cable_length_m = 0.05;
+  EXPECT_THAT(problems(design), ElementsAre("cable_length_m = 0.05: must be in [shortest_cable_length_m, "
+                                            "longest_cable_length_m]"));
+  design = {};
+  design.longest_cable_length_m = 0.05;
+  EXPECT_THAT(problems(design), Contains("longest_cable_length_m = 0.05: must be in "
+                                         "[shortest_cable_length_m, 1000]"));
+}
+
+TEST(Design, IncludesTheProblemsOfItsCrane) {
+  Design design;
+  design.crane.gravity_mps2 = -1;
+  EXPECT_EQ(problems(design).size(), 1u);
+}
+
+TEST(DriveFriction, ReportsEveryProblem) {
+  DriveFriction friction;
+  friction.coulomb_negative_v = -1;
+  friction.stiction_slope_per_v = 0;
+  EXPECT_THAT(friction.problems(), ElementsAre("coulomb_negative_v = -1: must be in [0, 1000]",
+                                               "stiction_slope_per_v = 0: must be in (0, 1e+06]"));
+}
+
+}  // namespace
+}  // namespace crane::control

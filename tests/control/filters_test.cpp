@@ -1,0 +1,91 @@
+#include "crane/control/filters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace crane::control {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+constexpr double kRate_hz = 100;
+
+/// Response measured by driving the filter with cos and sin until the transient has died.
+Complex response(const FilterSection& section, double frequency_hz) {
+  FilterMemory real, imaginary;
+  Complex output;
+  const double w = 2 * pi * frequency_hz / kRate_hz;
+  int k = 0;
+  for (; k < 4000; ++k)
+    output = {step(section, real, std::cos(w * k)), step(section, imaginary, std::sin(w * k))};
+  return output / std::polar(1.0, w * (k - 1));
+}
+
+TEST(Differentiators, ComeCloseToTheIdealOneAtLowFrequency) {
+  const std::array sections{backward_difference(kRate_hz), al_alaoui_first_order(kRate_hz),
+                            al_alaoui_second_order(kRate_hz)};
+  // Delay of each at low frequency in ticks, from the phase of its transfer function.
+  const std::array delay_ticks{0.5, 0.375, 0.5774};
+  for (std::size_t i = 0; i < sections.size(); ++i)
+    for (const double f : {0.2, 0.5, 1.0, 2.0}) {
+      const Complex ratio = response(sections[i], f) / Complex(0, 2 * pi * f);
+      EXPECT_NEAR(std::abs(ratio), 1, 1e-3) << "filter " << i << " at " << f;
+      EXPECT_NEAR(-std::arg(ratio) * kRate_hz / (2 * pi * f), delay_ticks[i], 5e-3) << "filter " << i;
+    }
+}
+
+TEST(Differentiators, AreExactOnARampOnceSettled) {
+  for (const auto& section :
+       {backward_difference(kRate_hz), al_alaoui_first_order(kRate_hz), al_alaoui_second_order(kRate_hz)}) {
+    FilterMemory memory = settled(section, 0);
+    double speed = 0;
+    for (int k = 1; k < 200; ++k) speed = step(section, memory, 0.3 * k / kRate_hz);
+    EXPECT_NEAR(speed, 0.3, 1e-12);
+  }
+}
+
+TEST(AlAlaouiSecondOrder, HasThePrintedCoefficientsAndMagnifiesHighFrequencyLeast) {
+  const auto section = al_alaoui_second_order(1);
+  EXPECT_NEAR(section.a1, 0.5358, 1e-4);  // last printed digit: 0.53590 is cut, not rounded
+  EXPECT_NEAR(section.a2, 0.0718, 5e-5);
+  EXPECT_NEAR(section.b0, 3 / 3.7321, 5e-5);
+  const double f = 0.49 * kRate_hz;
+  EXPECT_LT(std::abs(response(al_alaoui_second_order(kRate_hz), f)),
+            std::abs(response(backward_difference(kRate_hz), f)));
+}
+
+TEST(Butterworth, HasTheAnalogMagnitudeAtTheWarpedFrequency) {
+  for (const double ratio : {0.05, 0.1, 0.3}) {
+    const auto section = butterworth_low_pass(ratio);
+    for (const double f : {0.1, 1.0, 5.0, 20.0, 45.0}) {
+      const double warped = std::tan(pi * f / kRate_hz) / std::tan(pi * ratio);
+      EXPECT_NEAR(std::abs(response(section, f)), 1 / std::sqrt(1 + std::pow(warped, 4)), 1e-9)
+          << ratio << " at " << f;
+    }
+    EXPECT_NEAR(std::abs(response(section, ratio * kRate_hz)), std::sqrt(0.5), 1e-9);
+  }
+}
+
+TEST(Butterworth, PassesEverythingWhenItIsOff) {
+  FilterMemory memory;
+  const auto section = butterworth_low_pass(0);
+  for (const double sample : {1.0, -3.0, 7.5}) EXPECT_EQ(step(section, memory, sample), sample);
+}
+
+TEST(Filters, StartSettledAtTheFirstSample) {
+  const auto low_pass = butterworth_low_pass(0.05);
+  FilterMemory memory = settled(low_pass, 0.7);
+  for (int k = 0; k < 100; ++k) EXPECT_NEAR(step(low_pass, memory, 0.7), 0.7, 1e-12);
+  for (const auto& section :
+       {backward_difference(kRate_hz), al_alaoui_first_order(kRate_hz), al_alaoui_second_order(kRate_hz)}) {
+    memory = settled(section, 0.7);
+    for (int k = 0; k < 100; ++k) EXPECT_EQ(step(section, memory, 0.7), 0);
+  }
+}
+
+}  // namespace
+}  // namespace crane::control

@@ -1,0 +1,178 @@
+#include "crane/plant/term.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+#include <set>
+
+#include "crane/plant/model.hpp"
+#include "lagrange_oracle.hpp"
+
+namespace crane::plant {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+double power_w(const Parameters& p, const State& s, const Model& with, const Model& without) {
+  // forces of the terms through the accelerations they add: P = q' M dq''
+  const Accelerations a = with.accelerations(s, {}), b = without.accelerations(s, {});
+  const Eigen::Vector4d added{a.trolley_mps2 - b.trolley_mps2, a.radial_radps2 - b.radial_radps2,
+                              a.slew_radps2 - b.slew_radps2, a.tangential_radps2 - b.tangential_radps2};
+  const Eigen::Vector4d rates{s.trolley_mps, s.radial_radps, s.slew_radps, s.tangential_radps};
+  return rates.dot(mass_matrix(p, s) * added);
+}
+
+double friction_v(const std::vector<TermSetting>& terms, double speed_mps, double position_m = 0.5) {
+  return Model{{}, terms}.friction_v({.trolley_m = position_m, .trolley_mps = speed_mps})[kTrolley];
+}
+
+TEST(Terms, WithTheirDefaultsDoNothing) {
+  std::mt19937 random{test::kSeed};
+  for (const TermKind& kind : term_kinds()) {
+    for (const std::string_view axis : kind.axes) {
+      SCOPED_TRACE(std::string{kind.name} + " " + std::string{axis});
+      Model with{{}, {{std::string{kind.name}, std::string{axis}, {}}}};
+      Model without{Parameters{}};
+      const State s = test::random_state(random);
+      EXPECT_EQ(with.drive_voltage({1, -2, 3}), (PerAxis{1, -2, 3}));
+      EXPECT_EQ(test::values(with.accelerations(s, {})), test::values(without.accelerations(s, {})));
+    }
+  }
+}
+
+TEST(Terms, SayWhatTheyAreAndHaveUniqueNames) {
+  std::set<std::string_view> names;
+  for (const TermKind& kind : term_kinds()) {
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_FALSE(kind.equation.empty() || kind.source.empty() || kind.axes.empty()) << kind.name;
+    for (const TermParameter& p : kind.parameters) {
+      EXPECT_FALSE(p.unit.empty() || p.meaning.empty()) << kind.name << "." << p.name;
+      EXPECT_TRUE(p.low <= p.default_value && p.default_value <= p.high) << kind.name << "." << p.name;
+    }
+    EXPECT_EQ(find_term(kind.name), &kind);
+  }
+  EXPECT_EQ(find_term("phlogiston"), nullptr);
+}
+
+TEST(Terms, ThatDissipateNeverAddEnergy) {
+  const std::vector<std::vector<TermSetting>> dissipative{
+      {{"drive_friction",
+        "trolley",
+        {{"viscous_positive_vspm", 2}, {"coulomb_negative_v", 1}, {"stiction_positive_v", 3}}}},
+      {{"drive_friction",
+        "slew",
+        {{"viscous_negative_vspm", 2}, {"coulomb_positive_v", 1}, {"stiction_negative_v", 3}}}},
+      {{"stribeck_friction", "trolley", {{"excess_v", 1}, {"decay_speed", 1}}}},
+      {{"position_dependent_friction", "slew", {{"amplitude_v", 1}, {"wavelength", 0.4}}}},
+      {{"load_linear_drag", "", {{"coefficient_nspm", 0.5}}}},
+      {{"load_quadratic_drag", "", {{"coefficient_ns2pm2", 0.5}}}},
+      {{"swing_pivot_friction", "", {{"viscous_nmsprad", 0.1}, {"coulomb_nm", 0.1}}}},
+  };
+  std::mt19937 random{test::kSeed};
+  const Parameters p;
+  const Model without{p};
+  for (const auto& terms : dissipative) {
+    SCOPED_TRACE(terms[0].name);
+    const Model with{p, terms};
+    double most_w = 0;
+    for (int i = 0; i < 200; ++i) {
+      State s = test::random_state(random);
+      s.cable_mps = 0;  // drag along the cable is the hoist's, whose motion is prescribed
+      const double power = power_w(p, s, with, without);
+      EXPECT_LT(power, 1e-9);
+      most_w = std::min(most_w, power);
+    }
+    EXPECT_LT(most_w, -1e-3);  // and they do something
+  }
+}
+
+TEST(Terms, DriveFrictionOpposesMotionWithTheNumbersOfItsDirection) {
+  const std::vector<TermSetting> terms{{"drive_friction",
+                                        "trolley",
+                                        {{"viscous_positive_vspm", 1.5},
+                                         {"viscous_negative_vspm", 6},
+                                         {"coulomb_positive_v", 0.9},
+                                         {"coulomb_negative_v", 1.2}}}};
+  EXPECT_NEAR(friction_v(terms, 0.2), 0.9 + 1.5 * 0.2, 1e-12);
+  EXPECT_NEAR(friction_v(terms, -0.2), -1.2 - 6 * 0.2, 1e-12);
+  EXPECT_EQ(friction_v(terms, 0), 0);
+  EXPECT_NEAR(friction_v(terms, 0.0005), 0.9 * std::tanh(1.0) + 1.5 * 0.0005, 1e-12);
+}
+
+TEST(Terms, StictionIsAnExcessOverCoulombFrictionThatDecaysWithSpeed) {
+  const std::vector<TermSetting> terms{
+      {"drive_friction", "trolley", {{"coulomb_positive_v", 1}, {"stiction_positive_v", 1.5}}}};
+  double highest = 0;
+  for (double v = 0; v < 0.02; v += 1e-5) highest = std::max(highest, friction_v(terms, v));
+  EXPECT_NEAR(highest, 1.5, 0.05);  // the smoothed step costs a few per cent of the excess
+  EXPECT_NEAR(friction_v(terms, 0.05), 1, 1e-9);
+}
+
+TEST(Terms, StribeckExcessFallsToAboutAThirdAtItsDecaySpeed) {
+  const std::vector<TermSetting> terms{
+      {"stribeck_friction", "trolley", {{"excess_v", 2}, {"decay_speed", 0.1}}}};
+  EXPECT_NEAR(friction_v(terms, 0.1), 2 * std::exp(-1.0), 1e-9);
+  EXPECT_NEAR(friction_v(terms, -0.1), -2 * std::exp(-1.0), 1e-9);
+}
+
+TEST(Terms, PositionDependentFrictionPeaksAtTheTightSpotsAndVanishesBetween) {
+  const std::vector<TermSetting> terms{{"position_dependent_friction",
+                                        "trolley",
+                                        {{"amplitude_v", 2}, {"wavelength", 0.4}, {"tight_at", 0.1}}}};
+  EXPECT_NEAR(friction_v(terms, 0.1, 0.5), 2, 1e-9);
+  EXPECT_NEAR(friction_v(terms, -0.1, 0.5), -2, 1e-9);
+  EXPECT_NEAR(friction_v(terms, 0.1, 0.3), 0, 1e-9);
+}
+
+TEST(Terms, CommandTermsActInTheOrderOfTheRigFile) {
+  const TermSetting gain{"motor_gain", "slew", {{"factor", 0.8}}};
+  const TermSetting offset{"command_offset", "slew", {{"offset_v", 0.5}}};
+  Model gain_first{{}, {gain, offset}};
+  Model offset_first{{}, {offset, gain}};
+  EXPECT_NEAR(gain_first.drive_voltage({1, 2, 3})[kSlew], 2 * 0.8 + 0.5, 1e-15);
+  EXPECT_NEAR(offset_first.drive_voltage({1, 2, 3})[kSlew], (2 + 0.5) * 0.8, 1e-15);
+  EXPECT_EQ(gain_first.drive_voltage({1, 2, 3})[kTrolley], 1);
+}
+
+TEST(Terms, WindLeansTheLoadTowardsWhereItBlowsWhateverTheSlewAngle) {
+  constexpr double kRight = std::numbers::pi / 2;
+  const Model wind{{}, {{"steady_wind", "", {{"force_n", 2}, {"direction_rad", kRight}}}}};
+  Actuation held;
+  held.locks.axis = {true, true, true};
+  const Accelerations across = wind.accelerations({.trolley_m = 1, .slew_rad = 0}, held);
+  EXPECT_NEAR(across.tangential_radps2, 1, 1e-12);  // F / (m L), ahead of +slew
+  EXPECT_NEAR(across.radial_radps2, 0, 1e-12);
+  const Accelerations along = wind.accelerations({.trolley_m = 1, .slew_rad = kRight}, held);
+  EXPECT_NEAR(along.radial_radps2, -1, 1e-12);  // away from the tower
+  EXPECT_NEAR(along.tangential_radps2, 0, 1e-12);
+}
+
+TEST(Terms, PivotFrictionActsOnTheSwingItIsNamedFor) {
+  const Model radial{{}, {{"swing_pivot_friction", "radial", {{"viscous_nmsprad", 0.2}}}}};
+  Actuation held;
+  held.locks.axis = {true, true, true};
+  const Accelerations a = radial.accelerations({.radial_radps = 1, .tangential_radps = 0}, held);
+  EXPECT_NEAR(a.radial_radps2, -0.1, 1e-12);  // b w / (m L^2)
+  const Accelerations b = radial.accelerations({.radial_radps = 0, .tangential_radps = 1}, held);
+  EXPECT_NEAR(b.tangential_radps2, 0, 1e-12);
+}
+
+TEST(Terms, ListEveryProblemOfEverySetting) {
+  const std::vector<TermSetting> bad{
+      {"phlogiston", "", {}},
+      {"drive_friction", "radial", {{"coulomb_positive_v", -1}, {"colour", 3}}},
+      {"steady_wind", "", {{"force_n", std::numeric_limits<double>::quiet_NaN()}}},
+  };
+  EXPECT_THAT(problems(bad),
+              ElementsAre(HasSubstr("terms[0] phlogiston: no term of that name"),
+                          HasSubstr("terms[1] drive_friction: axis = \"radial\": must be one of \"trolley\""),
+                          HasSubstr("colour = 3: no such parameter; there are viscous_positive_vspm"),
+                          "terms[1] drive_friction: coulomb_positive_v = -1: must be in [0, 10] V",
+                          HasSubstr("terms[2] steady_wind: force_n = nan")));
+  EXPECT_THROW(Model({}, bad), std::invalid_argument);
+  EXPECT_THROW((void)make_term(bad[1]), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace crane::plant

@@ -1,0 +1,271 @@
+// Every state against every combination of inputs: what must hold whatever happens.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "timeline.hpp"
+
+namespace crane::supervisor {
+namespace {
+
+constexpr double kNow_s = 100;
+
+// Every state with the parts of its memory that decide: 16 of them.
+std::vector<Memory> every_memory() {
+  std::vector<Memory> all;
+  for (std::size_t i = 0; i < kStates; ++i) {
+    Memory m{.state = static_cast<State>(i), .cause = Cause::start, .entered_s = kNow_s - 0.5};
+    m.idle_since_s = m.release_since_s = kNow_s - 0.05;
+    m.self_test_passed = m.state != State::boot && m.state != State::selftest;
+    m.releasing = m.state == State::hold || m.state == State::run;
+    if (m.state == State::arming || m.state == State::stop_c1) {
+      m.releasing = m.state == State::stop_c1;
+      all.push_back(m);
+      m.releasing = true;
+      m.ramping = m.state == State::stop_c1;
+      all.push_back(m);
+      m.ramp_tick = m.ramping ? 2 : 0;
+      m.releasing = !m.ramping;
+    }
+    all.push_back(m);
+    if (m.state == State::estop || m.state == State::locked) {
+      m.self_test_passed = false;
+      all.push_back(m);
+    }
+  }
+  return all;
+}
+
+constexpr unsigned kHazards = 12;
+void set_hazards(unsigned bits, Inputs& in) {
+  const auto bit = [bits](unsigned i) { return (bits >> i & 1U) != 0; };
+  in.state_stale = bit(0);
+  in.envelope.stopping = bit(1);
+  in.envelope.position = bit(2);
+  in.envelope.limit_switch = bit(3);
+  in.envelope.overspeed = bit(4);
+  in.envelope.swing = bit(5);
+  in.envelope.swing_runaway = bit(5) && bit(6);
+  in.bridge_latched = bit(7);
+  in.watchdog_dropped = bit(7) && !bit(6);
+  in.second_writer = bit(8);
+  in.overrun = bit(9);
+  in.brake_failed = bit(10);
+  in.estop_pressed = bit(11);
+}
+
+constexpr unsigned kObservations = 6;
+void set_observations(unsigned bits, Inputs& in) {
+  const auto bit = [bits](unsigned i) { return (bits >> i & 1U) != 0; };
+  in.demand_near_zero = bit(0);
+  in.brakes_open = bit(1);
+  in.brakes_closed = !bit(1) && bit(2);
+  in.standstill = bit(3);
+  in.reference_moving = bit(4);
+  in.moved_while_arming = bit(5);
+}
+
+void set_requests(unsigned bits, Inputs& in) {
+  for (std::size_t i = 0; i < kRequests; ++i) in.requests[i] = (bits >> i & 1U) != 0;
+}
+
+constexpr Cause kGateCauses[] = {Cause::none, Cause::demand_stale, Cause::demand_invalid, Cause::demand_rate};
+
+bool may_release(const Memory& after) {
+  return after.state == State::arming || after.state == State::hold || after.state == State::run ||
+         after.state == State::stop_c1;
+}
+
+bool stopped(State s) {
+  return s == State::locked || s == State::stop_c1 || s == State::stop_c0 || s == State::estop ||
+         s == State::fault;
+}
+
+// An accepted request is carried out in the same tick.
+const char* broken_promise(const Memory& before, const Inputs& in, const Memory& after, const Outputs& out) {
+  const auto accepted = [&out](Request request) { return out.answers[index_of(request)].accepted; };
+  const State is = after.state;
+  if (accepted(Request::reset) && is != State::selftest && before.state != State::ready &&
+      is != State::ready) {
+    return "an accepted reset leads to READY or SELFTEST";
+  }
+  if (accepted(Request::arm) && is != State::arming) return "an accepted arm leads to ARMING";
+  if (accepted(Request::move) && is != State::run) return "an accepted move leads to RUN";
+  const bool stop = in.requests[index_of(Request::stop)] || in.requests[index_of(Request::disarm)];
+  if (stop && (is == State::arming || is == State::hold || is == State::run)) return "a stop stops";
+  return nullptr;
+}
+
+// @return the name of a broken rule, or null
+const char* broken_rule(const Memory& before, const Inputs& in, const Memory& after, const Outputs& out) {
+  const State was = before.state;
+  const State is = after.state;
+  const bool reset = in.requests[index_of(Request::reset)];
+  const bool estop = in.estop_pressed || in.requests[index_of(Request::estop)];
+  if (out.state != is || out.cause != after.cause) return "outputs say what the memory says";
+  if (out.brake_release && !may_release(after)) return "brakes open only in ARMING, HOLD, RUN and STOP_C1";
+  if (out.brake_release && !before.releasing && was != State::arming) return "only ARMING opens the brakes";
+  const bool moving = is == State::hold || is == State::run || is == State::stop_c1;
+  if (out.volts != Volts::zero && !moving) return "volts only in HOLD, RUN and STOP_C1";
+  if (out.volts == Volts::pass && !out.brake_release) return "no demand against a closed brake";
+  if (!(out.ramp_factor >= 0 && out.ramp_factor < 1)) return "the ramp falls";
+  if (out.watchdog_permission && (is < State::ready || is >= State::stop_c0))
+    return "relay off where all is off";
+  if (was == State::fault && is != State::fault) return "FAULT ends by a restart only";
+  if (estop && is != State::estop && is != State::fault) return "ESTOP wins";
+  if (is == State::fault && was != State::fault && !in.brake_failed && in.self_test != SelfTest::failed) {
+    return "FAULT has two causes";
+  }
+  if (stopped(was) && !stopped(is) && !(reset && (was == State::locked || was == State::estop))) {
+    return "only a reset leads out of a stop";
+  }
+  if (was == State::estop && is != State::estop && is != State::fault && !reset) return "ESTOP needs a reset";
+  const bool at_rest = in.standstill && !in.state_stale;
+  if ((was == State::stop_c0 || was == State::stop_c1) && is == State::locked &&
+      !(at_rest && in.brakes_closed)) {
+    return "a stop ends at a standstill that is seen, with the brakes closed";
+  }
+  if (was == State::estop && is == State::ready && !at_rest) return "ESTOP ends at a standstill that is seen";
+  if (was == State::stop_c0 && is == State::stop_c1) return "severity falls";
+  if (was == State::stop_c1 && is == State::stop_c1 && before.ramping && !after.ramping)
+    return "severity falls";
+  if (is == State::arming && was != State::arming && was != State::ready) return "arming begins in READY";
+  if (is == State::arming && was == State::ready && !in.requests[index_of(Request::arm)])
+    return "arming is asked for";
+  if (is == State::hold && was != State::hold && was != State::run && was != State::arming)
+    return "HOLD after ARMING";
+  if (is == State::run && was != State::hold && was != State::run) return "RUN after HOLD";
+  if (is == State::ready && was != State::ready && !after.self_test_passed) return "self-test first";
+  if (stopped(is) && out.cause == Cause::none && was != is) return "a stop has a cause";
+  return broken_promise(before, in, after, out);
+}
+
+class Enumeration : public ::testing::Test {
+ protected:
+  void check(const Memory& before, const Inputs& in) {
+    Memory after = before;
+    const Outputs out = step(limits_, in, after);
+    const char* rule = broken_rule(before, in, after, out);
+    if (rule != nullptr)
+      FAIL() << rule << ": " << name_of(before.state) << " -> " << name_of(after.state) << " "
+             << name_of(after.cause);
+  }
+  const Limits limits_ = test_limits();
+  const std::vector<Memory> memories_ = every_memory();
+};
+
+TEST_F(Enumeration, EveryStateAgainstEveryHazardAndObservationKeepsTheRules) {  // S15
+  for (const Memory& before : memories_) {
+    for (unsigned hazards = 0; hazards < 1U << kHazards; ++hazards) {
+      for (unsigned seen = 0; seen < 1U << kObservations; ++seen) {
+        Inputs in{.now_s = kNow_s, .self_test = SelfTest::passed};
+        set_hazards(hazards, in);
+        set_observations(seen, in);
+        in.gate_cause = kGateCauses[(hazards + seen) % 4];
+        in.demand_stale = in.gate_cause == Cause::demand_stale;
+        check(before, in);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+TEST_F(Enumeration, EveryStateAgainstEveryHazardAndRequestKeepsTheRules) {  // S15
+  for (const Memory& before : memories_) {
+    for (unsigned hazards = 0; hazards < 1U << kHazards; ++hazards) {
+      for (unsigned requests = 0; requests < 1U << kRequests; ++requests) {
+        Inputs in{.now_s = kNow_s, .self_test = SelfTest::passed};
+        set_hazards(hazards, in);
+        set_requests(requests, in);
+        check(before, in);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+TEST_F(Enumeration, EveryStateAgainstEveryRequestSelfTestAndGateCauseKeepsTheRules) {  // S15
+  for (const Memory& before : memories_) {
+    for (unsigned requests = 0; requests < 1U << kRequests; ++requests) {
+      for (unsigned seen = 0; seen < 1U << kObservations; ++seen) {
+        for (unsigned rest = 0; rest < 16; ++rest) {
+          Inputs in{.now_s = kNow_s,
+                    .self_test = static_cast<SelfTest>(rest % 4),
+                    .gate_cause = kGateCauses[rest / 4]};
+          set_requests(requests, in);
+          set_observations(seen, in);
+          check(before, in);
+          if (HasFatalFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+struct Expectation {
+  const char* name;
+  void (*set)(Inputs&);
+  Cause cause;
+};
+
+// The table of docs/safety.md, one row per cause that a signal can raise in RUN.
+TEST(Reactions, EachSignalInRunHasTheCauseAndReactionOfTheTable) {  // S16
+  const Expectation rows[] = {
+      {"stop", [](Inputs& in) { in.requests[index_of(Request::stop)] = true; }, Cause::operator_stop},
+      {"disarm", [](Inputs& in) { in.requests[index_of(Request::disarm)] = true; }, Cause::operator_disarm},
+      {"estop request", [](Inputs& in) { in.requests[index_of(Request::estop)] = true; },
+       Cause::operator_estop},
+      {"estop input", [](Inputs& in) { in.estop_pressed = true; }, Cause::estop_input},
+      {"state stale", [](Inputs& in) { in.state_stale = true; }, Cause::state_stale},
+      {"demand stale", [](Inputs& in) { in.gate_cause = Cause::demand_stale; }, Cause::demand_stale},
+      {"demand invalid", [](Inputs& in) { in.gate_cause = Cause::demand_invalid; }, Cause::demand_invalid},
+      {"demand rate", [](Inputs& in) { in.gate_cause = Cause::demand_rate; }, Cause::demand_rate},
+      {"bridge", [](Inputs& in) { in.bridge_latched = true; }, Cause::bridge_latched},
+      {"relay", [](Inputs& in) { in.watchdog_dropped = true; }, Cause::bridge_latched},
+      {"position", [](Inputs& in) { in.envelope.position = true; }, Cause::position_limit},
+      {"stopping", [](Inputs& in) { in.envelope.stopping = true; }, Cause::stopping_envelope},
+      {"limit switch", [](Inputs& in) { in.envelope.limit_switch = true; }, Cause::limit_switch},
+      {"overspeed", [](Inputs& in) { in.envelope.overspeed = true; }, Cause::overspeed},
+      {"swing", [](Inputs& in) { in.envelope.swing = true; }, Cause::swing_limit},
+      {"brake", [](Inputs& in) { in.brakes_open = false; }, Cause::brake_did_not_open},
+      {"brake failed", [](Inputs& in) { in.brake_failed = true; }, Cause::brake_did_not_close},
+      {"second writer", [](Inputs& in) { in.second_writer = true; }, Cause::second_writer},
+      {"overrun", [](Inputs& in) { in.overrun = true; }, Cause::overrun}};
+  for (const Expectation& row : rows) {
+    Memory m{.state = State::run, .cause = Cause::none, .releasing = true, .maneuver_seen = true};
+    Inputs in{.now_s = 1,
+              .self_test = SelfTest::passed,
+              .brakes_open = true,
+              .brakes_closed = false,
+              .reference_moving = true};
+    Memory healthy = m;
+    ASSERT_EQ(step(test_limits(), in, healthy).state, State::run);
+    row.set(in);
+    const Outputs out = step(test_limits(), in, m);
+    EXPECT_EQ(out.cause, row.cause) << row.name;
+    switch (reaction_to(row.cause)) {
+      case Reaction::controlled_stop:
+        EXPECT_EQ(out.state, State::stop_c1) << row.name;
+        EXPECT_EQ(out.volts, Volts::pass) << row.name;
+        break;
+      case Reaction::ramped_stop:
+        EXPECT_EQ(out.state, State::stop_c1) << row.name;
+        EXPECT_EQ(out.ramp_factor, 0.5) << row.name;
+        break;
+      case Reaction::power_off:
+        EXPECT_EQ(out.state, State::stop_c0) << row.name;
+        break;
+      case Reaction::estop:
+        EXPECT_EQ(out.state, State::estop) << row.name;
+        break;
+      case Reaction::fault:
+        EXPECT_EQ(out.state, State::fault) << row.name;
+        break;
+      case Reaction::none:
+        ADD_FAILURE() << row.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace crane::supervisor
