@@ -24,8 +24,8 @@ Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
       board_{std::move(board)},
       measurement_{context.rig},
       last_line_{last_line_parameters(context.rig)},
-      states_{context.bus.publisher(topics::state)},
-      commands_{context.bus.subscriber(topics::command, runtime::loop_input(context.clock))},
+      states_{context.bus.publisher(topics::state, runtime::loop_endpoint(context.clock))},
+      commands_{context.bus.subscriber(topics::command, runtime::loop_endpoint(context.clock))},
       requests_{context, {crane_REQUEST_ADVANCE, crane_REQUEST_KICK}} {
   board_->make_safe();
 }

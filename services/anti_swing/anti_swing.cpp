@@ -12,10 +12,10 @@ class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:
   explicit AntiSwing(const Context& context)
       : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_input(context.clock)),
-                        context.bus.subscriber(topics::reference, runtime::loop_input(context.clock))},
+                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
+                        context.bus.subscriber(topics::reference, runtime::loop_endpoint(context.clock))},
         law_{context.controller.make_anti_swing(context.rig.design)},
-        output_{context.bus.publisher(topics::anti_swing)} {}
+        output_{context.bus.publisher(topics::anti_swing, runtime::loop_endpoint(context.clock))} {}
 
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Reference* reference) override {

@@ -15,11 +15,11 @@ class FrictionCompensation
  public:
   explicit FrictionCompensation(const Context& context)
       : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_input(context.clock)),
-                        context.bus.subscriber(topics::tracking, runtime::loop_input(context.clock)),
-                        context.bus.subscriber(topics::anti_swing, runtime::loop_input(context.clock))},
+                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
+                        context.bus.subscriber(topics::tracking, runtime::loop_endpoint(context.clock)),
+                        context.bus.subscriber(topics::anti_swing, runtime::loop_endpoint(context.clock))},
         friction_{context.rig.design.friction},
-        output_{context.bus.publisher(topics::demand)} {}
+        output_{context.bus.publisher(topics::demand, runtime::loop_endpoint(context.clock))} {}
 
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Contribution* tracking,

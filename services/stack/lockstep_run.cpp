@@ -18,7 +18,7 @@ constexpr std::int64_t kPatience_ns = 10'000'000'000;
 constexpr double kLongestPreparation_s = 20;
 
 Collected collect_from(bus::Bus& bus) {
-  const auto input = runtime::loop_input(runtime::Clock::lockstep);
+  const auto input = runtime::loop_endpoint(runtime::Clock::lockstep);
   return Collected{{.in_order = true, .bound_ns = 0, .depth = kDepth_ticks},
                    bus.subscriber(topics::state, input),
                    bus.subscriber(topics::reference, input),

@@ -12,7 +12,7 @@ class TrackingStep {
  public:
   explicit TrackingStep(const Context& context)
       : law_{context.controller.make_tracking(context.rig.design)},
-        output_{context.bus.publisher(topics::tracking)} {}
+        output_{context.bus.publisher(topics::tracking, runtime::loop_endpoint(context.clock))} {}
 
   void operator()(const msg::State& state, const control::Reference& reference) {
     const auto measured = runtime::measurement(state);
@@ -38,8 +38,8 @@ class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:
   explicit Tracking(const Context& context)
       : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_input(context.clock)),
-                        context.bus.subscriber(topics::reference, runtime::loop_input(context.clock))},
+                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
+                        context.bus.subscriber(topics::reference, runtime::loop_endpoint(context.clock))},
         step_{context} {}
 
  protected:
@@ -57,9 +57,9 @@ class CorrectedTracking : public runtime::JoinedComponent<msg::State, msg::Refer
  public:
   explicit CorrectedTracking(const Context& context)
       : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_input(context.clock)),
-                        context.bus.subscriber(topics::reference, runtime::loop_input(context.clock)),
-                        context.bus.subscriber(topics::anti_swing, runtime::loop_input(context.clock))},
+                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
+                        context.bus.subscriber(topics::reference, runtime::loop_endpoint(context.clock)),
+                        context.bus.subscriber(topics::anti_swing, runtime::loop_endpoint(context.clock))},
         step_{context} {}
 
  protected:

@@ -20,10 +20,10 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
  public:
   explicit TrajectoryPlanner(const Context& context)
       : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_input(context.clock)),
-                        context.bus.subscriber(topics::supervisor, runtime::loop_input(context.clock))},
+                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
+                        context.bus.subscriber(topics::supervisor, runtime::loop_endpoint(context.clock))},
         requests_{context, {crane_REQUEST_MOVE}},
-        output_{context.bus.publisher(topics::reference)},
+        output_{context.bus.publisher(topics::reference, runtime::loop_endpoint(context.clock))},
         stale_after_ticks_{context.rig.limits.stale_after_ticks},
         motion_{context.rig, context.controller.reference} {}
 

@@ -130,16 +130,16 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
  public:
   explicit Supervisor(const Context& context)
       : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_input(context.clock)),
-                        context.bus.subscriber(topics::demand, runtime::loop_input(context.clock)),
-                        context.bus.subscriber(topics::reference, runtime::loop_input(context.clock))},
+                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
+                        context.bus.subscriber(topics::demand, runtime::loop_endpoint(context.clock)),
+                        context.bus.subscriber(topics::reference, runtime::loop_endpoint(context.clock))},
         limits_{limits_of(context.rig)},
         realtime_{context.clock == runtime::Clock::realtime},
         requests_{context,
                   {crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_DISARM, crane_REQUEST_MOVE,
                    crane_REQUEST_STOP, crane_REQUEST_ESTOP}},
-        commands_{context.bus.publisher(topics::command)},
-        statuses_{context.bus.publisher(topics::supervisor)} {
+        commands_{context.bus.publisher(topics::command, runtime::loop_endpoint(context.clock))},
+        statuses_{context.bus.publisher(topics::supervisor, runtime::loop_endpoint(context.clock))} {
     if (auto found = problems(limits_); !found.empty()) {
       for (auto& problem : found) problem.insert(0, context.rig.path + ": limits: ");
       throw runtime::ConfigurationError{std::move(found)};
@@ -292,7 +292,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     const std::string what =
         std::string{name_of(output.state)} +
         (output.cause == Cause::none ? "" : std::string{" because of "} + name_of(output.cause));
-    const bool trouble = output.state >= State::stop_c1;
+    const bool asked_for = output.cause == Cause::operator_stop || output.cause == Cause::operator_disarm ||
+                           output.cause == Cause::idle;
+    const bool trouble = output.state >= State::stop_c1 && !asked_for;
     if (trouble)
       node().error("supervisor_state", what, remedy_for(output.cause));
     else

@@ -116,8 +116,8 @@ TEST_F(Memory, WaitWakesUpForAnotherThread) {
 
 TEST_F(Memory, HistoryReachesALateReaderThatAsksForItInOrderOfPublication) {
   Bus a = bus();
-  auto one = a.publisher(topics::state);
-  auto two = a.publisher(topics::state);
+  auto one = a.publisher(topics::state, {.history = true});
+  auto two = a.publisher(topics::state, {.history = true});
   for (std::uint64_t tick = 0; tick < 300; ++tick) {
     auto sample = state(tick);
     (tick % 2 == 0 ? one : two).publish(sample);

@@ -75,10 +75,6 @@ class Log {
     });
     return found;
   }
-  std::ptrdiff_t count(EventKind kind) {
-    const std::lock_guard lock{mutex_};
-    return std::count_if(events_.begin(), events_.end(), [kind](const Event& e) { return e.kind == kind; });
-  }
   /// Waits for incompatible_qos with this policy. Others may come from tests that run beside this one:
   /// Cyclone compares the quality of service of endpoints in different partitions too.
   bool wait_for_refusal(std::string_view policy) {

@@ -8,7 +8,7 @@ Quality quality(const topics::Description& topic, const EndpointOptions& endpoin
   constexpr int kMostInstances = 64;  // processes of one crane, with room to spare
   Quality q;
   q.instances = CdrCodec::of(*topic.descriptor).has_key() ? kMostInstances : 1;
-  q.reader_history = endpoint.history;
+  q.writer_history = q.reader_history = endpoint.history;
   switch (topic.qos) {
     case topics::Qos::loop:
     case topics::Qos::script:
@@ -16,10 +16,11 @@ Quality quality(const topics::Description& topic, const EndpointOptions& endpoin
       break;
     case topics::Qos::log:
       q.depth = 64;
+      q.writer_history = true;
       break;
     case topics::Qos::status:
       q.depth = 1;
-      q.reader_history = true;
+      q.writer_history = q.reader_history = true;
       break;
   }
   return q;

@@ -47,12 +47,14 @@ struct Announcer {
   }
 };
 
-/// topics::Qos in numbers. Every writer and reader is RELIABLE and KEEP_LAST; every writer offers
-/// TRANSIENT_LOCAL, so that a reader that asks for history gets it.
+/// topics::Qos in numbers. Every writer and reader is RELIABLE and KEEP_LAST. A Fast DDS reader takes the
+/// past of a TRANSIENT_LOCAL Cyclone DDS writer even unasked, so writers whose past may do harm (requests) or
+/// mislead (the loop in real time) do not offer it.
 struct Quality {
   int depth = 1;                ///< samples kept per instance
   int instances = 1;            ///< most instances of a keyed topic
-  bool reader_history = false;  ///< reader asks for TRANSIENT_LOCAL
+  bool writer_history = false;  ///< writer offers TRANSIENT_LOCAL
+  bool reader_history = false;  ///< reader asks for it
 };
 [[nodiscard]] Quality quality(const topics::Description& topic, const EndpointOptions& endpoint);
 

@@ -36,12 +36,13 @@ Row row_of(const NamedMetrics& run) {
           fixed(m.largest_swing_tangential_rad * kDeg, 1),
           fixed(m.residual_swing_rad * kDeg, 2),
           fixed(m.largest_v[plant::kTrolley], 1),
-          fixed(m.largest_v[plant::kSlew], 1)};
+          fixed(m.largest_v[plant::kSlew], 1),
+          std::to_string(m.lost_ticks)};
 }
 
 const Row kHeader{"scenario",        "controller",         "settle [s]",       "trolley over",
                   "slew over",       "swing radial [deg]", "tangential [deg]", "residual [deg]",
-                  "trolley max [V]", "slew max [V]"};
+                  "trolley max [V]", "slew max [V]",       "lost ticks"};
 constexpr std::size_t kTextColumns = 2;  // aligned left, the others right
 
 std::string padded(const std::string& cell, std::size_t width, bool left) {

@@ -23,5 +23,6 @@ void add_estop(CLI::App& app, Action& chosen);
 void add_topic(CLI::App& app, Action& chosen);
 void add_record(CLI::App& app, Action& chosen);
 void add_log(CLI::App& app, Action& chosen);
+void add_bench(CLI::App& app, Action& chosen);
 
 }  // namespace crane::cli

@@ -24,7 +24,7 @@ struct DemoOptions {
   stack::LaunchOptions launch;
   std::string rig = "virginia_tech_tower";
   std::string out = "out/demo";
-  double seconds_per_maneuver = 8;
+  double seconds_per_maneuver = 10;
 };
 
 constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};

@@ -35,8 +35,10 @@ void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
 bool watch(stack::ChildProcesses& children) {
   while (!runtime::stop_requested()) {
     if (const auto ended = children.ended()) {
-      std::cerr << "crane up: " << stack::describe(*ended) << "; stopping the others\n";
-      if (ended->name != "recorder") return false;
+      const bool in_loop = ended->name != "recorder";
+      std::cerr << "crane up: " << stack::describe(*ended)
+                << (in_loop ? "; stopping the others\n" : "; the crane runs on without a recording\n");
+      if (in_loop) return false;
     }
     ::usleep(50'000);
   }

@@ -195,7 +195,8 @@ class CycloneBackEnd final : public BackEnd {
 
   std::unique_ptr<detail::Writer> writer(const topics::Description& topic,
                                          const EndpointOptions& options) override {
-    const auto qos = endpoint_qos(quality(topic, options), true, options);
+    const auto q = quality(topic, options);
+    const auto qos = endpoint_qos(q, q.writer_history, options);
     return std::make_unique<CycloneWriter>(endpoint(topic, options), publisher_, qos.get());
   }
   std::unique_ptr<detail::Reader> reader(const topics::Description& topic,

@@ -1,13 +1,9 @@
 #include "cyclone/domain.hpp"
 
-#include <arpa/inet.h>
-#include <ifaddrs.h>
-#include <net/if.h>
-
-#include <algorithm>
-#include <array>
 #include <map>
 #include <mutex>
+
+#include "discovery.hpp"
 
 namespace crane::bus::cyclone {
 namespace {
@@ -27,27 +23,10 @@ OpenDomains& open_domains() {
   return domains;
 }
 
-/// Usual Linux loop-back has no multicast; Cyclone DDS then discovers by unicast, but complains on every
-/// start unless told to.
-bool has_multicast(const std::string& address) {
-  ifaddrs* list = nullptr;
-  if (getifaddrs(&list) != 0) return true;
-  bool found = false;
-  for (const ifaddrs* i = list; i != nullptr; i = i->ifa_next) {
-    if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET) continue;
-    std::array<char, INET_ADDRSTRLEN> text{};
-    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(i->ifa_addr)->sin_addr, text.data(),
-              text.size());
-    found = found || (address == text.data() && (i->ifa_flags & IFF_MULTICAST) != 0);
-  }
-  freeifaddrs(list);
-  return found;
-}
-
 /// Explicit, so that CYCLONEDDS_URI of the environment cannot change what a crane does.
 std::string configuration(const Options& options) {
   const auto& own = options.interfaces;
-  const bool unicast = !options.peers.empty() || std::none_of(own.begin(), own.end(), has_multicast);
+  const bool unicast = discovers_by_unicast(options);
   std::string xml = "<Domain id=\"any\"><General><AllowMulticast>";
   xml += unicast ? "false" : "spdp";
   xml += "</AllowMulticast><Interfaces>";

@@ -51,7 +51,7 @@ void translate(EndpointQos& qos, const Quality& quality, bool history, const End
 
 dds::DataWriterQos writer_qos(const Quality& quality, const EndpointOptions& options) {
   dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
-  translate(qos, quality, true, options);
+  translate(qos, quality, quality.writer_history, options);
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.writer_data_lifecycle().autodispose_unregistered_instances = false;
   qos.representation().m_value = {dds::XCDR_DATA_REPRESENTATION};

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "discovery.hpp"
 #include "fastdds/endpoints.hpp"
 #include "fastdds/topic_type.hpp"
 
@@ -73,7 +74,7 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
   builtin.typelookup_config.use_client = false;
   builtin.typelookup_config.use_server = false;
   bind_to_interfaces(qos, options);
-  if (!options.peers.empty()) discover_peers_by_unicast(qos, options);
+  if (discovers_by_unicast(options)) discover_peers_by_unicast(qos, options);
   return qos;
 }
 

@@ -64,16 +64,17 @@ struct Event {
   EventKind kind;
   std::string_view topic;
   int current = 0;  ///< matched, unmatched: counterparts now; sample_lost: total
-  std::string_view
-      policy;  ///< incompatible_qos: name of the policy; may concern an endpoint of another crane
+  /// incompatible_qos: name of the policy. Cyclone DDS tells of endpoints of other cranes too.
+  std::string_view policy;
 };
 /// Called on a vendor thread: hand over and return.
 using EventHandler = std::function<void(const Event&)>;
 
 /// What one endpoint wants beyond its topic's own quality of service.
 struct EndpointOptions {
-  /// subscriber: also what was published before it came (loop, script, log topics; status topics always).
-  /// Without it a Fast DDS reader may still be given the past of a Cyclone DDS writer.
+  /// Publisher: keeps what it publishes for readers that come later (loop, script; log and status topics
+  /// always do). Subscriber: also takes what was published before it came, from publishers that kept it
+  /// (status topics always).
   bool history = false;
   /// Event when no sample came for so long; 0: never. A reader matches only writers that offer as short a
   /// deadline and lease. The memory back end has no clock and tells neither.

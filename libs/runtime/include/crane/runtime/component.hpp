@@ -49,8 +49,9 @@ struct Context {
   Clock clock = Clock::lockstep;
 };
 
-/// Realtime readers want only what comes from now on; lockstep readers every tick from the first.
-[[nodiscard]] inline bus::EndpointOptions loop_input(Clock clock) {
+/// Endpoints of the loop. In real time only what comes from now on counts; in lockstep every tick from the first, also
+/// for a process that joins a moment later.
+[[nodiscard]] inline bus::EndpointOptions loop_endpoint(Clock clock) {
   bus::EndpointOptions endpoint;
   endpoint.history = clock == Clock::lockstep;
   return endpoint;
