@@ -46,7 +46,7 @@ Recorder::Recorder(bus::Bus& bus, const Options& options)
     const auto& wanted = options.topics;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), &topic) == wanted.end()) continue;
     bus::EndpointOptions endpoint;
-    endpoint.history = true;  // the first samples of a stack that starts beside its recorder, and past events
+    endpoint.history = topic.qos == topics::Qos::log;  // events that came before; loop topics are not kept
     sources_.push_back(
         {bus.cdr_subscriber(topic, endpoint), channels[i], topic.name == topics::event.description.name});
   }

@@ -63,13 +63,30 @@ void RealtimeSession::wait(std::chrono::nanoseconds duration) {
   until([] { return false; }, duration);
 }
 
-void RealtimeSession::request(const Wish& wish, const std::string& what) {
+std::string RealtimeSession::refusal_of(const Wish& wish, const std::string& what) {
   const auto id = operator_.send(wish);
   std::optional<msg::Reply> reply;
   if (!until([&] { return (reply = operator_.take_reply(id, crane_SOURCE_SUPERVISOR)).has_value(); },
              std::chrono::seconds{2}))
     throw SessionError(what + ": the supervisor does not answer");
-  if (!reply->accepted) throw SessionError(what + " refused: " + reply->reason);
+  return reply->accepted ? "" : reply->reason;
+}
+
+void RealtimeSession::request(const Wish& wish, const std::string& what) {
+  if (const auto refusal = refusal_of(wish, what); !refusal.empty())
+    throw SessionError(what + " refused: " + refusal);
+}
+
+/// Causes have to be clear, and streams fresh, for a second; a tick lost on a busy machine starts that second anew.
+void RealtimeSession::request_with_patience(const Wish& wish, const std::string& what) {
+  constexpr int kTries = 30;
+  std::string refusal;
+  for (int i = 0; i < kTries; ++i) {
+    refusal = refusal_of(wish, what);
+    if (refusal.empty()) return;
+    wait(std::chrono::milliseconds{300});
+  }
+  throw SessionError(what + " refused: " + refusal);
 }
 
 void RealtimeSession::wait_for(crane_SupervisorState wanted, std::chrono::milliseconds patience) {
@@ -84,11 +101,9 @@ void RealtimeSession::wait_for(crane_SupervisorState wanted, std::chrono::millis
 
 void RealtimeSession::arm() {
   wait_for(crane_STATE_LOCKED, std::chrono::seconds{5});
-  wait(std::chrono::milliseconds{1100});  // causes have to be clear for a second before a reset
-  request({.kind = crane_REQUEST_RESET}, "reset");
+  request_with_patience({.kind = crane_REQUEST_RESET}, "reset");
   wait_for(crane_STATE_READY, std::chrono::seconds{3});
-  wait(std::chrono::milliseconds{1100});  // streams have to be fresh for a second before arming
-  request({.kind = crane_REQUEST_ARM}, "arm");
+  request_with_patience({.kind = crane_REQUEST_ARM}, "arm");
   wait_for(crane_STATE_HOLD, std::chrono::seconds{5});
 }
 

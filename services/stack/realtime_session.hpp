@@ -41,6 +41,9 @@ class RealtimeSession {
   [[nodiscard]] const std::optional<msg::SupervisorStatus>& status() const { return status_; }
 
  private:
+  /// Why the supervisor refuses; empty: accepted. @throws SessionError without an answer
+  std::string refusal_of(const Wish& wish, const std::string& what);
+  void request_with_patience(const Wish& wish, const std::string& what);
   void take(std::chrono::nanoseconds timeout);
   template <class Condition>
   bool until(Condition condition, std::chrono::nanoseconds patience);

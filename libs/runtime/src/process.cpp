@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <ctime>
 #include <iostream>
 
@@ -22,13 +23,13 @@ void sleep_until(std::int64_t time_ns) {
   ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
 }
 
-/// Realtime scheduling and locked memory where the system permits them; says so where it does not.
-void enter_realtime(Node& node, int priority) {
-  if (priority <= 0) return;
+/// Realtime scheduling for this thread and those it starts. @return why not; empty when permitted
+std::string enter_realtime(int priority) {
   const sched_param parameters{.sched_priority = priority};
-  if (::sched_setscheduler(0, SCHED_FIFO, &parameters) != 0)
-    node.warning("no_realtime_scheduling", std::string{"SCHED_FIFO not permitted: "} + std::strerror(errno),
-                 "ticks may be late under load; grant CAP_SYS_NICE or start with --priority 0");
+  return ::sched_setscheduler(0, SCHED_FIFO, &parameters) == 0 ? "" : std::strerror(errno);
+}
+
+void lock_memory(Node& node) {
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     node.warning("memory_not_locked", std::string{"mlockall failed: "} + std::strerror(errno),
                  "grant CAP_IPC_LOCK or raise the memlock limit");
@@ -66,11 +67,17 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto& controller = chosen_controller(options.controller, rig);
   const auto clock = options.clock == "lockstep" ? Clock::lockstep : Clock::realtime;
   const auto epoch = options.epoch != 0 ? options.epoch : static_cast<std::uint32_t>(std::time(nullptr));
+  const bool prioritised = clock == Clock::realtime && options.priority > 0;
+  // Before the bus: its receive threads must not wait for the processor longer than the loop does.
+  const auto refusal = prioritised ? enter_realtime(options.priority) : "";
   bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
   refuse_second_writer(bus, spec);
   Node node{bus, {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""}};
   const auto component = spec.make(Context{bus, node, rig, controller, clock});
-  if (clock == Clock::realtime) enter_realtime(node, options.priority);
+  if (!refusal.empty())
+    node.warning("no_realtime_scheduling", "SCHED_FIFO not permitted: " + refusal,
+                 "ticks may be late under load; grant CAP_SYS_NICE or start with --priority 0");
+  if (prioritised) lock_memory(node);
   loop(*component, bus);
   node.beat(monotonic_ns(), crane_PHASE_STOPPING, {}, 0);
   return kExitDone;
