@@ -45,18 +45,23 @@ function(crane_executable name)
 endfunction()
 
 # crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL])
-#   GoogleTest program; each TEST becomes one CTest test. SERIAL: never beside another test (real time).
+#   GoogleTest program; each TEST becomes one CTest test. SERIAL: never beside another test (real time, real DDS).
+#   The others carry the label "unit" and are built by the target unit_tests.
+add_custom_target(unit_tests)
 function(crane_test name)
   cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_options(${name} PRIVATE -O1)  # optimising tests costs more time than it saves
-  set(properties "")
+  if(ARG_SERIAL)
+    set(properties RUN_SERIAL TRUE)
+  else()
+    set(properties "")
+    list(APPEND ARG_LABELS unit)
+    add_dependencies(unit_tests ${name})
+  endif()
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
-  endif()
-  if(ARG_SERIAL)
-    list(APPEND properties RUN_SERIAL TRUE)
   endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)

@@ -103,7 +103,7 @@ void Bridge::tick(std::int64_t now_ns) {
   std::int64_t sample_time_ns = static_cast<std::int64_t>(next) * period_ns_;
   if (clock_ == runtime::Clock::realtime) {
     const auto elapsed = static_cast<std::uint64_t>((now_ns - start_ns_) / period_ns_);
-    if (now_ns - wake_at_ns() > period_ns_ / 10 && tick_) ++overruns_;
+    if (now_ns - wake_at_ns() > period_ns_ / 2 && tick_) ++overruns_;
     counts_.lost += elapsed - next;
     next = elapsed;  // what could not be kept is skipped, not caught up with
     sample_time_ns = now_ns;

@@ -63,10 +63,10 @@ std::optional<Ended> ChildProcesses::ended() {
 }
 
 void ChildProcesses::stop(std::chrono::milliseconds patience) noexcept {
-  for (auto child = children_.rbegin(); child != children_.rend(); ++child)
-    if (child->running) {
-      ::kill(child->pid, SIGTERM);
-      ::kill(child->pid, SIGCONT);  // one that was stopped has to run to end
+  for (const auto& child : children_)
+    if (child.running) {
+      ::kill(child.pid, SIGTERM);
+      ::kill(child.pid, SIGCONT);  // one that was stopped has to run to end
     }
   const auto give_up = std::chrono::steady_clock::now() + patience;
   for (auto& child : children_) {

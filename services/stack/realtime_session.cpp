@@ -8,14 +8,12 @@
 #include "crane/supervisor/states.hpp"
 
 namespace crane::stack {
-namespace {
 
 std::string in_words(const msg::SupervisorStatus& status) {
+  const auto cause = static_cast<supervisor::Cause>(status.cause);
   return std::string{supervisor::name_of(static_cast<supervisor::State>(status.state))} + " because of " +
-         supervisor::name_of(static_cast<supervisor::Cause>(status.cause));
+         supervisor::name_of(cause) + "; " + supervisor::remedy_for(cause);
 }
-
-}  // namespace
 
 std::uint64_t unique_first_id() {
   return (static_cast<std::uint64_t>(runtime::monotonic_ns()) << 16U) +
@@ -77,7 +75,8 @@ void RealtimeSession::request(const Wish& wish, const std::string& what) {
     throw SessionError(what + " refused: " + refusal);
 }
 
-/// Causes have to be clear, and streams fresh, for a second; a tick lost on a busy machine starts that second anew.
+/// Causes have to be clear, and streams fresh, for a second; a tick lost on a busy machine starts that second
+/// anew.
 void RealtimeSession::request_with_patience(const Wish& wish, const std::string& what) {
   constexpr int kTries = 30;
   std::string refusal;

@@ -61,6 +61,9 @@ class RealtimeSession {
   std::int64_t next_meanwhile_ns_ = 0;
 };
 
+/// "STOP_C1 because of SWING_LIMIT; what to do".
+[[nodiscard]] std::string in_words(const msg::SupervisorStatus& status);
+
 /// A first request id that no other client uses at the same time.
 [[nodiscard]] std::uint64_t unique_first_id();
 

@@ -66,6 +66,8 @@ experiment::NamedMetrics run_maneuver(stack::RealtimeSession& session, bus::Bus&
     session.request(wish, "move");
   }
   session.wait(std::chrono::nanoseconds{static_cast<std::int64_t>(options.seconds_per_maneuver * 1e9)});
+  if (const auto state = session.status()->state; state != crane_STATE_HOLD && state != crane_STATE_RUN)
+    throw stack::SessionError(scenario.name + " was stopped: " + stack::in_words(*session.status()));
   const bool recorded = recorder->close();
   recorder.reset();
   if (!recorded) throw stack::SessionError("the recording of " + scenario.name + " could not be written");

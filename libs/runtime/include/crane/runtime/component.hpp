@@ -49,8 +49,8 @@ struct Context {
   Clock clock = Clock::lockstep;
 };
 
-/// Endpoints of the loop. In real time only what comes from now on counts; in lockstep every tick from the first, also
-/// for a process that joins a moment later.
+/// Endpoints of the loop. In real time only what comes from now on counts; in lockstep every tick from the
+/// first, also for a process that joins a moment later.
 [[nodiscard]] inline bus::EndpointOptions loop_endpoint(Clock clock) {
   bus::EndpointOptions endpoint;
   endpoint.history = clock == Clock::lockstep;
