@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <csignal>
 #include <iostream>
 
 #include "commands/commands.hpp"
@@ -57,6 +58,7 @@ int run(const cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is a write error like a full disk, with a message
   CLI::App app{"Control of gantry and tower cranes as separate processes over DDS.", "crane"};
   app.set_version_flag("--version", "crane " CRANE_VERSION);
   app.footer(kFooter);

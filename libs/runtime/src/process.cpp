@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <iostream>
 
 #include "crane/runtime/node.hpp"
@@ -23,16 +24,22 @@ void sleep_until(std::int64_t time_ns) {
   ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
 }
 
-/// Realtime scheduling for this thread and those it starts. @return why not; empty when permitted
-std::string enter_realtime(int priority) {
-  const sched_param parameters{.sched_priority = priority};
-  return ::sched_setscheduler(0, SCHED_FIFO, &parameters) == 0 ? "" : std::strerror(errno);
-}
-
-void lock_memory(Node& node) {
+/// Locked memory, and realtime scheduling for every thread of this process: a receive thread of the bus must
+/// not wait for the processor longer than the loop does. Says so where the system does not permit it. Comes
+/// last, so that a process that starts takes no time from those that run.
+void enter_realtime(Node& node, int priority) {
+  if (priority <= 0) return;
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     node.warning("memory_not_locked", std::string{"mlockall failed: "} + std::strerror(errno),
                  "grant CAP_IPC_LOCK or raise the memlock limit");
+  const sched_param parameters{.sched_priority = priority};
+  for (const auto& thread : std::filesystem::directory_iterator{"/proc/self/task"}) {
+    const auto id = static_cast<pid_t>(std::stol(thread.path().filename().string()));
+    if (::sched_setscheduler(id, SCHED_FIFO, &parameters) == 0 || errno == ESRCH) continue;
+    node.warning("no_realtime_scheduling", std::string{"SCHED_FIFO not permitted: "} + std::strerror(errno),
+                 "ticks may be late under load; grant CAP_SYS_NICE or start with --priority 0");
+    return;
+  }
 }
 
 void loop(Component& component, bus::Bus& bus) {
@@ -48,36 +55,16 @@ void loop(Component& component, bus::Bus& bus) {
   }
 }
 
-/// Only one process may write what moves the crane or stands for its rig.
-void refuse_second_writer(bus::Bus& bus, const ComponentSpec& spec) {
-  if (spec.sole_writer_of == nullptr) return;
-  constexpr std::int64_t kDiscovery_ns = 400'000'000;
-  const auto probe = bus.cdr_subscriber(*spec.sole_writer_of);
-  for (const auto end_ns = monotonic_ns() + kDiscovery_ns; monotonic_ns() < end_ns && !stop_requested();) {
-    bus.wait(std::chrono::milliseconds{10});
-    if (probe.matched() > 0)
-      throw bus::Error("somebody already writes " + std::string{spec.sole_writer_of->name} + " of crane '" +
-                       bus.options().crane + "' in domain " + std::to_string(bus.options().domain) +
-                       ": stop that stack first, or choose another --crane or --domain");
-  }
-}
-
 int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto rig = load_rig(options.rig);
   const auto& controller = chosen_controller(options.controller, rig);
   const auto clock = options.clock == "lockstep" ? Clock::lockstep : Clock::realtime;
   const auto epoch = options.epoch != 0 ? options.epoch : static_cast<std::uint32_t>(std::time(nullptr));
-  const bool prioritised = clock == Clock::realtime && options.priority > 0;
-  // Before the bus: its receive threads must not wait for the processor longer than the loop does.
-  const auto refusal = prioritised ? enter_realtime(options.priority) : "";
   bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
-  refuse_second_writer(bus, spec);
+  if (spec.sole_writer_of != nullptr) refuse_second_writer(bus, *spec.sole_writer_of);
   Node node{bus, {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""}};
   const auto component = spec.make(Context{bus, node, rig, controller, clock});
-  if (!refusal.empty())
-    node.warning("no_realtime_scheduling", "SCHED_FIFO not permitted: " + refusal,
-                 "ticks may be late under load; grant CAP_SYS_NICE or start with --priority 0");
-  if (prioritised) lock_memory(node);
+  if (clock == Clock::realtime) enter_realtime(node, options.priority);
   loop(*component, bus);
   node.beat(monotonic_ns(), crane_PHASE_STOPPING, {}, 0);
   return kExitDone;
@@ -161,6 +148,18 @@ const control::Controller& chosen_controller(const std::string& name, const Rig&
   for (const auto& controller : control::controllers())
     known += (known.empty() ? "" : ", ") + std::string{controller.name};
   throw ConfigurationError({"controller = " + wanted + ": must be one of " + known});
+}
+
+void refuse_second_writer(bus::Bus& bus, const topics::Description& topic) {
+  constexpr std::int64_t kDiscovery_ns = 400'000'000;
+  const auto probe = bus.cdr_subscriber(topic);
+  for (const auto end_ns = monotonic_ns() + kDiscovery_ns; monotonic_ns() < end_ns && !stop_requested();) {
+    bus.wait(std::chrono::milliseconds{10});
+    if (probe.matched() > 0)
+      throw bus::Error("somebody already writes " + std::string{topic.name} + " of crane '" +
+                       bus.options().crane + "' in domain " + std::to_string(bus.options().domain) +
+                       ": stop that stack first, or choose another --crane or --domain");
+  }
 }
 
 int run_process(int argc, char** argv, const ComponentSpec& spec) {

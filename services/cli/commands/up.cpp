@@ -53,16 +53,15 @@ int up(UpOptions options) {
   const auto specs = stack::simulated_stack();
   options.launch.vendors = stack::vendors_from(options.vendors, specs);
 
+  bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};
+  runtime::refuse_second_writer(bus, topics::command.description);
   stack::ChildProcesses children;
   stack::launch(children, specs, options.launch);
   if (!options.record.empty()) start_recorder(children, options);
-  {
-    bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};
-    stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
-    if (options.launch.clock == "lockstep")
-      stack::OperatorClient{bus, "crane_up", stack::unique_first_id()}.send(
-          {.kind = crane_REQUEST_ADVANCE, .until_tick = std::numeric_limits<std::uint64_t>::max()});
-  }
+  stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
+  if (options.launch.clock == "lockstep")
+    stack::OperatorClient{bus, "crane_up", stack::unique_first_id()}.send(
+        {.kind = crane_REQUEST_ADVANCE, .until_tick = std::numeric_limits<std::uint64_t>::max()});
   std::cout << rig.name << " is up with " << controller.name << " (crane '" << options.launch.bus.crane
             << "', domain " << options.launch.bus.domain << ", " << options.launch.clock << ")\n"
             << "next: crane status, crane reset, crane arm, crane move --trolley 0.8; Ctrl-C ends it"

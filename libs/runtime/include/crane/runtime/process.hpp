@@ -62,6 +62,9 @@ void add_loop_options(CLI::App& app, LoopOptions& options);
 /// The controller a loop runs. @throws ConfigurationError when the name does not exist, listing those that do
 [[nodiscard]] const control::Controller& chosen_controller(const std::string& name, const Rig& rig);
 
+/// Looks for other writers of `topic` for a moment. @throws bus::Error with the remedy when there is one
+void refuse_second_writer(bus::Bus& bus, const topics::Description& topic);
+
 /// main() of every process of the stack. @return exit code
 int run_process(int argc, char** argv, const ComponentSpec& spec);
 

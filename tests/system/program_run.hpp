@@ -1,0 +1,51 @@
+#pragma once
+/// A program of the project as a user starts it: its output, its exit code, and what it leaves running.
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace crane::system_test {
+
+class ProgramRun {
+ public:
+  ProgramRun(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+  ~ProgramRun();  ///< ends it
+  ProgramRun(const ProgramRun&) = delete;
+  ProgramRun& operator=(const ProgramRun&) = delete;
+
+  /// Waits for the program's end. @return its exit code, 128 + signal, or nothing after `patience`
+  std::optional<int> wait(std::chrono::milliseconds patience);
+  /// Waits until it has said `text` on standard output. @return false when it ended or `patience` passed
+  bool wait_for(const std::string& text, std::chrono::milliseconds patience);
+  void send(int signal) const;
+
+  [[nodiscard]] const std::string& output() const { return output_; }
+  [[nodiscard]] const std::string& errors() const { return errors_; }
+
+ private:
+  /// Reads until something new came. @return false when the time is up or everything has been read
+  bool read_some(std::chrono::steady_clock::time_point give_up);
+
+  pid_t pid_ = 0;
+  int output_pipe_ = -1, error_pipe_ = -1;
+  std::string output_, errors_;
+};
+
+/// Runs it to its end.
+struct Ended {
+  int exit_code = -1;  ///< -1: it did not end
+  std::string output, errors;
+};
+[[nodiscard]] Ended run_program(const std::filesystem::path& program,
+                                const std::vector<std::string>& arguments);
+
+/// The processes that have `text` on their command line, this one apart.
+[[nodiscard]] std::vector<pid_t> processes_with(const std::string& text);
+/// Waits until all of `pids` have ended. @return false after `patience`
+[[nodiscard]] bool wait_for_end(const std::vector<pid_t>& pids, std::chrono::milliseconds patience);
+
+}  // namespace crane::system_test

@@ -1,0 +1,67 @@
+/// A move in real time settles as the same move in lockstep does.
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "../recording/temporary_directory.hpp"
+#include "crane/experiment/metrics.hpp"
+#include "running_stack.hpp"
+#include "stack/data_files.hpp"
+#include "stack/experiment_run.hpp"
+
+namespace crane::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint32_t kDomain = 61;
+constexpr auto kMeasured = 5s;
+constexpr const char* kScenario = R"(description = "trolley from where the rig file puts it to 1.0 m"
+duration_s = 5
+[[move]]
+at_s = 0.2
+trolley_position_m = 1.0
+)";
+
+TEST(Realtime, AMoveSettlesAsInLockstep) {
+  const recording::TemporaryDirectory directory;
+  const auto file = directory / "move.toml";
+  recording::put_contents(file, kScenario);
+  const auto rig_file = stack::find_rig("virginia_tech_tower");
+  const auto lockstep = stack::run_experiment({.scenario = file,
+                                               .rig = rig_file,
+                                               .controller = "",
+                                               .directory = directory / "lockstep",
+                                               .in_process = true,
+                                               .picture = false,
+                                               .bus = {},
+                                               .vendors = {}});
+  ASSERT_TRUE(lockstep.metrics.settling_time_s.has_value());
+
+  RunningStack stack{kDomain, "virginia_tech_tower"};
+  auto& session = stack.session();
+  session.arm();
+  session.start_table();
+  const auto zero_ns = session.state()->header.sample_time_ns;
+  const auto rig = runtime::load_rig(rig_file);
+  auto scenario = experiment::load_scenario(file, &rig);
+  scenario.moves.front().at_s = 0;
+  session.request({.kind = crane_REQUEST_MOVE, .selected = {true, false, false}, .target = {1.0, 0, 0}},
+                  "move");
+  session.wait(kMeasured);
+
+  const auto samples = experiment::samples_from(session.table().table(zero_ns));
+  const auto metrics = experiment::evaluate(samples, experiment::maneuver_of(scenario, rig));
+  ASSERT_TRUE(metrics.settling_time_s.has_value());
+  std::cout << "settled after " << *metrics.settling_time_s << " s, in lockstep "
+            << *lockstep.metrics.settling_time_s << " s; " << metrics.lost_ticks << " of " << samples.size()
+            << " ticks lost, " << session.state()->overruns << " late\n";
+  EXPECT_NEAR(*metrics.settling_time_s, *lockstep.metrics.settling_time_s,
+              0.05 * *lockstep.metrics.settling_time_s);
+  EXPECT_EQ(session.status()->state, crane_STATE_HOLD);
+  // A machine that has other work may skip a tick; a stack that loses more than that has a defect.
+  EXPECT_LE(static_cast<double>(metrics.lost_ticks), 0.01 * static_cast<double>(samples.size()));
+}
+
+}  // namespace
+}  // namespace crane::system_test

@@ -1,0 +1,77 @@
+#pragma once
+/// The processes of a stack in real time, an operator at it, and everything it says kept for judging
+/// afterwards.
+#include <csignal>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stack/launch.hpp"
+#include "stack/realtime_session.hpp"
+
+namespace crane::system_test {
+
+/// A name nobody else uses: separates this test from every other crane in its domain.
+[[nodiscard]] std::string crane_name();
+
+/// What was heard, in the order of arrival, and when its writer sent it [ns since 1970].
+class Observer {
+ public:
+  explicit Observer(bus::Bus& bus);
+  void take();
+
+  [[nodiscard]] const std::vector<msg::State>& states() const { return states_; }
+  [[nodiscard]] const std::vector<msg::SupervisorStatus>& statuses() const { return statuses_; }
+  [[nodiscard]] const std::vector<std::int64_t>& status_times_ns() const { return status_times_ns_; }
+  [[nodiscard]] const std::vector<msg::Command>& commands() const { return commands_; }
+  [[nodiscard]] const std::vector<std::int64_t>& command_times_ns() const { return command_times_ns_; }
+  /// The newest status of every process, by name.
+  [[nodiscard]] const std::map<std::string, msg::NodeStatus>& nodes() const { return nodes_; }
+  /// Forgets all but the nodes.
+  void forget();
+
+ private:
+  bus::Subscriber<msg::State> state_input_;
+  bus::Subscriber<msg::SupervisorStatus> status_input_;
+  bus::Subscriber<msg::Command> command_input_;
+  bus::Subscriber<msg::NodeStatus> node_input_;
+  std::vector<msg::State> states_;
+  std::vector<msg::SupervisorStatus> statuses_;
+  std::vector<msg::Command> commands_;
+  std::vector<std::int64_t> status_times_ns_, command_times_ns_;
+  std::map<std::string, msg::NodeStatus> nodes_;
+};
+
+class RunningStack {
+ public:
+  /// Starts the simulated stack on Cyclone DDS and waits until it is ready.
+  RunningStack(std::uint32_t domain, const std::string& rig);
+
+  [[nodiscard]] stack::RealtimeSession& session() { return *session_; }
+  [[nodiscard]] stack::ChildProcesses& children() { return children_; }
+  [[nodiscard]] const Observer& observer() const { return *observer_; }
+  [[nodiscard]] const runtime::BusOptions& bus_options() const { return options_.bus; }
+  void forget() { observer_->forget(); }
+
+  /// Sends `signal` to a process of the stack.
+  void send(const std::string& component, int signal) const;
+  /// Starts a process of the stack anew.
+  void start_again(const std::string& component);
+  /// Listens until `condition` holds. @return false when it does not within `patience`
+  bool until(const std::function<bool()>& condition, std::chrono::milliseconds patience);
+  void listen(std::chrono::milliseconds duration);
+
+ private:
+  stack::LaunchOptions options_;
+  stack::ChildProcesses children_;
+  std::optional<bus::Bus> bus_;
+  std::optional<Observer> observer_;
+  std::optional<stack::RealtimeSession> session_;
+};
+
+/// Time of a clock [ns].
+[[nodiscard]] std::int64_t clock_ns(clockid_t clock);
+
+}  // namespace crane::system_test

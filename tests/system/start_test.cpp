@@ -1,0 +1,225 @@
+/// What a user meets at the `crane` command: bad input, a crane that is there already, programs and disk
+/// space that are missing, and the end of a stack. One clear message, the right exit code, nothing left
+/// running.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "../recording/temporary_directory.hpp"
+#include "program_run.hpp"
+#include "running_stack.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+using recording::put_contents;
+using testing::AllOf;
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::uint32_t kDomain = 63;
+constexpr int kFailed = 1;
+constexpr int kBadInput = 2;
+
+class Start : public testing::Test {
+ protected:
+  void TearDown() override { EXPECT_THAT(processes_with(crane_name()), IsEmpty()); }
+
+  /// The `crane` command on this test's crane.
+  [[nodiscard]] static std::vector<std::string> on_this_crane(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--domain", std::to_string(kDomain), "--crane", crane_name()});
+    return arguments;
+  }
+  [[nodiscard]] static Ended crane(const std::vector<std::string>& arguments) {
+    return run_program(stack::program_directory() / "crane", on_this_crane(arguments));
+  }
+  [[nodiscard]] std::string file(const std::string& name, const std::string& text) const {
+    put_contents(directory_ / name, text);
+    return (directory_ / name).string();
+  }
+  /// A rig file with these lines in addition to the tower crane's.
+  [[nodiscard]] std::string rig_file(const std::string& lines) const {
+    return file("rig.toml",
+                "extends = \"" + stack::find_rig("virginia_tech_tower").string() + "\"\n" + lines);
+  }
+  [[nodiscard]] std::string out() const { return (directory_ / "out").string(); }
+
+  recording::TemporaryDirectory directory_;
+};
+
+std::size_t lines_in(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST_F(Start, AnUnknownKeyInARigFileIsNamedWithItsLineAndTheKeyThatWasMeant) {
+  const auto rig = rig_file("[plant]\nload_mas_kg = 2\n");
+  for (const auto& arguments :
+       {std::vector<std::string>{"up", "--rig", rig},
+        std::vector<std::string>{"run", "maneuver_1", "--rig", rig, "--out", out()}}) {
+    const auto ended = crane(arguments);
+    EXPECT_EQ(ended.exit_code, kBadInput);
+    EXPECT_THAT(ended.errors,
+                HasSubstr("rig.toml:3: plant.load_mas_kg = 2: unknown key; did you mean load_mass_kg"));
+    EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
+  }
+}
+
+TEST_F(Start, AnUnknownUnitIsRefusedWithTheRightOne) {
+  const auto rig = crane({"up", "--rig", rig_file("[drive.trolley]\nlow_limit_cm = 5\n")});
+  EXPECT_EQ(rig.exit_code, kBadInput);
+  EXPECT_THAT(rig.errors,
+              HasSubstr("rig.toml:3: drive.trolley.low_limit_cm = 5: unit must be m: low_limit_m"));
+
+  const auto move = crane({"move", "--slew", "90grad"});
+  EXPECT_EQ(move.exit_code, kBadInput);
+  EXPECT_THAT(move.errors, AllOf(HasSubstr("'grad'"), HasSubstr("rad (default), deg")));
+}
+
+TEST_F(Start, AScenarioThatLeavesTheJibIsRefusedBeforeAnythingStarts) {
+  const auto scenario =
+      file("off.toml", "description = \"too far\"\n[[move]]\nat_s = 0.5\ntrolley_position_m = 2.0\n");
+  const auto ended = crane({"run", scenario, "--out", out()});
+  EXPECT_EQ(ended.exit_code, kBadInput);
+  EXPECT_THAT(ended.errors,
+              HasSubstr("off.toml:4: move[0].trolley_position_m = 2: must lie in [0.19, 1.31]"));
+  EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
+}
+
+TEST_F(Start, AControllerThatDoesNotExistIsAnsweredWithThoseThatDo) {
+  for (const auto& arguments :
+       {std::vector<std::string>{"up"}, std::vector<std::string>{"run", "maneuver_1", "--out", out()}}) {
+    auto with_controller = arguments;
+    with_controller.insert(with_controller.end(), {"--controller", "nobody"});
+    const auto ended = crane(with_controller);
+    EXPECT_EQ(ended.exit_code, kBadInput);
+    EXPECT_THAT(ended.errors, AllOf(HasSubstr("controller = nobody"), HasSubstr("gain_scheduling_partial"),
+                                    HasSubstr("delayed_1"), HasSubstr("none")));
+    EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
+  }
+}
+
+TEST_F(Start, AScenarioThatDoesNotExistIsAnsweredWithThoseThatDo) {
+  const auto ended = crane({"run", "nothing", "--out", out()});
+  EXPECT_EQ(ended.exit_code, kBadInput);
+  EXPECT_THAT(ended.errors, AllOf(HasSubstr("nothing"), HasSubstr("maneuver_1")));
+}
+
+TEST_F(Start, AMissingProgramIsNamedWithTheRemedy) {
+  const auto copy = directory_ / "crane";
+  std::filesystem::copy_file(stack::program_directory() / "crane", copy);
+  for (const auto& arguments :
+       {std::vector<std::string>{"up"}, std::vector<std::string>{"run", "maneuver_1", "--out", out()}}) {
+    const auto ended = run_program(copy, on_this_crane(arguments));
+    EXPECT_EQ(ended.exit_code, kFailed);
+    EXPECT_THAT(ended.errors, AllOf(HasSubstr("crane_plant"), HasSubstr("build the project first")));
+    EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
+  }
+}
+
+TEST_F(Start, AProgramMissingInTheMiddleLeavesNoneOfTheOthersRunning) {
+  for (const auto* program : {"crane", "crane_plant", "crane_trajectory_planner"})
+    std::filesystem::copy_file(stack::program_directory() / program, directory_ / program);
+  const auto ended = run_program(directory_ / "crane", on_this_crane({"up"}));
+  EXPECT_EQ(ended.exit_code, kFailed);
+  EXPECT_THAT(ended.errors, AllOf(HasSubstr("crane_tracking"), HasSubstr("build the project first")));
+}
+
+/// A device that is always full stands for a disk that has become so.
+TEST_F(Start, AFullDiskEndsARunWithOneLine) {
+  for (const auto* way : {"processes", "--in-process"}) {
+    const auto directory = directory_ / way;
+    std::filesystem::create_directory(directory);
+    std::filesystem::create_symlink("/dev/full", directory / "recording.mcap");
+    std::vector<std::string> arguments{"run", "maneuver_1", "--out", directory.string()};
+    if (way == std::string{"--in-process"}) arguments.emplace_back(way);
+    const auto ended = crane(arguments);
+    EXPECT_EQ(ended.exit_code, kFailed) << way;
+    EXPECT_THAT(ended.errors, HasSubstr("recording.mcap: cannot write: No space left on device")) << way;
+    EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
+    EXPECT_THAT(processes_with(crane_name()), IsEmpty()) << way;
+  }
+}
+
+class StartOfASecond : public Start {
+ protected:
+  void SetUp() override { ASSERT_TRUE(first_.wait_for("is up with", 20s)) << first_.errors(); }
+  void TearDown() override {
+    first_.send(SIGINT);
+    EXPECT_EQ(first_.wait(10s), 0) << first_.errors();
+    Start::TearDown();
+  }
+  /// The first stack goes on as if nothing had happened: the same processes, and nobody else.
+  void expect_only_the_first(const std::vector<pid_t>& before) const {
+    EXPECT_EQ(processes_with(crane_name()), before);
+    EXPECT_THAT(first_.errors(), IsEmpty());
+  }
+  ProgramRun first_{stack::program_directory() / "crane", on_this_crane({"up"})};
+};
+
+TEST_F(StartOfASecond, PlantOnTheSameCraneIsRefused) {
+  const auto before = processes_with(crane_name());
+  const auto ended = run_program(stack::program_directory() / "crane_plant",
+                                 on_this_crane({"--rig", stack::find_rig("virginia_tech_tower").string()}));
+  EXPECT_EQ(ended.exit_code, kFailed);
+  EXPECT_THAT(ended.errors, AllOf(HasSubstr("somebody already writes crane/state of crane '" + crane_name()),
+                                  HasSubstr("stop that stack first, or choose another --crane or --domain")));
+  EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
+  expect_only_the_first(before);
+}
+
+TEST_F(StartOfASecond, StackOnTheSameCraneIsRefused) {
+  const auto before = processes_with(crane_name());
+  const auto ended = crane({"up"});
+  EXPECT_EQ(ended.exit_code, kFailed);
+  EXPECT_THAT(ended.errors, HasSubstr("choose another --crane or --domain"));
+  expect_only_the_first(before);
+}
+
+TEST_F(StartOfASecond, RecordingOnAFullDiskEndsAndLeavesTheCraneAlone) {
+  const auto before = processes_with(crane_name());
+  const auto ended = crane({"record", "/dev/full", "--force", "--duration", "20"});
+  EXPECT_EQ(ended.exit_code, kFailed);
+  EXPECT_THAT(ended.errors, HasSubstr("/dev/full: cannot write: No space left on device"));
+  EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
+  expect_only_the_first(before);
+}
+
+TEST_F(StartOfASecond, CraneBesideTheFirstIsNotRefused) {
+  auto arguments = on_this_crane({"up"});
+  arguments.back() += "_b";
+  ProgramRun second{stack::program_directory() / "crane", arguments};
+  EXPECT_TRUE(second.wait_for("is up with", 20s)) << second.errors();
+  second.send(SIGTERM);
+  EXPECT_EQ(second.wait(10s), 0) << second.errors();
+}
+
+TEST_F(Start, AStackEndsAsAWholeWhenOneOfItsProcessesDies) {
+  ProgramRun up{stack::program_directory() / "crane", on_this_crane({"up"})};
+  ASSERT_TRUE(up.wait_for("is up with", 20s)) << up.errors();
+  const auto mine = processes_with(crane_name());
+  const auto tracking = processes_with("crane_tracking");
+  std::vector<pid_t> both;
+  std::set_intersection(mine.begin(), mine.end(), tracking.begin(), tracking.end(), std::back_inserter(both));
+  ASSERT_EQ(both.size(), 1U);
+  ::kill(both.front(), SIGKILL);
+  EXPECT_EQ(up.wait(10s), kFailed);
+  EXPECT_THAT(up.errors(), HasSubstr("tracking has ended: signal 9"));
+}
+
+TEST_F(Start, AStackDoesNotOutliveItsCommand) {
+  ProgramRun up{stack::program_directory() / "crane", on_this_crane({"up"})};
+  ASSERT_TRUE(up.wait_for("is up with", 20s)) << up.errors();
+  const auto all = processes_with(crane_name());
+  ASSERT_EQ(all.size(), 7U);  // the command and six processes
+  up.send(SIGKILL);
+  EXPECT_EQ(up.wait(5s), 128 + SIGKILL);
+  EXPECT_TRUE(wait_for_end(all, 5s));
+}
+
+}  // namespace
+}  // namespace crane::system_test
