@@ -142,5 +142,35 @@ INSTANTIATE_TEST_SUITE_P(
       return test.param.rig + "_" + test.param.controller + "_" + test.param.scenario;
     });
 
+/// Every rig of the project with a trolley drive can be armed and moved, whatever the supervisor asks of its
+/// limits.
+class RigOfTheProject : public testing::TestWithParam<const char*> {};
+
+TEST_P(RigOfTheProject, CanBeArmedAndMoved) {
+  const TemporaryDirectory directory;
+  stack::ExperimentOptions options;
+  options.scenario = directory / "trolley.toml";
+  put_contents(options.scenario, R"(description = "the trolley alone"
+duration_s = 6
+[start]
+trolley_position_m = 0.3
+[[move]]
+at_s = 0.3
+trolley_position_m = 0.45
+)");
+  options.rig = stack::find_rig(GetParam());
+  options.directory = directory / "run";
+  options.in_process = true;
+  options.picture = false;
+  const auto result = stack::run_experiment(options);
+  EXPECT_TRUE(result.outcome.completed) << result.outcome.stopped_because;
+  EXPECT_LT(std::abs(result.metrics.final_error[plant::kTrolley]), 0.1) << "it has not moved";
+}
+
+INSTANTIATE_TEST_SUITE_P(Rigs, RigOfTheProject,
+                         testing::Values("virginia_tech_tower", "virginia_tech_tower_ideal", "gantry",
+                                         "drive_axis"),
+                         [](const auto& rig) { return std::string{rig.param}; });
+
 }  // namespace
 }  // namespace crane::system_test
