@@ -1,6 +1,7 @@
 #include "crane/bridge/bridge.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <string>
 
 #include "crane/runtime/convert.hpp"
@@ -20,7 +21,7 @@ LastLineParameters last_line_parameters(const runtime::Rig& rig) {
 Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
     : node_{context.node},
       clock_{context.clock},
-      period_ns_{static_cast<std::int64_t>(context.rig.period_s * 1e9 + 0.5)},
+      period_ns_{std::llround(context.rig.period_s * 1e9)},
       board_{std::move(board)},
       measurement_{context.rig},
       last_line_{last_line_parameters(context.rig)},

@@ -34,6 +34,7 @@ bool earlier(const Pending& a, const Pending& b) {
 template <class Record>
 std::vector<Record> values(const std::map<std::uint16_t, Record>& by_id) {
   std::vector<Record> list;
+  list.reserve(by_id.size());
   for (const auto& [id, value] : by_id) list.push_back(value);
   return list;
 }
