@@ -1,0 +1,48 @@
+// Counts beyond the counter's range, positions and rates.
+#include "crane/bridge/measurement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace crane::bridge {
+namespace {
+
+std::int32_t as_24_bit(std::int64_t counts) {
+  const auto low = static_cast<std::int32_t>(counts & 0xFFFFFF);
+  return low >= 0x800000 ? low - 0x1000000 : low;
+}
+
+TEST(CountUnwrapper, ContinuesA24BitCounterThroughAnyNumberOfWraps) {
+  constexpr unsigned kUnwrapSeed = 24;
+  std::mt19937 random{kUnwrapSeed};
+  std::uniform_int_distribution<std::int64_t> step{-8'000'000, 8'000'000};
+  CountUnwrapper unwrapper;
+  std::int64_t truth = 1234;
+  EXPECT_EQ(unwrapper.step(as_24_bit(truth)), truth);
+  for (int i = 0; i < 10'000; ++i) {
+    truth += step(random);
+    ASSERT_EQ(unwrapper.step(as_24_bit(truth)), truth) << "seed " << kUnwrapSeed << ", step " << i;
+  }
+}
+
+TEST(Coordinate, StartsWithoutATransient) {
+  Coordinate coordinate{{.channel = 0, .counts_per_unit = 1000, .sign = 1}, 0.01, 0.05};
+  for (int i = 0; i < 50; ++i) {
+    coordinate.step(700);
+    ASSERT_DOUBLE_EQ(coordinate.position(), 0.7);
+    ASSERT_NEAR(coordinate.rate(), 0, 1e-9);
+  }
+}
+
+TEST(Coordinate, GivesTheSlopeOfARampWithTheSignOfItsWiring) {
+  for (const int sign : {1, -1}) {
+    Coordinate coordinate{{.channel = 0, .counts_per_unit = 1e5, .sign = sign}, 0.01, 0.05};
+    for (int i = 0; i < 400; ++i) coordinate.step(200 * i);  // 0.2 per second
+    EXPECT_NEAR(coordinate.rate(), sign * 0.2, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace crane::bridge

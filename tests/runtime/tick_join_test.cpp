@@ -1,0 +1,98 @@
+// Exactly tick k, a bounded wait, and what is counted, over the memory bus.
+#include "crane/runtime/tick_join.hpp"
+
+#include <gtest/gtest.h>
+
+#include "crane/runtime/in_process.hpp"
+
+namespace crane::runtime {
+namespace {
+
+class TickJoining : public testing::Test {
+ protected:
+  using Join = TickJoin<msg::State, msg::Reference>;
+  Join join(bool in_order) {
+    return Join{{.in_order = in_order, .bound_ns = 4'000'000, .depth = 8},
+                bus_.subscriber(topics::state),
+                bus_.subscriber(topics::reference)};
+  }
+  void state(std::uint64_t tick) { publish(states_, tick); }
+  void reference(std::uint64_t tick) { publish(references_, tick); }
+
+ private:
+  template <class T>
+  static void publish(bus::Publisher<T>& publisher, std::uint64_t tick) {
+    T sample{};
+    sample.header.tick = tick;
+    publisher.publish(sample);
+  }
+  bus::Bus bus_{memory_options(bus::make_memory_network(), "test", crane_SOURCE_PLANT)};
+  bus::Publisher<msg::State> states_ = bus_.publisher(topics::state);
+  bus::Publisher<msg::Reference> references_ = bus_.publisher(topics::reference);
+};
+
+TEST_F(TickJoining, CompletesWithTheSamplesOfTheSameTickOnly) {
+  auto join = this->join(false);
+  state(7);
+  reference(8);
+  EXPECT_EQ(join.poll(0), JoinResult::waiting);
+  EXPECT_EQ(join.missing(), 2U);
+  reference(7);
+  ASSERT_EQ(join.poll(1), JoinResult::complete);
+  EXPECT_EQ(join.tick(), 7U);
+  EXPECT_EQ(join.get<1>()->header.tick, 7U);
+  state(8);  // the reference that came early is still there
+  EXPECT_EQ(join.poll(2), JoinResult::complete);
+}
+
+TEST_F(TickJoining, GivesUpAfterTheBoundAndCountsTheTickLost) {
+  auto join = this->join(false);
+  state(1);
+  EXPECT_EQ(join.poll(1'000'000), JoinResult::waiting);
+  EXPECT_EQ(join.poll(4'999'999), JoinResult::waiting);
+  EXPECT_EQ(join.poll(5'000'000), JoinResult::incomplete);
+  EXPECT_EQ(join.get<1>(), nullptr);
+  EXPECT_EQ(join.counts().lost, 1U);
+}
+
+TEST_F(TickJoining, CountsGapsLateAndDuplicateSamples) {
+  auto join = this->join(false);
+  for (const auto tick : {1U, 5U}) {
+    state(tick);
+    reference(tick);
+    ASSERT_EQ(join.poll(0), JoinResult::complete);
+  }
+  EXPECT_EQ(join.counts().lost, 3U);  // 2, 3, 4 never came
+  reference(4);
+  state(6);
+  state(6);
+  EXPECT_EQ(join.poll(0), JoinResult::waiting);
+  EXPECT_EQ(join.counts().late, 1U);
+  EXPECT_EQ(join.counts().duplicate, 1U);
+}
+
+TEST_F(TickJoining, LeavesAnOldTickForTheNewestInRealTime) {
+  auto join = this->join(false);
+  state(1);
+  EXPECT_EQ(join.poll(0), JoinResult::waiting);
+  state(2);
+  reference(2);
+  ASSERT_EQ(join.poll(1), JoinResult::complete);
+  EXPECT_EQ(join.tick(), 2U);
+  EXPECT_EQ(join.counts().lost, 1U);
+}
+
+TEST_F(TickJoining, TakesEveryTickInOrderInLockstepHoweverLongItTakes) {
+  auto join = this->join(true);
+  for (std::uint64_t tick = 0; tick < 4; ++tick) state(tick);
+  EXPECT_EQ(join.poll(1'000'000'000'000), JoinResult::waiting);
+  for (std::uint64_t tick = 0; tick < 4; ++tick) reference(tick);
+  for (std::uint64_t tick = 0; tick < 4; ++tick) {
+    ASSERT_EQ(join.poll(0), JoinResult::complete);
+    EXPECT_EQ(join.tick(), tick);
+  }
+  EXPECT_EQ(join.counts().lost, 0U);
+}
+
+}  // namespace
+}  // namespace crane::runtime
