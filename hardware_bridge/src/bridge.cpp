@@ -7,16 +7,6 @@
 #include "crane/runtime/convert.hpp"
 
 namespace crane::bridge {
-namespace {
-
-LastLineParameters last_line_parameters(const runtime::Rig& rig) {
-  LastLineParameters parameters;
-  parameters.stale_after_ticks = static_cast<std::uint64_t>(rig.limits.stale_after_ticks);
-  for (std::size_t i = 0; i < kDrives; ++i) parameters.volt_limit_v[i] = rig.drives[i].volt_limit_v;
-  return parameters;
-}
-
-}  // namespace
 
 Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
     : node_{context.node},
@@ -112,16 +102,28 @@ void Bridge::tick(std::int64_t now_ns) {
   tick_ = next;
   board_->advance_to(static_cast<std::int64_t>(next) * period_ns_);
   const auto inputs = board_->read();
-  const auto applied_v = board_->write(last_line_.decide(command_, next));
-  auto sample = state(inputs, applied_v, sample_time_ns);
+  const auto measured = measurement_.step(inputs.raw_counts);
+  applied_v_ = board_->write(last_line_.decide(command_, next, seen(inputs)));
+  auto sample = state(inputs, measured, sample_time_ns);
   states_.publish(sample);
   ++counts_.completed;
-  report_latches();
+  report_latch();
 }
 
-msg::State Bridge::state(const Inputs& inputs, const std::array<double, kDrives>& applied_v,
-                         std::int64_t sample_time_ns) {
-  const auto measured = measurement_.step(inputs.raw_counts);
+Seen Bridge::seen(const Inputs& inputs) const {
+  Seen seen{.applied_v = applied_v_,
+            .brake_closed = inputs.brake_closed,
+            .limit_low = inputs.limit_low,
+            .limit_high = inputs.limit_high};
+  for (std::size_t i = 0; i < kCounters; ++i) {
+    seen.counts[i] = measurement_.coordinates()[i].counts();
+    seen.coordinate[i] = measurement_.coordinates()[i].position();
+  }
+  return seen;
+}
+
+msg::State Bridge::state(const Inputs& inputs, const control::Measurement& measured,
+                         std::int64_t sample_time_ns) const {
   msg::State sample{};
   sample.header.tick = *tick_;
   sample.header.sample_time_ns = sample_time_ns;
@@ -136,7 +138,7 @@ msg::State Bridge::state(const Inputs& inputs, const std::array<double, kDrives>
   sample.swing_tangential_rad = measured.swing_tangential_rad;
   sample.swing_radial_radps = measured.swing_radial_radps;
   sample.swing_tangential_radps = measured.swing_tangential_radps;
-  runtime::assign(sample.applied_v, applied_v);
+  runtime::assign(sample.applied_v, applied_v_);
   sample.applied_command_tick = command_ ? command_->tick : 0;
   for (std::size_t i = 0; i < kDrives; ++i) {
     sample.brake_closed[i] = inputs.brake_closed[i];
@@ -144,23 +146,20 @@ msg::State Bridge::state(const Inputs& inputs, const std::array<double, kDrives>
     sample.limit_high[i] = inputs.limit_high[i];
   }
   sample.estop_pressed = inputs.estop_pressed;
-  sample.command_stale = last_line_.command_stale();
-  sample.command_invalid = last_line_.command_invalid();
+  const auto reason = last_line_.reason();
+  sample.command_stale = reason == Reason::command_stale;
+  sample.command_invalid = reason != Reason::none && reason != Reason::command_stale;
   sample.watchdog_dropped = inputs.watchdog_dropped;
   sample.overruns = overruns_;
   return sample;
 }
 
-void Bridge::report_latches() {
-  if (last_line_.command_stale() && !reported_stale_)
-    node_.error("command_stale", "commands stopped coming: 0 V, brakes closed, latched",
-                "look for a dead or hung supervisor, then `crane reset`");
-  if (last_line_.command_invalid() && !reported_invalid_)
-    node_.error("command_invalid",
-                "a command was not finite or beyond the drive's limit: 0 V, brakes closed, latched",
-                "restart the supervisor, then `crane reset`");
-  reported_stale_ = last_line_.command_stale();
-  reported_invalid_ = last_line_.command_invalid();
+void Bridge::report_latch() {
+  const auto reason = last_line_.reason();
+  if (reason != Reason::none && reason != reported_)
+    node_.error(name_of(reason), std::string{explanation_of(reason)} + ": 0 V, brakes closed, latched",
+                remedy_for(reason));
+  reported_ = reason;
 }
 
 }  // namespace crane::bridge

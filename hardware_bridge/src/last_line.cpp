@@ -1,39 +1,79 @@
 #include "crane/bridge/last_line.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace crane::bridge {
 
-bool LastLine::acceptable(const CommandView& command) const noexcept {
-  constexpr double kRounding = 1e-9;
-  for (std::size_t i = 0; i < kDrives; ++i)
-    if (!(std::abs(command.drive_v[i]) <= parameters_.volt_limit_v[i] + kRounding))
-      return false;  // NaN fails
-  return true;
+void History::add(const Entry& entry) noexcept {
+  newest_ = (newest_ + 1) % kLength;
+  entries_[newest_] = entry;
+  size_ = std::min(size_ + 1, kLength);
+}
+
+Outputs LastLine::decide(const std::optional<CommandView>& command, std::uint64_t tick,
+                         const Seen& seen) noexcept {
+  observe(tick, seen);
+  if (command && reason_ != Reason::none && !is_final(reason_)) reset_on_permission_edge(*command);
+  const Moment moment{tick, command ? &*command : nullptr, before_, &history_, braked_at_};
+  if (reason_ == Reason::none) reason_ = first_failure(moment);
+  if (reason_ != Reason::none || !command) {
+    before_ = {};
+    return given_ = {};
+  }
+  before_ = *command;
+  given_ = {.drive_v = command->drive_v,
+            .brake_release = command->brake_release,
+            .watchdog_level = command->watchdog_permission && !given_.watchdog_level};
+  return given_;
+}
+
+void LastLine::observe(std::uint64_t tick, const Seen& seen) noexcept {
+  History::Entry entry{tick, seen, {}};
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    entry.free[i] = given_.brake_release[i] && !seen.brake_closed[i];
+    if (parameters_.axis[i].present) follow_brake(i, tick, seen);
+  }
+  history_.add(entry);
+}
+
+/// From the tick on at which a brake told to close has stopped its axis, the axis has to stay where it is.
+void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Seen& seen) noexcept {
+  if (given_.brake_release[axis]) {
+    told_closed_[axis] = false;
+    braked_at_[axis].reset();
+    return;
+  }
+  if (!told_closed_[axis]) {
+    const AxisLine& line = parameters_.axis[axis];
+    constexpr double kReserve = 1.5, kReserve_s = 0.05;
+    const double moved = history_.size() > 0 ? seen.coordinate[axis] - history_[0].seen.coordinate[axis] : 0;
+    const double speed = std::min(std::abs(moved) / parameters_.period_s, line.max_speed);
+    const double rest_s = line.brake_close_time_s + kReserve * speed / line.brake_deceleration + kReserve_s;
+    told_closed_[axis] = true;
+    rests_from_tick_[axis] = tick + static_cast<std::uint64_t>(std::ceil(rest_s / parameters_.period_s));
+  }
+  if (!braked_at_[axis] && tick >= rests_from_tick_[axis]) braked_at_[axis] = seen.coordinate[axis];
+}
+
+Reason LastLine::first_failure(const Moment& moment) const noexcept {
+  const auto failed = std::find_if(checks_.begin(), checks_.end(),
+                                   [&](const Check& check) { return check.fails(parameters_, moment); });
+  return failed == checks_.end() ? Reason::none : failed->reason;
 }
 
 void LastLine::reset_on_permission_edge(const CommandView& command) noexcept {
-  const bool quiet = !command.brake_release[0] && !command.brake_release[1] && !command.brake_release[2] &&
+  const bool fresh =
+      history_[0].tick > command.tick && history_[0].tick - 1 - command.tick < parameters_.stale_after_ticks;
+  const bool quiet = command.brake_release == std::array<bool, kDrives>{} &&
                      command.drive_v == std::array<double, kDrives>{};
-  if (!quiet) return;
+  if (!fresh || !quiet) return;
   if (!command.watchdog_permission) {
     permission_withheld_ = true;
   } else if (permission_withheld_) {
-    stale_ = invalid_ = permission_withheld_ = false;
+    permission_withheld_ = false;
+    reason_ = Reason::none;
   }
-}
-
-Outputs LastLine::decide(const std::optional<CommandView>& command, std::uint64_t tick) noexcept {
-  if (!command) return {};
-  const bool fresh = command->tick < tick && tick - 1 - command->tick < parameters_.stale_after_ticks;
-  if (fresh && (stale_ || invalid_)) reset_on_permission_edge(*command);
-  if (!fresh) stale_ = true;
-  if (!acceptable(*command)) invalid_ = true;
-  if (stale_ || invalid_) return {};
-  watchdog_level_ = command->watchdog_permission && !watchdog_level_;
-  return {.drive_v = command->drive_v,
-          .brake_release = command->brake_release,
-          .watchdog_level = watchdog_level_};
 }
 
 }  // namespace crane::bridge

@@ -15,8 +15,10 @@ std::int64_t CountUnwrapper::step(std::int32_t raw_counts) noexcept {
   return counts_ += change;
 }
 
-Coordinate::Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio)
+Coordinate::Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio,
+                       bool filter_position)
     : units_per_count_{encoder.counts_per_unit > 0 ? encoder.sign / encoder.counts_per_unit : 0},
+      filter_position_{filter_position},
       low_pass_{control::butterworth_low_pass(cut_off_ratio)},
       differentiator_{control::al_alaoui_second_order(1 / period_s)} {}
 
@@ -30,6 +32,7 @@ void Coordinate::step(std::int32_t raw_counts) noexcept {
   }
   const double smooth = control::step(low_pass_, low_pass_memory_, position_);
   rate_ = control::step(differentiator_, differentiator_memory_, smooth);
+  if (filter_position_) position_ = smooth;
 }
 
 namespace {
@@ -37,8 +40,10 @@ namespace {
 /// The filter in front of the trolley's differentiator makes its motion oscillate on the rig (section 4.4.1),
 /// so the rig file says per axis whether there is one; swing rates always have it.
 Coordinate coordinate(const runtime::Rig& rig, std::size_t counter) {
-  const bool filtered = counter >= plant::kAxes || rig.sensing.filter_speed[counter];
-  return {rig.encoders[counter], rig.period_s, filtered ? rig.sensing.swing_filter_ratio : 0.0};
+  const bool swing = counter >= plant::kAxes;
+  const bool filtered = swing || rig.sensing.filter_speed[counter];
+  return {rig.encoders[counter], rig.period_s, filtered ? rig.sensing.swing_filter_ratio : 0.0,
+          swing && rig.sensing.filter_swing_angle};
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ std::string describe(int status) {
   ::setpgid(0, 0);  // a Ctrl-C on the terminal reaches the parent alone, which stops the stack in order
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(1);
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output belongs to what the user asked the parent for
   ::execv(program, arguments);
   ::_exit(127);
 }

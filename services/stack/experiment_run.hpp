@@ -10,14 +10,17 @@
 #include "crane/experiment/metrics.hpp"
 #include "crane/runtime/process.hpp"
 #include "stack/lockstep_run.hpp"
+#include "stack/stack.hpp"
 
 namespace crane::stack {
 
 struct ExperimentOptions {
   std::filesystem::path scenario, rig;
   std::string controller;           ///< empty: the rig's
+  std::string variant{};            ///< of experiment/variant.hpp, empty: none
   std::filesystem::path directory;  ///< created when missing
-  bool in_process = false;          ///< one process over the memory bus instead of one per component
+  Plant plant = Plant::simulated;
+  bool in_process = false;  ///< one process over the memory bus instead of one per component
   bool picture = true;
   runtime::BusOptions bus;  ///< processes only
   std::map<std::string, std::string> vendors;
@@ -26,13 +29,18 @@ struct ExperimentOptions {
 struct ExperimentResult {
   RunOutcome outcome;
   experiment::Metrics metrics;
-  std::string scenario, controller, rig;
+  std::string scenario, controller, rig, variant;
   double real_time_factor = 0;  ///< simulated time over wall time, from the first tick to the last
 };
 
 /// @throws runtime::ConfigurationError for bad files or names (nothing has been started then), RunError,
 ///   recording::WriteError, experiment::PictureError
 [[nodiscard]] ExperimentResult run_experiment(const ExperimentOptions& options);
+
+/// A scenario on the rig as it starts it, in this process. @throws RunError
+[[nodiscard]] RunOutcome run_in_process(const runtime::Rig& started, const control::Controller& controller,
+                                        const experiment::Scenario& scenario, TickLog& log,
+                                        Plant plant = Plant::simulated);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const ExperimentResult& result);
 

@@ -42,6 +42,16 @@ void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>&
   }
 }
 
+void launch_rig(ChildProcesses& children, const runtime::Rig& rig, const LaunchOptions& options) {
+  if (rig.board != "emulated") return;
+  // Above the stack: what is hardware elsewhere waits for nobody.
+  const int priority = options.priority > 0 ? options.priority + 1 : 0;
+  children.start(
+      "emulated_rig", "crane_emulated_rig",
+      {"--rig", options.rig, "--crane", options.bus.crane, "--domain", std::to_string(options.bus.domain),
+       "--clock", options.clock, "--priority", std::to_string(priority)});
+}
+
 std::string describe(const Ended& ended) { return ended.name + " has ended: " + ended.how; }
 
 void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,

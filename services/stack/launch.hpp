@@ -30,6 +30,10 @@ struct LaunchOptions {
 void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
             const LaunchOptions& options);
 
+/// The process a rig needs besides the stack's: the emulated crane of an emulated board, else nothing.
+/// @throws std::runtime_error when the program is missing
+void launch_rig(ChildProcesses& children, const runtime::Rig& rig, const LaunchOptions& options);
+
 /// Waits until every component has reported ready on crane/node.
 /// @throws std::runtime_error naming who ended or did not report within `patience`
 void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,

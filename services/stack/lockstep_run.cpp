@@ -1,5 +1,7 @@
 #include "stack/lockstep_run.hpp"
 
+#include <algorithm>
+
 #include <cmath>
 
 #include "crane/runtime/process.hpp"
@@ -86,6 +88,7 @@ class LockstepRun {
                       collected_.get<4>(), collected_.get<5>(), collected_.get<6>()};
       log_.add(tick);
       collected_tick_ = collected_.tick();
+      clock_master_ = tick.state->header.source;
       if (!stopped()) cause_ = tick.supervisor->cause;
       if (!stopped()) state_ = tick.supervisor->state;
       any = true;
@@ -99,11 +102,16 @@ class LockstepRun {
     until([this, tick] { return collected_tick_ == tick; }, "tick " + std::to_string(tick));
   }
 
+  void advance_by(std::uint64_t ticks) {
+    for (const auto end = frontier_ + ticks; frontier_ < end;)
+      advance_to(std::min(frontier_ + kChunk_ticks, end));
+  }
+
   /// From power-on to brakes open: self-test, reset, arm.
   void prepare() {
     const auto longest = ticks(kLongestPreparation_s);
-    const auto reach = [&](crane_SupervisorState wanted) {
-      while (state_ != wanted) {
+    const auto reach = [&](std::initializer_list<crane_SupervisorState> wanted) {
+      while (std::find(wanted.begin(), wanted.end(), state_) == wanted.end()) {
         if (frontier_ > longest)
           throw RunError(std::string{"the supervisor stays in "} +
                          supervisor::name_of(static_cast<supervisor::State>(state_)) + " because of " +
@@ -112,13 +120,15 @@ class LockstepRun {
       }
     };
     constexpr double kCausesClear_s = 1.1;  // the supervisor wants them clear for a second before a reset
-    advance_to(ticks(kCausesClear_s));
-    reach(crane_STATE_LOCKED);
+    advance_by(ticks(kCausesClear_s));
+    reach({crane_STATE_LOCKED});
     request({.kind = crane_REQUEST_RESET}, {crane_SOURCE_SUPERVISOR});
-    advance_to(frontier_ + ticks(kCausesClear_s));
-    reach(crane_STATE_READY);
+    advance_by(ticks(kCausesClear_s));
+    reach({crane_STATE_READY});
     request({.kind = crane_REQUEST_ARM}, {crane_SOURCE_SUPERVISOR});
-    reach(crane_STATE_HOLD);
+    // A load that wind or a tilted jib keeps off its rest is damped at once: the crane is active without a
+    // move.
+    reach({crane_STATE_HOLD, crane_STATE_RUN});
     check_verdicts();
   }
 
@@ -132,10 +142,15 @@ class LockstepRun {
       }
       request(wish, {crane_SOURCE_SUPERVISOR, crane_SOURCE_PLANNER});
     }
+    for (const auto& excitation : scenario_.excitations) {
+      Wish wish = wish_of(excitation.reference);
+      wish.apply_tick = outcome_.hold_tick + ticks(excitation.at_s);
+      request(wish, {crane_SOURCE_SUPERVISOR, crane_SOURCE_PLANNER});
+    }
     for (const auto& kick : scenario_.kicks) {
       Wish wish{.kind = crane_REQUEST_KICK, .target = {kick.radial_radps, kick.tangential_radps, 0}};
       wish.apply_tick = outcome_.hold_tick + ticks(kick.at_s);
-      request(wish, {crane_SOURCE_PLANT});
+      request(wish, {clock_master_});
     }
   }
 
@@ -178,6 +193,7 @@ class LockstepRun {
   std::vector<Verdict> verdicts_;
   std::optional<std::uint64_t> collected_tick_;
   std::uint64_t frontier_ = 0;
+  crane_Source clock_master_ = crane_SOURCE_PLANT;  ///< or the bridge: who pushes the load
   crane_SupervisorState state_ = crane_STATE_BOOT;
   crane_Cause cause_ = crane_CAUSE_NONE;
 };

@@ -7,6 +7,16 @@
 
 namespace crane::stack {
 
+Wish wish_of(const control::Excitation& excitation) {
+  Wish wish{.kind = crane_REQUEST_FOLLOW};
+  wish.selected[excitation.axis] = true;
+  wish.target[excitation.axis] = excitation.about;
+  for (const auto& sine : excitation.sines)
+    wish.sines.push_back({sine.amplitude, sine.frequency_hz, sine.phase_rad});
+  wish.duration_s = excitation.duration_s;
+  return wish;
+}
+
 OperatorClient::OperatorClient(bus::Bus& bus, std::string client, std::uint64_t first_id)
     : requests_{bus.publisher(topics::request)},
       replies_{bus.subscriber(topics::reply)},
@@ -24,6 +34,8 @@ std::uint64_t OperatorClient::send(const Wish& wish) {
     request.target[i] = wish.target[i];
   }
   request.until_tick = wish.until_tick;
+  std::copy_n(wish.sines.begin(), std::min(wish.sines.size(), std::size(request.sine)), request.sine);
+  request.duration_s = wish.duration_s;
   requests_.publish(request);
   return request.id;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crane/bus/bus.hpp"
+#include "crane/control/excitation.hpp"
 
 namespace crane::stack {
 
@@ -14,10 +15,15 @@ namespace crane::stack {
 struct Wish {
   crane_RequestKind kind = crane_REQUEST_NONE;
   std::array<bool, 3> selected{};
-  std::array<double, 3> target{};  ///< move: m, rad, m of cable; kick: rad/s radial, tangential
-  std::uint64_t apply_tick = 0;    ///< 0: at once
-  std::uint64_t until_tick = 0;    ///< advance
+  std::array<double, 3> target{};   ///< move: m, rad, m of cable; kick: rad/s radial, tangential
+  std::uint64_t apply_tick = 0;     ///< 0: at once
+  std::uint64_t until_tick = 0;     ///< advance
+  std::vector<crane_Sine> sines{};  ///< follow: at most as many as a request holds
+  double duration_s = 0;            ///< follow
 };
+
+/// The request to follow an excitation.
+[[nodiscard]] Wish wish_of(const control::Excitation& excitation);
 
 class OperatorClient {
  public:

@@ -2,6 +2,7 @@
 
 #include "anti_swing/anti_swing.hpp"
 #include "friction_compensation/friction_compensation.hpp"
+#include "process/hardware_bridge.hpp"
 #include "process/simulated_plant.hpp"
 #include "process/supervisor_component.hpp"
 #include "tracking/tracking.hpp"
@@ -9,13 +10,27 @@
 
 namespace crane::stack {
 
-std::vector<runtime::ComponentSpec> simulated_stack() {
-  return {simulator::simulated_plant_spec(),
+namespace {
+
+std::vector<runtime::ComponentSpec> stack_behind(const runtime::ComponentSpec& clock_master) {
+  return {clock_master,
           services::trajectory_planner_spec(),
           services::tracking_spec(),
           services::anti_swing_spec(),
           services::friction_compensation_spec(),
           supervisor::supervisor_spec()};
+}
+
+}  // namespace
+
+std::vector<runtime::ComponentSpec> simulated_stack() {
+  return stack_behind(simulator::simulated_plant_spec());
+}
+
+std::vector<runtime::ComponentSpec> hardware_stack() { return stack_behind(bridge::hardware_bridge_spec()); }
+
+std::vector<runtime::ComponentSpec> stack_with(Plant plant) {
+  return plant == Plant::hardware ? hardware_stack() : simulated_stack();
 }
 
 }  // namespace crane::stack

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace crane::services {
 
@@ -23,24 +24,51 @@ double Motion::time_s(std::uint64_t tick) const noexcept {
 
 void Motion::follow(const control::Measurement& measured, std::uint64_t tick) noexcept {
   is_braking_ = false;
+  excitation_.reset();
+  shaper_ = {};
   start_tick_ = tick;
   for (std::size_t i = 0; i < kAxes; ++i)
     trajectory_[i] = control::step_profile(measured.position[i], measured.position[i]);
 }
 
+control::AxisProfile Motion::planned(std::size_t axis, double start, double target) const {
+  const bool steps = shape_ == control::ReferenceShape::step && axis != control::kHoist;
+  if (steps || target == start) return control::step_profile(start, target);
+  const auto& drive = rig_.drives[axis];
+  control::AxisLimits limits{.speed = drive.reference_speed, .acceleration = drive.reference_acceleration};
+  if (rig_.planning.limits_jerk) limits.jerk = drive.reference_jerk;
+  return control::limited_profile(start, target, limits);
+}
+
+/// For the mean of the cable lengths at both ends of the move.
+control::Shaper Motion::shaper() const {
+  const auto& design = rig_.design;
+  const auto& cable = trajectory_[control::kHoist];
+  const double length_m = std::clamp((cable.start + cable.target) / 2, design.shortest_cable_length_m,
+                                     design.longest_cable_length_m);
+  return {rig_.planning.shaping, 2 * std::numbers::pi * std::sqrt(length_m / design.crane.gravity_mps2)};
+}
+
 void Motion::start(const MoveTarget& move, std::uint64_t tick) {
   const auto now = at(tick);
-  for (std::size_t i = 0; i < kAxes; ++i) {
-    const double target = move.selected[i] ? move.target[i] : now[i].position;
-    const bool limited = shape_ == control::ReferenceShape::bang_coast_bang || i == control::kHoist;
-    trajectory_[i] = limited && target != now[i].position
-                         ? control::limited_profile(now[i].position, target,
-                                                    {.speed = rig_.drives[i].reference_speed,
-                                                     .acceleration = rig_.drives[i].reference_acceleration})
-                         : control::step_profile(now[i].position, target);
-  }
+  for (std::size_t i = 0; i < kAxes; ++i)
+    trajectory_[i] = planned(i, now[i].position, move.selected[i] ? move.target[i] : now[i].position);
   trajectory_ = control::synchronised(trajectory_);
+  const bool swings =
+      trajectory_[control::kTrolley].duration_s() > 0 || trajectory_[control::kSlew].duration_s() > 0;
+  shaper_ = swings ? shaper() : control::Shaper{};
   is_braking_ = false;
+  excitation_.reset();
+  start_tick_ = tick;
+}
+
+void Motion::excite(const control::Excitation& excitation, std::uint64_t tick) {
+  const auto now = at(tick);
+  for (std::size_t i = 0; i < kAxes; ++i)
+    trajectory_[i] = control::step_profile(now[i].position, now[i].position);
+  is_braking_ = false;
+  shaper_ = {};
+  excitation_ = excitation;
   start_tick_ = tick;
 }
 
@@ -54,7 +82,13 @@ void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noex
 }
 
 control::Reference Motion::at(std::uint64_t tick) const noexcept {
-  if (!is_braking_) return control::reference_at(trajectory_, time_s(tick));
+  if (!is_braking_) {
+    auto reference = control::reference_at(trajectory_, time_s(tick));
+    for (const auto axis : {control::kTrolley, control::kSlew})
+      reference[axis] = shaper_.at(trajectory_[axis], time_s(tick));
+    if (excitation_) reference[excitation_->axis] = excitation_->at(time_s(tick));
+    return reference;
+  }
   control::Reference reference;
   for (std::size_t i = 0; i < kAxes; ++i) reference[i] = braking_[i].at(time_s(tick));
   return reference;
@@ -64,7 +98,9 @@ bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) c
   constexpr double kBand = 0.01;     // m, rad
   constexpr double kSlow = 0.01;     // per second
   constexpr double kLongest_s = 20;  // friction may hold an axis outside the band for ever
-  if (time_s(tick) > control::duration_s(trajectory_) + kLongest_s) return true;
+  const double end_s =
+      excitation_ ? excitation_->duration_s : control::duration_s(trajectory_) + shaper_.delay_s();
+  if (time_s(tick) > end_s + kLongest_s) return true;
   const auto reference = at(tick);
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!rig_.drives[i].present) continue;
@@ -72,7 +108,7 @@ bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) c
         std::abs(measured.speed[i]) > kSlow)
       return false;
   }
-  return time_s(tick) >= control::duration_s(trajectory_);
+  return time_s(tick) >= end_s;
 }
 
 }  // namespace crane::services

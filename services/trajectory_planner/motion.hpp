@@ -2,8 +2,11 @@
 /// The planner's memory without the bus: what is being followed and since when.
 #include <array>
 #include <cstdint>
+#include <optional>
 
+#include "crane/control/excitation.hpp"
 #include "crane/control/law.hpp"
+#include "crane/control/shaper.hpp"
 #include "crane/control/trajectory.hpp"
 #include "crane/runtime/rig.hpp"
 
@@ -24,6 +27,8 @@ class Motion {
   void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
   /// Begin a move at `tick` from the present reference.
   void start(const MoveTarget& move, std::uint64_t tick);
+  /// Excite one axis from `tick` on; the others stay where their reference is.
+  void excite(const control::Excitation& excitation, std::uint64_t tick);
   /// Come to rest from the measured speed at the reference acceleration.
   void stop(const control::Measurement& measured, std::uint64_t tick) noexcept;
   /// Reference at `tick`.
@@ -37,12 +42,16 @@ class Motion {
     double start = 0, speed = 0, deceleration = 1;
     [[nodiscard]] control::AxisReference at(double time_s) const noexcept;
   };
+  [[nodiscard]] control::AxisProfile planned(std::size_t axis, double start, double target) const;
+  [[nodiscard]] control::Shaper shaper() const;
   [[nodiscard]] double time_s(std::uint64_t tick) const noexcept;
 
   const runtime::Rig& rig_;
   control::ReferenceShape shape_;
   control::Trajectory trajectory_{};
+  control::Shaper shaper_;  ///< of trolley and slew; the hoist makes no swing
   std::array<Braking, control::kAxes> braking_{};
+  std::optional<control::Excitation> excitation_;  ///< takes the place of its axis' profile
   bool is_braking_ = false;
   std::uint64_t start_tick_ = 0;
 };

@@ -16,13 +16,34 @@ using runtime::Context;
 constexpr double kWaitShare =
     0.8;  // of a period: off the critical path, the reference is needed at the next tick
 
+MoveTarget target_of(const msg::Request& request) {
+  MoveTarget move;
+  for (std::size_t i = 0; i < control::kAxes; ++i) {
+    move.selected[i] = request.selected[i];
+    move.target[i] = request.target[i];
+  }
+  return move;
+}
+
+/// @pre exactly one axis is selected, as the supervisor has seen to
+control::Excitation excitation_of(const msg::Request& request) {
+  control::Excitation excitation;
+  while (excitation.axis + 1 < control::kAxes && !request.selected[excitation.axis]) ++excitation.axis;
+  excitation.about = request.target[excitation.axis];
+  for (std::size_t i = 0; i < excitation.sines.size(); ++i)
+    excitation.sines[i] = {request.sine[i].amplitude, request.sine[i].frequency_hz,
+                           request.sine[i].phase_rad};
+  excitation.duration_s = request.duration_s;
+  return excitation;
+}
+
 class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::SupervisorStatus> {
  public:
   explicit TrajectoryPlanner(const Context& context)
       : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
                         context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
                         context.bus.subscriber(topics::supervisor, runtime::loop_endpoint(context.clock))},
-        requests_{context, {crane_REQUEST_MOVE}},
+        requests_{context, {crane_REQUEST_MOVE, crane_REQUEST_FOLLOW}},
         output_{context.bus.publisher(topics::reference, runtime::loop_endpoint(context.clock))},
         stale_after_ticks_{context.rig.limits.stale_after_ticks},
         motion_{context.rig, context.controller.reference} {}
@@ -69,12 +90,10 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
         std::find_if(wanted_.begin(), wanted_.end(),
                      [accepted_id](const msg::Request& request) { return request.id == accepted_id; });
     if (accepted == wanted_.end()) return;
-    MoveTarget move;
-    for (std::size_t i = 0; i < control::kAxes; ++i) {
-      move.selected[i] = accepted->selected[i];
-      move.target[i] = accepted->target[i];
-    }
-    motion_.start(move, tick);
+    if (accepted->kind == crane_REQUEST_FOLLOW)
+      motion_.excite(excitation_of(*accepted), tick);
+    else
+      motion_.start(target_of(*accepted), tick);
     request_id_ = accepted_id;
     wanted_.erase(wanted_.begin(), accepted + 1);  // what was asked for before is out of date
   }
@@ -105,15 +124,17 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
 }  // namespace
 
 runtime::ComponentSpec trajectory_planner_spec() {
-  return {.name = "trajectory_planner",
-          .program = "crane_trajectory_planner",
-          .summary = "Where each axis is to be: step and accelerate-coast-brake references.",
-          .source = crane_SOURCE_PLANNER,
-          .runs_controller = true,
-          .sole_writer_of = &topics::reference.description,
-          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
-            return std::make_unique<TrajectoryPlanner>(context);
-          }};
+  return {
+      .name = "trajectory_planner",
+      .program = "crane_trajectory_planner",
+      .summary =
+          "Where each axis is to be: steps, accelerate-coast-brake or S-curve moves, shaped if asked for.",
+      .source = crane_SOURCE_PLANNER,
+      .runs_controller = true,
+      .sole_writer_of = &topics::reference.description,
+      .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+        return std::make_unique<TrajectoryPlanner>(context);
+      }};
 }
 
 }  // namespace crane::services

@@ -1,6 +1,8 @@
 #include "process/supervisor_component.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,6 +62,7 @@ constexpr double kSilentPeriods = 1.5;  // without a state: the step is due all 
 constexpr int kSelfTestTicks = 10;      // quiet in a row
 constexpr int kSelfTestLongestTicks = 200;
 constexpr int kTicksToTakeUp = 20;  // from the acceptance of a move until the planner follows it
+constexpr double kLongestFollow_s = 3600;
 constexpr double kSlewStandstill_radps = 0.01;
 constexpr double kSlewBrakeSlip_rad = 0.05;
 
@@ -72,6 +75,7 @@ std::optional<Request> request_of(crane_RequestKind kind) {
     case crane_REQUEST_DISARM:
       return Request::disarm;
     case crane_REQUEST_MOVE:
+    case crane_REQUEST_FOLLOW:
       return Request::move;
     case crane_REQUEST_STOP:
       return Request::stop;
@@ -80,6 +84,24 @@ std::optional<Request> request_of(crane_RequestKind kind) {
     default:
       return std::nullopt;
   }
+}
+
+bool moves_axes(const msg::Request& request) {
+  return request.kind == crane_REQUEST_MOVE || request.kind == crane_REQUEST_FOLLOW;
+}
+
+/// Farthest from its target, and fastest, that the sum of sines of a request can be.
+struct Excursion {
+  double distance = 0, speed = 0;
+};
+Excursion excursion_of(const msg::Request& request) {
+  Excursion sum;
+  if (request.kind != crane_REQUEST_FOLLOW) return sum;
+  for (const auto& sine : request.sine) {
+    sum.distance += std::abs(sine.amplitude);
+    sum.speed += std::abs(sine.amplitude * 2 * std::numbers::pi * sine.frequency_hz);
+  }
+  return sum;
 }
 
 Sample sample_of(const msg::State& state) {
@@ -137,7 +159,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
         realtime_{context.clock == runtime::Clock::realtime},
         requests_{context,
                   {crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_DISARM, crane_REQUEST_MOVE,
-                   crane_REQUEST_STOP, crane_REQUEST_ESTOP}},
+                   crane_REQUEST_FOLLOW, crane_REQUEST_STOP, crane_REQUEST_ESTOP}},
         commands_{context.bus.publisher(topics::command, runtime::loop_endpoint(context.clock))},
         statuses_{context.bus.publisher(topics::supervisor, runtime::loop_endpoint(context.clock))} {
     if (auto found = problems(limits_); !found.empty()) {
@@ -215,7 +237,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   std::vector<msg::Request> collect(TickInput& input) {
     std::vector<msg::Request> asked;
     while (const auto request = requests_.take_due(input.tick)) {
-      if (request->kind == crane_REQUEST_MOVE)
+      if (moves_axes(*request))
         if (const auto problem = target_problem(*request); !problem.empty()) {
           requests_.reply(*request, last_header_, false, problem);
           continue;
@@ -228,23 +250,35 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   [[nodiscard]] std::string target_problem(const msg::Request& request) const {
     constexpr std::array kAxisNames{"trolley", "slew", "hoist"};
-    bool any = false;
+    const auto excursion = excursion_of(request);
+    int selected = 0;
     for (std::size_t i = 0; i < kAxes; ++i) {
       if (!request.selected[i]) continue;
-      any = true;
+      ++selected;
       const auto& axis = limits_.axis[i];
       if (!axis.present) return std::string{"this rig has no "} + kAxisNames[i] + " drive";
-      if (!target_allowed(axis, request.target[i]))
-        return std::string{kAxisNames[i]} + " target " + std::to_string(request.target[i]) +
-               " must lie in [" + std::to_string(axis.low_limit + axis.soft_margin) + ", " +
-               std::to_string(axis.high_limit - axis.soft_margin) + "]";
+      for (const double target :
+           {request.target[i] - excursion.distance, request.target[i] + excursion.distance})
+        if (!target_allowed(axis, target))
+          return std::string{kAxisNames[i]} + " target " + std::to_string(target) + " must lie in [" +
+                 std::to_string(axis.low_limit + axis.soft_margin) + ", " +
+                 std::to_string(axis.high_limit - axis.soft_margin) + "]";
+      if (!(excursion.speed <= axis.max_speed))
+        return std::string{kAxisNames[i]} + " speed " + std::to_string(excursion.speed) +
+               " of the sines must be at most " + std::to_string(axis.max_speed);
     }
-    return any ? "" : "no axis selected";
+    if (selected == 0) return "no axis selected";
+    if (request.kind != crane_REQUEST_FOLLOW) return "";
+    if (selected != 1) return "follow: select exactly one axis";
+    if (!std::ranges::all_of(request.sine, [](const auto& sine) { return std::isfinite(sine.phase_rad); }))
+      return "follow: phase_rad must be finite";
+    const bool lasts = request.duration_s >= 0 && request.duration_s <= kLongestFollow_s;
+    return lasts ? "" : "follow: duration_s must lie in [0, 3600]";
   }
 
   void answer(const msg::Request& request, const TickOutput& output) {
     const auto& verdict = output.answers[static_cast<std::size_t>(*request_of(request.kind))];
-    if (request.kind == crane_REQUEST_MOVE && verdict.accepted) {
+    if (moves_axes(request) && verdict.accepted) {
       move_id_ = request.id;
       ticks_to_take_up_ = kTicksToTakeUp;
     }

@@ -4,6 +4,9 @@
 
 #include "crane/control/friction_compensation.hpp"
 #include "crane/control/law.hpp"
+#include "crane/control/shaper.hpp"
+#include "crane/control/trajectory.hpp"
+#include "crane/control/zero_phase.hpp"
 
 namespace crane::control {
 namespace {
@@ -28,12 +31,30 @@ void friction(benchmark::State& state) {
     benchmark::DoNotOptimize(friction_compensation_v(parameters, control_v = -control_v, 0));
 }
 
+void reference(benchmark::State& state) {
+  const auto profile = limited_profile(0, 1, {0.5, 1, 10});
+  const Shaper shaper(Shaping::ei, 2);
+  double time_s = 0;
+  for (auto _ : state) {
+    time_s = time_s > 5 ? 0 : time_s + 0.01;
+    benchmark::DoNotOptimize(shaper.at(profile, time_s));
+  }
+}
+
+void zero_phase_of_a_minute(benchmark::State& state) {
+  std::vector<double> samples(6000);
+  for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = static_cast<double>(k % 100);
+  for (auto _ : state) benchmark::DoNotOptimize(zero_phase_butterworth(samples, 0.05));
+}
+
 const bool kRegistered = [] {
   for (const auto& controller : controllers()) {
     const std::string name(controller.name);
     benchmark::RegisterBenchmark((name + "/tracking").c_str(), step_law, controller.make_tracking);
     benchmark::RegisterBenchmark((name + "/anti_swing").c_str(), step_law, controller.make_anti_swing);
   }
+  benchmark::RegisterBenchmark("s_curve_shaped_ei", reference);
+  benchmark::RegisterBenchmark("zero_phase_6000_samples", zero_phase_of_a_minute);
   benchmark::RegisterBenchmark("friction_compensation", friction);
   return true;
 }();

@@ -38,6 +38,41 @@ TEST(Differentiators, ComeCloseToTheIdealOneAtLowFrequency) {
     }
 }
 
+/// Gain of each in closed form, from the integrator it inverts: rectangular; three quarters rectangular and
+/// one trapezoidal; Simpson, its zero outside the unit circle reflected, which keeps the gain.
+double backward_gain(double w) { return 2 * std::sin(w / 2); }
+double first_order_gain(double w) {
+  return 2 * std::sin(w / 2) / std::sqrt(1 - 7.0 / 32 * (1 - std::cos(w)));
+}
+double second_order_gain(double w) { return 3 * std::sin(w) / (2 + std::cos(w)); }
+
+struct Differentiator {
+  FilterSection section;
+  double (*gain)(double);  ///< per sample, at w rad per sample
+  double good_up_to_hz;    ///< within 1 % of the ideal one, w, up to here and not beyond
+};
+
+const Differentiator kDifferentiators[] = {{backward_difference(kRate_hz), backward_gain, 7.81},
+                                           {al_alaoui_first_order(kRate_hz), first_order_gain, 14.99},
+                                           {al_alaoui_second_order(kRate_hz), second_order_gain, 17.77}};
+
+TEST(Differentiators, HaveTheGainOfTheIntegratorTheyInvertAtEveryFrequency) {
+  for (const auto& [section, gain, good_up_to_hz] : kDifferentiators)
+    for (double f = 0.5; f < 50; f += 1.7)
+      EXPECT_NEAR(std::abs(response(section, f)) / kRate_hz, gain(2 * pi * f / kRate_hz), 1e-9) << f;
+}
+
+TEST(Differentiators, AreWithinOnePercentOfTheIdealOneTheBetterTheFarther) {
+  for (const auto& [section, gain, good_up_to_hz] : kDifferentiators) {
+    const auto error = [&section = section](double f) {
+      return std::abs(std::abs(response(section, f)) / (2 * pi * f) - 1);
+    };
+    for (double f = 0.5; f < good_up_to_hz; f += 0.5) EXPECT_LE(error(f), 0.01) << f;
+    EXPECT_LE(error(0.99 * good_up_to_hz), 0.01);
+    EXPECT_GE(error(1.02 * good_up_to_hz), 0.01);
+  }
+}
+
 TEST(Differentiators, AreExactOnARampOnceSettled) {
   for (const auto& section :
        {backward_difference(kRate_hz), al_alaoui_first_order(kRate_hz), al_alaoui_second_order(kRate_hz)}) {

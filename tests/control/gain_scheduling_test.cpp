@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "crane/control/friction_compensation.hpp"
 #include "linear_model.hpp"
 
 namespace crane::control {
@@ -91,6 +92,7 @@ TEST(GainSchedule, PutsTheClosedLoopPolesWhereTheDesignWantsThem) {
     design.cable_length_m = uniform(0.3, 10);
     design.crane.load_mass_kg = uniform(0, 40);
     design.full_feedback_gain_pm = uniform(0.5, 20);
+    design.volt_limit_v.fill(1000);  // K as it is chosen, for probes of 1 m and 1 rad
     const double x = uniform(0.1, 3);
     for (const char* name : {"gain_scheduling_partial", "gain_scheduling_full"}) {
       for (const Motion motion : {Motion::trolley, Motion::slew}) {
@@ -124,7 +126,8 @@ TEST(GainSchedule, SplitsTheUnsplitLawExactly) {
     m.swing_tangential_rad = any(random), m.swing_tangential_radps = any(random);
     Reference r;
     for (auto& axis : r) axis.position = any(random);
-    const TowerGains gains = full_state_gains(design, schedule(design, m));
+    const double k = design.full_feedback_gain_pm;
+    const TowerGains gains = full_state_gains(design, schedule(design, m), {k, k});
     const auto& [kt, ks] = gains;
     const double trolley_v =
         kt.position * (r[kTrolley].position - m.position[kTrolley] - kt.speed * m.speed[kTrolley] -
@@ -178,6 +181,114 @@ TEST(ForwardGain, KeepsTheFirstVoltsOfAStepWithinTheDrive) {
   EXPECT_DOUBLE_EQ(forward_gain_within(10, 0.75, 8), 8);
   EXPECT_DOUBLE_EQ(forward_gain_within(10, -pi / 2, 8) * pi / 2, 10);
   EXPECT_DOUBLE_EQ(forward_gain_within(10, 0, 8), 8);
+}
+
+/// The dissertation's friction, fully compensated.
+Design design_with_friction() {
+  Design design = printed_rig();
+  design.full_feedback_gain_pm = 8;
+  design.friction[kTrolley] = {1.5, 6, 0.9, 1.2, 1.0, 1.2, 100, 0.005, 1};
+  design.friction[kSlew] = {0.15, 0.05, 0.7, 0.6, 0.7, 0.6, 100, 0.005, 1};
+  return design;
+}
+
+TEST(ForwardGain, LeavesTheFrictionCompensationItsVolts) {
+  const Design design = design_with_friction();
+  EXPECT_DOUBLE_EQ(volts_left_v(design, kTrolley, true), 9.0);  // stiction 1.0 above Coulomb 0.9
+  EXPECT_DOUBLE_EQ(volts_left_v(design, kTrolley, false), 8.8);
+  EXPECT_DOUBLE_EQ(volts_left_v(design, kSlew, true), 9.3);
+}
+
+/// Gain that a reference from rest at `from` to `to` gets.
+double gain_for(const Design& design, double from, double to) {
+  ForwardGain gain(design);
+  Measurement m;
+  m.position = {from, 0, 1};
+  Reference r;
+  r[kTrolley].position = from;
+  (void)gain.step(design, m, r);
+  r[kTrolley].position = to;
+  return gain.step(design, m, r).trolley;
+}
+
+TEST(ForwardGain, IsTheConfiguredOneForShortMovesAndLessForLongOnes) {
+  const Design design = design_with_friction();
+  EXPECT_EQ(gain_for(design, 0.3, 1.05), 8);
+  EXPECT_DOUBLE_EQ(gain_for(design, 0, 5), 9.0 / 5);
+  EXPECT_DOUBLE_EQ(gain_for(design, 5, 0), 8.8 / 5);
+  EXPECT_EQ(gain_for(design, 1, 1), 8);
+}
+
+TEST(ForwardGain, StaysWhileTheReferenceRestsAndIsChosenAnewWithTheNext) {
+  const Design design = design_with_friction();
+  ForwardGain gain(design);
+  Measurement m;
+  m.position = {0, 0, 1};
+  Reference r;
+  r[kSlew].position = 2;
+  const double first = gain.step(design, m, r).slew;
+  EXPECT_DOUBLE_EQ(first, 9.3 / 2);
+  for (const double position : {0.5, 1.9, 2.3, -9.0}) {
+    m.position[kSlew] = position;
+    EXPECT_EQ(gain.step(design, m, r).slew, first);
+  }
+  m.position[kSlew] = 2;
+  r[kSlew].position = 2.1;
+  EXPECT_EQ(gain.step(design, m, r).slew, 8);
+  gain.reset();
+  m.position[kSlew] = -2;
+  EXPECT_DOUBLE_EQ(gain.step(design, m, r).slew, 9.3 / 4.1);
+}
+
+TEST(ForwardGain, KeepsTheFirstDemandOfAnyMoveWithinTheDrive) {
+  const unsigned seed = 5;
+  std::mt19937 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int trial = 0; trial < 500; ++trial) {
+    Design design = design_with_friction();
+    design.full_feedback_gain_pm = uniform(0.5, 50);
+    for (const auto axis : {kTrolley, kSlew}) design.friction[axis].factor = uniform(0, 1.5);
+    Measurement m;
+    m.position = {uniform(-5, 5), uniform(-3, 3), 1};
+    Reference r;
+    for (const auto axis : {kTrolley, kSlew}) r[axis].position = uniform(-5, 5);
+    const auto v = make_full_tracking(design)->step(m, r).drive_v;  // no swing at rest
+    for (const auto axis : {kTrolley, kSlew}) {
+      const double demand = v[axis] + friction_compensation_v(design.friction[axis], v[axis], 0);
+      EXPECT_LE(std::abs(demand), design.volt_limit_v[axis] + 1e-9) << "seed " << seed << " trial " << trial;
+      const double distance = std::abs(r[axis].position - m.position[axis]);
+      EXPECT_LE(std::abs(v[axis]), design.full_feedback_gain_pm * distance * (1 + 1e-12));
+    }
+  }
+}
+
+TEST(ForwardGain, IsTheSameInTrackingAndAntiSwingThroughWholeMoves) {
+  // Both laws against the unsplit one with one K: two processes that see the same samples.
+  const Design design = design_with_friction();
+  const auto tracking = make_full_tracking(design), anti_swing = make_full_anti_swing(design);
+  ForwardGain gain(design);
+  const unsigned seed = 8;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  Measurement m;
+  m.position = {0.6, 0, 1};
+  Reference r;
+  for (int tick = 0; tick < 2000; ++tick) {
+    if (tick % 200 == 0)
+      for (auto& axis : r) axis.position = 3 * any(random);
+    for (auto& position : m.position) position += 0.01 * any(random);
+    m.swing_radial_rad = any(random), m.swing_radial_radps = any(random);
+    m.swing_tangential_rad = any(random), m.swing_tangential_radps = any(random);
+    const ForwardGains k = gain.step(design, m, r);
+    const auto [trolley, slew] = full_state_gains(design, schedule(design, m), k);
+    EXPECT_EQ(tracking->step(m, r).drive_v[kTrolley],
+              k.trolley * (r[kTrolley].position - m.position[kTrolley] - trolley.speed * m.speed[kTrolley]));
+    EXPECT_EQ(anti_swing->step(m, r).drive_v[kSlew],
+              k.slew * (slew.swing * m.swing_tangential_rad + slew.swing_rate * m.swing_tangential_radps))
+        << "seed " << seed << " tick " << tick;
+  }
 }
 
 }  // namespace

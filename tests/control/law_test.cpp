@@ -12,6 +12,10 @@
 #include <random>
 #include <set>
 
+#include "crane/control/gain_scheduling.hpp"
+#include "crane/control/shaper.hpp"
+#include "crane/control/trajectory.hpp"
+
 namespace {
 std::atomic<long> allocations{0};
 }  // namespace
@@ -90,6 +94,56 @@ TEST(EveryLaw, StaysFiniteForAnyFiniteInput) {
     }
 }
 
+/// A design without problems with every number at, or near, an end of its range.
+Design extreme_design(std::mt19937& random) {
+  const auto pick = [&random](std::initializer_list<double> values) {
+    return values.begin()[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(random)];
+  };
+  Design design;
+  design.period_s = pick({0.01, 1});
+  design.shortest_cable_length_m = pick({1e-3, 0.5});
+  design.cable_length_m = design.longest_cable_length_m = pick({0.5, 1000});
+  design.full_feedback_gain_pm = pick({1e-6, 4, 1000});
+  design.tracking_proportional = pick({1e-6, 1e5});
+  design.tracking_derivative = pick({0, 1e5});
+  design.minimum_trolley_position_m = pick({1e-3, 100});
+  design.anti_swing_proportional = design.delayed_1_gain = pick({-1e5, 0, 1e5});
+  design.delayed_1_delay = design.delayed_2_delay = pick({0, 2});
+  design.delayed_2_gain = pick({-1e3, 1e3});
+  design.fuzzy_swing_rad = pick({1e-6, 3.2});
+  design.fuzzy_swing_rate = pick({1e-6, 1e3});
+  design.fuzzy_gain = pick({-1e5, 1e-9, 1e5});
+  design.fuzzy_point_a = pick({0.01, 0.5});
+  design.fuzzy_point_b = pick({0.51, 0.99});
+  design.volt_limit_v.fill(pick({1e-3, 1000}));
+  design.crane.gravity_mps2 = pick({1e-3, 100});
+  design.crane.load_mass_kg = pick({0, 1e6});
+  design.crane.trolley_inertia_kg = design.crane.jib_inertia_kgm2 = pick({1e-6, 1e8});
+  design.crane.hoist_gain_mpspv = pick({1e-6, 1000});
+  design.crane.trolley_gain_mps2pv = design.crane.slew_gain_radps2pv = pick({1e-6, 1000});
+  return design;
+}
+
+TEST(EveryLaw, StaysFiniteForAnyDesignWithoutProblems) {
+  const unsigned seed = 1789;
+  std::mt19937 random(seed);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Design design = extreme_design(random);
+    ASSERT_TRUE(problems(design).empty()) << problems(design).front();
+    for (const auto& controller : controllers())
+      for (auto* make : {controller.make_tracking, controller.make_anti_swing}) {
+        if (make == controller.make_anti_swing && controller.name == "fuzzy_generated" && trial > 0) continue;
+        const auto law = make(design);
+        for (int k = 0; k < 100; ++k) {
+          const auto m = random_measurement(random, extreme);
+          if (k % 50 == 0) law->reset(m);
+          ASSERT_TRUE(finite(law->step(m, random_reference(random, extreme))))
+              << controller.name << " seed " << seed << " trial " << trial << " step " << k;
+        }
+      }
+  }
+}
+
 TEST(EveryLaw, OutlivesInputThatIsNotANumberAndRecoversByReset) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> number(-1, 1);
@@ -118,6 +172,22 @@ TEST(EveryLaw, NeverAllocatesInAStep) {
       law->reset(m);
       EXPECT_EQ(allocations - before, 0) << controller.name;
     }
+}
+
+TEST(References, NeverAllocate) {
+  const auto profile = limited_profile(0, 1, {0.5, 1, 10});
+  const Shaper shaper(Shaping::ei, 2);
+  Design design;
+  ForwardGain gain(design);
+  double sum = 0;
+  const long before = allocations;
+  for (int k = 0; k < 1000; ++k) {
+    Reference reference;
+    reference[kTrolley] = shaper.at(profile, 0.005 * k);
+    sum += reference[kTrolley].position + gain.step(design, {}, reference).trolley;
+  }
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(sum, 0);
 }
 
 TEST(EveryLaw, GivesTheSameOutputForTheSameInputAfterReset) {

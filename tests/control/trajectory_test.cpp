@@ -105,7 +105,8 @@ TEST(LimitedProfile, RefusesLimitsThatAreNone) {
     (void)limited_profile(nan, 1, {0, 1});
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "start = nan: must be finite; speed = 0: must be > 0");
+    EXPECT_STREQ(error.what(),
+                 "start = nan: must be in [-1e+09, 1e+09]; speed = 0: must be in [1e-09, 1e+09]");
   }
 }
 

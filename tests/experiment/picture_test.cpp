@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "crane/experiment/plane_picture.hpp"
 #include "signals.hpp"
 
 namespace crane::experiment {
@@ -97,6 +98,25 @@ TEST_F(Picture, NamesTheRemedyWhenGnuplotIsMissing) {
   const std::string error = error_of("a.svg");
   ::setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(error, "gnuplot is not installed; install it with: apt-get install gnuplot-nox");
+}
+
+TEST_F(Picture, OfAPlaneIsTheSameEveryTimeAndNamesItsMarks) {
+  const Plane plane{.x = {"K", -1, 1, 5},
+                    .y = {"tau", 0, 1, 4},
+                    .largest = 0.5,
+                    .contour_step = 0.1,
+                    .marks = {{"printed", 0.2, 0.4}}};
+  std::vector<double> values;
+  for (int i = 0; i < 20; ++i) values.push_back(0.03 * i - 0.1);
+  const std::vector<PlaneMap> maps{{"right-most pair", values}, {"all pairs", values}};
+  draw_plane(directory_ / "a.svg", "damping", plane, maps);
+  draw_plane(directory_ / "b.svg", "damping", plane, maps);
+  const std::string a = text_of("a.svg");
+  EXPECT_EQ(a, text_of("b.svg"));
+  for (const char* text : {"right-most pair", "all pairs", "printed", "damping", "tau"})
+    EXPECT_THAT(a, HasSubstr(text));
+  EXPECT_THROW(draw_plane(directory_ / "c.svg", "damping", plane, {{"short", {1, 2}}}), PictureError);
+  EXPECT_THROW(draw_plane(directory_ / "c.svg", "damping", plane, {}), PictureError);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <numbers>
 
 #include "rig.hpp"
@@ -142,6 +143,39 @@ TEST(Scenario, SaysThatARigHasNoSuchDrive) {
               ElementsAre(HasSubstr("slew_angle_deg = 5: gantry has no slew drive")));
 }
 
+TEST(Scenario, SaysWhatItIsUsuallyRunWith) {
+  const Scenario s = parse_scenario(
+      "description = \"d\"\nrig = \"gantry\"\ncontrollers = [\"delayed_1\", \"none\"]\n"
+      "variants = [\"slow_reference+no_compensation\"]\ncable_length_offset_m = 0.25\n",
+      "s.toml");
+  EXPECT_EQ(s.rig, "gantry");
+  EXPECT_THAT(s.controllers, ElementsAre("delayed_1", "none"));
+  EXPECT_THAT(s.variants, ElementsAre("slow_reference+no_compensation"));
+  EXPECT_EQ(s.cable_length_offset_m, 0.25);
+  EXPECT_EQ(started_by(tower(), s).start.cable_length_offset_m, 0.25);
+  EXPECT_THAT(problems_of("description = \"d\"\ncontrollers = [\"pid\"]\nvariants = [\"ideal+windy\"]\n"),
+              ElementsAre(HasSubstr("s.toml:2: controllers"), HasSubstr("s.toml:3: variants")));
+}
+
+TEST(Scenario, TakesFromTheFileItExtendsWhatItDoesNotSay) {
+  const auto directory = std::filesystem::path{testing::TempDir()} / "scenario_test";
+  std::filesystem::create_directories(directory);
+  std::ofstream{directory / "base.toml"}
+      << "description = \"base\"\nduration_s = 7\n[start]\ntrolley_position_m = 0.3\ncable_length_m = 0.8\n"
+         "[[move]]\nat_s = 1\ntrolley_position_m = 1\n[[move]]\nat_s = 2\ntrolley_position_m = 0.5\n";
+  const Scenario s = parse_scenario(
+      "extends = \"base.toml\"\ndescription = \"mine\"\n[start]\ntrolley_position_m = 0.4\n"
+      "[[move]]\nat_s = 3\nslew_angle_deg = 90\n",
+      (directory / "s.toml").string());
+  std::filesystem::remove_all(directory);
+  EXPECT_EQ(s.description, "mine");
+  EXPECT_EQ(s.duration_s, 7);
+  EXPECT_EQ(s.start[plant::kTrolley], 0.4);
+  EXPECT_EQ(s.start[plant::kHoist], 0.8);
+  ASSERT_EQ(s.moves.size(), 1U) << "lists are taken whole";
+  EXPECT_EQ(s.moves[0].at_s, 3);
+}
+
 TEST(Scenario, NamesTheFileThatCannotBeRead) {
   try {
     (void)load_scenario("/nowhere/s.toml");
@@ -165,10 +199,13 @@ TEST(Scenario, StartsTheRigWhereItSaysAndWithItsLoad) {
   EXPECT_EQ(started.design.crane.load_mass_kg, rig.design.crane.load_mass_kg);
 }
 
-TEST(Scenario, EveryFileOfTheProjectIsValidOnTheDissertationsRig) {
-  const runtime::Rig rig = tower();
+TEST(Scenario, EveryFileOfTheProjectIsValidOnItsRig) {
+  const runtime::Rig dissertation = tower();
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator{CRANE_SCENARIOS}) {
+    const std::string name = load_scenario(entry.path()).rig;
+    const runtime::Rig rig =
+        name.empty() ? dissertation : runtime::load_rig(std::filesystem::path{CRANE_RIGS} / (name + ".toml"));
     EXPECT_NO_THROW((void)load_scenario(entry.path(), &rig)) << entry.path();
     ++count;
   }

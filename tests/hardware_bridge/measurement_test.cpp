@@ -44,5 +44,18 @@ TEST(Coordinate, GivesTheSlopeOfARampWithTheSignOfItsWiring) {
   }
 }
 
+TEST(Coordinate, PassesItsPositionOnBehindTheLowPassWhereAskedTo) {
+  // Butterworth of order 2 at 5 Hz delays a slow ramp by sqrt(2) / (2 pi 5 Hz) = 45 ms.
+  Coordinate bare{{.channel = 0, .counts_per_unit = 1e5, .sign = 1}, 0.01, 0.05};
+  Coordinate filtered{{.channel = 0, .counts_per_unit = 1e5, .sign = 1}, 0.01, 0.05, true};
+  for (int i = 0; i < 400; ++i) {
+    bare.step(200 * i);
+    filtered.step(200 * i);
+  }
+  EXPECT_DOUBLE_EQ(bare.position(), 399 * 0.002);
+  EXPECT_NEAR((bare.position() - filtered.position()) / 0.2, std::sqrt(2) / (2 * M_PI * 5), 1e-3);
+  EXPECT_DOUBLE_EQ(filtered.rate(), bare.rate());
+}
+
 }  // namespace
 }  // namespace crane::bridge

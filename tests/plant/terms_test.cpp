@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <iostream>
 #include <numbers>
 #include <set>
 
@@ -27,6 +28,10 @@ double friction_v(const std::vector<TermSetting>& terms, double speed_mps, doubl
   return Model{{}, terms}.friction_v({.trolley_m = position_m, .trolley_mps = speed_mps})[kTrolley];
 }
 
+std::array<double, 5> numbers(const Measurement& m) {
+  return {m.trolley_m, m.slew_rad, m.cable_m, m.radial_rad, m.tangential_rad};
+}
+
 TEST(Terms, WithTheirDefaultsDoNothing) {
   std::mt19937 random{test::kSeed};
   for (const TermKind& kind : term_kinds()) {
@@ -34,11 +39,86 @@ TEST(Terms, WithTheirDefaultsDoNothing) {
       SCOPED_TRACE(std::string{kind.name} + " " + std::string{axis});
       Model with{{}, {{std::string{kind.name}, std::string{axis}, {}}}};
       Model without{Parameters{}};
-      const State s = test::random_state(random);
-      EXPECT_EQ(with.drive_voltage({1, -2, 3}), (PerAxis{1, -2, 3}));
-      EXPECT_EQ(test::values(with.accelerations(s, {})), test::values(without.accelerations(s, {})));
+      EXPECT_EQ(with.inner_coordinates(), 0U);
+      EXPECT_EQ(with.parameters().load_mass_kg, Parameters{}.load_mass_kg);
+      for (int tick = 0; tick < 5; ++tick) {
+        const State s = test::random_state(random);
+        const PerAxis command{1.0 - tick, -2.0 * tick, 3};
+        EXPECT_EQ(with.drive_voltage(command), command);
+        EXPECT_EQ(with.friction_v(s), PerAxis{});
+        EXPECT_EQ(test::values(with.accelerations(s, {})), test::values(without.accelerations(s, {})));
+        EXPECT_EQ(numbers(with.measure(s)), numbers(without.measure(s)));
+      }
     }
   }
+}
+
+TEST(Terms, StayFiniteWithAnyParametersInTheirRanges) {
+  std::mt19937 random{test::kSeed};
+  std::cout << "seed " << test::kSeed << '\n';
+  const auto in = [&random](double low, double high) {
+    return std::uniform_real_distribution{low, high}(random);
+  };
+  const auto drawn = [&](const TermParameter& p) {
+    const double share = std::array{0.0, 1.0, in(0, 1)}[random() % 3];  // the ends too
+    return p.low + share * (p.high - p.low);
+  };
+  const auto finite = [](const auto& values) {
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  };
+  for (const TermKind& kind : term_kinds()) {
+    SCOPED_TRACE(kind.name);
+    for (int i = 0; i < 100; ++i) {
+      TermSetting setting{std::string{kind.name}, std::string{kind.axes[random() % kind.axes.size()]}, {}};
+      for (const TermParameter& p : kind.parameters) setting.parameters[std::string{p.name}] = drawn(p);
+      if (kind.name == "payload_mass") setting.parameters["delta_kg"] = in(-2, 1000);
+      Model model{{}, {setting}};
+      Actuation actuation;
+      actuation.drive_v = {1, 2, 3};
+      InnerState inner{};
+      for (Inner& own : inner) own = {in(-0.5, 0.5), in(-5, 5)};
+      const State s = test::random_state(random);
+      InnerAccelerations own{};
+      EXPECT_TRUE(finite(model.drive_voltage({in(-10, 10), in(-10, 10), in(-10, 10)})));
+      EXPECT_TRUE(finite(model.friction_v(s)));
+      EXPECT_TRUE(finite(test::values(model.accelerations(s, actuation, inner, own))));
+      EXPECT_TRUE(finite(own));
+      EXPECT_TRUE(finite(numbers(model.measure(s))));
+    }
+  }
+}
+
+TEST(Terms, CoverEveryCauseThatDiagnosisNames) {
+  for (const char* cause : {"coulomb_friction",
+                            "viscous_friction",
+                            "direction_asymmetry",
+                            "stribeck_friction",
+                            "position_dependent_friction",
+                            "motor_gain",
+                            "command_offset",
+                            "command_dead_zone",
+                            "command_delay",
+                            "actuator_lag",
+                            "torque_ripple",
+                            "backlash",
+                            "payload_mass",
+                            "cable_length",
+                            "load_linear_drag",
+                            "load_quadratic_drag",
+                            "steady_wind",
+                            "swing_pivot_friction",
+                            "jib_tilt",
+                            "jib_flexibility",
+                            "cable_elasticity",
+                            "double_pendulum",
+                            "swing_offset",
+                            "swing_misalignment",
+                            "swing_scale",
+                            "position_scale",
+                            "position_drift",
+                            "swing_delay",
+                            "swing_moving_average"})
+    EXPECT_NE(find_term(cause), nullptr) << cause;
 }
 
 TEST(Terms, SayWhatTheyAreAndHaveUniqueNames) {
@@ -123,6 +203,82 @@ TEST(Terms, PositionDependentFrictionPeaksAtTheTightSpotsAndVanishesBetween) {
   EXPECT_NEAR(friction_v(terms, 0.1, 0.5), 2, 1e-9);
   EXPECT_NEAR(friction_v(terms, -0.1, 0.5), -2, 1e-9);
   EXPECT_NEAR(friction_v(terms, 0.1, 0.3), 0, 1e-9);
+}
+
+TEST(Terms, CoulombAndViscousAndAsymmetryTogetherAreADriveFrictionOfTwoDirections) {
+  const std::vector<TermSetting> parts{
+      {"coulomb_friction", "trolley", {{"level_v", 1.0}}},
+      {"viscous_friction", "trolley", {{"vspm", 4.0}}},
+      {"direction_asymmetry", "trolley", {{"coulomb_v", -0.2}, {"viscous_vspm", 1.5}}}};
+  const std::vector<TermSetting> whole{{"drive_friction",
+                                        "trolley",
+                                        {{"viscous_positive_vspm", 5.5},
+                                         {"viscous_negative_vspm", 2.5},
+                                         {"coulomb_positive_v", 0.8},
+                                         {"coulomb_negative_v", 1.2}}}};
+  for (const double v : {-1.0, -0.01, -0.0003, 0.0, 0.0004, 0.02, 0.7})
+    EXPECT_NEAR(friction_v(parts, v), friction_v(whole, v), 1e-12) << v;
+}
+
+TEST(Terms, TorqueRippleAddsToTheVoltsByPosition) {
+  const std::vector<TermSetting> terms{
+      {"torque_ripple", "trolley", {{"amplitude_v", 0.5}, {"phase_rad", 0.3}, {"period", 0.2}}}};
+  EXPECT_NEAR(friction_v(terms, 0.1, 0), -0.5 * std::sin(0.3), 1e-12);
+  EXPECT_NEAR(friction_v(terms, -0.1, 0.05), -0.5 * std::cos(0.3), 1e-12);
+  EXPECT_NEAR(friction_v(terms, 0, 0.25), friction_v(terms, 0, 0.05), 1e-12);
+}
+
+TEST(Terms, ADeadZoneTakesItsWidthFromEitherSide) {
+  Model model{{}, {{"command_dead_zone", "trolley", {{"width_v", 0.3}}}}};
+  EXPECT_EQ(model.drive_voltage({0.3, 0.1, 0})[kTrolley], 0);
+  EXPECT_NEAR(model.drive_voltage({1, 0, 0})[kTrolley], 0.7, 1e-15);
+  EXPECT_NEAR(model.drive_voltage({-1, 0, 0})[kTrolley], -0.7, 1e-15);
+}
+
+TEST(Terms, ADelayHoldsTheCommandBackByTicksAndTheirFractions) {
+  Model model{{}, {{"command_delay", "slew", {{"delay_s", 0.025}}}}, 0.01};
+  std::vector<double> output;
+  for (int tick = 0; tick < 5; ++tick) output.push_back(model.drive_voltage({0, 4, 0})[kSlew]);
+  EXPECT_THAT(output, ElementsAre(0, 0, 2, 4, 4));
+}
+
+TEST(Terms, ALagGivesTheMeanOfTheExponentialResponseInEveryTick) {
+  constexpr double kTau_s = 0.017, kPeriod_s = 0.01;
+  Model model{{}, {{"actuator_lag", "slew", {{"time_constant_s", kTau_s}}}}, kPeriod_s};
+  constexpr std::array kCommands{1.0, 1.0, -2.0, 0.5};
+  double v = 0;
+  for (const double command : kCommands) {
+    constexpr int kParts = 100000;
+    double sum = 0;
+    for (int i = 0; i < kParts; ++i) {  // midpoint rule on the differential equation
+      const double middle = v + (command - v) * 0.5 * kPeriod_s / kParts / kTau_s;
+      v += (command - middle) * kPeriod_s / kParts / kTau_s;
+      sum += middle;
+    }
+    EXPECT_NEAR(model.drive_voltage({0, command, 0})[kSlew], sum / kParts, 1e-7);
+  }
+}
+
+TEST(Terms, ARaisedJibPullsTowardsTheTowerAndTheLoadHangsInLineWithGravity) {
+  constexpr double kAngle = 0.1;
+  const Parameters p;
+  const Model tilted{p, {{"jib_tilt", "", {{"angle_rad", kAngle}}}}};
+  Actuation held;
+  held.locks.axis = {true, true, true};
+  const Accelerations hanging = tilted.accelerations({.trolley_m = 1, .radial_rad = kAngle}, held);
+  EXPECT_NEAR(hanging.radial_radps2, 0, 1e-12);  // phi = a: towards the tower
+  EXPECT_NEAR(tilted.accelerations({.trolley_m = 1}, held).radial_radps2, p.gravity_mps2 * std::sin(kAngle),
+              1e-12);
+  const Accelerations rolling = tilted.accelerations({.trolley_m = 1, .radial_rad = kAngle}, {});
+  const double weight_n = (p.trolley_mass_kg + p.load_mass_kg) * p.gravity_mps2 * std::sin(kAngle);
+  // both masses pull, the load through the cable, which swings by as much as the trolley gives way
+  const double inertia = p.trolley_inertia_kg + p.load_mass_kg * std::pow(std::sin(kAngle), 2);
+  EXPECT_NEAR(rolling.trolley_mps2, -weight_n / inertia, 1e-12);
+}
+
+TEST(Terms, PayloadMassIsAddedToTheLoadAndMustLeaveSomething) {
+  EXPECT_EQ((Model{{}, {{"payload_mass", "", {{"delta_kg", 0.5}}}}}.parameters().load_mass_kg), 2.5);
+  EXPECT_THROW((Model{{}, {{"payload_mass", "", {{"delta_kg", -2.5}}}}}), std::invalid_argument);
 }
 
 TEST(Terms, CommandTermsActInTheOrderOfTheRigFile) {

@@ -233,6 +233,13 @@ TEST(TopicSchema, ReadsEveryFieldOfRequestAndReply) {
   q.selected[2] = true;
   for (double& value : q.target) value = f.real();
   f.number(q.until_tick);
+  auto sines = ordered_json::array();
+  for (auto& sine : q.sine) {
+    sine = {f.real(), f.real(), f.real()};
+    sines.push_back(
+        {{"amplitude", sine.amplitude}, {"frequency_hz", sine.frequency_hz}, {"phase_rad", sine.phase_rad}});
+  }
+  q.duration_s = f.real();
   f.number(q.crc32c);
   EXPECT_EQ(through_the_codec(topics::request, q), (ordered_json{{"header", expected(q.header)},
                                                                  {"id", q.id},
@@ -242,6 +249,8 @@ TEST(TopicSchema, ReadsEveryFieldOfRequestAndReply) {
                                                                  {"selected", {false, false, true}},
                                                                  {"target", expected(q.target)},
                                                                  {"until_tick", q.until_tick},
+                                                                 {"sine", sines},
+                                                                 {"duration_s", q.duration_s},
                                                                  {"crc32c", q.crc32c}}));
   msg::Reply p{};
   f.header(p.header);

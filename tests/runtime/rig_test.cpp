@@ -122,7 +122,74 @@ TEST(RigFile, DoesNotExtendItselfOrWhatIsNotThere) {
                                   ":1: extends = \"a.toml\": must not lead back to this file"));
   }
   EXPECT_THAT(problems_of("extends = 'nowhere.toml'\n"),
-              testing::Contains(testing::HasSubstr("must name a rig file")));
+              testing::Contains(testing::HasSubstr("must name a file")));
+}
+
+TEST(RigFile, SaysHowMovesArePlanned) {
+  const Rig tower = load_rig(kTower);
+  EXPECT_FALSE(tower.planning.limits_jerk);
+  EXPECT_EQ(tower.planning.shaping, control::Shaping::none);
+  EXPECT_DOUBLE_EQ(tower.drives[0].reference_jerk, 10 * 0.9929);
+  ChangedTower changed;
+  changed.change("[controller]", "\"bang_coast_bang\"", "\"s_curve\"")
+      .change("[controller]", "shaper = \"none\"", "shaper = \"ei\"")
+      .change("[drive.slew]", "dac_channel = 1", "dac_channel = 1\nreference_jerk_radps3 = 7");
+  const Rig rig = parse_rig(changed.text(), "rig.toml");
+  EXPECT_TRUE(rig.planning.limits_jerk);
+  EXPECT_EQ(rig.planning.shaping, control::Shaping::ei);
+  EXPECT_EQ(rig.drives[1].reference_jerk, 7);
+}
+
+TEST(RigFile, GivesTheDesignItsAntiSwingGains) {
+  ChangedTower changed;
+  for (const auto& [from, to] :
+       {std::pair{"delayed_2_gain = -0.33", "delayed_2_gain = -0.423"},
+        std::pair{"delayed_2_delay = 0.31", "delayed_2_delay = 0.179"},
+        std::pair{"anti_swing_proportional = -30.0", "anti_swing_proportional = -25.66"},
+        std::pair{"anti_swing_derivative = 8.0", "anti_swing_derivative = 7.434"},
+        std::pair{"fuzzy_gain = -90.0", "fuzzy_gain = -80"},
+        std::pair{"fuzzy_swing_rad = 0.17453292519943295", "fuzzy_swing_rad = 0.2"},
+        std::pair{"fuzzy_swing_rate = 1.5", "fuzzy_swing_rate = 1.25"},
+        std::pair{"fuzzy_point_a = 0.3333333333333333", "fuzzy_point_a = 0.25"},
+        std::pair{"fuzzy_point_b = 0.6666666666666666", "fuzzy_point_b = 0.75"}})
+    changed.change("[controller]", from, to);
+  const auto design = parse_rig(changed.text(), "rig.toml").design;
+  EXPECT_EQ(design.delayed_2_gain, -0.423);
+  EXPECT_EQ(design.delayed_2_delay, 0.179);
+  EXPECT_EQ(design.anti_swing_proportional, -25.66);
+  EXPECT_EQ(design.anti_swing_derivative, 7.434);
+  EXPECT_EQ(design.fuzzy_gain, -80);
+  EXPECT_EQ(design.fuzzy_swing_rad, 0.2);
+  EXPECT_EQ(design.fuzzy_swing_rate, 1.25);
+  EXPECT_EQ(design.fuzzy_point_a, 0.25);
+  EXPECT_EQ(design.fuzzy_point_b, 0.75);
+}
+
+TEST(RigFile, HasTheDefaultsOfTheDesignWritten) {
+  // The annotated example names every gain; leaving them out gives the same.
+  const auto written = load_rig(kTower).design;
+  const control::Design defaults;
+  EXPECT_EQ(written.delayed_2_gain, defaults.delayed_2_gain);
+  EXPECT_EQ(written.anti_swing_proportional, defaults.anti_swing_proportional);
+  EXPECT_EQ(written.fuzzy_swing_rad, defaults.fuzzy_swing_rad);
+  EXPECT_EQ(written.fuzzy_point_a, defaults.fuzzy_point_a);
+  EXPECT_EQ(written.fuzzy_point_b, defaults.fuzzy_point_b);
+}
+
+TEST(RigFile, RefusesAFuzzyTableThatCannotBeGenerated) {
+  ChangedTower changed;
+  changed.change("[controller]", "name = \"gain_scheduling_partial\"", "name = \"fuzzy_generated\"")
+      .change("[controller]", "fuzzy_swing_rate = 1.5", "fuzzy_swing_rate = 100");
+  EXPECT_THAT(problems_of(changed.text()),
+              ElementsAre(testing::AllOf(testing::StartsWith(changed.line("[controller]", "name =")),
+                                         testing::HasSubstr("no rule for (NB, NB)"))));
+}
+
+TEST(RigFile, RefusesAShaperWithoutALoad) {
+  std::ifstream stream(kRigs / "drive_axis.toml");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(problems_of(text + "\n[controller]\nshaper = \"zv\"\n"),
+              ElementsAre(testing::HasSubstr("must be none: a drive_axis carries no load")));
 }
 
 class RigFiles : public testing::TestWithParam<std::filesystem::path> {};
@@ -192,7 +259,7 @@ TEST_P(CorruptedTower, IsRefusedWithOneLineAndItsRule) {
 INSTANTIATE_TEST_SUITE_P(
     Rules, CorruptedTower,
     testing::Values(
-        Corruption{"nan", "[plant]", "gravity_mps2 = 9.81", "gravity_mps2 = nan", "must be in (0, 100]"},
+        Corruption{"nan", "[plant]", "gravity_mps2 = 9.81", "gravity_mps2 = nan", "must be in [0.001, 100]"},
         Corruption{"inf", "[drive.slew]", "max_speed_radps = 3.5", "max_speed_radps = inf",
                    "must be finite and > 0"},
         Corruption{"wrong_type", "[plant]", "load_mass_kg = 2.0", "load_mass_kg = '2'", "must be a number"},
@@ -224,6 +291,24 @@ INSTANTIATE_TEST_SUITE_P(
                    "must be in [0, 10]"},
         Corruption{"term_axis", "[[model.terms]]", "axis = \"trolley\"", "axis = \"radial\"",
                    "must be one of trolley, slew, hoist"},
+        Corruption{"fuzzy_gain", "[controller]", "fuzzy_gain = -90.0", "fuzzy_gain = 0", "must not be 0"},
+        Corruption{"fuzzy_points", "[controller]", "fuzzy_point_b = 0.6666666666666666",
+                   "fuzzy_point_b = 0.3", "must be at least fuzzy_point_a + 0.01"},
+        Corruption{"fuzzy_swing", "[controller]", "fuzzy_swing_rad = 0.17453292519943295",
+                   "fuzzy_swing_rad = 0", "must be in (0, 3.2]"},
+        Corruption{"delay_2", "[controller]", "delayed_2_delay = 0.31", "delayed_2_delay = 2.5",
+                   "must be in (0, 2]"},
+        Corruption{"anti_swing", "[controller]", "anti_swing_derivative = 8.0", "anti_swing_derivative = 1e6",
+                   "must be in [-100000, 100000]"},
+        Corruption{"shaper", "[controller]", "shaper = \"none\"", "shaper = \"zvdd\"",
+                   "must be one of none, zv, zvd, ei"},
+        Corruption{"trajectory", "[controller]", "trajectory = \"bang_coast_bang\"", "trajectory = \"bang\"",
+                   "must be one of bang_coast_bang, s_curve"},
+        Corruption{"friction_holds", "[controller.friction.slew]", "stiction_positive_v = 0.7",
+                   "stiction_positive_v = 10", "times factor must be below the volt_limit_v"},
+        Corruption{"no_period", "name", "period_s = 0.01", "period_s = 0", "must be in ["},
+        Corruption{"no_cable", "[drive.hoist]", "low_limit_m = 0.3", "low_limit_m = 0", "must be in ["},
+        Corruption{"no_load", "[plant]", "load_mass_kg = 2.0", "load_mass_kg = -1", "must be in [0"},
         Corruption{"factor", "[controller.friction.slew]", "factor = 1.0", "factor = 2.0",
                    "must be in [0, 1.5]"},
         Corruption{"slew_friction_unit", "[controller.friction.slew]", "viscous_positive_vsprad",

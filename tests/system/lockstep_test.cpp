@@ -110,6 +110,7 @@ TEST_P(Maneuvers, SettleAsDesignedWithoutResidualSwing) {
   const auto result = stack::run_experiment({.scenario = stack::find_scenario(expected.scenario),
                                              .rig = stack::find_rig(expected.rig),
                                              .controller = expected.controller,
+                                             .variant = "",
                                              .directory = directory / "run",
                                              .in_process = true,
                                              .picture = false,

@@ -31,6 +31,7 @@ TEST(Realtime, AMoveSettlesAsInLockstep) {
   const auto lockstep = stack::run_experiment({.scenario = file,
                                                .rig = rig_file,
                                                .controller = "",
+                                               .variant = "",
                                                .directory = directory / "lockstep",
                                                .in_process = true,
                                                .picture = false,

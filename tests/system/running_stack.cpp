@@ -50,15 +50,17 @@ void Observer::forget() {
   command_times_ns_.clear();
 }
 
-RunningStack::RunningStack(std::uint32_t domain, const std::string& rig) {
+RunningStack::RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant)
+    : specs_{stack::stack_with(plant)} {
   options_.bus.domain = domain;
   options_.bus.crane = crane_name();
   options_.rig = stack::find_rig(rig).string();
-  const auto specs = stack::simulated_stack();
-  stack::launch(children_, specs, options_);
+  if (plant == stack::Plant::hardware)
+    stack::launch_rig(children_, runtime::load_rig(options_.rig), options_);
+  stack::launch(children_, specs_, options_);
   bus_.emplace(runtime::bus_options(options_.bus, "system_test", crane_SOURCE_OPERATOR, 0));
   observer_.emplace(*bus_);
-  stack::wait_until_ready(children_, specs, *bus_, 15s);
+  stack::wait_until_ready(children_, specs_, *bus_, 15s);
   session_.emplace(*bus_, [this] { observer_->take(); });
 }
 
@@ -71,7 +73,7 @@ void RunningStack::send(const std::string& component, int signal) const {
 void RunningStack::start_again(const std::string& component) {
   while (children_.ended()) {
   }
-  auto specs = stack::simulated_stack();
+  auto specs = specs_;
   std::erase_if(specs, [&](const runtime::ComponentSpec& spec) { return spec.name != component; });
   stack::launch(children_, specs, options_);
 }

@@ -10,6 +10,7 @@
 
 #include "stack/launch.hpp"
 #include "stack/realtime_session.hpp"
+#include "stack/stack.hpp"
 
 namespace crane::system_test {
 
@@ -46,8 +47,8 @@ class Observer {
 
 class RunningStack {
  public:
-  /// Starts the simulated stack on Cyclone DDS and waits until it is ready.
-  RunningStack(std::uint32_t domain, const std::string& rig);
+  /// Starts a stack on Cyclone DDS and waits until it is ready.
+  RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant = stack::Plant::simulated);
 
   [[nodiscard]] stack::RealtimeSession& session() { return *session_; }
   [[nodiscard]] stack::ChildProcesses& children() { return children_; }
@@ -65,6 +66,7 @@ class RunningStack {
 
  private:
   stack::LaunchOptions options_;
+  std::vector<runtime::ComponentSpec> specs_;
   stack::ChildProcesses children_;
   std::optional<bus::Bus> bus_;
   std::optional<Observer> observer_;

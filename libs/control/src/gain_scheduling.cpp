@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "crane/control/hoist.hpp"
@@ -18,17 +19,42 @@ double partial_frequency_ratio() noexcept {
   return (linear + std::sqrt(linear * linear + 64 / (pi * pi))) * pi / 8;
 }
 
-using Scheduler = TowerGains (*)(const Design&, const Schedule&) noexcept;
+/// Gains of a tick. Partial feedback has no memory.
+class PartialGains {
+ public:
+  explicit PartialGains(const Design& design) : design_(design) {}
+  [[nodiscard]] TowerGains step(const Measurement& measured, const Reference& /*reference*/) noexcept {
+    return partial_state_gains(design_, schedule(design_, measured));
+  }
+  void reset() noexcept {}
 
-template <Scheduler gains_at>
+ private:
+  Design design_;
+};
+
+class FullGains {
+ public:
+  explicit FullGains(const Design& design) : design_(design), forward_gain_(design) {}
+  [[nodiscard]] TowerGains step(const Measurement& measured, const Reference& reference) noexcept {
+    const ForwardGains forward = forward_gain_.step(design_, measured, reference);
+    return full_state_gains(design_, schedule(design_, measured), forward);
+  }
+  void reset() noexcept { forward_gain_.reset(); }
+
+ private:
+  Design design_;
+  ForwardGain forward_gain_;
+};
+
+template <typename TickGains>
 class Tracking final : public Law {
  public:
-  explicit Tracking(const Design& design) : design_(design) {}
+  explicit Tracking(const Design& design) : design_(design), gains_(design) {}
 
   Contribution step(const Measurement& raw, const Reference& raw_reference) noexcept override {
     const Measurement measured = bounded(raw);
     const Reference reference = bounded(raw_reference);
-    const TowerGains gains = gains_at(design_, schedule(design_, measured));
+    const TowerGains gains = gains_.step(measured, reference);
     const auto volts = [&](plant::Axis axis, const Gains& k) {
       return k.position *
              (reference[axis].position - measured.position[axis] - k.speed * measured.speed[axis]);
@@ -39,20 +65,21 @@ class Tracking final : public Law {
     result.drive_v[kHoist] = hoist_volts(design_, measured, reference);
     return result;
   }
-  void reset(const Measurement& /*measured*/) noexcept override {}
+  void reset(const Measurement& /*measured*/) noexcept override { gains_.reset(); }
 
  private:
   Design design_;
+  TickGains gains_;
 };
 
-template <Scheduler gains_at>
+template <typename TickGains>
 class AntiSwing final : public Law {
  public:
-  explicit AntiSwing(const Design& design) : design_(design) {}
+  explicit AntiSwing(const Design& design) : gains_(design) {}
 
-  Contribution step(const Measurement& raw, const Reference& /*reference*/) noexcept override {
+  Contribution step(const Measurement& raw, const Reference& raw_reference) noexcept override {
     const Measurement measured = bounded(raw);
-    const auto [trolley, slew] = gains_at(design_, schedule(design_, measured));
+    const auto [trolley, slew] = gains_.step(measured, bounded(raw_reference));
     Contribution result;
     result.drive_v[kTrolley] = -trolley.position * (trolley.swing * measured.swing_radial_rad +
                                                     trolley.swing_rate * measured.swing_radial_radps);
@@ -60,10 +87,10 @@ class AntiSwing final : public Law {
                                              slew.swing_rate * measured.swing_tangential_radps);
     return result;
   }
-  void reset(const Measurement& /*measured*/) noexcept override {}
+  void reset(const Measurement& /*measured*/) noexcept override { gains_.reset(); }
 
  private:
-  Design design_;
+  TickGains gains_;
 };
 
 Gains over_position(Gains gains, const Schedule& at) noexcept {
@@ -115,11 +142,11 @@ TowerGains partial_state_gains(const Design& design, const Schedule& at) noexcep
               partial_state_gains(slew_axis(design.crane, at.cable_length_m, at.trolley_position_m)), at)};
 }
 
-TowerGains full_state_gains(const Design& design, const Schedule& at) noexcept {
-  const double forward_gain = design.full_feedback_gain_pm;
-  return {full_state_gains(trolley_axis(design.crane, at.cable_length_m), forward_gain),
+TowerGains full_state_gains(const Design& design, const Schedule& at,
+                            const ForwardGains& forward_gains) noexcept {
+  return {full_state_gains(trolley_axis(design.crane, at.cable_length_m), forward_gains.trolley),
           over_position(full_state_gains(slew_axis(design.crane, at.cable_length_m, at.trolley_position_m),
-                                         forward_gain),
+                                         forward_gains.slew),
                         at)};
 }
 
@@ -128,17 +155,44 @@ double forward_gain_within(double volt_limit_v, double distance, double gain_lim
   return reach > volt_limit_v ? volt_limit_v / std::abs(distance) : gain_limit;
 }
 
+double volts_left_v(const Design& design, plant::Axis axis, bool positive) noexcept {
+  const DriveFriction& friction = design.friction[axis];
+  const double held_v = positive ? std::max(friction.stiction_positive_v, friction.coulomb_positive_v)
+                                 : std::max(friction.stiction_negative_v, friction.coulomb_negative_v);
+  return design.volt_limit_v[axis] - friction.factor * held_v;
+}
+
+ForwardGain::ForwardGain(const Design& design) noexcept {
+  gain_.fill(design.full_feedback_gain_pm);
+  reset();
+}
+
+void ForwardGain::reset() noexcept { target_.fill(std::numeric_limits<double>::quiet_NaN()); }
+
+ForwardGains ForwardGain::step(const Design& design, const Measurement& measured,
+                               const Reference& reference) noexcept {
+  for (const plant::Axis axis : {kTrolley, kSlew}) {
+    const double target = reference[axis].position;
+    if (target == target_[axis]) continue;
+    const double distance = target - measured.position[axis];
+    target_[axis] = target;
+    gain_[axis] =
+        forward_gain_within(volts_left_v(design, axis, distance > 0), distance, design.full_feedback_gain_pm);
+  }
+  return {gain_[kTrolley], gain_[kSlew]};
+}
+
 std::unique_ptr<Law> make_partial_tracking(const Design& design) {
-  return std::make_unique<Tracking<partial_state_gains>>(design);
+  return std::make_unique<Tracking<PartialGains>>(design);
 }
 std::unique_ptr<Law> make_partial_anti_swing(const Design& design) {
-  return std::make_unique<AntiSwing<partial_state_gains>>(design);
+  return std::make_unique<AntiSwing<PartialGains>>(design);
 }
 std::unique_ptr<Law> make_full_tracking(const Design& design) {
-  return std::make_unique<Tracking<full_state_gains>>(design);
+  return std::make_unique<Tracking<FullGains>>(design);
 }
 std::unique_ptr<Law> make_full_anti_swing(const Design& design) {
-  return std::make_unique<AntiSwing<full_state_gains>>(design);
+  return std::make_unique<AntiSwing<FullGains>>(design);
 }
 
 }  // namespace crane::control

@@ -41,14 +41,14 @@ const std::vector<Controller>& controllers() {
   static const std::vector<Controller> kAll{
       {"gain_scheduling_partial", "state feedback without swing rates, (3.19)", step, make_partial_tracking,
        make_partial_anti_swing},
-      {"gain_scheduling_full", "full state feedback with chosen forward gain, (3.26)", step,
+      {"gain_scheduling_full", "full state feedback, forward gain lowered for long moves, (3.26)", step,
        make_full_tracking, make_full_anti_swing},
       {"anti_swing_pd", "tracking PD and swing PD to the drives, (3.45)", bang_coast_bang, make_tracking_pd,
        make_anti_swing_pd},
       {"delayed_1", "tracking PD and delayed swing angle to the drives, (3.47)", bang_coast_bang,
        make_tracking_pd, make_delayed_1},
       {"delayed_2", "tracking PD, delayed swing angle corrects its reference, (3.50)", bang_coast_bang,
-       make_tracking_pd, make_delayed_2},
+       make_tracking_pd, make_delayed_2, true},
       {"fuzzy_printed", "tracking PD and fuzzy swing rules of Table 3.7", bang_coast_bang, make_tracking_pd,
        make_fuzzy_printed},
       {"fuzzy_generated", "tracking PD and fuzzy rules generated from delayed_1", bang_coast_bang,
@@ -58,11 +58,24 @@ const std::vector<Controller>& controllers() {
       {"delayed_1_optimised", "delayed_1 at its largest least damping", bang_coast_bang, make_tracking_pd,
        make_delayed_1_optimised},
       {"delayed_2_optimised", "delayed_2 at its largest least damping", bang_coast_bang, make_tracking_pd,
-       make_delayed_2_optimised},
+       make_delayed_2_optimised, true},
       {"none", "tracking PD only, swing is left alone", bang_coast_bang, make_tracking_pd,
        make_no_anti_swing},
   };
   return kAll;
+}
+
+std::vector<std::string> problems(const Controller& controller, const Design& design) {
+  if (controller.make_anti_swing != make_fuzzy_generated) return {};
+  const auto missing = missing_rules(generated_rules(design));
+  if (missing.empty()) return {};
+  constexpr std::size_t kNamed = 4;
+  std::string places;
+  for (std::size_t i = 0; i < std::min(kNamed, missing.size()); ++i)
+    places += (i == 0 ? "" : ", ") + missing[i];
+  if (missing.size() > kNamed) places += " and " + std::to_string(missing.size() - kNamed) + " more";
+  return {std::string(controller.name) + ": no rule for " + places +
+          ": delayed_1 with these gains and scales never comes by"};
 }
 
 const Controller* find_controller(std::string_view name) {

@@ -2,6 +2,7 @@
 /// One form for every complaint about a number from a file: "name = value: rule".
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,13 @@ struct Requirements {
   void above_up_to(const char* name, double value, double low, double high) {
     require(value > low && value <= high, name, value,
             "must be in (" + text_of(low) + ", " + text_of(high) + "]");
+  }
+  /// @throws std::invalid_argument that names all of them
+  void throw_if_any() const {
+    if (found.empty()) return;
+    std::string text;
+    for (const auto& problem : found) text += (text.empty() ? "" : "; ") + problem;
+    throw std::invalid_argument(text);
   }
 
  private:

@@ -2,65 +2,109 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "require.hpp"
 
 namespace crane::control {
 namespace {
 
-void throw_on(const Requirements& rules) {
-  if (rules.found.empty()) return;
-  std::string text;
-  for (const auto& problem : rules.found) text += (text.empty() ? "" : "; ") + problem;
-  throw std::invalid_argument(text);
+constexpr double kLargest = 1e9, kSmallest = 1e-9;  // beyond any crane, far from the ends of double
+
+void require_ends(Requirements& rules, double start, double target) {
+  rules.in_range("start", start, -kLargest, kLargest);
+  rules.in_range("target", target, -kLargest, kLargest);
 }
 
-void require_finite(Requirements& rules, double start, double target) {
-  rules.require(std::isfinite(start), "start", start, "must be finite");
-  rules.require(std::isfinite(target), "target", target, "must be finite");
+/// One ramp and what it leads to, unsigned.
+struct Ramp {
+  double speed, acceleration, ramp_s, jerk_s;
+};
+
+Ramp to_full_speed(const AxisLimits& limits) {
+  const double jerk_s = limits.acceleration / limits.jerk;
+  if (limits.speed >= limits.acceleration * jerk_s)
+    return {limits.speed, limits.acceleration, limits.speed / limits.acceleration + jerk_s, jerk_s};
+  const double short_s = std::sqrt(limits.speed / limits.jerk);
+  return {limits.speed, limits.jerk * short_s, 2 * short_s, short_s};
+}
+
+/// Of a move that brakes as soon as it has accelerated.
+Ramp of_short_move(const AxisLimits& limits, double distance) {
+  const double jerk_s = limits.acceleration / limits.jerk;
+  if (distance >= 2 * limits.acceleration * jerk_s * jerk_s) {
+    const double root_s = std::sqrt(jerk_s * jerk_s + 4 * distance / limits.acceleration);
+    const double even_s = (root_s - jerk_s) / 2;  // at full acceleration, half of either jerk time included
+    return {limits.acceleration * even_s, limits.acceleration, even_s + jerk_s, jerk_s};
+  }
+  const double short_s = std::cbrt(distance / (2 * limits.jerk));
+  const double acceleration = limits.jerk * short_s;
+  return {acceleration * short_s, acceleration, 2 * short_s, short_s};
 }
 
 }  // namespace
+
+/// From rest at 0 up to the middle of the move.
+AxisReference AxisProfile::risen(double time_s) const noexcept {
+  if (time_s >= ramp_s) return {speed * (time_s - ramp_s / 2), speed, 0};
+  if (time_s < jerk_s) {
+    const double jerk = acceleration / jerk_s;
+    return {jerk * time_s * time_s * time_s / 6, jerk * time_s * time_s / 2, jerk * time_s};
+  }
+  const double left_s = ramp_s - time_s;
+  if (left_s < jerk_s) {
+    const double jerk = acceleration / jerk_s;
+    return {speed * (time_s - ramp_s / 2) + jerk * left_s * left_s * left_s / 6,
+            speed - jerk * left_s * left_s / 2, jerk * left_s};
+  }
+  const double even_s = time_s - jerk_s / 2;
+  return {acceleration * (even_s * even_s / 2 + jerk_s * jerk_s / 24), acceleration * even_s, acceleration};
+}
 
 AxisReference AxisProfile::at(double time_s) const noexcept {
   if (time_s < 0) return {start, 0, 0};
   const double remaining_s = duration_s() - time_s;
   if (remaining_s <= 0) return {target, 0, 0};
-  if (time_s < ramp_s)
-    return {start + acceleration * time_s * time_s / 2, acceleration * time_s, acceleration};
-  if (remaining_s < ramp_s)
-    return {target - acceleration * remaining_s * remaining_s / 2, acceleration * remaining_s, -acceleration};
-  return {start + speed * (time_s - ramp_s / 2), speed, 0};
+  if (time_s <= remaining_s) {
+    const AxisReference rise = risen(time_s);
+    return {start + rise.position, rise.speed, rise.acceleration};
+  }
+  const AxisReference rise = risen(remaining_s);  // the second half mirrors the first
+  return {target - rise.position, rise.speed, -rise.acceleration};
 }
 
-AxisProfile step_profile(double start, double target) noexcept { return {start, target, 0, 0, 0, 0}; }
+AxisProfile step_profile(double start, double target) noexcept { return {start, target, 0, 0, 0, 0, 0}; }
 
 AxisProfile limited_profile(double start, double target, const AxisLimits& limits) {
   Requirements rules;
-  require_finite(rules, start, target);
-  rules.require(limits.speed > 0 && std::isfinite(limits.speed), "speed", limits.speed, "must be > 0");
-  rules.require(limits.acceleration > 0 && std::isfinite(limits.acceleration), "acceleration",
-                limits.acceleration, "must be > 0");
-  throw_on(rules);
-  const double distance = std::abs(target - start);
-  const double sign = target < start ? -1 : 1;
-  const double ramp_at_limit_s = limits.speed / limits.acceleration;
-  const bool triangle = distance < limits.speed * ramp_at_limit_s;
-  const double ramp_s = triangle ? std::sqrt(distance / limits.acceleration) : ramp_at_limit_s;
-  const double coast_s = triangle ? 0 : distance / limits.speed - ramp_at_limit_s;
-  return {start, target, ramp_s, coast_s, sign * limits.acceleration * ramp_s, sign * limits.acceleration};
+  require_ends(rules, start, target);
+  rules.in_range("speed", limits.speed, kSmallest, kLargest);
+  rules.in_range("acceleration", limits.acceleration, kSmallest, kLargest);
+  if (!std::isinf(limits.jerk) || limits.jerk < 0) rules.in_range("jerk", limits.jerk, kSmallest, kLargest);
+  rules.throw_if_any();
+  const double distance = std::abs(target - start), sign = target < start ? -1 : 1;
+  const Ramp full = to_full_speed(limits);
+  const bool coasts = distance >= full.speed * full.ramp_s;
+  const Ramp ramp = coasts ? full : of_short_move(limits, distance);
+  return {start,
+          target,
+          ramp.ramp_s,
+          coasts ? distance / full.speed - full.ramp_s : 0,
+          sign * ramp.speed,
+          sign * ramp.acceleration,
+          ramp.jerk_s};
 }
 
-AxisProfile timed_profile(double start, double target, double final_time_s, double ramp_s) {
+AxisProfile timed_profile(double start, double target, double final_time_s, double ramp_s, double jerk_s) {
   Requirements rules;
-  require_finite(rules, start, target);
-  rules.require(ramp_s > 0, "ramp_s", ramp_s, "must be > 0");
-  rules.require(std::isfinite(final_time_s) && final_time_s >= 2 * ramp_s, "final_time_s", final_time_s,
+  require_ends(rules, start, target);
+  rules.in_range("ramp_s", ramp_s, kSmallest, kLargest);
+  rules.require(final_time_s <= 2 * kLargest && final_time_s >= 2 * ramp_s, "final_time_s", final_time_s,
                 "must be at least two ramps");
-  throw_on(rules);
+  rules.require(jerk_s == 0 || (jerk_s >= kSmallest && 2 * jerk_s <= ramp_s), "jerk_s", jerk_s,
+                "must be 0, or at least 1e-09 and at most half a ramp");
+  rules.throw_if_any();
   const double speed = (target - start) / (final_time_s - ramp_s);
-  return {start, target, ramp_s, final_time_s - 2 * ramp_s, speed, speed / ramp_s};
+  return {start, target, ramp_s, final_time_s - 2 * ramp_s, speed, speed / (ramp_s - jerk_s), jerk_s};
 }
 
 AxisProfile stretched(const AxisProfile& profile, double duration_s) noexcept {
@@ -69,6 +113,7 @@ AxisProfile stretched(const AxisProfile& profile, double duration_s) noexcept {
   AxisProfile result = profile;
   result.ramp_s *= scale;
   result.coast_s *= scale;
+  result.jerk_s *= scale;
   result.speed /= scale;
   result.acceleration /= scale * scale;
   return result;

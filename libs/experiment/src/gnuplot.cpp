@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <system_error>
 
 #include "crane/experiment/picture.hpp"
 
@@ -41,6 +42,15 @@ class ScriptFile {
   std::string name_ = "/tmp/crane_picture_XXXXXX";
 };
 
+std::string terminal(const std::filesystem::path& file, double width, double height) {
+  const std::string size = recording::shortest(width) + "," + recording::shortest(height);
+  if (file.extension() == ".svg")
+    return "set terminal svg size " + size + " font 'DejaVu Sans,14' background '#ffffff' enhanced\n";
+  if (file.extension() == ".png")
+    return "set terminal pngcairo size " + size + " font 'DejaVu Sans,10.5' enhanced\n";
+  throw PictureError(file.string() + ": a picture's name must end in .svg or .png");
+}
+
 }  // namespace
 
 std::string quoted(const std::string& text) {
@@ -64,6 +74,20 @@ void run_gnuplot(const std::string& script) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == kCommandNotFound)
     throw PictureError("gnuplot is not installed; install it with: apt-get install gnuplot-nox");
   if (status != 0) throw PictureError("gnuplot failed: " + said);
+}
+
+void draw_script(const std::filesystem::path& file, double width, double height, const std::string& script) {
+  const std::filesystem::path partial = file.string() + ".partial";
+  std::error_code failure;
+  try {
+    run_gnuplot(terminal(file, width, height) + "set output " + quoted(partial.string()) + "\n" + script +
+                "unset output\n");
+  } catch (const PictureError&) {
+    std::filesystem::remove(partial, failure);
+    throw;
+  }
+  std::filesystem::rename(partial, file, failure);
+  if (failure) throw PictureError(file.string() + ": cannot write: " + failure.message());
 }
 
 }  // namespace crane::experiment

@@ -1,5 +1,6 @@
 #pragma once
 /// Runs gnuplot on a script.
+#include <filesystem>
 #include <string>
 
 namespace crane::experiment {
@@ -9,5 +10,9 @@ namespace crane::experiment {
 
 /// @throws PictureError when gnuplot is missing, or with what it complained about
 void run_gnuplot(const std::string& script);
+
+/// Draws `script` into a picture of so many pixels; `file` appears when it is complete.
+/// @param file ends in .svg or .png. @throws PictureError
+void draw_script(const std::filesystem::path& file, double width, double height, const std::string& script);
 
 }  // namespace crane::experiment

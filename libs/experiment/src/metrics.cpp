@@ -105,6 +105,18 @@ nlohmann::ordered_json or_null(const std::optional<double>& value, double scale 
   return value ? nlohmann::ordered_json(*value * scale) : nlohmann::ordered_json(nullptr);
 }
 
+/// What the scenario asks for in order of time; an excitation ends where its sines are about.
+std::vector<Move> moves_of(const Scenario& scenario) {
+  std::vector<Move> moves = scenario.moves;
+  for (const Excitation& excitation : scenario.excitations) {
+    Move move{.at_s = excitation.at_s, .target = {}};
+    move.target[excitation.reference.axis] = excitation.reference.about;
+    moves.push_back(move);
+  }
+  std::ranges::stable_sort(moves, {}, &Move::at_s);
+  return moves;
+}
+
 }  // namespace
 
 std::vector<Sample> samples_from(const recording::Table& table) {
@@ -138,14 +150,14 @@ Maneuver maneuver_of(const Scenario& scenario, const runtime::Rig& rig) {
   maneuver.last_action_s = scenario.last_action_s();
   maneuver.to = started_by(rig, scenario).start.position;
   maneuver.from = maneuver.to;
-  for (const Move& move : scenario.moves) {
+  const std::vector<Move> moves = moves_of(scenario);
+  for (const Move& move : moves) {
     maneuver.from = maneuver.to;
     for (std::size_t axis = 0; axis < kAxes; ++axis)
       maneuver.to[axis] = move.target[axis].value_or(maneuver.to[axis]);
   }
   // A kick after the last move is met by a crane that has arrived: nothing moves any more.
-  if (!scenario.moves.empty() && scenario.last_action_s() > scenario.moves.back().at_s)
-    maneuver.from = maneuver.to;
+  if (!moves.empty() && scenario.last_action_s() > moves.back().at_s) maneuver.from = maneuver.to;
   return maneuver;
 }
 

@@ -4,19 +4,13 @@
 #include <numbers>
 #include <ostream>
 
-#include "crane/experiment/metrics.hpp"
+#include "metrics_cells.hpp"
 
 namespace crane::experiment {
 namespace {
 
 constexpr double kDeg = 180 / std::numbers::pi;
 using Row = std::vector<std::string>;
-
-std::string fixed(double value, int digits) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
-}
 
 /// "14.3 %" of a moved axis, "17.4 cm" or "2.1 deg" of one that should not have moved.
 std::string overshoot(const Metrics& metrics, std::size_t axis) {
@@ -25,11 +19,35 @@ std::string overshoot(const Metrics& metrics, std::size_t axis) {
   return axis == plant::kSlew ? fixed(deviation * kDeg, 1) + " deg" : fixed(deviation * 100, 1) + " cm";
 }
 
+constexpr std::size_t kTextColumns = 2;  // aligned left, the others right
+
+std::string padded(const std::string& cell, std::size_t width, bool left) {
+  const std::string blanks(width - cell.size(), ' ');
+  return left ? cell + blanks : blanks + cell;
+}
+
 Row row_of(const NamedMetrics& run) {
-  const Metrics& m = run.metrics;
-  return {run.scenario,
-          run.controller,
-          m.settling_time_s ? fixed(*m.settling_time_s, 2) : "-",
+  Row row{run.scenario, run.controller};
+  for (std::string& cell : metrics_cells(run.metrics)) row.push_back(std::move(cell));
+  return row;
+}
+
+Row header() {
+  Row row{"scenario", "controller"};
+  row.insert(row.end(), kMetricsHeader.begin(), kMetricsHeader.end());
+  return row;
+}
+
+}  // namespace
+
+std::string fixed(double value, int digits) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
+std::vector<std::string> metrics_cells(const Metrics& m) {
+  return {m.settling_time_s ? fixed(*m.settling_time_s, 2) : "-",
           overshoot(m, plant::kTrolley),
           overshoot(m, plant::kSlew),
           fixed(m.largest_swing_radial_rad * kDeg, 1),
@@ -40,22 +58,10 @@ Row row_of(const NamedMetrics& run) {
           std::to_string(m.lost_ticks)};
 }
 
-const Row kHeader{"scenario",        "controller",         "settle [s]",       "trolley over",
-                  "slew over",       "swing radial [deg]", "tangential [deg]", "residual [deg]",
-                  "trolley max [V]", "slew max [V]",       "lost ticks"};
-constexpr std::size_t kTextColumns = 2;  // aligned left, the others right
-
-std::string padded(const std::string& cell, std::size_t width, bool left) {
-  const std::string blanks(width - cell.size(), ' ');
-  return left ? cell + blanks : blanks + cell;
-}
-
-}  // namespace
-
 void print_table(std::ostream& out, std::span<const NamedMetrics> runs, TableStyle style) {
-  std::vector<Row> rows{kHeader};
+  std::vector<Row> rows{header()};
   for (const NamedMetrics& run : runs) rows.push_back(row_of(run));
-  std::vector<std::size_t> widths(kHeader.size(), 0);
+  std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const Row& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   const bool markdown = style == TableStyle::markdown;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <system_error>
 #include <vector>
 
 #include "gnuplot.hpp"
@@ -96,16 +95,6 @@ std::vector<Panel> panels_of(const Maneuver& maneuver) {
       {"drive [V]", {{kTrolleyV, "trolley", kBlue, kSolid}, {kSlewV, "slew", kOrange, kSolid}}, 1});
   if (hoisting) panels.back().curves.push_back({kHoistV, "hoist", kGreen, kSolid});
   return panels;
-}
-
-std::string terminal(const std::filesystem::path& file, double height) {
-  const std::string extension = file.extension().string();
-  const std::string size = shortest(kWidth) + "," + shortest(height);
-  if (extension == ".svg")
-    return "set terminal svg size " + size + " font 'DejaVu Sans,14' background '#ffffff' enhanced\n";
-  if (extension == ".png")
-    return "set terminal pngcairo size " + size + " font 'DejaVu Sans,10.5' enhanced\n";
-  throw PictureError(file.string() + ": a picture's name must end in .svg or .png");
 }
 
 std::string settled_text(const Metrics& metrics) {
@@ -206,9 +195,7 @@ void draw_maneuver(const std::filesystem::path& file, const Caption& caption, st
     throw PictureError(file.string() + ": the run has nothing to draw");
   const std::vector<Panel> panels = panels_of(maneuver);
   const double height = kTop + kBottom + kPanelHeight * static_cast<double>(panels.size());
-  const std::filesystem::path partial = file.string() + ".partial";
-  std::string script = terminal(file, height) + "set output " + quoted(partial.string()) + "\n";
-  script += data_block(run, zero_s);
+  std::string script = data_block(run, zero_s);
   script += settings(caption, maneuver, metrics, in(run.back().time_s - zero_s, 1), height);
   script += "set multiplot\n";
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -221,16 +208,7 @@ void draw_maneuver(const std::filesystem::path& file, const Caption& caption, st
     script += plot(panels[i], range_of(panels[i], run, zero_s));
     if (i == 0) script += "unset label 1\nunset label 2\n";
   }
-  script += "unset multiplot\nunset output\n";
-  std::error_code failure;
-  try {
-    run_gnuplot(script);
-  } catch (const PictureError&) {
-    std::filesystem::remove(partial, failure);
-    throw;
-  }
-  std::filesystem::rename(partial, file, failure);
-  if (failure) throw PictureError(file.string() + ": cannot write: " + failure.message());
+  draw_script(file, kWidth, height, script + "unset multiplot\n");
 }
 
 }  // namespace crane::experiment

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <limits>
 #include <numbers>
-#include <sstream>
 
+#include "crane/experiment/variant.hpp"
 #include "crane/recording/csv.hpp"
-#include "crane/runtime/toml_reader.hpp"
+#include "crane/runtime/extended_file.hpp"
 
 namespace crane::experiment {
 namespace {
@@ -115,6 +115,59 @@ void read_moves(TomlTable& root, const Rig* rig, Scenario& scenario) {
   }
 }
 
+/// Units of an axis in the keys of an excitation.
+constexpr const char* unit_of(std::size_t axis) { return axis == plant::kSlew ? "rad" : "m"; }
+
+std::array<control::Sine, 4> read_sines(TomlTable& table, const std::string& amplitudes_key) {
+  constexpr Range kFrequencies = Range::closed(0, 1000);
+  const auto amplitudes = table.numbers(amplitudes_key, kPositions);
+  const auto frequencies_hz = table.numbers("frequencies_hz", kFrequencies);
+  auto phases_rad = table.numbers("phases_rad", kPositions);
+  if (phases_rad.empty()) phases_rad.resize(amplitudes.size());
+  std::array<control::Sine, 4> sines{};
+  if (amplitudes.size() > sines.size())
+    table.problem(amplitudes_key, "must be at most " + std::to_string(sines.size()) + " sines");
+  else if (frequencies_hz.size() != amplitudes.size() || phases_rad.size() != amplitudes.size())
+    table.problem(amplitudes_key,
+                  "must be as many as frequencies_hz, and as phases_rad where they are given");
+  else
+    for (std::size_t i = 0; i < amplitudes.size(); ++i)
+      sines[i] = {amplitudes[i], frequencies_hz[i], phases_rad[i]};
+  return sines;
+}
+
+void check_excursion(TomlTable& table, const std::string& key, const Rig& rig,
+                     const control::Excitation& reference) {
+  constexpr double kRounding = 1e-9;
+  const runtime::Drive& drive = rig.drives[reference.axis];
+  if (!drive.present) return table.problem("axis", rig.name + " has no such drive");
+  double excursion = 0;
+  for (const control::Sine& sine : reference.sines) excursion += std::abs(sine.amplitude);
+  const double low = drive.low_limit + drive.soft_margin, high = drive.high_limit - drive.soft_margin;
+  if (reference.about - excursion < low - kRounding || reference.about + excursion > high + kRounding)
+    table.problem(key, "with its sines must stay in [" + shortest(low) + ", " + shortest(high) +
+                           "], the travel of " + rig.name + " less its margin");
+}
+
+void read_excitations(TomlTable& root, const Rig* rig, Scenario& scenario) {
+  constexpr Range kDurations = Range::closed(0, 3600);
+  for (TomlTable& table : root.tables("excitation")) {
+    Excitation excitation;
+    excitation.at_s = table.number("at_s", kTimes);
+    const std::string axis = table.choice("axis", {"trolley", "slew", "hoist"});
+    control::Excitation& reference = excitation.reference;
+    while (reference.axis + 1 < plant::kAxes && axis != axis_name(reference.axis)) ++reference.axis;
+    const std::string about_key = std::string{"about_"} + unit_of(reference.axis);
+    reference.about = table.number(about_key, kPositions);
+    reference.sines = read_sines(table, std::string{"amplitudes_"} + unit_of(reference.axis));
+    reference.duration_s = table.number("duration_s", kDurations, 0);
+    if (rig != nullptr) check_excursion(table, about_key, *rig, reference);
+    if (!scenario.excitations.empty() && excitation.at_s <= scenario.excitations.back().at_s)
+      table.problem("at_s", "must be later than the excitation before");
+    scenario.excitations.push_back(excitation);
+  }
+}
+
 void read_kicks(TomlTable& root, Scenario& scenario) {
   constexpr Range kRates = Range::closed(-20, 20);
   for (TomlTable& table : root.tables("kick")) {
@@ -130,41 +183,58 @@ void read_kicks(TomlTable& root, Scenario& scenario) {
   }
 }
 
+void read_defaults(TomlTable& root, Scenario& scenario) {
+  scenario.rig = root.text("rig", "");
+  scenario.controllers = root.texts("controllers");
+  for (const auto& name : scenario.controllers)
+    if (control::find_controller(name) == nullptr) root.problem("controllers", name + " is no controller");
+  scenario.variants = root.texts("variants");
+  for (const auto& names : scenario.variants)
+    for (const auto& problem : variant_problems(names)) root.problem("variants", problem);
+}
+
 }  // namespace
 
 double Scenario::first_action_s() const {
-  if (moves.empty()) return kicks.empty() ? 0 : kicks.front().at_s;
-  return kicks.empty() ? moves.front().at_s : std::min(moves.front().at_s, kicks.front().at_s);
+  double first_s = std::numeric_limits<double>::infinity();
+  if (!moves.empty()) first_s = std::min(first_s, moves.front().at_s);
+  if (!excitations.empty()) first_s = std::min(first_s, excitations.front().at_s);
+  if (!kicks.empty()) first_s = std::min(first_s, kicks.front().at_s);
+  return std::isfinite(first_s) ? first_s : 0;
 }
 
 double Scenario::last_action_s() const {
-  return std::max(moves.empty() ? 0 : moves.back().at_s, kicks.empty() ? 0 : kicks.back().at_s);
+  double last_s = 0;
+  if (!moves.empty()) last_s = std::max(last_s, moves.back().at_s);
+  if (!excitations.empty()) last_s = std::max(last_s, excitations.back().at_s);
+  if (!kicks.empty()) last_s = std::max(last_s, kicks.back().at_s);
+  return last_s;
 }
 
 Scenario parse_scenario(const std::string& text, const std::string& file, const Rig* rig) {
-  TomlTable root{text, file};
+  TomlTable root = runtime::with_base(text, file);
   Scenario scenario;
   scenario.name = std::filesystem::path{file}.stem().string();
   scenario.path = file;
   scenario.description = root.text("description");
   scenario.duration_s = root.number("duration_s", Range::above(0, kTimes.high), scenario.duration_s);
   if (root.has("load_mass_kg")) scenario.load_mass_kg = root.number("load_mass_kg", Range::closed(0, 1e6));
+  scenario.cable_length_offset_m =
+      root.number("cable_length_offset_m", kPositions, scenario.cable_length_offset_m);
+  read_defaults(root, scenario);
   read_start(root, rig, scenario);
   read_moves(root, rig, scenario);
+  read_excitations(root, rig, scenario);
   read_kicks(root, scenario);
   if (scenario.last_action_s() >= scenario.end_s())
-    root.problem("duration_s", "the run ends before its last move or kick, at " +
+    root.problem("duration_s", "the run ends before its last move, excitation or kick, at " +
                                    shortest(scenario.last_action_s()) + " s");
   root.finish();
   return scenario;
 }
 
 Scenario load_scenario(const std::filesystem::path& file, const Rig* rig) {
-  std::ifstream in{file, std::ios::binary};
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in || in.bad()) throw runtime::ConfigurationError({file.string() + ": cannot be read"});
-  return parse_scenario(text.str(), file.string(), rig);
+  return parse_scenario(runtime::file_text(file), file.string(), rig);
 }
 
 Rig started_by(Rig rig, const Scenario& scenario) {
@@ -172,6 +242,7 @@ Rig started_by(Rig rig, const Scenario& scenario) {
     rig.start.position[axis] = scenario.start[axis].value_or(rig.start.position[axis]);
   rig.start.swing_radial_rad = scenario.swing_radial_rad;
   rig.start.swing_tangential_rad = scenario.swing_tangential_rad;
+  rig.start.cable_length_offset_m += scenario.cable_length_offset_m;
   rig.plant.load_mass_kg = scenario.load_mass_kg.value_or(rig.plant.load_mass_kg);
   return rig;
 }

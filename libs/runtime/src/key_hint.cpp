@@ -10,12 +10,12 @@ namespace crane::runtime {
 namespace {
 
 /// Unit suffixes of keys; what follows the last underscore is a unit only if it is one of these.
-constexpr std::array<std::string_view, 48> kUnits{
+constexpr std::array<std::string_view, 50> kUnits{
     "m",    "mm",   "cm",   "um",     "km",     "rad",      "mrad",   "deg",   "s",    "ms",
     "us",   "ns",   "min",  "kg",     "g",      "v",        "mv",     "n",     "nm",   "hz",
     "khz",  "mps",  "mmps", "mps2",   "radps",  "radps2",   "degps",  "rpm",   "vps",  "vspm",
     "kgm2", "pm",   "ps",   "counts", "mps2pv", "radps2pv", "mpspv",  "vspr",  "degs", "volts",
-    "volt", "kgps", "kgpm", "nmspr",  "vsprad", "m2",       "degps2", "ticks",
+    "volt", "kgps", "kgpm", "nmspr",  "vsprad", "m2",       "degps2", "ticks", "mps3", "radps3",
 };
 
 struct Split {

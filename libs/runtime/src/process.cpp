@@ -143,7 +143,12 @@ void add_loop_options(CLI::App& app, LoopOptions& options) {
 
 const control::Controller& chosen_controller(const std::string& name, const Rig& rig) {
   const auto& wanted = name.empty() ? rig.controller : name;
-  if (const auto* controller = control::find_controller(wanted)) return *controller;
+  if (const auto* controller = control::find_controller(wanted)) {
+    auto problems = control::problems(*controller, rig.design);
+    for (auto& problem : problems) problem.insert(0, rig.path + ": ");
+    if (!problems.empty()) throw ConfigurationError(std::move(problems));
+    return *controller;
+  }
   std::string known;
   for (const auto& controller : control::controllers())
     known += (known.empty() ? "" : ", ") + std::string{controller.name};

@@ -5,6 +5,7 @@
 namespace crane::runtime {
 namespace {
 
+constexpr double kShortestCable_m = 1e-3;
 constexpr double kHighestLimit = 1000;  // m or rad: no crane of this project is longer
 
 /// Travel of a reference that reaches the soft limit at the planner's speed and is then stopped by the brake:
@@ -33,8 +34,8 @@ void check_drive(TomlTable& table, const AxisText& axis, const Drive& drive, dou
 
 void read_limits_of(TomlTable& table, const AxisText& axis, Drive& drive) {
   // A cable has a length: its limits are positive.
-  const Range limit =
-      axis.name == "hoist" ? Range::above(0, kHighestLimit) : Range::closed(-kHighestLimit, kHighestLimit);
+  const Range limit = axis.name == "hoist" ? Range::closed(kShortestCable_m, kHighestLimit)
+                                           : Range::closed(-kHighestLimit, kHighestLimit);
   drive.low_limit = table.number(with_unit("low_limit", axis.unit), limit);
   drive.high_limit = table.number(with_unit("high_limit", axis.unit), limit);
   drive.soft_margin = table.number(with_unit("soft_margin", axis.unit), Range::not_negative());
@@ -55,9 +56,13 @@ Drive read_drive(TomlTable& table, const AxisText& axis, double period_s) {
   const Range brake_time = Range::closed(0, 1);
   drive.brake_close_time_s = table.number("brake_close_time_s", brake_time, drive.brake_close_time_s);
   drive.brake_open_time_s = table.number("brake_open_time_s", brake_time, drive.brake_open_time_s);
-  drive.reference_speed = table.number(with_unit("reference_speed", axis.speed), Range::positive());
+  const Range planned = Range::closed(1e-6, 1e6);  // what a trajectory can be planned with
+  drive.reference_speed = table.number(with_unit("reference_speed", axis.speed), planned);
   drive.reference_acceleration =
-      table.number(with_unit("reference_acceleration", axis.acceleration), Range::positive());
+      table.number(with_unit("reference_acceleration", axis.acceleration), planned);
+  // A ramp rises to full acceleration within a tenth of a second unless the file says otherwise.
+  drive.reference_jerk =
+      table.number(with_unit("reference_jerk", axis.jerk), planned, 10 * drive.reference_acceleration);
   check_drive(table, axis, drive, period_s);
   return drive;
 }

@@ -20,13 +20,17 @@ void read_start(TomlTable& root, Rig& rig) {
   for (std::size_t i = 0; i < plant::kAxes; ++i) {
     const Drive& drive = rig.drives[i];
     const AxisText& axis = kAxisTexts[i];
-    const Range allowed = i == plant::kHoist ? Range::above(0, 1000) : Range::closed(-1000, 1000);
+    const Range allowed = i == plant::kHoist ? Range::closed(1e-3, 1000) : Range::closed(-1000, 1000);
     start.position[i] = table.number(axis.position, allowed, start.position[i]);
     if (drive.present && drive.low_limit < drive.high_limit &&
         (start.position[i] < drive.low_limit || start.position[i] > drive.high_limit)) {
       table.problem(axis.position, "must be inside the limits of the " + std::string(axis.name) + " drive");
     }
   }
+  start.cable_length_offset_m =
+      table.number("cable_length_offset_m", Range::closed(-1000, 1000), start.cable_length_offset_m);
+  if (start.position[plant::kHoist] + start.cable_length_offset_m <= 0)
+    table.problem("cable_length_offset_m", "must leave a cable longer than 0");
   const Range swing = Range::closed(-1.5, 1.5);
   start.swing_radial_rad = table.number("swing_radial_rad", swing, 0);
   start.swing_tangential_rad = table.number("swing_tangential_rad", swing, 0);

@@ -17,14 +17,14 @@ struct PlantKey {
 
 using P = plant::Parameters;
 const std::array<PlantKey, 9> kPlantKeys{{
-    {"gravity_mps2", &P::gravity_mps2, Range::above(0, 100), When::optional},
-    {"trolley_inertia_kg", &P::trolley_inertia_kg, Range::above(0, 1e6), When::with_trolley},
+    {"gravity_mps2", &P::gravity_mps2, Range::closed(1e-3, 100), When::optional},
+    {"trolley_inertia_kg", &P::trolley_inertia_kg, Range::closed(1e-6, 1e6), When::with_trolley},
     {"trolley_mass_kg", &P::trolley_mass_kg, Range::closed(0, 1e6), When::with_trolley},
     {"load_mass_kg", &P::load_mass_kg, Range::closed(0, 1e6), When::with_load},
-    {"jib_inertia_kgm2", &P::jib_inertia_kgm2, Range::above(0, 1e8), When::with_slew},
-    {"trolley_gain_mps2pv", &P::trolley_gain_mps2pv, Range::above(0, 1e3), When::with_trolley},
-    {"slew_gain_radps2pv", &P::slew_gain_radps2pv, Range::above(0, 1e3), When::with_slew},
-    {"hoist_gain_mpspv", &P::hoist_gain_mpspv, Range::above(0, 1e3), When::with_hoist},
+    {"jib_inertia_kgm2", &P::jib_inertia_kgm2, Range::closed(1e-6, 1e8), When::with_slew},
+    {"trolley_gain_mps2pv", &P::trolley_gain_mps2pv, Range::closed(1e-6, 1e3), When::with_trolley},
+    {"slew_gain_radps2pv", &P::slew_gain_radps2pv, Range::closed(1e-6, 1e3), When::with_slew},
+    {"hoist_gain_mpspv", &P::hoist_gain_mpspv, Range::closed(1e-6, 1e3), When::with_hoist},
     {"hoist_lag_s", &P::hoist_lag_s, Range::above(0, 10), When::with_hoist},
 }};
 

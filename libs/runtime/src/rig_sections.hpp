@@ -17,12 +17,13 @@ struct AxisText {
   std::string_view unit;            ///< "m"
   std::string_view speed;           ///< "mps"
   std::string_view acceleration;    ///< "mps2"
+  std::string_view jerk;            ///< "mps3"
   std::string_view volt_per_speed;  ///< "vspm", V per m/s
 };
 inline constexpr std::array<AxisText, plant::kAxes> kAxisTexts{{
-    {"trolley", "trolley_position_m", "m", "mps", "mps2", "vspm"},
-    {"slew", "slew_angle_rad", "rad", "radps", "radps2", "vsprad"},
-    {"hoist", "cable_length_m", "m", "mps", "mps2", "vspm"},
+    {"trolley", "trolley_position_m", "m", "mps", "mps2", "mps3", "vspm"},
+    {"slew", "slew_angle_rad", "rad", "radps", "radps2", "radps3", "vsprad"},
+    {"hoist", "cable_length_m", "m", "mps", "mps2", "mps3", "vspm"},
 }};
 
 /// "low_limit" and "m" give "low_limit_m".
@@ -44,6 +45,7 @@ void read_drives(TomlTable& root, Rig& rig);
 void read_encoders(TomlTable& root, Rig& rig);
 void read_plant(TomlTable& root, Rig& rig);
 void read_terms(TomlTable& root, Rig& rig);
+void read_wiring(TomlTable& root, Rig& rig);
 void read_sensing(TomlTable& root, Rig& rig);
 void read_limits(TomlTable& root, Rig& rig);
 void read_start(TomlTable& root, Rig& rig);

@@ -43,6 +43,7 @@ void read_sensing(TomlTable& root, Rig& rig) {
   Sensing& sensing = rig.sensing;
   sensing.swing_filter_ratio =
       table.number("swing_filter_ratio", {0, 0.5, true, false}, sensing.swing_filter_ratio);
+  sensing.filter_swing_angle = table.boolean("filter_swing_angle", sensing.filter_swing_angle);
   if (!table.has("filter_speed")) return;
   sensing.filter_speed.fill(false);
   for (const auto& name : table.texts("filter_speed")) {

@@ -104,15 +104,15 @@ Column solve(const Mass& m, const Column& r, const Locks& locks) {
     s11 -= a * m.m14, s13 -= a * m.m34, s33 -= b * m.m34;
     rx -= a * r.theta, rg -= b * r.theta;
   }
-  Column q{};
+  Column q{.x = locks.acceleration[kTrolley], .phi = 0, .gamma = locks.acceleration[kSlew], .theta = 0};
   if (!locks.axis[kTrolley] && !locks.axis[kSlew]) {
     const double inverse = 1 / (s11 * s33 - s13 * s13);
     q.x = (s33 * rx - s13 * rg) * inverse;
     q.gamma = (s11 * rg - s13 * rx) * inverse;
   } else if (!locks.axis[kTrolley]) {
-    q.x = rx / s11;
+    q.x = (rx - s13 * q.gamma) / s11;
   } else if (!locks.axis[kSlew]) {
-    q.gamma = rg / s33;
+    q.gamma = (rg - s13 * q.x) / s33;
   }
   if (radial) q.phi = (r.phi - m.m12 * q.x - m.m23 * q.gamma) / m.m22;
   if (tangential) q.theta = (r.theta - m.m14 * q.x - m.m34 * q.gamma) / m.m44;
@@ -123,7 +123,7 @@ Column solve(const Mass& m, const Column& r, const Locks& locks) {
 
 Accelerations accelerations(const Parameters& p, const State& s, const Forces& forces, double cable_mps2,
                             const Locks& locks) noexcept {
-  const double hoisting = locks.axis[kHoist] ? 0.0 : cable_mps2;
+  const double hoisting = locks.axis[kHoist] ? locks.acceleration[kHoist] : cable_mps2;
   const Angles angles{s};
   const Column right{.x = forces.trolley_n - trolley_bias(p, s, angles, hoisting),
                      .phi = forces.radial_nm - radial_bias(p, s, angles),
@@ -135,6 +135,30 @@ Accelerations accelerations(const Parameters& p, const State& s, const Forces& f
           .slew_radps2 = q.gamma,
           .tangential_radps2 = q.theta,
           .cable_mps2 = hoisting};
+}
+
+SwingResponse swing_response(const Parameters& p, const State& s, double trolley_mps2, double slew_radps2,
+                             const Locks& locks) noexcept {
+  const Mass m = mass(p, s, Angles{s});
+  SwingResponse response;
+  if (!locks.radial && m.m22 > 0)
+    response.radial_radps2 = -(m.m12 * trolley_mps2 + m.m23 * slew_radps2) / m.m22;
+  if (!locks.tangential && m.m44 > 0)
+    response.tangential_radps2 = -(m.m14 * trolley_mps2 + m.m34 * slew_radps2) / m.m44;
+  return response;
+}
+
+double cable_tension_n(const Parameters& p, const State& s, const Accelerations& q) noexcept {
+  const Angles a{s};
+  const double l = s.cable_m, f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
+  // the cable's direction e in the jib frame, across the vertical, and its rate
+  const double ex = -a.ct * a.sf, ey = a.st;
+  const double ex_rate = a.st * a.sf * t - a.ct * a.cf * f, ey_rate = a.ct * t;
+  const double turning = q.trolley_mps2 * ex + q.cable_mps2 - l * (f * f * a.ct * a.ct + t * t);
+  const double coriolis = 2 * g * (s.trolley_mps * ey + l * (ex_rate * ey - ey_rate * ex));
+  const double frame =
+      q.slew_radps2 * s.trolley_m * ey - g * g * (s.trolley_m * ex + l * (ex * ex + ey * ey));
+  return p.load_mass_kg * (p.gravity_mps2 * a.ct * a.cf - turning - coriolis - frame);
 }
 
 State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& locks) noexcept {
@@ -152,6 +176,7 @@ State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& loc
   }
   Locks held = locks;
   held.axis[axis] = true;
+  held.acceleration = {};
   const Column change = solve(m, impulse, held);
   State after = s;
   after.trolley_mps += change.x;

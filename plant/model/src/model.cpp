@@ -14,7 +14,8 @@ void throw_if_any(const std::vector<std::string>& problems) {
 
 }  // namespace
 
-Model::Model(const Parameters& parameters, const std::vector<TermSetting>& terms) : parameters_(parameters) {
+Model::Model(const Parameters& parameters, const std::vector<TermSetting>& terms, double period_s)
+    : parameters_(parameters), period_s_(period_s) {
   std::vector<std::string> found = parameters.problems();
   const std::vector<std::string> of_terms = problems(terms);
   found.insert(found.end(), of_terms.begin(), of_terms.end());
@@ -22,6 +23,9 @@ Model::Model(const Parameters& parameters, const std::vector<TermSetting>& terms
   for (const TermSetting& setting : terms) {
     std::unique_ptr<Term> term = make_term(setting);
     switch (find_term(setting.name)->acts_on) {
+      case ActsOn::parameters:
+        term->change_parameters(parameters_);
+        break;
       case ActsOn::command:
         command_terms_.push_back(std::move(term));
         break;
@@ -31,13 +35,33 @@ Model::Model(const Parameters& parameters, const std::vector<TermSetting>& terms
       case ActsOn::load:
         load_terms_.push_back(std::move(term));
         break;
+      case ActsOn::structure:
+        add_structure(std::move(term));
+        break;
+      case ActsOn::sensor:
+        sensor_terms_.push_back(std::move(term));
+        break;
     }
   }
+  throw_if_any(parameters_.problems());
+}
+
+void Model::add_structure(std::unique_ptr<Term> term) {
+  const std::size_t count = term->inner_coordinates();
+  if (inner_coordinates_ + count > kMostInner)
+    throw_if_any({"terms: more than " + std::to_string(kMostInner) + " coordinates of their own"});
+  term->change_parameters(parameters_);
+  const Displacement rest = term->rest_displacement();
+  rest_displacement_.trolley_m += rest.trolley_m;
+  rest_displacement_.slew_rad += rest.slew_rad;
+  rest_displacement_.cable_m += rest.cable_m;
+  structure_terms_.push_back({std::move(term), inner_coordinates_});
+  inner_coordinates_ += count;
 }
 
 PerAxis Model::drive_voltage(const PerAxis& command_v) noexcept {
   PerAxis drive_v = command_v;
-  for (const auto& term : command_terms_) term->change_command(drive_v);
+  for (const auto& term : command_terms_) term->change_command(drive_v, period_s_);
   return drive_v;
 }
 
@@ -47,21 +71,84 @@ PerAxis Model::friction_v(const State& state) const noexcept {
   return sum;
 }
 
-Accelerations Model::accelerations(const State& state, const Actuation& actuation) const noexcept {
+State Model::displaced(const State& state, const InnerState& inner) const noexcept {
+  if (structure_terms_.empty()) return state;
+  std::array<double, kMostInner> positions{}, rates{};
+  for (std::size_t i = 0; i < inner_coordinates_; ++i) {
+    positions[i] = inner[i].position;
+    rates[i] = inner[i].rate;
+  }
+  Displacement moved = rest_displacement_, moving;
+  for (const auto& [term, first] : structure_terms_) {
+    term->displace(&positions[first], moved);
+    term->displace(&rates[first], moving);
+  }
+  State seen = state;
+  seen.trolley_m += moved.trolley_m, seen.trolley_mps += moving.trolley_m;
+  seen.slew_rad += moved.slew_rad, seen.slew_radps += moving.slew_rad;
+  seen.cable_m += moved.cable_m, seen.cable_mps += moving.cable_m;
+  return seen;
+}
+
+Forces Model::forces(const State& seen, const Actuation& actuation, const PerAxis& friction,
+                     const InnerState& inner) const noexcept {
   const Parameters& p = parameters_;
-  const PerAxis friction = friction_v(state);
   const PerAxis& v = actuation.drive_v;
-  Forces forces;
-  forces.trolley_n = p.trolley_inertia_kg * p.trolley_gain_mps2pv * (v[kTrolley] - friction[kTrolley]) +
-                     actuation.brake_effort[kTrolley];
-  forces.slew_nm = p.jib_inertia_kgm2 * p.slew_gain_radps2pv * (v[kSlew] - friction[kSlew]) +
-                   actuation.brake_effort[kSlew];
-  for (const auto& term : load_terms_) term->add_force(p, state, forces);
+  Forces sum;
+  sum.trolley_n = p.trolley_inertia_kg * p.trolley_gain_mps2pv * (v[kTrolley] - friction[kTrolley]) +
+                  actuation.brake_effort[kTrolley];
+  sum.slew_nm = p.jib_inertia_kgm2 * p.slew_gain_radps2pv * (v[kSlew] - friction[kSlew]) +
+                actuation.brake_effort[kSlew];
+  for (const auto& term : load_terms_) term->add_force(p, seen, sum);
+  for (const auto& [term, first] : structure_terms_) term->add_inner_force(p, seen, &inner[first], sum);
+  return sum;
+}
+
+Accelerations Model::accelerations(const State& state, const Actuation& actuation, const PerAxis& friction,
+                                   const InnerState& inner,
+                                   InnerAccelerations& inner_accelerations) const noexcept {
+  const Parameters& p = parameters_;
+  const State seen = displaced(state, inner);
   const bool braking = actuation.brake_effort[kHoist] != 0;
   const double hoisting =
       braking ? actuation.brake_effort[kHoist]
-              : (p.hoist_gain_mpspv * (v[kHoist] - friction[kHoist]) - state.cable_mps) / p.hoist_lag_s;
-  return plant::accelerations(p, state, forces, hoisting, actuation.locks);
+              : (p.hoist_gain_mpspv * (actuation.drive_v[kHoist] - friction[kHoist]) - state.cable_mps) /
+                    p.hoist_lag_s;
+  Accelerations result =
+      plant::accelerations(p, seen, forces(seen, actuation, friction, inner), hoisting, actuation.locks);
+  if (structure_terms_.empty()) return result;
+  const auto accelerate = [&] {
+    for (const auto& [term, first] : structure_terms_)
+      term->accelerate(p, seen, result, &inner[first], &inner_accelerations[first]);
+  };
+  accelerate();
+  Displacement pushed;
+  for (const auto& [term, first] : structure_terms_) term->displace(&inner_accelerations[first], pushed);
+  const SwingResponse swing = swing_response(p, seen, pushed.trolley_m, pushed.slew_rad, actuation.locks);
+  result.radial_radps2 += swing.radial_radps2;
+  result.tangential_radps2 += swing.tangential_radps2;
+  if (structure_terms_.size() > 1) accelerate();  // the swing, which others follow, has changed
+  return result;
+}
+
+Accelerations Model::accelerations(const State& state, const Actuation& actuation, const InnerState& inner,
+                                   InnerAccelerations& inner_accelerations) const noexcept {
+  return accelerations(state, actuation, friction_v(state), inner, inner_accelerations);
+}
+
+Accelerations Model::accelerations(const State& state, const Actuation& actuation) const noexcept {
+  InnerAccelerations ignored{};
+  return accelerations(state, actuation, InnerState{}, ignored);
+}
+
+Measurement Model::measure(const State& state) noexcept {
+  Measurement measured{.trolley_m = state.trolley_m,
+                       .slew_rad = state.slew_rad,
+                       .cable_m = state.cable_m,
+                       .radial_rad = state.radial_rad,
+                       .tangential_rad = state.tangential_rad};
+  for (const auto& term : sensor_terms_) term->change_measurement(measured, period_s_);
+  return measured;
 }
 
 }  // namespace crane::plant

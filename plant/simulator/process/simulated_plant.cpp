@@ -5,11 +5,24 @@
 
 namespace crane::simulator {
 
+namespace {
+
+/// The load hangs lower than the hoist encoder says; what the drum does stays as it was.
+void lengthen_cable(SimulatedRig& rig, double offset_m) {
+  SimulatedDrive& hoist = rig.drives[plant::kHoist];
+  for (double* position : {&hoist.low_switch, &hoist.high_switch, &hoist.low_stop, &hoist.high_stop,
+                           &rig.encoders[plant::kHoist].zero, &rig.start.cable_m})
+    *position += offset_m;
+}
+
+}  // namespace
+
 SimulatedRig simulated_rig_of(const runtime::Rig& rig) {
   constexpr double kStopBeyondSwitch = 0.02;  // m, rad
   SimulatedRig simulated;
   simulated.parameters = rig.plant;
   simulated.terms = rig.terms;
+  simulated.period_s = rig.period_s;
   for (std::size_t i = 0; i < bridge::kDrives; ++i) {
     const auto& drive = rig.drives[i];
     auto& target = simulated.drives[i];
@@ -28,11 +41,13 @@ SimulatedRig simulated_rig_of(const runtime::Rig& rig) {
     if (rig.encoders[i].counts_per_unit > 0)
       simulated.encoders[i] = {.counts_per_unit = rig.encoders[i].counts_per_unit,
                                .sign = rig.encoders[i].sign};
+  simulated.watchdog_timeout_s = rig.wiring.relay_timeout_s;
   simulated.tangential_swing = rig.kind == runtime::RigKind::tower;
   simulated.radial_swing = rig.kind != runtime::RigKind::drive_axis;
   simulated.start.trolley_m = rig.start.position[plant::kTrolley];
   simulated.start.slew_rad = rig.start.position[plant::kSlew];
   simulated.start.cable_m = rig.start.position[plant::kHoist];
+  lengthen_cable(simulated, rig.start.cable_length_offset_m);
   simulated.start.radial_rad = rig.start.swing_radial_rad;
   simulated.start.tangential_rad = rig.start.swing_tangential_rad;
   return simulated;

@@ -34,21 +34,20 @@ const SimulatedRig& checked(const SimulatedRig& rig) {
 
 Mechanism::Mechanism(const SimulatedRig& rig, const Tolerances& tolerances)
     : drives_(checked(rig).drives),
-      model_(rig.parameters, rig.terms),
+      model_(rig.parameters, rig.terms, rig.period_s),
       integrator_(model_, tolerances),
       state_(rig.start) {
   for (std::size_t i = 0; i < kAxes; ++i) absent_.axis[i] = !drives_[i].present;
-  absent_.radial = !rig.radial_swing || rig.parameters.load_mass_kg == 0;
-  absent_.tangential = !rig.tangential_swing || rig.parameters.load_mass_kg == 0;
+  absent_.radial = !rig.radial_swing || model_.parameters().load_mass_kg == 0;
+  absent_.tangential = !rig.tangential_swing || model_.parameters().load_mass_kg == 0;
   if (absent_.axis[kTrolley]) state_.trolley_mps = 0;
   if (absent_.axis[kSlew]) state_.slew_radps = 0;
   if (absent_.axis[kHoist]) state_.cable_mps = 0;
   if (absent_.radial) state_.radial_radps = 0;
   if (absent_.tangential) state_.tangential_radps = 0;
-  set_command({});
 }
 
-void Mechanism::set_command(const plant::PerAxis& board_v) noexcept {
+void Mechanism::begin_tick(const plant::PerAxis& board_v) noexcept {
   plant::PerAxis command_v{};
   for (std::size_t i = 0; i < kAxes; ++i) command_v[i] = drives_[i].sign * board_v[i];
   drive_v_ = model_.drive_voltage(command_v);
@@ -65,7 +64,7 @@ void Mechanism::run(double seconds) {
     if (events > kMostEvents)
       throw std::runtime_error("simulated rig: brakes and end stops do not come to rest");
     const Situation now = situation();
-    const Advance advance = integrator_.advance(state_, now.actuation, left_s, now.watch);
+    const Advance advance = integrator_.advance(state_, inner_, now.actuation, left_s, now.watch);
     left_s -= advance.elapsed_s;
     if (!advance.event) return;
     const Axis axis = advance.event->axis;
@@ -128,7 +127,8 @@ void Mechanism::meet_stop(Axis axis, Situation& now) {
   }
   if (plant::speed(state_, axis) * side > 0) stop(axis, now.actuation.locks);
   if (plant::speed(state_, axis) != 0) return;  // on its way inwards
-  const plant::Accelerations free = model_.accelerations(state_, now.actuation);
+  plant::InnerAccelerations own{};
+  const plant::Accelerations free = model_.accelerations(state_, now.actuation, inner_, own);
   const plant::PerAxis push{free.trolley_mps2, free.slew_radps2, free.cable_mps2};
   if (push[axis] * side < 0) return;
   state_ = with_position(state_, axis, side < 0 ? drive.low_stop : drive.high_stop);

@@ -11,8 +11,10 @@ class Mechanism {
   Mechanism(const SimulatedRig& rig, const Tolerances& tolerances);
 
   [[nodiscard]] const plant::State& state() const noexcept { return state_; }
-  /// Board voltages of this tick.
-  void set_command(const plant::PerAxis& board_v) noexcept;
+  /// A tick begins, with these voltages of the board.
+  void begin_tick(const plant::PerAxis& board_v) noexcept;
+  /// What the sensors report; once a tick.
+  [[nodiscard]] plant::Measurement measure() noexcept { return model_.measure(state_); }
   void set_brake(plant::Axis axis, bool closed) noexcept { brake_closed_[axis] = closed; }
   void kick(double radial_radps, double tangential_radps) noexcept;
 
@@ -34,6 +36,7 @@ class Mechanism {
   plant::Model model_;
   Integrator integrator_;
   plant::State state_;
+  plant::InnerState inner_{};
   plant::Locks absent_;
   std::array<bool, plant::kAxes> brake_closed_{true, true, true};
   plant::PerAxis drive_v_{};

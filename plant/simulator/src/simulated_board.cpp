@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "brake_supply.hpp"
 #include "mechanism.hpp"
@@ -42,6 +43,7 @@ struct SimulatedBoard::Rig {
         mechanism(description, tolerances),
         relay(to_ns(description.watchdog_timeout_s), to_ns(description.watchdog_permit_s)),
         coils{coil_of(given.drives[0]), coil_of(given.drives[1]), coil_of(given.drives[2])},
+        period_ns(std::max<std::int64_t>(1, to_ns(description.period_s))),
         now_ns(start_time_ns) {}
 
   /// Lets switches, relay and coils act on each other at this instant.
@@ -55,8 +57,23 @@ struct SimulatedBoard::Rig {
     }
   }
 
+  /// Command terms act once a tick: on the command written last before it, or on the old one if none was.
+  void begin_tick_if_due() noexcept {
+    if (!command_is_new && now_ns < tick_ends_ns) return;
+    mechanism.begin_tick(converter_v);
+    command_is_new = false;
+    tick_ends_ns = now_ns + period_ns;
+  }
+
+  /// Sensor terms act once a tick: reading again at the same time gives the same.
+  [[nodiscard]] const plant::Measurement& measured() noexcept {
+    if (measured_at_ns != now_ns) measurement = mechanism.measure();
+    measured_at_ns = now_ns;
+    return measurement;
+  }
+
   [[nodiscard]] std::int64_t next_change_ns() const {
-    std::int64_t next = std::min(relay.drops_at_ns(), now_ns + kLongestSpan_ns);
+    std::int64_t next = std::min({relay.drops_at_ns(), now_ns + kLongestSpan_ns, tick_ends_ns});
     for (const BrakeCoil& coil : coils) next = std::min(next, coil.changes_at_ns());
     return next;
   }
@@ -66,8 +83,12 @@ struct SimulatedBoard::Rig {
   WatchdogRelay relay;
   std::array<BrakeCoil, bridge::kDrives> coils;
   bridge::Outputs outputs;
-  bool estop_pressed = false;
-  std::int64_t now_ns;
+  std::array<double, bridge::kDrives> converter_v{};
+  bool estop_pressed = false, command_is_new = true;
+  plant::Measurement measurement;
+  std::optional<std::int64_t> measured_at_ns;
+  std::int64_t period_ns;
+  std::int64_t now_ns, tick_ends_ns = 0;
 };
 
 SimulatedBoard::SimulatedBoard(const SimulatedRig& rig, std::int64_t start_time_ns,
@@ -77,12 +98,14 @@ SimulatedBoard::~SimulatedBoard() = default;
 
 bridge::Inputs SimulatedBoard::read() {
   const plant::State& s = rig_->mechanism.state();
-  const std::array<double, bridge::kCounters> coordinates{s.trolley_m, s.slew_rad, s.cable_m, s.radial_rad,
-                                                          s.tangential_rad};
+  const plant::Measurement& m = rig_->measured();
+  const std::array<double, bridge::kCounters> coordinates{m.trolley_m, m.slew_rad, m.cable_m, m.radial_rad,
+                                                          m.tangential_rad};
   bridge::Inputs inputs;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const SimulatedEncoder& encoder = rig_->given.encoders[i];
-    inputs.raw_counts[i] = wrap_24_bit(std::llround(encoder.sign * coordinates[i] * encoder.counts_per_unit));
+    const double shown = coordinates[i] - encoder.zero;
+    inputs.raw_counts[i] = wrap_24_bit(std::llround(encoder.sign * shown * encoder.counts_per_unit));
   }
   for (std::size_t i = 0; i < bridge::kDrives; ++i) {
     const SimulatedDrive& drive = rig_->given.drives[i];
@@ -98,25 +121,26 @@ bridge::Inputs SimulatedBoard::read() {
 
 std::array<double, bridge::kDrives> SimulatedBoard::write(const bridge::Outputs& outputs) {
   rig_->outputs = outputs;
-  std::array<double, bridge::kDrives> given_v{};
-  for (std::size_t i = 0; i < given_v.size(); ++i) {
-    given_v[i] = converter_voltage_v(converter_code(outputs.drive_v[i]));
+  for (std::size_t i = 0; i < bridge::kDrives; ++i) {
+    rig_->converter_v[i] = converter_voltage_v(converter_code(outputs.drive_v[i]));
   }
-  rig_->mechanism.set_command(given_v);
+  rig_->command_is_new = true;
   rig_->relay.set_level(outputs.watchdog_level, rig_->now_ns);
   rig_->settle();
-  return given_v;
+  return rig_->converter_v;
 }
 
 void SimulatedBoard::make_safe() noexcept {
   rig_->outputs = {};
-  rig_->mechanism.set_command({});
+  rig_->converter_v = {};
+  rig_->command_is_new = true;
   rig_->relay.set_level(false, rig_->now_ns);
   rig_->settle();
 }
 
 void SimulatedBoard::advance_to(std::int64_t time_ns) {
   while (rig_->now_ns < time_ns) {
+    rig_->begin_tick_if_due();
     const std::int64_t until_ns = std::min(time_ns, rig_->next_change_ns());
     rig_->mechanism.run(static_cast<double>(until_ns - rig_->now_ns) * 1e-9);
     rig_->now_ns = until_ns;
@@ -134,6 +158,9 @@ bool SimulatedBoard::kick(double radial_radps, double tangential_radps) {
   return true;
 }
 
+const std::array<double, bridge::kDrives>& SimulatedBoard::converter_v() const noexcept {
+  return rig_->converter_v;
+}
 const plant::State& SimulatedBoard::truth() const noexcept { return rig_->mechanism.state(); }
 std::int64_t SimulatedBoard::now_ns() const noexcept { return rig_->now_ns; }
 

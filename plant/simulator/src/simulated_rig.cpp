@@ -68,6 +68,7 @@ std::vector<std::string> SimulatedRig::problems() const {
   };
   swing("start.radial_rad", start.radial_rad);
   swing("start.tangential_rad", start.tangential_rad);
+  report.positive("period_s", period_s);
   report.positive("watchdog_timeout_s", watchdog_timeout_s);
   report.delay("watchdog_permit_s", watchdog_permit_s);
   return report.lines;

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "cli/commands/bench.hpp"
 #include "cli/commands/commands.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
@@ -192,6 +193,7 @@ void add_bench(CLI::App& app, Action& chosen) {
   runtime::add_bus_options(*loop, options->launch.bus);
   loop->footer("Example: crane bench loop --seconds 60");
   loop->callback([options, &chosen] { chosen = [options] { return bench_loop(*options); }; });
+  add_bench_stop(*command, chosen);
 }
 
 }  // namespace crane::cli

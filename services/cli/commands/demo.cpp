@@ -8,6 +8,7 @@
 #include "cli/commands/commands.hpp"
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/picture.hpp"
+#include "process/hardware_bridge.hpp"
 #include "recorder/recorder.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
@@ -23,6 +24,7 @@ using namespace std::chrono_literals;
 struct DemoOptions {
   stack::LaunchOptions launch;
   std::string rig = "virginia_tech_tower";
+  std::string plant = "sim";
   std::string out = "out/demo";
   double seconds_per_maneuver = 10;
 };
@@ -92,8 +94,11 @@ int demo(DemoOptions options) {
     scenarios.push_back(experiment::load_scenario(stack::find_scenario(name), &rig));
   fs::create_directories(options.out);
 
-  const auto specs = stack::simulated_stack();
+  const auto plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
+  if (plant == stack::Plant::hardware) bridge::board_kind_of(rig);
+  const auto specs = stack::stack_with(plant);
   stack::ChildProcesses children;
+  if (plant == stack::Plant::hardware) stack::launch_rig(children, rig, options.launch);
   std::cerr << "starting " << specs.size() << " processes\n";
   stack::launch(children, specs, options.launch);
   auto observer = options.launch.bus;
@@ -128,6 +133,9 @@ void add_demo(CLI::App& app, Action& chosen) {
   auto* command =
       app.add_subcommand("demo", "Three maneuvers in real time: a table, recordings and pictures");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
+  command->add_option("--plant", options->plant, "sim, or hardware, the board that the rig file names")
+      ->check(CLI::IsMember({"sim", "hardware"}))
+      ->capture_default_str();
   command->add_option("--controller", options->launch.controller, "controller; default: the rig file's");
   command->add_option("--out", options->out, "directory for recordings, CSV files and pictures")
       ->capture_default_str();

@@ -1,9 +1,15 @@
-/// crane run: one or several scenarios in lockstep, with figures, CSV, recording and picture.
+/// crane run: scenarios in lockstep, each with figures, CSV, recording and picture, or many side by side.
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "crane/experiment/variant.hpp"
+#include "stack/comparison_run.hpp"
 #include "stack/data_files.hpp"
 #include "stack/experiment_run.hpp"
 #include "stack/launch.hpp"
@@ -12,55 +18,149 @@
 namespace crane::cli {
 namespace {
 
+using Names = std::vector<std::string>;
+constexpr const char* kDefaultRig = "virginia_tech_tower";
+
 struct RunOptions {
-  std::vector<std::string> scenarios;
-  std::vector<std::string> controllers;
-  std::string rig = "virginia_tech_tower";
-  std::string out = "out";
-  bool in_process = false, json = false, no_picture = false;
+  Names scenarios, controllers, variants;
+  std::string rig, out = "out", plant = "sim";
+  bool compare = false, in_process = false, json = false, no_picture = false;
   runtime::BusOptions bus;
-  std::vector<std::string> vendors;
+  Names vendors;
 };
 
-int run(const RunOptions& options) {
-  runtime::install_stop_signals();
+Names first_given(const Names& said, const Names& wished, const Names& otherwise) {
+  return !said.empty() ? said : !wished.empty() ? wished : otherwise;
+}
+
+Names every_controller() {
+  Names names;
+  for (const auto& controller : control::controllers()) names.emplace_back(controller.name);
+  return names;
+}
+
+/// The rig of one scenario, and what is to be done with it.
+void add_plans(const std::string& name, const RunOptions& options, std::vector<stack::PlannedRun>& plans) {
+  const auto file = stack::find_scenario(name);
+  const auto wish = experiment::load_scenario(file);
+  const auto rig = runtime::load_rig(stack::find_rig(!options.rig.empty() ? options.rig
+                                                     : !wish.rig.empty()  ? wish.rig
+                                                                          : kDefaultRig));
+  const auto scenario = experiment::load_scenario(file, &rig);
+  const Names as_it_is{""};
+  const auto variants = first_given(options.variants, wish.variants,
+                                    options.compare ? experiment::default_variants() : as_it_is);
+  const auto controllers =
+      first_given(options.controllers, wish.controllers, options.compare ? every_controller() : as_it_is);
+  for (const auto& variant : variants) {
+    (void)experiment::changed_by(rig, variant);  // refuses what is none before anything runs
+    for (const auto& controller : controllers)
+      plans.push_back({scenario, rig, &runtime::chosen_controller(controller, rig), variant});
+  }
+}
+
+std::vector<stack::PlannedRun> plans_of(const RunOptions& options) {
+  std::vector<stack::PlannedRun> plans;
+  if (options.scenarios.empty() && !options.compare)
+    throw runtime::ConfigurationError(
+        {"scenario: name at least one, or --compare, which runs maneuver_1, maneuver_2 and maneuver_3"});
+  const Names maneuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
+  for (const auto& name : options.scenarios.empty() ? maneuvers : options.scenarios)
+    add_plans(name, options, plans);
+  return plans;
+}
+
+/// Names of what the user or the scenario chose; a run that was left as it is has none.
+std::string directory_name(const RunOptions& options, const stack::PlannedRun& plan) {
+  const bool chosen = !options.controllers.empty() || !plan.scenario.controllers.empty();
+  return plan.scenario.name + (chosen ? "_" + std::string{plan.controller->name} : "") +
+         (plan.variant.empty() ? "" : "_" + plan.variant);
+}
+
+int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
   stack::ExperimentOptions experiment;
-  experiment.rig = stack::find_rig(options.rig);
+  experiment.plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
   experiment.in_process = options.in_process;
   experiment.picture = !options.no_picture;
   experiment.bus = options.bus;
-  experiment.vendors = stack::vendors_from(options.vendors, stack::simulated_stack());
-
-  const auto controllers = options.controllers.empty() ? std::vector<std::string>{""} : options.controllers;
-  const bool single = options.scenarios.size() * controllers.size() == 1;
+  experiment.vendors = stack::vendors_from(options.vendors, stack::stack_with(experiment.plant));
   std::vector<experiment::NamedMetrics> table;
   auto json = nlohmann::ordered_json::array();
   bool completed = true;
-  for (const auto& scenario : options.scenarios)
-    for (const auto& controller : controllers) {
-      experiment.scenario = stack::find_scenario(scenario);
-      experiment.controller = controller;
-      experiment.directory = options.out;
-      if (!single)
-        experiment.directory /=
-            experiment.scenario.stem().string() + (controller.empty() ? "" : "_" + controller);
-      const auto result = stack::run_experiment(experiment);
-      if (!result.outcome.completed)
-        std::cerr << result.scenario << ", " << result.controller
-                  << ": the supervisor stopped the crane: " << result.outcome.stopped_because << '\n';
-      completed = completed && result.outcome.completed;
-      table.push_back({result.scenario, result.controller, result.metrics});
-      json.push_back(stack::to_json(result));
-      if (!options.json)
-        std::cerr << result.scenario << ", " << result.controller << ": "
-                  << static_cast<long>(result.real_time_factor) << " x real time, files in "
-                  << experiment.directory.string() << '\n';
-    }
+  for (const auto& plan : plans) {
+    experiment.scenario = plan.scenario.path;
+    experiment.rig = plan.rig.path;
+    experiment.controller = plan.controller->name;
+    experiment.variant = plan.variant;
+    experiment.directory = options.out;
+    if (plans.size() > 1) experiment.directory /= directory_name(options, plan);
+    const auto result = stack::run_experiment(experiment);
+    const std::string title = result.scenario + (plan.variant.empty() ? "" : ", " + plan.variant);
+    if (!result.outcome.completed)
+      std::cerr << title << ", " << result.controller
+                << ": the supervisor stopped the crane: " << result.outcome.stopped_because << '\n';
+    completed = completed && result.outcome.completed;
+    table.push_back({title, result.controller, result.metrics});
+    json.push_back(stack::to_json(result));
+    if (!options.json)
+      std::cerr << title << ", " << result.controller << ": " << static_cast<long>(result.real_time_factor)
+                << " x real time, files in " << experiment.directory.string() << '\n';
+  }
   if (options.json)
-    std::cout << (single ? json.front() : json).dump(2) << '\n';
+    std::cout << (plans.size() == 1 ? json.front() : json).dump(2) << '\n';
   else
     experiment::print_table(std::cout, table);
   return completed ? runtime::kExitDone : runtime::kExitFailed;
+}
+
+void show_progress(std::size_t done, std::size_t all) {
+  constexpr std::size_t kWidth = 40;
+  const std::size_t filled = kWidth * done / all;
+  std::cerr << "\r[" << std::string(filled, '#') << std::string(kWidth - filled, ' ') << "] " << done
+            << " of " << all << " runs" << (done == all ? "\n" : "") << std::flush;
+}
+
+template <class Write>
+void write_text(const std::filesystem::path& file, const Write& write) {
+  std::ofstream out{file, std::ios::binary};
+  write(out);
+  if (!out.flush()) throw stack::RunError(file.string() + ": cannot write");
+}
+
+int compare(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
+  const std::filesystem::path directory{options.out};
+  std::filesystem::create_directories(directory);
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  spdlog::set_level(spdlog::level::off);  // why a crane was stopped stands in the tables
+  const auto runs = stack::simulate_all(plans, [&](std::size_t done) {
+    if (terminal) show_progress(done, plans.size());
+  });
+  write_text(directory / "comparison.csv",
+             [&](std::ostream& out) { experiment::write_comparison_csv(out, runs); });
+  write_text(directory / "comparison.md",
+             [&](std::ostream& out) { experiment::write_comparison_markdown(out, runs); });
+  report::write_html(directory / "comparison.html",
+                     experiment::comparison_page(runs, plans.front().rig.name));
+  if (options.json)
+    std::cout << experiment::comparison_json(runs).dump(2) << '\n';
+  else
+    experiment::write_comparison_summary(std::cout, runs);
+  std::cerr << runs.size() << " runs: " << (directory / "comparison").string() << ".csv, .md, .html\n";
+  return runtime::kExitDone;
+}
+
+int run(const RunOptions& options) {
+  runtime::install_stop_signals();
+  const auto plans = plans_of(options);
+  return options.compare ? compare(options, plans) : run_each(options, plans);
+}
+
+std::string described_variants() {
+  std::string lines = "Variants (join several with +):\n";
+  for (const auto& variant : experiment::variants())
+    lines += "  " + std::string{variant.name} + std::string(20 - variant.name.size(), ' ') +
+             std::string{variant.summary} + '\n';
+  return lines;
 }
 
 }  // namespace
@@ -68,20 +168,40 @@ int run(const RunOptions& options) {
 void add_run(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<RunOptions>();
   auto* command = app.add_subcommand("run", "Run scenarios in lockstep and measure them");
-  command->add_option("scenario", options->scenarios, "scenario files or names (maneuver_1, maneuver_2, ...)")
-      ->required();
+  command->add_option(
+      "scenario", options->scenarios,
+      "scenario files or names (maneuver_1, figure_4_10, ...); with --compare default: the three "
+      "maneuvers");
   command->add_option("--controller", options->controllers,
-                      "controller (repeatable); default: the rig file's");
-  command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
+                      "controller (repeatable); default: the scenario's, else the rig file's, with --compare "
+                      "every controller");
+  command
+      ->add_option("--variants", options->variants,
+                   "ways to depart from the rig file, see below; default: the scenario's, else none, with "
+                   "--compare the first eight")
+      ->delimiter(',');
+  command->add_option("--rig", options->rig,
+                      std::string{"rig file or name; default: the scenario's, else "} + kDefaultRig);
+  command
+      ->add_option("--plant", options->plant,
+                   "sim, the simulated plant, or hardware, the bridge on the emulated board that the rig "
+                   "file names (emulated_servo_to_go); not with --compare")
+      ->check(CLI::IsMember({"sim", "hardware"}))
+      ->capture_default_str();
   command->add_option("--out", options->out, "directory for recording, CSV, metrics and picture")
       ->capture_default_str();
+  command->add_flag("--compare", options->compare,
+                    "all runs side by side, in this process: comparison.csv, comparison.md, comparison.html");
   command->add_flag("--in-process", options->in_process, "all components in this process, without DDS");
   command->add_flag("--json", options->json, "print metrics as JSON");
   command->add_flag("--no-picture", options->no_picture, "do not draw");
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   runtime::add_bus_options(*command, options->bus);
-  command->footer("Example: crane run maneuver_1 --controller delayed_1 --out out/m1");
+  command->footer(described_variants() +
+                  "Examples: crane run maneuver_1 --controller delayed_1 --out out/m1\n"
+                  "          crane run --compare --out out/comparison\n"
+                  "          crane run --compare figure_4_10 --out out/figure_4_10");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "process/hardware_bridge.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
 #include "stack/operator_client.hpp"
@@ -50,12 +51,15 @@ int up(UpOptions options) {
   options.launch.rig = stack::find_rig(options.rig).string();
   const auto rig = runtime::load_rig(options.launch.rig);
   const auto& controller = runtime::chosen_controller(options.launch.controller, rig);
-  const auto specs = stack::simulated_stack();
+  const auto plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
+  if (plant == stack::Plant::hardware) bridge::board_kind_of(rig);
+  const auto specs = stack::stack_with(plant);
   options.launch.vendors = stack::vendors_from(options.vendors, specs);
 
   bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};
   runtime::refuse_second_writer(bus, topics::command.description);
   stack::ChildProcesses children;
+  if (plant == stack::Plant::hardware) stack::launch_rig(children, rig, options.launch);
   stack::launch(children, specs, options.launch);
   if (!options.record.empty()) start_recorder(children, options);
   stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
@@ -77,8 +81,10 @@ void add_up(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<UpOptions>();
   auto* command = app.add_subcommand("up", "Run the stack until Ctrl-C");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command->add_option("--plant", options->plant, "what is moved: sim, the simulated plant")
-      ->check(CLI::IsMember({"sim"}))
+  command
+      ->add_option("--plant", options->plant,
+                   "what is moved: sim, the simulated plant, or hardware, the board that the rig file names")
+      ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
   command->add_option("--controller", options->launch.controller, "controller; default: the rig file's");
   command->add_option("--clock", options->launch.clock, "realtime, or lockstep: as fast as the machine can")
@@ -92,7 +98,9 @@ void add_up(CLI::App& app, Action& chosen) {
       ->capture_default_str();
   command->add_flag("--verbose", options->launch.verbose, "processes log every detail");
   runtime::add_bus_options(*command, options->launch.bus);
-  command->footer("Example: crane up --rig virginia_tech_tower --record run.mcap");
+  command->footer(
+      "Examples: crane up --rig virginia_tech_tower --record run.mcap\n"
+      "          crane up --plant hardware --rig emulated_servo_to_go     (docs/hardware.md)");
   command->callback([options, &chosen] { chosen = [options] { return up(*options); }; });
 }
 

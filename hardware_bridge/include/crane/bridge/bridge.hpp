@@ -35,9 +35,10 @@ class Bridge : public runtime::Component {
   void take_commands();
   void take_requests();
   void tick(std::int64_t now_ns);
-  void report_latches();
-  [[nodiscard]] msg::State state(const Inputs& inputs, const std::array<double, kDrives>& applied_v,
-                                 std::int64_t sample_time_ns);
+  void report_latch();
+  [[nodiscard]] Seen seen(const Inputs& inputs) const;
+  [[nodiscard]] msg::State state(const Inputs& inputs, const control::Measurement& measured,
+                                 std::int64_t sample_time_ns) const;
 
   runtime::Node& node_;
   runtime::Clock clock_;
@@ -55,7 +56,8 @@ class Bridge : public runtime::Component {
   std::uint64_t until_tick_ = 0;       ///< lockstep: runs up to this tick
   std::int64_t start_ns_ = 0;          ///< realtime: when tick 0 was
   std::uint32_t overruns_ = 0;
-  bool reported_stale_ = false, reported_invalid_ = false;
+  std::array<double, kDrives> applied_v_{};  ///< what the converters give
+  Reason reported_ = Reason::none;
 };
 
 }  // namespace crane::bridge

@@ -24,16 +24,19 @@ class CountUnwrapper {
 /// Position and its rate from one encoder.
 class Coordinate {
  public:
-  /// @param cut_off_ratio  of the low-pass in front of the differentiator; 0: none
-  Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio);
+  /// @param cut_off_ratio   of the low-pass in front of the differentiator; 0: none
+  /// @param filter_position the position passed on is behind the low-pass, too
+  Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio,
+             bool filter_position = false);
   void step(std::int32_t raw_counts) noexcept;
   [[nodiscard]] std::int64_t counts() const { return counts_; }
-  [[nodiscard]] double position() const { return position_; }  ///< m or rad, quantised, not filtered
+  [[nodiscard]] double position() const { return position_; }  ///< m or rad
   [[nodiscard]] double rate() const { return rate_; }          ///< per second
 
  private:
   CountUnwrapper unwrapper_;
   double units_per_count_;
+  bool filter_position_;
   control::FilterSection low_pass_;
   control::FilterSection differentiator_;
   control::FilterMemory low_pass_memory_, differentiator_memory_;

@@ -8,7 +8,9 @@ class CommandOffset final : public Term {
   explicit CommandOffset(const TermSetting& s)
       : axis_(drive_axis(s.axis)), offset_v_(s.parameters.at("offset_v")) {}
 
-  void change_command(PerAxis& drive_v) noexcept override { drive_v[axis_] += offset_v_; }
+  void change_command(PerAxis& drive_v, double /*period_s*/) noexcept override {
+    drive_v[axis_] += offset_v_;
+  }
 
  private:
   Axis axis_;

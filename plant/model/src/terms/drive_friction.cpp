@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "crane/plant/term.hpp"
+#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -20,7 +21,7 @@ class DriveFriction final : public Term {
     const Direction& d = v >= 0 ? positive_ : negative_;
     double level_v = d.coulomb_v;
     if (d.excess_v > 0) level_v += d.excess_v * std::exp(-v * v / (stiction_speed_ * stiction_speed_));
-    friction_v[axis_] += level_v * std::tanh(v / smoothing_speed_) + d.viscous_vspm * v;
+    friction_v[axis_] += level_v * smooth_sign(v, smoothing_speed_) + d.viscous_vspm * v;
   }
 
  private:

@@ -7,7 +7,7 @@ class MotorGain final : public Term {
  public:
   explicit MotorGain(const TermSetting& s) : axis_(drive_axis(s.axis)), factor_(s.parameters.at("factor")) {}
 
-  void change_command(PerAxis& drive_v) noexcept override { drive_v[axis_] *= factor_; }
+  void change_command(PerAxis& drive_v, double /*period_s*/) noexcept override { drive_v[axis_] *= factor_; }
 
  private:
   Axis axis_;

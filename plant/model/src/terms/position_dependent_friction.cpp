@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "crane/plant/term.hpp"
+#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -17,7 +18,7 @@ class PositionDependentFriction final : public Term {
 
   void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
     const double tightness = 0.5 * (1 + std::cos(wave_number_ * (position(state, axis_) - tight_at_)));
-    friction_v[axis_] += amplitude_v_ * tightness * std::tanh(speed(state, axis_) / smoothing_speed_);
+    friction_v[axis_] += amplitude_v_ * tightness * smooth_sign(speed(state, axis_), smoothing_speed_);
   }
 
  private:

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "crane/plant/term.hpp"
+#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -15,7 +16,7 @@ class StribeckFriction final : public Term {
 
   void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
     const double v = speed(state, axis_), ratio = v / decay_speed_;
-    friction_v[axis_] += excess_v_ * std::exp(-ratio * ratio) * std::tanh(v / smoothing_speed_);
+    friction_v[axis_] += excess_v_ * std::exp(-ratio * ratio) * smooth_sign(v, smoothing_speed_);
   }
 
  private:

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "crane/plant/term.hpp"
+#include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
 namespace {
@@ -21,7 +22,7 @@ class SwingPivotFriction final : public Term {
 
  private:
   [[nodiscard]] double torque_nm(double rate_radps) const {
-    return viscous_nmsprad_ * rate_radps + coulomb_nm_ * std::tanh(rate_radps / smoothing_radps_);
+    return viscous_nmsprad_ * rate_radps + coulomb_nm_ * smooth_sign(rate_radps, smoothing_radps_);
   }
   bool radial_, tangential_;
   double viscous_nmsprad_, coulomb_nm_, smoothing_radps_;

@@ -9,8 +9,10 @@
 ///   K_x'   = 2/a + sqrt(2)/w                                                        from (3.24),
 ///   K_phi  = L ((a^2 + 2 sqrt(2) a w + w^2 - w0^2 (1 + m_t)) / (K K_m) - 1)         from (3.23),
 ///   K_phi' = L ((2 a + sqrt(2) w) / (K K_m) - K_x')                                 from (3.22).
-/// Partial feedback (3.19) has no K_phi'; K_phi' = 0 fixes w/w0 and with it K.
-/// The slew axis has the same form with K_m / (1 + M_r x^2), m_r x^2 / (1 + M_r x^2) and swing gains over x.
+/// Partial feedback (3.19) has no K_phi'; K_phi' = 0 fixes w/w0 and with it K. Full feedback leaves K free:
+/// it is lowered for a move that is too long for the volts (ForwardGain). The slew axis has the same form
+/// with K_m / (1 + M_r x^2), m_r x^2 / (1 + M_r x^2) and swing gains over x.
+#include <array>
 #include <memory>
 
 #include "crane/control/law.hpp"
@@ -46,13 +48,42 @@ struct TowerGains {
 /// Full-state feedback for a chosen forward gain K. @pre forward_gain > 0
 [[nodiscard]] Gains full_state_gains(const SwingAxis& axis, double forward_gain) noexcept;
 
-/// Both axes at one operating point; the slew axis' swing gains are K_phi, K_phi' times inverse_position_pm.
-[[nodiscard]] TowerGains partial_state_gains(const Design& design, const Schedule& at) noexcept;
-[[nodiscard]] TowerGains full_state_gains(const Design& design, const Schedule& at) noexcept;
-
 /// Largest forward gain, at most `gain_limit`, with which a step of `distance` asks for no more than
 /// `volt_limit_v` as it begins: V(0) = K distance. @pre gain_limit, volt_limit_v > 0
 [[nodiscard]] double forward_gain_within(double volt_limit_v, double distance, double gain_limit) noexcept;
+
+/// Volts of one axis that its friction compensation leaves for a move as it begins: the limit less the larger
+/// of stiction and Coulomb friction of the direction, times the compensated share. > 0 for a design without
+/// problems.
+[[nodiscard]] double volts_left_v(const Design& design, plant::Axis axis, bool positive) noexcept;
+
+/// K of both slewing and trolley, V/m and V/rad.
+struct ForwardGains {
+  double trolley = 0, slew = 0;
+};
+
+/// K of the full-state feedback for the move under way. Whenever the reference of an axis changes it is
+/// chosen anew, as large as full_feedback_gain_pm where K (reference - position) stays within volts_left_v(),
+/// smaller for longer distances; while the reference rests K stays. Tracking and anti-swing each have one:
+/// the same samples in the same order give both the same K, bit for bit. One that has lost the tick of the
+/// change chooses at the next: a crane at rest has not moved by then.
+class ForwardGain {
+ public:
+  explicit ForwardGain(const Design& design) noexcept;
+  [[nodiscard]] ForwardGains step(const Design& design, const Measurement& measured,
+                                  const Reference& reference) noexcept;
+  /// The next reference counts as a new one.
+  void reset() noexcept;
+
+ private:
+  std::array<double, 2> target_{}, gain_{};  ///< trolley, slew
+};
+
+/// Both axes at one operating point; the slew axis' swing gains are K_phi, K_phi' times inverse_position_pm.
+[[nodiscard]] TowerGains partial_state_gains(const Design& design, const Schedule& at) noexcept;
+/// @pre forward_gains > 0
+[[nodiscard]] TowerGains full_state_gains(const Design& design, const Schedule& at,
+                                          const ForwardGains& forward_gains) noexcept;
 
 [[nodiscard]] std::unique_ptr<Law> make_partial_tracking(const Design& design);
 [[nodiscard]] std::unique_ptr<Law> make_partial_anti_swing(const Design& design);

@@ -72,7 +72,7 @@ struct Design {
   double period_s = 0.01;                        ///< tick
   double cable_length_m = 1.0;                   ///< nominal; laws schedule on the measured length
   Volts volt_limit_v{10, 10, 10};                ///< |V| the drive can give
-  double full_feedback_gain_pm = 4.0;            ///< K of the full-state feedback, V/m and V/rad
+  double full_feedback_gain_pm = 4.0;            ///< largest K of the full-state feedback, V/m and V/rad
   double tracking_proportional = 100;            ///< K_p of (3.41), normalised time
   double tracking_derivative = 20;               ///< K_d = 2 sqrt(K_p), (3.42)
   double delayed_1_gain = -90;                   ///< K_del of (3.47), tower sign
@@ -87,6 +87,8 @@ struct Design {
   double fuzzy_swing_rad = 0.17453292519943295;  ///< swing that is PB, phi_max of (3.51), > 0
   double fuzzy_swing_rate = 1.5;                 ///< swing rate that is PB, rad per load period (3.51), > 0
   double fuzzy_gain = -90;                       ///< K_V / phi_max of (3.51), tower sign, not 0
+  double fuzzy_point_a = 1.0 / 3;                ///< peak of PS (figure 3.20), > 0
+  double fuzzy_point_b = 2.0 / 3;                ///< peak of PM, in (a, 1)
   double shortest_cable_length_m = 0.1;          ///< laws take the measured length into this range, > 0 ...
   double longest_cable_length_m = 100;           ///< ... which also bounds the memory of the delayed laws
 };
@@ -104,6 +106,10 @@ struct Controller {
   std::unique_ptr<Law> (*make_anti_swing)(const Design&);
   bool corrects_reference = false;  ///< tracking has to join the anti-swing law's correction of the same tick
 };
+
+/// What keeps `controller` from working with this design, which itself has no problems: rules that
+/// fuzzy_generated could not generate. Empty for every other controller.
+[[nodiscard]] std::vector<std::string> problems(const Controller& controller, const Design& design);
 
 /// All controllers, in the order of the documentation.
 [[nodiscard]] const std::vector<Controller>& controllers();

@@ -1,12 +1,14 @@
 #pragma once
-/// A scenario says what is asked of a rig, independent of controller: where it starts, the moves, the kicks.
-/// Files: deploy/scenarios/*.toml; maneuver_1.toml is the annotated example.
+/// A scenario says what is asked of a rig, independent of controller: where it starts, moves, excitations,
+/// kicks. Files: deploy/scenarios/*.toml; maneuver_1.toml is the annotated example; a file may extend
+/// another.
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "crane/control/excitation.hpp"
 #include "crane/plant/parameters.hpp"
 #include "crane/runtime/rig.hpp"
 
@@ -16,6 +18,12 @@ namespace crane::experiment {
 struct Move {
   double at_s = 0;
   std::array<std::optional<double>, plant::kAxes> target;  ///< m, rad, m of cable; nothing: the axis stays
+};
+
+/// A request to follow a sum of sines with one axis, or, without sines, a step of its reference.
+struct Excitation {
+  double at_s = 0;
+  control::Excitation reference;
 };
 
 /// A disturbance: the load gets these swing rates added at once.
@@ -31,12 +39,18 @@ struct Scenario {
   std::string path;
   std::array<std::optional<double>, plant::kAxes> start;  ///< m, rad, m of cable; nothing: the rig's own
   double swing_radial_rad = 0, swing_tangential_rad = 0;  ///< at the start
-  double duration_s = 20;                                 ///< after the first move or kick
+  double duration_s = 20;                                 ///< after the first move, excitation or kick
   std::vector<Move> moves;                                ///< in order of time
+  std::vector<Excitation> excitations;                    ///< in order of time
   std::vector<Kick> kicks;                                ///< in order of time
   std::optional<double> load_mass_kg;  ///< true load; the controllers go on believing the rig file
+  double cable_length_offset_m = 0;    ///< the true cable is longer than its measurement by so much
+  // What it is usually run with; whoever runs it may say otherwise.
+  std::string rig;                       ///< name or path, empty: the dissertation's
+  std::vector<std::string> controllers;  ///< empty: the rig's
+  std::vector<std::string> variants;     ///< of variant.hpp, empty: the rig as it is
 
-  [[nodiscard]] double first_action_s() const;  ///< first move or kick, 0 when there is none
+  [[nodiscard]] double first_action_s() const;  ///< first move, excitation or kick, 0 when there is none
   [[nodiscard]] double last_action_s() const;
   [[nodiscard]] double end_s() const { return first_action_s() + duration_s; }
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crane/control/law.hpp"
+#include "crane/control/shaper.hpp"
 #include "crane/plant/parameters.hpp"
 
 namespace crane::runtime {
@@ -38,6 +39,7 @@ struct Drive {
   double brake_open_time_s = 0.02;
   double reference_speed = 0;         ///< planner: V_max of (3.43), per second, > 0
   double reference_acceleration = 0;  ///< planner: a_max of (3.43), per second squared, > 0
+  double reference_jerk = 0;          ///< planner: j_max of S-curves, per second cubed, > 0
 };
 
 /// Differentiators and filters of the measurement pipeline (dissertation 4.3).
@@ -45,6 +47,25 @@ struct Sensing {
   double swing_filter_ratio = 0.05;  ///< Butterworth cut-off / sampling frequency, in (0, 0.5); 0: none
   std::array<bool, plant::kAxes> filter_speed{false, true,
                                               false};  ///< per axis: differentiate the filtered position
+  bool filter_swing_angle = false;  ///< the swing angles themselves are passed on filtered, too
+};
+
+/// Digital lines of one drive, numbered through the board: 0..7 port A, 8..15 B, 16..23 C, 24..31 D.
+struct DriveLines {
+  int limit_low_input = 0, limit_high_input = 0;  ///< contact opens at the limit
+  int brake_closed_input = 0;                     ///< contact closes with the brake
+  int brake_release_output = 0;                   ///< on: 24 V to the brake, if the relay is closed
+};
+
+/// What is connected to which line of the board; counters and analog outputs stand with encoders and drives.
+/// Inputs are contacts to ground, closed when all is well, so that a broken wire reads as trouble.
+struct Wiring {
+  int base_address = 0x200;       ///< servo_to_go: 0x200 + 0x20 n, n = 0..15
+  int estop_input = 0;            ///< 0..15; contact opens with the emergency stop
+  int relay_closed_input = 10;    ///< 0..15; contact closes with the watchdog relay
+  int watchdog_output = 19;       ///< 16..31; has to toggle every tick
+  double relay_timeout_s = 0.05;  ///< the watchdog relay drops when its input has not changed for longer
+  std::array<DriveLines, plant::kAxes> drives{{{1, 2, 7, 16}, {3, 4, 8, 17}, {5, 6, 9, 18}}};
 };
 
 struct Limits {
@@ -58,6 +79,13 @@ struct Start {
   std::array<double, plant::kAxes> position{0.25, 0,
                                             1.0};  ///< where the simulated plant begins: m, rad, m of cable
   double swing_radial_rad = 0, swing_tangential_rad = 0;
+  double cable_length_offset_m = 0;  ///< the true cable is longer than the hoist encoder says by so much
+};
+
+/// How moves are planned, wherever the controller does not take the bare step.
+struct Planning {
+  bool limits_jerk = false;  ///< S-curve instead of bang-coast-bang
+  control::Shaping shaping = control::Shaping::none;
 };
 
 struct Rig {
@@ -73,7 +101,9 @@ struct Rig {
   Limits limits;
   Start start;
   std::string board = "simulated";  ///< simulated (hardware boards: servo_to_go, comedi, emulated)
+  Wiring wiring;
   std::string controller = "gain_scheduling_partial";
+  Planning planning;
   control::Design design;  ///< what the controllers believe; crane = plant unless the file says otherwise
 };
 

@@ -27,21 +27,35 @@ struct Accelerations {
   double cable_mps2 = 0;
 };
 
-/// Coordinates held by a closed brake, or that the rig does not have. A locked coordinate has rate 0 and
-/// keeps it.
+/// Coordinates held by a closed brake, or that the rig does not have, or whose motion is given.
 struct Locks {
   std::array<bool, kAxes> axis{};
+  PerAxis acceleration{};  ///< of a locked axis: 0 when held (its rate is 0 then), else its given motion
   bool radial = false;
   bool tangential = false;
 };
 
-/// q'' of the free coordinates; 0 for the locked ones. Without load mass the swing is locked too (the
-/// pendulum equations are empty then).
-/// @param cable_mps2 L'', prescribed; taken as 0 when the hoist is locked
-/// @pre parameters.problems().empty(), cable length > 0, |theta| < pi/2, locked coordinates have rate 0
+/// q'' of the free coordinates; for the locked ones 0 or what is given. Without load mass the swing is locked
+/// too (the pendulum equations are empty then).
+/// @param cable_mps2 L'', prescribed; that of the lock when the hoist is locked
+/// @pre parameters.problems().empty(), cable length > 0, |theta| < pi/2
 [[nodiscard]] Accelerations accelerations(const Parameters& parameters, const State& state,
                                           const Forces& forces, double cable_mps2,
                                           const Locks& locks = {}) noexcept;
+
+/// What the swing accelerations gain when the point the cable hangs from is accelerated beyond x'' and
+/// gamma''.
+struct SwingResponse {
+  double radial_radps2 = 0;
+  double tangential_radps2 = 0;
+};
+[[nodiscard]] SwingResponse swing_response(const Parameters& parameters, const State& state,
+                                           double trolley_mps2, double slew_radps2,
+                                           const Locks& locks = {}) noexcept;
+
+/// Force that keeps the cable at its length [N], > 0 while it is taut: -Q_L of Lagrange's equation for L.
+[[nodiscard]] double cable_tension_n(const Parameters& parameters, const State& state,
+                                     const Accelerations& accelerations) noexcept;
 
 /// The state just after `axis` was stopped dead by an end stop: the rates of the other free coordinates take
 /// up the impulse, M_ff dq'_f = -M_fs dq'_s.

@@ -21,11 +21,18 @@ struct Actuation {
   Locks locks;
 };
 
+/// Accelerations of a term's own coordinates, in the order of Model's inner coordinates.
+using InnerState = std::array<Inner, kMostInner>;
+using InnerAccelerations = std::array<double, kMostInner>;
+
 class Model {
  public:
+  /// @param period_s tick: how long a command is held, > 0
   /// @throws std::invalid_argument naming every problem of the parameters and of the terms
-  explicit Model(const Parameters& parameters, const std::vector<TermSetting>& terms = {});
+  explicit Model(const Parameters& parameters, const std::vector<TermSetting>& terms = {},
+                 double period_s = 0.01);
 
+  /// Those of the rig file, changed by the parameter terms.
   [[nodiscard]] const Parameters& parameters() const noexcept { return parameters_; }
 
   /// What the amplifiers really give for a command; once a tick, because command terms may remember.
@@ -34,14 +41,44 @@ class Model {
   /// Friction in volts that the drive terms add up to.
   [[nodiscard]] PerAxis friction_v(const State& state) const noexcept;
 
+  /// Number of coordinates the structure terms have of their own, at most kMostInner.
+  [[nodiscard]] std::size_t inner_coordinates() const noexcept { return inner_coordinates_; }
+
+  /// @param inner own coordinates of the structure terms; the first inner_coordinates() count
+  /// @param inner_accelerations filled likewise
   /// @pre as plant::accelerations
+  [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation,
+                                            const InnerState& inner,
+                                            InnerAccelerations& inner_accelerations) const noexcept;
+  /// The same with friction given [V] instead of that of the drive terms.
+  [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation,
+                                            const PerAxis& friction_v, const InnerState& inner,
+                                            InnerAccelerations& inner_accelerations) const noexcept;
+  /// For a model without inner coordinates, or with them at rest.
   [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation) const noexcept;
 
+  /// What the sensors report; once a tick, because sensor terms may remember.
+  [[nodiscard]] Measurement measure(const State& state) noexcept;
+
  private:
+  struct Structure {
+    std::unique_ptr<Term> term;
+    std::size_t first = 0;  ///< index of its first inner coordinate
+  };
+  void add_structure(std::unique_ptr<Term> term);
+  [[nodiscard]] State displaced(const State& state, const InnerState& inner) const noexcept;
+  [[nodiscard]] Forces forces(const State& seen, const Actuation& actuation, const PerAxis& friction_v,
+                              const InnerState& inner) const noexcept;
+
   Parameters parameters_;
+  double period_s_;
+  std::size_t inner_coordinates_ = 0;
+  Displacement rest_displacement_;
   std::vector<std::unique_ptr<Term>> command_terms_;
   std::vector<std::unique_ptr<Term>> drive_terms_;
   std::vector<std::unique_ptr<Term>> load_terms_;
+  std::vector<Structure> structure_terms_;
+  std::vector<std::unique_ptr<Term>> sensor_terms_;
 };
 
 }  // namespace crane::plant

@@ -13,7 +13,25 @@
 
 namespace crane::plant {
 
-/// One effect. A kind overrides the one function that belongs to its `acts_on`.
+/// A coordinate of a term's own, second order, at rest at zero when the rig starts.
+struct Inner {
+  double position = 0;
+  double rate = 0;
+};
+/// All terms of a model together have at most so many.
+inline constexpr std::size_t kMostInner = 8;
+
+/// Where the load hangs from, against what the drives' encoders see.
+struct Displacement {
+  double trolley_m = 0, slew_rad = 0, cable_m = 0;
+};
+
+/// What the sensors report.
+struct Measurement {
+  double trolley_m = 0, slew_rad = 0, cable_m = 0, radial_rad = 0, tangential_rad = 0;
+};
+
+/// One effect. A kind overrides the functions that belong to its `acts_on`.
 class Term {
  public:
   Term() = default;
@@ -21,18 +39,39 @@ class Term {
   Term& operator=(const Term&) = delete;
   virtual ~Term() = default;
 
+  /// Parameter and structure terms, once: the crane is another than the rig file says.
+  virtual void change_parameters(Parameters& /*crane*/) const noexcept {}
   /// Command terms, once a tick and in the order of the rig file: turns the amplifier's input into its output
-  /// [V].
-  virtual void change_command(PerAxis& /*drive_v*/) noexcept {}
+  /// [V], held for `period_s`. May remember earlier ticks.
+  virtual void change_command(PerAxis& /*drive_v*/, double /*period_s*/) noexcept {}
   /// Drive terms: adds the friction the drive meets, in volts of its amplifier (F / K_m); positive opposes
   /// +speed.
   virtual void add_friction(const State& /*state*/, PerAxis& /*friction_v*/) const noexcept {}
   /// Load terms: adds generalised forces.
   virtual void add_force(const Parameters& /*crane*/, const State& /*state*/,
                          Forces& /*sum*/) const noexcept {}
+
+  /// Structure terms may have coordinates of their own, none when the parameters make them rigid; `inner` and
+  /// `acceleration` below are theirs.
+  [[nodiscard]] virtual std::size_t inner_coordinates() const noexcept { return 0; }
+  /// Displacement that is always there; of the position only.
+  [[nodiscard]] virtual Displacement rest_displacement() const noexcept { return {}; }
+  /// Adds the displacement, for positions, rates and accelerations alike: linear in `inner`.
+  virtual void displace(const double* /*inner*/, Displacement& /*sum*/) const noexcept {}
+  /// Adds generalised forces that depend on the own coordinates.
+  virtual void add_inner_force(const Parameters& /*crane*/, const State& /*state*/, const Inner* /*inner*/,
+                               Forces& /*sum*/) const noexcept {}
+  /// Accelerations of the own coordinates, given those of the drives and the swing. Called again when a
+  /// displacement of any term has changed the swing's.
+  virtual void accelerate(const Parameters& /*crane*/, const State& /*state*/,
+                          const Accelerations& /*drives*/, const Inner* /*inner*/,
+                          double* /*acceleration*/) const noexcept {}
+
+  /// Sensor terms, once a tick: turns what is into what is reported. May remember earlier ticks.
+  virtual void change_measurement(Measurement& /*measured*/, double /*period_s*/) noexcept {}
 };
 
-enum class ActsOn { command, drive, load };
+enum class ActsOn { parameters, command, drive, load, structure, sensor };
 
 /// One number of a term. The default of all of them together has no effect.
 struct TermParameter {

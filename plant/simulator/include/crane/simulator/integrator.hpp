@@ -54,9 +54,12 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
   ~Integrator();
 
-  /// Moves `state` on by `span_s` or to the first event.
+  /// Moves `state` and the structure terms' own coordinates on by `span_s` or to the first event.
   /// @pre span_s > 0; locked coordinates have rate 0
   /// @throws std::runtime_error when the step size collapses (theta at 90 degrees, cable length 0)
+  Advance advance(plant::State& state, plant::InnerState& inner, const plant::Actuation& actuation,
+                  double span_s, const Watch& watch = {});
+  /// The same for a model without coordinates of structure terms, or with them starting at rest.
   Advance advance(plant::State& state, const plant::Actuation& actuation, double span_s,
                   const Watch& watch = {});
 

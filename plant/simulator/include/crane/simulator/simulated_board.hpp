@@ -3,10 +3,11 @@
 /// switches and the watchdog relay around the equations of motion.
 ///
 /// Encoders: raw counts are absolute, nearest integer of sign * coordinate * counts_per_unit with coordinate
-/// 0 at the
-///   rig's zero (tower axis, slew zero, no cable, hanging load), wrapped to 24 bits and sign-extended.
+///   0 at the rig's zero (tower axis, slew zero, no cable, hanging load), wrapped to 24 bits and
+///   sign-extended. The coordinate is what the model's sensor terms make of it, once for each time that is
+///   read.
 /// Converters: 13 bit, +-10 V, inverted offset binary; LSB 20 V / 8192. Not finite: 0 V.
-/// Drives: the board's voltage times the drive's sign, then the model's command terms.
+/// Drives: the board's voltage times the drive's sign, then the model's command terms, once a tick.
 /// Brakes: closed without supply. Supply = brake_release and relay closed and (e-stop released or not wired
 /// in).
 ///   After the closing time a brake is dry friction of `brake_deceleration` until standstill, then the axis
@@ -60,6 +61,8 @@ class SimulatedBoard final : public bridge::Board {
   /// The emergency stop button.
   void press_estop(bool pressed) noexcept;
 
+  /// Volts that the converters give.
+  [[nodiscard]] const std::array<double, bridge::kDrives>& converter_v() const noexcept;
   /// What no sensor knows; for tests and pictures.
   [[nodiscard]] const plant::State& truth() const noexcept;
   [[nodiscard]] std::int64_t now_ns() const noexcept;

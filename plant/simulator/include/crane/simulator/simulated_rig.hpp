@@ -12,10 +12,12 @@
 
 namespace crane::simulator {
 
-/// Incremental encoder of one coordinate: raw = nearest integer of sign * coordinate * counts_per_unit.
+/// Incremental encoder of one coordinate: raw = nearest integer of sign * (coordinate - zero) *
+/// counts_per_unit.
 struct SimulatedEncoder {
   double counts_per_unit = 1;  ///< counts per m or rad of the coordinate (quadrature and gear included), > 0
   int sign = 1;                ///< +1 or -1: which way it counts
+  double zero = 0;             ///< coordinate at which it shows 0, m or rad
 };
 
 struct SimulatedDrive {
@@ -44,6 +46,7 @@ struct SimulatedRig {
   bool radial_swing = true;      ///< false: the cable cannot swing that way
   bool tangential_swing = true;  ///< false for a gantry
   plant::State start{.trolley_m = 0.25};
+  double period_s = 0.01;            ///< tick, in which command and sensor terms act once, > 0
   bool estop_cuts_brakes = true;     ///< the wired emergency stop interrupts the brake supply
   double watchdog_timeout_s = 0.05;  ///< the relay drops when the level has not changed for longer than this
   double watchdog_permit_s =

@@ -1,0 +1,26 @@
+#include "crane/boards/emulated_board.hpp"
+
+namespace crane::bridge {
+namespace {
+
+std::unique_ptr<PortIo> ports_of(const runtime::Rig& rig, EmulatedRig& connected) {
+  return std::make_unique<EmulatedServoToGo>(static_cast<std::uint16_t>(rig.wiring.base_address),
+                                             connected.card(), connected);
+}
+
+}  // namespace
+
+EmulatedBoard::EmulatedBoard(const runtime::Rig& rig, std::unique_ptr<EmulatedRig> connected)
+    : rig_{std::move(connected)}, driver_{rig, ports_of(rig, *rig_)} {}
+
+Inputs EmulatedBoard::read() {
+  rig_->require_alive();
+  return driver_.read();
+}
+
+bool EmulatedBoard::kick(double radial_radps, double tangential_radps) {
+  rig_->kick(radial_radps, tangential_radps);
+  return true;
+}
+
+}  // namespace crane::bridge

@@ -1,0 +1,62 @@
+#include "crane/boards/shared_lines.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace crane::bridge {
+
+bool SharedFile::exists(const std::string& name) {
+  const int file = ::shm_open(name.c_str(), O_RDONLY, 0);
+  if (file >= 0) ::close(file);
+  return file >= 0;
+}
+
+SharedFile::SharedFile(std::string name) : name_{std::move(name)} {
+  constexpr mode_t kEverybody = 0666;
+  file_ = ::shm_open(name_.c_str(), O_RDWR | O_CREAT, kEverybody);
+  if (file_ < 0) throw BoardError("shared memory " + name_ + ": " + std::strerror(errno));
+  ::fchmod(file_, kEverybody);  // whatever the umask of who came first
+}
+
+SharedFile::~SharedFile() {
+  if (memory_ != nullptr) ::munmap(memory_, mapped_);
+  ::close(file_);
+}
+
+bool SharedFile::take(Role role) {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = static_cast<off_t>(role);
+  lock.l_len = 1;
+  return ::fcntl(file_, F_OFD_SETLK, &lock) == 0;
+}
+
+std::size_t SharedFile::size() const {
+  struct stat status {};
+  return ::fstat(file_, &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+}
+
+void* SharedFile::map(std::size_t wanted) {
+  if (size() < wanted && ::ftruncate(file_, static_cast<off_t>(wanted)) != 0)
+    throw BoardError("shared memory " + name_ + ": " + std::strerror(errno));
+  void* memory = ::mmap(nullptr, wanted, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+  if (memory == MAP_FAILED) throw BoardError("shared memory " + name_ + ": " + std::strerror(errno));
+  memory_ = memory;
+  mapped_ = wanted;
+  return memory_;
+}
+
+void SharedFile::unlink() noexcept { ::shm_unlink(name_.c_str()); }
+
+std::string shared_lines_name(const std::string& crane, std::uint32_t domain) {
+  return "/crane_rig_" + std::to_string(domain) + "_" + crane;
+}
+
+}  // namespace crane::bridge

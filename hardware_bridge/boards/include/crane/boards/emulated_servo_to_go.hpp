@@ -1,0 +1,85 @@
+#pragma once
+/// A Servo-to-Go card that exists in memory only, register by register; a driver talks to it through PortIo
+/// and cannot tell. What is connected to the card is somebody else: a Connector.
+///
+/// Modelled: counters with output latch, byte pointer, preset, input enable and quadrature mode (8- and
+/// 16-bit
+///   accesses); converters; 8255 ports with directions; board test; 8254 timer 0 behind timer 1, which
+///   latches all counters in each period. Not modelled: ADC, index pulses, interrupts; reading any other port
+///   gives 0xFF.
+/// Counters follow `pulses` modulo 2^24 while their inputs are enabled.
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "crane/boards/port_io.hpp"
+
+namespace crane::bridge {
+
+inline constexpr std::size_t kCardChannels = 8;
+
+/// The card's plugs.
+class Connector {
+ public:
+  virtual ~Connector() = default;
+  /// Quadrature edges of an encoder since power came on; may wrap at 2^32.
+  [[nodiscard]] virtual std::int32_t pulses(std::size_t channel) noexcept = 0;
+  /// Level of the 16 lines of ports A and B.
+  [[nodiscard]] virtual std::uint16_t inputs() noexcept = 0;
+  virtual void set_converter(std::size_t channel, std::uint16_t code) noexcept = 0;
+  /// Level of the 16 lines of ports C and D; a line that is no output is low.
+  virtual void set_outputs(std::uint16_t levels) noexcept = 0;
+  /// The rig's time.
+  [[nodiscard]] virtual std::int64_t now_ns() noexcept = 0;
+};
+
+/// What the card remembers. Plain data: it may live in memory that outlasts the driver's process.
+struct CardState {
+  struct Counter {
+    std::uint32_t origin_counts = 0;  ///< value = pulses - origin while counting, else the value itself
+    std::array<std::uint8_t, 3> latch{}, preset{};
+    std::uint8_t pointer = 0;
+    std::uint8_t input_control = 0, quadrature = 0;
+  };
+  int model = 1;
+  std::array<Counter, kCardChannels> counters{};
+  std::array<std::uint8_t, 2> output_latch{};  ///< ports C and D
+  bool c_is_output = false, d_is_output = false;
+  std::uint8_t board_test_index = 0;
+  std::uint8_t timer_1_divisor = 0;
+  std::uint8_t timer_0_low = 0;
+  bool timer_0_high_next = false, timer_0_loadable = false;
+  std::int64_t timer_period_ns = 0;  ///< 0: stopped
+  std::int64_t timer_begin_ns = 0;   ///< of the present period
+};
+
+class EmulatedServoToGo final : public PortIo {
+ public:
+  /// Both outlive the card's emulation.
+  EmulatedServoToGo(std::uint16_t base_address, CardState& state, Connector& connector)
+      : base_{base_address}, state_{state}, connector_{connector} {}
+
+  [[nodiscard]] std::uint8_t in_8(std::uint16_t port) noexcept override;
+  [[nodiscard]] std::uint16_t in_16(std::uint16_t port) noexcept override;
+  void out_8(std::uint16_t port, std::uint8_t value) noexcept override;
+  void out_16(std::uint16_t port, std::uint16_t value) noexcept override;
+
+ private:
+  void command_counter(std::size_t channel, std::uint8_t command) noexcept;
+  void act_on_counter(CardState::Counter& counter, std::size_t channel, std::uint8_t command) noexcept;
+  [[nodiscard]] std::uint32_t value(std::size_t channel) noexcept;
+  void set_value(std::size_t channel, std::uint32_t counts) noexcept;
+  void latch(std::size_t channel) noexcept;
+  [[nodiscard]] std::uint8_t next_latched_byte(std::size_t channel) noexcept;
+  [[nodiscard]] std::uint8_t board_test() noexcept;
+  void command_timer(std::uint8_t command) noexcept;
+  void load_timer_0(std::uint8_t value) noexcept;
+  void let_time_pass() noexcept;
+  void drive_outputs() noexcept;
+
+  std::uint16_t base_;
+  CardState& state_;
+  Connector& connector_;
+};
+
+}  // namespace crane::bridge

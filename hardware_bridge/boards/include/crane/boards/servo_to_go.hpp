@@ -1,0 +1,70 @@
+#pragma once
+/// Driver of the Servo-to-Go ISA card, models 1 and 2 (docs/hardware.md has registers and wiring).
+///
+/// Counters: all that are in use are latched within a few port accesses before the first byte is read. At the
+/// start
+///   they are preset to what [start] of the rig file says: encoders are incremental, the rig stands there.
+/// Converters: 13 bit, +-10 V; code = clamp(0x1000 - round(V / 10 * 0x1000), 0, 0x1FFF); not finite: 0 V.
+/// Inputs: active low, contacts closed when all is well. Outputs: on is high.
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "crane/boards/port_io.hpp"
+#include "crane/bridge/board.hpp"
+#include "crane/runtime/rig.hpp"
+
+namespace crane::bridge {
+
+/// Code of a voltage for the card's converters.
+[[nodiscard]] std::uint16_t servo_to_go_code(double voltage_v) noexcept;
+/// Voltage of a code, from +10 V (0) to -9.99756 V (0x1FFF).
+[[nodiscard]] double servo_to_go_voltage_v(std::uint16_t code) noexcept;
+
+class ServoToGo final : public Board {
+ public:
+  /// Recognises the card before it writes anything, then makes it safe, then starts the counters.
+  /// @throws BoardError when there is no card at the base address, or a counter does not keep what it is
+  /// given
+  ServoToGo(const runtime::Rig& rig, std::unique_ptr<PortIo> ports);
+  /// Leaves the card at 0 V, all outputs off.
+  ~ServoToGo() override;
+  ServoToGo(const ServoToGo&) = delete;
+  ServoToGo& operator=(const ServoToGo&) = delete;
+
+  [[nodiscard]] std::string_view name() const override;
+  [[nodiscard]] Inputs read() override;
+  std::array<double, kDrives> write(const Outputs& outputs) override;
+  void make_safe() noexcept override;
+  void advance_to(std::int64_t /*time_ns*/) override {}
+  [[nodiscard]] int model() const { return model_; }
+
+ private:
+  struct Counter {
+    bool used = false;
+    std::size_t channel = 0;
+    std::int32_t start_counts = 0;
+  };
+  [[nodiscard]] std::uint16_t at(std::uint16_t offset) const {
+    return static_cast<std::uint16_t>(base_ + offset);
+  }
+  [[nodiscard]] int recognised_model() const;
+  void stop_timer() noexcept;
+  void start_counter(const Counter& counter);
+  void preset(std::size_t channel, std::int32_t counts) noexcept;
+  void latch_all() noexcept;
+  [[nodiscard]] std::int32_t latched(std::size_t channel) noexcept;
+  [[nodiscard]] std::uint16_t input_levels() noexcept;
+  void set_outputs(std::uint32_t levels) noexcept;
+
+  std::unique_ptr<PortIo> ports_;
+  std::uint16_t base_;
+  runtime::Wiring wiring_;
+  std::array<bool, kDrives> present_{};
+  std::array<std::size_t, kDrives> converter_channel_{};
+  std::array<Counter, kCounters> counters_{};
+  std::array<bool, 4> pair_used_{};  ///< by channel / 2
+  int model_;
+};
+
+}  // namespace crane::bridge

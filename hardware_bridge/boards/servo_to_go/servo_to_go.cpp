@@ -1,0 +1,188 @@
+#include "crane/boards/servo_to_go.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "registers.hpp"
+
+namespace crane::bridge {
+namespace {
+
+using namespace servo_to_go;
+
+std::string hex(unsigned value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%x", value);
+  return text;
+}
+
+constexpr std::uint8_t byte_of(std::int32_t value, int index) {
+  return static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> (8 * index));
+}
+
+constexpr std::int32_t sign_extended(std::uint32_t low_24_bits) {
+  return static_cast<std::int32_t>(low_24_bits << 8) >> 8;
+}
+
+std::int32_t counts_of(double coordinate, const runtime::Encoder& encoder) {
+  return static_cast<std::int32_t>(std::llround(encoder.sign * coordinate * encoder.counts_per_unit));
+}
+
+constexpr std::uint32_t line(int number) { return std::uint32_t{1} << static_cast<unsigned>(number); }
+
+}  // namespace
+
+std::uint16_t servo_to_go_code(double voltage_v) noexcept {
+  if (!std::isfinite(voltage_v)) return kZeroVoltCode;
+  const double steps = std::round(voltage_v / kConverterRange_v * kZeroVoltCode);
+  return static_cast<std::uint16_t>(std::clamp(kZeroVoltCode - steps, 0.0, double{kLargestCode}));
+}
+
+double servo_to_go_voltage_v(std::uint16_t code) noexcept {
+  return (kZeroVoltCode - code) * (kConverterRange_v / kZeroVoltCode);
+}
+
+ServoToGo::ServoToGo(const runtime::Rig& rig, std::unique_ptr<PortIo> ports)
+    : ports_{std::move(ports)},
+      base_{static_cast<std::uint16_t>(rig.wiring.base_address)},
+      wiring_{rig.wiring},
+      model_{recognised_model()} {
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    present_[i] = rig.drives[i].present;
+    converter_channel_[i] = static_cast<std::size_t>(rig.drives[i].dac_channel);
+  }
+  const std::array<double, kCounters> start{rig.start.position[0], rig.start.position[1],
+                                            rig.start.position[2], rig.start.swing_radial_rad,
+                                            rig.start.swing_tangential_rad};
+  for (std::size_t i = 0; i < kCounters; ++i) {
+    const auto& encoder = rig.encoders[i];
+    if (encoder.counts_per_unit <= 0) continue;
+    counters_[i] = {true, static_cast<std::size_t>(encoder.channel), counts_of(start[i], encoder)};
+    pair_used_[counters_[i].channel / 2] = true;
+  }
+  make_safe();
+  ports_->out_8(at(kDirectionAbc), kAbInCOut);
+  ports_->out_8(at(kDirectionD), kDOut);
+  make_safe();  // what the outputs showed before they were outputs
+  stop_timer();
+  for (const auto& counter : counters_)
+    if (counter.used) start_counter(counter);
+}
+
+ServoToGo::~ServoToGo() { make_safe(); }
+
+std::string_view ServoToGo::name() const {
+  return model_ == 1 ? "servo_to_go model 1" : "servo_to_go model 2";
+}
+
+/// Eight readings show each bit of the serial number with its index. Nothing is written before.
+int ServoToGo::recognised_model() const {
+  unsigned serial = 0, seen = 0, reading = 0;
+  for (std::size_t i = 0; i < kChannels; ++i) {
+    reading = ports_->in_8(at(kBoardTest));
+    const unsigned index = (reading >> 4) & 7U;
+    seen |= 1U << index;
+    serial |= (reading >> 7) << index;
+  }
+  if (seen == 0xFF && serial == kSerialModel1) return 1;
+  if (seen == 0xFF && serial == kSerialModel2) return 2;
+  throw BoardError("no Servo-to-Go board at " + hex(base_) + " (board test reads " + hex(reading) +
+                   "): check the card, its address jumpers and base_address in [wiring] of the rig file");
+}
+
+/// A running timer would latch the counters between the bytes of a reading.
+void ServoToGo::stop_timer() noexcept {
+  ports_->out_8(at(kTimerCommand), kTimerStop);
+  ports_->out_8(at(kTimerCommand), kTimer0NoCount);
+}
+
+void ServoToGo::start_counter(const Counter& counter) {
+  const auto control = at(counter_control(counter.channel));
+  for (const auto command : {kMasterReset, kInputControl, kOutputControl, kQuadrature, kZero})
+    ports_->out_8(control, command);
+  // An encoder that moves meanwhile changes the last bits only.
+  constexpr std::int32_t kTolerance_counts = 0x1000;
+  for (const std::int32_t pattern : {0x2A5A5A, -0x2A5A5A}) {
+    preset(counter.channel, pattern);
+    ports_->out_8(control, kLatch);
+    const auto found = latched(counter.channel);
+    if (std::abs(found - pattern) <= kTolerance_counts) continue;
+    throw BoardError(
+        "counter " + std::to_string(counter.channel) + " of the Servo-to-Go board at " + hex(base_) +
+        " does not keep what it is given (" + hex(static_cast<unsigned>(pattern) & 0xFFFFFFU) + " became " +
+        hex(static_cast<unsigned>(found) & 0xFFFFFFU) + "): use another channel, or another card");
+  }
+  preset(counter.channel, counter.start_counts);
+}
+
+void ServoToGo::preset(std::size_t channel, std::int32_t counts) noexcept {
+  const auto control = at(counter_control(channel));
+  ports_->out_8(control, kRewind);
+  for (int i = 0; i < 3; ++i) ports_->out_8(at(counter_data(channel)), byte_of(counts, i));
+  ports_->out_8(control, kPreset);
+}
+
+void ServoToGo::latch_all() noexcept {
+  for (std::size_t pair = 0; pair < kChannels / 2; ++pair)
+    if (pair_used_[pair]) ports_->out_16(at(counter_control(2 * pair)), kLatch << 8 | kLatch);
+}
+
+std::int32_t ServoToGo::latched(std::size_t channel) noexcept {
+  const auto data = at(counter_data(channel));
+  std::uint32_t value = ports_->in_8(data);
+  value |= std::uint32_t{ports_->in_8(data)} << 8;
+  value |= std::uint32_t{ports_->in_8(data)} << 16;
+  return sign_extended(value);
+}
+
+std::uint16_t ServoToGo::input_levels() noexcept {
+  const unsigned a = ports_->in_8(at(kPortA));
+  const unsigned b = ports_->in_8(at(kPortB));
+  return static_cast<std::uint16_t>(b << 8 | a);
+}
+
+Inputs ServoToGo::read() {
+  latch_all();
+  const std::uint32_t levels = input_levels();
+  const auto closed = [levels](int number) { return (levels & line(number)) == 0; };  // active low
+  Inputs inputs;
+  for (std::size_t i = 0; i < kCounters; ++i)
+    if (counters_[i].used) inputs.raw_counts[i] = latched(counters_[i].channel);
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    const auto& lines = wiring_.drives[i];
+    inputs.limit_low[i] = present_[i] && !closed(lines.limit_low_input);
+    inputs.limit_high[i] = present_[i] && !closed(lines.limit_high_input);
+    inputs.brake_closed[i] = !present_[i] || closed(lines.brake_closed_input);
+  }
+  inputs.estop_pressed = !closed(wiring_.estop_input);
+  inputs.watchdog_dropped = !closed(wiring_.relay_closed_input);
+  return inputs;
+}
+
+std::array<double, kDrives> ServoToGo::write(const Outputs& outputs) {
+  std::array<double, kDrives> given_v{};
+  std::uint32_t levels = outputs.watchdog_level ? line(wiring_.watchdog_output) : 0;
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    if (!present_[i]) continue;
+    const auto code = servo_to_go_code(outputs.drive_v[i]);
+    ports_->out_16(at(converter(converter_channel_[i])), code);
+    given_v[i] = servo_to_go_voltage_v(code);
+    if (outputs.brake_release[i]) levels |= line(wiring_.drives[i].brake_release_output);
+  }
+  set_outputs(levels);
+  return given_v;
+}
+
+void ServoToGo::set_outputs(std::uint32_t levels) noexcept {
+  ports_->out_8(at(kPortC), static_cast<std::uint8_t>(levels >> 16));
+  ports_->out_8(at(port_d(model_)), static_cast<std::uint8_t>(levels >> 24));
+}
+
+void ServoToGo::make_safe() noexcept {
+  for (std::size_t channel = 0; channel < kChannels; ++channel)
+    ports_->out_16(at(converter(channel)), kZeroVoltCode);
+  set_outputs(0);
+}
+
+}  // namespace crane::bridge

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <cmath>
+
+#include "crane/bridge/last_line.hpp"
+
+namespace crane::bridge {
+namespace {
+
+constexpr double kSlewSlip_rad = 0.05, kSlip_m = 0.02;
+
+/// Smallest and largest acceleration per volt; the load hangs on a pendulum and takes part or not.
+void set_gains(AxisLine& axis, std::size_t i, const runtime::Rig& rig) {
+  const auto& crane = rig.design.crane;
+  const double load_kg = crane.load_mass_kg;
+  if (i == plant::kTrolley) {
+    axis.gain_high = crane.trolley_gain_mps2pv;
+    axis.gain_low = axis.gain_high * crane.trolley_inertia_kg / (crane.trolley_inertia_kg + load_kg);
+  } else if (i == plant::kSlew) {
+    const double reach_m = rig.drives[plant::kTrolley].present ? rig.drives[plant::kTrolley].high_limit : 0;
+    const double outside_kgm2 = (crane.trolley_mass_kg + load_kg) * reach_m * reach_m;
+    axis.gain_high = crane.slew_gain_radps2pv;
+    axis.gain_low = axis.gain_high * crane.jib_inertia_kgm2 / (crane.jib_inertia_kgm2 + outside_kgm2);
+  } else {
+    axis.gain_high = axis.gain_low = crane.hoist_gain_mpspv;
+    axis.lag_s = crane.hoist_lag_s;
+  }
+}
+
+AxisLine axis_line(const runtime::Rig& rig, std::size_t i) {
+  const auto& drive = rig.drives[i];
+  const auto& friction = rig.design.friction[i];
+  AxisLine axis;
+  axis.present = drive.present;
+  axis.volt_limit_v = drive.volt_limit_v;
+  axis.volt_rate_limit_vps = drive.volt_rate_limit_vps;
+  if (!drive.present) return axis;
+  axis.low_limit = drive.low_limit;
+  axis.high_limit = drive.high_limit;
+  axis.soft_margin = drive.soft_margin;
+  axis.max_speed = drive.max_speed;
+  axis.brake_deceleration = drive.brake_deceleration;
+  axis.brake_close_time_s = drive.brake_close_time_s;
+  axis.brake_slip = i == plant::kSlew ? kSlewSlip_rad : kSlip_m;
+  constexpr double kCertain_v = 3, kBeyondFriction = 1.5;
+  axis.certain_motion_v =
+      kCertain_v + kBeyondFriction * std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
+                                               friction.stiction_positive_v, friction.stiction_negative_v});
+  set_gains(axis, i, rig);
+  return axis;
+}
+
+}  // namespace
+
+LastLineParameters last_line_parameters(const runtime::Rig& rig) {
+  LastLineParameters parameters;
+  parameters.period_s = rig.period_s;
+  parameters.stale_after_ticks = static_cast<std::uint64_t>(rig.limits.stale_after_ticks);
+  for (std::size_t i = 0; i < kDrives; ++i) parameters.axis[i] = axis_line(rig, i);
+  constexpr double kBeyondTheSupervisor = 1.5, kLargest_rad = 1.55;
+  parameters.swing_limit_rad = std::min(kBeyondTheSupervisor * rig.limits.swing_limit_rad, kLargest_rad);
+  // Twice the largest rate of a free swing of that size on the shortest cable.
+  const double cable_m = rig.drives[plant::kHoist].present ? rig.drives[plant::kHoist].low_limit
+                                                           : rig.start.position[plant::kHoist];
+  parameters.swing_rate_max_radps =
+      2 * parameters.swing_limit_rad * std::sqrt(rig.design.crane.gravity_mps2 / cable_m);
+  for (std::size_t i = 0; i < parameters.swing_present.size(); ++i)
+    parameters.swing_present[i] = rig.encoders[kDrives + i].counts_per_unit > 0;
+  return parameters;
+}
+
+}  // namespace crane::bridge

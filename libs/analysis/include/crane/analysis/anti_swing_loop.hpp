@@ -1,0 +1,85 @@
+#pragma once
+/// Closed loops of tracking PD and linear anti-swing laws in normalised time (load period 1), tower sign:
+///   pd        (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - s^2 (K_ps + K_ds s) = 0                  (3.39), (3.45)
+///   delayed_1 (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - s^2 K_del exp(-tau s) = 0                (3.47), (3.48)
+///   delayed_2 (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - s^2 K_del (K_d s + K_p) exp(-tau s) = 0  (3.50)
+#include <array>
+#include <string_view>
+
+#include "crane/analysis/quasi_polynomial.hpp"
+
+namespace crane::analysis {
+
+enum class AntiSwing { pd, delayed_1, delayed_2 };
+
+/// The two numbers of a law: K_ps, K_ds or K_del, tau.
+struct GainPoint {
+  double first = 0, second = 0;
+};
+
+/// From `low` to `high` in `points` >= 2 equal steps, ends included.
+struct GainRange {
+  double low = 0, high = 1;
+  int points = 2;
+  [[nodiscard]] double at(int index) const noexcept { return low + (high - low) * index / (points - 1); }
+};
+
+struct AntiSwingKind {
+  AntiSwing law;
+  std::string_view name;
+  std::string_view first_name, second_name;
+  std::string_view figure;  ///< of the source
+  GainPoint printed;        ///< the source's choice, in the tower sign
+  std::string_view printed_text;
+  double printed_damping;  ///< what the source reads off its figure there
+  GainRange first, second;
+};
+
+inline constexpr std::array<AntiSwingKind, 3> kAntiSwingKinds{{
+    {AntiSwing::pd, "pd", "K_ps", "K_ds", "3.16", {-30, 8}, "(30, -8)", 0.45, {-80, 20, 61}, {-4, 16, 61}},
+    {AntiSwing::delayed_1,
+     "delayed_1",
+     "K_del",
+     "tau",
+     "3.17",
+     {-90, 0.1},
+     "(-90, 0.1)",
+     0.45,
+     {-200, 20, 61},
+     {0.02, 0.32, 61}},
+    {AntiSwing::delayed_2,
+     "delayed_2",
+     "K_del",
+     "tau",
+     "3.19",
+     {-0.33, 0.31},
+     "(0.33, 0.31)",
+     0.3,
+     {-0.9, 0.1, 61},
+     {0.02, 0.5, 61}},
+}};
+
+/// @return nullptr when there is none of that name
+[[nodiscard]] const AntiSwingKind* find_anti_swing(std::string_view name) noexcept;
+
+/// (3.42): critically damped.
+struct TrackingGains {
+  double proportional = 100, derivative = 20;
+};
+
+/// Low-pass on the swing angle, Butterworth of order 2 in continuous time; 0: none.
+/// Normalised: 2 pi T times the cut-off in Hz. Its delay at low frequency is sqrt(2) / cut_off.
+struct SwingFilter {
+  double cut_off = 0;
+};
+
+/// @pre gains.second >= 0 for the delayed laws
+[[nodiscard]] QuasiPolynomial characteristic(AntiSwing law, const GainPoint& gains,
+                                             const TrackingGains& tracking = {},
+                                             const SwingFilter& filter = {});
+
+/// delayed_2 on a drive that follows its reference at once, s^2 + 4 pi^2 - K_del s^2 exp(-tau s) = 0: a
+/// neutral equation.
+[[nodiscard]] QuasiPolynomial perfectly_tracked_delayed_2(const GainPoint& gains);
+
+}  // namespace crane::analysis

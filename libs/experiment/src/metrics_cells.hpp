@@ -1,0 +1,20 @@
+#pragma once
+/// Figures of merit as people read them, for tables of any kind.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "crane/experiment/metrics.hpp"
+
+namespace crane::experiment {
+
+/// `value` with `digits` decimals: "0.25".
+[[nodiscard]] std::string fixed(double value, int digits);
+
+inline constexpr std::array kMetricsHeader{"settle [s]",         "trolley over",     "slew over",
+                                           "swing radial [deg]", "tangential [deg]", "residual [deg]",
+                                           "trolley max [V]",    "slew max [V]",     "lost ticks"};
+/// One text per column of kMetricsHeader.
+[[nodiscard]] std::vector<std::string> metrics_cells(const Metrics& metrics);
+
+}  // namespace crane::experiment

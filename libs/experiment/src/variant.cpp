@@ -1,0 +1,134 @@
+#include "crane/experiment/variant.hpp"
+
+#include <algorithm>
+
+#include "crane/plant/term.hpp"
+
+namespace crane::experiment {
+namespace {
+
+using runtime::Rig;
+
+bool has_friction(const Rig& rig, std::size_t axis) {
+  return std::any_of(rig.terms.begin(), rig.terms.end(), [axis](const plant::TermSetting& term) {
+    const plant::TermKind* kind = plant::find_term(term.name);
+    return kind != nullptr && kind->acts_on == plant::ActsOn::drive && plant::drive_axis(term.axis) == axis;
+  });
+}
+
+/// On a drive without friction there is nothing to compensate.
+void compensate(Rig& rig, double factor) {
+  for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
+    rig.design.friction[axis].factor = has_friction(rig, axis) ? factor : 0;
+}
+
+/// The true cable over the one that the hoist encoder shows: the encoder was zeroed with other slings below
+/// the hook than those in use. Gains are scheduled on the encoder; the load swings on the true cable.
+void stretch_cable(Rig& rig, double ratio) {
+  rig.start.cable_length_offset_m = (ratio - 1) * rig.start.position[plant::kHoist];
+}
+
+void know_cable(Rig& rig) {
+  rig.start.position[plant::kHoist] += rig.start.cable_length_offset_m;
+  rig.start.cable_length_offset_m = 0;
+}
+
+/// References take `ratio` times as long over the same way.
+void slow_down(Rig& rig, double ratio) {
+  for (auto& drive : rig.drives) {
+    drive.reference_speed /= ratio;
+    drive.reference_acceleration /= ratio * ratio;
+    drive.reference_jerk /= ratio * ratio * ratio;
+  }
+}
+
+void remove_filters(Rig& rig) {
+  rig.sensing.swing_filter_ratio = 0;
+  rig.sensing.filter_speed.fill(false);
+}
+
+template <int tenths>
+void forward_gain(Rig& rig) {
+  rig.design.full_feedback_gain_pm = tenths / 10.0;
+}
+
+constexpr std::size_t kDefaultVariants = 8;
+const std::vector<Variant> kVariants{
+    {"ideal", "no friction or other effect in the plant, nothing compensated",
+     [](Rig& rig) {
+       rig.terms.clear();
+       compensate(rig, 0);
+     }},
+    {"exact_compensation", "the friction that the controllers believe in is compensated fully",
+     [](Rig& rig) { compensate(rig, 1); }},
+    {"no_compensation", "no friction is compensated", [](Rig& rig) { compensate(rig, 0); }},
+    {"under_compensation", "80 % of the friction that the controllers believe in is compensated",
+     [](Rig& rig) { compensate(rig, 0.8); }},
+    {"short_cable", "the true cable is 50 % shorter than the hoist encoder says",
+     [](Rig& rig) { stretch_cable(rig, 0.5); }},
+    {"long_cable", "the true cable is 50 % longer than the hoist encoder says",
+     [](Rig& rig) { stretch_cable(rig, 1.5); }},
+    {"light_load", "the true load is 50 % lighter than in the rig file",
+     [](Rig& rig) { rig.plant.load_mass_kg *= 0.5; }},
+    {"heavy_load", "the true load is 50 % heavier than in the rig file",
+     [](Rig& rig) { rig.plant.load_mass_kg *= 1.5; }},
+    {"as_is", "the rig as its file says", [](Rig&) {}},
+    {"known_load", "the controllers believe the true load",
+     [](Rig& rig) { rig.design.crane.load_mass_kg = rig.plant.load_mass_kg; }},
+    {"known_cable", "the hoist encoder shows the true cable", know_cable},
+    {"nominal_cable", "the true cable is the one that the hoist encoder shows",
+     [](Rig& rig) { rig.start.cable_length_offset_m = 0; }},
+    {"unfiltered", "no low-pass in front of the differentiators", remove_filters},
+    {"slow_reference", "references take twice as long, (4.22)", [](Rig& rig) { slow_down(rig, 2); }},
+    {"full_gain_0.4", "full state feedback with K = 0.4", forward_gain<4>},
+    {"full_gain_2", "full state feedback with K = 2", forward_gain<20>},
+    {"full_gain_4", "full state feedback with K = 4", forward_gain<40>},
+    {"full_gain_8", "full state feedback with K = 8", forward_gain<80>},
+    {"full_gain_12", "full state feedback with K = 12", forward_gain<120>},
+};
+
+const Variant* find_variant(std::string_view name) {
+  const auto found =
+      std::find_if(kVariants.begin(), kVariants.end(), [&](const Variant& v) { return v.name == name; });
+  return found == kVariants.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> parts_of(const std::string& names) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t end = std::min(names.find('+', begin), names.size());
+    parts.push_back(names.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+}  // namespace
+
+const std::vector<Variant>& variants() { return kVariants; }
+
+std::vector<std::string> default_variants() {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < kDefaultVariants; ++i) names.emplace_back(kVariants[i].name);
+  return names;
+}
+
+std::vector<std::string> variant_problems(const std::string& names) {
+  std::string known;
+  for (const Variant& variant : kVariants) known += (known.empty() ? "" : ", ") + std::string{variant.name};
+  std::vector<std::string> problems;
+  for (const std::string& name : parts_of(names))
+    if (find_variant(name) == nullptr)
+      problems.push_back("variant \"" + name + "\": must be one of " + known);
+  return problems;
+}
+
+Rig changed_by(Rig started, const std::string& names) {
+  if (names.empty()) return started;
+  if (auto problems = variant_problems(names); !problems.empty())
+    throw runtime::ConfigurationError(std::move(problems));
+  for (const std::string& name : parts_of(names)) find_variant(name)->change(started);
+  return started;
+}
+
+}  // namespace crane::experiment

@@ -1,0 +1,43 @@
+#include "crane/runtime/extended_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "crane/runtime/rig.hpp"
+
+namespace crane::runtime {
+namespace {
+
+TomlTable with_base_outside(const std::string& text, const std::filesystem::path& file,
+                            std::vector<std::filesystem::path> chain) {
+  TomlTable document(text, file.string());
+  const std::string extended = document.text("extends", "");
+  if (extended.empty()) return document;
+  chain.push_back(file.lexically_normal());
+  const auto base = (file.parent_path() / extended).lexically_normal();
+  if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
+    document.problem("extends", "must not lead back to this file");
+  } else if (!std::filesystem::is_regular_file(base)) {
+    document.problem("extends", "must name a file, relative to this one");
+  } else {
+    document.inherit(with_base_outside(file_text(base), base, chain));
+  }
+  return document;
+}
+
+}  // namespace
+
+std::string file_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw ConfigurationError({file.string() + ":1: file: cannot be read"});
+  }
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TomlTable with_base(const std::string& text, const std::filesystem::path& file) {
+  return with_base_outside(text, file, {});
+}
+
+}  // namespace crane::runtime

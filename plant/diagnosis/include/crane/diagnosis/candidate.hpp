@@ -1,0 +1,45 @@
+#pragma once
+/// Candidates: every effect the diagnosis may name, as a term of plant/model with what is free in it.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "crane/diagnosis/replay.hpp"
+#include "crane/runtime/rig.hpp"
+
+namespace crane::diagnosis {
+
+struct FreeParameter {
+  std::string name, unit;
+  double null = 0;           ///< no effect
+  double low = 0, high = 0;  ///< physical bounds; signs are in them
+  double step = 0;           ///< for slopes: a change that can be seen and is still small
+};
+
+/// A way the effect may look: settings of a small amount of it, each with its amount. The score test looks
+/// along the probes of one shape together.
+struct Shape {
+  std::vector<plant::TermSetting> probes;
+  std::vector<double> amounts;
+};
+
+struct Candidate {
+  std::string cause;                 ///< name of the term
+  std::string axis;                  ///< "trolley", "slew", "radial", "tangential" or empty
+  bool drive = false, load = false;  ///< replays it shows in
+  std::vector<FreeParameter> parameters;
+  std::vector<Shape> shapes;
+  bool one_sided = false;                ///< single probe with a sign
+  bool changes_known_parameter = false;  ///< the base model has this quantity; the rig file's value is off
+  /// Values to begin a fit with, from the amounts of the probes of one shape.
+  std::function<std::vector<double>(const Shape&, const std::vector<double>&)> begin;
+
+  [[nodiscard]] std::string label() const { return axis.empty() ? cause : cause + " (" + axis + ")"; }
+  [[nodiscard]] plant::TermSetting setting(const std::vector<double>& values) const;
+};
+
+/// Everything that can be wrong with this rig, in the order of the documentation.
+[[nodiscard]] std::vector<Candidate> candidates_for(const runtime::Rig& rig,
+                                                    const std::vector<PreparedRun>& runs);
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,100 @@
+#pragma once
+/// What the simulation of a rig gets wrong, by the measured data: the cause, the extended model and the gain.
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crane/diagnosis/candidate.hpp"
+#include "crane/diagnosis/data.hpp"
+
+namespace crane::diagnosis {
+
+enum class Verdict {
+  none,       ///< nothing that this data could show is wrong
+  named,      ///< causes that explain what the model got wrong
+  ambiguous,  ///< several explain it alike; next_experiment tells them apart
+  parameter,  ///< a quantity the model has, with another value than the rig file's
+  unknown,    ///< something is wrong that no candidate explains
+};
+[[nodiscard]] const char* name_of(Verdict verdict);
+
+struct Estimate {
+  std::string name, unit;
+  double value = 0, std_dev = 0;
+};
+
+struct Cause {
+  std::string name, axis;
+  std::vector<Estimate> parameters;
+  double p_value = 1;               ///< of the score test by itself
+  double resampling_frequency = 0;  ///< share of resamples of the data that pick it
+};
+
+/// One candidate after its fit, for the table of the report.
+struct Ranked {
+  std::string label;
+  std::vector<Estimate> parameters;
+  double train_gain = 0, test_gain = 0;  ///< decrease of the whitened loss, in units of one noise variance
+  double p_value = 1, resampling_frequency = 0;
+};
+
+/// Held-out simulation error per output column.
+struct HeldOut {
+  std::map<std::string, double> baseline_rms, extended_rms;  ///< m or rad, in windows
+  /// What sensors and disturbance alone give: training error of the extended model, m or rad.
+  std::map<std::string, double> noise;
+  std::map<std::string, double> whole_baseline_rms, whole_extended_rms;  ///< whole runs, open loop
+  double gain = 0;  ///< 1 - extended / baseline, noise-weighted
+  std::array<double, 2> gain_ci95{0, 0};
+};
+
+/// What is left after the extended model, and what it goes with.
+struct Remainder {
+  double predictable_fraction = 0;  ///< cross-validated
+  std::vector<std::string> from;
+};
+
+struct NextExperiment {
+  std::string name;         ///< of the menu
+  std::string description;  ///< one sentence
+  double separation = 0;    ///< how far apart the candidates' predictions lie, in noise standard deviations
+  std::string scenario;     ///< file for `crane run`
+};
+
+/// Overlays for the report: one held-out run.
+struct Trace {
+  std::string run, column;
+  std::vector<double> time_s, measured, baseline, extended;
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::none;
+  std::string sentence;  ///< the verdict in words
+  std::vector<Cause> causes;
+  std::vector<std::string> ambiguous_with;
+  std::optional<NextExperiment> next_experiment;
+  HeldOut held_out;
+  Remainder remainder;
+  std::vector<Ranked> ranking;
+  std::vector<Trace> traces;
+  std::vector<plant::TermSetting> extension;  ///< terms to append to the rig's
+  std::vector<std::string> notes;
+  double detection_p_value = 1;  ///< that the largest score of all candidates comes from nothing
+  double runtime_s = 0;
+};
+
+struct Request {
+  std::uint64_t seed = 1;  ///< of the resampling
+  std::size_t most_effects = 3;
+  /// Called with the share done, 0..1, and what is being done.
+  std::function<void(double, const std::string&)> progress = [](double, const std::string&) {};
+};
+
+/// @param train,test pieces of runs (load_run); whole runs belong to one side
+/// @throws DataError when the data cannot tell: too short, nothing moves
+[[nodiscard]] Diagnosis diagnose(const runtime::Rig& rig, std::vector<Run> train, std::vector<Run> test,
+                                 const Request& request = {});
+
+}  // namespace crane::diagnosis

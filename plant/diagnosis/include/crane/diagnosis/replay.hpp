@@ -1,0 +1,64 @@
+#pragma once
+/// The measured command, and where wanted the measured motion, through the model: structured replays.
+///   whole  command -> positions and swing
+///   drive  command and measured swing -> positions: fails when drives or friction are wrong
+///   load   measured motion -> swing: fails when the load or its sensors are wrong
+///
+/// Fixed steps of at most 5 ms (2.5 ms when a term has coordinates of its own), drift-kick-drift, second
+/// order. Friction is taken at the mid-point of a step and implicitly around standstill, where tanh(v / v_s)
+/// is stiff; a reversal inside a step is met exactly.
+#include <memory>
+#include <vector>
+
+#include "crane/diagnosis/data.hpp"
+#include "crane/plant/model.hpp"
+
+namespace crane::diagnosis {
+
+enum class Part { whole, drive, load };
+inline constexpr std::array kParts{Part::whole, Part::drive, Part::load};
+[[nodiscard]] const char* name_of(Part part);
+
+/// The crane that is simulated.
+struct Crane {
+  plant::Parameters parameters;
+  std::vector<plant::TermSetting> terms;
+};
+
+/// A run with what every replay of it needs.
+struct PreparedRun {
+  Run run;
+  runtime::RigKind kind = runtime::RigKind::tower;
+  std::array<Motion, kOutputs> motion;  ///< smoothed; empty without a measurement
+  Motion cable;
+};
+[[nodiscard]] PreparedRun prepare(Run run, const runtime::Rig& rig);
+
+/// Samples over which positions are smoothed for their rates and accelerations, each way: 30 ms.
+[[nodiscard]] int smoothing_half_width(double period_s);
+
+/// Which outputs a part simulates on a run; the order is that of Output.
+[[nodiscard]] std::vector<Output> simulated_outputs(const PreparedRun& run, Part part);
+
+/// One crane on one run: command terms have gone over the whole of it.
+class Replay {
+ public:
+  Replay(const PreparedRun& run, const Crane& crane, Part part);
+  ~Replay();
+  Replay(Replay&&) noexcept;
+
+  /// Numbers that start a window: position and rate per simulated output. Inner coordinates of the model
+  /// begin where the measured motion of the whole run has brought them.
+  [[nodiscard]] std::size_t start_size() const;
+  /// What the measurement says about them at row `first`.
+  [[nodiscard]] std::vector<double> measured_start(std::size_t first) const;
+  /// Rows first ... first + rows - 1 from `start` at row `first`; `out` takes output by output.
+  /// @pre first + rows <= rows of the run; sizes fit
+  void run(std::size_t first, std::size_t rows, std::span<const double> start, std::span<double> out) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,41 @@
+#pragma once
+/// What `crane diagnose` leaves behind: report.json, report.html, extended.toml, pictures and, where one is
+/// proposed, the next experiment as a scenario.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "crane/diagnosis/diagnosis.hpp"
+#include "crane/report/page.hpp"
+
+namespace crane::diagnosis {
+
+/// report.json; fields in docs/diagnosis.md.
+[[nodiscard]] nlohmann::ordered_json to_json(const Diagnosis& diagnosis);
+
+/// A rig file that extends that of `rig` (by its absolute path) with the terms of the diagnosis after its own.
+[[nodiscard]] std::string extended_rig_text(const runtime::Rig& rig, const Diagnosis& diagnosis);
+
+/// @param test the held-out runs that were given to diagnose()
+[[nodiscard]] report::Page report_page(const Diagnosis& diagnosis, const runtime::Rig& rig,
+                                       const std::vector<Run>& test);
+
+/// A file cannot be written; names it.
+class ReportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// overlay_N.svg, one per held-out run, and residual_COLUMN.svg.
+/// @param directory must exist. @throws experiment::PictureError
+void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& diagnosis,
+                    const runtime::Rig& rig, const std::vector<Run>& test);
+
+/// report.json, report.html, extended.toml and next_experiment.toml.
+/// @param directory must exist. @throws ReportError, report::WriteError
+void write_report(const std::filesystem::path& directory, const Diagnosis& diagnosis, const runtime::Rig& rig,
+                  const std::vector<Run>& test);
+
+}  // namespace crane::diagnosis

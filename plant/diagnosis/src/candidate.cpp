@@ -1,0 +1,315 @@
+#include "crane/diagnosis/candidate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "position_spectrum.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using plant::TermSetting;
+
+/// The bounds of the term's own documentation, narrowed to what is plausible on a rig.
+FreeParameter free_parameter(const std::string& cause, const std::string& name, double low, double high,
+                             double step) {
+  const plant::TermKind& kind = *plant::find_term(cause);
+  const auto found = std::find_if(kind.parameters.begin(), kind.parameters.end(),
+                                  [&](const plant::TermParameter& p) { return p.name == name; });
+  return {name,
+          std::string{found->unit},
+          found->default_value,
+          std::max(low, found->low),
+          std::min(high, found->high),
+          step};
+}
+
+/// One amount, no shape.
+Candidate amount(const std::string& cause, const std::string& axis, const std::string& parameter, double low,
+                 double high, double step) {
+  Candidate c;
+  c.cause = cause;
+  c.axis = axis;
+  c.parameters = {free_parameter(cause, parameter, low, high, step)};
+  const FreeParameter& p = c.parameters.front();
+  c.one_sided = p.low >= p.null || p.high <= p.null;
+  c.shapes = {{{c.setting({p.null + step})}, {step}}};
+  c.begin = [p](const Shape&, const std::vector<double>& amounts) {
+    return std::vector<double>{std::clamp(p.null + amounts[0], p.low, p.high)};
+  };
+  return c;
+}
+
+/// One amount >= 0 with further parameters that give it a shape: a probe at each of `shapes`.
+Candidate shaped(const std::string& cause, const std::string& axis, const FreeParameter& size,
+                 const std::vector<FreeParameter>& of_shape, const std::vector<std::vector<double>>& shapes) {
+  Candidate c;
+  c.cause = cause;
+  c.axis = axis;
+  c.one_sided = size.low >= size.null;
+  c.parameters = {size};
+  c.parameters.insert(c.parameters.end(), of_shape.begin(), of_shape.end());
+  for (const auto& shape : shapes) {
+    std::vector<double> values{size.null + size.step};
+    values.insert(values.end(), shape.begin(), shape.end());
+    c.shapes.push_back({{c.setting(values)}, {size.step}});
+  }
+  const auto parameters = c.parameters;
+  c.begin = [parameters](const Shape& shape, const std::vector<double>& amounts) {
+    std::vector<double> values;
+    for (const FreeParameter& p : parameters) values.push_back(shape.probes[0].parameters.at(p.name));
+    const FreeParameter& p = parameters[0];
+    values[0] = std::clamp(p.null + amounts[0], p.low, p.high);
+    return values;
+  };
+  return c;
+}
+
+/// Amount and angle: probes at 0 and at a quarter turn.
+Candidate turned(const std::string& cause, const std::string& axis, const FreeParameter& size,
+                 const FreeParameter& angle, const std::vector<FreeParameter>& of_shape,
+                 const std::vector<std::vector<double>>& shapes) {
+  Candidate c;
+  c.cause = cause;
+  c.axis = axis;
+  c.parameters = {size, angle};
+  c.parameters.insert(c.parameters.end(), of_shape.begin(), of_shape.end());
+  for (const auto& shape : shapes) {
+    Shape probes;
+    for (const double at : {0.0, std::numbers::pi / 2}) {
+      std::vector<double> values{size.step, at};
+      values.insert(values.end(), shape.begin(), shape.end());
+      probes.probes.push_back(c.setting(values));
+      probes.amounts.push_back(size.step);
+    }
+    c.shapes.push_back(probes);
+  }
+  const auto parameters = c.parameters;
+  c.begin = [parameters](const Shape& shape, const std::vector<double>& amounts) {
+    std::vector<double> values;
+    for (const FreeParameter& p : parameters) values.push_back(shape.probes[0].parameters.at(p.name));
+    values[0] = std::min(std::hypot(amounts[0], amounts[1]), parameters[0].high);
+    values[1] = std::atan2(amounts[1], amounts[0]);
+    return values;
+  };
+  return c;
+}
+
+/// Two amounts that belong together.
+Candidate two_amounts(const std::string& cause, const std::string& axis, std::vector<FreeParameter> both) {
+  Candidate c;
+  c.cause = cause;
+  c.axis = axis;
+  c.parameters = std::move(both);
+  Shape shape;
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::vector<double> values{c.parameters[0].null, c.parameters[1].null};
+    values[i] += c.parameters[i].step;
+    shape.probes.push_back(c.setting(values));
+    shape.amounts.push_back(c.parameters[i].step);
+  }
+  c.shapes = {shape};
+  const auto parameters = c.parameters;
+  c.begin = [parameters](const Shape&, const std::vector<double>& amounts) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < 2; ++i)
+      values.push_back(std::clamp(parameters[i].null + amounts[i], parameters[i].low, parameters[i].high));
+    return values;
+  };
+  return c;
+}
+
+/// What the rig file's drive_friction of an axis has.
+struct KnownFriction {
+  double least_coulomb_v = 0, least_viscous = 0;
+  bool present = false;
+};
+KnownFriction known_friction(const runtime::Rig& rig, const std::string& axis) {
+  KnownFriction known;
+  for (const TermSetting& term : rig.terms) {
+    if (term.name != "drive_friction" || term.axis != axis) continue;
+    const auto value = [&](const char* name) {
+      const auto found = term.parameters.find(name);
+      return found == term.parameters.end() ? 0.0 : found->second;
+    };
+    known = {std::min(value("coulomb_positive_v"), value("coulomb_negative_v")),
+             std::min(value("viscous_positive_vspm"), value("viscous_negative_vspm")), true};
+  }
+  return known;
+}
+
+class Builder {
+ public:
+  Builder(const runtime::Rig& rig, const std::vector<PreparedRun>& runs) : rig_(rig), runs_(runs) {}
+
+  std::vector<Candidate> build() {
+    const auto measured = [&](Output output) {
+      return std::any_of(runs_.begin(), runs_.end(), [&](const PreparedRun& r) { return r.run.has(output); });
+    };
+    const bool load = rig_.plant.load_mass_kg > 0;
+    if (measured(kTrolleyPosition)) add_axis("trolley", kTrolleyPosition, 1.0);
+    if (measured(kSlewAngle)) add_axis("slew", kSlewAngle, 1.0);
+    radial_ = load && measured(kRadialSwing), tangential_ = load && measured(kTangentialSwing);
+    if (radial_ || tangential_) add_load(measured(kTrolleyPosition), measured(kSlewAngle));
+    return std::move(all_);
+  }
+
+ private:
+  void add(Candidate candidate, bool drive, bool load, bool known = false) {
+    candidate.drive = drive;
+    candidate.load = load;
+    candidate.changes_known_parameter = known;
+    all_.push_back(std::move(candidate));
+  }
+
+  void add_axis(const std::string& axis, Output output, double scale) {
+    const KnownFriction known = known_friction(rig_, axis);
+    add(amount("coulomb_friction", axis, "level_v", -known.least_coulomb_v, 5, 0.02), true, false,
+        known.present);
+    add(amount("viscous_friction", axis, "vspm", -known.least_viscous, 50, 0.05), true, false,
+        known.present && known.least_viscous > 0);
+    add(two_amounts("direction_asymmetry", axis,
+                    {free_parameter("direction_asymmetry", "coulomb_v", -3, 3, 0.02),
+                     free_parameter("direction_asymmetry", "viscous_vspm", -20, 20, 0.05)}),
+        true, false);
+    add(shaped("stribeck_friction", axis, free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
+               {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
+               {{0.01}, {0.03}, {0.08}, {0.2}}),
+        true, false);
+    add_tight_spots(axis, output);
+    add_ripple(axis, output);
+    add(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), true, false, true);
+    add(amount("command_offset", axis, "offset_v", -3, 3, 0.02), true, false);
+    add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
+    add(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005), true, false);
+    add(amount("actuator_lag", axis, "time_constant_s", 0, 0.5, 0.01), true, false);
+    add(amount("backlash", axis, "gap", 0, 0.05 * scale, 0.001), true, true);
+    add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), true, true);
+    add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
+  }
+
+  void add_tight_spots(const std::string& axis, Output output) {
+    std::vector<std::vector<double>> shapes;
+    const double travel = travelled(output);
+    for (const double share : {1.6, 0.8, 0.4})
+      for (int place = 0; place < 4; ++place)
+        shapes.push_back({share * travel, middle(output) + 0.25 * place * share * travel});
+    add(shaped("position_dependent_friction", axis,
+               free_parameter("position_dependent_friction", "amplitude_v", 0, 5, 0.02),
+               {free_parameter("position_dependent_friction", "wavelength", 0.1 * travel, 4 * travel,
+                               0.01 * travel),
+                free_parameter("position_dependent_friction", "tight_at", -100, 100, 0.01 * travel)},
+               shapes),
+        true, false);
+  }
+
+  void add_ripple(const std::string& axis, Output output) {
+    std::vector<std::vector<double>> shapes;
+    for (const double period : strongest_periods(rig_, runs_, output, 4)) shapes.push_back({period});
+    if (shapes.empty()) return;
+    add(turned("torque_ripple", axis, free_parameter("torque_ripple", "amplitude_v", 0, 5, 0.02),
+               free_parameter("torque_ripple", "phase_rad", -7, 7, 0.02),
+               {free_parameter("torque_ripple", "period", 1e-3, travelled(output), 1e-4)}, shapes),
+        true, false);
+  }
+
+  void add_load(bool trolley, bool slew) {
+    const double m = rig_.plant.load_mass_kg, g = rig_.plant.gravity_mps2;
+    const double length = rig_.start.position[plant::kHoist];
+    if (trolley || slew)
+      add(amount("payload_mass", "", "delta_kg", -0.9 * m, 10 * m, 0.05 * m), true, true, true);
+    add(amount("cable_length", "", "delta_m", -0.7 * length, 2 * length, 0.005), true, true, true);
+    add(amount("load_linear_drag", "", "coefficient_nspm", 0, 50 * m, 0.02 * m), false, true);
+    add(amount("load_quadratic_drag", "", "coefficient_ns2pm2", 0, 50 * m, 0.05 * m), false, true);
+    if (trolley || slew)
+      add(turned("steady_wind", "", free_parameter("steady_wind", "force_n", 0, 2 * m, 0.005 * m * g),
+                 free_parameter("steady_wind", "direction_rad", -7, 7, 0.02), {}, {{}}),
+          true, true);
+    add_pivot_friction();
+    if (trolley) add(amount("jib_tilt", "", "angle_rad", -0.2, 0.2, 0.005), true, true);
+    if (slew)
+      add(shaped("jib_flexibility", "",
+                 free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
+                 {free_parameter("jib_flexibility", "damping_ratio", 0.001, 0.5, 0.01)}, {{0.02}}),
+          false, true);
+    if (radial_ || tangential_) {
+      add(shaped("cable_elasticity", "",
+                 free_parameter("cable_elasticity", "compliance_mpn", 0.0001 / m, 0.02 / m, 0.0005 / m),
+                 {free_parameter("cable_elasticity", "damping_ratio", 0.001, 0.5, 0.01)}, {{0.02}}),
+          false, true);
+      add(shaped("double_pendulum", "", free_parameter("double_pendulum", "lower_share", 0, 0.85, 0.05),
+                 {free_parameter("double_pendulum", "lower_length_m", 0.05, 2, 0.01)},
+                 {{0.1}, {0.2}, {0.35}, {0.6}}),
+          false, true);
+    }
+    add_swing_sensors();
+  }
+
+  void add_pivot_friction() {
+    const double m = rig_.plant.load_mass_kg, length = rig_.start.position[plant::kHoist];
+    const double inertia = m * length * length;
+    std::vector<std::string> ways;
+    if (radial_) ways.emplace_back("radial");
+    if (tangential_) ways.emplace_back("tangential");
+    if (ways.size() == 2) ways.emplace_back("");
+    for (const std::string& way : ways)
+      add(two_amounts(
+              "swing_pivot_friction", way,
+              {free_parameter("swing_pivot_friction", "viscous_nmsprad", 0, 10 * inertia, 0.02 * inertia),
+               free_parameter("swing_pivot_friction", "coulomb_nm", 0, inertia, 0.005 * inertia)}),
+          false, true);
+  }
+
+  void add_swing_sensors() {
+    std::vector<std::string> ways;
+    if (radial_) ways.emplace_back("radial");
+    if (tangential_) ways.emplace_back("tangential");
+    for (const std::string& way : ways) {
+      add(amount("swing_offset", way, "offset_rad", -0.3, 0.3, 0.005), false, true);
+      add(amount("swing_scale", way, "factor", 0.5, 2, 0.01), false, true);
+    }
+    if (ways.size() == 2) {
+      add(amount("swing_misalignment", "", "angle_rad", -0.6, 0.6, 0.01), false, true);
+      ways.emplace_back("");
+    }
+    for (const std::string& way : ways) {
+      add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), false, true);
+      add(amount("swing_moving_average", way, "window_s", 0, 0.3, 0.02), false, true);
+    }
+  }
+
+  [[nodiscard]] double travelled(Output output) const {
+    double low = INFINITY, high = -INFINITY;
+    for (const PreparedRun& run : runs_)
+      for (const double value : run.run.measured[output])
+        low = std::min(low, value), high = std::max(high, value);
+    return std::max(high - low, 1e-3);
+  }
+  [[nodiscard]] double middle(Output output) const {
+    double low = INFINITY, high = -INFINITY;
+    for (const PreparedRun& run : runs_)
+      for (const double value : run.run.measured[output])
+        low = std::min(low, value), high = std::max(high, value);
+    return 0.5 * (low + high);
+  }
+
+  const runtime::Rig& rig_;
+  const std::vector<PreparedRun>& runs_;
+  bool radial_ = false, tangential_ = false;
+  std::vector<Candidate> all_;
+};
+
+}  // namespace
+
+TermSetting Candidate::setting(const std::vector<double>& values) const {
+  TermSetting term{cause, axis, {}};
+  for (std::size_t i = 0; i < parameters.size(); ++i) term.parameters[parameters[i].name] = values[i];
+  return term;
+}
+
+std::vector<Candidate> candidates_for(const runtime::Rig& rig, const std::vector<PreparedRun>& runs) {
+  return Builder(rig, runs).build();
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,58 @@
+#pragma once
+/// One axis over one step with stiff friction: v' = a - g f(v), f odd-like with a steep step at v = 0.
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+
+namespace crane::diagnosis {
+
+/// Slower than this, friction's step at standstill is resolved implicitly.
+inline constexpr double kCreep = 0.004;
+
+struct FrictionStep {
+  double speed = 0;     ///< at the end
+  double way = 0;       ///< covered
+  double friction = 0;  ///< mean [V]
+};
+
+/// Root of the increasing v + k f(v) - c.
+template <class Friction>
+double implicit_speed(double c, double k, Friction&& friction) {
+  constexpr double kExact = 1e-9;
+  const auto excess = [&](double v) { return v + k * friction(v) - c; };
+  double low = std::min(c, 0.0) - kCreep, high = std::max(c, 0.0) + kCreep;
+  double at_low = excess(low), at_high = excess(high);
+  for (int grown = 0; at_low > 0 && grown < 20; ++grown) low *= 2, at_low = excess(low);
+  for (int grown = 0; at_high < 0 && grown < 20; ++grown) high *= 2, at_high = excess(high);
+  if (at_low >= 0) return low;
+  if (at_high <= 0) return high;
+  std::uintmax_t rounds = 40;
+  const auto close = [](double a, double b) { return b - a < kExact; };
+  const auto root = boost::math::tools::toms748_solve(excess, low, high, at_low, at_high, close, rounds);
+  return 0.5 * (root.first + root.second);
+}
+
+/// @param v speed at the start, `a` acceleration without friction, `g` what a volt of friction takes from it
+template <class Friction>
+FrictionStep friction_step(double v, double a, double g, double h, Friction&& friction) {
+  if (std::abs(v) > kCreep) {
+    double mean = v + 0.5 * h * (a - g * friction(v));
+    mean = v + 0.5 * h * (a - g * friction(mean));
+    const double f = friction(mean), end = v + h * (a - g * f);
+    if (end * v > 0 && std::abs(end) > kCreep) return {end, 0.5 * h * (v + end), f};
+    if (end * v <= 0) {  // comes to rest after tau, then begins again from there
+      const double slope = a - g * friction(v);
+      const double tau = std::clamp(-v / slope, 0.0, h);
+      const double rest = h - tau;
+      const double after = implicit_speed(rest * a, rest * g, friction);
+      const double taken = h * g != 0 ? (v + h * a - after) / (h * g) : 0;
+      return {after, 0.5 * v * tau + 0.5 * after * rest, taken};
+    }
+  }
+  const double end = implicit_speed(v + h * a, h * g, friction);
+  const double taken = h * g != 0 ? (v + h * a - end) / (h * g) : 0;
+  return {end, 0.5 * h * (v + end), taken};
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,127 @@
+#include "held_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+
+constexpr int kResamples = 1000;
+
+/// Mean squares of the plain residual by window, for one output of one part.
+std::vector<double> squares(const Problem& problem, const Fits& fits, std::size_t output) {
+  std::vector<double> result;
+  for (std::size_t w = 0; w < fits.size(); ++w) {
+    const auto rows = static_cast<Index>(problem.windows()[w].rows);
+    const Eigen::VectorXd residual = problem.measured(problem.windows()[w]) - fits[w].simulated;
+    result.push_back(residual.segment(static_cast<Index>(output) * rows, rows).squaredNorm() /
+                     static_cast<double>(rows));
+  }
+  return result;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value / static_cast<double>(values.size());
+  return sum;
+}
+
+/// Two bodies of squares per output, before and after, by window.
+struct Compared {
+  std::vector<std::vector<double>> before, after;
+  std::vector<double> noise;
+};
+
+double gain_of(const Compared& c, const std::vector<std::vector<std::size_t>>* picked) {
+  double before = 0, after = 0;
+  for (std::size_t o = 0; o < c.before.size(); ++o) {
+    double b = 0, a = 0;
+    const std::size_t n = c.before[o].size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t at = picked != nullptr ? (*picked)[o][i] : i;
+      b += c.before[o][at], a += c.after[o][at];
+    }
+    const double weight = 1 / (static_cast<double>(n) * c.noise[o] * c.noise[o]);
+    before += weight * b, after += weight * a;
+  }
+  return before > 0 ? 1 - std::sqrt(after / before) : 0;
+}
+
+}  // namespace
+
+std::vector<Trace> traces(const Runs& runs, const Crane& base, const Crane& extended) {
+  std::vector<Trace> all;
+  for (const PreparedRun& run : runs) {
+    for (const Part part : {Part::drive, Part::load}) {
+      const auto outputs = simulated_outputs(run, part);
+      if (outputs.empty()) continue;
+      const std::size_t rows = run.run.rows();
+      std::vector<double> before(rows * outputs.size()), after(before.size());
+      const Replay old_replay(run, base, part), new_replay(run, extended, part);
+      old_replay.run(0, rows, old_replay.measured_start(0), before);
+      new_replay.run(0, rows, new_replay.measured_start(0), after);
+      for (std::size_t i = 0; i < outputs.size(); ++i) {
+        Trace trace{run.run.name, kOutputNames[outputs[i]], {}, run.run.measured[outputs[i]], {}, {}};
+        for (std::size_t k = 0; k < rows; ++k)
+          trace.time_s.push_back(run.run.start_s + static_cast<double>(k) * run.run.period_s);
+        const auto first = static_cast<std::ptrdiff_t>(i * rows),
+                   last = first + static_cast<std::ptrdiff_t>(rows);
+        trace.baseline.assign(before.begin() + first, before.begin() + last);
+        trace.extended.assign(after.begin() + first, after.begin() + last);
+        all.push_back(std::move(trace));
+      }
+    }
+  }
+  return all;
+}
+
+HeldOut held_out(const runtime::Rig& /*rig*/, const Study& study, const Runs& test, const Effects& effects,
+                 std::uint64_t seed) {
+  HeldOut result;
+  if (test.empty()) return result;
+  const Evaluation& before = study.base_test();
+  const Evaluation after = study.test(effects), trained = study.train(effects);
+  Compared compared;
+  for (const auto& [problem, old_fits, new_fits, learned, learned_fits] :
+       {std::tuple{&study.test_drive(), &before.drive, &after.drive, &study.drive(), &trained.drive},
+        {&study.test_load(), &before.load, &after.load, &study.load(), &trained.load}}) {
+    for (std::size_t o = 0; o < problem->outputs().size(); ++o) {
+      const std::string name = kOutputNames[problem->outputs()[o]];
+      compared.before.push_back(squares(*problem, *old_fits, o));
+      compared.after.push_back(squares(*problem, *new_fits, o));
+      compared.noise.push_back(std::sqrt(mean(squares(*learned, *learned_fits, o))));
+      result.baseline_rms[name] = std::sqrt(mean(compared.before.back()));
+      result.extended_rms[name] = std::sqrt(mean(compared.after.back()));
+      result.noise[name] = compared.noise.back();
+    }
+  }
+  result.gain = gain_of(compared, nullptr);
+  std::mt19937_64 random(seed + 29);
+  std::vector<double> gains;
+  for (int i = 0; i < kResamples; ++i) {
+    std::vector<std::vector<std::size_t>> picked;
+    for (const auto& squares_of : compared.before) {
+      picked.emplace_back(squares_of.size());
+      for (std::size_t& at : picked.back()) at = static_cast<std::size_t>(random() % squares_of.size());
+    }
+    gains.push_back(gain_of(compared, &picked));
+  }
+  std::sort(gains.begin(), gains.end());
+  result.gain_ci95 = {gains[kResamples * 25 / 1000], gains[kResamples * 975 / 1000]};
+  std::map<std::string, double> rows;
+  for (const Trace& trace : traces(test, study.base(), study.with(effects))) {
+    for (std::size_t k = 0; k < trace.measured.size(); ++k) {
+      result.whole_baseline_rms[trace.column] += std::pow(trace.measured[k] - trace.baseline[k], 2);
+      result.whole_extended_rms[trace.column] += std::pow(trace.measured[k] - trace.extended[k], 2);
+    }
+    rows[trace.column] += static_cast<double>(trace.measured.size());
+  }
+  for (auto* rms : {&result.whole_baseline_rms, &result.whole_extended_rms})
+    for (auto& [name, value] : *rms) value = std::sqrt(value / rows[name]);
+  return result;
+}
+
+}  // namespace crane::diagnosis

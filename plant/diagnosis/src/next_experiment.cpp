@@ -1,0 +1,247 @@
+#include "next_experiment.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "motion_menu.hpp"
+#include "parallel.hpp"
+#include "safe_run.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kWindow_s = 2.5;
+constexpr double kLead_s = 0.3;  // terms with a memory fill it; not compared
+constexpr double kLeastSeparation = 1.0 / 3;
+constexpr int kRounds = 6;
+constexpr double kConverged = 0.99;  // of the sum of squares
+constexpr std::size_t kEvery = 2;    // windows compared: enough to rank motions
+
+struct Hypothesis {
+  const Candidate* candidate = nullptr;
+  std::vector<double> values;
+};
+
+/// Misfit of a crane to one run in one part, in units of the noise, output by output; the starts of windows
+/// are solved for along the directions of the first crane that is asked.
+class Comparison {
+ public:
+  Comparison(const PreparedRun& run, Part part, const std::array<double, kOutputs>& noise)
+      : run_(run), part_(part), outputs_(simulated_outputs(run, part)), noise_(noise) {
+    rows_ = std::min(static_cast<std::size_t>(std::lround(kWindow_s / run.run.period_s)), run.run.rows());
+    lead_ = static_cast<std::size_t>(std::lround(kLead_s / run.run.period_s));
+  }
+
+  [[nodiscard]] const std::vector<Output>& outputs() const { return outputs_; }
+
+  /// One column per output: windows one after the other.
+  MatrixXd misfit(const Crane& crane) {
+    const auto kept = static_cast<Index>(rows_ - lead_), columns = static_cast<Index>(outputs_.size());
+    const std::size_t windows = (run_.run.rows() / rows_ + kEvery - 1) / kEvery;
+    MatrixXd all(static_cast<Index>(windows) * kept, columns);
+    if (outputs_.empty()) return all;
+    const Replay replay(run_, crane, part_);
+    const bool first_time = bases_.empty();
+    for (std::size_t w = 0; w < windows; ++w) {
+      const auto start = replay.measured_start(w * kEvery * rows_);
+      const VectorXd simulated = simulate(replay, w, start);
+      VectorXd residual = measured(w) - simulated;
+      if (first_time) bases_.push_back(start_directions(replay, w, start, simulated));
+      residual -= bases_[w] * (bases_[w].transpose() * residual);
+      for (Index i = 0; i < columns; ++i)
+        all.block(static_cast<Index>(w) * kept, i, kept, 1) = residual.segment(i * kept, kept);
+    }
+    return all;
+  }
+
+ private:
+  /// Rows after the lead, in units of the noise.
+  [[nodiscard]] VectorXd kept_of(const std::vector<double>& values) const {
+    const auto kept = static_cast<Index>(rows_ - lead_);
+    VectorXd result(kept * static_cast<Index>(outputs_.size()));
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      result.segment(static_cast<Index>(i) * kept, kept) =
+          Eigen::Map<const VectorXd>(values.data() + i * rows_ + lead_, kept) / noise_[outputs_[i]];
+    return result;
+  }
+  [[nodiscard]] VectorXd simulate(const Replay& replay, std::size_t window,
+                                  const std::vector<double>& start) const {
+    std::vector<double> values(outputs_.size() * rows_);
+    replay.run(window * kEvery * rows_, rows_, start, values);
+    return kept_of(values);
+  }
+  [[nodiscard]] VectorXd measured(std::size_t window) const {
+    std::vector<double> values;
+    for (const Output output : outputs_) {
+      const auto first =
+          run_.run.measured[output].begin() + static_cast<std::ptrdiff_t>(window * kEvery * rows_);
+      values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(rows_));
+    }
+    return kept_of(values);
+  }
+  /// Orthonormal directions in which a change of the start moves the outputs.
+  [[nodiscard]] MatrixXd start_directions(const Replay& replay, std::size_t window,
+                                          const std::vector<double>& start, const VectorXd& at) const {
+    constexpr double kStep = 1e-4;
+    MatrixXd slopes(at.size(), static_cast<Index>(start.size()));
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      auto moved = start;
+      moved[i] += kStep;
+      slopes.col(static_cast<Index>(i)) = (simulate(replay, window, moved) - at) / kStep;
+    }
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes);
+    return qr.householderQ() * MatrixXd::Identity(slopes.rows(), qr.rank());
+  }
+
+  const PreparedRun& run_;
+  Part part_;
+  std::vector<Output> outputs_;
+  std::array<double, kOutputs> noise_;
+  std::size_t rows_ = 0, lead_ = 0;
+  std::vector<MatrixXd> bases_;
+};
+
+/// Both structured parts of one run.
+class Rival {
+ public:
+  Rival(const runtime::Rig& rig, const Crane& base, const PreparedRun& run,
+        const std::array<double, kOutputs>& noise)
+      : base_(base), drive_(run, Part::drive, noise), load_(run, Part::load, noise) {
+    if (rig.plant.load_mass_kg == 0) load_used_ = false;
+  }
+
+  /// Mean squares by output, drives first; so many columns as there are outputs.
+  [[nodiscard]] std::vector<MatrixXd> misfits(const Hypothesis& hypothesis) {
+    Crane crane = base_;
+    crane.terms.push_back(hypothesis.candidate->setting(hypothesis.values));
+    std::vector<MatrixXd> both{drive_.misfit(crane)};
+    if (load_used_) both.push_back(load_.misfit(crane));
+    return both;
+  }
+
+  /// Gauss-Newton from the values given, inside the bounds.
+  void refit(Hypothesis& hypothesis) {
+    VectorXd residual = stacked(misfits(hypothesis));
+    for (int round = 0; round < kRounds; ++round) {
+      Hypothesis next = hypothesis;
+      const VectorXd change = step(hypothesis, residual);
+      for (std::size_t i = 0; i < next.values.size(); ++i)
+        next.values[i] = within(*hypothesis.candidate, i, next.values[i] + change[static_cast<Index>(i)]);
+      const VectorXd after = stacked(misfits(next));
+      const double share = after.squaredNorm() / residual.squaredNorm();
+      if (!(share < 1)) return;
+      hypothesis = next, residual = after;
+      if (share > kConverged) return;
+    }
+  }
+
+ private:
+  static double within(const Candidate& candidate, std::size_t parameter, double value) {
+    return std::clamp(value, candidate.parameters[parameter].low, candidate.parameters[parameter].high);
+  }
+  static VectorXd stacked(const std::vector<MatrixXd>& parts) {
+    Index size = 0;
+    for (const MatrixXd& part : parts) size += part.size();
+    VectorXd all(size);
+    Index at = 0;
+    for (const MatrixXd& part : parts) {
+      all.segment(at, part.size()) = part.reshaped();
+      at += part.size();
+    }
+    return all;
+  }
+  [[nodiscard]] VectorXd step(const Hypothesis& at, const VectorXd& residual) {
+    MatrixXd slopes(residual.size(), static_cast<Index>(at.values.size()));
+    for (std::size_t i = 0; i < at.values.size(); ++i) {
+      const FreeParameter& parameter = at.candidate->parameters[i];
+      Hypothesis moved = at;
+      moved.values[i] += at.values[i] + parameter.step <= parameter.high ? parameter.step : -parameter.step;
+      slopes.col(static_cast<Index>(i)) =
+          (residual - stacked(misfits(moved))) / (moved.values[i] - at.values[i]);
+    }
+    return slopes.colPivHouseholderQr().solve(residual);
+  }
+
+  Crane base_;
+  Comparison drive_, load_;
+  bool load_used_ = true;
+};
+
+/// Two causes on one drive show only while that drive is asked to move.
+bool may_show(const SafeMotion& motion, const Candidate& a, const Candidate& b) {
+  if (a.axis != b.axis || (a.axis != "trolley" && a.axis != "slew")) return true;
+  const plant::Axis axis = plant::drive_axis(a.axis);
+  return std::any_of(motion.references.begin(), motion.references.end(),
+                     [axis](const TimedExcitation& part) { return part.reference.axis == axis; });
+}
+
+/// How far `other`, refitted, stays from what `truth` gives, in the column that shows it most: rms in units
+/// of the noise. Nothing when the motion is not safe for that crane.
+std::optional<double> separation_of(const runtime::Rig& rig, const SafeMotion& motion,
+                                    const Hypothesis& truth, Hypothesis other,
+                                    const std::array<double, kOutputs>& noise) {
+  Crane base{rig.plant, rig.terms};
+  base.parameters.load_mass_kg = motion.load_mass_kg;
+  Crane crane = base;
+  crane.terms.push_back(truth.candidate->setting(truth.values));
+  const auto run = safe_run(rig, crane, motion);
+  if (!run) return std::nullopt;
+  Rival rival(rig, base, *run, noise);
+  rival.refit(other);
+  const auto left = rival.misfits(other),
+             own = rival.misfits(truth);  // the replay of smoothed data errs a little
+  double most = 0;
+  for (std::size_t part = 0; part < left.size(); ++part)
+    for (Index i = 0; i < left[part].cols(); ++i) {
+      const double more = left[part].col(i).squaredNorm() - own[part].col(i).squaredNorm();
+      most = std::max(most, std::sqrt(std::max(0.0, more) / static_cast<double>(left[part].rows())));
+    }
+  return most;
+}
+
+}  // namespace
+
+std::array<double, kOutputs> counting_noise(const runtime::Rig& rig) {
+  constexpr std::array<std::size_t, kOutputs> kEncoder{0, 1, 3, 4};
+  std::array<double, kOutputs> noise{};
+  for (std::size_t i = 0; i < kOutputs; ++i) {
+    const double counts = rig.encoders[kEncoder[i]].counts_per_unit;
+    if (counts > 0) noise[i] = 1 / (counts * std::sqrt(12.0));
+  }
+  return noise;
+}
+
+std::optional<NextExperiment> propose_experiment(const runtime::Rig& rig, const Candidate& a,
+                                                 const std::vector<double>& values_a, const Candidate& b,
+                                                 const std::vector<double>& values_b,
+                                                 const std::array<double, kOutputs>& noise) {
+  const auto menu = motion_menu(rig);
+  std::vector<double> separations(menu.size(), 0.0);
+  const Hypothesis first{&a, values_a}, second{&b, values_b};
+  parallel_for(menu.size(), [&](std::size_t i) {
+    if (!may_show(menu[i], a, b)) return;
+    const auto one = separation_of(rig, menu[i], first, second, noise);
+    const auto other = one ? separation_of(rig, menu[i], second, first, noise) : std::nullopt;
+    if (other) separations[i] = std::min(*one, *other);
+  });
+  const auto best = std::max_element(separations.begin(), separations.end());
+  if (best == separations.end() || *best < kLeastSeparation) return std::nullopt;
+  const SafeMotion& motion = menu[static_cast<std::size_t>(best - separations.begin())];
+  return NextExperiment{.name = motion.name,
+                        .description = motion.description,
+                        .separation = *best,
+                        .scenario = scenario_text(motion, rig)};
+}
+
+std::optional<NextExperiment> propose_experiment(const runtime::Rig& rig, const Candidate& a,
+                                                 const std::vector<double>& values_a, const Candidate& b,
+                                                 const std::vector<double>& values_b) {
+  return propose_experiment(rig, a, values_a, b, values_b, counting_noise(rig));
+}
+
+}  // namespace crane::diagnosis

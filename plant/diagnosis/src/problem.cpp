@@ -1,0 +1,229 @@
+#include "problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parallel.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kLead_s = 0.2;
+/// Longer windows are cut: whitening takes a matrix of rows times rows.
+constexpr std::size_t kMostRows = 1000;
+constexpr double kPositionStep = 1e-4, kRateStep = 1e-3;
+constexpr int kStartRounds = 3;
+/// Mean square of a whitened window, in those of the median window, beyond which it counts less.
+constexpr double kNoisiest = 2.0;
+/// A start direction that changes the window less than this share of the strongest one cannot be solved for:
+/// the speed of an axis that sticks is forgotten at once.
+constexpr double kLeastSlope = 0.02;
+/// The measurement knows the start better than this; a larger correction in one round is not believed.
+constexpr double kMostPosition = 0.01, kMostRate = 0.1;
+
+VectorXd believable(VectorXd change) {
+  for (Index i = 0; i < change.size(); ++i) {
+    const double most = i % 2 == 0 ? kMostPosition : kMostRate;
+    change[i] = std::isfinite(change[i]) ? std::clamp(change[i], -most, most) : 0.0;
+  }
+  return change;
+}
+
+}  // namespace
+
+Problem::Problem(const Runs& runs, Part part, double window_s) : runs_(runs), part_(part) {
+  for (const PreparedRun& run : runs)
+    if (outputs_.empty()) outputs_ = simulated_outputs(run, part);
+  if (outputs_.empty()) return;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const double period_s = runs[i].run.period_s;
+    const auto lead = static_cast<std::size_t>(std::lround(kLead_s / period_s));
+    const std::size_t rows = runs[i].run.rows();
+    const auto wanted = std::min(static_cast<std::size_t>(window_s / period_s), kMostRows);
+    if (rows < lead + wanted / 2) continue;
+    const std::size_t count = std::max<std::size_t>(1, (rows - lead + wanted / 2) / wanted);
+    const std::size_t length = std::min((rows - lead) / count, kMostRows);
+    for (std::size_t w = 0; w < count; ++w) windows_.push_back({i, lead + w * length, length, lead});
+  }
+}
+
+std::vector<std::vector<VectorXd>> Problem::residuals(const Crane& crane) const {
+  const Fits fits = fit(crane);
+  std::vector<std::vector<VectorXd>> result(outputs_.size());
+  for (std::size_t output = 0; output < outputs_.size(); ++output)
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+      const auto rows = static_cast<Index>(windows_[w].rows);
+      result[output].emplace_back(fits[w].residual.segment(static_cast<Index>(output) * rows, rows));
+    }
+  return result;
+}
+
+void Problem::weigh(const std::vector<std::vector<VectorXd>>& residuals) {
+  weights_.assign(outputs_.size(), std::vector<double>(windows_.size(), 1.0));
+  for (std::size_t output = 0; output < outputs_.size(); ++output) {
+    std::vector<double> squares;
+    for (const VectorXd& residual : residuals[output]) {
+      VectorXd white = residual;
+      whiteners_[output].apply(white);
+      squares.push_back(white.squaredNorm() / static_cast<double>(white.size()));
+    }
+    std::vector<double> sorted = squares;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                     sorted.end());
+    const double most = kNoisiest * sorted[sorted.size() / 2];
+    for (std::size_t w = 0; w < squares.size(); ++w)
+      if (squares[w] > most) weights_[output][w] = std::sqrt(most / squares[w]);
+  }
+}
+
+void Problem::learn_disturbance(const Crane& crane, double natural_radps) {
+  whiteners_.clear();
+  const std::vector<std::vector<VectorXd>> plain = residuals(crane);
+  for (int round = 0; round < 3; ++round) {
+    std::vector<Whitener> learned;
+    for (std::size_t output = 0; output < outputs_.size(); ++output) {
+      std::vector<VectorXd> weighted = plain[output];
+      if (round > 0)
+        for (std::size_t w = 0; w < weighted.size(); ++w) weighted[w] *= weights_[output][w];
+      const bool swing = outputs_[output] == kRadialSwing || outputs_[output] == kTangentialSwing;
+      learned.emplace_back(weighted, runs_[windows_[0].run].run.period_s, swing ? natural_radps : 0);
+    }
+    whiteners_ = std::move(learned);
+    weigh(plain);
+  }
+}
+
+void Problem::whiten_like(const Problem& other, const Crane& crane) {
+  whiteners_.clear();
+  const std::vector<std::vector<VectorXd>> plain = residuals(crane);
+  whiteners_ = other.whiteners_;
+  for (Whitener& whitener : whiteners_)
+    for (const Window& window : windows_) whitener.prepare(static_cast<Index>(window.rows));
+  weigh(plain);
+}
+
+std::vector<Replay> Problem::replays(const Runs& runs, const Crane& crane) const {
+  std::vector<std::optional<Replay>> made(runs.size());
+  parallel_for(runs.size(), [&](std::size_t i) { made[i].emplace(runs[i], crane, part_); });
+  std::vector<Replay> result;
+  for (auto& replay : made) result.push_back(std::move(*replay));
+  return result;
+}
+
+VectorXd Problem::simulate(const Replay& replay, const Window& window, const VectorXd& start) const {
+  const std::size_t all = window.lead + window.rows;
+  std::vector<double> out(all * outputs_.size());
+  replay.run(window.first - window.lead, all, {start.data(), static_cast<std::size_t>(start.size())}, out);
+  VectorXd kept(static_cast<Index>(window.rows * outputs_.size()));
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    kept.segment(static_cast<Index>(i * window.rows), static_cast<Index>(window.rows)) =
+        Eigen::Map<const VectorXd>(&out[i * all + window.lead], static_cast<Index>(window.rows));
+  return kept;
+}
+
+VectorXd Problem::measured(const Window& window) const {
+  VectorXd values(static_cast<Index>(window.rows * outputs_.size()));
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    values.segment(static_cast<Index>(i * window.rows), static_cast<Index>(window.rows)) =
+        Eigen::Map<const VectorXd>(&runs_[window.run].run.measured[outputs_[i]][window.first],
+                                   static_cast<Index>(window.rows));
+  return values;
+}
+
+void Problem::whiten(std::size_t window, Eigen::Ref<MatrixXd> x) const {
+  const auto rows = static_cast<Index>(windows_[window].rows);
+  for (std::size_t i = 0; i < whiteners_.size(); ++i) {
+    whiteners_[i].apply(x.middleRows(static_cast<Index>(i) * rows, rows));
+    x.middleRows(static_cast<Index>(i) * rows, rows) *= weights_[i][window];
+  }
+}
+
+void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
+  const Window& window = windows_[at];
+  fit.simulated = simulate(replay, window, fit.start);
+  MatrixXd slopes(fit.simulated.size(), fit.start.size());
+  for (Index i = 0; i < fit.start.size(); ++i) {
+    const double step = i % 2 == 0 ? kPositionStep : kRateStep;
+    VectorXd moved = fit.start;
+    moved[i] += step;
+    slopes.col(i) = (simulate(replay, window, moved) - fit.simulated) / step;
+  }
+  whiten(at, slopes);
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes.rows(), slopes.cols());
+  qr.setThreshold(kLeastSlope);
+  qr.compute(slopes);
+  fit.basis = qr.householderQ() * MatrixXd::Identity(slopes.rows(), qr.rank());
+  fit.to_start = qr.solve(MatrixXd(fit.basis)) * fit.basis.transpose();
+}
+
+Fits Problem::fit(const Crane& crane) const {
+  const std::vector<Replay> replay = replays(runs_, crane);
+  Fits fits(windows_.size());
+  parallel_for(windows_.size(), [&](std::size_t w) {
+    const Window& window = windows_[w];
+    WindowFit& fit = fits[w];
+    const std::vector<double> start = replay[window.run].measured_start(window.first - window.lead);
+    fit.start = Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
+    const VectorXd target = measured(window);
+    linearise(replay[window.run], w, fit);
+    for (int round = 1; round < kStartRounds; ++round) {
+      fit.residual = target - fit.simulated;
+      whiten(w, fit.residual);
+      fit.start += believable(fit.to_start * fit.residual);
+      fit.simulated = simulate(replay[window.run], window, fit.start);
+    }
+    linearise(replay[window.run], w, fit);
+    fit.residual = target - fit.simulated;
+    whiten(w, fit.residual);
+    fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
+  });
+  return fits;
+}
+
+Fits Problem::fit_near(const Crane& crane, const Fits& near) const {
+  const std::vector<Replay> replay = replays(runs_, crane);
+  Fits fits = near;
+  parallel_for(windows_.size(), [&](std::size_t w) {
+    const Window& window = windows_[w];
+    WindowFit& fit = fits[w];
+    const VectorXd target = measured(window);
+    for (int round = 0;; ++round) {
+      fit.simulated = simulate(replay[window.run], window, fit.start);
+      fit.residual = target - fit.simulated;
+      whiten(w, fit.residual);
+      if (round == kStartRounds - 1) break;
+      fit.start += believable(fit.to_start * fit.residual);
+    }
+    fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
+  });
+  return fits;
+}
+
+std::vector<VectorXd> Problem::change(const Crane& crane, const Fits& at, double step) const {
+  return change_on(runs_, crane, at, step);
+}
+
+std::vector<VectorXd> Problem::change_on(const Runs& runs, const Crane& crane, const Fits& at,
+                                         double step) const {
+  const std::vector<Replay> replay = replays(runs, crane);
+  std::vector<VectorXd> changes(windows_.size());
+  parallel_for(windows_.size(), [&](std::size_t w) {
+    VectorXd change = (simulate(replay[windows_[w].run], windows_[w], at[w].start) - at[w].simulated) / step;
+    whiten(w, change);
+    change -= at[w].basis * (at[w].basis.transpose() * change).eval();
+    changes[w] = std::move(change);
+  });
+  return changes;
+}
+
+double loss(const Fits& fits) {
+  double sum = 0;
+  for (const WindowFit& fit : fits) sum += fit.residual.squaredNorm();
+  return sum;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,83 @@
+#pragma once
+/// Multiple shooting over one part (drive or load) of all runs: the data in windows of a few seconds, each
+/// with a start of its own that is solved for and projected away.
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "crane/diagnosis/replay.hpp"
+#include "whitening.hpp"
+
+namespace crane::diagnosis {
+
+using Runs = std::vector<PreparedRun>;
+
+/// Rows compared; the replay begins `lead` rows earlier so that sensors and filters have a past.
+struct Window {
+  std::size_t run = 0, first = 0, rows = 0, lead = 0;
+};
+
+/// One window around one crane: everything whitened, the start's directions taken out.
+struct WindowFit {
+  Eigen::VectorXd start;
+  Eigen::VectorXd simulated;  ///< outputs one after the other, lead left out, not whitened
+  Eigen::VectorXd residual;   ///< measured - simulated, whitened, projected
+  Eigen::MatrixXd basis;      ///< orthonormal directions of the start, whitened
+  Eigen::MatrixXd to_start;   ///< whitened residual to change of start
+};
+using Fits = std::vector<WindowFit>;
+
+class Problem {
+ public:
+  /// @param window_s wanted length; runs are divided into equal parts of about that
+  Problem(const Runs& runs, Part part, double window_s);
+
+  [[nodiscard]] Part part() const { return part_; }
+  [[nodiscard]] bool empty() const { return windows_.empty(); }
+  [[nodiscard]] const std::vector<Window>& windows() const { return windows_; }
+  [[nodiscard]] const std::vector<Output>& outputs() const { return outputs_; }
+  [[nodiscard]] const Runs& runs() const { return runs_; }
+
+  /// Learns noise and disturbance per output from the residuals of `crane` and whitens with them from now on.
+  /// A window that is far noisier than the others (an axis that broke loose a moment earlier or later) counts
+  /// less.
+  void learn_disturbance(const Crane& crane, double natural_radps);
+  /// Whitens as `other` does; which windows count less is decided here.
+  void whiten_like(const Problem& other, const Crane& crane);
+  [[nodiscard]] const std::vector<Whitener>& whiteners() const { return whiteners_; }
+
+  /// Solves for the starts from the measured ones.
+  [[nodiscard]] Fits fit(const Crane& crane) const;
+  /// Solves for the starts with the directions of `near`, a crane that differs little.
+  [[nodiscard]] Fits fit_near(const Crane& crane, const Fits& near) const;
+  /// Change of the outputs against `at` per unit, whitened and projected: (outputs of crane - at) / step.
+  [[nodiscard]] std::vector<Eigen::VectorXd> change(const Crane& crane, const Fits& at, double step) const;
+
+  /// The same with other runs (commands changed) through the same crane.
+  [[nodiscard]] std::vector<Eigen::VectorXd> change_on(const Runs& runs, const Crane& crane, const Fits& at,
+                                                       double step) const;
+  /// Measured rows of a window, outputs one after the other.
+  [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
+
+ private:
+  /// Residuals [output][window], plain.
+  [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Crane& crane) const;
+  void weigh(const std::vector<std::vector<Eigen::VectorXd>>& residuals);
+  [[nodiscard]] std::vector<Replay> replays(const Runs& runs, const Crane& crane) const;
+  [[nodiscard]] Eigen::VectorXd simulate(const Replay& replay, const Window& window,
+                                         const Eigen::VectorXd& start) const;
+  void whiten(std::size_t window, Eigen::Ref<Eigen::MatrixXd> x) const;
+  void linearise(const Replay& replay, std::size_t window, WindowFit& fit) const;
+
+  const Runs& runs_;
+  Part part_;
+  std::vector<Output> outputs_;
+  std::vector<Window> windows_;
+  std::vector<Whitener> whiteners_;           ///< by output; empty: plain residuals
+  std::vector<std::vector<double>> weights_;  ///< by output and window, in (0, 1]
+};
+
+/// Sum of squares.
+[[nodiscard]] double loss(const Fits& fits);
+
+}  // namespace crane::diagnosis

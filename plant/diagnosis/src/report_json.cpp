@@ -1,0 +1,76 @@
+#include "crane/diagnosis/report.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json parameters_json(const std::vector<Estimate>& estimates) {
+  ordered_json json = ordered_json::object();
+  for (const Estimate& e : estimates)
+    json[e.name] = {{"value", e.value}, {"std", e.std_dev}, {"unit", e.unit}};
+  return json;
+}
+
+ordered_json causes_json(const std::vector<Cause>& causes) {
+  ordered_json json = ordered_json::array();
+  for (const Cause& cause : causes)
+    json.push_back({{"name", cause.name},
+                    {"axis", cause.axis},
+                    {"parameters", parameters_json(cause.parameters)},
+                    {"p_value", cause.p_value},
+                    {"resampling_frequency", cause.resampling_frequency}});
+  return json;
+}
+
+ordered_json candidates_json(const std::vector<Ranked>& ranking) {
+  ordered_json json = ordered_json::array();
+  for (const Ranked& ranked : ranking) {
+    // A pair of effects may have two parameters of one name, so that they are a list here.
+    ordered_json parameters = ordered_json::array();
+    for (const Estimate& e : ranked.parameters)
+      parameters.push_back({{"name", e.name}, {"value", e.value}, {"std", e.std_dev}, {"unit", e.unit}});
+    json.push_back({{"label", ranked.label},
+                    {"parameters", parameters},
+                    {"train_gain", ranked.train_gain},
+                    {"test_gain", ranked.test_gain},
+                    {"p_value", ranked.p_value},
+                    {"resampling_frequency", ranked.resampling_frequency}});
+  }
+  return json;
+}
+
+ordered_json held_out_json(const HeldOut& held_out) {
+  return {{"baseline_rms", held_out.baseline_rms},
+          {"extended_rms", held_out.extended_rms},
+          {"noise", held_out.noise},
+          {"whole_baseline_rms", held_out.whole_baseline_rms},
+          {"whole_extended_rms", held_out.whole_extended_rms},
+          {"gain", held_out.gain},
+          {"gain_ci95", held_out.gain_ci95}};
+}
+
+}  // namespace
+
+ordered_json to_json(const Diagnosis& diagnosis) {
+  ordered_json next;  // null without a proposal
+  if (diagnosis.next_experiment)
+    next = {{"name", diagnosis.next_experiment->name},
+            {"description", diagnosis.next_experiment->description},
+            {"separation", diagnosis.next_experiment->separation}};
+  return {{"verdict", name_of(diagnosis.verdict)},
+          {"sentence", diagnosis.sentence},
+          {"causes", causes_json(diagnosis.causes)},
+          {"ambiguous_with", diagnosis.ambiguous_with},
+          {"next_experiment", next},
+          {"held_out", held_out_json(diagnosis.held_out)},
+          {"residual",
+           {{"predictable_fraction", diagnosis.remainder.predictable_fraction},
+            {"from", diagnosis.remainder.from}}},
+          {"candidates", candidates_json(diagnosis.ranking)},
+          {"detection_p_value", diagnosis.detection_p_value},
+          {"notes", diagnosis.notes},
+          {"runtime_s", diagnosis.runtime_s}};
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "crane/plant/term.hpp"
+#include "terms/smooth_sign.hpp"
+
+namespace crane::plant {
+namespace {
+
+/// Contact of the flanks: a spring of 15 Hz with the suspended side's inertia, damped in proportion to how
+/// deep it is pressed, so that the force is continuous, and never pulling.
+constexpr double kContact_radps2 = 4 * std::numbers::pi * std::numbers::pi * 15 * 15;
+constexpr double kContactDamping_radps = 2 * 0.5 * 2 * std::numbers::pi * 15;
+constexpr double kSoftShare = 0.1;  // of the gap: depth of full damping
+/// Guide friction changes its direction over this speed [m/s or rad/s]: an explicit step of 2.5 ms stays
+/// stable.
+constexpr double kGuideSmoothing = 0.005;
+
+class Backlash final : public Term {
+ public:
+  explicit Backlash(const TermSetting& s)
+      : slew_(s.axis == "slew"),
+        gap_(s.parameters.at("gap")),
+        guide_deceleration_(s.parameters.at("guide_deceleration")) {}
+
+  [[nodiscard]] std::size_t inner_coordinates() const noexcept override { return gap_ > 0 ? 1 : 0; }
+  void displace(const double* inner, Displacement& sum) const noexcept override {
+    if (gap_ > 0) (slew_ ? sum.slew_rad : sum.trolley_m) += inner[0];
+  }
+  void accelerate(const Parameters& /*crane*/, const State& state, const Accelerations& drives,
+                  const Inner* inner, double* acceleration) const noexcept override {
+    if (gap_ == 0) return;
+    const double speed = slew_ ? state.slew_radps : state.trolley_mps;  // of the suspended side
+    const double motor = slew_ ? drives.slew_radps2 : drives.trolley_mps2;
+    acceleration[0] = contact(inner[0]) - guide_deceleration_ * smooth_sign(speed, kGuideSmoothing) - motor;
+  }
+
+ private:
+  [[nodiscard]] double contact(const Inner& inner) const {
+    const double depth = std::abs(inner.position) - 0.5 * gap_;
+    if (depth <= 0) return 0;
+    const double side = std::copysign(1.0, inner.position);
+    const double damping = kContactDamping_radps * std::min(1.0, depth / (kSoftShare * gap_));
+    return -side * std::max(0.0, kContact_radps2 * depth + damping * side * inner.rate);
+  }
+  bool slew_;
+  double gap_, guide_deceleration_;
+};
+
+}  // namespace
+
+TermKind backlash() {
+  return {
+      .name = "backlash",
+      .equation =
+          "the load hangs at p + b, b'' = contact(b, b') - a tanh((p' + b')/v_s) - p''; contact is 0 "
+          "for |b| < h/2 and a damped spring of 15 Hz beyond",
+      .source = "play of nut or gear between motor, which has the encoder, and trolley or jib",
+      .acts_on = ActsOn::structure,
+      .axes = {"trolley", "slew"},
+      .parameters = {{"gap", "m or rad", 0, 0, 0.1, "h, free travel from flank to flank"},
+                     {"guide_deceleration", "m/s2 or rad/s2", 1, 0, 2,
+                      "a, what friction takes from the suspended side while no flank touches"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<Backlash>(s); }};
+}
+
+}  // namespace crane::plant

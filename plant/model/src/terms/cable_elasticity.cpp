@@ -1,0 +1,54 @@
+#include <cmath>
+
+#include "crane/plant/term.hpp"
+#include "terms/structure.hpp"
+
+namespace crane::plant {
+namespace {
+
+class CableElasticity final : public Term {
+ public:
+  explicit CableElasticity(const TermSetting& s)
+      : compliance_mpn_(s.parameters.at("compliance_mpn")),
+        damping_ratio_(s.parameters.at("damping_ratio")) {}
+
+  [[nodiscard]] std::size_t inner_coordinates() const noexcept override {
+    return compliance_mpn_ > 0 ? 1 : 0;
+  }
+  void displace(const double* inner, Displacement& sum) const noexcept override {
+    if (compliance_mpn_ > 0) sum.cable_m += inner[0];
+  }
+  void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
+                  const Inner* inner, double* acceleration) const noexcept override {
+    const double inertia = compliance_mpn_ * crane.load_mass_kg;  // c m = 1 / omega^2
+    if (compliance_mpn_ == 0) return;
+    if (inertia * kRigid_radps2 < 1) {
+      acceleration[0] = 0;
+      return;
+    }
+    acceleration[0] = cable_tension_n(crane, state, drives) / crane.load_mass_kg - crane.gravity_mps2 -
+                      inner[0].position / inertia - 2 * damping_ratio_ / std::sqrt(inertia) * inner[0].rate;
+  }
+
+ private:
+  double compliance_mpn_, damping_ratio_;
+};
+
+}  // namespace
+
+TermKind cable_elasticity() {
+  return {.name = "cable_elasticity",
+          .equation =
+              "the load hangs at L + s, s'' = T/m - g - s/(c m) - 2 z s'/sqrt(c m), T the tension of "
+              "the rigid cable",
+          .source = "Hooke's law; s is counted from the stretch of the load at rest",
+          .acts_on = ActsOn::structure,
+          .axes = {""},
+          .parameters = {{"compliance_mpn", "m/N", 0, 0, 0.1, "c; a bounce above 12 Hz counts as rigid"},
+                         {"damping_ratio", "1", 0.02, 0, 1, "z"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<CableElasticity>(s);
+          }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,29 @@
+#include "crane/plant/term.hpp"
+
+namespace crane::plant {
+namespace {
+
+class CableLength final : public Term {
+ public:
+  explicit CableLength(const TermSetting& s) : delta_m_(s.parameters.at("delta_m")) {}
+
+  [[nodiscard]] Displacement rest_displacement() const noexcept override { return {.cable_m = delta_m_}; }
+
+ private:
+  double delta_m_;
+};
+
+}  // namespace
+
+TermKind cable_length() {
+  return {
+      .name = "cable_length",
+      .equation = "L = L_measured + d",
+      .source = "the load's centre of mass hangs lower or higher than the hoist's zero says",
+      .acts_on = ActsOn::structure,
+      .axes = {""},
+      .parameters = {{"delta_m", "m", 0, -10, 10, "d, true length of the pendulum minus what is measured"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<CableLength>(s); }};
+}
+
+}  // namespace crane::plant

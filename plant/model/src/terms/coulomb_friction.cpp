@@ -1,0 +1,41 @@
+#include <cmath>
+
+#include "crane/plant/term.hpp"
+#include "terms/smooth_sign.hpp"
+
+namespace crane::plant {
+namespace {
+
+class CoulombFriction final : public Term {
+ public:
+  explicit CoulombFriction(const TermSetting& s)
+      : axis_(drive_axis(s.axis)),
+        level_v_(s.parameters.at("level_v")),
+        smoothing_speed_(s.parameters.at("smoothing_speed")) {}
+
+  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
+    friction_v[axis_] += level_v_ * smooth_sign(speed(state, axis_), smoothing_speed_);
+  }
+
+ private:
+  Axis axis_;
+  double level_v_, smoothing_speed_;
+};
+
+}  // namespace
+
+TermKind coulomb_friction() {
+  return {.name = "coulomb_friction",
+          .equation = "f = c tanh(v/v_s), in both directions, on top of drive_friction",
+          .source = "(3.1): the dry part of the rig file's friction is another one",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"level_v", "V", 0, -10, 10, "c / K_m; negative: less than the rig file says"},
+                         {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+                          "v_s, width of the step at v = 0"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<CoulombFriction>(s);
+          }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,45 @@
+#include <cmath>
+
+#include "crane/plant/term.hpp"
+#include "terms/smooth_sign.hpp"
+
+namespace crane::plant {
+namespace {
+
+class DirectionAsymmetry final : public Term {
+ public:
+  explicit DirectionAsymmetry(const TermSetting& s)
+      : axis_(drive_axis(s.axis)),
+        coulomb_v_(s.parameters.at("coulomb_v")),
+        viscous_vspm_(s.parameters.at("viscous_vspm")),
+        smoothing_speed_(s.parameters.at("smoothing_speed")) {}
+
+  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
+    const double v = std::abs(speed(state, axis_));
+    friction_v[axis_] += coulomb_v_ * smooth_sign(v, smoothing_speed_) + viscous_vspm_ * v;
+  }
+
+ private:
+  Axis axis_;
+  double coulomb_v_, viscous_vspm_, smoothing_speed_;
+};
+
+}  // namespace
+
+TermKind direction_asymmetry() {
+  return {
+      .name = "direction_asymmetry",
+      .equation = "f = c tanh(|v|/v_s) + b |v|: c and b added to the friction of +v, taken off that of -v",
+      .source = "(3.1): friction of the two directions differs more than the rig file says",
+      .acts_on = ActsOn::drive,
+      .axes = {"trolley", "slew", "hoist"},
+      .parameters = {{"coulomb_v", "V", 0, -10, 10, "c / K_m"},
+                     {"viscous_vspm", "V s/m or V s/rad", 0, -1000, 1000, "b / K_m"},
+                     {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+                      "v_s, width of the step at v = 0"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<DirectionAsymmetry>(s);
+      }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,29 @@
+#include "crane/plant/term.hpp"
+
+namespace crane::plant {
+namespace {
+
+class PayloadMass final : public Term {
+ public:
+  explicit PayloadMass(const TermSetting& s) : delta_kg_(s.parameters.at("delta_kg")) {}
+
+  void change_parameters(Parameters& crane) const noexcept override { crane.load_mass_kg += delta_kg_; }
+
+ private:
+  double delta_kg_;
+};
+
+}  // namespace
+
+TermKind payload_mass() {
+  return {
+      .name = "payload_mass",
+      .equation = "m = m_rig_file + d",
+      .source = "another load hangs there than the rig file says",
+      .acts_on = ActsOn::parameters,
+      .axes = {""},
+      .parameters = {{"delta_kg", "kg", 0, -1000, 1000, "d; the sum must not be negative"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<PayloadMass>(s); }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,42 @@
+#include <cmath>
+#include <numbers>
+
+#include "crane/plant/term.hpp"
+
+namespace crane::plant {
+namespace {
+
+class TorqueRipple final : public Term {
+ public:
+  explicit TorqueRipple(const TermSetting& s)
+      : axis_(drive_axis(s.axis)),
+        amplitude_v_(s.parameters.at("amplitude_v")),
+        phase_rad_(s.parameters.at("phase_rad")),
+        wave_number_(2 * std::numbers::pi / s.parameters.at("period")) {}
+
+  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
+    friction_v[axis_] -= amplitude_v_ * std::sin(wave_number_ * position(state, axis_) + phase_rad_);
+  }
+
+ private:
+  Axis axis_;
+  double amplitude_v_, phase_rad_, wave_number_;
+};
+
+}  // namespace
+
+TermKind torque_ripple() {
+  return {.name = "torque_ripple",
+          .equation = "f = -a sin(2 pi p / w + psi): the drive gets V + a sin(2 pi p / w + psi)",
+          .source = "cogging of the motor or an eccentric gear: depends on position, not on direction",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"amplitude_v", "V", 0, -10, 10, "a"},
+                         {"phase_rad", "rad", 0, -7, 7, "psi"},
+                         {"period", "m or rad", 0.1, 1e-3, 100, "w, distance from crest to crest"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<TorqueRipple>(s);
+          }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,35 @@
+#include "crane/plant/term.hpp"
+
+namespace crane::plant {
+namespace {
+
+class ViscousFriction final : public Term {
+ public:
+  explicit ViscousFriction(const TermSetting& s)
+      : axis_(drive_axis(s.axis)), vspm_(s.parameters.at("vspm")) {}
+
+  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
+    friction_v[axis_] += vspm_ * speed(state, axis_);
+  }
+
+ private:
+  Axis axis_;
+  double vspm_;
+};
+
+}  // namespace
+
+TermKind viscous_friction() {
+  return {.name = "viscous_friction",
+          .equation = "f = b v, in both directions, on top of drive_friction",
+          .source = "(3.1): the viscous part of the rig file's friction is another one",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"vspm", "V s/m or V s/rad", 0, -1000, 1000,
+                          "b / K_m; negative: less than the rig file says"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<ViscousFriction>(s);
+          }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,83 @@
+/// crane analyse fuzzy: Table 3.7 beside the rules that its own method gives.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands/analyse.hpp"
+#include "cli/text_table.hpp"
+#include "crane/analysis/rule_agreement.hpp"
+#include "crane/runtime/rig.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::cli {
+namespace {
+
+constexpr std::array kLabels{"NB", "NM", "NS", "ZO", "PS", "PM", "PB"};
+
+std::string label_text(control::FuzzyLabel label) { return kLabels.at(static_cast<std::size_t>(label + 3)); }
+
+/// Swing down, swing rate across; `marked` has a star where it differs from `reference`.
+void print_rules(const control::FuzzyRules& marked, const control::FuzzyRules& reference) {
+  std::vector<std::string> header{"phi \\ phi'"};
+  header.insert(header.end(), kLabels.begin(), kLabels.end());
+  TextTable table{header};
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    std::vector<std::string> row{kLabels[i]};
+    for (std::size_t j = 0; j < marked[i].size(); ++j)
+      row.push_back(label_text(marked[i][j]) + (marked[i][j] == reference[i][j] ? "" : "*"));
+    table.add(row);
+  }
+  table.print(std::cout);
+}
+
+nlohmann::ordered_json rules_json(const control::FuzzyRules& rules) {
+  nlohmann::ordered_json json;
+  for (const auto& row : rules) {
+    nlohmann::ordered_json labels;
+    for (const auto label : row) labels.push_back(label_text(label));
+    json.push_back(labels);
+  }
+  return json;
+}
+
+int analyse_fuzzy(const std::string& rig, bool as_json) {
+  const auto design = runtime::load_rig(stack::find_rig(rig)).design;
+  const auto generated = control::rules_from(control::delayed_1_response(design)).rules;
+  const auto agreement = analysis::agreement(generated, control::kPrintedRules);
+  if (as_json) {
+    const nlohmann::ordered_json json{{"printed", rules_json(control::kPrintedRules)},
+                                      {"generated", rules_json(generated)},
+                                      {"rules", agreement.rules},
+                                      {"exact", agreement.exact},
+                                      {"within_one_label", agreement.within_one}};
+    std::cout << json.dump(2) << '\n';
+    return runtime::kExitDone;
+  }
+  std::cout << "Table 3.7 as printed: label of the output for swing (rows) and swing rate (columns)\n";
+  print_rules(control::kPrintedRules, control::kPrintedRules);
+  std::cout
+      << "\nGenerated after Wang and Mendel from the response under delayed_1; * differs from the print\n";
+  print_rules(generated, control::kPrintedRules);
+  std::cout << "\nOf " << agreement.rules << " rules " << agreement.exact << " are the same, "
+            << agreement.within_one << " are at most one label apart.\n";
+  return runtime::kExitDone;
+}
+
+}  // namespace
+
+void add_analyse_fuzzy(CLI::App& analyse, Action& chosen) {
+  struct FuzzyOptions {
+    std::string rig = "virginia_tech_tower";
+    bool json = false;
+  };
+  auto options = std::make_shared<FuzzyOptions>();
+  auto* command = analyse.add_subcommand("fuzzy", "The printed fuzzy rules beside those generated anew");
+  command->add_option("--rig", options->rig, "rig file or name, for the design that is mapped")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print as JSON");
+  command->footer("Example: crane analyse fuzzy");
+  command->callback(
+      [options, &chosen] { chosen = [options] { return analyse_fuzzy(options->rig, options->json); }; });
+}
+
+}  // namespace crane::cli

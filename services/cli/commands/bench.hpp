@@ -1,0 +1,9 @@
+#pragma once
+/// Measurements of `crane bench`, one file each.
+#include "cli/commands/commands.hpp"
+
+namespace crane::cli {
+
+void add_bench_stop(CLI::App& bench, Action& chosen);
+
+}  // namespace crane::cli

@@ -1,0 +1,130 @@
+/// crane bench stop: how long brakes stay open when the hardware bridge is killed or hangs in the middle of a
+/// move.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/bench.hpp"
+#include "crane/boards/linked_rig.hpp"
+#include "stack/data_files.hpp"
+#include "stack/launch.hpp"
+#include "stack/realtime_session.hpp"
+#include "stack/stack.hpp"
+
+namespace crane::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct BenchStopOptions {
+  stack::LaunchOptions launch;
+  std::string rig = "emulated_servo_to_go";
+  int runs = 50;
+  bool json = false;
+};
+
+/// From the last toggle of the watchdog output.
+struct StopTimes {
+  double relay_ms = 0, brakes_ms = 0;
+};
+
+void get_to_speed(stack::RealtimeSession& session) {
+  session.arm();
+  session.request({.kind = crane_REQUEST_MOVE, .selected = {true, true, false}, .target = {1.0, 1.5, 0}},
+                  "move");
+  const auto at_speed = [&session] {
+    return std::abs(session.state()->trolley_speed_mps) > 0.3 &&
+           std::abs(session.state()->slew_speed_radps) > 0.5;
+  };
+  for (int i = 0; !at_speed(); ++i) {
+    if (i > 500) throw stack::SessionError("the crane does not get to speed");
+    session.wait(5ms);
+  }
+}
+
+/// A stack, a move of trolley and jib, and at speed the signal.
+StopTimes stop_once(stack::LaunchOptions launch, int signal) {
+  launch.bus.crane = "bench_" + std::to_string(::getpid());
+  const auto specs = stack::hardware_stack();
+  stack::ChildProcesses children;
+  stack::launch_rig(children, runtime::load_rig(launch.rig), launch);
+  stack::launch(children, specs, launch);
+  bus::Bus bus{runtime::bus_options(launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
+  stack::wait_until_ready(children, specs, bus, 15s);
+  stack::RealtimeSession session{bus, [] {
+                                   if (runtime::stop_requested()) throw stack::SessionError("interrupted");
+                                 }};
+  get_to_speed(session);
+  const bridge::RigMonitor monitor{bridge::shared_lines_name(launch.bus.crane, launch.bus.domain)};
+  const auto& lines = monitor.lines();
+  const auto signal_ns = runtime::monotonic_ns();
+  ::kill(children.pid_of("hardware_bridge").value(), signal);
+  for (int i = 0; lines.brakes_closed_ns < signal_ns; ++i) {
+    if (i > 200) throw stack::SessionError("the brakes did not close within a second");
+    ::usleep(5'000);
+  }
+  const auto ms = [&lines](std::int64_t at_ns) {
+    return static_cast<double>(at_ns - lines.toggled_ns) * 1e-6;
+  };
+  return {ms(lines.relay_dropped_ns), ms(lines.brakes_closed_ns)};
+}
+
+nlohmann::ordered_json least_and_worst(const std::vector<double>& values) {
+  const auto [least, worst] = std::minmax_element(values.begin(), values.end());
+  const auto rounded = [](double value_ms) { return std::round(value_ms * 10) / 10; };
+  return {{"least", rounded(*least)}, {"worst", rounded(*worst)}};
+}
+
+int bench_stop(BenchStopOptions options) {
+  runtime::install_stop_signals();
+  options.launch.rig = stack::find_rig(options.rig).string();
+  if (runtime::load_rig(options.launch.rig).board != "emulated")
+    throw runtime::ConfigurationError(
+        {options.launch.rig + ": board: must be \"emulated\" to be stopped like this"});
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& [name, signal] : {std::pair{"SIGKILL", SIGKILL}, std::pair{"SIGSTOP", SIGSTOP}}) {
+    std::vector<double> relay_ms, brakes_ms;
+    for (int i = 0; i < (options.runs + 1) / 2; ++i) {
+      const auto times = stop_once(options.launch, signal);
+      relay_ms.push_back(times.relay_ms);
+      brakes_ms.push_back(times.brakes_ms);
+    }
+    json.push_back({{"signal", name},
+                    {"runs", brakes_ms.size()},
+                    {"relay_open_ms", least_and_worst(relay_ms)},
+                    {"brakes_closed_ms", least_and_worst(brakes_ms)}});
+    if (options.json) continue;
+    const auto& row = json.back();
+    std::cout << name << ", " << brakes_ms.size() << " runs, from the last toggle: relay open after "
+              << row["relay_open_ms"]["least"] << " to " << row["relay_open_ms"]["worst"]
+              << " ms, brakes closed after " << row["brakes_closed_ms"]["least"] << " to "
+              << row["brakes_closed_ms"]["worst"] << " ms" << std::endl;
+  }
+  if (options.json) std::cout << json.dump(2) << '\n';
+  return runtime::kExitDone;
+}
+
+}  // namespace
+
+void add_bench_stop(CLI::App& bench, Action& chosen) {
+  auto options = std::make_shared<BenchStopOptions>();
+  auto* command = bench.add_subcommand(
+      "stop",
+      "Real time, emulated board: kill or hang the bridge at full speed, time until the brakes are closed");
+  command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
+  command->add_option("--runs", options->runs, "half of them by SIGKILL, half by SIGSTOP")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print as JSON");
+  runtime::add_bus_options(*command, options->launch.bus);
+  command->footer("Example: crane bench stop --runs 50     (about six seconds a run)");
+  command->callback([options, &chosen] { chosen = [options] { return bench_stop(*options); }; });
+}
+
+}  // namespace crane::cli

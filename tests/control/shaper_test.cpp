@@ -1,0 +1,136 @@
+/// Shaped references move a linear load without damping, phi'' + w^2 phi = x''/L, integrated in time; the
+/// swing left after the move is held against the formulas and the insensitivities of Singer, Seering and
+/// Singhose.
+#include "crane/control/shaper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "crane/control/trajectory.hpp"
+
+namespace crane::control {
+namespace {
+
+using std::numbers::pi;
+constexpr double kPeriod_s = 2;  ///< of the load the shapers are made for
+
+/// Amplitude after the reference rests, of a load with `ratio` times the frequency, for L = 1 m.
+double swing_left(const Shaper& shaper, const AxisProfile& profile, double ratio) {
+  const double w = 2 * pi * ratio / kPeriod_s, end_s = profile.duration_s() + shaper.delay_s();
+  const int steps = 20000;
+  const double h = end_s / steps;
+  double swing = 0, rate = 0;
+  for (int k = 0; k < steps; ++k) {  // leap-frog, the acceleration taken in the middle of the step
+    swing += h / 2 * rate;
+    rate += h * (shaper.at(profile, (k + 0.5) * h).acceleration - w * w * swing);
+    swing += h / 2 * rate;
+  }
+  return std::hypot(swing, rate / w);
+}
+
+/// Share of the swing that the unshaped profile leaves. Its ramp is short, so that it leaves swing at all
+/// ratios.
+double share_left(Shaping shaping, double ratio) {
+  const AxisProfile profile = timed_profile(0, 0.5, 0.45, 0.15, 0.03);
+  return swing_left({shaping, kPeriod_s}, profile, ratio) / swing_left({}, profile, ratio);
+}
+
+double expected_share(Shaping shaping, double ratio) {
+  if (shaping == Shaping::zv) return std::abs(std::cos(pi * ratio / 2));
+  if (shaping == Shaping::zvd) return std::pow(std::cos(pi * ratio / 2), 2);
+  return std::abs(1.05 / 2 * std::cos(pi * ratio) + 0.95 / 2);
+}
+
+constexpr double kIntegration = 1e-3;  // of 20000 steps over jumps of the acceleration
+
+TEST(Shapers, LeaveTheSwingOfTheoryAtAndOffTheFrequencyTheyAreMadeFor) {
+  for (const Shaping shaping : {Shaping::zv, Shaping::zvd, Shaping::ei})
+    for (const double ratio : {0.5, 0.7, 0.8, 0.9, 0.97, 1.0, 1.03, 1.1, 1.2, 1.3, 1.5})
+      EXPECT_NEAR(share_left(shaping, ratio), expected_share(shaping, ratio), kIntegration)
+          << static_cast<int>(shaping) << " at " << ratio;
+}
+
+TEST(Shapers, LeaveNothingAtTheirFrequencyButEiFivePercent) {
+  EXPECT_NEAR(share_left(Shaping::zv, 1), 0, kIntegration);
+  EXPECT_NEAR(share_left(Shaping::zvd, 1), 0, kIntegration);
+  EXPECT_NEAR(share_left(Shaping::ei, 1), 0.05, kIntegration);
+  EXPECT_NEAR(share_left(Shaping::none, 1), 1, 1e-12);
+}
+
+/// Width of the band of f T around 1 in which at most 5 % is left.
+double insensitivity(Shaping shaping) {
+  const auto edge = [shaping](double inside, double outside) {
+    for (int k = 0; k < 30; ++k) {
+      const double middle = (inside + outside) / 2;
+      (share_left(shaping, middle) <= 0.05 + 1e-4 ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  // EI is at its 5 % in the middle: search from one of its zeros outwards.
+  const double zero = shaping == Shaping::ei ? std::acos(-0.95 / 1.05) / pi : 1;
+  return edge(2 - zero, 1.5) - edge(zero, 0.5);
+}
+
+TEST(Shapers, AreAsInsensitiveAsTheLiteratureSays) {
+  EXPECT_NEAR(insensitivity(Shaping::zv), 0.06, 0.005);  // printed with two digits
+  EXPECT_NEAR(insensitivity(Shaping::zvd), 0.29, 0.005);
+  EXPECT_NEAR(insensitivity(Shaping::ei), 0.40, 0.005);
+}
+
+TEST(Shapers, BeginAndEndExactlyWhereTheirProfileDoes) {
+  const AxisProfile profile = limited_profile(0.3, 1.05, {0.5, 1, 10});
+  for (const Shaping shaping : {Shaping::none, Shaping::zv, Shaping::zvd, Shaping::ei}) {
+    const Shaper shaper(shaping, kPeriod_s);
+    const double end_s = profile.duration_s() + shaper.delay_s();
+    EXPECT_EQ(shaper.at(profile, -1).position, 0.3);
+    for (const double t : {end_s + 1e-9, end_s + 1, 1e9}) {
+      EXPECT_EQ(shaper.at(profile, t).position, 1.05);
+      EXPECT_EQ(shaper.at(profile, t).speed, 0);
+      EXPECT_EQ(shaper.at(profile, t).acceleration, 0);
+    }
+  }
+}
+
+TEST(Shapers, KeepTheLimitsOfTheirProfile) {
+  const AxisProfile profile = limited_profile(0, 2, {0.5, 1, 5});
+  for (const Shaping shaping : {Shaping::zv, Shaping::zvd, Shaping::ei}) {
+    const Shaper shaper(shaping, kPeriod_s);
+    for (double t = 0; t < profile.duration_s() + shaper.delay_s(); t += 0.01) {
+      EXPECT_LE(std::abs(shaper.at(profile, t).speed), 0.5 * (1 + 1e-12));
+      EXPECT_LE(std::abs(shaper.at(profile, t).acceleration), 1 + 1e-12);
+    }
+  }
+}
+
+TEST(Shapers, MakeAStaircaseOfAStep) {
+  const AxisProfile step = step_profile(0, 1);
+  const Shaper shaper(Shaping::zvd, kPeriod_s);
+  EXPECT_EQ(shaper.at(step, 0.5).position, 0.25);
+  EXPECT_EQ(shaper.at(step, 1.5).position, 0.75);
+  EXPECT_EQ(shaper.at(step, 2).position, 1);
+}
+
+TEST(Shapers, LastHalfAPeriodOrAWholeOneLonger) {
+  EXPECT_EQ(Shaper().delay_s(), 0);
+  EXPECT_EQ(Shaper(Shaping::zv, kPeriod_s).delay_s(), kPeriod_s / 2);
+  EXPECT_EQ(Shaper(Shaping::zvd, kPeriod_s).delay_s(), kPeriod_s);
+  EXPECT_EQ(Shaper(Shaping::ei, kPeriod_s).delay_s(), kPeriod_s);
+}
+
+TEST(Shapers, RefuseAPeriodThatIsNone) {
+  for (const double period_s : {0.0, -1.0, 1e300, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW((void)Shaper(Shaping::zv, period_s), std::invalid_argument) << period_s;
+  try {
+    (void)Shaper(Shaping::ei, -2);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "load_period_s = -2: must be in (0, 1e+06]");
+  }
+}
+
+}  // namespace
+}  // namespace crane::control

@@ -1,0 +1,57 @@
+#include "stack/started_rig_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "crane/experiment/scenario.hpp"
+#include "crane/experiment/variant.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::stack {
+namespace {
+
+class StartedRigFile : public testing::TestWithParam<std::string> {};
+
+/// What processes read must be what the components in one process get.
+TEST_P(StartedRigFile, ReadsBackAsTheRigThatRuns) {
+  const auto rig = runtime::load_rig(find_rig("virginia_tech_tower"));
+  experiment::Scenario scenario;
+  scenario.start = {0.7, 0.1, {}};
+  scenario.swing_radial_rad = 0.05;
+  scenario.load_mass_kg = 3;
+  scenario.cable_length_offset_m = 0.2;
+  const auto started = experiment::changed_by(experiment::started_by(rig, scenario), GetParam());
+  const auto file = std::filesystem::path{testing::TempDir()} / ("started_" + GetParam() + ".toml");
+  write_started_rig(file, rig, started);
+  const auto read = runtime::load_rig(file);
+  std::filesystem::remove(file);
+  EXPECT_EQ(read.start.position, started.start.position);
+  EXPECT_EQ(read.start.cable_length_offset_m, started.start.cable_length_offset_m);
+  EXPECT_EQ(read.start.swing_radial_rad, started.start.swing_radial_rad);
+  EXPECT_EQ(read.plant.load_mass_kg, started.plant.load_mass_kg);
+  EXPECT_EQ(read.terms.size(), started.terms.size());
+  EXPECT_EQ(read.sensing.swing_filter_ratio, started.sensing.swing_filter_ratio);
+  EXPECT_EQ(read.sensing.filter_speed, started.sensing.filter_speed);
+  EXPECT_EQ(read.design.crane.load_mass_kg, started.design.crane.load_mass_kg);
+  EXPECT_EQ(read.design.full_feedback_gain_pm, started.design.full_feedback_gain_pm);
+  for (std::size_t i = 0; i < plant::kAxes; ++i) {
+    EXPECT_EQ(read.design.friction[i].factor, started.design.friction[i].factor);
+    EXPECT_EQ(read.drives[i].reference_speed, started.drives[i].reference_speed);
+    EXPECT_EQ(read.drives[i].reference_acceleration, started.drives[i].reference_acceleration);
+    EXPECT_EQ(read.drives[i].reference_jerk, started.drives[i].reference_jerk);
+  }
+}
+
+std::vector<std::string> every_variant() {
+  std::vector<std::string> names{""};
+  for (const auto& variant : experiment::variants()) names.emplace_back(variant.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, StartedRigFile, testing::ValuesIn(every_variant()), [](const auto& test) {
+  std::string name = test.param.empty() ? "none" : test.param;
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace crane::stack

@@ -1,0 +1,132 @@
+// A driver's process that ends in every way a process can, with a rig that lives in another one. The rig's
+// time runs by request, so that nothing here depends on how fast the machine is.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <iostream>
+
+#include "crane/boards/linked_rig.hpp"
+#include "subject.hpp"
+
+namespace crane::bridge::test {
+namespace {
+
+std::string unique_name(const std::string& part) {
+  return "/crane_test_" + std::to_string(::getpid()) + "_" + part;
+}
+
+/// What a bridge does, without a bus: every tick 4 V on trolley and slew, brakes open, watchdog toggling.
+[[noreturn]] void drive(const std::string& name) {
+  runtime::install_stop_signals();
+  const auto rig = emulated_rig();
+  try {
+    EmulatedBoard board{rig, std::make_unique<LinkedRig>(name)};
+    for (std::int64_t tick = 0; !runtime::stop_requested(); ++tick) {
+      board.advance_to(tick * kTick_ns);
+      (void)board.read();
+      board.write({{4, 4, 0}, {true, true, true}, tick % 2 == 0});
+    }
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    ::_exit(1);
+  }
+  ::_exit(0);
+}
+
+class Death : public testing::TestWithParam<int> {
+ protected:
+  Death() : name_{unique_name("death")}, server_{rig_, name_, true, GetParam()} {
+    child_ = ::fork();
+    if (child_ == 0) drive(name_);
+    while (server_.rig().crane().truth().trolley_mps < 0.7) server_.serve_advance();
+  }
+  ~Death() override { ::kill(child_, SIGKILL); }
+
+  [[nodiscard]] bool braked() {
+    return server_.rig().crane().read().brake_closed == std::array<bool, kDrives>{true, true, true};
+  }
+  void pass(std::int64_t duration_ns) { server_.run_to(server_.rig().now_ns() + duration_ns); }
+  /// Serves the driver until its process is gone. @return its wait status
+  int serve_to_the_end() {
+    int status = 0;
+    while (::waitpid(child_, &status, WNOHANG) == 0) server_.serve_advance();
+    return status;
+  }
+
+  runtime::Rig rig_ = emulated_rig();
+  std::string name_;
+  RigServer server_;
+  pid_t child_;
+};
+
+TEST_P(Death, BySigtermLeavesZeroVoltsAndClosedBrakes) {
+  ASSERT_FALSE(braked());
+  ::kill(child_, SIGTERM);
+  EXPECT_EQ(serve_to_the_end(), 0);
+  pass(1);  // the rig sees the lines
+  EXPECT_EQ(server_.rig().drive_v(), kNothing);
+  pass(20'000'000);
+  EXPECT_TRUE(braked());
+}
+
+TEST_P(Death, BySigkillLeavesTheVoltsAndTheRelayClosesTheBrakesWithin50Ms) {
+  ASSERT_FALSE(braked());
+  ::kill(child_, SIGKILL);
+  ::waitpid(child_, nullptr, 0);
+  pass(1);  // the last lines, and the last toggle with them
+  EXPECT_NE(server_.rig().drive_v(), kNothing) << "a card holds its voltages";
+  pass(24'000'000);
+  EXPECT_FALSE(server_.rig().crane().read().watchdog_dropped);
+  pass(26'000'000);
+  EXPECT_TRUE(server_.rig().crane().read().watchdog_dropped);
+  EXPECT_TRUE(braked());
+}
+
+TEST_P(Death, BySigkillLeavesACardThatTheNextBridgeTakesOverSafely) {
+  ::kill(child_, SIGKILL);
+  ::waitpid(child_, nullptr, 0);
+  const EmulatedBoard next{rig_, std::make_unique<LinkedRig>(name_)};
+  pass(1);
+  EXPECT_EQ(server_.rig().drive_v(), kNothing);
+  pass(20'000'000);
+  EXPECT_TRUE(braked());
+}
+
+TEST_P(Death, ByNothingASecondBridgeIsRefusedWhileTheFirstLivesOrHangs) {
+  ::kill(child_, SIGSTOP);
+  try {
+    const LinkedRig second{name_};
+    FAIL() << "accepted";
+  } catch (const BoardError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("another hardware bridge uses this board"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Death, testing::Values(1, 2),
+                         [](const auto& test) { return "servo_to_go_model_" + std::to_string(test.param); });
+
+TEST(RigServer, RefusesASecondRigOfTheSameName) {
+  const auto rig = emulated_rig();
+  const auto name = unique_name("twice");
+  const RigServer first{rig, name, true, 1};
+  EXPECT_THROW((RigServer{rig, name, true, 1}), BoardError);
+}
+
+TEST(RigServer, TakesOverWhatARigThatDiedHasLeftBehind) {
+  const auto rig = emulated_rig();
+  const auto name = unique_name("left");
+  const auto child = ::fork();
+  if (child == 0) {
+    new RigServer{rig, name, true, 1};  // never destroyed, like a process that is killed
+    ::_exit(0);
+  }
+  ::waitpid(child, nullptr, 0);
+  EXPECT_NO_THROW((RigServer{rig, name, true, 1}));
+}
+
+}  // namespace
+}  // namespace crane::bridge::test

@@ -1,0 +1,103 @@
+#pragma once
+/// The boards of the conformance suite, each with the crane behind it.
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "crane/boards/emulated_board.hpp"
+#include "crane/boards/wired_rig.hpp"
+#include "crane/simulator/simulated_board.hpp"
+#include "process/simulated_plant.hpp"
+
+namespace crane::bridge::test {
+
+inline constexpr std::int64_t kTick_ns = 10'000'000;
+
+/// deploy/rigs/emulated_servo_to_go.toml
+inline runtime::Rig emulated_rig() { return runtime::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml"); }
+
+inline constexpr std::array<double, kDrives> kNothing{};
+
+/// One board, and what an observer beside the crane sees of it.
+class Subject {
+ public:
+  virtual ~Subject() = default;
+  [[nodiscard]] virtual Board& board() = 0;
+  [[nodiscard]] virtual simulator::SimulatedBoard& crane() = 0;
+  /// Volts at the amplifiers.
+  [[nodiscard]] virtual std::array<double, kDrives> amplifier_v() = 0;
+  /// The program that drives the board ends in order; the crane stays.
+  virtual void close() = 0;
+  virtual void pass(std::int64_t duration_ns) = 0;
+
+  /// Writes and lets ticks pass, toggling the watchdog output in each.
+  std::array<double, kDrives> tick(const std::array<double, kDrives>& drive_v, bool release, int ticks = 1) {
+    std::array<double, kDrives> given{};
+    for (int i = 0; i < ticks; ++i) {
+      outputs_ = {drive_v, {release, release, release}, !outputs_.watchdog_level};
+      given = board().write(outputs_);
+      pass(kTick_ns);
+    }
+    return given;
+  }
+  void open_brakes() { tick({}, true, 12); }
+  [[nodiscard]] bool braked() {
+    const auto inputs = crane().read();
+    return inputs.brake_closed == std::array<bool, kDrives>{true, true, true};
+  }
+
+ private:
+  Outputs outputs_;
+};
+
+class SimulatedSubject final : public Subject {
+ public:
+  explicit SimulatedSubject(const runtime::Rig& rig) : board_{simulator::simulated_rig_of(rig)} {}
+  Board& board() override { return board_; }
+  simulator::SimulatedBoard& crane() override { return board_; }
+  std::array<double, kDrives> amplifier_v() override { return board_.converter_v(); }
+  void close() override { board_.make_safe(); }  // this crane ends with its board
+  void pass(std::int64_t duration_ns) override { board_.advance_to(board_.now_ns() + duration_ns); }
+
+ private:
+  simulator::SimulatedBoard board_;
+};
+
+/// The driver on an emulated card.
+class CardSubject final : public Subject {
+ public:
+  CardSubject(const runtime::Rig& rig, int model) {
+    auto crane = std::make_unique<WiredRig>(rig);
+    crane->card().model = model;
+    rig_ = crane.get();
+    kept_ = std::move(crane);
+    board_ = std::make_unique<ServoToGo>(
+        rig, std::make_unique<EmulatedServoToGo>(static_cast<std::uint16_t>(rig.wiring.base_address),
+                                                 rig_->card(), *rig_));
+  }
+  Board& board() override { return *board_; }
+  simulator::SimulatedBoard& crane() override { return rig_->crane(); }
+  std::array<double, kDrives> amplifier_v() override { return rig_->drive_v(); }
+  void close() override { board_.reset(); }
+  void pass(std::int64_t duration_ns) override { rig_->advance_to(rig_->now_ns() + duration_ns); }
+
+ private:
+  std::unique_ptr<WiredRig> kept_;
+  WiredRig* rig_;
+  std::unique_ptr<ServoToGo> board_;
+};
+
+struct Kind {
+  const char* name;
+  std::function<std::unique_ptr<Subject>(const runtime::Rig&)> make;
+  friend std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
+};
+
+/// Every board there is. A new driver joins the suite here.
+inline std::vector<Kind> all_boards() {
+  return {{"simulated", [](const auto& rig) { return std::make_unique<SimulatedSubject>(rig); }},
+          {"servo_to_go_model_1", [](const auto& rig) { return std::make_unique<CardSubject>(rig, 1); }},
+          {"servo_to_go_model_2", [](const auto& rig) { return std::make_unique<CardSubject>(rig, 2); }}};
+}
+
+}  // namespace crane::bridge::test

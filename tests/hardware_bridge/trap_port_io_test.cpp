@@ -1,0 +1,120 @@
+// The driver with real in and out instructions. Without permission each of them is a fault; this program's
+// handler does what the card would have done, and the driver goes on without having noticed.
+#include <sys/io.h>
+#include <ucontext.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <csignal>
+
+#include "subject.hpp"
+
+namespace {
+
+crane::bridge::PortIo* volatile card_behind_the_fault = nullptr;
+volatile int permission_refused_with = 0;
+volatile long faults = 0;
+
+using Registers = greg_t*;
+
+void put_low(Registers registers, unsigned bits, unsigned value) {
+  const auto mask = (1LL << bits) - 1;
+  registers[REG_RAX] = (registers[REG_RAX] & ~mask) | value;
+}
+
+/// in al|ax, dx; in al|ax, imm8; out dx, al|ax; out imm8, al|ax
+void emulate(int /*signal*/, siginfo_t* /*info*/, void* context) {
+  auto* registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
+  const auto* code = reinterpret_cast<const std::uint8_t*>(registers[REG_RIP]);
+  const bool wide = code[0] == 0x66;
+  const auto* instruction = code + (wide ? 1 : 0);
+  const bool from_dx = (*instruction & 8U) != 0;
+  const auto port = static_cast<std::uint16_t>(from_dx ? registers[REG_RDX] : instruction[1]);
+  auto& card = *card_behind_the_fault;
+  switch (*instruction & 0xF7U) {
+    case 0xE4:
+      put_low(registers, 8, card.in_8(port));
+      break;
+    case 0xE5:
+      put_low(registers, 16, card.in_16(port));
+      break;
+    case 0xE6:
+      card.out_8(port, static_cast<std::uint8_t>(registers[REG_RAX]));
+      break;
+    case 0xE7:
+      card.out_16(port, static_cast<std::uint16_t>(registers[REG_RAX]));
+      break;
+    default:
+      std::signal(SIGSEGV, SIG_DFL);  // a real fault
+      return;
+  }
+  faults = faults + 1;
+  registers[REG_RIP] += (instruction - code) + (from_dx ? 1 : 2);
+}
+
+}  // namespace
+
+/// In the place of the C library's: the kernel is not asked.
+extern "C" int ioperm(unsigned long /*from*/, unsigned long /*count*/, int /*on*/) noexcept {
+  if (permission_refused_with == 0) return 0;
+  errno = permission_refused_with;
+  return -1;
+}
+
+namespace crane::bridge::test {
+namespace {
+
+class TrappedCard : public testing::Test {
+ protected:
+  TrappedCard() {
+    struct sigaction action {};
+    action.sa_sigaction = emulate;
+    action.sa_flags = SA_SIGINFO;
+    ::sigaction(SIGSEGV, &action, &before_);
+    card_behind_the_fault = &card_;
+  }
+  ~TrappedCard() override { ::sigaction(SIGSEGV, &before_, nullptr); }
+
+  runtime::Rig rig_ = emulated_rig();
+  WiredRig crane_{rig_};
+  EmulatedServoToGo card_{0x200, crane_.card(), crane_};
+  struct sigaction before_ {};
+};
+
+TEST_F(TrappedCard, RunsTheUnchangedDriverWithRealInstructions) {
+  CardSubject reference{rig_, 1};
+  {
+    ServoToGo board{rig_, open_ports(0x200)};
+    EXPECT_EQ(board.name(), "servo_to_go model 1");
+    for (int tick = 0; tick < 60; ++tick) {
+      const double v = tick < 12 ? 0 : (tick < 40 ? 6 : -10);
+      const Outputs outputs{{v, -v / 2, v / 4}, {true, true, true}, tick % 2 == 0};
+      EXPECT_EQ(board.write(outputs), reference.board().write(outputs));
+      crane_.advance_to(crane_.now_ns() + kTick_ns);
+      reference.pass(kTick_ns);
+      EXPECT_EQ(board.read().raw_counts, reference.board().read().raw_counts) << tick;
+      EXPECT_EQ(board.read().brake_closed, reference.board().read().brake_closed) << tick;
+    }
+    EXPECT_EQ(crane_.crane().truth(), reference.crane().truth());
+    EXPECT_GT(crane_.crane().truth().trolley_m, rig_.start.position[0] + 0.1);
+  }
+  EXPECT_EQ(crane_.drive_v(), (std::array<double, kDrives>{}));
+  EXPECT_GT(faults, 60 * 40);
+}
+
+TEST_F(TrappedCard, WithoutPermissionIsRefusedWithTheRemedy) {
+  permission_refused_with = EPERM;
+  try {
+    (void)open_ports(0x200);
+    FAIL() << "accepted";
+  } catch (const BoardError& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("no permission for the I/O ports"),
+                                             testing::HasSubstr("cap_sys_rawio")));
+  }
+  permission_refused_with = 0;
+}
+
+}  // namespace
+}  // namespace crane::bridge::test

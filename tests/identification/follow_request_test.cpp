@@ -1,0 +1,72 @@
+/// The request to follow a sum of sines, on the whole stack: the supervisor's limits hold for it.
+#include <gtest/gtest.h>
+
+#include "crane/experiment/metrics.hpp"
+#include "crane/experiment/scenario.hpp"
+#include "stack/data_files.hpp"
+#include "stack/experiment_run.hpp"
+
+namespace crane::stack {
+namespace {
+
+constexpr double kMiddle_m = 0.75;
+
+experiment::Scenario following(double amplitude_m, double frequency_hz, double phase_rad = 0) {
+  experiment::Scenario scenario;
+  scenario.duration_s = 14;
+  scenario.start[plant::kTrolley] = kMiddle_m;
+  control::Excitation reference{.axis = plant::kTrolley, .about = kMiddle_m, .sines = {}, .duration_s = 10};
+  reference.sines[1] = {amplitude_m, frequency_hz, phase_rad};
+  scenario.excitations.push_back({.at_s = 0.5, .reference = reference});
+  return scenario;
+}
+
+std::vector<experiment::Sample> run(const experiment::Scenario& scenario) {
+  const auto rig = runtime::load_rig(find_rig("virginia_tech_tower"));
+  const auto started = experiment::started_by(rig, scenario);
+  TickLog log{std::nullopt};
+  const auto outcome = run_in_process(started, runtime::chosen_controller("none", rig), scenario, log);
+  EXPECT_TRUE(outcome.completed) << outcome.stopped_because;
+  return experiment::samples_from(log.table(outcome.hold_tick));
+}
+
+std::string refusal_of(const experiment::Scenario& scenario) {
+  try {
+    (void)run(scenario);
+  } catch (const RunError& refused) {
+    return refused.what();
+  }
+  return "accepted";
+}
+
+TEST(FollowRequest, MovesTheReferenceAndNothingElse) {
+  const auto scenario = following(0.2, 0.25);
+  const auto& excitation = scenario.excitations.front();
+  double farthest_m = 0;
+  for (const auto& sample : run(scenario)) {
+    if (sample.time_s < excitation.at_s + 0.02) continue;
+    // Published one tick after the request was accepted, for the tick after it.
+    const auto expected = excitation.reference.at(sample.time_s - excitation.at_s - 0.01);
+    EXPECT_NEAR(sample.reference[plant::kTrolley], expected.position, 1e-9) << sample.time_s;
+    EXPECT_NEAR(sample.reference[plant::kSlew], 0, 1e-9);
+    EXPECT_NEAR(sample.position[plant::kTrolley], expected.position, 0.05);
+    farthest_m = std::max(farthest_m, std::abs(sample.position[plant::kTrolley] - kMiddle_m));
+  }
+  EXPECT_GT(farthest_m, 0.15);
+}
+
+TEST(FollowRequest, IsRefusedBeyondTheTravel) {
+  EXPECT_NE(refusal_of(following(0.7, 0.1)).find("must lie in"), std::string::npos);
+  EXPECT_NE(refusal_of(following(std::nan(""), 0.1)).find("must lie in"), std::string::npos);
+}
+
+TEST(FollowRequest, IsRefusedBeyondTheSpeed) {
+  EXPECT_NE(refusal_of(following(0.2, 2)).find("speed"), std::string::npos);
+}
+
+TEST(FollowRequest, IsRefusedWithoutAPhase) {
+  EXPECT_NE(refusal_of(following(0.2, 0.2, std::nan(""))).find("phase_rad"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace crane::stack

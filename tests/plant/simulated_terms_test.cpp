@@ -1,0 +1,200 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "closed_loop.hpp"
+#include "crane/simulator/simulated_board.hpp"
+#include "structure_motion.hpp"
+
+namespace crane::simulator {
+namespace {
+
+using plant::TermSetting;
+
+constexpr std::int64_t kStep_ns = 10'000'000;
+
+/// An effect of each kind, large enough for the encoders.
+std::vector<TermSetting> every_effect() {
+  return {
+      {"payload_mass", "", {{"delta_kg", 0.5}}},
+      {"drive_friction", "trolley", {{"coulomb_positive_v", 0.5}}},
+      {"coulomb_friction", "slew", {{"level_v", 0.2}}},
+      {"viscous_friction", "trolley", {{"vspm", 0.5}}},
+      {"direction_asymmetry", "trolley", {{"coulomb_v", 0.1}, {"viscous_vspm", 0.3}}},
+      {"stribeck_friction", "slew", {{"excess_v", 0.3}}},
+      {"position_dependent_friction", "trolley", {{"amplitude_v", 0.3}, {"wavelength", 0.2}}},
+      {"torque_ripple", "slew", {{"amplitude_v", 0.3}, {"period", 0.14}}},
+      {"motor_gain", "trolley", {{"factor", 0.9}}},
+      {"command_offset", "slew", {{"offset_v", 0.1}}},
+      {"command_dead_zone", "trolley", {{"width_v", 0.2}}},
+      {"command_delay", "trolley", {{"delay_s", 0.033}}},
+      {"actuator_lag", "slew", {{"time_constant_s", 0.05}}},
+      {"load_linear_drag", "", {{"coefficient_nspm", 0.1}}},
+      {"load_quadratic_drag", "", {{"coefficient_ns2pm2", 0.1}}},
+      {"steady_wind", "", {{"force_n", 0.3}, {"direction_rad", 1}}},
+      {"swing_pivot_friction", "", {{"coulomb_nm", 0.02}}},
+      {"jib_tilt", "", {{"angle_rad", 0.01}}},
+      {"cable_length", "", {{"delta_m", 0.05}}},
+      {"jib_flexibility", "", {{"compliance_s2", 0.003}}},
+      {"cable_elasticity", "", {{"compliance_mpn", 0.002}}},
+      {"double_pendulum", "", {{"lower_share", 0.4}, {"lower_length_m", 0.25}}},
+      {"backlash", "trolley", {{"gap", 0.004}}},
+      {"backlash", "slew", {{"gap", 0.01}}},
+      {"swing_offset", "radial", {{"offset_rad", 0.01}}},
+      {"swing_misalignment", "", {{"angle_rad", 0.1}}},
+      {"swing_scale", "tangential", {{"factor", 1.1}}},
+      {"position_scale", "slew", {{"factor", 1.02}}},
+      {"position_drift", "trolley", {{"rate", 0.01}}},
+      {"swing_delay", "radial", {{"delay_s", 0.025}}},
+      {"swing_moving_average", "tangential", {{"window_s", 0.05}}},
+  };
+}
+
+struct Record {
+  std::vector<std::array<std::int32_t, bridge::kCounters>> counts;
+  std::vector<plant::State> truth;
+  friend bool operator==(const Record&, const Record&) = default;
+};
+
+/// 5 s in which trolley and slew are driven both ways. `twice`: everything is written and read twice a tick.
+Record driven_for_5_s(const std::vector<TermSetting>& terms, bool twice = false) {
+  SimulatedRig rig;
+  rig.terms = terms;
+  SimulatedBoard board{rig};
+  bridge::Outputs outputs;
+  outputs.brake_release = {true, true, true};
+  Record record;
+  for (int tick = 0; tick < 500; ++tick) {
+    board.advance_to(tick * kStep_ns);
+    if (twice) (void)board.read();
+    record.counts.push_back(board.read().raw_counts);
+    record.truth.push_back(board.truth());
+    const double t = 0.01 * tick;
+    outputs.drive_v = {1.5 * std::cos(2.1 * t), 2 * std::cos(1.7 * t), 0.5 * std::sin(t)};
+    outputs.watchdog_level = !outputs.watchdog_level;
+    if (twice) {
+      bridge::Outputs other = outputs;
+      other.drive_v = {7, 7, 7};
+      board.write(other);
+    }
+    board.write(outputs);
+  }
+  return record;
+}
+
+bool all_finite(const Record& record) {
+  for (const plant::State& state : record.truth)
+    for (const double value : plant::to_array(state))
+      if (!std::isfinite(value)) return false;
+  return true;
+}
+
+TEST(SimulatedTerms, AreSeenByTheEncodersOneByOne) {
+  const Record plain = driven_for_5_s({});
+  ASSERT_GT(std::abs(plain.truth[100].slew_rad), 0.1);  // it moves
+  std::set<std::string> seen;
+  for (const TermSetting& term : every_effect()) {
+    SCOPED_TRACE(term.name + " " + term.axis);
+    const Record record = driven_for_5_s({term});
+    EXPECT_TRUE(all_finite(record));
+    EXPECT_NE(record.counts, plain.counts);
+    seen.insert(term.name);
+  }
+  EXPECT_EQ(seen.size(), plant::term_kinds().size());
+}
+
+TEST(SimulatedTerms, WithTheirDefaultsGiveTheSameBitsAsWithout) {
+  const Record plain = driven_for_5_s({});
+  std::vector<TermSetting> defaults;
+  for (const plant::TermKind& kind : plant::term_kinds())
+    for (const std::string_view axis : kind.axes)
+      defaults.push_back({std::string{kind.name}, std::string{axis}, {}});
+  EXPECT_EQ(driven_for_5_s(defaults), plain);
+}
+
+TEST(SimulatedTerms, RunAllTogetherAndTwiceTheSame) {
+  const Record record = driven_for_5_s(every_effect());
+  EXPECT_TRUE(all_finite(record));
+  EXPECT_EQ(driven_for_5_s(every_effect()), record);
+}
+
+TEST(SimulatedTerms, ActOnceATickHoweverOftenTheBoardIsWrittenAndRead) {
+  EXPECT_EQ(driven_for_5_s(every_effect(), true), driven_for_5_s(every_effect()));
+}
+
+TEST(SimulatedTerms, OfTheCommandGoOnWhenNobodyWrites) {
+  SimulatedRig rig;
+  rig.terms = {{"command_delay", "trolley", {{"delay_s", 0.02}}}};
+  rig.watchdog_timeout_s = 1;
+  SimulatedBoard board{rig};
+  bridge::Outputs outputs;
+  outputs.brake_release = {true, true, true};
+  for (int tick = 0; tick < 20; ++tick) {
+    outputs.watchdog_level = !outputs.watchdog_level;
+    board.write(outputs);
+    board.advance_to((tick + 1) * kStep_ns);
+  }
+  outputs.drive_v = {1, 0, 0};
+  board.write(outputs);
+  board.advance_to(22 * kStep_ns);
+  EXPECT_EQ(board.truth().trolley_mps, 0);
+  board.advance_to(30 * kStep_ns);
+  EXPECT_GT(board.truth().trolley_mps, 0.1);
+}
+
+std::vector<TermSetting> structures() {
+  return {{"jib_flexibility", "", {{"compliance_s2", 0.003}}},
+          {"cable_elasticity", "", {{"compliance_mpn", 0.002}}},
+          {"double_pendulum", "", {{"lower_share", 0.4}, {"lower_length_m", 0.25}}},
+          {"backlash", "slew", {{"gap", 0.01}}}};
+}
+
+/// The tolerance is that of the integrator's other comparisons, closed_loop.hpp's maneuvers.
+TEST(SimulatedTerms, OfTheStructureMoveAsWithRungeKuttaOf100Microseconds) {
+  const plant::Model model{{}, structures()};
+  Integrator integrator{model};
+  test::StructureMotion fine{{.trolley_m = 0.5, .radial_rad = 0.1}};
+  plant::State state = fine.state;
+  plant::InnerState inner{};
+  for (int tick = 0; tick < 200; ++tick) {
+    const plant::Actuation actuation =
+        test::driven({2 * std::cos(0.03 * tick), 2 * std::sin(0.05 * tick), 0.3});
+    integrator.advance(state, inner, actuation, test::kTick_s);
+    for (int i = 0; i < 100; ++i) fine = test::step(model, fine, actuation, 1e-4);
+  }
+  const auto a = plant::to_array(state), b = plant::to_array(fine.state);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 2e-5) << i;
+  for (std::size_t i = 0; i < model.inner_coordinates(); ++i) {
+    EXPECT_NEAR(inner[i].position, fine.inner[i].position, 2e-5) << i;
+    EXPECT_GT(std::abs(inner[i].position), 1e-4) << i;
+  }
+}
+
+TEST(SimulatedTerms, OfTheStructureSwingOnWhileBrakesHoldTheDrivesExactly) {
+  SimulatedRig rig;
+  rig.terms = structures();
+  SimulatedBoard board{rig};
+  bridge::Outputs outputs;
+  const auto run = [&](bool release, double volts, int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      outputs.brake_release = {release, release, release};
+      outputs.drive_v = {volts, volts, 0};
+      outputs.watchdog_level = !outputs.watchdog_level;
+      board.write(outputs);
+      board.advance_to(board.now_ns() + kStep_ns);
+    }
+  };
+  run(true, 2, 60);
+  EXPECT_GT(board.truth().slew_radps, 0.2);
+  run(false, 0, 100);
+  const plant::State held = board.truth();
+  EXPECT_EQ(held.slew_radps, 0);
+  EXPECT_EQ(held.trolley_mps, 0);
+  run(false, 2, 10);
+  EXPECT_EQ(board.truth().slew_rad, held.slew_rad);
+  EXPECT_NE(board.truth().tangential_rad, held.tangential_rad);
+}
+
+}  // namespace
+}  // namespace crane::simulator

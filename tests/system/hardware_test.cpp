@@ -1,0 +1,141 @@
+/// The whole hardware path on an emulated Servo-to-Go board: the maneuvers against the simulated plant, and a
+/// bridge that dies or hangs at full speed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <iostream>
+
+#include "../recording/temporary_directory.hpp"
+#include "crane/boards/linked_rig.hpp"
+#include "program_run.hpp"
+#include "running_stack.hpp"
+#include "stack/data_files.hpp"
+#include "stack/experiment_run.hpp"
+
+namespace crane::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+using recording::contents_of;
+using recording::TemporaryDirectory;
+using testing::HasSubstr;
+
+constexpr std::uint32_t kDomain = 64;
+constexpr const char* kRig = "emulated_servo_to_go";
+constexpr std::int64_t kBound_ns = 50'000'000;
+
+stack::ExperimentOptions options_for(const std::string& scenario, const std::filesystem::path& directory) {
+  stack::ExperimentOptions options;
+  options.scenario = stack::find_scenario(scenario);
+  options.rig = stack::find_rig(kRig);
+  options.directory = directory;
+  options.picture = false;
+  options.bus.domain = kDomain;
+  options.bus.crane = crane_name();
+  return options;
+}
+
+class HardwareManeuver : public testing::TestWithParam<const char*> {};
+
+/// Register by register the emulated board carries the same counts and codes as the simulated plant, so that
+/// nothing may differ but who measured; that it is equal to the last byte also means that it is within the
+/// quantisation.
+TEST_P(HardwareManeuver, ThroughTheBoardIsTheSameAsOnTheSimulatedPlant) {
+  const TemporaryDirectory directory;
+  auto options = options_for(GetParam(), directory / "simulated");
+  options.in_process = true;
+  const auto simulated = stack::run_experiment(options);
+  options.plant = stack::Plant::hardware;
+  options.directory = directory / "hardware";
+  const auto hardware = stack::run_experiment(options);
+  EXPECT_TRUE(hardware.outcome.completed) << hardware.outcome.stopped_because;
+  ASSERT_TRUE(hardware.metrics.settling_time_s && simulated.metrics.settling_time_s);
+  std::cout << GetParam() << ": settled after " << *hardware.metrics.settling_time_s
+            << " s through the board, " << *simulated.metrics.settling_time_s
+            << " s on the simulated plant\n";
+  EXPECT_EQ(*hardware.metrics.settling_time_s, *simulated.metrics.settling_time_s);
+  EXPECT_TRUE(contents_of(directory / "hardware" / "run.csv") ==
+              contents_of(directory / "simulated" / "run.csv"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Dissertation, HardwareManeuver,
+                         testing::Values("maneuver_1", "maneuver_2", "maneuver_3", "disturbance_kick"),
+                         [](const auto& test) { return std::string{test.param}; });
+
+TEST(HardwareLockstep, ARigInAProcessOfItsOwnGivesTheSameBytesAsOneInTheBridge) {
+  const TemporaryDirectory directory;
+  auto options = options_for("maneuver_1", directory / "processes");
+  options.plant = stack::Plant::hardware;
+  EXPECT_TRUE(stack::run_experiment(options).outcome.completed);
+  options.in_process = true;
+  options.directory = directory / "in_process";
+  EXPECT_TRUE(stack::run_experiment(options).outcome.completed);
+  for (const auto* file : {"run.csv", "recording.mcap"})
+    EXPECT_TRUE(contents_of(directory / "processes" / file) == contents_of(directory / "in_process" / file))
+        << file;
+}
+
+class BridgeDeath : public testing::TestWithParam<int> {};
+
+TEST_P(BridgeDeath, AtFullSpeedClosesTheBrakesWithin50MsOfTheLastToggle) {
+  RunningStack running{kDomain, kRig, stack::Plant::hardware};
+  const bridge::RigMonitor monitor{bridge::shared_lines_name(running.bus_options().crane, kDomain)};
+  running.session().arm();
+  running.session().request(
+      {.kind = crane_REQUEST_MOVE, .selected = {true, true, false}, .target = {1.0, 1.5, 0}}, "move");
+  ASSERT_TRUE(running.until(
+      [&] {
+        if (running.observer().states().empty()) return false;
+        const auto& state = running.observer().states().back();
+        return std::abs(state.trolley_speed_mps) > 0.3 && std::abs(state.slew_speed_radps) > 0.5;
+      },
+      5s));
+  const auto signal_ns = runtime::monotonic_ns();
+  running.send("hardware_bridge", GetParam());
+  ASSERT_TRUE(running.until([&] { return monitor.lines().brakes_closed_ns > signal_ns; }, 2s));
+  const auto toggled_ns = monitor.lines().toggled_ns.load();
+  const auto ms = [toggled_ns](std::int64_t at_ns) { return static_cast<double>(at_ns - toggled_ns) * 1e-6; };
+  std::cout << "after the last toggle: relay open " << ms(monitor.lines().relay_dropped_ns)
+            << " ms, brakes closed " << ms(monitor.lines().brakes_closed_ns) << " ms\n";
+  EXPECT_LE(monitor.lines().brakes_closed_ns - toggled_ns, kBound_ns);
+}
+
+INSTANTIATE_TEST_SUITE_P(By, BridgeDeath, testing::Values(SIGKILL, SIGSTOP),
+                         [](const auto& test) { return test.param == SIGKILL ? "SIGKILL" : "SIGSTOP"; });
+
+class HardwareStart : public testing::Test {
+ protected:
+  [[nodiscard]] static Ended crane(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--domain", std::to_string(kDomain), "--crane", crane_name()});
+    return run_program(stack::program_directory() / "crane", arguments);
+  }
+  recording::TemporaryDirectory directory_;
+};
+
+TEST_F(HardwareStart, WithoutAHardwareBoardInTheRigFileIsRefusedWithThoseThereAre) {
+  recording::put_contents(directory_ / "rig.toml",
+                          "extends = \"" + stack::find_rig(kRig).string() + "\"\nboard = \"simulated\"\n");
+  const auto ended = crane({"up", "--plant", "hardware", "--rig", (directory_ / "rig.toml").string()});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.errors, testing::AllOf(HasSubstr("board = simulated"), HasSubstr("servo_to_go"),
+                                           HasSubstr("emulated"), HasSubstr("--plant sim")));
+}
+
+TEST_F(HardwareStart, ALockstepRunOnARealCraneIsRefused) {
+  const auto ended = crane({"run", "maneuver_1", "--plant", "hardware", "--rig", "virginia_tech_tower",
+                            "--out", (directory_ / "out").string()});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.errors, HasSubstr("lockstep needs board = \"emulated\""));
+}
+
+TEST_F(HardwareStart, ABridgeWithoutItsRigSaysWhatToStart) {
+  const auto ended = run_program(stack::program_directory() / "crane_hardware_bridge",
+                                 {"--rig", stack::find_rig(kRig).string(), "--domain",
+                                  std::to_string(kDomain), "--crane", crane_name()});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.errors, HasSubstr("start crane_emulated_rig"));
+}
+
+}  // namespace
+}  // namespace crane::system_test

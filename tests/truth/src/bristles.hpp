@@ -1,0 +1,39 @@
+#pragma once
+/// LuGre friction (Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE TAC 40 (1995) 419):
+///   z' = v - |v| z / z_c(v),  f = s0 z + s1 z',  z_c = level(v) / s0
+/// The deflection z is advanced with v held (exact for that), apart from the motion: at speed the bristles
+/// relax within microseconds, which no explicit step of the motion could follow.
+#include <algorithm>
+#include <cmath>
+
+namespace truth {
+
+struct Bristles {
+  double stiffness = 0;  ///< s0, force per m or rad; 0: no friction
+  double damping = 0;    ///< s1, force per m/s or rad/s
+  double z = 0;
+
+  /// @param level force at which they slide @param acceleration_per_force of what they hold
+  static Bristles of(double level, double presliding, double acceleration_per_force) {
+    Bristles b;
+    b.stiffness = level / presliding;
+    b.damping = std::sqrt(b.stiffness / std::max(acceleration_per_force, 1e-9));  // half the critical one
+    return b;
+  }
+
+  [[nodiscard]] double force(double speed, double level) const {
+    if (stiffness <= 0 || level <= 0) return 0;
+    return stiffness * z + damping * (speed - std::abs(speed) * z * stiffness / level);
+  }
+
+  void advance(double speed, double level, double span_s) {
+    if (stiffness <= 0 || level <= 0) {
+      z = 0;
+      return;
+    }
+    const double slid = level / stiffness, end = speed < 0 ? -slid : slid;
+    z = end + (z - end) * std::exp(-std::abs(speed) * span_s / slid);
+  }
+};
+
+}  // namespace truth
