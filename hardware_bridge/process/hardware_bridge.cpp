@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "crane/boards/comedi.hpp"
 #include "crane/boards/emulated_board.hpp"
 #include "crane/boards/linked_rig.hpp"
 #include "crane/bridge/bridge.hpp"
@@ -36,6 +37,10 @@ std::unique_ptr<Board> make_servo_to_go(const runtime::Context& context) {
   return std::make_unique<OwnedServoToGo>(context.rig);
 }
 
+std::unique_ptr<Board> make_comedi(const runtime::Context& context) {
+  return std::make_unique<Comedi>(context.rig);
+}
+
 /// In a stack of processes the rig is one too; in a stack in one process it is here.
 std::unique_ptr<Board> make_emulated(const runtime::Context& context) {
   const auto& options = context.bus.options();
@@ -50,7 +55,8 @@ std::unique_ptr<Board> make_emulated(const runtime::Context& context) {
 }  // namespace
 
 const std::vector<BoardKind>& board_kinds() {
-  static const std::vector<BoardKind> kinds{{"servo_to_go", make_servo_to_go}, {"emulated", make_emulated}};
+  static const std::vector<BoardKind> kinds{
+      {"servo_to_go", make_servo_to_go}, {"comedi", make_comedi}, {"emulated", make_emulated}};
   return kinds;
 }
 

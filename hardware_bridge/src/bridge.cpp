@@ -18,6 +18,7 @@ Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
       states_{context.bus.publisher(topics::state, runtime::loop_endpoint(context.clock))},
       commands_{context.bus.subscriber(topics::command, runtime::loop_endpoint(context.clock))},
       requests_{context, {crane_REQUEST_ADVANCE, crane_REQUEST_KICK}} {
+  for (std::size_t i = 0; i < kDrives; ++i) drive_sign_[i] = context.rig.drives[i].sign;
   board_->make_safe();
 }
 
@@ -103,11 +104,18 @@ void Bridge::tick(std::int64_t now_ns) {
   board_->advance_to(static_cast<std::int64_t>(next) * period_ns_);
   const auto inputs = board_->read();
   const auto measured = measurement_.step(inputs.raw_counts);
-  applied_v_ = board_->write(last_line_.decide(command_, next, seen(inputs)));
+  apply(last_line_.decide(command_, next, seen(inputs)));
   auto sample = state(inputs, measured, sample_time_ns);
   states_.publish(sample);
   ++counts_.completed;
   report_latch();
+}
+
+/// Commands are positive outward; the board gets what the wiring makes of that.
+void Bridge::apply(Outputs outputs) {
+  for (std::size_t i = 0; i < kDrives; ++i) outputs.drive_v[i] *= drive_sign_[i];
+  applied_v_ = board_->write(outputs);
+  for (std::size_t i = 0; i < kDrives; ++i) applied_v_[i] *= drive_sign_[i];
 }
 
 Seen Bridge::seen(const Inputs& inputs) const {

@@ -167,8 +167,9 @@ double unexplained_v(const LastLineParameters& parameters, const Moment& moment,
   if (history.size() < age + remembered + 2) return 0;
   const double v = speed(parameters, moment, i, age);
   const double side = v > 0 ? 1 : -1;
-  double gained =
-      side * (v - speed(parameters, moment, i, age + span)) / seconds(parameters, moment, age, age + span);
+  // An axis that was going the other way has been stopped by anything, and gains from 0 on.
+  const double before = std::max(side * speed(parameters, moment, i, age + span), 0.0);
+  double gained = (std::abs(v) - before) / seconds(parameters, moment, age, age + span);
   double most_v = side * history[age].seen.applied_v[i];
   for (std::size_t k = 1; k < remembered; ++k)
     most_v = std::max(most_v, side * history[age + k].seen.applied_v[i]);

@@ -79,6 +79,23 @@ TEST(Registry, FindsEveryControllerByItsOwnNameAndNoOther) {
   EXPECT_EQ(find_controller(""), nullptr);
 }
 
+TEST(EveryController, SaysSoWhenItsAntiSwingLawCorrectsTheReference) {
+  const unsigned seed = 12;
+  std::mt19937 random(seed);
+  const auto moderate = [](std::mt19937& draw) {
+    return std::uniform_real_distribution<double>(0.1, 0.9)(draw);
+  };
+  for (const auto& controller : controllers()) {
+    const auto law = controller.make_anti_swing(Design{});
+    law->reset(random_measurement(random, moderate));
+    bool corrects = false;
+    for (int k = 0; k < 200; ++k)
+      for (const AxisReference& axis : law->step(random_measurement(random, moderate), {}).correction)
+        corrects = corrects || axis.position != 0 || axis.speed != 0 || axis.acceleration != 0;
+    EXPECT_EQ(controller.corrects_reference, corrects) << controller.name << ", seed " << seed;
+  }
+}
+
 TEST(EveryLaw, StaysFiniteForAnyFiniteInput) {
   const unsigned seed = 4711;
   std::mt19937 random(seed);

@@ -19,7 +19,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Conformance : public testing::TestWithParam<Kind> {
  protected:
-  void put_on_bench(const runtime::Rig& rig) { subject_ = GetParam().make(rig); }
+  void put_on_bench(const runtime::Rig& rig) {
+    subject_.reset();  // some boards are there once only
+    subject_ = GetParam().make(rig);
+  }
   void SetUp() override { put_on_bench(rig_); }
   /// Trolley and jib at speed, brakes open.
   void get_going() {

@@ -79,9 +79,7 @@ TEST_P(Death, BySigkillLeavesTheVoltsAndTheRelayClosesTheBrakesWithin50Ms) {
   ::waitpid(child_, nullptr, 0);
   pass(1);  // the last lines, and the last toggle with them
   EXPECT_NE(server_.rig().drive_v(), kNothing) << "a card holds its voltages";
-  pass(24'000'000);
-  EXPECT_FALSE(server_.rig().crane().read().watchdog_dropped);
-  pass(26'000'000);
+  pass(49'999'999);
   EXPECT_TRUE(server_.rig().crane().read().watchdog_dropped);
   EXPECT_TRUE(braked());
 }

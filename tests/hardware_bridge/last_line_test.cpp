@@ -307,6 +307,17 @@ TEST(LastLine, LetsAnEncoderStandStillWhileTheDrivePushesLessThanFrictionMayHold
   EXPECT_TRUE(timeline.tick(40)) << name_of(timeline.line.reason());
 }
 
+TEST(LastLine, DoesNotMistakeABrakeThatStopsAnAxisForADriveThatPushesIt) {
+  for (const double volts : {6.0, -6.0}) {
+    Timeline timeline;
+    timeline.drive_v[0] = volts;
+    timeline.tick(8);
+    timeline.drive_v[0] = 0;
+    timeline.release = false;  // this timeline's brake stops the axis dead within the tick
+    EXPECT_TRUE(timeline.tick(60)) << name_of(timeline.line.reason());
+  }
+}
+
 TEST(LastLine, DoesNotMistakeASkippedTickForAJumpOrForSpeed) {
   Timeline timeline;
   timeline.drive_v[0] = 5;

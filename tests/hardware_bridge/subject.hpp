@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "comedi_stand_in.hpp"
+#include "crane/boards/comedi.hpp"
 #include "crane/boards/emulated_board.hpp"
 #include "crane/boards/wired_rig.hpp"
 #include "crane/simulator/simulated_board.hpp"
@@ -87,6 +89,23 @@ class CardSubject final : public Subject {
   std::unique_ptr<ServoToGo> board_;
 };
 
+/// The comedi driver on a stand-in of its library.
+class ComediSubject final : public Subject {
+ public:
+  explicit ComediSubject(const runtime::Rig& rig) : device_{rig}, board_{std::make_unique<Comedi>(rig)} {}
+  Board& board() override { return *board_; }
+  simulator::SimulatedBoard& crane() override { return device_.rig().crane(); }
+  std::array<double, kDrives> amplifier_v() override { return device_.rig().drive_v(); }
+  void close() override { board_.reset(); }
+  void pass(std::int64_t duration_ns) override {
+    device_.rig().advance_to(device_.rig().now_ns() + duration_ns);
+  }
+
+ private:
+  ComediStandIn device_;
+  std::unique_ptr<Comedi> board_;
+};
+
 struct Kind {
   const char* name;
   std::function<std::unique_ptr<Subject>(const runtime::Rig&)> make;
@@ -96,6 +115,7 @@ struct Kind {
 /// Every board there is. A new driver joins the suite here.
 inline std::vector<Kind> all_boards() {
   return {{"simulated", [](const auto& rig) { return std::make_unique<SimulatedSubject>(rig); }},
+          {"comedi", [](const auto& rig) { return std::make_unique<ComediSubject>(rig); }},
           {"servo_to_go_model_1", [](const auto& rig) { return std::make_unique<CardSubject>(rig, 1); }},
           {"servo_to_go_model_2", [](const auto& rig) { return std::make_unique<CardSubject>(rig, 2); }}};
 }

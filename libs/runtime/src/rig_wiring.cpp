@@ -33,6 +33,19 @@ int read_address(TomlTable& table, int fallback) {
   return address;
 }
 
+void read_subdevices(TomlTable& table, Wiring& wiring) {
+  constexpr int kLastSubdevice = 63;
+  std::vector<int> taken;
+  const auto read = [&](std::string_view key, int& subdevice) {
+    subdevice = table.integer(key, 0, kLastSubdevice, subdevice);
+    check_unique(table, key, subdevice, taken);
+  };
+  read("counter_subdevice", wiring.counter_subdevice);
+  read("analog_output_subdevice", wiring.analog_output_subdevice);
+  read("input_subdevice", wiring.input_subdevice);
+  read("output_subdevice", wiring.output_subdevice);
+}
+
 }  // namespace
 
 void read_wiring(TomlTable& root, Rig& rig) {
@@ -40,6 +53,8 @@ void read_wiring(TomlTable& root, Rig& rig) {
   Wiring& wiring = rig.wiring;
   Lines lines;
   wiring.base_address = read_address(table, wiring.base_address);
+  wiring.device = table.text("device", wiring.device);
+  read_subdevices(table, wiring);
   wiring.estop_input = lines.input(table, "estop_input", wiring.estop_input);
   wiring.relay_closed_input = lines.input(table, "relay_closed_input", wiring.relay_closed_input);
   wiring.watchdog_output = lines.output(table, "watchdog_output", wiring.watchdog_output);

@@ -14,6 +14,8 @@ constexpr double kShortest_s = 1.0;
 constexpr double kGap = 1.5;
 /// Steps within this share of the median count as uniform.
 constexpr double kJitter = 0.02;
+/// A drive asked for less stays where friction holds it.
+constexpr double kStandingCommand_v = 0.5;
 /// Swing beyond a straight angle both ways is not radians.
 constexpr double kLargestSwing_rad = 3.3;
 
@@ -122,7 +124,7 @@ class Loader {
       if (outputs_[i].values == nullptr) continue;
       const double range = spread(*outputs_[i].values);
       if (!(range > 0))
-        problem(outputs_[i].name, "constant or empty", "a sensor that never changes says nothing");
+        judge_constant(static_cast<Output>(i));
       else if (i >= kRadialSwing && largest(*outputs_[i].values) > kLargestSwing_rad)
         problem(outputs_[i].name, "reaches " + number(largest(*outputs_[i].values)),
                 "a swing angle in radians stays below " + number(kLargestSwing_rad) + "; degrees?");
@@ -135,6 +137,18 @@ class Loader {
         problem(commands_[axis].name, "reaches " + number(most) + " V",
                 "the drive takes " + number(rig_.drives[axis].volt_limit_v) + " V");
     }
+  }
+
+  /// An axis that is not asked to move, and the swing it would excite, may stand still.
+  void judge_constant(Output output) {
+    const Output drive = output == kTrolleyPosition || output == kRadialSwing ? kTrolleyPosition : kSlewAngle;
+    const auto* command = commands_[drive].values;
+    const bool asked = command == nullptr || largest(*command) > kStandingCommand_v;
+    const bool measured = std::isfinite(spread(*outputs_[output].values));
+    if (asked || !measured)
+      problem(outputs_[output].name, "constant or empty", "a sensor that never changes says nothing");
+    else
+      note(outputs_[output].name + " stands still");
   }
 
   void check_slew_unit() {

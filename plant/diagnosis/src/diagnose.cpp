@@ -7,6 +7,7 @@
 
 #include "crane/diagnosis/diagnosis.hpp"
 #include "held_out.hpp"
+#include "next_experiment.hpp"
 #include "study.hpp"
 #include "unexplained.hpp"
 
@@ -15,6 +16,11 @@ namespace {
 
 /// A score this unlikely by luck is something.
 constexpr double kSignificant = 0.01;
+/// Held-out data are fewer: they have to agree, not to prove it alone.
+constexpr double kHeldOutWin = 0.9;
+/// Mean square of the whitened residual beyond which noise and a coloured force cannot have made it. Swing
+/// keeps to 1 within a few percent; a drive that breaks loose a moment too late or early leaves more.
+constexpr double kWorstSwing = 1.25, kWorstDrive = 4;
 /// What improves the training loss by a smaller share is of no consequence for the crane.
 constexpr double kLeastShare = 0.01;
 /// A second effect has to be worth more than a better-fitting shape of the first.
@@ -40,6 +46,13 @@ bool same(const Effects& a, const Effects& b) {
 bool holds(const Effects& effects, const Candidate* candidate) {
   return std::any_of(effects.begin(), effects.end(),
                      [&](const Effect& e) { return e.candidate == candidate; });
+}
+
+double mean_square(const Fits& fits) {
+  double sum = 0, count = 0;
+  for (const WindowFit& fit : fits)
+    sum += fit.residual.squaredNorm(), count += static_cast<double>(fit.residual.size());
+  return count > 0 ? sum / count : 0;
 }
 
 class Search {
@@ -79,11 +92,15 @@ class Search {
   /// Better in training by a share that matters, and out of sample beyond doubt.
   [[nodiscard]] bool accepted(const Fitted& f, const Fitted& before, double share) const {
     if (before.train.loss - f.train.loss < share * base_.train.loss) return false;
-    return block_win(f, before) > 1 - kSignificant;
+    const Wins wins = block_wins(f, before);
+    return wins.all > 1 - kSignificant && wins.held_out > kHeldOutWin;
   }
 
-  /// Share of resamples of all blocks, training and held out, in which `f` is better than `before`.
-  [[nodiscard]] double block_win(const Fitted& f, const Fitted& before) const {
+  /// Shares of resamples of all blocks in which `f` is better than `before`: in all, in the held-out ones.
+  struct Wins {
+    double all = 0, held_out = 0;
+  };
+  [[nodiscard]] Wins block_wins(const Fitted& f, const Fitted& before) const {
     std::vector<double> difference;
     for (std::size_t i = 0; i < f.train.blocks.size(); ++i)
       difference.push_back(before.train.blocks[i] - f.train.blocks[i]);
@@ -93,7 +110,7 @@ class Search {
     const double extra =
         price() * (static_cast<double>(f.parameters) - static_cast<double>(before.parameters));
     std::mt19937_64 random(request_.seed);
-    int wins = 0;
+    Wins wins;
     for (int i = 0; i < kVotes; ++i) {
       double all = -extra, held_out = 0;
       for (std::size_t k = 0; k < difference.size(); ++k) {
@@ -101,9 +118,10 @@ class Search {
         all += difference[at];
         if (at >= training) held_out += difference[at];
       }
-      wins += all > 0 && (f.test.blocks.empty() || held_out > 0) ? 1 : 0;
+      wins.all += all > 0 ? 1.0 / kVotes : 0;
+      wins.held_out += f.test.blocks.empty() || held_out > 0 ? 1.0 / kVotes : 0;
     }
-    return static_cast<double>(wins) / kVotes;
+    return wins;
   }
 
   Effect begin(const Score& score) const {
@@ -212,7 +230,14 @@ class Search {
     const std::vector<Unexplained> left = find_unexplained(study_, best.effects, best.train);
     const double explained = base_.train.loss - best.train.loss;
     double doubtful = 0;
-    if (!left.empty()) {
+    const double excess =
+        std::max(mean_square(best.train.load) / kWorstSwing, mean_square(best.train.drive) / kWorstDrive);
+    if (excess > 1) {
+      result_.remainder.predictable_fraction = 1 - 1 / excess;
+      result_.remainder.from.emplace_back(mean_square(best.train.load) > kWorstSwing
+                                              ? "swing: more than sensor noise and a coloured force leave"
+                                              : "drives: more than sensor noise and a coloured force leave");
+    } else if (!left.empty()) {
       result_.remainder.predictable_fraction = left[0].fraction;
       for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
         result_.remainder.from.push_back(left[i].variable);
@@ -220,8 +245,9 @@ class Search {
     }
     const bool something = !left.empty() && left[0].fraction > kPatternShare;
     if (best.effects.empty()) {
-      result_.verdict = something ? Verdict::unknown : Verdict::none;
-    } else if (something && doubtful > kDoubtful * explained) {
+      result_.verdict = something || excess > 1 ? Verdict::unknown : Verdict::none;
+    } else if (excess > 1 ||
+               (something && (doubtful > kDoubtful * explained || left[0].fraction > kDoubtful))) {
       result_.verdict = Verdict::unknown;
     } else {
       name(best);
@@ -229,6 +255,7 @@ class Search {
     if (result_.verdict != Verdict::none) report_causes(best);
     request_.progress(0.93, "held-out runs");
     result_.held_out = held_out(rig_, study_, test_, best.effects, request_.seed);
+    if (!rivals_.empty()) propose(best);
     result_.traces = traces(test_, study_.base(), study_.with(best.effects));
     for (const Effect& effect : best.effects)
       result_.extension.push_back(effect.candidate->setting(effect.values));
@@ -239,7 +266,8 @@ class Search {
   void name(const Fitted& best) {
     std::vector<const Fitted*> rivals;
     for (const Fitted& fitted : all_)
-      if (fitted.effects.size() == best.effects.size()) rivals.push_back(&fitted);
+      if (fitted.effects.size() == best.effects.size() && accepted(fitted, base_, kLeastShare))
+        rivals.push_back(&fitted);
     const std::vector<double> picked = frequencies(rivals);
     for (std::size_t r = 0; r < rivals.size(); ++r)
       for (const Effect& effect : rivals[r]->effects) frequency_[effect.candidate] += picked[r];
@@ -260,6 +288,23 @@ class Search {
       if (std::find(result_.ambiguous_with.begin(), result_.ambiguous_with.end(), rival->cause) ==
           result_.ambiguous_with.end())
         result_.ambiguous_with.push_back(rival->cause);
+  }
+
+  /// The motion that tells the first effect from its strongest rival; what the best model leaves is the
+  /// noise.
+  void propose(const Fitted& best) {
+    const Candidate* rival = rivals_[0];
+    const auto single = std::find_if(singles_.begin(), singles_.end(),
+                                     [&](const Fitted& f) { return f.effects[0].candidate == rival; });
+    if (single == singles_.end()) return;
+    std::array<double, kOutputs> noise{};
+    for (std::size_t i = 0; i < kOutputs; ++i) {
+      const auto found = result_.held_out.noise.find(kOutputNames[i]);
+      noise[i] = found == result_.held_out.noise.end() ? 1e-3 : found->second;
+    }
+    request_.progress(0.95, "which motion would tell them apart");
+    result_.next_experiment = propose_experiment(rig_, *best.effects[0].candidate, best.effects[0].values,
+                                                 *rival, single->effects[0].values, noise);
   }
 
   void report_causes(const Fitted& best) {

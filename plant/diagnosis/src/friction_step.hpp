@@ -9,6 +9,8 @@ namespace crane::diagnosis {
 
 /// Slower than this, friction's step at standstill is resolved implicitly.
 inline constexpr double kCreep = 0.004;
+/// Slower than this is standstill; a faster axis that turns inside a step comes to rest first.
+inline constexpr double kStandstill = 2e-4;
 
 struct FrictionStep {
   double speed = 0;     ///< at the end
@@ -37,18 +39,16 @@ double implicit_speed(double c, double k, Friction&& friction) {
 template <class Friction>
 FrictionStep friction_step(double v, double a, double g, double h, Friction&& friction) {
   if (std::abs(v) > kCreep) {
-    double mean = v + 0.5 * h * (a - g * friction(v));
-    mean = v + 0.5 * h * (a - g * friction(mean));
-    const double f = friction(mean), end = v + h * (a - g * f);
+    const double mean = v + 0.5 * h * (a - g * friction(v));
+    const double f = friction(v + 0.5 * h * (a - g * friction(mean))), end = v + h * (a - g * f);
     if (end * v > 0 && std::abs(end) > kCreep) return {end, 0.5 * h * (v + end), f};
-    if (end * v <= 0) {  // comes to rest after tau, then begins again from there
-      const double slope = a - g * friction(v);
-      const double tau = std::clamp(-v / slope, 0.0, h);
-      const double rest = h - tau;
-      const double after = implicit_speed(rest * a, rest * g, friction);
-      const double taken = h * g != 0 ? (v + h * a - after) / (h * g) : 0;
-      return {after, 0.5 * v * tau + 0.5 * after * rest, taken};
-    }
+  }
+  const double slope = a - g * friction(v);
+  if (std::abs(v) > kStandstill && v * slope < 0 && std::abs(v) < h * std::abs(slope)) {
+    const double rest = h + v / slope;  // what is left of the step when it has come to rest
+    const double after = implicit_speed(rest * a, rest * g, friction);
+    const double taken = h * g != 0 ? (v + h * a - after) / (h * g) : 0;
+    return {after, 0.5 * v * (h - rest) + 0.5 * after * rest, taken};
   }
   const double end = implicit_speed(v + h * a, h * g, friction);
   const double taken = h * g != 0 ? (v + h * a - end) / (h * g) : 0;

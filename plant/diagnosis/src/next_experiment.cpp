@@ -106,22 +106,23 @@ class Comparison {
   std::vector<MatrixXd> bases_;
 };
 
-/// Both structured parts of one run.
+/// The structured parts of one run in which either cause may show.
 class Rival {
  public:
-  Rival(const runtime::Rig& rig, const Crane& base, const PreparedRun& run,
-        const std::array<double, kOutputs>& noise)
-      : base_(base), drive_(run, Part::drive, noise), load_(run, Part::load, noise) {
-    if (rig.plant.load_mass_kg == 0) load_used_ = false;
+  Rival(const Crane& base, const PreparedRun& run, const std::array<double, kOutputs>& noise,
+        const Candidate& a, const Candidate& b)
+      : base_(base) {
+    if (a.drive || b.drive) parts_.emplace_back(run, Part::drive, noise);
+    if (a.load || b.load) parts_.emplace_back(run, Part::load, noise);
   }
 
-  /// Mean squares by output, drives first; so many columns as there are outputs.
+  /// Of each part.
   [[nodiscard]] std::vector<MatrixXd> misfits(const Hypothesis& hypothesis) {
     Crane crane = base_;
     crane.terms.push_back(hypothesis.candidate->setting(hypothesis.values));
-    std::vector<MatrixXd> both{drive_.misfit(crane)};
-    if (load_used_) both.push_back(load_.misfit(crane));
-    return both;
+    std::vector<MatrixXd> all;
+    for (Comparison& part : parts_) all.push_back(part.misfit(crane));
+    return all;
   }
 
   /// Gauss-Newton from the values given, inside the bounds.
@@ -168,8 +169,7 @@ class Rival {
   }
 
   Crane base_;
-  Comparison drive_, load_;
-  bool load_used_ = true;
+  std::vector<Comparison> parts_;
 };
 
 /// Two causes on one drive show only while that drive is asked to move.
@@ -191,7 +191,7 @@ std::optional<double> separation_of(const runtime::Rig& rig, const SafeMotion& m
   crane.terms.push_back(truth.candidate->setting(truth.values));
   const auto run = safe_run(rig, crane, motion);
   if (!run) return std::nullopt;
-  Rival rival(rig, base, *run, noise);
+  Rival rival(base, *run, noise, *truth.candidate, *other.candidate);
   rival.refit(other);
   const auto left = rival.misfits(other),
              own = rival.misfits(truth);  // the replay of smoothed data errs a little

@@ -76,7 +76,7 @@ void Problem::weigh(const std::vector<std::vector<VectorXd>>& residuals) {
                      sorted.end());
     const double most = kNoisiest * sorted[sorted.size() / 2];
     for (std::size_t w = 0; w < squares.size(); ++w)
-      if (squares[w] > most) weights_[output][w] = std::sqrt(most / squares[w]);
+      if (most > 0 && squares[w] > most) weights_[output][w] = std::sqrt(most / squares[w]);
   }
 }
 

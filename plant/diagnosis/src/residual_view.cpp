@@ -49,24 +49,26 @@ std::vector<double> without_start(const Trace& trace, const std::vector<double>&
 class ViewBuilder {
  public:
   ViewBuilder(ResidualView& view, const Trace& trace, const Run& run)
-      : view_(view), run_(run), rows_(trace.measured.size()) {
-    output_ = static_cast<std::size_t>(
-        std::find(kOutputNames.begin(), kOutputNames.end(), trace.column) - kOutputNames.begin());
-    const bool radial = output_ == kTrolleyPosition || output_ == kRadialSwing;
-    drive_ = radial ? kTrolleyPosition : kSlewAngle;
-    swing_ = radial ? kRadialSwing : kTangentialSwing;
-    add("time [s]", trace.time_s);
-    if (run.has(drive_)) {
+      : view_(view), time_s_(trace.time_s), run_(run), rows_(trace.measured.size()) {
+    const auto output =
+        std::find(kOutputNames.begin(), kOutputNames.end(), trace.column) - kOutputNames.begin();
+    if (output == kSlewAngle || output == kTangentialSwing) drive_ = kSlewAngle, swing_ = kTangentialSwing;
+  }
+
+  void add_all() {
+    const bool radial = drive_ == kTrolleyPosition;
+    add("time [s]", time_s_);
+    if (run_.has(drive_)) {
       const std::string unit = radial ? "m" : "rad";
       const std::string name = radial ? "trolley" : "slew";
-      add(name + " position [" + unit + "]", run.measured[drive_]);
+      add(name + " position [" + unit + "]", run_.measured[drive_]);
       add(name + " speed [" + unit + "/s]", rate(drive_));
     }
-    if (run.has(swing_)) {
-      add("swing [rad]", run.measured[swing_]);
+    if (run_.has(swing_)) {
+      add("swing [rad]", run_.measured[swing_]);
       add("swing rate [rad/s]", rate(swing_));
     }
-    if (run.has(drive_)) add(radial ? "trolley command [V]" : "slew command [V]", command());
+    if (run_.has(drive_)) add(radial ? "trolley command [V]" : "slew command [V]", command());
   }
 
  private:
@@ -89,8 +91,9 @@ class ViewBuilder {
   }
 
   ResidualView& view_;
+  const std::vector<double>& time_s_;
   const Run& run_;
-  std::size_t rows_, output_;
+  std::size_t rows_;
   Output drive_ = kTrolleyPosition, swing_ = kRadialSwing;
 };
 
@@ -113,7 +116,7 @@ std::vector<ResidualView> residual_views(const Diagnosis& diagnosis, const runti
     const auto after = without_start(trace, trace.extended, *run, rig);
     view->baseline.insert(view->baseline.end(), before.begin(), before.end());
     view->extended.insert(view->extended.end(), after.begin(), after.end());
-    ViewBuilder(*view, trace, *run);
+    ViewBuilder(*view, trace, *run).add_all();
   }
   for (ResidualView& view : views)
     for (Abscissa& abscissa : view.against) abscissa.values.resize(view.baseline.size(), std::nan(""));

@@ -1,5 +1,6 @@
 #include "whitening.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -109,6 +110,7 @@ Whitener::Whitener(const std::vector<VectorXd>& residuals, double period_s, doub
       }
     }
   }
+  disturbance_.noise = std::max(disturbance_.noise, kLeastNoise);
   for (const VectorXd& r : residuals) prepare(r.size());
 }
 

@@ -11,6 +11,9 @@
 
 namespace crane::diagnosis {
 
+/// m or rad: no encoder is finer, and an axis that stands still leaves nothing at all.
+inline constexpr double kLeastNoise = 1e-7;
+
 struct Disturbance {
   double noise = 0;          ///< s_n, m or rad
   double acceleration = 0;   ///< s_d, m/s2 or rad/s2

@@ -24,7 +24,9 @@ void add_topic(CLI::App& app, Action& chosen);
 void add_record(CLI::App& app, Action& chosen);
 void add_log(CLI::App& app, Action& chosen);
 void add_identify(CLI::App& app, Action& chosen);
+void add_diagnose(CLI::App& app, Action& chosen);
 void add_analyse(CLI::App& app, Action& chosen);
+void add_hw(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
 
 }  // namespace crane::cli

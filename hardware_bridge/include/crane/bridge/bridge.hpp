@@ -35,6 +35,7 @@ class Bridge : public runtime::Component {
   void take_commands();
   void take_requests();
   void tick(std::int64_t now_ns);
+  void apply(Outputs outputs);
   void report_latch();
   [[nodiscard]] Seen seen(const Inputs& inputs) const;
   [[nodiscard]] msg::State state(const Inputs& inputs, const control::Measurement& measured,
@@ -56,7 +57,8 @@ class Bridge : public runtime::Component {
   std::uint64_t until_tick_ = 0;       ///< lockstep: runs up to this tick
   std::int64_t start_ns_ = 0;          ///< realtime: when tick 0 was
   std::uint32_t overruns_ = 0;
-  std::array<double, kDrives> applied_v_{};  ///< what the converters give
+  std::array<int, kDrives> drive_sign_{};    ///< which way a positive voltage moves an axis
+  std::array<double, kDrives> applied_v_{};  ///< what the converters give, positive outward
   Reason reported_ = Reason::none;
 };
 

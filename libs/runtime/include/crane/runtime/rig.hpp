@@ -60,7 +60,9 @@ struct DriveLines {
 /// What is connected to which line of the board; counters and analog outputs stand with encoders and drives.
 /// Inputs are contacts to ground, closed when all is well, so that a broken wire reads as trouble.
 struct Wiring {
-  int base_address = 0x200;       ///< servo_to_go: 0x200 + 0x20 n, n = 0..15
+  int base_address = 0x200;             ///< servo_to_go: 0x200 + 0x20 n, n = 0..15
+  std::string device = "/dev/comedi0";  ///< comedi: device file, and its subdevices; those of an s626
+  int counter_subdevice = 5, analog_output_subdevice = 1, input_subdevice = 2, output_subdevice = 3;
   int estop_input = 0;            ///< 0..15; contact opens with the emergency stop
   int relay_closed_input = 10;    ///< 0..15; contact closes with the watchdog relay
   int watchdog_output = 19;       ///< 16..31; has to toggle every tick

@@ -15,7 +15,8 @@ namespace crane::diagnosis {
 /// report.json; fields in docs/diagnosis.md.
 [[nodiscard]] nlohmann::ordered_json to_json(const Diagnosis& diagnosis);
 
-/// A rig file that extends that of `rig` (by its absolute path) with the terms of the diagnosis after its own.
+/// A rig file that extends that of `rig` (by its absolute path) with the terms of the diagnosis after its
+/// own.
 [[nodiscard]] std::string extended_rig_text(const runtime::Rig& rig, const Diagnosis& diagnosis);
 
 /// @param test the held-out runs that were given to diagnose()

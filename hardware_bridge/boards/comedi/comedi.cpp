@@ -1,0 +1,220 @@
+#include "crane/boards/comedi.hpp"
+
+#include <comedilib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+namespace crane::bridge {
+namespace {
+
+constexpr double kNeeded_v = 9.9;  // ranges of calibrated boards end a little below 10 V
+constexpr int kFirstOutputLine = 16;
+constexpr lsampl_t k24Bits = 0xFFFFFF;
+
+constexpr std::int32_t counts_of_24_bits(lsampl_t value) {
+  return static_cast<std::int32_t>(value << 8) >> 8;
+}
+
+unsigned output_bit(int line) { return 1U << static_cast<unsigned>(line - kFirstOutputLine); }
+
+unsigned as_index(int value) { return static_cast<unsigned>(value); }
+
+}  // namespace
+
+Comedi::Handle::~Handle() {
+  if (device != nullptr) ::comedi_close(device);
+}
+
+Comedi::Comedi(const runtime::Rig& rig) : wiring_{rig.wiring} {
+  handle_.device = ::comedi_open(wiring_.device.c_str());
+  if (handle_.device == nullptr)
+    fail(std::string{"cannot be opened: "} + std::strerror(errno) +
+         "; load its driver (comedi_config, lsmod), or correct device in [wiring]");
+  name_ = std::string{"comedi "} + ::comedi_get_board_name(handle_.device);
+  lock(wiring_.counter_subdevice, COMEDI_SUBD_COUNTER, "counter_subdevice");
+  lock(wiring_.analog_output_subdevice, COMEDI_SUBD_AO, "analog_output_subdevice");
+  lock(wiring_.input_subdevice, COMEDI_SUBD_DIO, "input_subdevice");
+  lock(wiring_.output_subdevice, COMEDI_SUBD_DIO, "output_subdevice");
+  const std::array<double, kCounters> start{rig.start.position[0], rig.start.position[1],
+                                            rig.start.position[2], rig.start.swing_radial_rad,
+                                            rig.start.swing_tangential_rad};
+  for (std::size_t i = 0; i < kCounters; ++i) {
+    const auto& encoder = rig.encoders[i];
+    if (encoder.counts_per_unit <= 0) continue;
+    const auto counts = std::llround(encoder.sign * start[i] * encoder.counts_per_unit);
+    counters_.push_back({i, as_index(encoder.channel), static_cast<std::int32_t>(counts)});
+    require_channel(wiring_.counter_subdevice, as_index(encoder.channel), "counter_subdevice");
+  }
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    present_[i] = rig.drives[i].present;
+    if (present_[i]) find_converter(i, as_index(rig.drives[i].dac_channel));
+  }
+  make_safe();
+  find_lines();
+  make_safe();  // what the outputs showed before they were outputs
+  for (const auto& counter : counters_) start_counter(counter);
+}
+
+Comedi::~Comedi() { make_safe(); }
+
+void Comedi::fail(const std::string& what) const {
+  throw BoardError("comedi device " + wiring_.device + ": " + what);
+}
+
+void Comedi::lock(int subdevice, int type, const char* key) {
+  const auto index = as_index(subdevice);
+  const auto place = std::string{key} + " = " + std::to_string(subdevice);
+  if (subdevice >= ::comedi_get_n_subdevices(handle_.device) ||
+      ::comedi_get_subdevice_type(handle_.device, index) != type)
+    fail(place + " is no subdevice of that kind on " + name_ +
+         ": correct [wiring] (comedi_board_info lists them)");
+  if (::comedi_lock(handle_.device, index) != 0) fail(place + " is in use by another program: stop it first");
+}
+
+void Comedi::require_channel(int subdevice, unsigned channel, const char* key) const {
+  const int channels = ::comedi_get_n_channels(handle_.device, as_index(subdevice));
+  if (static_cast<int>(channel) >= channels)
+    fail(std::string{key} + " has " + std::to_string(channels) + " channels, the rig file uses channel " +
+         std::to_string(channel));
+}
+
+void Comedi::find_converter(std::size_t drive, unsigned channel) {
+  const auto subdevice = as_index(wiring_.analog_output_subdevice);
+  require_channel(wiring_.analog_output_subdevice, channel, "analog_output_subdevice");
+  const int ranges = ::comedi_get_n_ranges(handle_.device, subdevice, channel);
+  for (unsigned range = 0; static_cast<int>(range) < ranges; ++range) {
+    const auto* found = ::comedi_get_range(handle_.device, subdevice, channel, range);
+    if (found == nullptr || found->unit != UNIT_volt || found->min > -kNeeded_v || found->max < kNeeded_v)
+      continue;
+    converters_.push_back({drive, channel, range, found->min, found->max,
+                           ::comedi_get_maxdata(handle_.device, subdevice, channel)});
+    return;
+  }
+  fail("analog output " + std::to_string(channel) + " has no range of +-10 V: use another board");
+}
+
+/// Directions of all lines in use.
+void Comedi::find_lines() {
+  const auto direct = [this](int subdevice, int channel, unsigned direction, const char* key) {
+    require_channel(subdevice, as_index(channel), key);
+    if (::comedi_dio_config(handle_.device, as_index(subdevice), as_index(channel), direction) < 0)
+      fail(std::string{key} + ": channel " + std::to_string(channel) + " does not take its direction");
+  };
+  const auto input = [&](int line) {
+    direct(wiring_.input_subdevice, line, COMEDI_INPUT, "input_subdevice");
+  };
+  const auto output = [&](int line) {
+    direct(wiring_.output_subdevice, line - kFirstOutputLine, COMEDI_OUTPUT, "output_subdevice");
+    output_mask_ |= output_bit(line);
+  };
+  input(wiring_.estop_input);
+  input(wiring_.relay_closed_input);
+  output(wiring_.watchdog_output);
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    if (!present_[i]) continue;
+    const auto& lines = wiring_.drives[i];
+    for (const int line : {lines.limit_low_input, lines.limit_high_input, lines.brake_closed_input})
+      input(line);
+    output(lines.brake_release_output);
+  }
+}
+
+void Comedi::start_counter(const Counter& counter) {
+  const auto subdevice = as_index(wiring_.counter_subdevice);
+  const auto label = "counter " + std::to_string(counter.channel);
+  if (::comedi_get_maxdata(handle_.device, subdevice, counter.channel) < k24Bits)
+    fail(label + " has less than 24 bits: use another board");
+  if (::comedi_set_counter_mode(handle_.device, subdevice, counter.channel,
+                                NI_GPCT_COUNTING_MODE_QUADRATURE_X4_BITS) < 0 ||
+      ::comedi_arm_channel(handle_.device, subdevice, counter.channel, NI_GPCT_ARM_IMMEDIATE) < 0)
+    fail(label + " does not count quadrature: use another board");
+  // Last: some drivers take every configuration for a new count.
+  const auto wanted = static_cast<lsampl_t>(counter.start_counts) & k24Bits;
+  lsampl_t found = 0;
+  if (::comedi_data_write(handle_.device, subdevice, counter.channel, 0, AREF_GROUND, wanted) < 0 ||
+      ::comedi_data_read(handle_.device, subdevice, counter.channel, 0, AREF_GROUND, &found) < 0)
+    fail(label + " does not answer");
+  // An encoder that moves meanwhile changes the last bits only.
+  constexpr std::int32_t kTolerance_counts = 0x1000;
+  if (std::abs(counts_of_24_bits(found - wanted)) > kTolerance_counts)
+    fail(label + " does not keep what it is given: use another channel, or another board");
+}
+
+Inputs Comedi::read() {
+  std::array<lsampl_t, kCounters> values{};
+  std::array<lsampl_t, 2> lines{0, 0};  // writes nothing, reads all
+  std::array<comedi_insn, kCounters + 1> instructions{};
+  unsigned count = 0;
+  for (const auto& counter : counters_) {
+    instructions[count] = {INSN_READ,
+                           1,
+                           &values[count],
+                           as_index(wiring_.counter_subdevice),
+                           CR_PACK(counter.channel, 0, AREF_GROUND),
+                           {}};
+    ++count;
+  }
+  instructions[count] = {INSN_BITS, 2, lines.data(), as_index(wiring_.input_subdevice), 0, {}};
+  comedi_insnlist list{count + 1, instructions.data()};
+  if (::comedi_do_insnlist(handle_.device, &list) != static_cast<int>(count + 1))
+    fail("cannot be read any more");
+
+  Inputs inputs;
+  for (std::size_t i = 0; i < counters_.size(); ++i)
+    inputs.raw_counts[counters_[i].coordinate] = counts_of_24_bits(values[i]);
+  const auto closed = [&lines](int line) { return (lines[1] >> as_index(line) & 1U) == 0; };  // active low
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    const auto& of_drive = wiring_.drives[i];
+    inputs.limit_low[i] = present_[i] && !closed(of_drive.limit_low_input);
+    inputs.limit_high[i] = present_[i] && !closed(of_drive.limit_high_input);
+    inputs.brake_closed[i] = !present_[i] || closed(of_drive.brake_closed_input);
+  }
+  inputs.estop_pressed = !closed(wiring_.estop_input);
+  inputs.watchdog_dropped = !closed(wiring_.relay_closed_input);
+  return inputs;
+}
+
+unsigned Comedi::code(const Converter& converter, double voltage_v) const noexcept {
+  comedi_range range{converter.low_v, converter.high_v, UNIT_volt};
+  const double finite_v = std::isfinite(voltage_v) ? voltage_v : 0;
+  return ::comedi_from_phys(std::clamp(finite_v, range.min, range.max), &range, converter.largest);
+}
+
+double Comedi::voltage_v(const Converter& converter, unsigned code) const noexcept {
+  comedi_range range{converter.low_v, converter.high_v, UNIT_volt};
+  return ::comedi_to_phys(code, &range, converter.largest);
+}
+
+std::array<double, kDrives> Comedi::write(const Outputs& outputs) {
+  const auto subdevice = as_index(wiring_.analog_output_subdevice);
+  std::array<double, kDrives> given_v{};
+  for (const auto& converter : converters_) {
+    const auto value = code(converter, outputs.drive_v[converter.drive]);
+    if (::comedi_data_write(handle_.device, subdevice, converter.channel, converter.range, AREF_GROUND,
+                            value) < 0)
+      fail("analog output " + std::to_string(converter.channel) + " cannot be written any more");
+    given_v[converter.drive] = voltage_v(converter, value);
+  }
+  unsigned bits = outputs.watchdog_level ? output_bit(wiring_.watchdog_output) : 0;
+  for (std::size_t i = 0; i < kDrives; ++i)
+    if (present_[i] && outputs.brake_release[i]) bits |= output_bit(wiring_.drives[i].brake_release_output);
+  if (::comedi_dio_bitfield2(handle_.device, as_index(wiring_.output_subdevice), output_mask_, &bits, 0) < 0)
+    fail("outputs cannot be written any more");
+  return given_v;
+}
+
+/// Whatever fails, the rest is tried.
+void Comedi::make_safe() noexcept {
+  for (const auto& converter : converters_)
+    ::comedi_data_write(handle_.device, as_index(wiring_.analog_output_subdevice), converter.channel,
+                        converter.range, AREF_GROUND, code(converter, 0));
+  unsigned bits = 0;
+  if (output_mask_ != 0)
+    ::comedi_dio_bitfield2(handle_.device, as_index(wiring_.output_subdevice), output_mask_, &bits, 0);
+}
+
+}  // namespace crane::bridge

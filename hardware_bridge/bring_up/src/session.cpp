@@ -1,0 +1,77 @@
+#include "crane/bring_up/session.hpp"
+
+#include <cmath>
+
+namespace crane::bring_up {
+
+std::string_view coordinate_name(std::size_t coordinate) {
+  constexpr std::array<std::string_view, kCounters> kNames{"trolley", "slew", "hoist", "swing_radial",
+                                                           "swing_tangential"};
+  return kNames.at(coordinate);
+}
+
+std::string_view coordinate_unit(std::size_t coordinate) {
+  return coordinate == plant::kTrolley || coordinate == plant::kHoist ? "m" : "rad";
+}
+
+Session::Session(const runtime::Rig& rig, bridge::Board& board, Clock clock)
+    : rig_{rig}, board_{board}, clock_{std::move(clock)}, period_ns_{std::llround(rig.period_s * 1e9)} {
+  board_.make_safe();
+  take(board_.read());
+}
+
+Session::~Session() { board_.make_safe(); }
+
+void Session::take(const bridge::Inputs& inputs) {
+  sample_.time_s = static_cast<double>(time_ns_) * 1e-9;
+  sample_.inputs = inputs;
+  for (std::size_t i = 0; i < kCounters; ++i) {
+    const auto& encoder = rig_.encoders[i];
+    sample_.counts[i] = unwrapper_[i].step(inputs.raw_counts[i]);
+    sample_.coordinate[i] = encoder.counts_per_unit > 0 ? static_cast<double>(sample_.counts[i]) *
+                                                              encoder.sign / encoder.counts_per_unit
+                                                        : 0;
+  }
+}
+
+const Sample& Session::tick(const bridge::Outputs& outputs) {
+  if (clock_.interrupted()) {
+    board_.make_safe();
+    throw Ended("interrupted; 0 V, brakes closed");
+  }
+  board_.write(outputs);
+  clock_.wait(period_ns_);
+  time_ns_ += period_ns_;
+  board_.advance_to(time_ns_);
+  take(board_.read());
+  return sample_;
+}
+
+const Sample& Session::rest() {
+  level_ = false;
+  return tick({});
+}
+
+const Sample& Session::awake(const std::array<double, kDrives>& drive_v,
+                             const std::array<bool, kDrives>& release) {
+  level_ = !level_;
+  bridge::Outputs outputs{drive_v, release, level_};
+  for (std::size_t i = 0; i < kDrives; ++i) outputs.drive_v[i] *= rig_.drives[i].sign;
+  tick(outputs);
+  if (!sample_.inputs.estop_pressed) return sample_;
+  board_.make_safe();
+  throw Ended("the emergency stop is pressed; 0 V, brakes closed");
+}
+
+Record Session::watch(double duration_s) {
+  Record record;
+  for (double passed_s = 0; passed_s < duration_s; passed_s += rig_.period_s) record.push_back(rest());
+  return record;
+}
+
+void Session::wake() {
+  constexpr double kCharging_s = 0.2;  // a charge pump wants some changes before its relay closes
+  for (double passed_s = 0; passed_s < kCharging_s; passed_s += rig_.period_s) awake({}, {});
+}
+
+}  // namespace crane::bring_up

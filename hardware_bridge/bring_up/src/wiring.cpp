@@ -1,0 +1,275 @@
+#include "crane/bring_up/wiring.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace crane::bring_up {
+namespace {
+
+constexpr double kClearShare = 0.4;  // of the expected swing: right or wrong way round, else none
+
+std::string text_of(double value, std::string_view unit) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g %.*s", value, static_cast<int>(unit.size()), unit.data());
+  return text;
+}
+
+std::string named(std::size_t coordinate) { return std::string{coordinate_name(coordinate)}; }
+
+/// Collects findings about one rig.
+class Judgement {
+ public:
+  Judgement(const runtime::Rig& rig, const Evidence& evidence) : rig_{rig}, evidence_{evidence} {}
+
+  std::vector<Finding> findings() {
+    judge_supply();
+    for (std::size_t i = 0; i < kDrives; ++i) {
+      if (!rig_.drives[i].present) continue;
+      judge_brake(i);
+      if (evidence_.axis[i].pushed) judge_motion(i);
+    }
+    drop_explained();
+    return std::move(findings_);
+  }
+
+ private:
+  void add(Fault fault, std::string subject, std::string text) {
+    const auto same = [&](const Finding& known) { return known.fault == fault && known.subject == subject; };
+    if (std::none_of(findings_.begin(), findings_.end(), same))
+      findings_.push_back({fault, std::move(subject), std::move(text)});
+  }
+
+  /// A swapped swing encoder is not dead, too.
+  void drop_explained() {
+    const auto swapped = [this](const std::string& name) {
+      return std::any_of(findings_.begin(), findings_.end(), [&](const Finding& known) {
+        return known.fault == Fault::encoders_swapped && known.subject.find(name) != std::string::npos;
+      });
+    };
+    std::erase_if(findings_, [&](const Finding& finding) {
+      return finding.fault == Fault::swing_dead && swapped(finding.subject);
+    });
+  }
+
+  void judge_supply() {
+    if (evidence_.estop_pressed)
+      add(Fault::estop, "estop",
+          "the emergency stop reads pressed: release it, or look for a broken wire at input line " +
+              std::to_string(rig_.wiring.estop_input));
+    if (evidence_.relay_closed_at_rest)
+      add(Fault::relay_stuck, "relay",
+          "the watchdog relay is closed although its output rests: nothing would close the brakes when the "
+          "computer dies; look at the relay and its contact (input line " +
+              std::to_string(rig_.wiring.relay_closed_input) + ")");
+    else if (!evidence_.relay_closed)
+      add(Fault::relay_dead, "relay",
+          "the watchdog relay does not close while output line " +
+              std::to_string(rig_.wiring.watchdog_output) +
+              " toggles: look at the charge pump and the relay's contact (input line " +
+              std::to_string(rig_.wiring.relay_closed_input) + ")");
+    else if (!evidence_.relay_dropped)
+      add(Fault::relay_stuck, "relay",
+          "the watchdog relay does not drop within " + text_of(evidence_.relay_limit_s, "s") +
+              " after its output has stopped: nothing would close the brakes when the computer dies");
+  }
+
+  void judge_brake(std::size_t i) {
+    const auto& axis = evidence_.axis[i];
+    const auto name = named(i);
+    const auto output = std::to_string(rig_.wiring.drives[i].brake_release_output);
+    if (axis.limit_open)
+      add(Fault::limit_open, name,
+          "a limit switch of " + name +
+              " is open: the crane stands at its limit, or a wire is broken (input lines " +
+              std::to_string(rig_.wiring.drives[i].limit_low_input) + " and " +
+              std::to_string(rig_.wiring.drives[i].limit_high_input) + "); not moved");
+    if (!axis.held)
+      add(axis.closed_in_use ? Fault::brake_slips : Fault::brake_open, name,
+          "the brake of " + name + (axis.closed_in_use ? " does not hold: " : " does not close: ") +
+              "it gave way by " + text_of(axis.slipped, coordinate_unit(i)) + " at " +
+              text_of(axis.push_v, "V") + " with output line " + output + " off");
+    else if (!axis.closed_at_rest || !axis.closed_in_use)
+      add(Fault::brake_contact, name,
+          "the contact of the brake of " + name + " says open, yet the brake holds: look at input line " +
+              std::to_string(rig_.wiring.drives[i].brake_closed_input));
+    else
+      judge_opening(i);
+  }
+
+  void judge_opening(std::size_t i) {
+    const auto& axis = evidence_.axis[i];
+    const auto name = named(i);
+    if (axis.opened && !axis.closed_again)
+      add(Fault::brake_slow, name,
+          "the brake of " + name + " does not close within its brake_close_time_s of " +
+              text_of(rig_.drives[i].brake_close_time_s, "s"));
+    if (axis.opened) return;
+    for (std::size_t k = 0; k < kDrives; ++k) {
+      if (!axis.other_opened[k]) continue;
+      const auto low = std::min(i, k), high = std::max(i, k);
+      return add(Fault::brakes_swapped, named(low) + ", " + named(high),
+                 "the brakes of " + named(low) + " and " + named(high) + " are swapped (output lines " +
+                     std::to_string(rig_.wiring.drives[low].brake_release_output) + " and " +
+                     std::to_string(rig_.wiring.drives[high].brake_release_output) + ", or their contacts)");
+    }
+    if (evidence_.relay_closed && !axis.limit_open)
+      add(Fault::brake_shut, name,
+          "the brake of " + name + " does not open with output line " +
+              std::to_string(rig_.wiring.drives[i].brake_release_output) +
+              " on: look at its 24 V supply, its coil and its contact (input line " +
+              std::to_string(rig_.wiring.drives[i].brake_closed_input) + ")");
+  }
+
+  void judge_motion(std::size_t i) {
+    const auto& axis = evidence_.axis[i];
+    if (std::abs(axis.drift) > kStandstill)
+      add(Fault::drifts, named(i),
+          named(i) + " moves by " + text_of(axis.drift, coordinate_unit(i)) +
+              " with its brake open at 0 V: trim the amplifier's offset");
+    if (const auto swinging = counter_that_swings(i))
+      add_swapped_encoders(*swinging, swing_of(rig_, i));
+    else if (std::abs(axis.moved[i]) > kStandstill)
+      judge_direction(i);
+    else if (const auto other = counter_that_moved(i))
+      add_swapped_encoders(i, *other);
+    else
+      judge_standstill(i);
+  }
+
+  /// Its own counter moved: the right way?
+  void judge_direction(std::size_t i) {
+    const auto& axis = evidence_.axis[i];
+    const bool outward = axis.moved[i] > 0;
+    const auto swing = swing_of(rig_, i);
+    const bool judged_by_load = swing != 0 && std::abs(axis.expected_rad) > 1.5 * kNoSwing_rad;
+    const int load = !judged_by_load ? 0 : axis.share > kClearShare ? 1 : axis.share < -kClearShare ? -1 : 0;
+    if (judged_by_load && load == 0) judge_missing_swing(i, swing);
+    if (outward && load >= 0) return;
+    if (outward) return add_swing_sign(i, swing);
+    if (load > 0) return add_drive_sign(i);
+    if (load < 0) return add_encoder_sign(i);
+    add(Fault::drive_or_encoder_sign, named(i),
+        named(i) +
+            " counts backwards: either its drive or its encoder is the wrong way round; see which way it "
+            "moves (crane hw jog) and change sign in [drive." +
+            named(i) + "] or [encoder." + named(i) + "]");
+  }
+  void add_swing_sign(std::size_t i, std::size_t swing) {
+    add(Fault::swing_sign, named(swing),
+        "the encoder of " + named(swing) + " counts the wrong way: the load stays behind a motion of the " +
+            named(i) + "; swap A and B, or change sign in [encoder." + named(swing) + "]");
+  }
+  void add_drive_sign(std::size_t i) {
+    add(Fault::drive_sign, named(i),
+        "the drive of " + named(i) +
+            " moves it the wrong way, its encoder is right; swap the motor's leads, or change "
+            "sign in [drive." +
+            named(i) + "]");
+  }
+  void add_encoder_sign(std::size_t i) {
+    add(Fault::encoder_sign, named(i),
+        "the encoder of " + named(i) +
+            " counts the wrong way, its drive is right; swap A and B, or change sign in "
+            "[encoder." +
+            named(i) + "]");
+  }
+
+  void judge_missing_swing(std::size_t i, std::size_t swing) {
+    const auto& axis = evidence_.axis[i];
+    const std::size_t other = kDrives + kSwings - 1 - (swing - kDrives);
+    const bool other_swings = rig_.encoders[other].counts_per_unit > 0 &&
+                              axis.swung_rad[other - kDrives] > kClearShare * std::abs(axis.expected_rad);
+    if (other_swings) return add_swapped_encoders(swing, other);
+    add(Fault::swing_dead, named(swing),
+        "the encoder of " + named(swing) + " does not see the load swing after a motion of the " + named(i) +
+            ": look at its 5 V supply and at counter " + std::to_string(rig_.encoders[swing].channel));
+  }
+
+  /// A drive's counter that shows the load.
+  [[nodiscard]] std::optional<std::size_t> counter_that_swings(std::size_t i) const {
+    if (swing_of(rig_, i) == 0) return {};
+    for (std::size_t k = 0; k < kDrives; ++k)
+      if (evidence_.axis[i].counter_swings_rad[k] > kNoSwing_rad) return k;
+    return {};
+  }
+
+  /// Another counter that follows a motion of axis i.
+  [[nodiscard]] std::optional<std::size_t> counter_that_moved(std::size_t i) const {
+    const auto& axis = evidence_.axis[i];
+    for (std::size_t k = 0; k < kDrives; ++k)
+      if (k != i && std::abs(axis.moved[k]) > kStandstill) return k;
+    for (std::size_t k = 0; k < kSwings; ++k)  // a load comes back, a motor does not
+      if (std::abs(axis.shifted_rad[k]) > 2 * kNoSwing_rad) return kDrives + k;
+    return {};
+  }
+  void add_swapped_encoders(std::size_t i, std::size_t k) {
+    const auto low = std::min(i, k), high = std::max(i, k);
+    add(Fault::encoders_swapped, named(low) + ", " + named(high),
+        "the encoders of " + named(low) + " and " + named(high) + " are swapped (counters " +
+            std::to_string(rig_.encoders[low].channel) + " and " +
+            std::to_string(rig_.encoders[high].channel) + ")");
+  }
+
+  /// No counter followed.
+  void judge_standstill(std::size_t i) {
+    const auto& axis = evidence_.axis[i];
+    const auto name = named(i);
+    for (std::size_t k = 0; k < kDrives; ++k) {
+      if (k == i || std::abs(axis.moved_unlocked[k]) <= kStandstill) continue;
+      const auto low = std::min(i, k), high = std::max(i, k);
+      return add(Fault::drives_swapped, named(low) + ", " + named(high),
+                 "the drives of " + named(low) + " and " + named(high) + " are swapped (analog outputs " +
+                     std::to_string(rig_.drives[low].dac_channel) + " and " +
+                     std::to_string(rig_.drives[high].dac_channel) + ")");
+    }
+    const auto counter = std::to_string(rig_.encoders[i].channel);
+    const auto output = std::to_string(rig_.drives[i].dac_channel);
+    if (swing_of(rig_, i) != 0 && std::max(axis.swung_rad[0], axis.swung_rad[1]) > kNoSwing_rad)
+      return add(Fault::encoder_dead, name,
+                 "the encoder of " + name + " is dead: the load swings after a push of " +
+                     text_of(axis.push_v, "V") + ", counter " + counter + " does not move");
+    if (swing_of(rig_, i) != 0)
+      return add(Fault::drive_dead, name,
+                 "the drive of " + name + " is dead: neither counter nor load moves at " +
+                     text_of(axis.push_v, "V") + " on analog output " + output +
+                     " with its brake open; look at amplifier and motor");
+    add(Fault::drive_or_encoder_dead, name,
+        "the drive or the encoder of " + name + " is dead: counter " + counter + " does not move at " +
+            text_of(axis.push_v, "V") + " on analog output " + output +
+            " with its brake open; see whether it moves");
+  }
+
+  const runtime::Rig& rig_;
+  const Evidence& evidence_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::string_view name_of(Fault fault) {
+  constexpr std::array<std::string_view, 21> kNames{"estop",          "relay_stuck",
+                                                    "relay_dead",     "limit_open",
+                                                    "brake_contact",  "brake_open",
+                                                    "brake_slips",    "brake_shut",
+                                                    "brakes_swapped", "brake_slow",
+                                                    "drifts",         "drive_sign",
+                                                    "encoder_sign",   "drive_or_encoder_sign",
+                                                    "swing_sign",     "encoders_swapped",
+                                                    "drives_swapped", "encoder_dead",
+                                                    "drive_dead",     "drive_or_encoder_dead",
+                                                    "swing_dead"};
+  return kNames.at(static_cast<std::size_t>(fault));
+}
+
+std::size_t swing_of(const runtime::Rig& rig, std::size_t axis) {
+  const std::size_t swing = axis == plant::kTrolley ? 3 : axis == plant::kSlew ? 4 : 0;
+  return swing != 0 && rig.encoders[swing].counts_per_unit > 0 ? swing : 0;
+}
+
+std::vector<Finding> judge(const runtime::Rig& rig, const Evidence& evidence) {
+  return Judgement{rig, evidence}.findings();
+}
+
+}  // namespace crane::bring_up

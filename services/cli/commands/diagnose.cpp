@@ -1,0 +1,132 @@
+/// crane diagnose: what measured data show the simulation of a rig to get wrong.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "cli/commands/commands.hpp"
+#include "cli/diagnosis_data.hpp"
+#include "cli/text_table.hpp"
+#include "crane/diagnosis/report.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using diagnosis::Diagnosis;
+
+struct DiagnoseOptions {
+  std::string rig = "virginia_tech_tower", mapping, out = "out/diagnose";
+  std::vector<std::string> train, test;
+  std::uint64_t seed = 1;
+  bool json = false, no_picture = false;
+};
+
+/// One line on a terminal, rewritten.
+void show_share(double share, const std::string& what) {
+  constexpr std::size_t kBar = 30, kText = 48;
+  const auto filled = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * kBar);
+  std::string text = what.substr(0, kText);
+  text.resize(kText, ' ');
+  std::cerr << "\r[" << std::string(filled, '#') << std::string(kBar - filled, ' ') << "] "
+            << static_cast<int>(100 * share) << " % " << text << (share >= 1 ? "\n" : "") << std::flush;
+}
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text.precision(4);
+  text << value;
+  return text.str();
+}
+
+void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options) {
+  std::cout << name_of(diagnosis.verdict) << ": " << diagnosis.sentence << '\n';
+  if (!diagnosis.causes.empty()) {
+    TextTable table{{"cause", "axis", "parameter", "value", "+-", "unit"}};
+    for (const auto& cause : diagnosis.causes)
+      for (const auto& e : cause.parameters)
+        table.add({cause.name, cause.axis, e.name, rounded(e.value), rounded(e.std_dev), e.unit});
+    table.print(std::cout);
+  }
+  const auto& held_out = diagnosis.held_out;
+  if (!diagnosis.extension.empty())
+    std::cout << "held-out gain " << rounded(held_out.gain) << " [" << rounded(held_out.gain_ci95[0]) << ", "
+              << rounded(held_out.gain_ci95[1]) << "] (95 %)\n";
+  if (diagnosis.next_experiment)
+    std::cout << "next experiment: " << diagnosis.next_experiment->description << "\n  crane run "
+              << (fs::path{options.out} / "next_experiment.toml").string() << " --rig " << options.rig
+              << '\n';
+  for (const std::string& note : diagnosis.notes) std::cout << "note: " << note << '\n';
+  std::cout << "seed " << options.seed << ", " << rounded(diagnosis.runtime_s) << " s; "
+            << (fs::path{options.out} / "report.html").string() << '\n';
+}
+
+int diagnose_data(const DiagnoseOptions& options) {
+  const auto rig = runtime::load_rig(stack::find_rig(options.rig));
+  diagnosis::Mapping mapping;
+  if (!options.mapping.empty()) mapping = diagnosis::load_mapping(options.mapping);
+  DiagnosisData data = read_diagnosis_data(options.train, options.test, mapping, rig);
+  fs::create_directories(options.out);  // before the long work
+  diagnosis::Request request;
+  request.seed = options.seed;
+  if (::isatty(STDERR_FILENO) == 1) request.progress = show_share;
+  Diagnosis result = diagnosis::diagnose(rig, data.train, data.test, request);
+  result.notes.insert(result.notes.begin(), data.notes.begin(), data.notes.end());
+  diagnosis::write_report(options.out, result, rig, data.test);
+  if (!options.no_picture) diagnosis::draw_diagnosis(options.out, result, rig, data.test);
+  if (options.json)
+    std::cout << diagnosis::to_json(result).dump(2) << '\n';
+  else
+    print_diagnosis(result, options);
+  return runtime::kExitDone;
+}
+
+int diagnose(const DiagnoseOptions& options) {
+  try {
+    return diagnose_data(options);
+  } catch (const diagnosis::DataError& error) {
+    std::cerr << error.what() << '\n';
+    return runtime::kExitBadInput;
+  }
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<DiagnoseOptions>();
+  auto* command = app.add_subcommand("diagnose", "What measured data show the simulation to get wrong");
+  command->add_option("--rig", options->rig, "rig file or name: the simulation that is judged")
+      ->capture_default_str();
+  command->add_option("--train", options->train, "runs to learn from: CSV or MCAP")->required();
+  command->add_option("--test", options->test, "whole runs held out, to prove the gain on: CSV or MCAP")
+      ->required();
+  command
+      ->add_option("--mapping", options->mapping,
+                   "file that says how another laboratory's CSV columns are meant")
+      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--out", options->out,
+                   "directory for report.html, report.json, extended.toml and pictures")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of the resampling")->capture_default_str();
+  command->add_flag("--json", options->json, "print report.json");
+  command->add_flag("--no-picture", options->no_picture, "do not draw SVG files");
+  command->footer(
+      "Example: crane diagnose --rig virginia_tech_tower --train a.csv b.mcap --test c.csv --out "
+      "out/diagnose\n"
+      "         crane run maneuver_1 --rig out/diagnose/extended.toml\n"
+      "Verdicts: none (nothing these data could show is wrong), named (the model lacks this), parameter (a "
+      "value of\n"
+      "the rig file is off), ambiguous (several explain it; a next experiment is proposed), unknown "
+      "(something is\n"
+      "wrong that no known cause explains). Every verdict is exit code 0; data that cannot be used are 2.\n"
+      "docs/diagnosis.md explains method, files and limits.");
+  command->callback([options, &chosen] { chosen = [options] { return diagnose(*options); }; });
+}
+
+}  // namespace crane::cli

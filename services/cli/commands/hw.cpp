@@ -1,0 +1,24 @@
+/// crane hw: bringing a rig up, before any stack runs.
+#include <CLI/CLI.hpp>
+
+#include "cli/commands/hw_commands.hpp"
+
+namespace crane::cli {
+
+void add_hw(CLI::App& app, Action& chosen) {
+  auto* hw = app.add_subcommand("hw", "Bring a rig up: look, jog, calibrate, test its wiring");
+  hw->require_subcommand(1);
+  hw->footer(
+      "In this order, without a stack, somebody at the emergency stop: probe, selftest, calibrate, selftest "
+      "with the\n"
+      "calibrated file (docs/hardware.md). Every command leaves the board at 0 V with closed brakes, Ctrl-C "
+      "too.\n"
+      "To rehearse: crane hw selftest --rig emulated_servo_to_go");
+  add_hw_list(*hw, chosen);
+  add_hw_probe(*hw, chosen);
+  add_hw_selftest(*hw, chosen);
+  add_hw_jog(*hw, chosen);
+  add_hw_calibrate(*hw, chosen);
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,62 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <ctime>
+
+#include "cli/commands/hw.hpp"
+#include "crane/boards/emulated_board.hpp"
+#include "crane/boards/linked_rig.hpp"
+#include "crane/boards/wired_rig.hpp"
+#include "crane/runtime/in_process.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::cli {
+namespace {
+
+/// Sleeps from tick to tick; what was missed during a question is not caught up with.
+std::function<void(std::int64_t)> sleeping() {
+  return [next_ns = std::int64_t{0}](std::int64_t duration_ns) mutable {
+    next_ns = std::max(next_ns, runtime::monotonic_ns() - duration_ns) + duration_ns;
+    const timespec at{.tv_sec = next_ns / 1'000'000'000, .tv_nsec = next_ns % 1'000'000'000};
+    ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+  };
+}
+
+}  // namespace
+
+void add_board_options(CLI::App& command, BoardOptions& options) {
+  command.add_option("--rig", options.rig, "rig file or name: board, channels and lines")->required();
+  auto* wired = command.add_option("--wired-as", options.wired_as,
+                                   "board \"emulated\": rig file that the emulated crane is really wired by");
+  auto* crane = command.add_option("--crane", options.crane,
+                                   "board \"emulated\": a crane_emulated_rig that runs with this --crane, in "
+                                   "real time; default: a crane in this process");
+  command.add_option("--domain", options.domain, "... and this --domain")->needs(crane);
+  crane->excludes(wired);
+}
+
+OpenBoard::OpenBoard(const BoardOptions& options)
+    : rig_{runtime::load_rig(stack::find_rig(options.rig))},
+      bus_{runtime::memory_options(bus::make_memory_network(), "crane_hw", crane_SOURCE_OPERATOR)},
+      node_{bus_, {"crane_hw", ""}} {
+  clock_.interrupted = runtime::stop_requested;
+  const bool emulated = bridge::board_kind_of(rig_).name == "emulated";
+  if (!emulated && !(options.wired_as.empty() && options.crane.empty()))
+    throw runtime::ConfigurationError(
+        {rig_.path + ": board = " + rig_.board + ": --wired-as and --crane are for the emulated board"});
+  if (!emulated || !options.crane.empty()) clock_.wait = sleeping();
+  board_ = opened(options);
+}
+
+std::unique_ptr<bridge::Board> OpenBoard::opened(const BoardOptions& options) {
+  if (!options.crane.empty())
+    return std::make_unique<bridge::EmulatedBoard>(
+        rig_, std::make_unique<bridge::LinkedRig>(bridge::shared_lines_name(options.crane, options.domain)));
+  if (!options.wired_as.empty())
+    return std::make_unique<bridge::EmulatedBoard>(
+        rig_, std::make_unique<bridge::WiredRig>(runtime::load_rig(stack::find_rig(options.wired_as))));
+  const runtime::Context context{bus_, node_, rig_, *control::find_controller("none"),
+                                 runtime::Clock::realtime};
+  return bridge::board_kind_of(rig_).make(context);
+}
+
+}  // namespace crane::cli

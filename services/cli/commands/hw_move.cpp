@@ -1,0 +1,187 @@
+/// crane hw jog, calibrate, selftest: small guarded motions.
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/hw.hpp"
+#include "cli/commands/hw_commands.hpp"
+#include "cli/text_table.hpp"
+#include "crane/bring_up/calibration.hpp"
+#include "crane/bring_up/jog.hpp"
+#include "crane/bring_up/selftest.hpp"
+
+namespace crane::cli {
+namespace {
+
+using bring_up::coordinate_name;
+using bring_up::coordinate_unit;
+
+struct MoveOptions {
+  BoardOptions board;
+  std::string axis;
+  double drive_v = 0, distance = 0.05, largest_v = 4;
+  std::string answers, out = "calibrated.toml";
+  bool json = false;
+};
+using SharedOptions = std::shared_ptr<MoveOptions>;
+
+void say(const std::string& text) { std::cerr << text << '\n'; }
+
+std::size_t axis_named(const std::string& name) {
+  std::size_t axis = 0;
+  while (coordinate_name(axis) != name) ++axis;  // CLI11 has checked the name
+  return axis;
+}
+
+int jog(const MoveOptions& options) {
+  runtime::install_stop_signals();
+  OpenBoard opened{options.board};
+  bring_up::JogPlan plan{.axis = axis_named(options.axis),
+                         .drive_v = options.drive_v,
+                         .distance = options.distance,
+                         .duration_s = 2,
+                         .unseen_duration_s = 0.3};
+  plan.release[plan.axis] = true;
+  if (const auto problems = bring_up::problems(plan, opened.rig()); !problems.empty())
+    throw runtime::ConfigurationError(problems);
+  bring_up::Session session{opened.rig(), opened.board(), opened.clock()};
+  const auto jog = bring_up::run(session, plan);
+  session.make_safe();
+  TextTable table{{"coordinate", "moved", "unit", "counts"}};
+  for (std::size_t i = 0; i < bridge::kCounters; ++i)
+    if (opened.rig().encoders[i].counts_per_unit > 0)
+      table.add({std::string{coordinate_name(i)}, fixed(jog.moved[i], 4), std::string{coordinate_unit(i)},
+                 std::to_string(jog.record.back().counts[i] - jog.record.front().counts[i])});
+  table.print(std::cout);
+  if (!jog.opened[plan.axis]) throw std::runtime_error("the brake of " + options.axis + " did not open");
+  if (jog.limit) std::cerr << "ended at a limit switch\n";
+  return runtime::kExitDone;
+}
+
+int selftest(const MoveOptions& options) {
+  runtime::install_stop_signals();
+  OpenBoard opened{options.board};
+  bring_up::Session session{opened.rig(), opened.board(), opened.clock()};
+  const auto evidence = bring_up::gather(
+      session, {.largest_v = options.largest_v, .progress = options.json ? [](auto&) {} : say});
+  session.make_safe();
+  const auto findings = bring_up::judge(opened.rig(), evidence);
+  if (options.json) {
+    nlohmann::ordered_json found{{"rig", opened.rig().name},
+                                 {"board", opened.board().name()},
+                                 {"findings", nlohmann::ordered_json::array()}};
+    for (const auto& finding : findings)
+      found["findings"].push_back({{"fault", bring_up::name_of(finding.fault)},
+                                   {"subject", finding.subject},
+                                   {"text", finding.text}});
+    std::cout << found.dump(2) << '\n';
+  } else {
+    for (const auto& finding : findings)
+      std::cout << bring_up::name_of(finding.fault) << ": " << finding.text << '\n';
+    if (findings.empty()) std::cout << opened.rig().name << ": wired as the rig file says\n";
+  }
+  return findings.empty() ? runtime::kExitDone : runtime::kExitFailed;
+}
+
+/// A line of `in` per question.
+std::string answered(std::istream& in, const std::string& question, bool echo) {
+  std::cout << question << ' ' << std::flush;
+  std::string answer;
+  if (!std::getline(in, answer)) throw bring_up::Ended("no answer; nothing written, 0 V, brakes closed");
+  if (echo) std::cout << answer << '\n';
+  return answer;
+}
+
+void write_file(const std::string& file, const std::string& text) {
+  std::ofstream out{file, std::ios::binary};
+  out << text;
+  if (!out.flush()) throw std::runtime_error(file + ": cannot write");
+}
+
+int calibrate(const MoveOptions& options) {
+  runtime::install_stop_signals();
+  std::ifstream answers;
+  if (!options.answers.empty()) answers.open(options.answers);
+  OpenBoard opened{options.board};
+  bring_up::require_own_file(opened.rig(), options.out);
+  bring_up::Session session{opened.rig(), opened.board(), opened.clock()};
+  const auto found =
+      bring_up::calibrate(session, {.largest_v = options.largest_v,
+                                    .ask =
+                                        [&](const std::string& question) {
+                                          return answered(options.answers.empty() ? std::cin : answers,
+                                                          question, !options.answers.empty());
+                                        },
+                                    .say = say});
+  write_file(options.out, bring_up::calibration_file(opened.rig(), found, options.out));
+  std::cout << options.out << ": written; next: crane hw selftest --rig " << options.out << '\n';
+  return runtime::kExitDone;
+}
+
+CLI::App* add(CLI::App& hw, Action& chosen, const SharedOptions& options, int (*action)(const MoveOptions&),
+              const char* name, const char* summary) {
+  auto* command = hw.add_subcommand(name, summary);
+  add_board_options(*command, options->board);
+  command->callback([options, action, &chosen] { chosen = [options, action] { return action(*options); }; });
+  return command;
+}
+
+void add_largest_volts(CLI::App& command, MoveOptions& options) {
+  command.add_option("--volts", options.largest_v, "pushes grow from 1 V to this until something moves")
+      ->check(CLI::Range(1.0, bring_up::kLargestJog_v))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_hw_jog(CLI::App& hw, Action& chosen) {
+  auto options = std::make_shared<MoveOptions>();
+  auto* command = add(hw, chosen, options, jog, "jog", "One small motion of one drive");
+  command->add_option("--axis", options->axis, "trolley, slew or hoist")
+      ->required()
+      ->check(CLI::IsMember({"trolley", "slew", "hoist"}));
+  command
+      ->add_option("--volts", options->drive_v, "of the amplifier, within +-5; positive should move outward")
+      ->required();
+  command
+      ->add_option("--distance", options->distance,
+                   "m or rad, up to 0.5, at which the volts end; the brake needs some more")
+      ->capture_default_str();
+  command->footer(
+      "Ends after 2 s, at a limit switch, at the emergency stop, or 0.3 s after the start when no counter "
+      "follows.\n"
+      "Example: crane hw jog --rig emulated_servo_to_go --axis trolley --volts 2");
+}
+
+void add_hw_selftest(CLI::App& hw, Action& chosen) {
+  auto options = std::make_shared<MoveOptions>();
+  auto* command =
+      add(hw, chosen, options, selftest, "selftest", "Push each drive a little and name wrong wiring");
+  add_largest_volts(*command, *options);
+  command->add_flag("--json", options->json, "one JSON object");
+  command->footer(
+      "The crane stands where [start] of the rig file says, the load hangs, 10 cm (0.2 rad) around each axis "
+      "are free.\n"
+      "Exit code 1 when anything is wrong, one line each.\n"
+      "Example: crane hw selftest --rig emulated_servo_to_go\n"
+      "         crane hw selftest --rig emulated_servo_to_go --wired-as swapped.toml     (docs/hardware.md)");
+}
+
+void add_hw_calibrate(CLI::App& hw, Action& chosen) {
+  auto options = std::make_shared<MoveOptions>();
+  auto* command =
+      add(hw, chosen, options, calibrate, "calibrate", "Find signs, scales and the crane's place, guided");
+  add_largest_volts(*command, *options);
+  command->add_option("--out", options->out, "rig file to write; extends the one of --rig")
+      ->capture_default_str();
+  command->add_option("--answers", options->answers, "file with one answer a line; default: the terminal")
+      ->check(CLI::ExistingFile);
+  command->footer(
+      "Each axis moves by 10 cm (0.3 rad); three questions each: which way, how far, where it stands now. An "
+      "empty\n"
+      "answer to the last two means that the rig file is right. The load has to hang still at the start.\n"
+      "Example: crane hw calibrate --rig my_crane.toml --out my_crane_calibrated.toml");
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,167 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "crane/diagnosis/data.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using recording::Table;
+using testing::AllOf;
+using testing::HasSubstr;
+
+runtime::Rig tower() { return runtime::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml"); }
+
+/// Four seconds of plausible motion at 100 Hz.
+Table plausible() {
+  Table table;
+  table.columns = {{"time_s", {}},
+                   {"trolley_voltage_v", {}},
+                   {"slew_voltage_v", {}},
+                   {"trolley_position_m", {}},
+                   {"slew_angle_rad", {}},
+                   {"swing_radial_rad", {}},
+                   {"swing_tangential_rad", {}}};
+  for (int k = 0; k < 400; ++k) {
+    const double t = 0.01 * k;
+    const double values[] = {t,
+                             std::sin(t),
+                             std::cos(t),
+                             0.6 + 0.1 * std::sin(t),
+                             0.2 * std::sin(2 * t),
+                             0.05 * std::cos(3 * t),
+                             0.04 * std::sin(3 * t)};
+    for (std::size_t i = 0; i < table.columns.size(); ++i) table.columns[i].values.push_back(values[i]);
+  }
+  return table;
+}
+
+std::vector<double>& column(Table& table, const std::string& name) {
+  for (auto& c : table.columns)
+    if (c.name == name) return c.values;
+  throw std::invalid_argument(name);
+}
+
+std::string problem_of(const Table& table) {
+  try {
+    (void)load_run(table, tower(), "data.csv");
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MeasuredData, ArePassedOnAsTheyAre) {
+  const Loaded loaded = load_run(plausible(), tower(), "data.csv");
+  ASSERT_EQ(loaded.runs.size(), 1U);
+  EXPECT_TRUE(loaded.notes.empty());
+  EXPECT_EQ(loaded.runs[0].rows(), 400U);
+  EXPECT_NEAR(loaded.runs[0].period_s, 0.01, 1e-12);
+  EXPECT_DOUBLE_EQ(loaded.runs[0].command_v[100][plant::kTrolley], std::sin(1.0));
+}
+
+TEST(MeasuredData, InDegreesAreRefused) {
+  Table table = plausible();
+  for (double& value : column(table, "swing_radial_rad")) value *= 180 / 3.14159 * 2;
+  EXPECT_THAT(problem_of(table),
+              AllOf(HasSubstr("data.csv"), HasSubstr("swing_radial_rad"), HasSubstr("degrees?")));
+}
+
+TEST(MeasuredData, InMillimetresAreRefused) {
+  Table table = plausible();
+  for (double& value : column(table, "trolley_position_m")) value *= 1000;
+  EXPECT_THAT(problem_of(table), AllOf(HasSubstr("trolley_position_m"), HasSubstr("millimetres?")));
+}
+
+TEST(MeasuredData, WithoutTheCommandThatMovedTheAxisAreRefused) {
+  Table table = plausible();
+  std::erase_if(table.columns, [](const auto& c) { return c.name == "slew_voltage_v"; });
+  EXPECT_THAT(problem_of(table), AllOf(HasSubstr("slew_voltage_v"), HasSubstr("missing")));
+}
+
+TEST(MeasuredData, WhoseTimeRunsBackwardsAreRefused) {
+  Table table = plausible();
+  column(table, "time_s")[200] = 1.0;
+  EXPECT_THAT(problem_of(table), HasSubstr("time must increase"));
+}
+
+TEST(MeasuredData, WithASensorThatNeverChangesAreRefused) {
+  Table table = plausible();
+  for (double& value : column(table, "swing_tangential_rad")) value = 0.01;
+  EXPECT_THAT(problem_of(table), AllOf(HasSubstr("swing_tangential_rad"), HasSubstr("constant")));
+}
+
+TEST(MeasuredData, OfAnAxisThatIsNotAskedToMoveMayStandStillAndItIsSaid) {
+  Table table = plausible();
+  for (double& value : column(table, "slew_voltage_v")) value = 0;
+  for (double& value : column(table, "slew_angle_rad")) value = 0.3;
+  for (double& value : column(table, "swing_tangential_rad")) value = 0;
+  const Loaded loaded = load_run(table, tower(), "data.csv");
+  ASSERT_EQ(loaded.runs.size(), 1U);
+  ASSERT_EQ(loaded.notes.size(), 2U);
+  EXPECT_THAT(loaded.notes[0], AllOf(HasSubstr("slew_angle_rad"), HasSubstr("stands still")));
+}
+
+TEST(MeasuredData, WithSeveralMistakesNameAllOfThem) {
+  Table table = plausible();
+  for (double& value : column(table, "swing_tangential_rad")) value = 0;
+  for (double& value : column(table, "trolley_position_m")) value *= 1000;
+  EXPECT_THAT(problem_of(table), AllOf(HasSubstr("swing_tangential_rad"), HasSubstr("trolley_position_m")));
+}
+
+TEST(MeasuredData, AreCutAtAGapAndItIsSaid) {
+  Table table = plausible();
+  for (auto& c : table.columns) c.values.erase(c.values.begin() + 180, c.values.begin() + 200);
+  const Loaded loaded = load_run(table, tower(), "data.csv");
+  ASSERT_EQ(loaded.runs.size(), 2U);
+  EXPECT_EQ(loaded.runs[0].rows(), 180U);
+  ASSERT_EQ(loaded.notes.size(), 1U);
+  EXPECT_THAT(loaded.notes[0], HasSubstr("1 gaps"));
+}
+
+TEST(MeasuredData, AreCutWhereACountJumpsAndItIsSaid) {
+  Table table = plausible();
+  auto& position = column(table, "trolley_position_m");
+  for (std::size_t k = 200; k < position.size(); ++k) position[k] -= 0.4;
+  const Loaded loaded = load_run(table, tower(), "data.csv");
+  EXPECT_EQ(loaded.runs.size(), 2U);
+  ASSERT_EQ(loaded.notes.size(), 1U);
+  EXPECT_THAT(loaded.notes[0], HasSubstr("jumps"));
+}
+
+TEST(MeasuredData, SampledIrregularlyAreInterpolatedAndItIsSaid) {
+  Table table = plausible();
+  auto& time = column(table, "time_s");
+  for (std::size_t k = 1; k < time.size(); k += 2) time[k] += 0.002;
+  const Loaded loaded = load_run(table, tower(), "data.csv");
+  ASSERT_EQ(loaded.runs.size(), 1U);
+  ASSERT_EQ(loaded.notes.size(), 1U);
+  EXPECT_THAT(loaded.notes[0], HasSubstr("interpolated"));
+}
+
+TEST(MeasuredData, TooShortForASwingAreRefused) {
+  Table table = plausible();
+  for (auto& c : table.columns) c.values.resize(50);
+  EXPECT_THAT(problem_of(table), HasSubstr("record longer"));
+}
+
+TEST(Smoothing, IsExactForCubicsUpToTheEnds) {
+  std::vector<double> cubic;
+  for (int k = 0; k < 40; ++k) {
+    const double t = 0.1 * k;
+    cubic.push_back(1 + 2 * t - 3 * t * t + 0.5 * t * t * t);
+  }
+  const Motion motion = smooth(cubic, 0.1, 3);
+  for (int k = 0; k < 40; ++k) {
+    const double t = 0.1 * k;
+    const auto at = static_cast<std::size_t>(k);
+    EXPECT_NEAR(motion.position[at], cubic[at], 1e-9);
+    EXPECT_NEAR(motion.rate[at], 2 - 6 * t + 1.5 * t * t, 1e-8);
+    EXPECT_NEAR(motion.acceleration[at], -6 + 3 * t, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace crane::diagnosis

@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "crane/diagnosis/replay.hpp"
+#include "crane/simulator/integrator.hpp"
+#include "friction_step.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using plant::State;
+
+runtime::Rig tower_with(const std::vector<plant::TermSetting>& terms) {
+  runtime::Rig rig = runtime::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
+  rig.terms.insert(rig.terms.end(), terms.begin(), terms.end());
+  return rig;
+}
+
+/// What CVODE makes of a lively command: exact positions at every tick.
+Run integrated(const runtime::Rig& rig, double seconds, double liveliness = 1) {
+  plant::Model model(rig.plant, rig.terms, rig.period_s);
+  simulator::Integrator integrator(model);
+  Run run;
+  run.name = "CVODE";
+  run.period_s = rig.period_s;
+  State state{.trolley_m = 0.7, .radial_rad = 0.05, .tangential_rad = -0.03};
+  plant::InnerState inner{};
+  const auto rows = static_cast<std::size_t>(seconds / rig.period_s);
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double t = static_cast<double>(k) * rig.period_s;
+    run.measured[kTrolleyPosition].push_back(state.trolley_m);
+    run.measured[kSlewAngle].push_back(state.slew_rad);
+    run.measured[kRadialSwing].push_back(state.radial_rad);
+    run.measured[kTangentialSwing].push_back(state.tangential_rad);
+    run.cable_m.push_back(state.cable_m);
+    run.command_v.push_back({liveliness * (2.5 * std::sin(3 * t) + std::sin(7.7 * t)),
+                             liveliness * (1.5 * std::cos(2 * t) + 0.8 * std::sin(5 * t)), 0});
+    plant::Actuation actuation;
+    actuation.drive_v = model.drive_voltage(run.command_v.back());
+    actuation.locks.axis[plant::kHoist] = true;
+    (void)integrator.advance(state, inner, actuation, rig.period_s);
+  }
+  return run;
+}
+
+double worst(const Run& run, const runtime::Rig& rig, Part part) {
+  const PreparedRun prepared = prepare(run, rig);
+  const Replay replay(prepared, {rig.plant, rig.terms}, part);
+  const auto outputs = simulated_outputs(prepared, part);
+  const std::size_t rows = 200;
+  double most = 0;
+  for (std::size_t first = 5; first + rows < run.rows(); first += rows) {
+    std::vector<double> out(rows * outputs.size());
+    auto start = replay.measured_start(first);
+    // The measured rate is a difference quotient; the comparison is about the equations, not about it.
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      const auto& y = run.measured[outputs[i]];
+      start[2 * i] = y[first];
+      start[2 * i + 1] =
+          (8 * (y[first + 1] - y[first - 1]) - (y[first + 2] - y[first - 2])) / (12 * run.period_s);
+    }
+    replay.run(first, rows, start, out);
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      for (std::size_t k = 0; k < rows; ++k)
+        most = std::max(most, std::abs(out[i * rows + k] - run.measured[outputs[i]][first + k]));
+  }
+  return most;
+}
+
+TEST(FixedStepReplay, AgreesWithCvodeWithoutFriction) {
+  runtime::Rig rig = tower_with({});
+  rig.terms.clear();
+  const auto run = integrated(rig, 8, 0.15);      // nothing else keeps this crane on its track
+  EXPECT_LT(worst(run, rig, Part::drive), 2e-3);  // 2 s of double integration from a difference quotient
+  EXPECT_LT(worst(run, rig, Part::load), 5e-4);
+  EXPECT_LT(worst(run, rig, Part::whole), 2e-3);
+}
+
+TEST(FixedStepReplay, AgreesWithCvodeThroughReversalsWithStiffFriction) {
+  const runtime::Rig rig = tower_with({});
+  const auto run = integrated(rig, 8);
+  EXPECT_LT(worst(run, rig, Part::drive), 2e-3);
+  EXPECT_LT(worst(run, rig, Part::load), 5e-4);
+}
+
+TEST(FixedStepReplay, OfTheLoadSeesAnEffectOnTheLoad) {
+  const runtime::Rig plain = tower_with({});
+  const runtime::Rig dragged = tower_with({{"load_linear_drag", "", {{"coefficient_nspm", 0.5}}}});
+  const auto run = integrated(dragged, 8);
+  EXPECT_LT(worst(run, dragged, Part::load), 5e-4);
+  EXPECT_GT(worst(run, plain, Part::load), 5e-3);
+}
+
+TEST(FrictionStep, HoldsAnAxisThatIsPushedLessThanItsFriction) {
+  const auto friction = [](double v) { return 1.0 * std::tanh(v / 0.0005); };
+  FrictionStep step;
+  for (int k = 0; k < 20; ++k) step = friction_step(step.speed, 0.9, 1.0, 0.005, friction);
+  EXPECT_NEAR(step.speed, 0.0005 * std::atanh(0.9), 1e-6);  // the creep of the smoothed step
+  EXPECT_NEAR(step.friction, 0.9, 1e-3);
+}
+
+TEST(FrictionStep, StopsAndTurnsInsideOneStepLikeManySmallOnes) {
+  const std::uint64_t seed = 5;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int i = 0; i < 300; ++i) {
+    const double v = 0.05 * any(random), a = 8 * any(random), level = 1 + any(random);
+    const auto friction = [level](double speed) { return level * std::tanh(speed / 0.0005) + 2 * speed; };
+    const double h = 0.005;
+    const FrictionStep step = friction_step(v, a, 2.0, h, friction);
+    double speed = v, way = 0;
+    constexpr int kFine = 20000;
+    for (int k = 0; k < kFine; ++k) {
+      const double dt = h / kFine, before = speed;
+      speed = implicit_speed(speed + dt * a, dt * 2.0, friction);
+      way += 0.5 * dt * (before + speed);
+    }
+    // Within twice the width of the smoothed step, which a whole step at once cannot resolve.
+    EXPECT_NEAR(step.speed, speed, 1e-3) << "seed " << seed << ", case " << i;
+    EXPECT_NEAR(step.way, way, 5e-6) << "seed " << seed << ", case " << i;
+  }
+}
+
+}  // namespace
+}  // namespace crane::diagnosis
