@@ -78,8 +78,9 @@ class Study {
   [[nodiscard]] const Problem& test_drive() const { return *test_drive_; }
   [[nodiscard]] const Problem& test_load() const { return *test_load_; }
 
- private:
   struct Slopes;
+
+ private:
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
   [[nodiscard]] Evaluation evaluate(const Problem& drive, const Problem& load, const Effects& effects,
                                     const Evaluation& near) const;

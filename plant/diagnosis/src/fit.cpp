@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+
+#include "blocks.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostRounds = 8;
+/// Decrease of the loss that is not worth another round.
+constexpr double kLeastGain = 0.3;
+
+struct Flat {
+  std::vector<const FreeParameter*> parameters;
+  VectorXd values;
+};
+
+Flat flatten(const Effects& effects) {
+  Flat flat;
+  std::vector<double> values;
+  for (const Effect& effect : effects) {
+    for (const FreeParameter& p : effect.candidate->parameters) flat.parameters.push_back(&p);
+    values.insert(values.end(), effect.values.begin(), effect.values.end());
+  }
+  flat.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+  return flat;
+}
+
+Effects unflatten(Effects effects, const VectorXd& values) {
+  Index i = 0;
+  for (Effect& effect : effects)
+    for (double& value : effect.values) value = values[i++];
+  return effects;
+}
+
+/// Damped step inside the bounds; a value at its bound that wants out stays there.
+VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, double damping) {
+  std::vector<Index> active;
+  for (Index i = 0; i < flat.values.size(); ++i) active.push_back(i);
+  VectorXd step = VectorXd::Zero(flat.values.size());
+  for (int round = 0; round < 4 && !active.empty(); ++round) {
+    const auto n = static_cast<Index>(active.size());
+    MatrixXd reduced(n, n);
+    VectorXd pull(n);
+    for (Index i = 0; i < n; ++i) {
+      pull[i] = g[active[static_cast<std::size_t>(i)]];
+      for (Index j = 0; j < n; ++j)
+        reduced(i, j) = h(active[static_cast<std::size_t>(i)], active[static_cast<std::size_t>(j)]);
+    }
+    reduced.diagonal() *= 1 + damping;
+    const VectorXd moved = solve(reduced, pull);
+    step.setZero();
+    std::vector<Index> free;
+    for (Index i = 0; i < n; ++i) {
+      const Index at = active[static_cast<std::size_t>(i)];
+      const FreeParameter& p = *flat.parameters[static_cast<std::size_t>(at)];
+      const double wanted = flat.values[at] + moved[i], kept = std::clamp(wanted, p.low, p.high);
+      step[at] = kept - flat.values[at];
+      if (kept == wanted || step[at] != 0) free.push_back(at);
+    }
+    if (free.size() == active.size()) break;
+    active = free;
+  }
+  return step;
+}
+
+}  // namespace
+
+Fitted Study::fit(Effects effects) const {
+  Fitted best;
+  best.effects = effects;
+  best.train = train(effects);
+  double damping = 1e-3;
+  MatrixXd information, variance;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Slopes slope = slopes(best.effects, best.train);
+    const BlockScores both = joined(block_scores(*train_drive_, best.train.drive, slope.drive),
+                                    block_scores(*train_load_, best.train.load, slope.load));
+    information = both.curvature;
+    variance = both.by_block.transpose() * both.by_block;
+    const VectorXd pull = both.by_block.colwise().sum().transpose();
+    const Flat flat = flatten(best.effects);
+    bool better = false;
+    double gained = 0;
+    for (int attempt = 0; attempt < 5 && !better; ++attempt) {
+      const VectorXd step = bounded_step(information, pull, flat, damping);
+      if (step.norm() == 0) break;
+      const Effects moved = unflatten(best.effects, flat.values + step);
+      const Evaluation found = evaluate(*train_drive_, *train_load_, moved, best.train);
+      if (found.loss < best.train.loss) {
+        gained = best.train.loss - found.loss;
+        best.effects = moved;
+        best.train = found;
+        damping = std::max(1e-6, damping * 0.2);
+        better = true;
+      } else {
+        damping = std::max(damping, 1e-4) * 8;
+      }
+    }
+    if (!better || gained < kLeastGain) break;
+  }
+  const MatrixXd inverse = information.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd covariance = inverse * variance * inverse;
+  for (Index i = 0; i < covariance.rows(); ++i)
+    best.std_dev.push_back(std::sqrt(std::max(0.0, covariance(i, i))));
+  best.parameters = best.std_dev.size();
+  best.test = test(best.effects);
+  return best;
+}
+
+}  // namespace crane::diagnosis
