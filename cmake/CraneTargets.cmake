@@ -48,21 +48,27 @@ function(crane_executable name)
   target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK})
 endfunction()
 
-# crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL])
+# crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL | LOOP])
 #   GoogleTest program; each TEST becomes one CTest test. SERIAL: never beside another test (real time, real DDS).
-#   The others carry the label "unit" and are built by the target unit_tests.
+#   The others carry the label "unit" and are built by the target unit_tests. LOOP: of a room that works while a crane moves; these
+#   carry the label "loop", too, and are built by loop_tests.
 add_custom_target(unit_tests)
+add_custom_target(loop_tests)
 function(crane_test name)
-  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;LOOP" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
-  target_compile_options(${name} PRIVATE -O1)  # optimising tests costs more time than it saves
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # optimising tests costs more time than it saves
   if(ARG_SERIAL)
     set(properties RUN_SERIAL TRUE)
   else()
     set(properties "")
     list(APPEND ARG_LABELS unit)
     add_dependencies(unit_tests ${name})
+    if(ARG_LOOP)
+      list(APPEND ARG_LABELS loop)
+      add_dependencies(loop_tests ${name})
+    endif()
   endif()
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")

@@ -8,6 +8,9 @@
 
 namespace crane::bridge {
 
+static_assert(static_cast<int>(Reason::not_homed) == crane_LATCH_NOT_HOMED);
+static_assert(kReasons == crane_LATCH_NOT_HOMED + 1);
+
 Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
     : node_{context.node},
       clock_{context.clock},
@@ -15,10 +18,15 @@ Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
       board_{std::move(board)},
       measurement_{context.rig},
       last_line_{last_line_parameters(context.rig)},
+      homing_{context.rig},
       states_{context.bus.publisher(topics::state, runtime::loop_endpoint(context.clock))},
       commands_{context.bus.subscriber(topics::command, runtime::loop_endpoint(context.clock))},
-      requests_{context, {crane_REQUEST_ADVANCE, crane_REQUEST_KICK}} {
-  for (std::size_t i = 0; i < kDrives; ++i) drive_sign_[i] = context.rig.drives[i].sign;
+      requests_{context, {crane_REQUEST_ADVANCE, crane_REQUEST_KICK}},
+      drives_{context.rig.drives} {
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    const auto& encoder = context.rig.encoders[i];
+    unit_per_count_[i] = encoder.counts_per_unit > 0 ? encoder.sign / encoder.counts_per_unit : 0;
+  }
   board_->make_safe();
 }
 
@@ -73,7 +81,8 @@ void Bridge::take_commands() {
         .tick = command->header.tick,
         .drive_v = runtime::values(command->drive_v),
         .brake_release = {command->brake_release[0], command->brake_release[1], command->brake_release[2]},
-        .watchdog_permission = command->watchdog_permission};
+        .watchdog_permission = command->watchdog_permission,
+        .homing = {command->homing[0], command->homing[1], command->homing[2]}};
   }
 }
 
@@ -104,18 +113,37 @@ void Bridge::tick(std::int64_t now_ns) {
   board_->advance_to(static_cast<std::int64_t>(next) * period_ns_);
   const auto inputs = board_->read();
   const auto measured = measurement_.step(inputs.raw_counts);
-  apply(last_line_.decide(command_, next, seen(inputs)));
+  const auto now = seen(inputs);
+  apply(last_line_.decide(command_, next, now));
   auto sample = state(inputs, measured, sample_time_ns);
   states_.publish(sample);
   ++counts_.completed;
   report_latch();
+  look_for_marks(now);
+}
+
+/// A position that becomes known is published from the next tick on.
+void Bridge::look_for_marks(const Seen& seen) {
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    if (last_line_.doubted()[i]) homing_.forget(i);
+    const bool released = command_ && command_->brake_release[i] && last_line_.reason() == Reason::none;
+    const auto change = homing_.step(i, {.counts = seen.counts[i],
+                                         .active = seen.mark[i],
+                                         .asked = command_ && command_->homing[i],
+                                         .free = released && !seen.brake_closed[i],
+                                         .rests = last_line_.rests(i)});
+    if (!change) continue;
+    measurement_.shift(i, *change);
+    last_line_.shift(i, static_cast<double>(*change) * unit_per_count_[i]);
+    node_.info("homed", std::string{"the position of the "} + control::kAxisNames[i] + " axis is known");
+  }
 }
 
 /// Commands are positive outward; the board gets what the wiring makes of that.
 void Bridge::apply(Outputs outputs) {
-  for (std::size_t i = 0; i < kDrives; ++i) outputs.drive_v[i] *= drive_sign_[i];
+  for (std::size_t i = 0; i < kDrives; ++i) outputs.drive_v[i] *= drives_[i].sign;
   applied_v_ = board_->write(outputs);
-  for (std::size_t i = 0; i < kDrives; ++i) applied_v_[i] *= drive_sign_[i];
+  for (std::size_t i = 0; i < kDrives; ++i) applied_v_[i] *= drives_[i].sign;
 }
 
 Seen Bridge::seen(const Inputs& inputs) const {
@@ -126,6 +154,10 @@ Seen Bridge::seen(const Inputs& inputs) const {
   for (std::size_t i = 0; i < kCounters; ++i) {
     seen.counts[i] = measurement_.coordinates()[i].counts();
     seen.coordinate[i] = measurement_.coordinates()[i].position();
+  }
+  for (std::size_t i = 0; i < kDrives; ++i) {
+    seen.unknown[i] = !homing_.known(i);
+    seen.mark[i] = mark_active(drives_[i], inputs, i);
   }
   return seen;
 }
@@ -152,11 +184,15 @@ msg::State Bridge::state(const Inputs& inputs, const control::Measurement& measu
     sample.brake_closed[i] = inputs.brake_closed[i];
     sample.limit_low[i] = inputs.limit_low[i];
     sample.limit_high[i] = inputs.limit_high[i];
+    sample.position_known[i] = homing_.known(i);
+    sample.mark_active[i] = mark_active(drives_[i], inputs, i);
+    sample.mark_found[i] = homing_.found(i);
   }
   sample.estop_pressed = inputs.estop_pressed;
   const auto reason = last_line_.reason();
   sample.command_stale = reason == Reason::command_stale;
   sample.command_invalid = reason != Reason::none && reason != Reason::command_stale;
+  sample.latch_reason = static_cast<crane_LatchReason>(reason);
   sample.watchdog_dropped = inputs.watchdog_dropped;
   sample.overruns = overruns_;
   return sample;

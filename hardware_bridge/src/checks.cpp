@@ -71,11 +71,30 @@ bool command_rate(const LastLineParameters& parameters, const Moment& moment) no
   return false;
 }
 
+/// What an axis may do whose position nobody knows: creep, and only to be homed. Its speed is the mean of
+/// some ticks, because an axis that breaks loose from its friction leaps.
+bool not_homed(const LastLineParameters& parameters, const Moment& moment) noexcept {
+  constexpr double kBeyondCreeping = 3, kWindow_s = 0.05;
+  if (moment.command == nullptr) return false;
+  const auto& history = *moment.history;
+  const auto ticks = std::clamp<std::size_t>(
+      static_cast<std::size_t>(std::llround(kWindow_s / parameters.period_s)), 1, History::kLength - 1);
+  return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
+    if (!history[0].seen.unknown[i] || !asks_for_motion(*moment.command, i)) return false;
+    if (!moment.command->homing[i] ||
+        !(std::abs(moment.command->drive_v[i]) <= axis.homing.volt_limit_v + kRounding))
+      return true;
+    if (history.size() <= ticks) return false;
+    const double way = history[0].seen.coordinate[i] - history[ticks].seen.coordinate[i];
+    return !(std::abs(way) / seconds(parameters, moment, 0, ticks) <= kBeyondCreeping * axis.homing.speed);
+  });
+}
+
 /// Beyond a hard limit, or too fast to stop before it: x +- (v t_brake + v^2 / 2a).
 bool position(const LastLineParameters& parameters, const Moment& moment) noexcept {
   if (moment.command == nullptr) return false;
   return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
-    if (!asks_for_motion(*moment.command, i)) return false;
+    if (!asks_for_motion(*moment.command, i) || (*moment.history)[0].seen.unknown[i]) return false;
     const double x = (*moment.history)[0].seen.coordinate[i];
     const double v = speed(parameters, moment, i);
     const double way = std::abs(v) * axis.brake_close_time_s + v * v / (2 * axis.brake_deceleration);
@@ -104,24 +123,44 @@ bool swing(const LastLineParameters& parameters, const Moment& moment) noexcept 
 }
 
 /// Farther within a tick than any motion goes.
-bool encoder_jump(const LastLineParameters& parameters, const Moment& moment) noexcept {
+bool jumped(const LastLineParameters& parameters, const Moment& moment, std::size_t counter) noexcept {
   constexpr double kBeyondMotion = 2;
-  if (moment.history->size() < 2) return false;
-  for (std::size_t i = 0; i < kCounters; ++i) {
-    const bool drive = i < kDrives;
-    if (drive ? !parameters.axis[i].present : !parameters.swing_present[i - kDrives]) continue;
-    const double fastest = drive ? parameters.axis[i].max_speed : parameters.swing_rate_max_radps;
-    if (!(std::abs(speed(parameters, moment, i)) <= kBeyondMotion * fastest)) return true;
-  }
+  const bool drive = counter < kDrives;
+  if (drive ? !parameters.axis[counter].present : !parameters.swing_present[counter - kDrives]) return false;
+  const double fastest = drive ? parameters.axis[counter].max_speed : parameters.swing_rate_max_radps;
+  return !(std::abs(speed(parameters, moment, counter)) <= kBeyondMotion * fastest);
+}
+
+bool encoder_jump(const LastLineParameters& parameters, const Moment& moment) noexcept {
+  for (std::size_t i = 0; i < kCounters; ++i)
+    if (jumped(parameters, moment, i)) return true;
   return false;
 }
 
+/// The mark that an axis has been homed by is seen elsewhere.
+bool mark_disagrees(const AxisLine& axis, const Moment& moment, std::size_t i) noexcept {
+  const auto& history = *moment.history;
+  if (!axis.homes() || history.size() < 2 || history[1].seen.unknown[i]) return false;
+  if (history[0].seen.mark[i] == history[1].seen.mark[i]) return false;
+  const double now = history[0].seen.coordinate[i], before = history[1].seen.coordinate[i];
+  const double low = std::min(now, before) - axis.homing.back_off;
+  const double high = std::max(now, before) + axis.homing.back_off;
+  return !(axis.homing.position >= low && axis.homing.position <= high);
+}
+
 /// A limit switch is a reference mark: where it closes, the axis is near its limit, or counts are lost.
-bool lost_counts(const LastLineParameters& parameters, const Moment& moment) noexcept {
+bool counts_lost(const LastLineParameters& parameters, const Moment& moment, std::size_t i) noexcept {
+  const AxisLine& axis = parameters.axis[i];
   const auto& seen = (*moment.history)[0].seen;
-  return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
-    return (seen.limit_low[i] && seen.coordinate[i] > axis.low_limit + axis.soft_margin) ||
-           (seen.limit_high[i] && seen.coordinate[i] < axis.high_limit - axis.soft_margin);
+  if (!axis.present || seen.unknown[i]) return false;
+  return (seen.limit_low[i] && seen.coordinate[i] > axis.low_limit + axis.soft_margin) ||
+         (seen.limit_high[i] && seen.coordinate[i] < axis.high_limit - axis.soft_margin) ||
+         mark_disagrees(axis, moment, i);
+}
+
+bool lost_counts(const LastLineParameters& parameters, const Moment& moment) noexcept {
+  return any_axis(parameters, [&](std::size_t i, const AxisLine& /*axis*/) {
+    return counts_lost(parameters, moment, i);
   });
 }
 
@@ -143,9 +182,9 @@ bool encoder_frozen(const LastLineParameters& parameters, const Moment& moment) 
   if (history.size() <= ticks) return false;
   return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
     const double side = history[0].seen.applied_v[i] > 0 ? 1 : -1;
+    const double certain_v = history[0].seen.unknown[i] ? axis.creeping_motion_v : axis.certain_motion_v;
     for (std::size_t age = 0; age < ticks; ++age) {
-      if (!history[age].free[i] || side * history[age].seen.applied_v[i] < axis.certain_motion_v)
-        return false;
+      if (!history[age].free[i] || side * history[age].seen.applied_v[i] < certain_v) return false;
       if (std::abs(history[age].seen.counts[i] - history[ticks].seen.counts[i]) > kFlicker_counts)
         return false;
     }
@@ -192,6 +231,7 @@ constexpr std::array kChecks{Check{Reason::command_stale, command_stale},
                              Check{Reason::command_not_finite, command_not_finite},
                              Check{Reason::command_range, command_range},
                              Check{Reason::command_rate, command_rate},
+                             Check{Reason::not_homed, not_homed},
                              Check{Reason::encoder_jump, encoder_jump},
                              Check{Reason::lost_counts, lost_counts},
                              Check{Reason::position, position},
@@ -204,5 +244,15 @@ constexpr std::array kChecks{Check{Reason::command_stale, command_stale},
 }  // namespace
 
 std::span<const Check> last_line_checks() noexcept { return kChecks; }
+
+std::array<bool, kCounters> counters_in_doubt(Reason reason, const LastLineParameters& parameters,
+                                              const Moment& moment) noexcept {
+  std::array<bool, kCounters> doubted{};
+  for (std::size_t i = 0; i < kCounters; ++i) {
+    if (reason == Reason::encoder_jump) doubted[i] = jumped(parameters, moment, i);
+    if (reason == Reason::lost_counts && i < kDrives) doubted[i] = counts_lost(parameters, moment, i);
+  }
+  return doubted;
+}
 
 }  // namespace crane::bridge

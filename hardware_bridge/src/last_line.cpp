@@ -14,9 +14,9 @@ void History::add(const Entry& entry) noexcept {
 Outputs LastLine::decide(const std::optional<CommandView>& command, std::uint64_t tick,
                          const Seen& seen) noexcept {
   observe(tick, seen);
-  if (command && reason_ != Reason::none && !is_final(reason_)) reset_on_permission_edge(*command);
+  if (command && reason_ != Reason::none && !final_) reset_on_permission_edge(*command);
   const Moment moment{tick, command ? &*command : nullptr, before_, &history_, braked_at_};
-  if (reason_ == Reason::none) reason_ = first_failure(moment);
+  if (reason_ == Reason::none) latch(first_failure(moment), moment);
   if (reason_ != Reason::none || !command) {
     before_ = {};
     return given_ = {};
@@ -62,6 +62,28 @@ Reason LastLine::first_failure(const Moment& moment) const noexcept {
   return failed == checks_.end() ? Reason::none : failed->reason;
 }
 
+/// Counters in doubt are no reason to start anew where all of them can be homed.
+void LastLine::latch(Reason reason, const Moment& moment) noexcept {
+  reason_ = reason;
+  if (reason == Reason::none) return;
+  final_ = is_final(reason);
+  doubted_ = {};
+  const auto counters = counters_in_doubt(reason, parameters_, moment);
+  bool any = false, all_home = true;
+  for (std::size_t i = 0; i < kCounters; ++i) {
+    if (!counters[i]) continue;
+    any = true;
+    all_home = all_home && i < kDrives && parameters_.axis[i].homes();
+    if (i < kDrives) doubted_[i] = true;
+  }
+  if (any && all_home) final_ = false;
+}
+
+void LastLine::shift(std::size_t axis, double change) noexcept {
+  history_.shift(axis, change);
+  if (braked_at_[axis]) *braked_at_[axis] += change;
+}
+
 void LastLine::reset_on_permission_edge(const CommandView& command) noexcept {
   const bool fresh =
       history_[0].tick > command.tick && history_[0].tick - 1 - command.tick < parameters_.stale_after_ticks;
@@ -73,6 +95,7 @@ void LastLine::reset_on_permission_edge(const CommandView& command) noexcept {
   } else if (permission_withheld_) {
     permission_withheld_ = false;
     reason_ = Reason::none;
+    doubted_ = {};
   }
 }
 

@@ -6,8 +6,6 @@
 namespace crane::bridge {
 namespace {
 
-constexpr double kSlewSlip_rad = 0.05, kSlip_m = 0.02;
-
 /// Smallest and largest acceleration per volt; the load hangs on a pendulum and takes part or not.
 void set_gains(AxisLine& axis, std::size_t i, const runtime::Rig& rig) {
   const auto& crane = rig.design.crane;
@@ -30,21 +28,13 @@ AxisLine axis_line(const runtime::Rig& rig, std::size_t i) {
   const auto& drive = rig.drives[i];
   const auto& friction = rig.design.friction[i];
   AxisLine axis;
-  axis.present = drive.present;
-  axis.volt_limit_v = drive.volt_limit_v;
-  axis.volt_rate_limit_vps = drive.volt_rate_limit_vps;
+  static_cast<control::DriveLimits&>(axis) = drive;
   if (!drive.present) return axis;
-  axis.low_limit = drive.low_limit;
-  axis.high_limit = drive.high_limit;
-  axis.soft_margin = drive.soft_margin;
-  axis.max_speed = drive.max_speed;
-  axis.brake_deceleration = drive.brake_deceleration;
-  axis.brake_close_time_s = drive.brake_close_time_s;
-  axis.brake_slip = i == plant::kSlew ? kSlewSlip_rad : kSlip_m;
-  constexpr double kCertain_v = 3, kBeyondFriction = 1.5;
-  axis.certain_motion_v =
-      kCertain_v + kBeyondFriction * std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
-                                               friction.stiction_positive_v, friction.stiction_negative_v});
+  constexpr double kCertain_v = 3, kBeyondFriction = 1.5, kCertainCreep_v = 0.8;
+  const double friction_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
+                                      friction.stiction_positive_v, friction.stiction_negative_v});
+  axis.certain_motion_v = kCertain_v + kBeyondFriction * friction_v;
+  axis.creeping_motion_v = kCertainCreep_v + friction_v;
   set_gains(axis, i, rig);
   return axis;
 }

@@ -23,7 +23,7 @@ Coordinate::Coordinate(const runtime::Encoder& encoder, double period_s, double 
       differentiator_{control::al_alaoui_second_order(1 / period_s)} {}
 
 void Coordinate::step(std::int32_t raw_counts) noexcept {
-  counts_ = unwrapper_.step(raw_counts);
+  counts_ = unwrapper_.step(raw_counts) + shift_;
   position_ = static_cast<double>(counts_) * units_per_count_;
   if (!started_) {
     started_ = true;
@@ -33,6 +33,11 @@ void Coordinate::step(std::int32_t raw_counts) noexcept {
   const double smooth = control::step(low_pass_, low_pass_memory_, position_);
   rate_ = control::step(differentiator_, differentiator_memory_, smooth);
   if (filter_position_) position_ = smooth;
+}
+
+void Coordinate::shift(std::int64_t change) noexcept {
+  shift_ += change;
+  started_ = false;  // the filters settle anew at the next step
 }
 
 namespace {

@@ -10,7 +10,7 @@ struct Words {
 };
 
 /// In the order of Reason.
-constexpr std::array<Words, 13> kWords{{
+constexpr std::array<Words, kReasons> kWords{{
     {"none", "", ""},
     {"command_stale", "commands stopped coming", "look for a dead or hung supervisor, then `crane reset`"},
     {"command_not_finite", "a command was not a number", "restart the supervisor, then `crane reset`"},
@@ -23,15 +23,18 @@ constexpr std::array<Words, 13> kWords{{
     {"swing", "the load swung farther than any maneuver lets it",
      "let the load come to rest, then `crane reset`"},
     {"encoder_jump", "an encoder jumped: positions are unknown",
-     "check its cable, bring the crane to its start position, restart the bridge"},
+     "check its cable, then `crane home`; without a mark: crane to its start position, restart the bridge"},
     {"lost_counts", "a limit switch closed where the encoder says there is none: positions are unknown",
-     "check encoder and switch, bring the crane to its start position, restart the bridge"},
+     "check encoder and switch, then `crane home`; without a mark: crane to its start position, restart the "
+     "bridge"},
     {"braked_motion", "an axis moved although its brake was closed",
      "repair the brake, then restart the bridge"},
     {"encoder_frozen", "a drive pushed for 0.1 s and its encoder stood still",
      "check encoder, brake and amplifier, then `crane reset`"},
     {"drive_response", "an axis gained speed that no command explains",
      "check converter, amplifier and signs, then `crane reset`"},
+    {"not_homed", "an axis whose position is not known was to move, or moved, faster than it may creep",
+     "`crane reset`, then `crane home`"},
 }};
 
 const Words& words_of(Reason reason) { return kWords[static_cast<std::size_t>(reason)]; }

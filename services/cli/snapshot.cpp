@@ -1,11 +1,13 @@
 #include "cli/snapshot.hpp"
 
+#include <array>
 #include <numbers>
 #include <ostream>
 
 #include "cli/sample_json.hpp"
 #include "cli/text_table.hpp"
 #include "cli/tool_bus.hpp"
+#include "crane/bridge/last_line.hpp"
 #include "crane/supervisor/states.hpp"
 
 namespace crane::cli {
@@ -53,10 +55,24 @@ void print_supervisor(std::ostream& out, const msg::SupervisorStatus& status) {
     out << " because of " << supervisor::name_of(static_cast<supervisor::Cause>(status.cause)) << ": "
         << remedy(status);
   out << '\n';
+  if (status.cause != crane_CAUSE_HOMING_FAILED) return;
+  const auto failure = static_cast<supervisor::HomingFailure>(status.homing_failure);
+  out << "homing      " << supervisor::name_of(failure) << ": " << supervisor::remedy_for(failure) << '\n';
+}
+
+/// Why the bridge holds the crane, if it does.
+void print_latch(std::ostream& out, const msg::State& state) {
+  if (state.latch_reason == crane_LATCH_NONE) return;
+  const auto reason = static_cast<bridge::Reason>(state.latch_reason);
+  out << "bridge      stopped the crane: " << bridge::name_of(reason) << ", "
+      << bridge::explanation_of(reason) << ": " << bridge::remedy_for(reason) << '\n';
 }
 
 void print_axes(std::ostream& out, const msg::State& state) {
-  const auto brake = [&](std::size_t axis) { return state.brake_closed[axis] ? "closed" : "open"; };
+  const auto brake = [&](std::size_t axis) {
+    return std::string{state.brake_closed[axis] ? "closed" : "open"} +
+           (state.position_known[axis] ? "" : ", not homed");
+  };
   TextTable table{{"axis", "position", "", "speed", "", "volts", "brake"}};
   table.add({"trolley", fixed(state.trolley_position_m, 4), "m", fixed(state.trolley_speed_mps, 4), "m/s",
              fixed(state.applied_v[0], 3), brake(0)});
@@ -69,6 +85,20 @@ void print_axes(std::ostream& out, const msg::State& state) {
       << fixed(state.swing_tangential_rad * kDegrees, 2) << " deg  (tick " << state.header.tick << ")\n";
 }
 
+void print_twin(std::ostream& out, const msg::Twin& twin) {
+  constexpr std::array kStates{"waits for motion without gaps", "is learning how much the residual scatters",
+                               "agrees: the residual is inside its band", "deviates"};
+  out << "twin  " << kStates.at(static_cast<std::size_t>(twin.state));
+  if (twin.state == crane_TWIN_LEARNING)
+    out << ", " << fixed(100 * twin.learnt_share, 0) << " % of the motion";
+  if (twin.cause[0] != '\0') {
+    out << ": likely " << twin.cause;
+    if (twin.axis[0] != '\0') out << " (" << twin.axis << ")";
+    if (twin.unit[0] != '\0') out << ' ' << fixed(twin.size, 4) << ' ' << twin.unit;
+  }
+  out << '\n';
+}
+
 }  // namespace
 
 Snapshot listen(bus::Bus& bus, double timeout_s) {
@@ -76,6 +106,7 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
   auto nodes = bus.subscriber(topics::node);
   auto supervisors = bus.subscriber(topics::supervisor);
   auto states = bus.subscriber(topics::state);
+  auto twins = bus.subscriber(topics::twin);
   Snapshot snapshot;
   std::int64_t changed_ns = runtime::monotonic_ns();
   int writers = 0;
@@ -83,11 +114,13 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
     while (const auto node = nodes.take()) snapshot.nodes[node->node] = *node;
     keep_newest(supervisors, snapshot.supervisor);
     keep_newest(states, snapshot.state);
+    keep_newest(twins, snapshot.twin);
     const auto now_ns = runtime::monotonic_ns();
     if (nodes.matched() != writers) changed_ns = now_ns;
     writers = nodes.matched();
     const bool all = writers > 0 && snapshot.nodes.size() >= static_cast<std::size_t>(writers);
-    return all && snapshot.supervisor && snapshot.state && now_ns - changed_ns > kQuiet_ns;
+    const bool twin_heard = twins.matched() == 0 || snapshot.twin;
+    return all && twin_heard && snapshot.supervisor && snapshot.state && now_ns - changed_ns > kQuiet_ns;
   });
   return snapshot;
 }
@@ -103,6 +136,7 @@ nlohmann::ordered_json to_json(const Snapshot& snapshot) {
   }
   result["state"] =
       snapshot.state ? to_json(topics::state, *snapshot.state) : nlohmann::ordered_json(nullptr);
+  result["twin"] = snapshot.twin ? to_json(topics::twin, *snapshot.twin) : nlohmann::ordered_json(nullptr);
   return result;
 }
 
@@ -110,7 +144,11 @@ void print(std::ostream& out, const Snapshot& snapshot) {
   print_nodes(out, snapshot);
   out << '\n';
   if (snapshot.supervisor) print_supervisor(out, *snapshot.supervisor);
-  if (snapshot.state) print_axes(out, *snapshot.state);
+  if (snapshot.state) {
+    print_latch(out, *snapshot.state);
+    print_axes(out, *snapshot.state);
+  }
+  if (snapshot.twin) print_twin(out, *snapshot.twin);
   if (!snapshot.supervisor) out << "supervisor  not heard: nothing may move the crane\n";
   if (!snapshot.state) out << "crane/state  not heard: neither the bridge nor the plant publishes\n";
 }

@@ -12,13 +12,14 @@ struct Snapshot {
   std::map<std::uint32_t, msg::NodeStatus> nodes;  ///< by node number (Source)
   std::optional<msg::SupervisorStatus> supervisor;
   std::optional<msg::State> state;
+  std::optional<msg::Twin> twin;  ///< where one runs
   [[nodiscard]] bool empty() const { return nodes.empty() && !supervisor && !state; }
 };
 
 /// Listens until every process that was found has said something and a state has come, at most `timeout_s`.
 [[nodiscard]] Snapshot listen(bus::Bus& bus, double timeout_s);
 
-/// {"nodes": [...], "supervisor": {..., "remedy": ...} or null, "state": {...} or null}
+/// {"nodes": [...], "supervisor": {..., "remedy": ...} or null, "state": {...} or null, "twin": likewise}
 [[nodiscard]] nlohmann::ordered_json to_json(const Snapshot& snapshot);
 /// Table of processes, state of the supervisor with cause and remedy, the axes.
 void print(std::ostream& out, const Snapshot& snapshot);

@@ -8,6 +8,7 @@
 #include "crane/experiment/variant.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "process/hardware_bridge.hpp"
+#include "process/twin_component.hpp"
 #include "stack/child_processes.hpp"
 #include "stack/launch.hpp"
 #include "stack/stack.hpp"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& rig_file,
                             const runtime::Rig& rig, const control::Controller& controller,
                             const experiment::Scenario& scenario, TickLog& log) {
-  const auto specs = stack_with(options.plant);
+  auto specs = stack_with(options.plant);
   LaunchOptions launch_options{.bus = options.bus,
                                .vendors = options.vendors,
                                .rig = rig_file.string(),
@@ -33,13 +34,17 @@ RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& ri
   ChildProcesses children;
   if (options.plant == Plant::hardware) launch_rig(children, rig, launch_options);
   launch(children, specs, launch_options);
+  if (options.twin) {
+    launch_twin(children, options.twin->string(), launch_options);
+    specs.push_back(twin::twin_spec());
+  }
   bus::Bus bus{runtime::bus_options(launch_options.bus, "crane_run", crane_SOURCE_OPERATOR, 1)};
   wait_until_ready(children, specs, bus, std::chrono::seconds{15});
   const Pump pump = [&] {
     bus.wait(std::chrono::milliseconds{20});
     if (const auto ended = children.ended()) throw RunError(describe(*ended));
   };
-  return run_scenario(bus, pump, rig, scenario, log);
+  return run_scenario(bus, pump, rig, scenario, log, options.twin.has_value());
 }
 
 /// A real crane does not wait for the next command, and does not begin where a scenario says.
@@ -60,13 +65,15 @@ void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
 }  // namespace
 
 RunOutcome run_in_process(const runtime::Rig& rig, const control::Controller& controller,
-                          const experiment::Scenario& scenario, TickLog& log, Plant plant) {
+                          const experiment::Scenario& scenario, TickLog& log, Plant plant,
+                          const runtime::Rig* twin) {
   const auto specs = stack_with(plant);
   runtime::InProcessStack stack{specs, rig, controller};
+  if (twin != nullptr) stack.add(twin::twin_spec(), *twin, controller);
   bus::Bus bus{runtime::memory_options(stack.network(), "crane_run", crane_SOURCE_OPERATOR)};
   // With nothing to do but wait for an answer that never comes, the time-out of the run ends it.
   return run_scenario(
-      bus, [&stack] { stack.pump(); }, rig, scenario, log);
+      bus, [&stack] { stack.pump(); }, rig, scenario, log, twin != nullptr);
 }
 
 nlohmann::ordered_json to_json(const ExperimentResult& result) {
@@ -91,15 +98,19 @@ ExperimentResult run_experiment(const ExperimentOptions& options) {
   const auto rig_file = options.directory / "rig.toml";
   write_started_rig(rig_file, rig, started);
 
+  std::optional<runtime::Rig> twin;
+  if (options.twin) twin = runtime::load_rig(*options.twin);
+
   TickLog log{options.directory / "recording.mcap"};
   ExperimentResult result;
   result.scenario = scenario.name;
   result.controller = controller.name;
   result.rig = rig.name;
   result.variant = options.variant;
-  result.outcome = options.in_process
-                       ? run_in_process(started, controller, scenario, log, options.plant)
-                       : run_in_processes(options, rig_file, started, controller, scenario, log);
+  result.outcome =
+      options.in_process
+          ? run_in_process(started, controller, scenario, log, options.plant, twin ? &*twin : nullptr)
+          : run_in_processes(options, rig_file, started, controller, scenario, log);
   log.close();
   result.real_time_factor =
       static_cast<double>(result.outcome.last_tick) * rig.period_s / result.outcome.wall_s;

@@ -5,6 +5,7 @@
 ///   rig.toml        the rig as it was run
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "crane/experiment/metrics.hpp"
@@ -24,6 +25,7 @@ struct ExperimentOptions {
   bool picture = true;
   runtime::BusOptions bus;  ///< processes only
   std::map<std::string, std::string> vendors;
+  std::optional<std::filesystem::path> twin{};  ///< rig file of a twin that runs beside the stack
 };
 
 struct ExperimentResult {
@@ -40,7 +42,7 @@ struct ExperimentResult {
 /// A scenario on the rig as it starts it, in this process. @throws RunError
 [[nodiscard]] RunOutcome run_in_process(const runtime::Rig& started, const control::Controller& controller,
                                         const experiment::Scenario& scenario, TickLog& log,
-                                        Plant plant = Plant::simulated);
+                                        Plant plant = Plant::simulated, const runtime::Rig* twin = nullptr);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const ExperimentResult& result);
 

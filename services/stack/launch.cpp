@@ -4,6 +4,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "process/twin_component.hpp"
+
 namespace crane::stack {
 
 std::map<std::string, std::string> vendors_from(const std::vector<std::string>& entries,
@@ -50,6 +52,14 @@ void launch_rig(ChildProcesses& children, const runtime::Rig& rig, const LaunchO
       "emulated_rig", "crane_emulated_rig",
       {"--rig", options.rig, "--crane", options.bus.crane, "--domain", std::to_string(options.bus.domain),
        "--clock", options.clock, "--priority", std::to_string(priority)});
+}
+
+void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions options) {
+  const auto chosen = options.vendors.find("twin");
+  options.bus.vendor = chosen != options.vendors.end() ? chosen->second : "fastdds";
+  options.rig = rig;
+  options.priority = 0;
+  launch(children, {twin::twin_spec()}, options);
 }
 
 std::string describe(const Ended& ended) { return ended.name + " has ended: " + ended.how; }

@@ -34,6 +34,11 @@ void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>&
 /// @throws std::runtime_error when the program is missing
 void launch_rig(ChildProcesses& children, const runtime::Rig& rig, const LaunchOptions& options);
 
+/// The model beside the crane, off the loop: ordinary scheduling, and the observers' vendor unless `vendors`
+/// has "twin".
+/// @param rig file of the model. @throws std::runtime_error when the program is missing
+void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions options);
+
 /// Waits until every component has reported ready on crane/node.
 /// @throws std::runtime_error naming who ended or did not report within `patience`
 void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,

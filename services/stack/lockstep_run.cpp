@@ -34,13 +34,17 @@ Collected collect_from(bus::Bus& bus) {
 class LockstepRun {
  public:
   LockstepRun(bus::Bus& bus, const Pump& pump, const runtime::Rig& rig, const Scenario& scenario,
-              TickLog& log)
+              TickLog& log, bool with_twin)
       : pump_{pump},
         rig_{rig},
         scenario_{scenario},
         log_{log},
         operator_{bus, "crane_run", 1},
-        collected_{collect_from(bus)} {}
+        collected_{collect_from(bus)} {
+    if (with_twin)
+      twins_.emplace(bus.subscriber(topics::twin, runtime::loop_endpoint(runtime::Clock::lockstep)),
+                     kDepth_ticks);
+  }
 
   RunOutcome execute() {
     until([this] { return operator_.listeners() >= kListeners && operator_.answerers() >= kListeners; },
@@ -83,9 +87,11 @@ class LockstepRun {
   /// Takes the ticks that are complete. @return true when there was one
   bool collect() {
     bool any = false;
-    while (collected_.poll(0) == runtime::JoinResult::complete) {
-      const Tick tick{collected_.get<0>(), collected_.get<1>(), collected_.get<2>(), collected_.get<3>(),
-                      collected_.get<4>(), collected_.get<5>(), collected_.get<6>()};
+    while (twin_is_there() && collected_.poll(0) == runtime::JoinResult::complete) {
+      const Tick tick{collected_.get<0>(), collected_.get<1>(),
+                      collected_.get<2>(), collected_.get<3>(),
+                      collected_.get<4>(), collected_.get<5>(),
+                      collected_.get<6>(), twins_ ? twins_->find(collected_.tick()) : nullptr};
       log_.add(tick);
       collected_tick_ = collected_.tick();
       clock_master_ = tick.state->header.source;
@@ -94,6 +100,14 @@ class LockstepRun {
       any = true;
     }
     return any;
+  }
+
+  /// The twin answers after the loop: a tick is complete when it has.
+  bool twin_is_there() {
+    if (!twins_) return true;
+    runtime::JoinCounts ignored;
+    (void)twins_->drain(collected_.next_tick(), ignored);
+    return twins_->find(collected_.next_tick()) != nullptr;
   }
 
   void advance_to(std::uint64_t tick) {
@@ -117,6 +131,7 @@ class LockstepRun {
                          supervisor::name_of(static_cast<supervisor::State>(state_)) + " because of " +
                          supervisor::name_of(static_cast<supervisor::Cause>(cause_)));
         advance_to(frontier_ + kChunk_ticks);
+        check_verdicts();
       }
     };
     constexpr double kCausesClear_s = 1.1;  // the supervisor wants them clear for a second before a reset
@@ -189,6 +204,7 @@ class LockstepRun {
   TickLog& log_;
   OperatorClient operator_;
   Collected collected_;
+  std::optional<runtime::TickInput<msg::Twin>> twins_;
   RunOutcome outcome_;
   std::vector<Verdict> verdicts_;
   std::optional<std::uint64_t> collected_tick_;
@@ -201,8 +217,8 @@ class LockstepRun {
 }  // namespace
 
 RunOutcome run_scenario(bus::Bus& bus, const Pump& pump, const runtime::Rig& rig, const Scenario& scenario,
-                        TickLog& log) {
-  return LockstepRun{bus, pump, rig, scenario, log}.execute();
+                        TickLog& log, bool with_twin) {
+  return LockstepRun{bus, pump, rig, scenario, log, with_twin}.execute();
 }
 
 }  // namespace crane::stack

@@ -24,6 +24,8 @@ class RealtimeSession {
 
   /// Sends a request and waits for the supervisor's answer. @throws SessionError when refused
   void request(const Wish& wish, const std::string& what);
+  /// The same, again and again for some seconds: causes have to be clear for a second before a reset.
+  void request_with_patience(const Wish& wish, const std::string& what);
   /// From LOCKED to HOLD: reset, then arm. @throws SessionError
   void arm();
   /// Waits until the supervisor is in `wanted`. @throws SessionError after `patience` or in a stop state
@@ -43,7 +45,6 @@ class RealtimeSession {
  private:
   /// Why the supervisor refuses; empty: accepted. @throws SessionError without an answer
   std::string refusal_of(const Wish& wish, const std::string& what);
-  void request_with_patience(const Wish& wish, const std::string& what);
   void take(std::chrono::nanoseconds timeout);
   template <class Condition>
   bool until(Condition condition, std::chrono::nanoseconds patience);

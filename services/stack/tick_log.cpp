@@ -48,6 +48,7 @@ void TickLog::add(const Tick& tick) {
   write(topics::demand, *tick.demand, time_ns, number);
   write(topics::command, *tick.command, time_ns, number);
   write(topics::supervisor, *tick.supervisor, time_ns, number);
+  if (tick.twin != nullptr) write(topics::twin, *tick.twin, time_ns, number);
 }
 
 void TickLog::close() {

@@ -18,6 +18,7 @@ struct Tick {
   const msg::Demand* demand;
   const msg::Command* command;
   const msg::SupervisorStatus* supervisor;
+  const msg::Twin* twin = nullptr;  ///< null: no twin runs
 };
 
 class TickLog {

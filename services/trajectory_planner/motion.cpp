@@ -25,6 +25,7 @@ double Motion::time_s(std::uint64_t tick) const noexcept {
 void Motion::follow(const control::Measurement& measured, std::uint64_t tick) noexcept {
   is_braking_ = false;
   excitation_.reset();
+  creeping_.reset();
   shaper_ = {};
   start_tick_ = tick;
   for (std::size_t i = 0; i < kAxes; ++i)
@@ -58,6 +59,7 @@ void Motion::start(const MoveTarget& move, std::uint64_t tick) {
       trajectory_[control::kTrolley].duration_s() > 0 || trajectory_[control::kSlew].duration_s() > 0;
   shaper_ = swings ? shaper() : control::Shaper{};
   is_braking_ = false;
+  creeping_.reset();
   excitation_.reset();
   start_tick_ = tick;
 }
@@ -67,13 +69,26 @@ void Motion::excite(const control::Excitation& excitation, std::uint64_t tick) {
   for (std::size_t i = 0; i < kAxes; ++i)
     trajectory_[i] = control::step_profile(now[i].position, now[i].position);
   is_braking_ = false;
+  creeping_.reset();
   shaper_ = {};
   excitation_ = excitation;
   start_tick_ = tick;
 }
 
+void Motion::creep(const std::array<double, kAxes>& speed, const control::Measurement& measured,
+                   std::uint64_t tick) noexcept {
+  if (creeping_ && creeping_->speed == speed) return;
+  Creeping creeping{.speed = speed};
+  const auto now = at(tick);
+  for (std::size_t i = 0; i < kAxes; ++i)
+    creeping.start[i] = speed[i] != 0 ? measured.position[i] : now[i].position;
+  creeping_ = creeping;
+  start_tick_ = tick;
+}
+
 void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noexcept {
   is_braking_ = true;
+  creeping_.reset();
   start_tick_ = tick;
   for (std::size_t i = 0; i < kAxes; ++i)
     braking_[i] = {.start = measured.position[i],
@@ -82,6 +97,14 @@ void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noex
 }
 
 control::Reference Motion::at(std::uint64_t tick) const noexcept {
+  if (creeping_) {
+    control::Reference reference;
+    for (std::size_t i = 0; i < kAxes; ++i)
+      reference[i] = {.position = creeping_->start[i] + creeping_->speed[i] * time_s(tick),
+                      .speed = creeping_->speed[i],
+                      .acceleration = 0};
+    return reference;
+  }
   if (!is_braking_) {
     auto reference = control::reference_at(trajectory_, time_s(tick));
     for (const auto axis : {control::kTrolley, control::kSlew})
@@ -95,6 +118,7 @@ control::Reference Motion::at(std::uint64_t tick) const noexcept {
 }
 
 bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept {
+  if (creeping_) return false;
   constexpr double kBand = 0.01;     // m, rad
   constexpr double kSlow = 0.01;     // per second
   constexpr double kLongest_s = 20;  // friction may hold an axis outside the band for ever

@@ -31,6 +31,10 @@ class Motion {
   void excite(const control::Excitation& excitation, std::uint64_t tick);
   /// Come to rest from the measured speed at the reference acceleration.
   void stop(const control::Measurement& measured, std::uint64_t tick) noexcept;
+  /// Move at constant speeds, per second; 0: stay. A new speed begins where the axis is, so that a mark that
+  /// is seen is not passed by the way that the axis lags behind.
+  void creep(const std::array<double, control::kAxes>& speed, const control::Measurement& measured,
+             std::uint64_t tick) noexcept;
   /// Reference at `tick`.
   [[nodiscard]] control::Reference at(std::uint64_t tick) const noexcept;
   /// The reference has ended and the crane rests on it.
@@ -42,6 +46,9 @@ class Motion {
     double start = 0, speed = 0, deceleration = 1;
     [[nodiscard]] control::AxisReference at(double time_s) const noexcept;
   };
+  struct Creeping {
+    std::array<double, control::kAxes> speed{}, start{};
+  };
   [[nodiscard]] control::AxisProfile planned(std::size_t axis, double start, double target) const;
   [[nodiscard]] control::Shaper shaper() const;
   [[nodiscard]] double time_s(std::uint64_t tick) const noexcept;
@@ -52,6 +59,7 @@ class Motion {
   control::Shaper shaper_;  ///< of trolley and slew; the hoist makes no swing
   std::array<Braking, control::kAxes> braking_{};
   std::optional<control::Excitation> excitation_;  ///< takes the place of its axis' profile
+  std::optional<Creeping> creeping_;
   bool is_braking_ = false;
   std::uint64_t start_tick_ = 0;
 };

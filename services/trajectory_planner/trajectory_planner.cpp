@@ -67,7 +67,11 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   void on_tick(std::uint64_t tick, const msg::State* state, const msg::SupervisorStatus* status) override {
     if (state == nullptr) return;
     missing_statuses_ = status == nullptr ? missing_statuses_ + 1 : 0;
-    if (status != nullptr) supervisor_ = status->state;
+    if (status != nullptr) {
+      supervisor_ = status->state;
+      homing_ = status->homing[0] || status->homing[1] || status->homing[2];
+      homing_speed_ = runtime::values(status->homing_speed);
+    }
     if (missing_statuses_ >= stale_after_ticks_) supervisor_ = crane_STATE_BOOT;
     const auto measured = runtime::measurement(*state);
     const auto next = tick + 1;
@@ -75,6 +79,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       if (!stopping_) motion_.stop(measured, next);
     } else if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) {
       motion_.follow(measured, next);
+    } else if (homing_) {
+      motion_.creep(homing_speed_, measured, next);
     } else if (status != nullptr) {
       start_if_accepted(status->request_id, next);
     }
@@ -116,6 +122,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   std::vector<msg::Request> wanted_;
   std::optional<std::uint64_t> published_;
   crane_SupervisorState supervisor_ = crane_STATE_BOOT;
+  std::array<double, control::kAxes> homing_speed_{};
+  bool homing_ = false;
   int missing_statuses_ = 0;
   bool stopping_ = false;
   std::uint64_t request_id_ = 0;

@@ -3,6 +3,11 @@
 namespace crane::supervisor {
 namespace {
 
+constexpr std::array<const char*, kAxes> kNotHomed{
+    "the position of the trolley is not known: reset, then `crane home --axis trolley`",
+    "the position of the slewing jib is not known: reset, then `crane home --axis slew`",
+    "the position of the hoist is not known: reset, then `crane home --axis hoist`"};
+
 Answer refuse(const char* reason) { return {.asked = true, .accepted = false, .reason = reason}; }
 constexpr Answer kAccepted{.asked = true, .accepted = true, .reason = ""};
 
@@ -35,7 +40,8 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
   return kAccepted;
 }
 
-Answer answer_arm(const Limits& limits, const Inputs& in, const Memory& m) {
+/// What arming and homing have in common: the brakes are about to be opened.
+Answer answer_release(const Limits& limits, const Inputs& in, const Memory& m) {
   switch (m.state) {
     case State::ready:
       break;
@@ -58,7 +64,25 @@ Answer answer_arm(const Limits& limits, const Inputs& in, const Memory& m) {
   return kAccepted;
 }
 
-Answer answer_move(const Memory& m) {
+Answer answer_arm(const Limits& limits, const Inputs& in, const Memory& m) {
+  const Answer answer = answer_release(limits, in, m);
+  return answer.accepted && in.not_homed ? refuse(kNotHomed[in.unhomed_axis]) : answer;
+}
+
+Answer answer_home(const Limits& limits, const Inputs& in, const Memory& m) {
+  if (!in.can_home)
+    return refuse("this axis has no mark: zero = \"homing\" and [homing] in the rig file give it one");
+  if (m.homing) return refuse("an axis is being homed: wait for LOCKED");
+  if (m.state == State::arming || m.state == State::hold || m.state == State::run)
+    return refuse("the crane is armed: disarm and reset it first");
+  if (m.state == State::ready && asked(in, Request::arm))
+    return refuse("arming was asked for in the same tick: home again");
+  return answer_release(limits, in, m);
+}
+
+Answer answer_move(const Inputs& in, const Memory& m) {
+  if (m.homing) return refuse("an axis is being homed: wait for LOCKED, then reset and arm");
+  if (in.not_homed) return refuse(kNotHomed[in.unhomed_axis]);
   if (m.state == State::hold || m.state == State::run) return kAccepted;
   if (m.state == State::arming) return refuse("the brakes are being tested: wait for HOLD");
   if (m.state == State::ready) return refuse("the crane is not armed: arm it first");
@@ -74,7 +98,8 @@ Answers answer_all(const Limits& limits, const Inputs& in, const Memory& m) noex
   };
   put(Request::reset, answer_reset(limits, in, m));
   put(Request::arm, answer_arm(limits, in, m));
-  put(Request::move, answer_move(m));
+  put(Request::move, answer_move(in, m));
+  put(Request::home, answer_home(limits, in, m));
   put(Request::disarm, kAccepted);
   put(Request::stop, kAccepted);
   put(Request::estop, kAccepted);

@@ -11,6 +11,9 @@ bool bridge_matters(const Memory& m) { return m.state != State::arming || m.rele
 Cause power_off_cause(const Inputs& in, const Memory& m) {
   if (in.second_writer) return Cause::second_writer;
   if ((in.bridge_latched || in.watchdog_dropped) && bridge_matters(m)) return Cause::bridge_latched;
+  if (in.not_homed && !m.homing) return Cause::not_homed;
+  if (m.homing && m.state == State::run && in.homing_failure != HomingFailure::none)
+    return Cause::homing_failed;
   if (in.envelope.position) return Cause::position_limit;
   if (in.envelope.limit_switch) return Cause::limit_switch;
   if (in.envelope.overspeed) return Cause::overspeed;
@@ -33,6 +36,7 @@ Cause controlled_stop_cause(const Limits& limits, const Inputs& in, const Memory
   if (in.envelope.swing) return Cause::swing_limit;
   if (asked(in, Request::stop)) return Cause::operator_stop;
   if (asked(in, Request::disarm)) return Cause::operator_disarm;
+  if (m.homing && m.state == State::run && in.homed) return Cause::homed;
   if (m.state == State::hold && in.now_s - m.idle_since_s >= limits.idle_lock_s) return Cause::idle;
   return Cause::none;
 }

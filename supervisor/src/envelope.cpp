@@ -12,6 +12,12 @@ Envelope check_envelope(const Limits& limits, const EnvelopeInput& input) noexce
     if (!axis.present) continue;
     const double x = input.position[i];
     const double v = input.speed[i];
+    if (input.unknown[i]) {
+      found.block_positive[i] = input.limit_high[i];
+      found.block_negative[i] = input.limit_low[i];
+      found.overspeed = found.overspeed || !(std::abs(v) <= limits.creeping_ratio * axis.homing.speed);
+      continue;
+    }
     const double way = stopping_distance(limits, i, v);
     const double ahead = v > 0 ? x + way : x;
     const double behind = v < 0 ? x - way : x;

@@ -7,7 +7,7 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr std::array<const char*, kAxes> kAxisNames{"trolley", "slew", "hoist"};
+using control::kAxisNames;
 
 class Problems {
  public:
@@ -32,6 +32,18 @@ class Problems {
   std::vector<std::string> found_;
 };
 
+void check_homing(const std::string& prefix, const AxisLimits& axis, Problems& problems) {
+  const auto& homing = axis.homing;
+  problems.require(homing.position >= axis.low_limit && homing.position <= axis.high_limit,
+                   prefix + "position", homing.position, "must lie between the hard limits");
+  problems.positive(prefix + "approach_speed", homing.approach_speed);
+  problems.require(homing.speed >= homing.approach_speed && homing.speed <= axis.max_speed, prefix + "speed",
+                   homing.speed, "must be at least approach_speed and at most max_speed");
+  problems.positive(prefix + "back_off", homing.back_off);
+  problems.require(homing.volt_limit_v > 0 && homing.volt_limit_v <= axis.volt_limit_v,
+                   prefix + "volt_limit_v", homing.volt_limit_v, "must be in (0, volt_limit_v]");
+}
+
 void check_axis(const std::string& prefix, const AxisLimits& axis, Problems& problems) {
   problems.require(axis.volt_limit_v > 0 && axis.volt_limit_v <= 10, prefix + "volt_limit_v",
                    axis.volt_limit_v, "must be in (0, 10]");
@@ -48,6 +60,7 @@ void check_axis(const std::string& prefix, const AxisLimits& axis, Problems& pro
   problems.at_least(prefix + "brake_open_time_s", axis.brake_open_time_s, 0);
   problems.positive(prefix + "standstill_speed", axis.standstill_speed);
   problems.positive(prefix + "brake_slip", axis.brake_slip);
+  if (axis.homes()) check_homing(prefix + "homing.", axis, problems);
 }
 
 void check_common(const Limits& limits, Problems& problems) {
@@ -69,6 +82,7 @@ void check_common(const Limits& limits, Problems& problems) {
   problems.positive("brake_test_time_s", limits.brake_test_time_s);
   problems.positive("brake_report_time_s", limits.brake_report_time_s);
   problems.positive("idle_lock_s", limits.idle_lock_s);
+  problems.at_least("creeping_ratio", limits.creeping_ratio, 1);
   problems.require(std::ranges::any_of(limits.axis, &AxisLimits::present), "axis", 0,
                    "at least one must be present");
 }

@@ -32,6 +32,12 @@ bool standstill(const Limits& limits, double now_s, const MotionMemory& memory) 
   return true;
 }
 
+void rename_place(std::size_t axis, double position, MotionMemory& motion, BrakeMemory& brakes) noexcept {
+  const double change = position - motion.position[axis];
+  for (double* place : {&motion.position[axis], &motion.window_position[axis], &brakes.position[axis]})
+    *place += change;
+}
+
 bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
                   const AxisFlags& brake_closed, BrakeMemory& memory) noexcept {
   if (!memory.anchored) {

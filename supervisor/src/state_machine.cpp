@@ -73,7 +73,11 @@ void step_ready(const Inputs& in, const Answers& answers, Memory& m) {
     enter(State::locked, stop ? Cause::operator_stop : Cause::operator_disarm, in, m);
   } else if (accepted(answers, Request::arm)) {
     enter(State::arming, Cause::none, in, m);
+    m.releasing = m.homing = false;
+  } else if (accepted(answers, Request::home)) {
+    enter(State::arming, Cause::none, in, m);
     m.releasing = false;
+    m.homing = true;
   }
 }
 
@@ -83,12 +87,13 @@ void step_arming(const Inputs& in, Memory& m) {
     m.releasing = true;
     m.release_since_s = in.now_s;
   } else if (in.brakes_open) {
-    enter(State::hold, Cause::none, in, m);
+    enter(m.homing ? State::run : State::hold, Cause::none, in, m);
     m.idle_since_s = in.now_s;
   }
 }
 
 void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, Memory& m) {
+  if (m.homing) return;  // ends by a cause: homed, failed, or any other
   if (m.state == State::hold && (accepted(answers, Request::move) || in.reference_moving)) {
     enter(State::run, Cause::none, in, m);
     m.maneuver_seen = false;
@@ -164,6 +169,7 @@ Outputs outputs_of(const Limits& limits, const Memory& m, const Answers& answers
     out.ramp_factor = 1 - static_cast<double>(m.ramp_tick) / ramp_ticks(limits);
   }
   out.brake_release = m.releasing && armed(m);
+  out.homing = m.homing;
   out.watchdog_permission = m.state == State::ready || armed(m);
   out.stop_motion = m.state != State::hold && m.state != State::run;
   return out;
@@ -183,6 +189,7 @@ Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
   if (finding.reaction > severity(m)) react(finding, in, m);
   const Answers answers = answer_all(limits, in, m);
   transition(limits, in, answers, m);
+  m.homing = m.homing && armed(m);
   m.reset_was_up = asked(in, Request::reset);
   return outputs_of(limits, m, answers);
 }

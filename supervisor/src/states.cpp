@@ -52,6 +52,11 @@ constexpr std::array<CauseEntry, kCauses> kTable{{
      "look at the events of the self-test, then restart the supervisor"},
     {Cause::stop_timeout, Reaction::ramped_stop, "STOP_TIMEOUT",
      "the controllers did not bring the crane to rest in time: check them, then reset"},
+    {Cause::not_homed, Reaction::power_off, "NOT_HOMED",
+     "the position of an axis is not known: reset, then `crane home` (with --axis for one of them)"},
+    {Cause::homed, Reaction::controlled_stop, "HOMED", "the axis has found its mark: reset, then arm"},
+    {Cause::homing_failed, Reaction::power_off, "HOMING_FAILED",
+     "`crane status` and the events say why; remove the cause, reset, then `crane home`"},
 }};
 
 constexpr bool table_is_in_order() {
@@ -65,11 +70,31 @@ static_assert(table_is_in_order());
 constexpr std::array<const char*, kStates> kStateNames{
     "BOOT", "SELFTEST", "LOCKED", "READY", "ARMING", "HOLD", "RUN", "STOP_C1", "STOP_C0", "ESTOP", "FAULT"};
 
+struct FailureEntry {
+  const char* name;
+  const char* remedy;
+};
+// In the order of the enumeration.
+constexpr std::array<FailureEntry, kHomingFailures> kFailures{{
+    {"NONE", ""},
+    {"MARK_NOT_FOUND", "the axis crept its whole travel without its mark: check switch and counts per unit"},
+    {"MARK_STUCK", "the mark's switch does not open when the axis leaves it: check switch and wiring"},
+    {"OTHER_SWITCH", "the limit switch of the other end was reached: check mark, signs and wiring"},
+    {"NO_MOTION", "the axis does not follow: check encoder, brake and drive"},
+    {"MARK_DISAGREES", "the mark was seen at two places: check coupling, encoder and switch"},
+}};
+
 }  // namespace
 
 Reaction reaction_to(Cause cause) noexcept { return kTable[static_cast<std::size_t>(cause)].reaction; }
 const char* name_of(State state) noexcept { return kStateNames[static_cast<std::size_t>(state)]; }
 const char* name_of(Cause cause) noexcept { return kTable[static_cast<std::size_t>(cause)].name; }
 const char* remedy_for(Cause cause) noexcept { return kTable[static_cast<std::size_t>(cause)].remedy; }
+const char* name_of(HomingFailure failure) noexcept {
+  return kFailures[static_cast<std::size_t>(failure)].name;
+}
+const char* remedy_for(HomingFailure failure) noexcept {
+  return kFailures[static_cast<std::size_t>(failure)].remedy;
+}
 
 }  // namespace crane::supervisor

@@ -22,16 +22,57 @@ bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memor
   memory.state_missing_in_row = 0;
   const bool late = memory.motion.started && input.sample.overruns != memory.sample.overruns;
   memory.overruns_in_row = late ? std::min(memory.overruns_in_row + 1, kCounterEnd) : 0;
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if (memory.motion.started && memory.sample.position_unknown[i] && !input.sample.position_unknown[i])
+      rename_place(i, input.sample.position[i], memory.motion, memory.brakes);
   memory.sample = input.sample;
   observe(limits, input.now_s, input.tick, input.sample.position, memory.motion);
   return true;
 }
 
-bool every_present_brake(const Limits& limits, const AxisFlags& brake_closed, bool closed) {
+bool is_homing(const TickMemory& memory, std::size_t axis) {
+  return memory.machine.homing && memory.homing_axis == axis;
+}
+
+/// Brakes of axes that take no part stay closed.
+bool takes_part(const Limits& limits, const TickMemory& memory, std::size_t axis) {
+  return limits.axis[axis].present && (!memory.machine.homing || memory.homing_axis == axis);
+}
+
+AxisFlags unknown_axes(const Limits& limits, const TickMemory& memory) {
+  AxisFlags unknown{};
+  for (std::size_t i = 0; i < kAxes; ++i)
+    unknown[i] = limits.axis[i].present && (memory.sample.position_unknown[i] || is_homing(memory, i));
+  return unknown;
+}
+
+bool every_brake_open(const Limits& limits, const TickMemory& memory) {
   for (std::size_t i = 0; i < kAxes; ++i) {
-    if (limits.axis[i].present && brake_closed[i] != closed) return false;
+    if (takes_part(limits, memory, i) && memory.sample.brake_closed[i]) return false;
   }
   return true;
+}
+
+bool every_brake_closed(const Limits& limits, const TickMemory& memory) {
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (limits.axis[i].present && !memory.sample.brake_closed[i]) return false;
+  }
+  return true;
+}
+
+/// Creeping on while the axis is homed; otherwise the next homing begins anew. @return speed of the reference
+double creep(const Limits& limits, TickMemory& memory) {
+  if (!memory.machine.homing || memory.machine.state != State::run) return 0;
+  const std::size_t i = memory.homing_axis;
+  const Sample& sample = memory.sample;
+  const auto mark = limits.axis[i].homing.mark;
+  return step_homing(limits, i,
+                     {.position = memory.motion.position[i],
+                      .mark_active = sample.mark_active[i],
+                      .mark_found = sample.mark_found[i],
+                      .other_switch = (mark != control::Mark::limit_low && sample.limit_low[i]) ||
+                                      (mark != control::Mark::limit_high && sample.limit_high[i])},
+                     memory.homing);
 }
 
 bool moved(const Limits& limits, const PerAxis& from, const PerAxis& to) {
@@ -47,7 +88,8 @@ Envelope envelope_now(const Limits& limits, const TickMemory& memory) {
                                  .swing_radial_rad = memory.sample.swing_radial_rad,
                                  .swing_tangential_rad = memory.sample.swing_tangential_rad,
                                  .limit_low = memory.sample.limit_low,
-                                 .limit_high = memory.sample.limit_high});
+                                 .limit_high = memory.sample.limit_high,
+                                 .unknown = unknown_axes(limits, memory)});
 }
 
 // Before the self-test has passed the brakes' anchor follows the axes.
@@ -59,10 +101,22 @@ bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, Ti
   return brake_failed(limits, input.now_s, memory.motion, memory.sample.brake_closed, memory.brakes);
 }
 
+/// While an axis is homed nothing is asked of the others, and of it no more than creeping takes.
+PerAxis demand_of(const Limits& limits, const TickInput& input, const TickMemory& memory) {
+  PerAxis demand_v = input.demand_v;
+  if (!memory.machine.homing || !std::ranges::all_of(demand_v, [](double v) { return std::isfinite(v); }))
+    return demand_v;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const double most_v = is_homing(memory, i) ? limits.axis[i].homing.volt_limit_v : 0;
+    demand_v[i] = std::clamp(demand_v[i], -most_v, most_v);
+  }
+  return demand_v;
+}
+
 GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope& envelope,
                     TickMemory& memory) {
   const GateInput in{.arrived = input.demand_arrived,
-                     .demand_v = input.demand_v,
+                     .demand_v = demand_of(limits, input, memory),
                      .armed = drives_active(memory.machine),
                      .block_positive = envelope.block_positive,
                      .block_negative = envelope.block_negative};
@@ -72,6 +126,8 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
 Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelope& envelope,
                       const GateOutput& gated, bool brakes_failed, const TickMemory& memory) {
   const Sample& sample = memory.sample;
+  const AxisFlags unknown = unknown_axes(limits, memory);
+  const auto unhomed = std::ranges::find(unknown, true);
   return {
       .now_s = input.now_s,
       .self_test = input.self_test,
@@ -88,10 +144,15 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .moved_while_arming =
           memory.machine.releasing && moved(limits, memory.release_position, memory.motion.position),
       .demand_near_zero = gated.near_zero,
-      .brakes_open = every_present_brake(limits, sample.brake_closed, false),
-      .brakes_closed = every_present_brake(limits, sample.brake_closed, true),
+      .brakes_open = every_brake_open(limits, memory),
+      .brakes_closed = every_brake_closed(limits, memory),
       .standstill = standstill(limits, input.now_s, memory.motion),
       .reference_moving = input.reference_moving,
+      .not_homed = unhomed != unknown.end(),
+      .unhomed_axis = unhomed != unknown.end() ? static_cast<std::size_t>(unhomed - unknown.begin()) : 0,
+      .can_home = limits.axis[input.home_axis].homes(),
+      .homed = memory.machine.homing && memory.homing.phase == HomingPhase::done,
+      .homing_failure = memory.machine.homing ? memory.homing.failure : HomingFailure::none,
       .requests = input.requests};
 }
 
@@ -124,11 +185,16 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   const Envelope envelope = envelope_now(limits, memory);
   const bool brakes_failed = watch_brakes(limits, input, sampled, memory);
   const GateOutput gated = run_gate(limits, input, envelope, memory);
+  const double creeping_speed = creep(limits, memory);
   const Inputs inputs = machine_inputs(limits, input, envelope, gated, brakes_failed, memory);
 
   const bool was_ramping = memory.machine.ramping && memory.machine.state == State::stop_c1;
   const bool was_releasing = memory.machine.releasing;
   const Outputs decided = step(limits, inputs, memory.machine);
+  if (decided.answers[static_cast<std::size_t>(Request::home)].accepted) {
+    memory.homing = {};
+    memory.homing_axis = input.home_axis;
+  }
   if (decided.brake_release && !was_releasing) memory.release_position = memory.motion.position;
 
   TickOutput out{.state = decided.state,
@@ -141,8 +207,12 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
                  .clamped_count = memory.gate.clamped_count,
                  .rejected_count = memory.gate.rejected_count,
                  .missing_demand_count = memory.gate.missing_count};
-  for (std::size_t i = 0; i < kAxes; ++i)
-    out.brake_release[i] = decided.brake_release && limits.axis[i].present;
+  out.homing_failure = memory.homing.failure;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    out.brake_release[i] = decided.brake_release && takes_part(limits, memory, i);
+    out.homing[i] = is_homing(memory, i);
+    if (out.homing[i] && decided.state == State::run) out.homing_speed[i] = creeping_speed;
+  }
   memory.gate.last_v = out.drive_v;
   return out;
 }

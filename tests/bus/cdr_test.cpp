@@ -119,7 +119,7 @@ TEST(CdrCodec, RefusesBooleansAndEnumsOutOfRange) {
   msg::NodeStatus status{};
   auto bytes = encoded(codec, &status);
   ASSERT_TRUE(codec.decode(bytes, false, &status));
-  bytes[16] = 11;  // header.source, whose largest value is 10
+  bytes[16] = 12;  // header.source, whose largest value is 11
   EXPECT_FALSE(codec.decode(bytes, false, &status));
 
   msg::Command command{};

@@ -48,6 +48,7 @@ TEST(Seal, IsTheSameWhateverThePaddingHolds) {
     for (int i = 0; i < 3; ++i) {
       command.drive_v[i] = 1.5 * i;
       command.brake_release[i] = i == 1;
+      command.homing[i] = i == 2;
     }
     command.watchdog_permission = true;
   };

@@ -99,6 +99,8 @@ TEST_F(Observers, SnapshotNamesTheCauseAndItsRemedy) {
     while (!done) {
       msg::State state{};
       state.brake_closed[0] = true;
+      state.position_known[1] = state.position_known[2] = true;
+      state.latch_reason = crane_LATCH_LOST_COUNTS;
       states.publish(state);
       msg::SupervisorStatus status{};
       status.state = crane_STATE_LOCKED;
@@ -114,6 +116,9 @@ TEST_F(Observers, SnapshotNamesTheCauseAndItsRemedy) {
   std::ostringstream text;
   print(text, snapshot);
   EXPECT_THAT(text.str(), HasSubstr("LOCKED because of SWING_LIMIT: "));
+  EXPECT_THAT(text.str(), HasSubstr("stopped the crane: lost_counts"));
+  EXPECT_THAT(text.str(), HasSubstr("closed, not homed\n"));
+  EXPECT_THAT(text.str(), HasSubstr("open\n"));
   const auto json = to_json(snapshot);
   EXPECT_EQ(json.at("supervisor").at("state"), "STATE_LOCKED");
   EXPECT_NE(json.at("supervisor").at("remedy"), "");

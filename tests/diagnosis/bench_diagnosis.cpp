@@ -1,113 +1,126 @@
-/// Scores the diagnosis on data with hidden effects: what it says about every cause, about clean data and
-/// about effects it does not know. Not a test: prints a table.
-///   bench_diagnosis --seeds 1 --amplitude 1 --first-seed 7
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
-#include <iomanip>
-#include <iostream>
-#include <map>
+/// `crane bench diagnosis`: scores the diagnosis on data with hidden effects. Not a test: prints tables.
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
-#include "crane/diagnosis/diagnosis.hpp"
-#include "truth/truth.hpp"
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <set>
+#include <thread>
+
+#include "score_record.hpp"
 
 namespace {
 
-using namespace crane::diagnosis;
+using namespace crane::diagnosis::score;
 
 struct Options {
-  int seeds = 1;
-  std::uint64_t first_seed = 7;
-  double amplitude = 1;
-  std::vector<std::string> only;
+  std::size_t sets = 12;
+  std::uint64_t first_seed = 100'000;
+  int processes = 2;
+  std::string results = "diagnosis_score.jsonl";
+  std::string only;
 };
 
-std::vector<Run> loaded(const std::vector<truth::Run>& runs, const crane::runtime::Rig& rig) {
-  std::vector<Run> all;
-  for (const truth::Run& run : runs)
-    for (Run& piece : load_run(crane::recording::parse_csv(truth::csv(run), run.file), rig, run.file).runs)
-      all.push_back(std::move(piece));
-  return all;
-}
-
-/// "exact", "among" (ambiguous, the truth among them), "beside" (named with another one), "wrong", "none",
-/// "unknown".
-std::string judged(const Diagnosis& found, const std::string& hidden, bool in_library) {
-  if (found.verdict == Verdict::none) return hidden.empty() ? "right" : "none";
-  if (found.verdict == Verdict::unknown) return in_library || hidden.empty() ? "unknown" : "right";
-  if (hidden.empty() || !in_library) return "wrong";
-  bool there = false;
-  for (const Cause& cause : found.causes) there = there || cause.name == hidden;
-  if (found.verdict == Verdict::ambiguous) {
-    for (const std::string& rival : found.ambiguous_with) there = there || rival == hidden;
-    return there ? "among" : "wrong";
+std::vector<std::size_t> missing(const Options& options) {
+  std::set<std::size_t> done;
+  for (const Record& record : read_records(options.results)) {
+    if (record.seed != options.first_seed + record.number)
+      throw std::runtime_error(options.results + ": set " + std::to_string(record.number) +
+                               " is of another --first-seed");
+    done.insert(record.number);
   }
-  return !there ? "wrong" : found.causes.size() == 1 ? "right" : "beside";
+  std::vector<std::size_t> todo;
+  for (std::size_t i = 0; i < options.sets; ++i)
+    if (!done.contains(i)) todo.push_back(i);
+  return todo;
 }
 
-void report(const std::string& what, std::uint64_t seed, const Diagnosis& found, const std::string& verdict,
-            double seconds) {
-  std::cout << std::left << std::setw(30) << what << std::setw(6) << seed << std::setw(9) << verdict
-            << std::setw(10) << name_of(found.verdict) << std::right << std::fixed << std::setprecision(2)
-            << std::setw(7) << found.held_out.gain << std::setw(7) << std::setprecision(1) << seconds << "  ";
-  for (const Cause& cause : found.causes) {
-    std::cout << cause.name << (cause.axis.empty() ? "" : "@" + cause.axis) << ' ';
-    std::cout << std::defaultfloat << std::setprecision(4);
-    for (const Estimate& e : cause.parameters)
-      std::cout << e.name << '=' << e.value << "+-" << e.std_dev << ' ';
-  }
-  for (const std::string& rival : found.ambiguous_with) std::cout << "or " << rival << ' ';
-  std::cout << std::endl;
-}
-
-void score(const Options& options) {
-  const crane::runtime::Rig rig =
-      crane::runtime::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
-  std::vector<std::pair<std::string, bool>> effects{{"", true}};
-  for (const truth::EffectKind& kind : truth::effect_kinds())
-    effects.emplace_back(kind.name, kind.in_library);
-  std::cout << "hidden                        seed  judged   verdict      gain      s  found\n";
-  std::map<std::string, int> counts;
-  for (const auto& [name, in_library] : effects) {
-    if (!options.only.empty() &&
-        std::find(options.only.begin(), options.only.end(), name) == options.only.end())
-      continue;
-    for (int i = 0; i < options.seeds; ++i) {
-      truth::Case request;
-      request.seed = options.first_seed + static_cast<std::uint64_t>(i);
-      if (!name.empty()) request.effects = {{name, options.amplitude, ""}};
-      try {
-        const truth::Data data = truth::generate(request);
-        const auto begin = std::chrono::steady_clock::now();
-        const Diagnosis found = diagnose(rig, loaded(data.training, rig), loaded(data.test, rig));
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-        const std::string verdict = judged(found, name, in_library);
-        ++counts[verdict];
-        const std::string axis = data.answer.empty() ? "" : data.answer[0].axis;
-        report(name.empty() ? "(clean)" : name + (axis.empty() ? "" : "@" + axis), request.seed, found,
-               verdict, took.count());
-      } catch (const std::exception& error) {
-        ++counts["no data"];
-        std::cout << name << ": " << error.what() << '\n';
-      }
+/// Every `processes`-th of the sets, from the `rank`-th on.
+int work(const Options& options, const std::vector<std::size_t>& todo, int rank) {
+  try {
+    for (std::size_t i = static_cast<std::size_t>(rank); i < todo.size();
+         i += static_cast<std::size_t>(options.processes)) {
+      const Set set = set_of(todo[i], options.first_seed);
+      if (options.only.empty() || options.only == name_of(set.kind)) append(options.results, scored(set));
     }
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "bench_diagnosis: " << error.what() << '\n';
+    return 1;
   }
-  for (const auto& [verdict, count] : counts) std::cout << verdict << ' ' << count << "  ";
-  std::cout << '\n';
+}
+
+/// Until all have ended; on a terminal it shows how many sets there are.
+int wait_for(const std::vector<pid_t>& workers, const Options& options) {
+  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  int worst = 0;
+  for (std::size_t running = workers.size(); running > 0;) {
+    int status = 0;
+    const pid_t ended = ::waitpid(-1, &status, terminal ? WNOHANG : 0);
+    if (ended > 0) {
+      --running;
+      if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) worst = 1;
+      continue;
+    }
+    std::fprintf(stderr, "\r%zu of %zu sets ", read_records(options.results).size(), options.sets);
+    std::this_thread::sleep_for(std::chrono::seconds{1});
+  }
+  if (terminal) std::fprintf(stderr, "\n");
+  return worst;
+}
+
+int score(const Options& options) {
+  const auto todo = missing(options);
+  std::vector<pid_t> workers;
+  for (int rank = 0; rank < options.processes; ++rank) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+      ::_exit(work(options, todo, rank));
+    }
+    if (child < 0) throw std::runtime_error("cannot start another process");
+    workers.push_back(child);
+  }
+  const int worst = wait_for(workers, options);
+  std::cout << table_of(read_records(options.results));
+  return worst;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app{"Scores the diagnosis on data with hidden effects"};
-  app.add_option("--seeds", options.seeds, "data sets per effect")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  app.add_option("--first-seed", options.first_seed)->capture_default_str();
-  app.add_option("--amplitude", options.amplitude, "multiple of a clearly visible effect")
+  CLI::App app{
+      "Scores the diagnosis on data with hidden effects that share no code with it, and prints the table "
+      "of targets.\nEvery set is appended to the file of results as one line of JSON; sets that are "
+      "there are not computed again,\nso that a long score may be interrupted, continued and lengthened."};
+  app.add_option("--sets", options.sets,
+                 "how many in all; of twelve, 3 clean, 6 single, 1 pair, 1 outside, 1 alike")
       ->capture_default_str();
-  app.add_option("--only", options.only, "effects; all when left out");
-  CLI11_PARSE(app, argc, argv);
-  score(options);
+  app.add_option("--first-seed", options.first_seed, "of set 0; set k has the k-th after it")
+      ->capture_default_str();
+  app.add_option("--processes", options.processes, "sets under way at once")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  app.add_option("--results", options.results, "file of results")->capture_default_str();
+  app.add_option("--only", options.only, "sets of this kind only")
+      ->check(CLI::IsMember({"clean", "single", "outside", "pair", "confounded"}));
+  app.footer(
+      "Example: bench_diagnosis --sets 1200 --results score.jsonl\n"
+      "         bench_diagnosis --sets 0 --results score.jsonl        tables of what there is");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  try {
+    return score(options);
+  } catch (const std::exception& error) {
+    std::cerr << "bench_diagnosis: " << error.what() << '\n';
+    return 1;
+  }
 }

@@ -1,84 +1,145 @@
-/// An effect is hidden in the data by code that shares nothing with the diagnosis; the diagnosis has to find
-/// it.
+/// Effects are hidden in data by code that shares nothing with the diagnosis, written as CSV with a sealed
+/// answer; the diagnosis sees the CSV alone. Every cause once at a clear amplitude, on the smallest rig and
+/// the shortest data that show it. `crane bench diagnosis` scores weak effects and long data.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "crane/diagnosis/diagnosis.hpp"
-#include "truth/truth.hpp"
+#include <boost/math/distributions/binomial.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <set>
 
-namespace crane::diagnosis {
+#include "hidden_set.hpp"
+
+namespace crane::diagnosis::score {
 namespace {
 
-struct Hidden {
-  const char* name;
-  const char* axis;
-  std::uint64_t seed;
-  std::vector<std::string> acceptable;  ///< verdicts
-};
-void PrintTo(const Hidden& hidden, std::ostream* out) { *out << hidden.name << " " << hidden.axis; }
+using testing::AnyOf;
+using testing::Not;
 
-Diagnosis diagnosed(const truth::Case& request) {
-  const truth::Data data = truth::generate(request);
-  const runtime::Rig rig = runtime::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
-  const auto loaded = [&](const std::vector<truth::Run>& runs) {
-    std::vector<Run> all;
-    for (const truth::Run& run : runs)
-      for (Run& piece : load_run(recording::parse_csv(truth::csv(run), run.file), rig, run.file).runs)
-        all.push_back(std::move(piece));
-    return all;
-  };
-  return diagnose(rig, loaded(data.training), loaded(data.test));
+TEST(TheSets, HideEveryCauseOfTheLibraryAndEveryEffectOutsideIt) {
+  std::set<std::string> hidden;
+  for (const auto* sets : {&kFoundAlone, &kAlike, &kNotFoundYet, &kOutside})
+    for (const HiddenSet& set : *sets) hidden.insert(set.name);
+  for (const truth::EffectKind& kind : truth::effect_kinds())
+    EXPECT_TRUE(hidden.contains(kind.name)) << kind.name;
 }
 
-class HiddenEffect : public testing::TestWithParam<Hidden> {};
+class EveryCause : public testing::TestWithParam<HiddenSet> {};
 
-TEST_P(HiddenEffect, IsNamed) {
-  const Hidden& hidden = GetParam();
-  truth::Case request;
-  request.effects = {{hidden.name, 1.0, hidden.axis}};
-  request.seed = hidden.seed;
-  const Diagnosis found = diagnosed(request);
-  EXPECT_THAT(hidden.acceptable, testing::Contains(name_of(found.verdict))) << found.sentence;
-  ASSERT_FALSE(found.causes.empty()) << found.sentence;
-  EXPECT_EQ(found.causes[0].name, hidden.name) << found.sentence;
-  if (*hidden.axis != '\0' && !found.causes[0].axis.empty()) {
-    EXPECT_EQ(found.causes[0].axis, hidden.axis);
+TEST_P(EveryCause, IsNamedAloneAndTheExtendedModelIsBetterOnHeldOutRuns) {
+  const SealedCase sealed(case_of(GetParam()));
+  const Diagnosis found = sealed.diagnosed();
+  EXPECT_EQ(judge(found, sealed.answer()), Judged::right) << found.sentence;
+  EXPECT_GT(found.held_out.gain, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Hidden, EveryCause, testing::ValuesIn(kFoundAlone), name_of_test);
+
+/// What the engine does not find in these data yet, all of it here. It must not name something else with
+/// confidence.
+class KnownShortcoming : public testing::TestWithParam<HiddenSet> {};
+
+TEST_P(KnownShortcoming, IsNotTakenForAnotherCauseWithConfidence) {
+  const SealedCase sealed(case_of(GetParam()));
+  const Diagnosis found = sealed.diagnosed();
+  EXPECT_THAT(judge(found, sealed.answer()), Not(AnyOf(Judged::wrong, Judged::group))) << found.sentence;
+}
+INSTANTIATE_TEST_SUITE_P(Hidden, KnownShortcoming, testing::ValuesIn(kNotFoundYet), name_of_test);
+
+class WithoutItsTerm : public testing::TestWithParam<HiddenSet> {};
+
+/// The library without the term of what is hidden: whoever is named with confidence now is wrong. Only a
+/// cause that is alike until something else changes may take its place.
+TEST_P(WithoutItsTerm, NoOtherCauseIsNamedWithConfidence) {
+  const SealedCase sealed(case_of(GetParam()));
+  Request request;
+  request.excluded = {GetParam().name};
+  const Diagnosis found = sealed.diagnosed(request);
+  EXPECT_NE(judge(found, sealed.answer()), Judged::wrong) << found.sentence;
+}
+INSTANTIATE_TEST_SUITE_P(Hidden, WithoutItsTerm, testing::ValuesIn(kWithoutTerm), name_of_test);
+
+class SwitchedOff : public testing::TestWithParam<HiddenSet> {};
+
+/// With amplitude 0 the data are those of the crane alone, whatever the effect (data_test.cpp of the truth):
+/// one set per rig and seed stands for all causes above.
+TEST_P(SwitchedOff, NothingIsFound) {
+  const SealedCase sealed(case_of(GetParam()));
+  ASSERT_TRUE(sealed.answer().empty());
+  const Diagnosis found = sealed.diagnosed();
+  EXPECT_EQ(found.verdict, Verdict::none) << found.sentence;
+  EXPECT_TRUE(found.extension.empty());
+}
+INSTANTIATE_TEST_SUITE_P(Hidden, SwitchedOff, testing::ValuesIn(kSwitchedOff), name_of_test);
+
+class OutsideTheLibrary : public testing::TestWithParam<HiddenSet> {};
+
+TEST_P(OutsideTheLibrary, IsUnknown) {
+  const SealedCase sealed(case_of(GetParam()));
+  const Diagnosis found = sealed.diagnosed();
+  EXPECT_EQ(found.verdict, Verdict::unknown) << found.sentence;
+}
+INSTANTIATE_TEST_SUITE_P(Hidden, OutsideTheLibrary, testing::ValuesIn(kOutside), name_of_test);
+
+class TwoAtOnce : public testing::TestWithParam<HiddenPair> {};
+
+TEST_P(TwoAtOnce, AreBothNamed) {
+  truth::Case request = case_of(GetParam().first);
+  request.effects.push_back({GetParam().second.name, GetParam().second.amplitude, GetParam().second.axis});
+  const SealedCase sealed(request);
+  const Diagnosis found = sealed.diagnosed();
+  EXPECT_EQ(judge(found, sealed.answer()), Judged::right) << found.sentence;
+}
+INSTANTIATE_TEST_SUITE_P(Hidden, TwoAtOnce, testing::ValuesIn(kPairs), [](const auto& tested) {
+  return std::string{tested.param.first.name} + "_and_" + tested.param.second.name;
+});
+
+class Alike : public testing::TestWithParam<HiddenSet> {};
+
+TEST_P(Alike, AreAmbiguousOrRightAndTheProposedRunDecides) {
+  truth::Case request = case_of(GetParam());
+  const SealedCase sealed(request);
+  const Diagnosis found = sealed.diagnosed();
+  const Judged first = judge(found, sealed.answer());
+  ASSERT_THAT(first, AnyOf(Judged::right, Judged::among)) << found.sentence;
+  if (first == Judged::right || !found.next_experiment) return;
+  const std::string run = run_like(found.next_experiment->name);
+  ASSERT_NE(run, "") << found.next_experiment->name;
+  request.training_runs.push_back(run);
+  const SealedCase more(request);
+  const Diagnosis again = more.diagnosed();
+  EXPECT_EQ(judge(again, more.answer()), Judged::right) << run << ": " << again.sentence;
+}
+INSTANTIATE_TEST_SUITE_P(Hidden, Alike, testing::ValuesIn(kAlike), name_of_test);
+
+/// Fresh seeds, printed: seeds that a developer has seen prove little. Judged as a batch: with
+/// kRightOnFreshSeeds for each set a correct build has fewer right ones than asked for less than once in
+/// 10,000 runs.
+TEST(FreshSeeds, AreJudgedRightAsABatch) {
+  const char* given = std::getenv("CRANE_DIAGNOSIS_SEED");
+  const std::uint64_t seed = given != nullptr ? std::stoull(given) : std::random_device{}();
+  std::printf("CRANE_DIAGNOSIS_SEED=%llu\n", static_cast<unsigned long long>(seed));
+  int right = 0;
+  std::string others;
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    HiddenSet set = kFreshCauses[(seed + i) % kFreshCauses.size()];
+    set.seed = seed + i;
+    const SealedCase sealed(case_of(set));
+    const Diagnosis found = sealed.diagnosed();
+    if (judge(found, sealed.answer()) == Judged::right)
+      ++right;
+    else
+      others += std::string{"\n  "} + set.name + ", seed " + std::to_string(set.seed) + ": " + found.sentence;
   }
-  EXPECT_GT(found.held_out.gain, 0) << "the extended model must reproduce the held-out run better";
-}
-
-INSTANTIATE_TEST_SUITE_P(EachCause, HiddenEffect,
-                         testing::Values(Hidden{"command_delay", "trolley", 7, {"named"}},
-                                         Hidden{"cable_length", "", 7, {"parameter"}},
-                                         Hidden{"load_quadratic_drag", "", 7, {"named"}},
-                                         Hidden{"swing_offset", "radial", 7, {"named"}},
-                                         Hidden{"stribeck_friction", "trolley", 7, {"named"}}),
-                         [](const auto& tested) { return std::string{tested.param.name}; });
-
-TEST(CleanData, AreSaidToBeRight) {
-  for (const std::uint64_t seed : {101, 102, 103}) {
-    truth::Case request;
-    request.seed = seed;
-    const Diagnosis found = diagnosed(request);
-    EXPECT_EQ(found.verdict, Verdict::none) << "seed " << seed << ": " << found.sentence;
-    EXPECT_TRUE(found.extension.empty());
-  }
-}
-
-TEST(AnEffectSwitchedOff, IsNotFound) {
-  truth::Case request;
-  request.effects = {{"command_delay", 0.0, "trolley"}};
-  request.seed = 7;
-  EXPECT_EQ(diagnosed(request).verdict, Verdict::none);
+  const boost::math::binomial_distribution<> of_a_correct_build(kBatch, kRightOnFreshSeeds);
+  EXPECT_GE(boost::math::cdf(of_a_correct_build, right), 1e-4)
+      << right << " of " << kBatch << " right" << others;
 }
 
 TEST(Diagnosis, RepeatsBitForBit) {
-  truth::Case request;
-  request.effects = {{"cable_length", 1.0, ""}};
-  request.seed = 7;
-  request.training_runs = {"rich"};
-  request.seconds = 20;
-  const Diagnosis first = diagnosed(request), second = diagnosed(request);
+  const SealedCase sealed(case_of(kFoundAlone[0]));
+  const Diagnosis first = sealed.diagnosed(), second = sealed.diagnosed();
   ASSERT_EQ(first.causes.size(), second.causes.size());
   for (std::size_t i = 0; i < first.causes.size(); ++i)
     EXPECT_EQ(first.causes[i].parameters[0].value, second.causes[i].parameters[0].value);
@@ -86,7 +147,7 @@ TEST(Diagnosis, RepeatsBitForBit) {
 }
 
 TEST(DataInWhichNothingMoves, AreRefused) {
-  const runtime::Rig rig = runtime::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
+  const runtime::Rig rig = rig_file_of("tower");
   diagnosis::Run still;
   still.name = "still.csv";
   still.period_s = 0.01;
@@ -97,4 +158,4 @@ TEST(DataInWhichNothingMoves, AreRefused) {
 }
 
 }  // namespace
-}  // namespace crane::diagnosis
+}  // namespace crane::diagnosis::score

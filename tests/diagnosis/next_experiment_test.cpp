@@ -25,7 +25,14 @@ struct Suspects {
   }
   [[nodiscard]] std::optional<NextExperiment> propose(const Candidate& a, double value_a, const Candidate& b,
                                                       double value_b) const {
-    return propose_experiment(rig, a, {value_a}, b, {value_b}, kNoise);
+    return propose_experiment(rig, a, first_of(a, value_a), b, first_of(b, value_b), kNoise);
+  }
+  /// The first parameter as given, the others without effect.
+  static std::vector<double> first_of(const Candidate& candidate, double value) {
+    std::vector<double> values;
+    for (const FreeParameter& p : candidate.parameters) values.push_back(p.null);
+    values[0] = value;
+    return values;
   }
 
   runtime::Rig rig;

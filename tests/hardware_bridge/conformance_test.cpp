@@ -211,6 +211,20 @@ TEST_P(Conformance, SeesSwitchesBrakesAndTheEmergencyStop) {
   EXPECT_TRUE(subject_->braked()) << "the emergency stop cuts the supply by itself";
 }
 
+TEST_P(Conformance, ShowsAMarkBelowItsPlaceAndCountsAnAxisWithoutAZeroFromTheFarEnd) {
+  auto rig = runtime::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
+  for (const double slew_rad : {0.05, 0.15}) {
+    rig.start.position[1] = slew_rad;
+    put_on_bench(rig);
+    const auto inputs = subject_->board().read();
+    EXPECT_EQ(inputs.mark, (std::array<bool, kDrives>{false, slew_rad < 0.1, false})) << slew_rad;
+    for (std::size_t i = 0; i < kDrives; ++i)
+      EXPECT_NEAR(inputs.raw_counts[i] * rig.encoders[i].sign / rig.encoders[i].counts_per_unit,
+                  rig.drives[i].high_limit, 1e-4)
+          << "nothing may tell where axis " << i << " stands";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Boards, Conformance, testing::ValuesIn(all_boards()),
                          [](const auto& test) { return std::string{test.param.name}; });
 

@@ -1,5 +1,6 @@
 // The driver's port accesses, against the register facts written out once more as numbers.
 #include "crane/boards/servo_to_go.hpp"
+#include "crane/bridge/converter.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -92,18 +93,18 @@ class Card : public testing::Test {
 };
 
 TEST(ConverterCode, IsInvertedOffsetBinary) {
-  EXPECT_EQ(servo_to_go_code(0), 0x1000);
-  EXPECT_EQ(servo_to_go_code(10), 0x0000);
-  EXPECT_EQ(servo_to_go_code(5), 0x0800);
-  EXPECT_EQ(servo_to_go_code(-5), 0x1800);
-  EXPECT_EQ(servo_to_go_code(-10), 0x1FFF);
-  EXPECT_EQ(servo_to_go_code(-10.1), 0x1FFF);
-  EXPECT_EQ(servo_to_go_code(0.00244140625), 0x0FFF);
-  EXPECT_DOUBLE_EQ(servo_to_go_voltage_v(0x0800), 5);
+  EXPECT_EQ(converter_code(0), 0x1000);
+  EXPECT_EQ(converter_code(10), 0x0000);
+  EXPECT_EQ(converter_code(5), 0x0800);
+  EXPECT_EQ(converter_code(-5), 0x1800);
+  EXPECT_EQ(converter_code(-10), 0x1FFF);
+  EXPECT_EQ(converter_code(-10.1), 0x1FFF);
+  EXPECT_EQ(converter_code(0.00244140625), 0x0FFF);
+  EXPECT_DOUBLE_EQ(converter_voltage_v(0x0800), 5);
 }
 
 TEST(ConverterCode, ZeroAtStartUpWouldBeTenVolts) {
-  EXPECT_DOUBLE_EQ(servo_to_go_voltage_v(0), 10);
+  EXPECT_DOUBLE_EQ(converter_voltage_v(0), 10);
   Plug plug;
   CardState state;
   EmulatedServoToGo card{0x200, state, plug};

@@ -1,50 +1,19 @@
-#include "crane/simulator/simulated_board.hpp"
-
+// What the simulated board measures, converts and lets move.
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 
+#include "board_bench.hpp"
 #include "closed_loop.hpp"
 
 namespace crane::simulator {
 namespace {
 
-using bridge::Inputs;
-using bridge::Outputs;
 using testing::HasSubstr;
 
-constexpr std::int64_t kTick_ns = 10'000'000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// A board and the caller's side of its loop.
-class Bench {
- public:
-  explicit Bench(const SimulatedRig& rig = {}) : board(rig) {}
-
-  /// Writes and lets ticks pass, toggling the watchdog output in each.
-  void tick(const std::array<double, 3>& drive_v, bool release, int ticks = 1) {
-    for (int i = 0; i < ticks; ++i) {
-      outputs.drive_v = drive_v;
-      outputs.brake_release = {release, release, release};
-      outputs.watchdog_level = !outputs.watchdog_level;
-      applied_v = board.write(outputs);
-      pass();
-    }
-  }
-  /// Nobody writes.
-  void pass(int ticks = 1) { board.advance_to(board.now_ns() + ticks * kTick_ns); }
-  /// Relay closed, brakes open.
-  void open_brakes() { tick({}, true, 12); }
-
-  SimulatedBoard board;
-  Outputs outputs;
-  std::array<double, 3> applied_v{};
-};
-
-// --- converters
-// -------------------------------------------------------------------------------------------------
 
 TEST(Converter, CodesAreInvertedOffsetBinaryClampedToThirteenBits) {
   EXPECT_EQ(converter_code(0), 0x1000);
@@ -73,7 +42,6 @@ TEST(Converter, GivesNoVoltageForWhatIsNoNumber) {
 
 // --- encoders
 // ---------------------------------------------------------------------------------------------------
-
 TEST(Encoders, CountAbsoluteCoordinatesOfTheDissertationsRig) {
   SimulatedRig rig;
   rig.start = {.trolley_m = 0.5, .radial_rad = 0.1, .slew_rad = 1, .tangential_rad = -0.1, .cable_m = 1.2};
@@ -102,135 +70,8 @@ TEST(Encoders, WrapAt24BitsWithTheirSign) {
   EXPECT_EQ(SimulatedBoard{rig}.read().raw_counts[0], -8388608);
 }
 
-// --- brakes and watchdog
-// ----------------------------------------------------------------------------------------
-
-TEST(Brakes, AreClosedAtStartAndHoldExactlyAgainstTheMotors) {
-  Bench bench;
-  bench.board.kick(0.5, 0.5);
-  bench.tick({10, 10, 10}, false, 100);
-  EXPECT_EQ(bench.board.truth().trolley_m, 0.25);
-  EXPECT_EQ(bench.board.truth().slew_rad, 0);
-  EXPECT_EQ(bench.board.truth().cable_m, 1);
-  EXPECT_NE(bench.board.truth().radial_rad, 0);  // the load swings on
-}
-
-TEST(Brakes, OpenOnlyWhenTheWatchdogHasToggledForAWhileAndTheOpeningTimeIsOver) {
-  Bench bench;
-  std::vector<bool> closed, dropped;
-  for (int i = 0; i < 9; ++i) {
-    bench.tick({}, true);
-    closed.push_back(bench.board.read().brake_closed[0]);
-    dropped.push_back(bench.board.read().watchdog_dropped);
-  }
-  // the sixth write is 50 ms after the first; 20 ms later the brake is open
-  EXPECT_EQ(dropped, (std::vector<bool>{true, true, true, true, true, false, false, false, false}));
-  EXPECT_EQ(closed, (std::vector<bool>{true, true, true, true, true, true, false, false, false}));
-}
-
-TEST(Brakes, StayClosedWithoutPermissionOrRelease) {
-  Bench bench;
-  bench.tick({1, 1, 0}, false, 30);
-  EXPECT_FALSE(bench.board.read().watchdog_dropped);
-  EXPECT_TRUE(bench.board.read().brake_closed[0]);
-  EXPECT_EQ(bench.board.truth().trolley_m, 0.25);
-}
-
-TEST(Brakes, StopAMovingAxisWithTheirDecelerationAndThenHoldItWithoutCreep) {
-  SimulatedRig rig;
-  rig.parameters.load_mass_kg = 0;
-  Bench bench{rig};
-  bench.open_brakes();
-  bench.tick({5, 0, 0}, true, 10);  // 10 m/s2 for 0.1 s
-  const double v = bench.board.truth().trolley_mps, x = bench.board.truth().trolley_m;
-  ASSERT_NEAR(v, 1, 0.01);
-  bench.tick({0, 0, 0}, false, 100);
-  // 20 ms of rolling on, then 5 m/s2 (the trolley's own 22.46 kg, no load)
-  EXPECT_NEAR(bench.board.truth().trolley_m - x, v * 0.02 + v * v / (2 * 5), 1e-3);
-  EXPECT_EQ(bench.board.truth().trolley_mps, 0);
-  const double rest = bench.board.truth().trolley_m;
-  bench.tick({10, 10, 10}, false, 100);
-  EXPECT_EQ(bench.board.truth().trolley_m, rest);
-}
-
-TEST(Brakes, NeverReverseTheMotionOfALoadedCrane) {
-  SimulatedRig rig;
-  rig.terms = test::rig_friction();
-  Bench bench{rig};
-  bench.open_brakes();
-  bench.tick({4, 3, 2}, true, 30);
-  double x = bench.board.truth().trolley_m, slew = bench.board.truth().slew_rad;
-  for (int i = 0; i < 100; ++i) {
-    bench.tick({}, false);
-    EXPECT_GE(bench.board.truth().trolley_m, x);
-    EXPECT_GE(bench.board.truth().slew_rad, slew);
-    x = bench.board.truth().trolley_m;
-    slew = bench.board.truth().slew_rad;
-  }
-  EXPECT_EQ(bench.board.truth().slew_radps, 0);
-  EXPECT_EQ(bench.board.truth().cable_mps, 0);
-}
-
-TEST(Watchdog, DropsTheBrakesWhenItsOutputStandsStillForMoreThan50Milliseconds) {
-  Bench bench;
-  bench.open_brakes();
-  bench.pass(4);  // 50 ms after the last change, which was one tick before
-  EXPECT_FALSE(bench.board.read().watchdog_dropped);
-  bench.pass();
-  EXPECT_TRUE(bench.board.read().watchdog_dropped);
-  bench.pass(2);
-  EXPECT_TRUE(bench.board.read().brake_closed[0]);
-}
-
-TEST(Watchdog, StaysDroppedUntilItHasToggledForAWhileAgain) {
-  Bench bench;
-  bench.open_brakes();
-  bench.pass(20);
-  bench.tick({}, true, 5);
-  EXPECT_TRUE(bench.board.read().watchdog_dropped);
-  bench.pass(10);  // a gap: the count starts anew
-  bench.tick({}, true, 5);
-  EXPECT_TRUE(bench.board.read().watchdog_dropped);
-  bench.tick({}, true);
-  EXPECT_FALSE(bench.board.read().watchdog_dropped);
-}
-
-TEST(Watchdog, IsNotFooledByWritesThatDoNotToggle) {
-  Bench bench;
-  bench.open_brakes();
-  for (int i = 0; i < 10; ++i) {
-    bench.board.write(bench.outputs);
-    bench.pass();
-  }
-  EXPECT_TRUE(bench.board.read().watchdog_dropped);
-}
-
-TEST(EmergencyStop, CutsTheBrakeSupplyByWire) {
-  Bench bench;
-  bench.open_brakes();
-  bench.board.press_estop(true);
-  bench.tick({}, true, 3);
-  EXPECT_TRUE(bench.board.read().estop_pressed);
-  EXPECT_TRUE(bench.board.read().brake_closed[1]);
-  bench.board.press_estop(false);
-  bench.tick({}, true, 3);
-  EXPECT_FALSE(bench.board.read().brake_closed[1]);
-}
-
-TEST(MakeSafe, TakesVoltagesAwayAndClosesTheBrakes) {
-  Bench bench;
-  bench.open_brakes();
-  bench.tick({2, 2, 2}, true, 20);
-  bench.board.make_safe();
-  bench.pass(200);
-  EXPECT_TRUE(bench.board.read().brake_closed[0]);
-  EXPECT_EQ(bench.board.truth().trolley_mps, 0);
-  EXPECT_EQ(bench.board.truth().slew_radps, 0);
-}
-
 // --- travel
 // -----------------------------------------------------------------------------------------------------
-
 TEST(Travel, SwitchesReportTheirEndAndStopsHoldTheAxisThere) {
   SimulatedRig rig;
   rig.drives[plant::kTrolley].high_switch = 0.4;
@@ -308,7 +149,6 @@ TEST(Kick, AddsToTheSwingRatesThatExist) {
 
 // --- time and errors
 // --------------------------------------------------------------------------------------------
-
 TEST(Time, OfTheRigDoesNotRunBackwards) {
   SimulatedBoard board{{}, 5 * kTick_ns};
   board.advance_to(kTick_ns);

@@ -65,7 +65,7 @@ ordered_json through_the_codec(const topics::Topic<T>& topic, const T& sample) {
 ordered_json expected(const msg::Header& h) {
   const std::array names{"SOURCE_NONE",     "SOURCE_PLANT",      "SOURCE_BRIDGE",   "SOURCE_PLANNER",
                          "SOURCE_TRACKING", "SOURCE_ANTI_SWING", "SOURCE_FRICTION", "SOURCE_SUPERVISOR",
-                         "SOURCE_OPERATOR", "SOURCE_RECORDER",   "SOURCE_MONITOR"};
+                         "SOURCE_OPERATOR", "SOURCE_RECORDER",   "SOURCE_MONITOR",  "SOURCE_TWIN"};
   return {{"tick", h.tick},
           {"sample_time_ns", h.sample_time_ns},
           {"source", names.at(h.source)},
@@ -104,6 +104,8 @@ TEST(TopicSchema, ReadsEveryFieldOfState) {
   }
   s.command_stale = s.watchdog_dropped = true;
   f.number(s.overruns);
+  s.latch_reason = crane_LATCH_LOST_COUNTS;
+  s.position_known[0] = s.mark_active[1] = s.mark_found[2] = true;
   f.number(s.crc32c);
   const ordered_json want{{"header", expected(s.header)},
                           {"counts", expected(s.counts)},
@@ -127,6 +129,10 @@ TEST(TopicSchema, ReadsEveryFieldOfState) {
                           {"command_invalid", false},
                           {"watchdog_dropped", true},
                           {"overruns", s.overruns},
+                          {"latch_reason", "LATCH_LOST_COUNTS"},
+                          {"position_known", {true, false, false}},
+                          {"mark_active", {false, true, false}},
+                          {"mark_found", {false, false, true}},
                           {"crc32c", s.crc32c}};
   EXPECT_EQ(through_the_codec(topics::state, s), want);
 }
@@ -175,12 +181,13 @@ TEST(TopicSchema, ReadsEveryFieldOfDemandAndCommand) {
   msg::Command c{};
   f.header(c.header);
   for (double& value : c.drive_v) value = f.real();
-  c.brake_release[1] = c.watchdog_permission = true;
+  c.brake_release[1] = c.watchdog_permission = c.homing[2] = true;
   f.number(c.crc32c);
   EXPECT_EQ(through_the_codec(topics::command, c), (ordered_json{{"header", expected(c.header)},
                                                                  {"drive_v", expected(c.drive_v)},
                                                                  {"brake_release", {false, true, false}},
                                                                  {"watchdog_permission", true},
+                                                                 {"homing", {false, false, true}},
                                                                  {"crc32c", c.crc32c}}));
 }
 
@@ -198,6 +205,9 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
   }
   for (auto* value : {&s.clamped_count, &s.rejected_count, &s.missing_demand_count, &s.request_id})
     f.number(*value);
+  s.homing[1] = true;
+  for (double& value : s.homing_speed) value = f.real();
+  s.homing_failure = crane_HOMING_MARK_STUCK;
   f.number(s.crc32c);
   const ordered_json want{{"header", expected(s.header)},
                           {"state", "STATE_STOP_C1"},
@@ -218,6 +228,9 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
                           {"rejected_count", s.rejected_count},
                           {"missing_demand_count", s.missing_demand_count},
                           {"request_id", s.request_id},
+                          {"homing", {false, true, false}},
+                          {"homing_speed", expected(s.homing_speed)},
+                          {"homing_failure", "HOMING_MARK_STUCK"},
                           {"crc32c", s.crc32c}};
   EXPECT_EQ(through_the_codec(topics::supervisor, s), want);
 }
@@ -315,6 +328,42 @@ TEST(TopicSchema, ReadsEveryFieldOfNodeAndEvent) {
                                                                {"what", e.what},
                                                                {"remedy", e.remedy},
                                                                {"crc32c", e.crc32c}}));
+}
+
+TEST(TopicSchema, ReadsEveryFieldOfTwin) {
+  Filler f;
+  msg::Twin t{};
+  f.header(t.header);
+  t.state = crane_TWIN_DEVIATES;
+  auto columns = ordered_json::array();
+  for (auto& column : t.column) {
+    column = {f.real(), f.real(), f.real()};
+    columns.push_back(
+        {{"predicted", column.predicted}, {"residual", column.residual}, {"band", column.band}});
+  }
+  t.evidence = f.real();
+  f.text(t.cause);
+  f.text(t.axis);
+  t.size = f.real();
+  t.size_std = f.real();
+  f.text(t.unit);
+  t.learnt_share = f.real();
+  f.number(t.judged_ticks);
+  f.number(t.gaps);
+  f.number(t.crc32c);
+  EXPECT_EQ(through_the_codec(topics::twin, t), (ordered_json{{"header", expected(t.header)},
+                                                              {"state", "TWIN_DEVIATES"},
+                                                              {"column", columns},
+                                                              {"evidence", t.evidence},
+                                                              {"cause", t.cause},
+                                                              {"axis", t.axis},
+                                                              {"size", t.size},
+                                                              {"size_std", t.size_std},
+                                                              {"unit", t.unit},
+                                                              {"learnt_share", t.learnt_share},
+                                                              {"judged_ticks", t.judged_ticks},
+                                                              {"gaps", t.gaps},
+                                                              {"crc32c", t.crc32c}}));
 }
 
 }  // namespace

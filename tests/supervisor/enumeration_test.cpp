@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNow_s = 100;
 
-// Every state with the parts of its memory that decide: 16 of them.
+// Every state with the parts of its memory that decide; those that are armed also while an axis is homed.
 std::vector<Memory> every_memory() {
   std::vector<Memory> all;
   for (std::size_t i = 0; i < kStates; ++i) {
@@ -33,6 +33,12 @@ std::vector<Memory> every_memory() {
       all.push_back(m);
     }
   }
+  for (std::size_t i = 0, n = all.size(); i < n; ++i) {
+    if (all[i].state != State::arming && all[i].state != State::run && all[i].state != State::stop_c1)
+      continue;
+    all.push_back(all[i]);
+    all.back().homing = true;
+  }
   return all;
 }
 
@@ -48,6 +54,7 @@ void set_hazards(unsigned bits, Inputs& in) {
   in.envelope.swing_runaway = bit(5) && bit(6);
   in.bridge_latched = bit(7);
   in.watchdog_dropped = bit(7) && !bit(6);
+  in.not_homed = bit(6);
   in.second_writer = bit(8);
   in.overrun = bit(9);
   in.brake_failed = bit(10);
@@ -63,6 +70,8 @@ void set_observations(unsigned bits, Inputs& in) {
   in.standstill = bit(3);
   in.reference_moving = bit(4);
   in.moved_while_arming = bit(5);
+  in.homed = bit(5) && bit(0);
+  if (bit(5) && bit(3)) in.homing_failure = HomingFailure::no_motion;
 }
 
 void set_requests(unsigned bits, Inputs& in) {
@@ -90,6 +99,9 @@ const char* broken_promise(const Memory& before, const Inputs& in, const Memory&
     return "an accepted reset leads to READY or SELFTEST";
   }
   if (accepted(Request::arm) && is != State::arming) return "an accepted arm leads to ARMING";
+  if (accepted(Request::home) && !(is == State::arming && after.homing))
+    return "an accepted homing leads to ARMING for it";
+  if (accepted(Request::arm) && after.homing) return "arming is not homing";
   if (accepted(Request::move) && is != State::run) return "an accepted move leads to RUN";
   const bool stop = in.requests[index_of(Request::stop)] || in.requests[index_of(Request::disarm)];
   if (stop && (is == State::arming || is == State::hold || is == State::run)) return "a stop stops";
@@ -130,11 +142,17 @@ const char* broken_rule(const Memory& before, const Inputs& in, const Memory& af
   if (was == State::stop_c1 && is == State::stop_c1 && before.ramping && !after.ramping)
     return "severity falls";
   if (is == State::arming && was != State::arming && was != State::ready) return "arming begins in READY";
-  if (is == State::arming && was == State::ready && !in.requests[index_of(Request::arm)])
+  if (is == State::arming && was == State::ready && !in.requests[index_of(Request::arm)] &&
+      !in.requests[index_of(Request::home)])
     return "arming is asked for";
+  if (after.homing && !before.homing && !in.requests[index_of(Request::home)]) return "homing is asked for";
+  if (after.homing && is == State::hold) return "homing never holds";
+  if (in.not_homed && !after.homing && may_release(after) && is != State::stop_c1)
+    return "without a zero nothing but homing opens a brake";
   if (is == State::hold && was != State::hold && was != State::run && was != State::arming)
     return "HOLD after ARMING";
-  if (is == State::run && was != State::hold && was != State::run) return "RUN after HOLD";
+  const bool after_hold = was == State::hold || was == State::run || (was == State::arming && before.homing);
+  if (is == State::run && !after_hold) return "RUN after HOLD, or to home";
   if (is == State::ready && was != State::ready && !after.self_test_passed) return "self-test first";
   if (stopped(is) && out.cause == Cause::none && was != is) return "a stop has a cause";
   return broken_promise(before, in, after, out);
@@ -230,6 +248,7 @@ TEST(Reactions, EachSignalInRunHasTheCauseAndReactionOfTheTable) {  // S16
       {"brake", [](Inputs& in) { in.brakes_open = false; }, Cause::brake_did_not_open},
       {"brake failed", [](Inputs& in) { in.brake_failed = true; }, Cause::brake_did_not_close},
       {"second writer", [](Inputs& in) { in.second_writer = true; }, Cause::second_writer},
+      {"not homed", [](Inputs& in) { in.not_homed = true; }, Cause::not_homed},
       {"overrun", [](Inputs& in) { in.overrun = true; }, Cause::overrun}};
   for (const Expectation& row : rows) {
     Memory m{.state = State::run, .cause = Cause::none, .releasing = true, .maneuver_seen = true};

@@ -29,7 +29,7 @@ Comedi::Handle::~Handle() {
   if (device != nullptr) ::comedi_close(device);
 }
 
-Comedi::Comedi(const runtime::Rig& rig) : wiring_{rig.wiring} {
+Comedi::Comedi(const runtime::Rig& rig) : wiring_{rig.wiring}, lines_{rig} {
   handle_.device = ::comedi_open(wiring_.device.c_str());
   if (handle_.device == nullptr)
     fail(std::string{"cannot be opened: "} + std::strerror(errno) +
@@ -39,20 +39,15 @@ Comedi::Comedi(const runtime::Rig& rig) : wiring_{rig.wiring} {
   lock(wiring_.analog_output_subdevice, COMEDI_SUBD_AO, "analog_output_subdevice");
   lock(wiring_.input_subdevice, COMEDI_SUBD_DIO, "input_subdevice");
   lock(wiring_.output_subdevice, COMEDI_SUBD_DIO, "output_subdevice");
-  const std::array<double, kCounters> start{rig.start.position[0], rig.start.position[1],
-                                            rig.start.position[2], rig.start.swing_radial_rad,
-                                            rig.start.swing_tangential_rad};
+  const auto start = start_counts(rig);
   for (std::size_t i = 0; i < kCounters; ++i) {
     const auto& encoder = rig.encoders[i];
     if (encoder.counts_per_unit <= 0) continue;
-    const auto counts = std::llround(encoder.sign * start[i] * encoder.counts_per_unit);
-    counters_.push_back({i, as_index(encoder.channel), static_cast<std::int32_t>(counts)});
+    counters_.push_back({i, as_index(encoder.channel), start[i]});
     require_channel(wiring_.counter_subdevice, as_index(encoder.channel), "counter_subdevice");
   }
-  for (std::size_t i = 0; i < kDrives; ++i) {
-    present_[i] = rig.drives[i].present;
-    if (present_[i]) find_converter(i, as_index(rig.drives[i].dac_channel));
-  }
+  for (std::size_t i = 0; i < kDrives; ++i)
+    if (lines_.present(i)) find_converter(i, as_index(rig.drives[i].dac_channel));
   make_safe();
   find_lines();
   make_safe();  // what the outputs showed before they were outputs
@@ -115,10 +110,11 @@ void Comedi::find_lines() {
   input(wiring_.relay_closed_input);
   output(wiring_.watchdog_output);
   for (std::size_t i = 0; i < kDrives; ++i) {
-    if (!present_[i]) continue;
+    if (!lines_.present(i)) continue;
     const auto& lines = wiring_.drives[i];
     for (const int line : {lines.limit_low_input, lines.limit_high_input, lines.brake_closed_input})
       input(line);
+    if (lines.mark_input >= 0) input(lines.mark_input);
     output(lines.brake_release_output);
   }
 }
@@ -166,15 +162,7 @@ Inputs Comedi::read() {
   Inputs inputs;
   for (std::size_t i = 0; i < counters_.size(); ++i)
     inputs.raw_counts[counters_[i].coordinate] = counts_of_24_bits(values[i]);
-  const auto closed = [&lines](int line) { return (lines[1] >> as_index(line) & 1U) == 0; };  // active low
-  for (std::size_t i = 0; i < kDrives; ++i) {
-    const auto& of_drive = wiring_.drives[i];
-    inputs.limit_low[i] = present_[i] && !closed(of_drive.limit_low_input);
-    inputs.limit_high[i] = present_[i] && !closed(of_drive.limit_high_input);
-    inputs.brake_closed[i] = !present_[i] || closed(of_drive.brake_closed_input);
-  }
-  inputs.estop_pressed = !closed(wiring_.estop_input);
-  inputs.watchdog_dropped = !closed(wiring_.relay_closed_input);
+  lines_.read(lines[1], inputs);
   return inputs;
 }
 
@@ -199,9 +187,7 @@ std::array<double, kDrives> Comedi::write(const Outputs& outputs) {
       fail("analog output " + std::to_string(converter.channel) + " cannot be written any more");
     given_v[converter.drive] = voltage_v(converter, value);
   }
-  unsigned bits = outputs.watchdog_level ? output_bit(wiring_.watchdog_output) : 0;
-  for (std::size_t i = 0; i < kDrives; ++i)
-    if (present_[i] && outputs.brake_release[i]) bits |= output_bit(wiring_.drives[i].brake_release_output);
+  unsigned bits = lines_.outputs(outputs) >> kFirstOutputLine;
   if (::comedi_dio_bitfield2(handle_.device, as_index(wiring_.output_subdevice), output_mask_, &bits, 0) < 0)
     fail("outputs cannot be written any more");
   return given_v;

@@ -1,6 +1,7 @@
 #include "crane/boards/emulated_servo_to_go.hpp"
 
 #include "../servo_to_go/registers.hpp"
+#include "crane/bridge/converter.hpp"
 
 namespace crane::bridge {
 namespace {
@@ -73,7 +74,7 @@ void EmulatedServoToGo::out_8(std::uint16_t port, std::uint8_t value) noexcept {
 void EmulatedServoToGo::out_16(std::uint16_t port, std::uint16_t value) noexcept {
   const auto offset = static_cast<std::uint16_t>(port - base_);
   if (offset >= converter(0) && offset < converter(kChannels) && offset % 2 == 0) {
-    connector_.set_converter((offset - converter(0)) / 2U, value & kLargestCode);
+    connector_.set_converter((offset - converter(0)) / 2U, value & kConverterLargest);
     return;
   }
   out_8(port, static_cast<std::uint8_t>(value));

@@ -6,6 +6,7 @@
 #include <new>
 #include <thread>
 
+#include "crane/bridge/converter.hpp"
 #include "crane/runtime/process.hpp"
 
 namespace crane::bridge {
@@ -107,7 +108,7 @@ RigServer::RigServer(const runtime::Rig& rig, const std::string& name, bool lock
   lines_->lockstep = lockstep;
   lines_->card = rig_.card();
   lines_->card.model = model;
-  for (auto& code : lines_->codes) code = simulator::kConverterZero;
+  for (auto& code : lines_->codes) code = kConverterZero;
   ::sem_init(&lines_->advance, 1, 0);
   ::sem_init(&lines_->reached, 1, 0);
   put_lines();

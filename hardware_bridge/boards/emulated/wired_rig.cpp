@@ -1,5 +1,6 @@
 #include "crane/boards/wired_rig.hpp"
 
+#include "crane/bridge/converter.hpp"
 #include "process/simulated_plant.hpp"
 
 namespace crane::bridge {
@@ -41,6 +42,7 @@ std::uint16_t WiredRig::inputs() noexcept {
     close(!state.limit_low[i], wiring_.drives[i].limit_low_input);
     close(!state.limit_high[i], wiring_.drives[i].limit_high_input);
     close(state.brake_closed[i], wiring_.drives[i].brake_closed_input);
+    if (wiring_.drives[i].mark_input >= 0) close(state.mark[i], wiring_.drives[i].mark_input);
   }
   return static_cast<std::uint16_t>(levels);
 }
@@ -48,7 +50,7 @@ std::uint16_t WiredRig::inputs() noexcept {
 void WiredRig::set_converter(std::size_t channel, std::uint16_t code) noexcept {
   for (std::size_t i = 0; i < kDrives; ++i)
     if (drives_[i].present && static_cast<std::size_t>(drives_[i].dac_channel) == channel)
-      outputs_.drive_v[i] = simulator::converter_voltage_v(code);
+      outputs_.drive_v[i] = converter_voltage_v(code);
   changed_ = true;
 }
 

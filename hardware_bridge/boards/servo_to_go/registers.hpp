@@ -35,9 +35,6 @@ enum CounterCommand : std::uint8_t {
 [[nodiscard]] constexpr std::uint16_t converter(std::size_t channel) {
   return static_cast<std::uint16_t>(0x10 + 2 * channel);
 }
-inline constexpr std::int32_t kZeroVoltCode = 0x1000;  ///< inverted offset binary: 0x0000 is +10 V
-inline constexpr std::int32_t kLargestCode = 0x1FFF;   ///< -10 V and one step
-inline constexpr double kConverterRange_v = 10;
 
 inline constexpr std::uint16_t kPortA = 0x400, kPortB = 0x402, kPortC = 0x404;
 /// Port D by model.

@@ -1,9 +1,8 @@
 #include "crane/boards/servo_to_go.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
+#include "crane/bridge/converter.hpp"
 #include "registers.hpp"
 
 namespace crane::bridge {
@@ -25,40 +24,20 @@ constexpr std::int32_t sign_extended(std::uint32_t low_24_bits) {
   return static_cast<std::int32_t>(low_24_bits << 8) >> 8;
 }
 
-std::int32_t counts_of(double coordinate, const runtime::Encoder& encoder) {
-  return static_cast<std::int32_t>(std::llround(encoder.sign * coordinate * encoder.counts_per_unit));
-}
-
-constexpr std::uint32_t line(int number) { return std::uint32_t{1} << static_cast<unsigned>(number); }
-
 }  // namespace
-
-std::uint16_t servo_to_go_code(double voltage_v) noexcept {
-  if (!std::isfinite(voltage_v)) return kZeroVoltCode;
-  const double steps = std::round(voltage_v / kConverterRange_v * kZeroVoltCode);
-  return static_cast<std::uint16_t>(std::clamp(kZeroVoltCode - steps, 0.0, double{kLargestCode}));
-}
-
-double servo_to_go_voltage_v(std::uint16_t code) noexcept {
-  return (kZeroVoltCode - code) * (kConverterRange_v / kZeroVoltCode);
-}
 
 ServoToGo::ServoToGo(const runtime::Rig& rig, std::unique_ptr<PortIo> ports)
     : ports_{std::move(ports)},
       base_{static_cast<std::uint16_t>(rig.wiring.base_address)},
-      wiring_{rig.wiring},
+      lines_{rig},
       model_{recognised_model()} {
-  for (std::size_t i = 0; i < kDrives; ++i) {
-    present_[i] = rig.drives[i].present;
+  for (std::size_t i = 0; i < kDrives; ++i)
     converter_channel_[i] = static_cast<std::size_t>(rig.drives[i].dac_channel);
-  }
-  const std::array<double, kCounters> start{rig.start.position[0], rig.start.position[1],
-                                            rig.start.position[2], rig.start.swing_radial_rad,
-                                            rig.start.swing_tangential_rad};
+  const auto start = start_counts(rig);
   for (std::size_t i = 0; i < kCounters; ++i) {
     const auto& encoder = rig.encoders[i];
     if (encoder.counts_per_unit <= 0) continue;
-    counters_[i] = {true, static_cast<std::size_t>(encoder.channel), counts_of(start[i], encoder)};
+    counters_[i] = {true, static_cast<std::size_t>(encoder.channel), start[i]};
     pair_used_[counters_[i].channel / 2] = true;
   }
   make_safe();
@@ -144,33 +123,22 @@ std::uint16_t ServoToGo::input_levels() noexcept {
 
 Inputs ServoToGo::read() {
   latch_all();
-  const std::uint32_t levels = input_levels();
-  const auto closed = [levels](int number) { return (levels & line(number)) == 0; };  // active low
   Inputs inputs;
+  lines_.read(input_levels(), inputs);
   for (std::size_t i = 0; i < kCounters; ++i)
     if (counters_[i].used) inputs.raw_counts[i] = latched(counters_[i].channel);
-  for (std::size_t i = 0; i < kDrives; ++i) {
-    const auto& lines = wiring_.drives[i];
-    inputs.limit_low[i] = present_[i] && !closed(lines.limit_low_input);
-    inputs.limit_high[i] = present_[i] && !closed(lines.limit_high_input);
-    inputs.brake_closed[i] = !present_[i] || closed(lines.brake_closed_input);
-  }
-  inputs.estop_pressed = !closed(wiring_.estop_input);
-  inputs.watchdog_dropped = !closed(wiring_.relay_closed_input);
   return inputs;
 }
 
 std::array<double, kDrives> ServoToGo::write(const Outputs& outputs) {
   std::array<double, kDrives> given_v{};
-  std::uint32_t levels = outputs.watchdog_level ? line(wiring_.watchdog_output) : 0;
   for (std::size_t i = 0; i < kDrives; ++i) {
-    if (!present_[i]) continue;
-    const auto code = servo_to_go_code(outputs.drive_v[i]);
+    if (!lines_.present(i)) continue;
+    const auto code = converter_code(outputs.drive_v[i]);
     ports_->out_16(at(converter(converter_channel_[i])), code);
-    given_v[i] = servo_to_go_voltage_v(code);
-    if (outputs.brake_release[i]) levels |= line(wiring_.drives[i].brake_release_output);
+    given_v[i] = converter_voltage_v(code);
   }
-  set_outputs(levels);
+  set_outputs(lines_.outputs(outputs));
   return given_v;
 }
 
@@ -181,7 +149,7 @@ void ServoToGo::set_outputs(std::uint32_t levels) noexcept {
 
 void ServoToGo::make_safe() noexcept {
   for (std::size_t channel = 0; channel < kChannels; ++channel)
-    ports_->out_16(at(converter(channel)), kZeroVoltCode);
+    ports_->out_16(at(converter(channel)), kConverterZero);
   set_outputs(0);
 }
 

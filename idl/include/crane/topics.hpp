@@ -20,6 +20,7 @@ using Request = crane_Request;
 using Reply = crane_Reply;
 using NodeStatus = crane_NodeStatus;
 using Event = crane_Event;
+using Twin = crane_Twin;
 }  // namespace crane::msg
 
 namespace crane::topics {
@@ -59,7 +60,8 @@ struct Topic {
   X(request, Request, "crane/request", script, false)             \
   X(reply, Reply, "crane/reply", script, false)                   \
   X(node, NodeStatus, "crane/node", status, false)                \
-  X(event, Event, "crane/event", log, false)
+  X(event, Event, "crane/event", log, false)                      \
+  X(twin, Twin, "crane/twin", loop, true)
 
 #define CRANE_DECLARE_TOPIC(variable, type, name, qos, every_tick) \
   inline const Topic<crane_##type> variable{                       \

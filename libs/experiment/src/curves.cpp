@@ -1,7 +1,6 @@
 #include "crane/experiment/curves.hpp"
 
 #include <cmath>
-#include <system_error>
 
 #include "gnuplot.hpp"
 
@@ -14,15 +13,6 @@ constexpr double kCurvesWidth = 900, kCurvesPanelHeight = 330, kCurvesTop = 44; 
 constexpr std::array kCurveColours{"#0072B2", "#D55E00", "#009E73", "#707070", "#CC79A7"};
 
 std::string number(double value) { return recording::shortest(std::round(value * 1e6) / 1e6); }
-
-std::string terminal_of(const std::filesystem::path& file, double height) {
-  const std::string size = number(kCurvesWidth) + "," + number(height);
-  if (file.extension() == ".svg")
-    return "set terminal svg size " + size + " font 'DejaVu Sans,14' background '#ffffff' noenhanced\n";
-  if (file.extension() == ".png")
-    return "set terminal pngcairo size " + size + " font 'DejaVu Sans,10.5' noenhanced\n";
-  throw PictureError(file.string() + ": a picture's name must end in .svg or .png");
-}
 
 const char* style_of(CurveStyle style) {
   switch (style) {
@@ -64,23 +54,14 @@ void draw_curves(const std::filesystem::path& file, const std::string& title,
         throw PictureError(file.string() + ": " + curve.name + " has nothing to draw");
   if (panels.empty()) throw PictureError(file.string() + ": there is nothing to draw");
   const double height = kCurvesTop + kCurvesPanelHeight * static_cast<double>(panels.size());
-  const std::filesystem::path partial = file.string() + ".partial";
-  std::string script = terminal_of(file, height) + "set output " + quoted(partial.string()) + "\n";
-  script += "set encoding utf8\nset border 3 lw 0.8 lc rgb '#404040'\nset tics nomirror out scale 0.5\n";
+  // Names of columns and controllers have underscores: they are not to become subscripts.
+  std::string script = "set termoption noenhanced\nset encoding utf8\n";
+  script += "set border 3 lw 0.8 lc rgb '#404040'\nset tics nomirror out scale 0.5\n";
   script += "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dcdcdc'\nset lmargin 10\n";
   script += "set key tmargin right horizontal samplen 2\n";
   script += "set multiplot layout " + std::to_string(panels.size()) + ",1 title " + quoted(title) + "\n";
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(i, panels[i]);
-  script += "unset multiplot\nunset output\n";
-  std::error_code failure;
-  try {
-    run_gnuplot(script);
-  } catch (const PictureError&) {
-    std::filesystem::remove(partial, failure);
-    throw;
-  }
-  std::filesystem::rename(partial, file, failure);
-  if (failure) throw PictureError(file.string() + ": cannot write: " + failure.message());
+  draw_script(file, kCurvesWidth, height, script + "unset multiplot\n");
 }
 
 }  // namespace crane::experiment

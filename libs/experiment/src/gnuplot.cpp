@@ -62,6 +62,9 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+namespace {
+
+/// @throws PictureError when gnuplot is missing, or with what it complained about
 void run_gnuplot(const std::string& script) {
   const ScriptFile file{script};
   FILE* const pipe = ::popen(("gnuplot " + file.name() + " 2>&1").c_str(), "r");
@@ -75,6 +78,8 @@ void run_gnuplot(const std::string& script) {
     throw PictureError("gnuplot is not installed; install it with: apt-get install gnuplot-nox");
   if (status != 0) throw PictureError("gnuplot failed: " + said);
 }
+
+}  // namespace
 
 void draw_script(const std::filesystem::path& file, double width, double height, const std::string& script) {
   const std::filesystem::path partial = file.string() + ".partial";

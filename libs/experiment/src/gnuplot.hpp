@@ -8,11 +8,8 @@ namespace crane::experiment {
 /// `text` as a gnuplot string that is taken literally.
 [[nodiscard]] std::string quoted(const std::string& text);
 
-/// @throws PictureError when gnuplot is missing, or with what it complained about
-void run_gnuplot(const std::string& script);
-
 /// Draws `script` into a picture of so many pixels; `file` appears when it is complete.
-/// @param file ends in .svg or .png. @throws PictureError
+/// @param file ends in .svg or .png. @throws PictureError, also when gnuplot is missing or complains
 void draw_script(const std::filesystem::path& file, double width, double height, const std::string& script);
 
 }  // namespace crane::experiment

@@ -19,15 +19,17 @@ bus::Options memory_options(std::shared_ptr<bus::MemoryNetwork> network, std::st
 InProcessStack::InProcessStack(std::span<const ComponentSpec> specs, const Rig& rig,
                                const control::Controller& controller)
     : network_{bus::make_memory_network()} {
-  for (const auto& spec : specs) {
-    Room room;
-    room.bus = std::make_unique<bus::Bus>(memory_options(network_, std::string{spec.program}, spec.source));
-    room.node = std::make_unique<Node>(
-        *room.bus,
-        NodeIdentity{std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""});
-    room.component = spec.make(Context{*room.bus, *room.node, rig, controller, Clock::lockstep});
-    rooms_.push_back(std::move(room));
-  }
+  for (const auto& spec : specs) add(spec, rig, controller);
+}
+
+void InProcessStack::add(const ComponentSpec& spec, const Rig& rig, const control::Controller& controller) {
+  Room room;
+  room.bus = std::make_unique<bus::Bus>(memory_options(network_, std::string{spec.program}, spec.source));
+  room.node = std::make_unique<Node>(
+      *room.bus,
+      NodeIdentity{std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""});
+  room.component = spec.make(Context{*room.bus, *room.node, rig, controller, Clock::lockstep});
+  rooms_.push_back(std::move(room));
 }
 
 bool InProcessStack::pump() {

@@ -30,6 +30,7 @@ Rig parse_rig(const std::string& text, const std::string& file) {
   read_drives(root, rig);
   read_encoders(root, rig);
   read_wiring(root, rig);
+  read_homing(root, rig);
   read_plant(root, rig);
   read_terms(root, rig);
   read_sensing(root, rig);

@@ -57,6 +57,10 @@ Drive read_drive(TomlTable& table, const AxisText& axis, double period_s) {
   drive.brake_close_time_s = table.number("brake_close_time_s", brake_time, drive.brake_close_time_s);
   drive.brake_open_time_s = table.number("brake_open_time_s", brake_time, drive.brake_open_time_s);
   const Range planned = Range::closed(1e-6, 1e6);  // what a trajectory can be planned with
+  if (axis.unit == "rad") {
+    drive.brake_slip = 0.05;
+    drive.standstill_speed = 0.01;
+  }
   drive.reference_speed = table.number(with_unit("reference_speed", axis.speed), planned);
   drive.reference_acceleration =
       table.number(with_unit("reference_acceleration", axis.acceleration), planned);

@@ -46,6 +46,7 @@ void read_encoders(TomlTable& root, Rig& rig);
 void read_plant(TomlTable& root, Rig& rig);
 void read_terms(TomlTable& root, Rig& rig);
 void read_wiring(TomlTable& root, Rig& rig);
+void read_homing(TomlTable& root, Rig& rig);
 void read_sensing(TomlTable& root, Rig& rig);
 void read_limits(TomlTable& root, Rig& rig);
 void read_start(TomlTable& root, Rig& rig);

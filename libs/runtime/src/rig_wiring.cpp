@@ -68,6 +68,7 @@ void read_wiring(TomlTable& root, Rig& rig) {
     of_drive.brake_closed_input = lines.input(drive, "brake_closed_input", of_drive.brake_closed_input);
     of_drive.brake_release_output =
         lines.output(drive, "brake_release_output", of_drive.brake_release_output);
+    if (drive.has("mark_input")) of_drive.mark_input = lines.input(drive, "mark_input", 0);
   }
 }
 

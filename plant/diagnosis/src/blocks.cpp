@@ -75,7 +75,8 @@ double sum(const Blocks& blocks) { return std::accumulate(blocks.begin(), blocks
 Blocks blocks_of(const Problem& problem, const Fits& fits) {
   Blocks blocks(visit_blocks(problem, 0, [](auto...) {}), 0.0);
   visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index row) {
-    blocks[block] += fits[w].residual[row] * fits[w].residual[row];
+    const double price = kStartPrice * fits[w].freedom / static_cast<double>(fits[w].residual.size());
+    blocks[block] += fits[w].residual[row] * fits[w].residual[row] + price;
   });
   return blocks;
 }

@@ -4,121 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "candidate_shapes.hpp"
 #include "position_spectrum.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
 using plant::TermSetting;
-
-/// The bounds of the term's own documentation, narrowed to what is plausible on a rig.
-FreeParameter free_parameter(const std::string& cause, const std::string& name, double low, double high,
-                             double step) {
-  const plant::TermKind& kind = *plant::find_term(cause);
-  const auto found = std::find_if(kind.parameters.begin(), kind.parameters.end(),
-                                  [&](const plant::TermParameter& p) { return p.name == name; });
-  return {name,
-          std::string{found->unit},
-          found->default_value,
-          std::max(low, found->low),
-          std::min(high, found->high),
-          step};
-}
-
-/// One amount, no shape.
-Candidate amount(const std::string& cause, const std::string& axis, const std::string& parameter, double low,
-                 double high, double step) {
-  Candidate c;
-  c.cause = cause;
-  c.axis = axis;
-  c.parameters = {free_parameter(cause, parameter, low, high, step)};
-  const FreeParameter& p = c.parameters.front();
-  c.one_sided = p.low >= p.null || p.high <= p.null;
-  c.shapes = {{{c.setting({p.null + step})}, {step}}};
-  c.begin = [p](const Shape&, const std::vector<double>& amounts) {
-    return std::vector<double>{std::clamp(p.null + amounts[0], p.low, p.high)};
-  };
-  return c;
-}
-
-/// One amount >= 0 with further parameters that give it a shape: a probe at each of `shapes`.
-Candidate shaped(const std::string& cause, const std::string& axis, const FreeParameter& size,
-                 const std::vector<FreeParameter>& of_shape, const std::vector<std::vector<double>>& shapes) {
-  Candidate c;
-  c.cause = cause;
-  c.axis = axis;
-  c.one_sided = size.low >= size.null;
-  c.parameters = {size};
-  c.parameters.insert(c.parameters.end(), of_shape.begin(), of_shape.end());
-  for (const auto& shape : shapes) {
-    std::vector<double> values{size.null + size.step};
-    values.insert(values.end(), shape.begin(), shape.end());
-    c.shapes.push_back({{c.setting(values)}, {size.step}});
-  }
-  const auto parameters = c.parameters;
-  c.begin = [parameters](const Shape& shape, const std::vector<double>& amounts) {
-    std::vector<double> values;
-    for (const FreeParameter& p : parameters) values.push_back(shape.probes[0].parameters.at(p.name));
-    const FreeParameter& p = parameters[0];
-    values[0] = std::clamp(p.null + amounts[0], p.low, p.high);
-    return values;
-  };
-  return c;
-}
-
-/// Amount and angle: probes at 0 and at a quarter turn.
-Candidate turned(const std::string& cause, const std::string& axis, const FreeParameter& size,
-                 const FreeParameter& angle, const std::vector<FreeParameter>& of_shape,
-                 const std::vector<std::vector<double>>& shapes) {
-  Candidate c;
-  c.cause = cause;
-  c.axis = axis;
-  c.parameters = {size, angle};
-  c.parameters.insert(c.parameters.end(), of_shape.begin(), of_shape.end());
-  for (const auto& shape : shapes) {
-    Shape probes;
-    for (const double at : {0.0, std::numbers::pi / 2}) {
-      std::vector<double> values{size.step, at};
-      values.insert(values.end(), shape.begin(), shape.end());
-      probes.probes.push_back(c.setting(values));
-      probes.amounts.push_back(size.step);
-    }
-    c.shapes.push_back(probes);
-  }
-  const auto parameters = c.parameters;
-  c.begin = [parameters](const Shape& shape, const std::vector<double>& amounts) {
-    std::vector<double> values;
-    for (const FreeParameter& p : parameters) values.push_back(shape.probes[0].parameters.at(p.name));
-    values[0] = std::min(std::hypot(amounts[0], amounts[1]), parameters[0].high);
-    values[1] = std::atan2(amounts[1], amounts[0]);
-    return values;
-  };
-  return c;
-}
-
-/// Two amounts that belong together.
-Candidate two_amounts(const std::string& cause, const std::string& axis, std::vector<FreeParameter> both) {
-  Candidate c;
-  c.cause = cause;
-  c.axis = axis;
-  c.parameters = std::move(both);
-  Shape shape;
-  for (std::size_t i = 0; i < 2; ++i) {
-    std::vector<double> values{c.parameters[0].null, c.parameters[1].null};
-    values[i] += c.parameters[i].step;
-    shape.probes.push_back(c.setting(values));
-    shape.amounts.push_back(c.parameters[i].step);
-  }
-  c.shapes = {shape};
-  const auto parameters = c.parameters;
-  c.begin = [parameters](const Shape&, const std::vector<double>& amounts) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < 2; ++i)
-      values.push_back(std::clamp(parameters[i].null + amounts[i], parameters[i].low, parameters[i].high));
-    return values;
-  };
-  return c;
-}
 
 /// What the rig file's drive_friction of an axis has.
 struct KnownFriction {
@@ -149,7 +41,7 @@ class Builder {
     };
     const bool load = rig_.plant.load_mass_kg > 0;
     if (measured(kTrolleyPosition)) add_axis("trolley", kTrolleyPosition, 1.0);
-    if (measured(kSlewAngle)) add_axis("slew", kSlewAngle, 1.0);
+    if (measured(kSlewAngle)) add_axis("slew", kSlewAngle, 2.0);
     radial_ = load && measured(kRadialSwing), tangential_ = load && measured(kTangentialSwing);
     if (radial_ || tangential_) add_load(measured(kTrolleyPosition), measured(kSlewAngle));
     return std::move(all_);
@@ -183,8 +75,21 @@ class Builder {
     add(amount("command_offset", axis, "offset_v", -3, 3, 0.02), true, false);
     add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
     add(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005), true, false);
-    add(amount("actuator_lag", axis, "time_constant_s", 0, 0.5, 0.01), true, false);
-    add(amount("backlash", axis, "gap", 0, 0.05 * scale, 0.001), true, true);
+    add(shaped("actuator_lag", axis, free_parameter("actuator_lag", "time_constant_s", 0, 0.5, 0.01),
+               {free_parameter("actuator_lag", "second_s", 0, 0.5, 0.01)}, {{0}}),
+        true, false);
+    // How far the load and the guide move what is behind the gap depends on its inertia more than on the gap.
+    const double carriage = rig_.plant.trolley_mass_kg / rig_.plant.trolley_inertia_kg;
+    const double share = output == kTrolleyPosition ? std::clamp(carriage, 0.05, 0.85) : 0.6;
+    std::vector<std::vector<double>> settings;
+    for (const double gap : {0.003, 0.006})
+      for (const double guide : {0.1, 0.7}) settings.push_back({gap * scale, guide, share});
+    add(at_once("backlash", axis,
+                {free_parameter("backlash", "gap", 0.0002, 0.05, 0.001),
+                 free_parameter("backlash", "guide_deceleration", 0, 2, 0.1),
+                 free_parameter("backlash", "driven_share", 0.02, 0.9, 0.05)},
+                settings),
+        true, true);
     add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), true, true);
     add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
   }
@@ -228,22 +133,32 @@ class Builder {
           true, true);
     add_pivot_friction();
     if (trolley) add(amount("jib_tilt", "", "angle_rad", -0.2, 0.2, 0.005), true, true);
-    if (slew)
-      add(shaped("jib_flexibility", "",
-                 free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
-                 {free_parameter("jib_flexibility", "damping_ratio", 0.001, 0.5, 0.01)}, {{0.02}}),
-          false, true);
-    if (radial_ || tangential_) {
-      add(shaped("cable_elasticity", "",
-                 free_parameter("cable_elasticity", "compliance_mpn", 0.0001 / m, 0.02 / m, 0.0005 / m),
-                 {free_parameter("cable_elasticity", "damping_ratio", 0.001, 0.5, 0.01)}, {{0.02}}),
-          false, true);
-      add(shaped("double_pendulum", "", free_parameter("double_pendulum", "lower_share", 0, 0.85, 0.05),
-                 {free_parameter("double_pendulum", "lower_length_m", 0.05, 2, 0.01)},
-                 {{0.1}, {0.2}, {0.35}, {0.6}}),
-          false, true);
-    }
+    add_structures(slew);
     add_swing_sensors();
+  }
+
+  /// Settings a resonance may begin its fit with lie about as far apart as two seconds tell frequencies. An
+  /// elastic cable is not among the candidates: its bounce is never measured, and free to start in every
+  /// window it explains the disturbance of clean data.
+  void add_structures(bool slew) {
+    const auto square = [](double hz) { return std::pow(2 * std::numbers::pi * hz, 2); };
+    std::vector<std::vector<double>> jibs, slings;
+    for (const double hz : {1.4, 2.0, 2.8, 4.0})
+      for (const double share : {0.15, 0.6}) jibs.push_back({1 / square(hz), 0.03, share});
+    for (const double hz : {1.2, 1.6, 2.1, 2.6, 3.2, 4.0})
+      slings.push_back({0.65, rig_.plant.gravity_mps2 / (0.35 * square(hz))});
+    if (slew)
+      add(at_once("jib_flexibility", "",
+                  {free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
+                   free_parameter("jib_flexibility", "damping_ratio", 0.001, 0.5, 0.01),
+                   free_parameter("jib_flexibility", "jib_share", 0, 0.9, 0.05)},
+                  jibs),
+          true, true);
+    add(at_once("double_pendulum", "",
+                {free_parameter("double_pendulum", "lower_share", 0.03, 0.85, 0.05),
+                 free_parameter("double_pendulum", "lower_length_m", 0.05, 2, 0.01)},
+                slings),
+        false, true);
   }
 
   void add_pivot_friction() {
@@ -301,12 +216,6 @@ class Builder {
 };
 
 }  // namespace
-
-TermSetting Candidate::setting(const std::vector<double>& values) const {
-  TermSetting term{cause, axis, {}};
-  for (std::size_t i = 0; i < parameters.size(); ++i) term.parameters[parameters[i].name] = values[i];
-  return term;
-}
 
 std::vector<Candidate> candidates_for(const runtime::Rig& rig, const std::vector<PreparedRun>& runs) {
   return Builder(rig, runs).build();

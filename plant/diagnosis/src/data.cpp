@@ -5,6 +5,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "thinning.hpp"
+
 namespace crane::diagnosis {
 namespace {
 
@@ -298,7 +300,7 @@ DataError::DataError(std::vector<std::string> problems)
     : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
 
 Loaded load_run(const recording::Table& table, const runtime::Rig& rig, const std::string& name) {
-  return Loader(table, rig, name).load();
+  return thinned(Loader(table, rig, name).load());
 }
 
 }  // namespace crane::diagnosis

@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostRounds = 8;
+constexpr int kMostRounds = 12;
 /// Decrease of the loss that is not worth another round.
 constexpr double kLeastGain = 0.3;
 
@@ -86,7 +86,7 @@ Fitted Study::fit(Effects effects) const {
     const Flat flat = flatten(best.effects);
     bool better = false;
     double gained = 0;
-    for (int attempt = 0; attempt < 5 && !better; ++attempt) {
+    for (int attempt = 0; attempt < 7 && !better; ++attempt) {
       const VectorXd step = bounded_step(information, pull, flat, damping);
       if (step.norm() == 0) break;
       const Effects moved = unflatten(best.effects, flat.values + step);

@@ -78,8 +78,7 @@ std::vector<Trace> traces(const Runs& runs, const Crane& base, const Crane& exte
   return all;
 }
 
-HeldOut held_out(const runtime::Rig& /*rig*/, const Study& study, const Runs& test, const Effects& effects,
-                 std::uint64_t seed) {
+HeldOut held_out(const Study& study, const Runs& test, const Effects& effects, std::uint64_t seed) {
   HeldOut result;
   if (test.empty()) return result;
   const Evaluation& before = study.base_test();

@@ -5,8 +5,8 @@
 
 namespace crane::diagnosis {
 
-[[nodiscard]] HeldOut held_out(const runtime::Rig& rig, const Study& study, const Runs& test,
-                               const Effects& effects, std::uint64_t seed);
+[[nodiscard]] HeldOut held_out(const Study& study, const Runs& test, const Effects& effects,
+                               std::uint64_t seed);
 
 /// Whole runs in structured replays: drives from command and measured swing, load from measured motion.
 [[nodiscard]] std::vector<Trace> traces(const Runs& runs, const Crane& base, const Crane& extended);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "parallel.hpp"
 
@@ -24,10 +25,14 @@ constexpr double kNoisiest = 2.0;
 constexpr double kLeastSlope = 0.02;
 /// The measurement knows the start better than this; a larger correction in one round is not believed.
 constexpr double kMostPosition = 0.01, kMostRate = 0.1;
+/// Nothing measures a term's own coordinates: so many times that.
+constexpr double kMostInnerStart = 20;
 
-VectorXd believable(VectorXd change) {
+/// @param measured numbers of the start that the measurement knows about
+VectorXd believable(VectorXd change, Index measured) {
   for (Index i = 0; i < change.size(); ++i) {
-    const double most = i % 2 == 0 ? kMostPosition : kMostRate;
+    const double freer = i < measured ? 1 : kMostInnerStart;
+    const double most = freer * (i % 2 == 0 ? kMostPosition : kMostRate);
     change[i] = std::isfinite(change[i]) ? std::clamp(change[i], -most, most) : 0.0;
   }
   return change;
@@ -142,45 +147,59 @@ void Problem::whiten(std::size_t window, Eigen::Ref<MatrixXd> x) const {
   }
 }
 
-void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
-  const Window& window = windows_[at];
-  fit.simulated = simulate(replay, window, fit.start);
-  MatrixXd slopes(fit.simulated.size(), fit.start.size());
-  for (Index i = 0; i < fit.start.size(); ++i) {
+MatrixXd Problem::start_slopes(const Replay& replay, std::size_t at, const VectorXd& start,
+                               const VectorXd& simulated, Index first) const {
+  MatrixXd slopes(simulated.size(), start.size() - first);
+  for (Index i = first; i < start.size(); ++i) {
     const double step = i % 2 == 0 ? kPositionStep : kRateStep;
-    VectorXd moved = fit.start;
+    VectorXd moved = start;
     moved[i] += step;
-    slopes.col(i) = (simulate(replay, window, moved) - fit.simulated) / step;
+    slopes.col(i - first) = (simulate(replay, windows_[at], moved) - simulated) / step;
   }
   whiten(at, slopes);
+  return slopes;
+}
+
+void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
+  fit.simulated = simulate(replay, windows_[at], fit.start);
+  MatrixXd slopes = start_slopes(replay, at, fit.start, fit.simulated, 0);
+  // A coordinate of a term's own is in a length of its own: what it changes counts against the rest in shape.
+  const Index measured = bare_start();
+  const double strongest = slopes.leftCols(measured).colwise().norm().maxCoeff();
+  VectorXd scale = VectorXd::Ones(slopes.cols());
+  for (Index i = measured; i < slopes.cols(); ++i)
+    if (const double norm = slopes.col(i).norm(); norm > 0) scale[i] = strongest / norm;
+  slopes = slopes * scale.asDiagonal();
   Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes.rows(), slopes.cols());
   qr.setThreshold(kLeastSlope);
   qr.compute(slopes);
   fit.basis = qr.householderQ() * MatrixXd::Identity(slopes.rows(), qr.rank());
-  fit.to_start = qr.solve(MatrixXd(fit.basis)) * fit.basis.transpose();
+  fit.to_start = scale.asDiagonal() * qr.solve(MatrixXd(fit.basis)) * fit.basis.transpose();
+  fit.freedom = static_cast<double>(slopes.cols() - measured);
+}
+
+void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) const {
+  const Window& window = windows_[at];
+  const std::vector<double> start = replay.measured_start(window.first - window.lead);
+  fit.start = Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
+  const VectorXd target = measured(window);
+  linearise(replay, at, fit);
+  for (int round = 1; round < kStartRounds; ++round) {
+    fit.residual = target - fit.simulated;
+    whiten(at, fit.residual);
+    fit.start += believable(fit.to_start * fit.residual, bare_start());
+    fit.simulated = simulate(replay, window, fit.start);
+  }
+  linearise(replay, at, fit);
+  fit.residual = target - fit.simulated;
+  whiten(at, fit.residual);
+  fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
 }
 
 Fits Problem::fit(const Crane& crane) const {
   const std::vector<Replay> replay = replays(runs_, crane);
   Fits fits(windows_.size());
-  parallel_for(windows_.size(), [&](std::size_t w) {
-    const Window& window = windows_[w];
-    WindowFit& fit = fits[w];
-    const std::vector<double> start = replay[window.run].measured_start(window.first - window.lead);
-    fit.start = Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
-    const VectorXd target = measured(window);
-    linearise(replay[window.run], w, fit);
-    for (int round = 1; round < kStartRounds; ++round) {
-      fit.residual = target - fit.simulated;
-      whiten(w, fit.residual);
-      fit.start += believable(fit.to_start * fit.residual);
-      fit.simulated = simulate(replay[window.run], window, fit.start);
-    }
-    linearise(replay[window.run], w, fit);
-    fit.residual = target - fit.simulated;
-    whiten(w, fit.residual);
-    fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
-  });
+  parallel_for(windows_.size(), [&](std::size_t w) { fit_start(replay[windows_[w].run], w, fits[w]); });
   return fits;
 }
 
@@ -190,40 +209,65 @@ Fits Problem::fit_near(const Crane& crane, const Fits& near) const {
   parallel_for(windows_.size(), [&](std::size_t w) {
     const Window& window = windows_[w];
     WindowFit& fit = fits[w];
+    if (static_cast<std::size_t>(fit.start.size()) != replay[window.run].start_size())
+      return fit_start(replay[window.run], w, fit);
     const VectorXd target = measured(window);
     for (int round = 0;; ++round) {
       fit.simulated = simulate(replay[window.run], window, fit.start);
       fit.residual = target - fit.simulated;
       whiten(w, fit.residual);
       if (round == kStartRounds - 1) break;
-      fit.start += believable(fit.to_start * fit.residual);
+      fit.start += believable(fit.to_start * fit.residual, bare_start());
     }
     fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
   });
   return fits;
 }
 
-std::vector<VectorXd> Problem::change(const Crane& crane, const Fits& at, double step) const {
-  return change_on(runs_, crane, at, step);
+std::vector<VectorXd> Problem::change(const Crane& crane, const Fits& at, double step, double* own) const {
+  return change_on(runs_, crane, at, step, own);
 }
 
-std::vector<VectorXd> Problem::change_on(const Runs& runs, const Crane& crane, const Fits& at,
-                                         double step) const {
+std::vector<VectorXd> Problem::change_on(const Runs& runs, const Crane& crane, const Fits& at, double step,
+                                         double* own) const {
   const std::vector<Replay> replay = replays(runs, crane);
   std::vector<VectorXd> changes(windows_.size());
+  std::vector<double> gains(windows_.size());
   parallel_for(windows_.size(), [&](std::size_t w) {
-    VectorXd change = (simulate(replay[windows_[w].run], windows_[w], at[w].start) - at[w].simulated) / step;
-    whiten(w, change);
-    change -= at[w].basis * (at[w].basis.transpose() * change).eval();
-    changes[w] = std::move(change);
+    changes[w] = change_in(replay[windows_[w].run], w, at[w], step, gains[w]);
   });
+  if (own != nullptr) *own = std::accumulate(gains.begin(), gains.end(), 0.0);
   return changes;
 }
 
-double loss(const Fits& fits) {
-  double sum = 0;
-  for (const WindowFit& fit : fits) sum += fit.residual.squaredNorm();
-  return sum;
+VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit& at, double step,
+                            double& own_gain) const {
+  const auto outside = [&](MatrixXd x) -> MatrixXd {
+    return x - at.basis * (at.basis.transpose() * x).eval();
+  };
+  VectorXd start = at.start;
+  const auto known = start.size(), all = static_cast<Index>(replay.start_size());
+  if (all > known) {
+    const std::vector<double> inner = replay.measured_start(windows_[w].first - windows_[w].lead);
+    start.conservativeResize(all);
+    for (Index i = known; i < all; ++i) start[i] = inner[static_cast<std::size_t>(i)];
+  }
+  const VectorXd simulated = simulate(replay, windows_[w], start);
+  MatrixXd change = (simulated - at.simulated) / step;
+  whiten(w, change);
+  change = outside(change);
+  if (all > known) {
+    MatrixXd slopes = outside(start_slopes(replay, w, start, simulated, known));
+    slopes.colwise().normalize();
+    Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes.rows(), slopes.cols());
+    qr.setThreshold(kLeastSlope);
+    qr.compute(slopes);
+    const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(slopes.rows(), qr.rank());
+    change -= basis * (basis.transpose() * change).eval();
+    own_gain =
+        (basis.transpose() * at.residual).squaredNorm() - kStartPrice * static_cast<double>(all - known);
+  }
+  return change;
 }
 
 }  // namespace crane::diagnosis

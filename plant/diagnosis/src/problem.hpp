@@ -24,8 +24,13 @@ struct WindowFit {
   Eigen::VectorXd residual;   ///< measured - simulated, whitened, projected
   Eigen::MatrixXd basis;      ///< orthonormal directions of the start, whitened
   Eigen::MatrixXd to_start;   ///< whitened residual to change of start
+  double freedom = 0;         ///< directions of the start that the bare crane does not have
 };
 using Fits = std::vector<WindowFit>;
+
+/// A direction of the start that only the extended crane has takes one noise variance out of a window by
+/// luck; more in coloured residuals.
+inline constexpr double kStartPrice = 2;
 
 class Problem {
  public:
@@ -48,26 +53,44 @@ class Problem {
 
   /// Solves for the starts from the measured ones.
   [[nodiscard]] Fits fit(const Crane& crane) const;
-  /// Solves for the starts with the directions of `near`, a crane that differs little.
+  /// Solves for the starts with the directions of `near`, a crane that differs little; as fit() where it has
+  /// other coordinates.
   [[nodiscard]] Fits fit_near(const Crane& crane, const Fits& near) const;
-  /// Change of the outputs against `at` per unit, whitened and projected: (outputs of crane - at) / step.
-  [[nodiscard]] std::vector<Eigen::VectorXd> change(const Crane& crane, const Fits& at, double step) const;
+  /// Change of the outputs against `at` per unit, whitened and projected: (outputs of crane - at) / step. The
+  /// start of coordinates that only `crane` has is taken out too.
+  /// @param own if given, takes the decrease of the loss that the start of such coordinates makes alone, less
+  /// its price
+  [[nodiscard]] std::vector<Eigen::VectorXd> change(const Crane& crane, const Fits& at, double step,
+                                                    double* own = nullptr) const;
 
   /// The same with other runs (commands changed) through the same crane.
   [[nodiscard]] std::vector<Eigen::VectorXd> change_on(const Runs& runs, const Crane& crane, const Fits& at,
-                                                       double step) const;
+                                                       double step, double* own = nullptr) const;
+  /// What a window's output counts, in (0, 1]. @pre the disturbance is known
+  [[nodiscard]] double weight(std::size_t output, std::size_t window) const {
+    return weights_[output][window];
+  }
   /// Measured rows of a window, outputs one after the other.
   [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
 
  private:
   /// Residuals [output][window], plain.
   [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Crane& crane) const;
+  /// Numbers of a start that every crane has.
+  [[nodiscard]] Eigen::Index bare_start() const { return static_cast<Eigen::Index>(2 * outputs_.size()); }
   void weigh(const std::vector<std::vector<Eigen::VectorXd>>& residuals);
   [[nodiscard]] std::vector<Replay> replays(const Runs& runs, const Crane& crane) const;
   [[nodiscard]] Eigen::VectorXd simulate(const Replay& replay, const Window& window,
                                          const Eigen::VectorXd& start) const;
   void whiten(std::size_t window, Eigen::Ref<Eigen::MatrixXd> x) const;
+  /// Whitened changes of the outputs per unit of the start's numbers from `first` on.
+  [[nodiscard]] Eigen::MatrixXd start_slopes(const Replay& replay, std::size_t window,
+                                             const Eigen::VectorXd& start, const Eigen::VectorXd& simulated,
+                                             Eigen::Index first) const;
+  [[nodiscard]] Eigen::VectorXd change_in(const Replay& replay, std::size_t window, const WindowFit& at,
+                                          double step, double& own_gain) const;
   void linearise(const Replay& replay, std::size_t window, WindowFit& fit) const;
+  void fit_start(const Replay& replay, std::size_t window, WindowFit& fit) const;
 
   const Runs& runs_;
   Part part_;
@@ -76,8 +99,5 @@ class Problem {
   std::vector<Whitener> whiteners_;           ///< by output; empty: plain residuals
   std::vector<std::vector<double>> weights_;  ///< by output and window, in (0, 1]
 };
-
-/// Sum of squares.
-[[nodiscard]] double loss(const Fits& fits);
 
 }  // namespace crane::diagnosis

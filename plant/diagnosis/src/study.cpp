@@ -1,5 +1,6 @@
 #include "study.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "blocks.hpp"
@@ -10,7 +11,7 @@ namespace {
 using Eigen::VectorXd;
 
 /// Long windows suit a load that nothing drives, short ones a drive whose friction forgets.
-double window_s(const runtime::Rig& rig) { return rig.kind == runtime::RigKind::pendulum ? 10.0 : 2.0; }
+double window_s(const runtime::Rig& rig) { return rig.kind == runtime::RigKind::pendulum ? 5.0 : 2.0; }
 
 Evaluation summed(const Problem& drive, const Problem& load, Fits of_drive, Fits of_load) {
   Evaluation result;
@@ -29,10 +30,14 @@ Fits fit_of(const Problem& problem, const Crane& crane) {
 
 }  // namespace
 
-Study::Study(const runtime::Rig& rig, const Runs& train, const Runs& test)
+Study::Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
+             const std::vector<std::string>& excluded)
     : base_{rig.plant, rig.terms},
       natural_radps_(std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist])),
       candidates_(candidates_for(rig, train)) {
+  std::erase_if(candidates_, [&](const Candidate& candidate) {
+    return std::find(excluded.begin(), excluded.end(), candidate.cause) != excluded.end();
+  });
   const double length_s = window_s(rig);
   train_drive_ = std::make_unique<Problem>(train, Part::drive, length_s);
   train_load_ = std::make_unique<Problem>(train, Part::load, length_s);
@@ -46,12 +51,13 @@ Crane Study::with(const Effects& effects) const {
   return crane;
 }
 
-void Study::learn_disturbance() {
+void Study::learn_disturbance(const Effects& effects) {
+  const Crane crane = with(effects);
   for (const auto& [train, test] :
        {std::pair{train_drive_.get(), test_drive_.get()}, {train_load_.get(), test_load_.get()}}) {
     if (train->empty()) continue;
-    train->learn_disturbance(base_, natural_radps_);
-    if (!test->empty()) test->whiten_like(*train, base_);
+    train->learn_disturbance(crane, natural_radps_);
+    if (!test->empty()) test->whiten_like(*train, crane);
   }
   base_train_ =
       summed(*train_drive_, *train_load_, fit_of(*train_drive_, base_), fit_of(*train_load_, base_));

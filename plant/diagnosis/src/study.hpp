@@ -53,14 +53,17 @@ struct ScoreTable {
 
 class Study {
  public:
-  Study(const runtime::Rig& rig, const Runs& train, const Runs& test);
+  /// @param excluded causes that are no candidates
+  Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
+        const std::vector<std::string>& excluded = {});
 
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
   [[nodiscard]] const Crane& base() const { return base_; }
   [[nodiscard]] Crane with(const Effects& effects) const;
 
-  /// Learns noise and disturbance from what the base model leaves, and evaluates it. Before anything else.
-  void learn_disturbance();
+  /// Learns noise and disturbance from what the base model with the effects leaves, and evaluates the base
+  /// model. Before anything else.
+  void learn_disturbance(const Effects& effects = {});
 
   /// The base model.
   [[nodiscard]] const Evaluation& base_train() const { return base_train_; }
@@ -82,6 +85,11 @@ class Study {
 
  private:
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
+  /// Every shape of every candidate that is not among the effects.
+  [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
+  /// Appends the changes that the probes of a candidate's shape make.
+  /// @return what the start of its own coordinates gains
+  double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
   [[nodiscard]] Evaluation evaluate(const Problem& drive, const Problem& load, const Effects& effects,
                                     const Evaluation& near) const;
 

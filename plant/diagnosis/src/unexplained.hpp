@@ -1,6 +1,7 @@
 #pragma once
 /// Is there anything left that no candidate explains? Drives: an extra voltage that is free in every bin of
-/// position, speed, time, other command ..., tried one variable after the other, out of sample.
+/// position, speed, way since the last reversal, time, other command ..., tried one variable after the other,
+/// out of sample.
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct Unexplained {
   std::string variable;  ///< "trolley: position", ...
   double gain = 0;       ///< decrease of the loss, cross-validated
   double fraction = 0;   ///< of the loss of that output's part
+  bool serious = false;  ///< larger than what is left in data of a crane that is as modelled
 };
 
 /// Strongest first; only those that predict.

@@ -51,12 +51,19 @@ void Model::add_structure(std::unique_ptr<Term> term) {
   if (inner_coordinates_ + count > kMostInner)
     throw_if_any({"terms: more than " + std::to_string(kMostInner) + " coordinates of their own"});
   term->change_parameters(parameters_);
-  const Displacement rest = term->rest_displacement();
+  const Displacement rest = term->rest_displacement(parameters_);
   rest_displacement_.trolley_m += rest.trolley_m;
   rest_displacement_.slew_rad += rest.slew_rad;
   rest_displacement_.cable_m += rest.cable_m;
   structure_terms_.push_back({std::move(term), inner_coordinates_});
   inner_coordinates_ += count;
+}
+
+std::vector<std::size_t> Model::ringing_coordinates() const {
+  std::vector<std::size_t> ringing;
+  for (const auto& [term, first] : structure_terms_)
+    for (std::size_t i = 0; term->rings() && i < term->inner_coordinates(); ++i) ringing.push_back(first + i);
+  return ringing;
 }
 
 PerAxis Model::drive_voltage(const PerAxis& command_v) noexcept {

@@ -7,11 +7,27 @@ namespace crane::simulator {
 
 namespace {
 
+/// An axis that is homed stands where nobody knows: its encoder shows the end of the travel that is farther
+/// from the mark.
+void forget_zero(SimulatedRig& rig, const control::DriveLimits& drive, plant::Axis axis) {
+  rig.encoders[axis].zero = plant::position(rig.start, axis) - drive.unhomed_position();
+}
+
+/// Limit switches at the hard limits, unless the file says where one is that an axis is homed by.
+void place_switches(const control::DriveLimits& drive, SimulatedDrive& target) {
+  target.low_switch = drive.low_limit;
+  target.high_switch = drive.high_limit;
+  if (!drive.homes()) return;
+  if (drive.homing.mark == control::Mark::limit_low) target.low_switch = drive.homing.position;
+  if (drive.homing.mark == control::Mark::limit_high) target.high_switch = drive.homing.position;
+  if (drive.homing.mark == control::Mark::input) target.mark = drive.homing.position;
+}
+
 /// The load hangs lower than the hoist encoder says; what the drum does stays as it was.
 void lengthen_cable(SimulatedRig& rig, double offset_m) {
   SimulatedDrive& hoist = rig.drives[plant::kHoist];
-  for (double* position : {&hoist.low_switch, &hoist.high_switch, &hoist.low_stop, &hoist.high_stop,
-                           &rig.encoders[plant::kHoist].zero, &rig.start.cable_m})
+  for (double* position : {&hoist.low_switch, &hoist.high_switch, &hoist.mark, &hoist.low_stop,
+                           &hoist.high_stop, &rig.encoders[plant::kHoist].zero, &rig.start.cable_m})
     *position += offset_m;
 }
 
@@ -32,8 +48,7 @@ SimulatedRig simulated_rig_of(const runtime::Rig& rig) {
     target.brake_deceleration = drive.brake_deceleration;
     target.brake_close_time_s = drive.brake_close_time_s;
     target.brake_open_time_s = drive.brake_open_time_s;
-    target.low_switch = drive.low_limit;
-    target.high_switch = drive.high_limit;
+    place_switches(drive, target);
     target.low_stop = drive.low_limit - kStopBeyondSwitch;
     target.high_stop = drive.high_limit + kStopBeyondSwitch;
   }
@@ -48,6 +63,8 @@ SimulatedRig simulated_rig_of(const runtime::Rig& rig) {
   simulated.start.slew_rad = rig.start.position[plant::kSlew];
   simulated.start.cable_m = rig.start.position[plant::kHoist];
   lengthen_cable(simulated, rig.start.cable_length_offset_m);
+  for (std::size_t i = 0; i < bridge::kDrives; ++i)
+    if (rig.drives[i].homes()) forget_zero(simulated, rig.drives[i], static_cast<plant::Axis>(i));
   simulated.start.radial_rad = rig.start.swing_radial_rad;
   simulated.start.tangential_rad = rig.start.swing_tangential_rad;
   return simulated;

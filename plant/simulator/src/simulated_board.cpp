@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "brake_supply.hpp"
+#include "crane/bridge/converter.hpp"
 #include "mechanism.hpp"
 
 namespace crane::simulator {
@@ -21,16 +22,6 @@ BrakeCoil coil_of(const SimulatedDrive& drive) {
 }
 
 }  // namespace
-
-std::int32_t converter_code(double voltage_v) noexcept {
-  if (!std::isfinite(voltage_v)) return kConverterZero;
-  const double steps = std::round(voltage_v / kConverterRange_v * kConverterZero);
-  return static_cast<std::int32_t>(std::clamp(kConverterZero - steps, 0.0, double{kConverterLargest}));
-}
-
-double converter_voltage_v(std::int32_t code) noexcept {
-  return (kConverterZero - code) * (kConverterRange_v / kConverterZero);
-}
 
 std::int32_t wrap_24_bit(std::int64_t counts) noexcept {
   const auto low = static_cast<std::int32_t>(counts & 0xFFFFFF);
@@ -112,6 +103,7 @@ bridge::Inputs SimulatedBoard::read() {
     const double at = plant::position(s, static_cast<Axis>(i));
     inputs.limit_low[i] = at <= drive.low_switch;
     inputs.limit_high[i] = at >= drive.high_switch;
+    inputs.mark[i] = at <= drive.mark;
     inputs.brake_closed[i] = rig_->coils[i].closed();
   }
   inputs.estop_pressed = rig_->estop_pressed;
@@ -122,7 +114,7 @@ bridge::Inputs SimulatedBoard::read() {
 std::array<double, bridge::kDrives> SimulatedBoard::write(const bridge::Outputs& outputs) {
   rig_->outputs = outputs;
   for (std::size_t i = 0; i < bridge::kDrives; ++i) {
-    rig_->converter_v[i] = converter_voltage_v(converter_code(outputs.drive_v[i]));
+    rig_->converter_v[i] = bridge::converter_voltage_v(bridge::converter_code(outputs.drive_v[i]));
   }
   rig_->command_is_new = true;
   rig_->relay.set_level(outputs.watchdog_level, rig_->now_ns);

@@ -36,6 +36,7 @@ void check_drive(const SimulatedDrive& drive, const std::string& name, double st
   report.require(!std::isnan(drive.low_switch), name + ".low_switch", drive.low_switch, "must be a number");
   report.require(!std::isnan(drive.high_switch), name + ".high_switch", drive.high_switch,
                  "must be a number");
+  report.require(!std::isnan(drive.mark), name + ".mark", drive.mark, "must be a number");
   report.require(drive.low_stop < drive.high_stop, name + ".low_stop", drive.low_stop,
                  "must be below high_stop");
   report.require(start >= drive.low_stop && start <= drive.high_stop, name + " start", start,

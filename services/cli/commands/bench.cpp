@@ -178,7 +178,8 @@ int bench_loop(BenchOptions options) {
 
 void add_bench(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<BenchOptions>();
-  auto* command = app.add_subcommand("bench", "Measure the stack on this machine");
+  auto* command =
+      app.add_subcommand("bench", "Measure the stack on this machine, and the diagnosis on hidden effects");
   command->require_subcommand(1);
   auto* loop =
       command->add_subcommand("loop", "Real time: lost ticks and latency, beside raw UDP in the same run");
@@ -193,7 +194,9 @@ void add_bench(CLI::App& app, Action& chosen) {
   runtime::add_bus_options(*loop, options->launch.bus);
   loop->footer("Example: crane bench loop --seconds 60");
   loop->callback([options, &chosen] { chosen = [options] { return bench_loop(*options); }; });
+  add_bench_cpu(*command, chosen);
   add_bench_stop(*command, chosen);
+  add_bench_diagnosis(*command, chosen);
 }
 
 }  // namespace crane::cli

@@ -16,6 +16,7 @@ void add_run(CLI::App& app, Action& chosen);
 void add_status(CLI::App& app, Action& chosen);
 void add_reset(CLI::App& app, Action& chosen);
 void add_arm(CLI::App& app, Action& chosen);
+void add_home(CLI::App& app, Action& chosen);
 void add_disarm(CLI::App& app, Action& chosen);
 void add_move(CLI::App& app, Action& chosen);
 void add_stop(CLI::App& app, Action& chosen);

@@ -6,6 +6,7 @@
 #include "cli/commands/hw.hpp"
 #include "cli/commands/hw_commands.hpp"
 #include "cli/text_table.hpp"
+#include "crane/bridge/homing.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::cli {
@@ -106,18 +107,21 @@ Json probed(const runtime::Rig& rig, bridge::Board& board) {
            {"unit", coordinate_unit(i)}});
   for (std::size_t i = 0; i < bridge::kDrives; ++i)
     if (rig.drives[i].present)
-      found["drives"].push_back({{"name", coordinate_name(i)},
-                                 {"analog_output", rig.drives[i].dac_channel},
-                                 {"written_v", 0.0},
-                                 {"brake_closed", inputs.brake_closed[i]},
-                                 {"limit_low", inputs.limit_low[i]},
-                                 {"limit_high", inputs.limit_high[i]}});
+      found["drives"].push_back(
+          {{"name", coordinate_name(i)},
+           {"analog_output", rig.drives[i].dac_channel},
+           {"written_v", 0.0},
+           {"brake_closed", inputs.brake_closed[i]},
+           {"limit_low", inputs.limit_low[i]},
+           {"limit_high", inputs.limit_high[i]},
+           {"at_mark",
+            rig.drives[i].homes() ? Json(bridge::mark_active(rig.drives[i], inputs, i)) : Json(nullptr)}});
   found["estop_pressed"] = inputs.estop_pressed;
   found["relay_dropped"] = inputs.watchdog_dropped;
   return found;
 }
 
-std::string yes_or_no(const Json& flag) { return flag.get<bool>() ? "yes" : "no"; }
+std::string yes_or_no(const Json& flag) { return flag.is_null() ? "-" : flag.get<bool>() ? "yes" : "no"; }
 
 int probe(const LookOptions& options) {
   OpenBoard opened{options.board};
@@ -134,10 +138,11 @@ int probe(const LookOptions& options) {
     counters.add({one["name"], one["counter"].dump(), one["raw_counts"].dump(),
                   fixed(one["coordinate"].get<double>(), 4), one["unit"]});
   counters.print(std::cout);
-  TextTable drives{{"drive", "analog output", "written", "brake closed", "at low limit", "at high limit"}};
+  TextTable drives{
+      {"drive", "analog output", "written", "brake closed", "at low limit", "at high limit", "at mark"}};
   for (const auto& one : found.value("drives", Json::array()))
     drives.add({one["name"], one["analog_output"].dump(), "0 V", yes_or_no(one["brake_closed"]),
-                yes_or_no(one["limit_low"]), yes_or_no(one["limit_high"])});
+                yes_or_no(one["limit_low"]), yes_or_no(one["limit_high"]), yes_or_no(one["at_mark"])});
   drives.print(std::cout);
   std::cout << "emergency stop pressed: " << yes_or_no(found["estop_pressed"])
             << ", watchdog relay dropped: " << yes_or_no(found["relay_dropped"]) << '\n';

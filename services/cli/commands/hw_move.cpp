@@ -17,15 +17,13 @@ namespace {
 using bring_up::coordinate_name;
 using bring_up::coordinate_unit;
 
-struct MoveOptions {
+struct HwMoveOptions {
   BoardOptions board;
   std::string axis;
   double drive_v = 0, distance = 0.05, largest_v = 4;
   std::string answers, out = "calibrated.toml";
   bool json = false;
 };
-using SharedOptions = std::shared_ptr<MoveOptions>;
-
 void say(const std::string& text) { std::cerr << text << '\n'; }
 
 std::size_t axis_named(const std::string& name) {
@@ -34,7 +32,7 @@ std::size_t axis_named(const std::string& name) {
   return axis;
 }
 
-int jog(const MoveOptions& options) {
+int jog(const HwMoveOptions& options) {
   runtime::install_stop_signals();
   OpenBoard opened{options.board};
   bring_up::JogPlan plan{.axis = axis_named(options.axis),
@@ -59,7 +57,7 @@ int jog(const MoveOptions& options) {
   return runtime::kExitDone;
 }
 
-int selftest(const MoveOptions& options) {
+int selftest(const HwMoveOptions& options) {
   runtime::install_stop_signals();
   OpenBoard opened{options.board};
   bring_up::Session session{opened.rig(), opened.board(), opened.clock()};
@@ -99,7 +97,7 @@ void write_file(const std::string& file, const std::string& text) {
   if (!out.flush()) throw std::runtime_error(file + ": cannot write");
 }
 
-int calibrate(const MoveOptions& options) {
+int calibrate(const HwMoveOptions& options) {
   runtime::install_stop_signals();
   std::ifstream answers;
   if (!options.answers.empty()) answers.open(options.answers);
@@ -119,15 +117,22 @@ int calibrate(const MoveOptions& options) {
   return runtime::kExitDone;
 }
 
-CLI::App* add(CLI::App& hw, Action& chosen, const SharedOptions& options, int (*action)(const MoveOptions&),
-              const char* name, const char* summary) {
+/// A command and what it fills in; the options live as long as the command.
+struct Added {
+  CLI::App& command;
+  HwMoveOptions& options;
+};
+
+Added add(CLI::App& hw, Action& chosen, int (*action)(const HwMoveOptions&), const char* name,
+          const char* summary) {
+  auto options = std::make_shared<HwMoveOptions>();
   auto* command = hw.add_subcommand(name, summary);
   add_board_options(*command, options->board);
   command->callback([options, action, &chosen] { chosen = [options, action] { return action(*options); }; });
-  return command;
+  return {*command, *options};
 }
 
-void add_largest_volts(CLI::App& command, MoveOptions& options) {
+void add_largest_volts(CLI::App& command, HwMoveOptions& options) {
   command.add_option("--volts", options.largest_v, "pushes grow from 1 V to this until something moves")
       ->check(CLI::Range(1.0, bring_up::kLargestJog_v))
       ->capture_default_str();
@@ -136,31 +141,29 @@ void add_largest_volts(CLI::App& command, MoveOptions& options) {
 }  // namespace
 
 void add_hw_jog(CLI::App& hw, Action& chosen) {
-  auto options = std::make_shared<MoveOptions>();
-  auto* command = add(hw, chosen, options, jog, "jog", "One small motion of one drive");
-  command->add_option("--axis", options->axis, "trolley, slew or hoist")
+  const auto [command, options] = add(hw, chosen, jog, "jog", "One small motion of one drive");
+  command.add_option("--axis", options.axis, "trolley, slew or hoist")
       ->required()
       ->check(CLI::IsMember({"trolley", "slew", "hoist"}));
   command
-      ->add_option("--volts", options->drive_v, "of the amplifier, within +-5; positive should move outward")
+      .add_option("--volts", options.drive_v, "of the amplifier, within +-5; positive should move outward")
       ->required();
   command
-      ->add_option("--distance", options->distance,
-                   "m or rad, up to 0.5, at which the volts end; the brake needs some more")
+      .add_option("--distance", options.distance,
+                  "m or rad, up to 0.5, at which the volts end; the brake needs some more")
       ->capture_default_str();
-  command->footer(
+  command.footer(
       "Ends after 2 s, at a limit switch, at the emergency stop, or 0.3 s after the start when no counter "
       "follows.\n"
       "Example: crane hw jog --rig emulated_servo_to_go --axis trolley --volts 2");
 }
 
 void add_hw_selftest(CLI::App& hw, Action& chosen) {
-  auto options = std::make_shared<MoveOptions>();
-  auto* command =
-      add(hw, chosen, options, selftest, "selftest", "Push each drive a little and name wrong wiring");
-  add_largest_volts(*command, *options);
-  command->add_flag("--json", options->json, "one JSON object");
-  command->footer(
+  const auto [command, options] =
+      add(hw, chosen, selftest, "selftest", "Push each drive a little and name wrong wiring");
+  add_largest_volts(command, options);
+  command.add_flag("--json", options.json, "one JSON object");
+  command.footer(
       "The crane stands where [start] of the rig file says, the load hangs, 10 cm (0.2 rad) around each axis "
       "are free.\n"
       "Exit code 1 when anything is wrong, one line each.\n"
@@ -169,15 +172,14 @@ void add_hw_selftest(CLI::App& hw, Action& chosen) {
 }
 
 void add_hw_calibrate(CLI::App& hw, Action& chosen) {
-  auto options = std::make_shared<MoveOptions>();
-  auto* command =
-      add(hw, chosen, options, calibrate, "calibrate", "Find signs, scales and the crane's place, guided");
-  add_largest_volts(*command, *options);
-  command->add_option("--out", options->out, "rig file to write; extends the one of --rig")
+  const auto [command, options] =
+      add(hw, chosen, calibrate, "calibrate", "Find signs, scales and the crane's place, guided");
+  add_largest_volts(command, options);
+  command.add_option("--out", options.out, "rig file to write; extends the one of --rig")
       ->capture_default_str();
-  command->add_option("--answers", options->answers, "file with one answer a line; default: the terminal")
+  command.add_option("--answers", options.answers, "file with one answer a line; default: the terminal")
       ->check(CLI::ExistingFile);
-  command->footer(
+  command.footer(
       "Each axis moves by 10 cm (0.3 rad); three questions each: which way, how far, where it stands now. An "
       "empty\n"
       "answer to the last two means that the rig file is right. The load has to hang still at the start.\n"

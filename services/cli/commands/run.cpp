@@ -9,6 +9,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "crane/experiment/variant.hpp"
+#include "process/twin_component.hpp"
 #include "stack/comparison_run.hpp"
 #include "stack/data_files.hpp"
 #include "stack/experiment_run.hpp"
@@ -27,6 +28,8 @@ struct RunOptions {
   bool compare = false, in_process = false, json = false, no_picture = false;
   runtime::BusOptions bus;
   Names vendors;
+  bool twin = false;
+  std::string twin_rig;
 };
 
 Names first_given(const Names& said, const Names& wished, const Names& otherwise) {
@@ -83,7 +86,10 @@ int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& pl
   experiment.in_process = options.in_process;
   experiment.picture = !options.no_picture;
   experiment.bus = options.bus;
-  experiment.vendors = stack::vendors_from(options.vendors, stack::stack_with(experiment.plant));
+  auto specs = stack::stack_with(experiment.plant);
+  if (options.twin || !options.twin_rig.empty()) specs.push_back(twin::twin_spec());
+  experiment.vendors = stack::vendors_from(options.vendors, specs);
+  if (!options.twin_rig.empty()) experiment.twin = stack::find_rig(options.twin_rig);
   std::vector<experiment::NamedMetrics> table;
   auto json = nlohmann::ordered_json::array();
   bool completed = true;
@@ -93,6 +99,7 @@ int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& pl
     experiment.controller = plan.controller->name;
     experiment.variant = plan.variant;
     experiment.directory = options.out;
+    if (options.twin && options.twin_rig.empty()) experiment.twin = plan.rig.path;
     if (plans.size() > 1) experiment.directory /= directory_name(options, plan);
     const auto result = stack::run_experiment(experiment);
     const std::string title = result.scenario + (plan.variant.empty() ? "" : ", " + plan.variant);
@@ -195,6 +202,10 @@ void add_run(CLI::App& app, Action& chosen) {
   command->add_flag("--in-process", options->in_process, "all components in this process, without DDS");
   command->add_flag("--json", options->json, "print metrics as JSON");
   command->add_flag("--no-picture", options->no_picture, "do not draw");
+  command->add_flag("--twin", options->twin,
+                    "a twin of the rig file, before any variant, beside the stack: crane/twin is recorded; "
+                    "not with --compare");
+  command->add_option("--twin-rig", options->twin_rig, "the same with another rig file or name");
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   runtime::add_bus_options(*command, options->bus);

@@ -6,6 +6,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "process/hardware_bridge.hpp"
+#include "process/twin_component.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
 #include "stack/operator_client.hpp"
@@ -21,6 +22,8 @@ struct UpOptions {
   std::string plant = "sim";
   std::string record;
   std::vector<std::string> vendors;
+  bool twin = false;
+  std::string twin_rig;
 };
 
 /// The recorder observes: it runs on the other vendor, so that every ordinary run crosses vendors.
@@ -36,9 +39,10 @@ void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
 bool watch(stack::ChildProcesses& children) {
   while (!runtime::stop_requested()) {
     if (const auto ended = children.ended()) {
-      const bool in_loop = ended->name != "recorder";
+      const bool in_loop = ended->name != "recorder" && ended->name != "twin";
+      const std::string without = ended->name == "twin" ? "its twin" : "a recording";
       std::cerr << "crane up: " << stack::describe(*ended)
-                << (in_loop ? "; stopping the others\n" : "; the crane runs on without a recording\n");
+                << (in_loop ? "; stopping the others" : "; the crane runs on without " + without) << '\n';
       if (in_loop) return false;
     }
     ::usleep(50'000);
@@ -53,14 +57,20 @@ int up(UpOptions options) {
   const auto& controller = runtime::chosen_controller(options.launch.controller, rig);
   const auto plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
   if (plant == stack::Plant::hardware) bridge::board_kind_of(rig);
-  const auto specs = stack::stack_with(plant);
+  auto specs = stack::stack_with(plant);
+  const auto loop = specs;
+  if (options.twin || !options.twin_rig.empty()) specs.push_back(twin::twin_spec());
+  const auto twin_rig =
+      options.twin_rig.empty() ? options.launch.rig : stack::find_rig(options.twin_rig).string();
+  (void)runtime::load_rig(twin_rig);  // its problems before anything is started
   options.launch.vendors = stack::vendors_from(options.vendors, specs);
 
   bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};
   runtime::refuse_second_writer(bus, topics::command.description);
   stack::ChildProcesses children;
   if (plant == stack::Plant::hardware) stack::launch_rig(children, rig, options.launch);
-  stack::launch(children, specs, options.launch);
+  stack::launch(children, loop, options.launch);
+  if (specs.size() > loop.size()) stack::launch_twin(children, twin_rig, options.launch);
   if (!options.record.empty()) start_recorder(children, options);
   stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
   if (options.launch.clock == "lockstep")
@@ -91,6 +101,10 @@ void add_up(CLI::App& app, Action& chosen) {
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
   command->add_option("--record", options->record, "record every topic to this MCAP file");
+  command->add_flag("--twin", options->twin,
+                    "the model of the rig file beside the crane: crane/twin, and an event when they differ");
+  command->add_option("--twin-rig", options->twin_rig,
+                      "the same with another rig file, an extended.toml of crane diagnose for example");
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   command->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")

@@ -32,6 +32,8 @@ struct Start {
 using Sensed = std::array<double, 4>;
 using Volts = std::array<double, kDrives>;
 
+inline double along(double share, double from, double to) { return from + share * (to - from); }
+
 class Crane {
  public:
   /// @param run names the streams of random numbers, with the seed

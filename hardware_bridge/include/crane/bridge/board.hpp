@@ -14,6 +14,8 @@ inline constexpr std::size_t kDrives = 3;    ///< trolley, slew, hoist
 struct Inputs {
   std::array<std::int32_t, kCounters> raw_counts{};  ///< 24-bit two's complement, sign-extended; wraps
   std::array<bool, kDrives> limit_low{}, limit_high{};
+  std::array<bool, kDrives>
+      mark{};  ///< the axis is below the mark that it is homed by, where it has one of its own
   std::array<bool, kDrives> brake_closed{};
   bool estop_pressed = false;
   bool watchdog_dropped = false;  ///< the relay has removed the brake supply

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "crane/bridge/board.hpp"
+#include "crane/bridge/homing.hpp"
 #include "crane/bridge/last_line.hpp"
 #include "crane/bridge/measurement.hpp"
 #include "crane/runtime/component.hpp"
@@ -36,6 +37,7 @@ class Bridge : public runtime::Component {
   void take_requests();
   void tick(std::int64_t now_ns);
   void apply(Outputs outputs);
+  void look_for_marks(const Seen& seen);
   void report_latch();
   [[nodiscard]] Seen seen(const Inputs& inputs) const;
   [[nodiscard]] msg::State state(const Inputs& inputs, const control::Measurement& measured,
@@ -47,6 +49,7 @@ class Bridge : public runtime::Component {
   std::unique_ptr<Board> board_;
   MeasurementPipeline measurement_;
   LastLine last_line_;
+  Homing homing_;
   bus::Publisher<msg::State> states_;
   bus::Subscriber<msg::Command> commands_;
   runtime::RequestInbox requests_;
@@ -57,8 +60,9 @@ class Bridge : public runtime::Component {
   std::uint64_t until_tick_ = 0;       ///< lockstep: runs up to this tick
   std::int64_t start_ns_ = 0;          ///< realtime: when tick 0 was
   std::uint32_t overruns_ = 0;
-  std::array<int, kDrives> drive_sign_{};    ///< which way a positive voltage moves an axis
-  std::array<double, kDrives> applied_v_{};  ///< what the converters give, positive outward
+  std::array<runtime::Drive, kDrives> drives_;
+  std::array<double, kDrives> unit_per_count_{};  ///< and which way the encoder counts
+  std::array<double, kDrives> applied_v_{};       ///< what the converters give, positive outward
   Reason reported_ = Reason::none;
 };
 

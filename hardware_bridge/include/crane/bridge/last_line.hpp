@@ -21,6 +21,7 @@ struct CommandView {
   std::array<double, kDrives> drive_v{};
   std::array<bool, kDrives> brake_release{};
   bool watchdog_permission = false;
+  std::array<bool, kDrives> homing{};  ///< the axis creeps to its mark
 };
 
 /// What was measured at the tick that is decided about.
@@ -30,8 +31,11 @@ struct Seen {
   std::array<double, kDrives> applied_v{};       ///< what the converters gave since the tick before
   std::array<bool, kDrives> brake_closed{};
   std::array<bool, kDrives> limit_low{}, limit_high{};
+  std::array<bool, kDrives> unknown{};  ///< the axis has to be homed: its coordinate counts from anywhere
+  std::array<bool, kDrives> mark{};     ///< see mark_active()
 };
 
+/// The numbers are those of LatchReason in idl/crane.idl.
 enum class Reason : std::uint8_t {
   none,
   command_stale,
@@ -45,27 +49,23 @@ enum class Reason : std::uint8_t {
   lost_counts,
   braked_motion,
   encoder_frozen,
-  drive_response
+  drive_response,
+  not_homed
 };
+inline constexpr std::size_t kReasons = 14;
 [[nodiscard]] std::string_view name_of(Reason reason) noexcept;  ///< "encoder_jump"
 [[nodiscard]] std::string_view explanation_of(Reason reason) noexcept;
 [[nodiscard]] std::string_view remedy_for(Reason reason) noexcept;
-/// Whether the position is unknown, or a brake not to be trusted, from then on: no reset helps, a new start
-/// does.
+/// Whether the counters are not to be trusted from then on, or a brake: no reset helps, a new start does.
+/// Where the axes concerned can be homed, that helps, too.
 [[nodiscard]] bool is_final(Reason reason) noexcept;
 
-/// One drive axis; unit is m or rad.
-struct AxisLine {
-  bool present = false;
-  double volt_limit_v = 10, volt_rate_limit_vps = 1000;
-  double low_limit = 0, high_limit = 0;  ///< hard limits
-  double soft_margin = 0;                ///< a limit switch that closes farther inside is a wrong position
-  double max_speed = 0;                  ///< unit/s
-  double brake_deceleration = 0;         ///< unit/s^2
-  double brake_close_time_s = 0.02;
-  double brake_slip = 0.02;     ///< displacement that a closed brake may allow
-  double certain_motion_v = 5;  ///< more than this moves the axis whatever its friction
-  double gain_low = 0;          ///< smallest and largest acceleration per volt, or ...
+/// One drive axis; unit is m or rad. A limit switch that closes farther inside than the soft margin is a
+/// wrong position.
+struct AxisLine : control::DriveLimits {
+  double certain_motion_v = 5;   ///< more than this moves the axis whatever its friction
+  double creeping_motion_v = 2;  ///< the same for an axis that creeps to its mark, where less is at stake
+  double gain_low = 0;           ///< smallest and largest acceleration per volt, or ...
   double gain_high = 0;
   double lag_s = 0;  ///< ... speed per volt of a drive with this time constant
 };
@@ -96,6 +96,9 @@ class History {
   [[nodiscard]] const Entry& operator[](std::size_t age) const {
     return entries_[(newest_ + kLength - age) % kLength];
   }
+  void shift(std::size_t coordinate, double change) noexcept {
+    for (auto& entry : entries_) entry.seen.coordinate[coordinate] += change;
+  }
 
  private:
   std::array<Entry, kLength> entries_{};
@@ -118,6 +121,10 @@ struct Check {
 };
 /// In the order in which they are made.
 [[nodiscard]] std::span<const Check> last_line_checks() noexcept;
+/// The counters that encoder_jump or lost_counts is about; none for any other reason.
+[[nodiscard]] std::array<bool, kCounters> counters_in_doubt(Reason reason,
+                                                            const LastLineParameters& parameters,
+                                                            const Moment& moment) noexcept;
 
 class LastLine {
  public:
@@ -133,11 +140,18 @@ class LastLine {
   /// Latched. It falls when fresh commands first withhold and then grant the watchdog permission, as the
   /// supervisor does on an operator's reset, unless it is final.
   [[nodiscard]] Reason reason() const { return reason_; }
+  /// Axes whose counter the latched reason has put in doubt.
+  [[nodiscard]] const std::array<bool, kDrives>& doubted() const { return doubted_; }
+  /// A closed brake has stopped the axis.
+  [[nodiscard]] bool rests(std::size_t axis) const { return braked_at_[axis].has_value(); }
+  /// The same place has another coordinate from the next tick on.
+  void shift(std::size_t axis, double change) noexcept;
 
  private:
   void observe(std::uint64_t tick, const Seen& seen) noexcept;
   void follow_brake(std::size_t axis, std::uint64_t tick, const Seen& seen) noexcept;
   [[nodiscard]] Reason first_failure(const Moment& moment) const noexcept;
+  void latch(Reason reason, const Moment& moment) noexcept;
   void reset_on_permission_edge(const CommandView& command) noexcept;
 
   LastLineParameters parameters_;
@@ -149,6 +163,8 @@ class LastLine {
   std::array<std::uint64_t, kDrives> rests_from_tick_{};  ///< a closed brake has stopped its axis by then
   std::array<bool, kDrives> told_closed_{};
   std::array<std::optional<double>, kDrives> braked_at_{};
+  std::array<bool, kDrives> doubted_{};
+  bool final_ = false;
   bool permission_withheld_ = false;  ///< seen while latched
 };
 

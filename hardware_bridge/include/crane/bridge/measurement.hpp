@@ -29,6 +29,8 @@ class Coordinate {
   Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio,
              bool filter_position = false);
   void step(std::int32_t raw_counts) noexcept;
+  /// The same place is `change` counts farther from now on; the axis rests there.
+  void shift(std::int64_t change) noexcept;
   [[nodiscard]] std::int64_t counts() const { return counts_; }
   [[nodiscard]] double position() const { return position_; }  ///< m or rad
   [[nodiscard]] double rate() const { return rate_; }          ///< per second
@@ -41,6 +43,7 @@ class Coordinate {
   control::FilterSection differentiator_;
   control::FilterMemory low_pass_memory_, differentiator_memory_;
   bool started_ = false;
+  std::int64_t shift_ = 0;
   std::int64_t counts_ = 0;
   double position_ = 0, rate_ = 0;
 };
@@ -51,6 +54,8 @@ class MeasurementPipeline {
   /// One tick. @return positions, speeds, swing angles and rates in SI units
   control::Measurement step(const std::array<std::int32_t, kCounters>& raw_counts) noexcept;
   [[nodiscard]] const std::array<Coordinate, kCounters>& coordinates() const { return coordinates_; }
+  /// See Coordinate; acts from the next step on.
+  void shift(std::size_t counter, std::int64_t change) noexcept { coordinates_[counter].shift(change); }
 
  private:
   std::array<Coordinate, kCounters> coordinates_;

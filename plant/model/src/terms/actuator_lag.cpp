@@ -5,24 +5,36 @@
 namespace crane::plant {
 namespace {
 
-/// The output is the mean of the exact response over the tick, which gives the drive the same speed at its
-/// end.
+/// One pole. The output is the mean of the exact response over the tick, which gives the drive the same
+/// speed at its end.
+class Pole {
+ public:
+  explicit Pole(double time_constant_s) : time_constant_s_(time_constant_s) {}
+  double mean_of(double input_v, double period_s) {
+    const double missing_v = output_v_ - input_v, kept = std::exp(-period_s / time_constant_s_);
+    output_v_ = input_v + missing_v * kept;
+    return input_v + missing_v * (time_constant_s_ / period_s) * (1 - kept);
+  }
+
+ private:
+  double time_constant_s_;
+  double output_v_ = 0;  // at the end of the last tick
+};
+
 class ActuatorLag final : public Term {
  public:
   explicit ActuatorLag(const TermSetting& s)
-      : axis_(drive_axis(s.axis)), time_constant_s_(s.parameters.at("time_constant_s")) {}
+      : axis_(drive_axis(s.axis)),
+        first_(s.parameters.at("time_constant_s")),
+        second_(s.parameters.at("second_s")) {}
 
   void change_command(PerAxis& drive_v, double period_s) noexcept override {
-    const double command_v = drive_v[axis_], missing_v = output_v_ - command_v;
-    const double kept = std::exp(-period_s / time_constant_s_);
-    drive_v[axis_] = command_v + missing_v * (time_constant_s_ / period_s) * (1 - kept);
-    output_v_ = command_v + missing_v * kept;
+    drive_v[axis_] = second_.mean_of(first_.mean_of(drive_v[axis_], period_s), period_s);
   }
 
  private:
   Axis axis_;
-  double time_constant_s_;
-  double output_v_ = 0;  // at the end of the last tick
+  Pole first_, second_;
 };
 
 }  // namespace
@@ -30,11 +42,11 @@ class ActuatorLag final : public Term {
 TermKind actuator_lag() {
   return {
       .name = "actuator_lag",
-      .equation = "tau V' = V_command - V",
-      .source = "current loop or filter between converter and motor, first order",
+      .equation = "tau V_1' = V_command - V_1, tau_2 V' = V_1 - V",
+      .source = "current loop or filter between converter and motor; a second pole where both are slow",
       .acts_on = ActsOn::command,
       .axes = {"trolley", "slew", "hoist"},
-      .parameters = {{"time_constant_s", "s", 0, 0, 2, "tau"}},
+      .parameters = {{"time_constant_s", "s", 0, 0, 2, "tau"}, {"second_s", "s", 0, 0, 2, "tau_2"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<ActuatorLag>(s); }};
 }
 

@@ -10,10 +10,14 @@ class CableElasticity final : public Term {
  public:
   explicit CableElasticity(const TermSetting& s)
       : compliance_mpn_(s.parameters.at("compliance_mpn")),
-        damping_ratio_(s.parameters.at("damping_ratio")) {}
+        damping_ratio_(s.parameters.at("damping_ratio")),
+        unmeasured_stretch_(s.parameters.at("unmeasured_stretch")) {}
 
   [[nodiscard]] std::size_t inner_coordinates() const noexcept override {
     return compliance_mpn_ > 0 ? 1 : 0;
+  }
+  [[nodiscard]] Displacement rest_displacement(const Parameters& crane) const noexcept override {
+    return {.cable_m = unmeasured_stretch_ * compliance_mpn_ * crane.load_mass_kg * crane.gravity_mps2};
   }
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (compliance_mpn_ > 0) sum.cable_m += inner[0];
@@ -31,24 +35,27 @@ class CableElasticity final : public Term {
   }
 
  private:
-  double compliance_mpn_, damping_ratio_;
+  double compliance_mpn_, damping_ratio_, unmeasured_stretch_;
 };
 
 }  // namespace
 
 TermKind cable_elasticity() {
-  return {.name = "cable_elasticity",
-          .equation =
-              "the load hangs at L + s, s'' = T/m - g - s/(c m) - 2 z s'/sqrt(c m), T the tension of "
-              "the rigid cable",
-          .source = "Hooke's law; s is counted from the stretch of the load at rest",
-          .acts_on = ActsOn::structure,
-          .axes = {""},
-          .parameters = {{"compliance_mpn", "m/N", 0, 0, 0.1, "c; a bounce above 12 Hz counts as rigid"},
-                         {"damping_ratio", "1", 0.02, 0, 1, "z"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-            return std::make_unique<CableElasticity>(s);
-          }};
+  return {
+      .name = "cable_elasticity",
+      .equation =
+          "the load hangs at L + u c m g + s, s'' = T/m - g - s/(c m) - 2 z s'/sqrt(c m), T the tension of "
+          "the rigid cable",
+      .source = "Hooke's law; s is counted from the stretch of the load at rest",
+      .acts_on = ActsOn::structure,
+      .axes = {""},
+      .parameters = {{"compliance_mpn", "m/N", 0, 0, 0.1, "c; a bounce above 12 Hz counts as rigid"},
+                     {"damping_ratio", "1", 0.02, 0, 1, "z"},
+                     {"unmeasured_stretch", "1", 0, 0, 1,
+                      "u, share of the stretch at rest that the measured length leaves out"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<CableElasticity>(s);
+      }};
 }
 
 }  // namespace crane::plant

@@ -7,7 +7,9 @@ class CableLength final : public Term {
  public:
   explicit CableLength(const TermSetting& s) : delta_m_(s.parameters.at("delta_m")) {}
 
-  [[nodiscard]] Displacement rest_displacement() const noexcept override { return {.cable_m = delta_m_}; }
+  [[nodiscard]] Displacement rest_displacement(const Parameters& /*crane*/) const noexcept override {
+    return {.cable_m = delta_m_};
+  }
 
  private:
   double delta_m_;

@@ -10,6 +10,7 @@ struct EnvelopeInput {
   double swing_radial_rad = 0;
   double swing_tangential_rad = 0;
   AxisFlags limit_low{}, limit_high{};  ///< limit switches
+  AxisFlags unknown{};  ///< the axis has no zero: where it is, is not judged, but how fast it creeps
 };
 
 /// false = healthy

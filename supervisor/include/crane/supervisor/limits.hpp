@@ -3,26 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "crane/control/drive_limits.hpp"
 #include "crane/supervisor/states.hpp"
 
 namespace crane::supervisor {
 
-/// One drive axis; "unit" is m (trolley, hoist) or rad (slew).
-struct AxisLimits {
-  bool present = false;
-  double volt_limit_v = 10;           ///< |V| <=, in (0, 10]
-  double volt_rate_limit_vps = 1000;  ///< V/s, > 0
-  double low_limit = 0;               ///< hard limit, unit
-  double high_limit = 0;              ///< hard limit, unit, > low_limit
-  double soft_margin =
-      0;                 ///< targets stay this far inside the hard limits; >= stopping distance at max_speed
-  double max_speed = 0;  ///< overspeed trip, unit/s, > 0
-  double brake_deceleration = 0;     ///< what the closed brake gives at least, unit/s^2, > 0
-  double brake_close_time_s = 0.02;  ///< >= 0
-  double brake_open_time_s = 0.02;   ///< >= 0
-  double standstill_speed = 0.005;   ///< slower than this for standstill_time_s is standing, unit/s, > 0
-  double brake_slip = 0.02;  ///< displacement a closed brake may allow beyond the braking distance, unit, > 0
-};
+/// One drive axis; "unit" is m (trolley, hoist) or rad (slew). The soft margin is at least the stopping
+/// distance at max_speed.
+using AxisLimits = control::DriveLimits;
 
 struct Limits {
   std::array<AxisLimits, kAxes> axis{};
@@ -44,6 +32,8 @@ struct Limits {
       0.2;  ///< longer than the opening time: brakes have to report open within it, > 0
   double brake_report_time_s = 0.1;  ///< beyond the closing time: brakes have to report closed by then, > 0
   double idle_lock_s = 60;           ///< HOLD without a move for so long locks the crane, > 0
+  double creeping_ratio =
+      2.5;  ///< an axis without a zero is too fast above this multiple of its homing speed, >= 1
 };
 
 /// Ticks a ramped stop takes, at least 1; the command of the last one is 0 V with the brakes closed.

@@ -28,6 +28,10 @@ struct BrakeMemory {
   PerAxis speed{};
 };
 
+/// The same place is called `position` from now on: the axis has been homed. To be called before the sample
+/// that shows it first is taken.
+void rename_place(std::size_t axis, double position, MotionMemory& motion, BrakeMemory& brakes) noexcept;
+
 /// Call once a tick in which a sample arrived while the brakes are told to close. The first such tick sets
 /// the anchor; afterwards
 /// @return true when a brake has not closed: an axis is farther from its anchor than twice its braking

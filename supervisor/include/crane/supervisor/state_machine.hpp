@@ -6,8 +6,8 @@ namespace crane::supervisor {
 
 enum class SelfTest : std::uint8_t { not_started, running, passed, failed };
 
-enum class Request : std::uint8_t { reset, arm, disarm, move, stop, estop };
-inline constexpr std::size_t kRequests = 6;
+enum class Request : std::uint8_t { reset, arm, disarm, move, stop, estop, home };
+inline constexpr std::size_t kRequests = 7;
 using Requests = std::array<bool, kRequests>;  ///< indexed by Request: asked for in this tick
 
 /// What is seen in this tick. Flags: false = healthy, unless their name says otherwise.
@@ -30,6 +30,11 @@ struct Inputs {
   bool brakes_closed = true;        ///< true: every present brake reports closed
   bool standstill = false;          ///< true: every present axis stands
   bool reference_moving = false;    ///< true: the planner executes a maneuver
+  bool not_homed = false;           ///< some axis has no zero
+  std::size_t unhomed_axis = 0;     ///< the first of them, < kAxes
+  bool can_home = true;             ///< true: the axis that is asked to home has a mark
+  bool homed = false;               ///< true: the axis that is being homed has found its mark and left it
+  HomingFailure homing_failure = HomingFailure::none;
   Requests requests{};
 };
 
@@ -47,6 +52,7 @@ struct Memory {
   bool maneuver_seen = false;  ///< RUN: the reference has moved
   bool reset_was_up = false;   ///< the reset was asked for in the tick before
   bool self_test_passed = false;
+  bool homing = false;  ///< from ARMING on: for one axis, and for nothing but to home it
 };
 
 enum class Volts : std::uint8_t { zero, pass, ramp };
@@ -64,7 +70,8 @@ struct Outputs {
   Volts volts = Volts::zero;
   double ramp_factor =
       0;  ///< Volts::ramp: what is left of the voltage at the beginning of the ramp, in [0, 1)
-  bool brake_release = false;  ///< for every present axis
+  bool brake_release = false;  ///< for every present axis; while homing for that axis alone
+  bool homing = false;
   bool watchdog_permission = false;
   bool stop_motion = false;  ///< the planner has to bring its reference to rest
   std::array<Answer, kRequests> answers{};

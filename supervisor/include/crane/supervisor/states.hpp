@@ -49,9 +49,23 @@ enum class Cause : std::uint8_t {
   second_writer,
   overrun,
   selftest_failed,
-  stop_timeout
+  stop_timeout,
+  not_homed,
+  homed,
+  homing_failed
 };
-inline constexpr std::size_t kCauses = 23;
+inline constexpr std::size_t kCauses = 26;
+
+/// Why an axis has not been homed.
+enum class HomingFailure : std::uint8_t {
+  none,
+  mark_not_found,
+  mark_stuck,
+  other_switch,
+  no_motion,
+  mark_disagrees
+};
+inline constexpr std::size_t kHomingFailures = 6;
 
 /// What a cause leads to, in rising severity.
 enum class Reaction : std::uint8_t {
@@ -71,5 +85,9 @@ enum class Reaction : std::uint8_t {
 
 /// What the operator can do about it; never empty.
 [[nodiscard]] const char* remedy_for(Cause cause) noexcept;
+
+/// "MARK_STUCK", and what to look at; empty for none.
+[[nodiscard]] const char* name_of(HomingFailure failure) noexcept;
+[[nodiscard]] const char* remedy_for(HomingFailure failure) noexcept;
 
 }  // namespace crane::supervisor

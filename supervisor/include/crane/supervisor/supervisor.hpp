@@ -2,6 +2,7 @@
 /// One tick of the supervisor: sample and demand in, command and status out. Everything between the topics,
 /// without them.
 #include "crane/supervisor/gate.hpp"
+#include "crane/supervisor/homing.hpp"
 #include "crane/supervisor/motion.hpp"
 #include "crane/supervisor/state_machine.hpp"
 
@@ -18,7 +19,10 @@ struct Sample {
   bool command_stale = false;    ///< latched by the bridge
   bool command_invalid = false;  ///< latched by the bridge
   bool watchdog_dropped = false;
-  std::uint32_t overruns = 0;  ///< late ticks so far
+  std::uint32_t overruns = 0;    ///< late ticks so far
+  AxisFlags position_unknown{};  ///< the axis has to be homed
+  AxisFlags mark_active{};       ///< it stands on its mark
+  AxisFlags mark_found{};        ///< the bridge has seen the mark at the same place twice
 };
 
 struct TickInput {
@@ -32,10 +36,13 @@ struct TickInput {
   bool second_writer = false;
   SelfTest self_test = SelfTest::not_started;
   Requests requests{};
+  std::size_t home_axis = 0;  ///< whom Request::home is about, < kAxes
 };
 
 struct TickMemory {
   Memory machine{};
+  HomingMemory homing{};
+  std::size_t homing_axis = 0;  ///< read only while machine.homing
   GateMemory gate{};
   MotionMemory motion{};
   BrakeMemory brakes{};
@@ -65,6 +72,9 @@ struct TickOutput {
   StatusFlags flags{};
   PerAxis drive_v{};  ///< V
   AxisFlags brake_release{};
+  AxisFlags homing{};                                  ///< the axis that creeps to its mark
+  PerAxis homing_speed{};                              ///< of its reference, unit/s
+  HomingFailure homing_failure = HomingFailure::none;  ///< of the last homing
   bool watchdog_permission = false;
   bool stop_motion = false;
   std::array<Answer, kRequests> answers{};

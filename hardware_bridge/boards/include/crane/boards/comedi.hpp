@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "crane/boards/port_io.hpp"
+#include "crane/boards/rig_lines.hpp"
 #include "crane/bridge/board.hpp"
 #include "crane/runtime/rig.hpp"
 
@@ -69,7 +70,7 @@ class Comedi final : public Board {
   [[noreturn]] void fail(const std::string& what) const;
 
   runtime::Wiring wiring_;
-  std::array<bool, kDrives> present_{};
+  RigLines lines_;
   Handle handle_;
   std::string name_;
   std::vector<Counter> counters_;

@@ -3,23 +3,19 @@
 ///
 /// Counters: all that are in use are latched within a few port accesses before the first byte is read. At the
 /// start
-///   they are preset to what [start] of the rig file says: encoders are incremental, the rig stands there.
-/// Converters: 13 bit, +-10 V; code = clamp(0x1000 - round(V / 10 * 0x1000), 0, 0x1FFF); not finite: 0 V.
+///   they are preset (start_counts()).
+/// Converters: see crane/bridge/converter.hpp.
 /// Inputs: active low, contacts closed when all is well. Outputs: on is high.
 #include <array>
 #include <cstdint>
 #include <memory>
 
 #include "crane/boards/port_io.hpp"
+#include "crane/boards/rig_lines.hpp"
 #include "crane/bridge/board.hpp"
 #include "crane/runtime/rig.hpp"
 
 namespace crane::bridge {
-
-/// Code of a voltage for the card's converters.
-[[nodiscard]] std::uint16_t servo_to_go_code(double voltage_v) noexcept;
-/// Voltage of a code, from +10 V (0) to -9.99756 V (0x1FFF).
-[[nodiscard]] double servo_to_go_voltage_v(std::uint16_t code) noexcept;
 
 class ServoToGo final : public Board {
  public:
@@ -59,8 +55,7 @@ class ServoToGo final : public Board {
 
   std::unique_ptr<PortIo> ports_;
   std::uint16_t base_;
-  runtime::Wiring wiring_;
-  std::array<bool, kDrives> present_{};
+  RigLines lines_;
   std::array<std::size_t, kDrives> converter_channel_{};
   std::array<Counter, kCounters> counters_{};
   std::array<bool, 4> pair_used_{};  ///< by channel / 2

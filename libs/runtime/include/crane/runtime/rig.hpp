@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "crane/control/drive_limits.hpp"
 #include "crane/control/law.hpp"
 #include "crane/control/shaper.hpp"
 #include "crane/plant/parameters.hpp"
@@ -24,19 +25,9 @@ struct Encoder {
 };
 
 /// One motor axis: wiring, limits, brake.
-struct Drive {
-  bool present = false;
+struct Drive : control::DriveLimits {
   int dac_channel = 0;                ///< board analog output, 0..7
   int sign = 1;                       ///< +1 or -1: which way a positive voltage moves it
-  double volt_limit_v = 10;           ///< |V| <=, in (0, 10]
-  double volt_rate_limit_vps = 1000;  ///< gate clamps faster changes, > 0
-  double low_limit = 0;               ///< hard limit, m or rad
-  double high_limit = 0;
-  double soft_margin = 0;         ///< operator targets stay this far inside the hard limits, >= 0
-  double max_speed = 0;           ///< overspeed trip, per second, > 0
-  double brake_deceleration = 0;  ///< what the closed brake gives at least, per second squared, > 0
-  double brake_close_time_s = 0.02;
-  double brake_open_time_s = 0.02;
   double reference_speed = 0;         ///< planner: V_max of (3.43), per second, > 0
   double reference_acceleration = 0;  ///< planner: a_max of (3.43), per second squared, > 0
   double reference_jerk = 0;          ///< planner: j_max of S-curves, per second cubed, > 0
@@ -55,6 +46,7 @@ struct DriveLines {
   int limit_low_input = 0, limit_high_input = 0;  ///< contact opens at the limit
   int brake_closed_input = 0;                     ///< contact closes with the brake
   int brake_release_output = 0;                   ///< on: 24 V to the brake, if the relay is closed
+  int mark_input = -1;                            ///< contact closes below the axis' mark; -1: not wired
 };
 
 /// What is connected to which line of the board; counters and analog outputs stand with encoders and drives.
@@ -78,8 +70,8 @@ struct Limits {
 };
 
 struct Start {
-  std::array<double, plant::kAxes> position{0.25, 0,
-                                            1.0};  ///< where the simulated plant begins: m, rad, m of cable
+  std::array<double, plant::kAxes> position{
+      0.25, 0, 1.0};  ///< where the simulated plant begins, and an axis with Zero::start: m, rad, m of cable
   double swing_radial_rad = 0, swing_tangential_rad = 0;
   double cable_length_offset_m = 0;  ///< the true cable is longer than the hoist encoder says by so much
 };

@@ -47,12 +47,14 @@ class Replay {
   ~Replay();
   Replay(Replay&&) noexcept;
 
-  /// Numbers that start a window: position and rate per simulated output. Inner coordinates of the model
-  /// begin where the measured motion of the whole run has brought them.
+  /// Numbers that start a window: position and rate per simulated output, then those of the model's inner
+  /// coordinates that ring on by themselves. Inner coordinates that are not given begin where the measured
+  /// motion of the whole run has brought them.
   [[nodiscard]] std::size_t start_size() const;
   /// What the measurement says about them at row `first`.
   [[nodiscard]] std::vector<double> measured_start(std::size_t first) const;
   /// Rows first ... first + rows - 1 from `start` at row `first`; `out` takes output by output.
+  /// @param start as long as start_size(), or without the inner coordinates
   /// @pre first + rows <= rows of the run; sizes fit
   void run(std::size_t first, std::size_t rows, std::span<const double> start, std::span<double> out) const;
 

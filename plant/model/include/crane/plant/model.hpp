@@ -43,6 +43,8 @@ class Model {
 
   /// Number of coordinates the structure terms have of their own, at most kMostInner.
   [[nodiscard]] std::size_t inner_coordinates() const noexcept { return inner_coordinates_; }
+  /// Those of them that ring on by themselves (Term::rings), by index.
+  [[nodiscard]] std::vector<std::size_t> ringing_coordinates() const;
 
   /// @param inner own coordinates of the structure terms; the first inner_coordinates() count
   /// @param inner_accelerations filled likewise

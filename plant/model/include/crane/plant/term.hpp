@@ -54,8 +54,12 @@ class Term {
   /// Structure terms may have coordinates of their own, none when the parameters make them rigid; `inner` and
   /// `acceleration` below are theirs.
   [[nodiscard]] virtual std::size_t inner_coordinates() const noexcept { return 0; }
+  /// They ring on by themselves: what drives them does not tell where they are.
+  [[nodiscard]] virtual bool rings() const noexcept { return inner_coordinates() > 0; }
   /// Displacement that is always there; of the position only.
-  [[nodiscard]] virtual Displacement rest_displacement() const noexcept { return {}; }
+  [[nodiscard]] virtual Displacement rest_displacement(const Parameters& /*crane*/) const noexcept {
+    return {};
+  }
   /// Adds the displacement, for positions, rates and accelerations alike: linear in `inner`.
   virtual void displace(const double* /*inner*/, Displacement& /*sum*/) const noexcept {}
   /// Adds generalised forces that depend on the own coordinates.

@@ -6,7 +6,7 @@
 ///   0 at the rig's zero (tower axis, slew zero, no cable, hanging load), wrapped to 24 bits and
 ///   sign-extended. The coordinate is what the model's sensor terms make of it, once for each time that is
 ///   read.
-/// Converters: 13 bit, +-10 V, inverted offset binary; LSB 20 V / 8192. Not finite: 0 V.
+/// Converters: see crane/bridge/converter.hpp.
 /// Drives: the board's voltage times the drive's sign, then the model's command terms, once a tick.
 /// Brakes: closed without supply. Supply = brake_release and relay closed and (e-stop released or not wired
 /// in).
@@ -27,15 +27,6 @@
 #include "crane/simulator/simulated_rig.hpp"
 
 namespace crane::simulator {
-
-inline constexpr std::int32_t kConverterZero = 0x1000;
-inline constexpr std::int32_t kConverterLargest = 0x1FFF;
-inline constexpr double kConverterRange_v = 10;
-
-/// Code of a voltage: clamp(0x1000 - round(V / 10 * 0x1000), 0, 0x1FFF); not finite: 0x1000 (0 V).
-[[nodiscard]] std::int32_t converter_code(double voltage_v) noexcept;
-/// Voltage of a code, from +10 V (0) to -9.99756 V (0x1FFF).
-[[nodiscard]] double converter_voltage_v(std::int32_t code) noexcept;
 
 /// Low 24 bits, sign-extended.
 [[nodiscard]] std::int32_t wrap_24_bit(std::int64_t counts) noexcept;

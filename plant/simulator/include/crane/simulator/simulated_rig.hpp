@@ -28,7 +28,9 @@ struct SimulatedDrive {
   double brake_open_time_s = 0.02;   ///< from supply to no effort, in [0, 10]
   double low_switch = -std::numeric_limits<double>::infinity();  ///< limit_low while the position is <= this
   double high_switch = std::numeric_limits<double>::infinity();  ///< limit_high while the position is >= this
-  double low_stop = -std::numeric_limits<double>::infinity();    ///< end stop: the axis is stopped dead here
+  double mark =
+      -std::numeric_limits<double>::infinity();  ///< the axis' own mark shows while the position is <= this
+  double low_stop = -std::numeric_limits<double>::infinity();  ///< end stop: the axis is stopped dead here
   double high_stop = std::numeric_limits<double>::infinity();
 };
 

@@ -1,0 +1,50 @@
+#pragma once
+/// One window under way: a crane in fixed steps, some coordinates simulated, the others going where they were
+/// measured.
+#include <array>
+
+#include "crane/diagnosis/moment.hpp"
+#include "crane/plant/model.hpp"
+
+namespace crane::diagnosis {
+
+class Course {
+ public:
+  /// @param model outlives the course
+  Course(const plant::Model& model, const std::array<bool, kOutputs>& simulated, const plant::Locks& locks,
+         double step_s);
+
+  plant::State state;
+  plant::InnerState inner{};
+
+  void new_command(const plant::PerAxis& drive_v);
+  /// @param at what is measured in the middle of the step, `end` at its end
+  void step(const std::array<Moment, kOutputs>& at, const Moment& cable_at,
+            const std::array<Moment, kOutputs>& end, const Moment& cable_end);
+  /// Coordinates that are not simulated go where they were measured.
+  void follow(const std::array<Moment, kOutputs>& at, const Moment& cable);
+
+ private:
+  [[nodiscard]] plant::State half_way(const std::array<Moment, kOutputs>& at, const Moment& cable);
+  void kick(Output output, double acceleration);
+  void kick_inner(const plant::InnerAccelerations& accelerations);
+  [[nodiscard]] plant::PerAxis drive_accelerations(const plant::State& middle,
+                                                   const plant::InnerState& inner_middle,
+                                                   const plant::PerAxis& friction) const;
+  void learn_gains(const plant::State& middle, const plant::InnerState& inner_middle,
+                   const plant::PerAxis& free);
+  /// Friction of each axis, solved one after the other with the other's last value.
+  plant::PerAxis move_drives(const plant::State& middle, const plant::InnerState& inner_middle);
+
+  const plant::Model& model_;
+  std::array<bool, kOutputs> simulated_;
+  double h_;
+  plant::Actuation actuation_;
+  std::array<double, kOutputs> last_{};
+  std::array<double, plant::kMostInner> last_inner_{};
+  plant::PerAxis last_friction_{};
+  std::array<std::array<double, 2>, 2> gain_{};
+  bool gains_known_ = false;
+};
+
+}  // namespace crane::diagnosis

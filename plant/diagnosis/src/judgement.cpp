@@ -1,0 +1,193 @@
+#include "judgement.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "swing_lines.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+/// Mean square of the whitened residual beyond which noise and a coloured force cannot have made it. Swing
+/// keeps to 1 within a few percent; a drive that breaks loose a moment too late or early leaves more.
+constexpr double kWorstSwing = 1.25, kWorstDrive = 4;
+constexpr double kClearWin = 0.8;
+constexpr double kRunnerUp = 0.1;
+/// An unexplained pattern this large against what the named effects explain makes the name doubtful.
+constexpr double kDoubtful = 0.35;
+/// A line in the swing of the bare model that explains so much of what the named effects do.
+constexpr double kImitated = 0.5;
+/// The same where the effects ring by themselves: the starts of their windows follow any line.
+constexpr double kImitatedByRinging = 0.1;
+
+bool holds(const Effects& effects, const Candidate* candidate) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const Effect& e) { return e.candidate == candidate; });
+}
+
+double mean_square(const Fits& fits) {
+  double sum = 0, count = 0;
+  for (const WindowFit& fit : fits)
+    sum += fit.residual.squaredNorm(), count += static_cast<double>(fit.residual.size());
+  return count > 0 ? sum / count : 0;
+}
+
+std::string said(const Diagnosis& d) {
+  std::string names, rivals;
+  for (const Cause& cause : d.causes)
+    names +=
+        (names.empty() ? "" : " and ") + cause.name + (cause.axis.empty() ? "" : " (" + cause.axis + ")");
+  for (const std::string& rival : d.ambiguous_with) rivals += (rivals.empty() ? "" : ", ") + rival;
+  switch (d.verdict) {
+    case Verdict::none:
+      return "Nothing that these data could show is wrong with the model.";
+    case Verdict::named:
+      return "The simulation lacks " + names + ".";
+    case Verdict::parameter:
+      return "A parameter of the model is off: " + names + ".";
+    case Verdict::ambiguous:
+      return "These data cannot tell " + names + " from " + rivals + ".";
+    case Verdict::unknown:
+      break;
+  }
+  const auto& from = d.remainder.from;
+  return "Something is wrong that no known cause explains" +
+         (from.empty() ? std::string{"."} : "; it goes with " + from[0] + ".");
+}
+
+class Judgement {
+ public:
+  Judgement(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed)
+      : study_(study), all_(hypotheses), best_(hypotheses.best), seed_(seed) {
+    result_.ranking = hypotheses.ranking;
+    result_.detection_p_value = hypotheses.detection_p_value;
+  }
+
+  Judged run() {
+    const bool doubted = doubt();
+    if (best_.effects.empty())
+      result_.verdict = doubted ? Verdict::unknown : Verdict::none;
+    else if (doubted)
+      result_.verdict = Verdict::unknown;
+    else
+      name();
+    if (result_.verdict != Verdict::none) report_causes();
+    for (const Effect& effect : best_.effects)
+      result_.extension.push_back(effect.candidate->setting(effect.values));
+    result_.sentence = said(result_);
+    return {std::move(result_), std::move(rivals_)};
+  }
+
+ private:
+  /// Whether what is left is too much to be believed; says what it goes with.
+  bool doubt() {
+    const double too_much = excess(best_);
+    const std::vector<Unexplained> left = what_is_left();
+    Remainder& remainder = result_.remainder;
+    if (too_much > 1) {
+      remainder.predictable_fraction = 1 - 1 / too_much;
+      remainder.from.emplace_back(mean_square(best_.train.load) > kWorstSwing
+                                      ? "swing: more than sensor noise and a coloured force leave"
+                                      : "drives: more than sensor noise and a coloured force leave");
+      return true;
+    }
+    if (left.empty()) return false;
+    remainder.predictable_fraction = left[0].fraction;
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
+      remainder.from.push_back(left[i].variable);
+    const double explained = all_.base.train.loss - best_.train.loss;
+    return std::any_of(left.begin(), left.end(), [&](const Unexplained& u) {
+      return u.serious &&
+             (best_.effects.empty() || ringing() || u.gain > kDoubtful * explained || u.fraction > kDoubtful);
+    });
+  }
+
+  [[nodiscard]] bool ringing() const {
+    return std::any_of(best_.effects.begin(), best_.effects.end(),
+                       [](const Effect& e) { return e.candidate->nonlinear; });
+  }
+
+  /// Patterns in the residual of the drives and lines in that of the swing, strongest first. A line that does
+  /// as well alone as what was found is another reason to doubt: whatever rings by itself can imitate one.
+  [[nodiscard]] std::vector<Unexplained> what_is_left() const {
+    std::vector<Unexplained> left = find_unexplained(study_, best_.effects, best_.train);
+    const auto add = [&](const Fits& fits, double least) {
+      for (const Unexplained& line : find_swing_lines(study_.load(), fits, seed_))
+        if (line.gain > least) left.push_back(line);
+    };
+    add(best_.train.load, 0);
+    if (!best_.effects.empty())
+      add(all_.base.train.load,
+          (ringing() ? kImitatedByRinging : kImitated) * (all_.base.train.loss - best_.train.loss));
+    std::sort(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
+    return left;
+  }
+
+  /// Who wins among all accepted hypotheses of the best one's size.
+  void name() {
+    std::vector<const Fitted*> equals;
+    for (const Fitted& fitted : all_.all)
+      if (fitted.effects.size() == best_.effects.size() && accepted(fitted, all_.base, seed_))
+        equals.push_back(&fitted);
+    const std::vector<double> picked = frequencies(equals, seed_);
+    for (std::size_t r = 0; r < equals.size(); ++r)
+      for (const Effect& effect : equals[r]->effects) frequency_[effect.candidate] += picked[r];
+    bool clear = true, known = true;
+    for (const Effect& effect : best_.effects) {
+      clear = clear && frequency_[effect.candidate] >= kClearWin;
+      known = known && effect.candidate->changes_known_parameter;
+    }
+    for (const auto& [candidate, share] : frequency_)
+      if (share >= kRunnerUp && !holds(best_.effects, candidate)) rivals_.push_back(candidate);
+    result_.verdict = !clear && !rivals_.empty() ? Verdict::ambiguous
+                      : known                    ? Verdict::parameter
+                                                 : Verdict::named;
+    if (result_.verdict != Verdict::ambiguous) rivals_.clear();
+    std::sort(rivals_.begin(), rivals_.end(),
+              [&](const Candidate* a, const Candidate* b) { return frequency_[a] > frequency_[b]; });
+    auto& names = result_.ambiguous_with;
+    for (const Candidate* rival : rivals_)
+      if (std::find(names.begin(), names.end(), rival->cause) == names.end()) names.push_back(rival->cause);
+  }
+
+  void report_causes() {
+    const std::vector<Estimate> values = estimates(best_);
+    auto next = values.begin();
+    for (const Effect& effect : best_.effects) {
+      const auto end = next + static_cast<std::ptrdiff_t>(effect.values.size());
+      Cause cause{effect.candidate->cause, effect.candidate->axis, {next, end}, 1, 0};
+      next = end;
+      for (const Ranked& ranked : result_.ranking)
+        if (ranked.label == effect.candidate->label()) cause.p_value = ranked.p_value;
+      const auto found = frequency_.find(effect.candidate);
+      cause.resampling_frequency = found == frequency_.end() ? 0 : found->second;
+      result_.causes.push_back(cause);
+    }
+    for (Ranked& ranked : result_.ranking)
+      for (const auto& [candidate, share] : frequency_)
+        if (candidate->label() == ranked.label) ranked.resampling_frequency = share;
+    std::stable_sort(result_.ranking.begin(), result_.ranking.end(), [](const Ranked& a, const Ranked& b) {
+      return a.train_gain + a.test_gain > b.train_gain + b.test_gain;
+    });
+  }
+
+  const Study& study_;
+  const Hypotheses& all_;
+  const Fitted& best_;
+  std::uint64_t seed_;
+  std::map<const Candidate*, double> frequency_;
+  std::vector<const Candidate*> rivals_;
+  Diagnosis result_;
+};
+
+}  // namespace
+
+double excess(const Fitted& best) {
+  return std::max(mean_square(best.train.load) / kWorstSwing, mean_square(best.train.drive) / kWorstDrive);
+}
+
+Judged judge(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed) {
+  return Judgement(study, hypotheses, seed).run();
+}
+
+}  // namespace crane::diagnosis

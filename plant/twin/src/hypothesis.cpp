@@ -1,0 +1,88 @@
+#include "crane/twin/hypothesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crane::twin {
+namespace {
+
+using runtime::Rig;
+using runtime::RigKind;
+
+constexpr double kFriction_v = 0.1, kMuchFriction_v = 0.4, kGain = 0.05, kSlip = 0.01, kOffset_rad = 0.01;
+constexpr double kPayloadShare = 0.1, kCableShare = 0.03;
+
+Hypothesis hypothesis(const std::string& cause, const std::string& axis, const std::string& parameter,
+                      double null, double reference, const std::string& unit, const std::string& remedy) {
+  return {cause, axis, {{cause, axis, {{parameter, null + reference}}}}, {}, reference, false, unit, remedy};
+}
+
+/// Dry friction that the rig file gives this axis in its easier direction, V.
+double dry_friction_v(const Rig& rig, const std::string& axis) {
+  double sum = 0;
+  for (const plant::TermSetting& term : rig.terms) {
+    const auto positive = term.parameters.find("coulomb_positive_v");
+    const auto negative = term.parameters.find("coulomb_negative_v");
+    if (term.name == "drive_friction" && term.axis == axis && positive != term.parameters.end() &&
+        negative != term.parameters.end())
+      sum += std::min(positive->second, negative->second);
+  }
+  return sum;
+}
+
+/// Dry friction holds or does not: what much of it does is not a multiple of what a little does.
+void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis,
+                      const std::string& remedy) {
+  const double less_v = std::min(kMuchFriction_v, 0.6 * dry_friction_v(rig, axis));
+  for (const double size_v : {kFriction_v, kMuchFriction_v, -less_v})
+    if (std::abs(size_v) >= kFriction_v) {
+      list.push_back(hypothesis("coulomb_friction", axis, "level_v", 0, size_v, "V", remedy));
+      list.back().only_near = size_v != kFriction_v;
+    }
+}
+
+void add_drive(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis,
+               const runtime::Drive& drive) {
+  const bool slew = axis == "slew";
+  const double viscous = kFriction_v / std::max(drive.reference_speed, 1e-3);
+  const std::string look =
+      "look at bearings, guides and brake of the " + axis + ", then crane identify friction";
+  add_dry_friction(list, rig, axis, look);
+  list.push_back(hypothesis("viscous_friction", axis, "vspm", 0, viscous, slew ? "V s/rad" : "V s/m", look));
+  list.push_back(hypothesis("motor_gain", axis, "factor", 1, kGain, "1",
+                            "check amplifier, supply and motor of the " + axis));
+  Hypothesis slipping;
+  slipping.cause = "position_drift";
+  slipping.axis = axis;
+  slipping.reference = kSlip;
+  slipping.unit = slew ? "rad/rad" : "m/m";
+  slipping.remedy = "check the coupling of the encoder of the " + axis + ", then home it";
+  slipping.slip[slew ? diagnosis::kSlewAngle : diagnosis::kTrolleyPosition] = kSlip;
+  list.push_back(slipping);
+}
+
+void add_swing_offset(std::vector<Hypothesis>& list, const std::string& axis) {
+  list.push_back(hypothesis("swing_offset", axis, "offset_rad", 0, kOffset_rad, "rad",
+                            "let the load hang at rest and take the zero of the swing encoder again"));
+}
+
+}  // namespace
+
+std::vector<Hypothesis> hypotheses_for(const Rig& rig) {
+  std::vector<Hypothesis> list;
+  const auto& trolley = rig.drives[plant::kTrolley];
+  const auto& slew = rig.drives[plant::kSlew];
+  if (trolley.present) add_drive(list, rig, "trolley", trolley);
+  if (slew.present) add_drive(list, rig, "slew", slew);
+  if (rig.kind == RigKind::drive_axis || rig.plant.load_mass_kg <= 0) return list;
+  if (trolley.present || slew.present)
+    list.push_back(hypothesis("payload_mass", "", "delta_kg", 0, kPayloadShare * rig.plant.load_mass_kg, "kg",
+                              "weigh the load and correct load_mass_kg in the rig file"));
+  list.push_back(hypothesis("cable_length", "", "delta_m", 0, kCableShare * rig.start.position[plant::kHoist],
+                            "m", "measure from the jib to the load's centre and home the hoist"));
+  add_swing_offset(list, "radial");
+  if (rig.kind == RigKind::tower) add_swing_offset(list, "tangential");
+  return list;
+}
+
+}  // namespace crane::twin

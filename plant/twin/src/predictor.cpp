@@ -1,0 +1,83 @@
+#include "crane/twin/predictor.hpp"
+
+#include <cmath>
+
+namespace crane::twin {
+namespace {
+
+/// As the diagnosis steps: a coordinate of a term's own may ring at 15 Hz.
+constexpr double kLongestStep_s = 0.005, kLongestInnerStep_s = 0.0025;
+
+PerColumn columns_of(const plant::Measurement& m) {
+  return {m.trolley_m, m.slew_rad, m.radial_rad, m.tangential_rad};
+}
+
+}  // namespace
+
+Predictor::Predictor(const plant::Parameters& parameters, const std::vector<plant::TermSetting>& terms,
+                     double period_s, double horizon_s, const PerColumn& slip)
+    : model_(std::make_unique<plant::Model>(parameters, terms, period_s)), slip_(slip) {
+  const double rho = std::exp(-period_s / horizon_s);
+  position_gain_ = 1 - rho * rho;
+  rate_gain_ = (1 - rho) * (1 - rho) / period_s;
+  const double longest_s = model_->inner_coordinates() > 0 ? kLongestInnerStep_s : kLongestStep_s;
+  steps_ = std::max(1, static_cast<int>(std::ceil(period_s / longest_s - 1e-9)));
+  step_s_ = period_s / steps_;
+}
+
+void Predictor::restart(const Known& now, const Mask& simulated) {
+  simulated_ = simulated;
+  plant::Locks locks;
+  locks.axis = {!simulated[diagnosis::kTrolleyPosition], !simulated[diagnosis::kSlewAngle], true};
+  locks.radial = !simulated[diagnosis::kRadialSwing];
+  locks.tangential = !simulated[diagnosis::kTangentialSwing];
+  course_.emplace(*model_, simulated, locks, step_s_);
+  course_->follow(given(now), {now.cable_m, now.cable_mps, 0});
+  for (const auto column : diagnosis::kAllOutputs)
+    if (simulated[column]) position_of(course_->state, column) = now.reported[column];
+  // Where the crane is when its sensors report this, to first order in the sensors' errors.
+  const PerColumn seen = columns_of(model_->measure(course_->state));
+  for (const auto column : diagnosis::kAllOutputs) {
+    if (!simulated[column]) continue;
+    position_of(course_->state, column) += now.reported[column] - seen[column];
+    rate_of(course_->state, column) = now.rate[column];
+  }
+  before_ = now;
+  predicted_ = now.reported;
+}
+
+std::array<diagnosis::Moment, kColumns> Predictor::given(const Known& now) const {
+  std::array<diagnosis::Moment, kColumns> moments;
+  for (std::size_t i = 0; i < kColumns; ++i) moments[i].position = now.reported[i];
+  return moments;
+}
+
+const PerColumn& Predictor::predict(const plant::PerAxis& applied_v, const Known& now) {
+  course_->new_command(model_->drive_voltage(applied_v));
+  const auto still = given(now);
+  const auto cable = [&](double share) {
+    return diagnosis::Moment{std::lerp(before_.cable_m, now.cable_m, share),
+                             std::lerp(before_.cable_mps, now.cable_mps, share), 0};
+  };
+  for (int step = 0; step < steps_; ++step)
+    course_->step(still, cable((step + 0.5) / steps_), still, cable((step + 1.0) / steps_));
+  for (const auto column : diagnosis::kAllOutputs)
+    position_of(course_->state, column) +=
+        slip_[column] * std::abs(rate_of(course_->state, column)) * step_s_ * steps_;
+  before_ = now;
+  predicted_ = columns_of(model_->measure(course_->state));
+  for (std::size_t i = 0; i < kColumns; ++i)
+    if (!simulated_[i]) predicted_[i] = now.reported[i];
+  return predicted_;
+}
+
+void Predictor::correct(const PerColumn& reported) {
+  for (const auto column : diagnosis::kAllOutputs) {
+    if (!simulated_[column]) continue;
+    const double error = reported[column] - predicted_[column];
+    position_of(course_->state, column) += position_gain_ * error;
+    rate_of(course_->state, column) += rate_gain_ * error;
+  }
+}
+
+}  // namespace crane::twin

@@ -1,0 +1,128 @@
+/// crane bench cpu: the processor time that each process of the stack takes a tick, its own loop apart from
+/// the threads of its DDS implementation.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/bench.hpp"
+#include "cli/text_table.hpp"
+#include "stack/data_files.hpp"
+#include "stack/launch.hpp"
+#include "stack/realtime_session.hpp"
+#include "stack/stack.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct BenchCpuOptions {
+  stack::LaunchOptions launch;
+  std::string rig = "emulated_servo_to_go", plant = "hardware";
+  double seconds = 20;
+  bool json = false;
+};
+
+/// Processor time so far [ns].
+struct CpuTime {
+  std::int64_t loop_ns = 0, others_ns = 0;
+};
+
+/// The first thread of a process of the stack is its loop.
+CpuTime cpu_time_of(pid_t pid) {
+  CpuTime time;
+  for (const auto& thread : std::filesystem::directory_iterator{"/proc/" + std::to_string(pid) + "/task"}) {
+    std::int64_t spent_ns = 0;
+    std::ifstream{thread.path() / "schedstat"} >> spent_ns;
+    (thread.path().filename() == std::to_string(pid) ? time.loop_ns : time.others_ns) += spent_ns;
+  }
+  return time;
+}
+
+/// Of one process, a tick.
+struct CpuShare {
+  std::string process;
+  double loop_us = 0, dds_threads_us = 0;
+};
+
+/// Lets the stack run. @throws std::runtime_error when a process ends
+void pass(stack::ChildProcesses& children, double seconds) {
+  const auto end_ns = runtime::monotonic_ns() + static_cast<std::int64_t>(seconds * 1e9);
+  while (!runtime::stop_requested() && runtime::monotonic_ns() < end_ns) {
+    ::usleep(50'000);
+    if (const auto ended = children.ended()) throw std::runtime_error(stack::describe(*ended));
+  }
+}
+
+std::vector<CpuShare> measure(const BenchCpuOptions& options) {
+  const auto rig = runtime::load_rig(options.launch.rig);
+  const bool hardware = options.plant == "hardware";
+  const auto specs = hardware ? stack::hardware_stack() : stack::simulated_stack();
+  stack::ChildProcesses children;
+  if (hardware) stack::launch_rig(children, rig, options.launch);
+  stack::launch(children, specs, options.launch);
+  {
+    bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
+    stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
+  }  // an observer costs its share
+  const auto now_of = [&](const runtime::ComponentSpec& spec) {
+    return cpu_time_of(children.pid_of(std::string{spec.name}).value());
+  };
+  std::vector<CpuTime> begin;
+  for (const auto& spec : specs) begin.push_back(now_of(spec));
+  const auto begin_ns = runtime::monotonic_ns();
+  pass(children, options.seconds);
+  const double ticks = static_cast<double>(runtime::monotonic_ns() - begin_ns) * 1e-9 / rig.period_s;
+  std::vector<CpuShare> shares;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const auto now = now_of(specs[i]);
+    shares.push_back({std::string{specs[i].name},
+                      static_cast<double>(now.loop_ns - begin[i].loop_ns) / 1e3 / ticks,
+                      static_cast<double>(now.others_ns - begin[i].others_ns) / 1e3 / ticks});
+  }
+  return shares;
+}
+
+int bench_cpu(BenchCpuOptions options) {
+  runtime::install_stop_signals();
+  options.launch.rig = stack::find_rig(options.rig).string();
+  options.launch.bus.crane = "bench_" + std::to_string(::getpid());
+  auto json = nlohmann::ordered_json::array();
+  TextTable table{{"process", "loop us/tick", "DDS threads us/tick", "together"}};
+  for (const auto& share : measure(options)) {
+    json.push_back(
+        {{"process", share.process}, {"loop_us", share.loop_us}, {"dds_threads_us", share.dds_threads_us}});
+    table.add({share.process, fixed(share.loop_us, 1), fixed(share.dds_threads_us, 1),
+               fixed(share.loop_us + share.dds_threads_us, 1)});
+  }
+  if (options.json)
+    std::cout << json.dump(2) << '\n';
+  else
+    table.print(std::cout);
+  return runtime::kExitDone;
+}
+
+}  // namespace
+
+void add_bench_cpu(CLI::App& bench, Action& chosen) {
+  auto options = std::make_shared<BenchCpuOptions>();
+  auto* command = bench.add_subcommand(
+      "cpu", "Real time, crane locked: processor time a tick of each process, loop and DDS threads apart");
+  command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
+  command->add_option("--plant", options->plant, "hardware (the bridge) or sim")
+      ->check(CLI::IsMember({"hardware", "sim"}))
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "how long")
+      ->check(CLI::Range(1.0, 86400.0))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print as JSON");
+  runtime::add_bus_options(*command, options->launch.bus);
+  command->footer(
+      "Example: crane bench cpu --seconds 20\nA machine that is busy with other things shows more.");
+  command->callback([options, &chosen] { chosen = [options] { return bench_cpu(*options); }; });
+}
+
+}  // namespace crane::cli

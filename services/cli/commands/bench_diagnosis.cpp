@@ -1,0 +1,41 @@
+/// crane bench diagnosis: the score of the diagnosis on data with hidden effects. A program of its own beside
+/// crane, because what hides the effects is built with the tests and shares no code with the product.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <stdexcept>
+
+#include "cli/commands/bench.hpp"
+#include "stack/child_processes.hpp"
+
+namespace crane::cli {
+namespace {
+
+int bench_diagnosis(std::vector<std::string> arguments) {
+  const std::filesystem::path program = stack::program_directory() / "bench_diagnosis";
+  if (!std::filesystem::exists(program))
+    throw std::runtime_error(program.string() +
+                             ": not there: it is built with the tests (deploy/build, CRANE_BUILD_TESTS)");
+  arguments.insert(arguments.begin(), program.string());
+  std::vector<char*> values;
+  for (std::string& argument : arguments) values.push_back(argument.data());
+  values.push_back(nullptr);
+  ::execv(program.c_str(), values.data());
+  throw std::runtime_error(program.string() + ": cannot be started");
+}
+
+}  // namespace
+
+void add_bench_diagnosis(CLI::App& bench, Action& chosen) {
+  auto* command = bench.add_subcommand(
+      "diagnosis", "Score crane diagnose on data with hidden effects: naming, false alarms, gain, intervals");
+  command->prefix_command();
+  command->set_help_flag();  // --help and every option are the program's own
+  command->footer("Example: crane bench diagnosis --sets 1200 --results score.jsonl");
+  command->callback([command, &chosen] {
+    chosen = [arguments = command->remaining()] { return bench_diagnosis(arguments); };
+  });
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,144 @@
+/// crane home: one axis after the other creeps to its mark.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "cli/operator_request.hpp"
+#include "commands.hpp"
+#include "crane/control/drive_limits.hpp"
+#include "crane/supervisor/states.hpp"
+
+namespace crane::cli {
+namespace {
+
+using control::kAxisNames;
+
+struct HomeOptions {
+  std::vector<std::string> axes;
+  double timeout_s = 300;
+  runtime::BusOptions bus = tool_bus();
+};
+
+/// The newest of what an operator at the crane looks at.
+class Watch {
+ public:
+  explicit Watch(bus::Bus& bus)
+      : bus_{bus}, statuses_{bus.subscriber(topics::supervisor)}, states_{bus.subscriber(topics::state)} {}
+
+  /// @return false when the time was up
+  bool until(double timeout_s,
+             const std::function<bool(const msg::SupervisorStatus&, const msg::State&)>& holds) {
+    const bool reached = wait_until(bus_, timeout_s, [&] {
+      while (const auto status = statuses_.take()) status_ = status;
+      while (const auto state = states_.take()) state_ = state;
+      return status_ && state_ && holds(*status_, *state_);
+    });
+    if (runtime::stop_requested())
+      throw std::runtime_error("home: no longer waited for; the crane goes on (`crane stop`)");
+    return reached;
+  }
+  [[nodiscard]] const msg::State& state() const { return *state_; }
+
+ private:
+  bus::Bus& bus_;
+  bus::Subscriber<msg::SupervisorStatus> statuses_;
+  bus::Subscriber<msg::State> states_;
+  std::optional<msg::SupervisorStatus> status_;
+  std::optional<msg::State> state_;
+};
+
+/// A cable first: the shorter it hangs, the less swings. The jib last: its gains need the trolley's place.
+std::vector<std::size_t> axes_to_home(const HomeOptions& options, const msg::State& state) {
+  std::vector<std::size_t> axes;
+  for (const std::size_t axis : {2U, 0U, 1U}) {
+    const bool named = std::ranges::find(options.axes, kAxisNames[axis]) != options.axes.end();
+    if (options.axes.empty() ? !state.position_known[axis] : named) axes.push_back(axis);
+  }
+  return axes;
+}
+
+[[noreturn]] void throw_stopped(const msg::SupervisorStatus& status) {
+  const auto cause = static_cast<supervisor::Cause>(status.cause);
+  const auto failure = static_cast<supervisor::HomingFailure>(status.homing_failure);
+  std::string why = supervisor::name_of(cause);
+  if (cause == supervisor::Cause::homing_failed)
+    why += std::string{": "} + supervisor::name_of(failure) + ": " + supervisor::remedy_for(failure);
+  else
+    why += std::string{": "} + supervisor::remedy_for(cause);
+  throw std::runtime_error("home: stopped because of " + why);
+}
+
+/// From the acceptance of the request until the position is known. @throws std::runtime_error
+void follow(Watch& watch, std::size_t axis, double timeout_s) {
+  bool taken_up = false;
+  const bool done = watch.until(timeout_s, [&](const msg::SupervisorStatus& status, const msg::State& state) {
+    taken_up = taken_up || status.homing[axis];
+    if (!taken_up || status.homing[axis]) return false;
+    if (status.cause != crane_CAUSE_HOMED) throw_stopped(status);
+    return state.position_known[axis];
+  });
+  if (!done) throw std::runtime_error("home: not done in time; the crane goes on (`crane stop`)");
+}
+
+/// The stop at the end of the axis before is this command's own: acknowledged when it has been clear for a
+/// second.
+void acknowledge(bus::Bus& bus, Watch& watch) {
+  constexpr double kStops_s = 5;
+  constexpr int kTries = 20;
+  watch.until(kStops_s, [](const msg::SupervisorStatus& status, const msg::State&) {
+    return status.state == crane_STATE_LOCKED && status.cause == crane_CAUSE_HOMED;
+  });
+  Answer answer;
+  for (int i = 0; i < kTries && !answer.accepted; ++i) {
+    if (i > 0) watch.until(0.2, [](const auto&, const auto&) { return false; });
+    answer = ask(bus, {.kind = crane_REQUEST_RESET});
+  }
+  if (!answer.accepted) throw std::runtime_error("home: reset refused: " + answer.reason);
+}
+
+int home(const HomeOptions& options) {
+  auto bus = open_bus(options.bus, crane_SOURCE_OPERATOR);
+  Watch watch{bus};
+  constexpr double kFind_s = 5;
+  if (!watch.until(kFind_s, [](const auto&, const auto&) { return true; }))
+    throw NoAnswer("neither supervisor nor crane/state heard" + where_and_remedy(bus.options()));
+  const auto axes = axes_to_home(options, watch.state());
+  if (axes.empty()) std::cout << "home: the position of every axis is known\n";
+  bool first = true;
+  for (const auto axis : axes) {
+    if (!first) acknowledge(bus, watch);
+    first = false;
+    stack::Wish wish{.kind = crane_REQUEST_HOME};
+    wish.selected[axis] = true;
+    if (const auto answer = ask(bus, wish); !answer.accepted) return report("home", answer);
+    follow(watch, axis, options.timeout_s);
+    std::cout << "home: " << kAxisNames[axis] << " done" << std::endl;
+  }
+  return runtime::kExitDone;
+}
+
+}  // namespace
+
+void add_home(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<HomeOptions>();
+  auto* command =
+      app.add_subcommand("home", "Let axes creep to their marks, so that their positions are known");
+  command
+      ->add_option("--axis", options->axes,
+                   "trolley, slew or hoist (repeatable); default: all that are not homed")
+      ->check(CLI::IsMember({"trolley", "slew", "hoist"}));
+  command->add_option("--timeout", options->timeout_s, "longest wait for one axis in s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  runtime::add_bus_options(*command, options->bus);
+  command->footer(
+      "Example: crane reset && crane home && sleep 2 && crane reset && crane arm\n"
+      "The crane must be READY. Only the brake of the axis that is homed opens; it creeps to its limit "
+      "switch or mark\n"
+      "([homing] in the rig file), back, and slowly there again. Ends in LOCKED. Somebody stands at the "
+      "emergency stop.");
+  command->callback([options, &chosen] { chosen = [options] { return home(*options); }; });
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,15 @@
+#include "process/supervisor_component.hpp"
+
+namespace crane::supervisor {
+
+Limits limits_of(const runtime::Rig& rig) {
+  Limits limits;
+  for (std::size_t i = 0; i < kAxes; ++i) limits.axis[i] = rig.drives[i];
+  limits.period_s = rig.period_s;
+  limits.swing_limit_rad = rig.limits.swing_limit_rad;
+  limits.demand_stale_after_ticks = rig.limits.demand_stale_after_ticks;
+  limits.idle_lock_s = rig.limits.idle_lock_s;
+  return limits;
+}
+
+}  // namespace crane::supervisor

@@ -1,0 +1,99 @@
+#include "process/request_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace crane::supervisor {
+namespace {
+
+using control::kAxisNames;
+
+constexpr double kLongestFollow_s = 3600;
+
+/// Farthest from its target, and fastest, that the sum of sines of a request can be.
+struct Excursion {
+  double distance = 0, speed = 0;
+};
+Excursion excursion_of(const msg::Request& request) {
+  Excursion sum;
+  if (request.kind != crane_REQUEST_FOLLOW) return sum;
+  for (const auto& sine : request.sine) {
+    sum.distance += std::abs(sine.amplitude);
+    sum.speed += std::abs(sine.amplitude * 2 * std::numbers::pi * sine.frequency_hz);
+  }
+  return sum;
+}
+
+std::string target_problem(const msg::Request& request, const AxisLimits& axis, std::size_t i) {
+  const auto excursion = excursion_of(request);
+  for (const double target : {request.target[i] - excursion.distance, request.target[i] + excursion.distance})
+    if (!target_allowed(axis, target))
+      return std::string{kAxisNames[i]} + " target " + std::to_string(target) + " must lie in [" +
+             std::to_string(axis.low_limit + axis.soft_margin) + ", " +
+             std::to_string(axis.high_limit - axis.soft_margin) + "]";
+  if (excursion.speed <= axis.max_speed) return "";
+  return std::string{kAxisNames[i]} + " speed " + std::to_string(excursion.speed) +
+         " of the sines must be at most " + std::to_string(axis.max_speed);
+}
+
+std::string follow_problem(const msg::Request& request) {
+  if (!std::ranges::all_of(request.sine, [](const auto& sine) { return std::isfinite(sine.phase_rad); }))
+    return "follow: phase_rad must be finite";
+  const bool lasts = request.duration_s >= 0 && request.duration_s <= kLongestFollow_s;
+  return lasts ? "" : "follow: duration_s must lie in [0, 3600]";
+}
+
+}  // namespace
+
+std::optional<Request> request_of(crane_RequestKind kind) {
+  switch (kind) {
+    case crane_REQUEST_RESET:
+      return Request::reset;
+    case crane_REQUEST_ARM:
+      return Request::arm;
+    case crane_REQUEST_DISARM:
+      return Request::disarm;
+    case crane_REQUEST_MOVE:
+    case crane_REQUEST_FOLLOW:
+      return Request::move;
+    case crane_REQUEST_STOP:
+      return Request::stop;
+    case crane_REQUEST_ESTOP:
+      return Request::estop;
+    case crane_REQUEST_HOME:
+      return Request::home;
+    default:
+      return std::nullopt;
+  }
+}
+
+bool moves_axes(const msg::Request& request) {
+  return request.kind == crane_REQUEST_MOVE || request.kind == crane_REQUEST_FOLLOW;
+}
+
+std::string problem_of(const msg::Request& request, const Limits& limits) {
+  const bool home = request.kind == crane_REQUEST_HOME;
+  if (!moves_axes(request) && !home) return "";
+  int selected = 0;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (!request.selected[i]) continue;
+    ++selected;
+    const auto& axis = limits.axis[i];
+    if (!axis.present) return std::string{"this rig has no "} + kAxisNames[i] + " drive";
+    if (home) continue;
+    if (const auto problem = target_problem(request, axis, i); !problem.empty()) return problem;
+  }
+  if (selected == 0) return "no axis selected";
+  if (request.kind == crane_REQUEST_MOVE) return "";
+  if (selected != 1) return home ? "home: select exactly one axis" : "follow: select exactly one axis";
+  return home ? "" : follow_problem(request);
+}
+
+std::size_t home_axis_of(const msg::Request& request) {
+  const auto* found = std::find(std::begin(request.selected), std::end(request.selected), true);
+  return found == std::end(request.selected) ? 0
+                                             : static_cast<std::size_t>(found - std::begin(request.selected));
+}
+
+}  // namespace crane::supervisor

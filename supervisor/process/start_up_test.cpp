@@ -1,0 +1,29 @@
+#include "process/start_up_test.hpp"
+
+namespace crane::supervisor {
+namespace {
+
+constexpr int kQuietTicks = 10;  // in a row
+constexpr int kLongestTicks = 200;
+
+bool is_quiet(const msg::State& state) {
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if (state.applied_v[i] != 0 || !state.brake_closed[i]) return false;
+  return state.watchdog_dropped;  // without permission the relay must have taken the brake supply away
+}
+
+}  // namespace
+
+SelfTest StartUpTest::step(const msg::State* state) {
+  if (result_ != SelfTest::running && result_ != SelfTest::not_started) return result_;
+  result_ = SelfTest::running;
+  if (state == nullptr) return result_;
+  quiet_ = is_quiet(*state) ? quiet_ + 1 : 0;
+  if (quiet_ >= kQuietTicks)
+    result_ = SelfTest::passed;
+  else if (++ticks_ >= kLongestTicks)
+    result_ = SelfTest::failed;
+  return result_;
+}
+
+}  // namespace crane::supervisor

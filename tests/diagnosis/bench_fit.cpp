@@ -1,0 +1,42 @@
+/// The least-squares fit of one cause, to set beside compare_scipy.py: the same data, model, bounds and
+/// start.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "crane/diagnosis/mapping.hpp"
+#include "study.hpp"
+
+namespace {
+
+using namespace crane::diagnosis;
+
+Runs measured(const crane::runtime::Rig& rig) {
+  const auto mapping = load_mapping(std::string{CRANE_MAPPINGS} + "/uw_pendulum.toml");
+  const std::string file = std::string{CRANE_MEASURED} + "/uw_pendulum_id1.csv";
+  Runs runs;
+  for (Run& run : load_run(canonical(crane::recording::read_csv(file), mapping, file), rig, file).runs)
+    runs.push_back(prepare(std::move(run), rig));
+  return runs;
+}
+
+/// Of pivot friction: viscous and Coulomb; starts of the windows are projected out on the way.
+void fit_of_pivot_friction(benchmark::State& state) {
+  const auto rig = crane::runtime::load_rig(std::string{CRANE_RIGS} + "/uw_pendulum.toml");
+  const Runs runs = measured(rig), none;
+  Study study(rig, runs, none);
+  study.learn_disturbance();
+  const auto& all = study.candidates();
+  const auto found = std::find_if(all.begin(), all.end(), [](const Candidate& c) {
+    return c.cause == "swing_pivot_friction" && c.axis == "radial";
+  });
+  const double inertia = rig.plant.load_mass_kg * std::pow(rig.start.position[crane::plant::kHoist], 2);
+  Fitted fitted;
+  for (auto _ : state) fitted = study.fit({{&*found, {0.02 * inertia, 0.005 * inertia}}});
+  state.counters["b_nmsprad"] = fitted.effects[0].values[0];
+  state.counters["c_nm"] = fitted.effects[0].values[1];
+}
+BENCHMARK(fit_of_pivot_friction)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+}  // namespace

@@ -1,0 +1,150 @@
+#include "deck.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "judgement.hpp"
+
+namespace crane::diagnosis::score {
+namespace {
+
+constexpr std::array kPattern{Kind::single, Kind::clean, Kind::single, Kind::pair,
+                              Kind::single, Kind::clean, Kind::single, Kind::outside,
+                              Kind::single, Kind::clean, Kind::single, Kind::confounded};
+constexpr std::array kMultiples{4.0, 2.0, 1.0};
+constexpr double kClear = 4, kSeconds = 30;
+/// Beyond this many times the nominal amplitude a crane is no crane any more.
+constexpr double kMostAmplitude = 3;
+
+/// An effect in data that show it but hardly what it is.
+struct Alike {
+  const char *name, *axis, *run;
+};
+constexpr std::array kAlike{Alike{"command_delay", "trolley", "moves"},
+                            Alike{"swing_moving_average", "", "moves"},
+                            Alike{"actuator_lag", "slew", "moves"},
+                            Alike{"swing_delay", "", "moves"},
+                            Alike{"command_offset", "trolley", "moves"},
+                            Alike{"steady_wind", "", "small"},
+                            Alike{"direction_asymmetry", "slew", "moves"},
+                            Alike{"swing_offset", "radial", "small"},
+                            Alike{"jib_tilt", "", "small"},
+                            Alike{"stribeck_friction", "trolley", "moves"},
+                            Alike{"position_dependent_friction", "slew", "moves"}};
+
+truth::Case case_on(const std::string& rig, std::uint64_t seed) {
+  truth::Case request;
+  request.rig = rig;
+  request.seed = seed;
+  request.seconds = kSeconds;
+  if (rig == "pendulum") request.training_runs = {"swing", "large"}, request.test_runs = {"swing"};
+  return request;
+}
+
+bool possible(const std::string& rig, const std::vector<truth::Hidden>& effects) {
+  truth::Case request = case_on(rig, 1);
+  request.effects = effects;
+  request.training_runs.resize(1);
+  request.test_runs.clear();
+  request.seconds = 0.05;
+  try {
+    (void)truth::generate(request);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+/// Scales the effects one by one to `multiple` detection limits.
+void set_amplitudes(truth::Case& request, double multiple) {
+  constexpr double kTrial = 0.5;
+  for (truth::Hidden& hidden : request.effects) {
+    truth::Case alone = request;
+    alone.effects = {{hidden.name, kTrial, hidden.axis}};
+    alone.training_runs.resize(1);
+    const double limit = kTrial / std::max(truth::effect_size(alone).ratio, 1e-6);
+    hidden.amplitude = std::min(multiple * limit, kMostAmplitude);
+  }
+}
+
+/// Every other set is of the tower; the rest takes turns among the rigs that can have the effects.
+std::string rig_for(const std::vector<truth::Hidden>& effects, std::size_t turn) {
+  constexpr std::array kRigs{"gantry", "drive_axis", "pendulum"};
+  if (turn % 2 == 0) return "tower";
+  for (std::size_t i = 0; i < kRigs.size(); ++i) {
+    const std::string rig = kRigs[(turn / 2 + i) % kRigs.size()];
+    if (possible(rig, effects)) return rig;
+  }
+  return "tower";
+}
+
+std::vector<std::string> names(bool in_library) {
+  std::vector<std::string> all;
+  for (const truth::EffectKind& kind : truth::effect_kinds())
+    if (kind.in_library == in_library) all.push_back(kind.name);
+  return all;
+}
+
+/// Two causes that are no confounded pair, every first one with ever another second one.
+std::vector<truth::Hidden> two(std::size_t count) {
+  const auto all = names(true);
+  const std::string first = all[count * 5 % all.size()];
+  for (std::size_t i = count * 11 + 3;; ++i) {
+    const std::string& second = all[i % all.size()];
+    if (second != first && !confounded(first, second)) return {{first, 1, ""}, {second, 1, ""}};
+  }
+}
+
+}  // namespace
+
+const char* name_of(Kind kind) {
+  return std::array{"clean", "single", "outside", "pair", "confounded"}[static_cast<std::size_t>(kind)];
+}
+
+Set set_of(std::size_t number, std::uint64_t first_seed) {
+  const std::size_t round = number / kPattern.size(), place = number % kPattern.size();
+  Set set{number, kPattern[place], kClear, {}};
+  const auto before = static_cast<std::size_t>(
+      std::count(kPattern.begin(), kPattern.begin() + static_cast<std::ptrdiff_t>(place), set.kind));
+  const auto each = static_cast<std::size_t>(std::count(kPattern.begin(), kPattern.end(), set.kind));
+  const std::size_t count = round * each + before;  // of this kind, before this one
+  const std::uint64_t seed = first_seed + number;
+  std::vector<truth::Hidden> effects;
+  std::string rig;
+  if (set.kind == Kind::single || set.kind == Kind::outside) {
+    const auto all = names(set.kind == Kind::single);
+    effects = {{all[count * (set.kind == Kind::single ? 5 : 1) % all.size()], 1, ""}};
+    if (set.kind == Kind::single) set.multiple = kMultiples[count / all.size() % kMultiples.size()];
+    rig = rig_for(effects, count + count / all.size());
+  } else if (set.kind == Kind::pair) {
+    effects = two(count);
+    rig = rig_for(effects, count);
+  } else if (set.kind == Kind::confounded) {
+    const Alike& alike = kAlike[count % kAlike.size()];
+    effects = {{alike.name, 1, alike.axis}};
+    set.request = case_on("tower", seed);
+    set.request.training_runs = {alike.run, alike.run};
+    set.request.test_runs = {alike.run};
+  } else {
+    rig = rig_for({}, count);
+    set.multiple = 0;
+  }
+  if (!rig.empty()) set.request = case_on(rig, seed);
+  set.request.effects = effects;
+  set_amplitudes(set.request, set.multiple);
+  return set;
+}
+
+std::string run_like(const std::string& experiment) {
+  const auto begins = [&](const char* with) { return experiment.starts_with(with); };
+  if (begins("slow_sweep") || begins("two_speeds")) return "slow";
+  if (begins("break_away")) return "rest_breakaway";
+  if (begins("shaking")) return "rich";
+  if (begins("load_swinging")) return "swing";
+  if (begins("second_cable_length")) return "two_lengths";
+  if (begins("half_turn")) return "slew_180";
+  return "";  // the truth has no added mass
+}
+
+}  // namespace crane::diagnosis::score

@@ -1,0 +1,64 @@
+#include "hidden_set.hpp"
+
+namespace crane::diagnosis::score {
+
+const std::vector<HiddenSet> kFoundAlone{{"command_delay", "trolley", "drive_axis"},
+                                         {"coulomb_friction", "trolley", "drive_axis", -1},
+                                         {"viscous_friction", "trolley", "drive_axis"},
+                                         {"direction_asymmetry", "trolley", "drive_axis"},
+                                         {"stribeck_friction", "trolley", "drive_axis"},
+                                         {"position_dependent_friction", "trolley", "drive_axis"},
+                                         {"motor_gain", "trolley", "drive_axis"},
+                                         {"actuator_lag", "trolley", "drive_axis"},
+                                         {"payload_mass", "", "gantry"},
+                                         {"load_linear_drag", "", "tower"},
+                                         {"load_quadratic_drag", "", "tower"},
+                                         {"swing_pivot_friction", "", "tower"},
+                                         {"jib_tilt", "", "tower"},
+                                         {"jib_flexibility", "", "tower"},
+                                         {"swing_scale", "radial", "tower"},
+                                         {"swing_delay", "", "tower"}};
+
+// Causes that the library has and these data show, but that come out as "unknown", ambiguous or not at all.
+const std::vector<HiddenSet> kNotFoundYet{
+    {"backlash", "trolley", "tower"},           {"double_pendulum", "", "tower"},
+    {"torque_ripple", "trolley", "drive_axis"}, {"position_drift", "trolley", "drive_axis"},
+    {"swing_moving_average", "", "tower"},      {"swing_misalignment", "", "tower"},
+    {"swing_offset", "radial", "tower"},        {"cable_length", "", "tower", -1},
+    {"cable_elasticity", "", "tower"},          {"position_scale", "trolley", "drive_axis"}};
+
+const std::vector<HiddenSet> kWithoutTerm{{"command_delay", "trolley", "drive_axis"},
+                                          {"stribeck_friction", "trolley", "drive_axis"},
+                                          {"position_dependent_friction", "trolley", "drive_axis"},
+                                          {"position_scale", "trolley", "drive_axis"},
+                                          {"motor_gain", "trolley", "drive_axis"},
+                                          {"viscous_friction", "trolley", "drive_axis"},
+                                          {"direction_asymmetry", "trolley", "drive_axis"}};
+
+const std::vector<HiddenSet> kSwitchedOff{{"command_delay", "trolley", "drive_axis", 0, 8},
+                                          {"swing_delay", "", "tower", 0},
+                                          {"payload_mass", "", "gantry", 0, 9}};
+
+const std::vector<HiddenSet> kOutside{
+    {"magnetic_detent", "trolley", "drive_axis"},  {"gain_drift", "trolley", "drive_axis"},
+    {"hysteretic_force", "trolley", "drive_axis"}, {"sticking_brake", "trolley", "drive_axis"},
+    {"periodic_force", "trolley", "drive_axis"},   {"load_periodic_force", "", "gantry"},
+    {"slew_crosstalk", "trolley", "tower"}};
+
+// A dead zone is what Coulomb friction does while the axis moves; an offset likewise of asymmetric friction.
+const std::vector<HiddenSet> kAlike{{"command_dead_zone", "trolley", "drive_axis"},
+                                    {"command_offset", "trolley", "drive_axis"},
+                                    {"steady_wind", "", "tower"}};
+
+const std::vector<HiddenPair> kPairs{
+    {{"command_delay", "trolley", "drive_axis"}, {"viscous_friction", "trolley", "drive_axis"}}};
+
+const std::vector<HiddenSet> kFreshCauses{{"command_delay", "trolley", "drive_axis"},
+                                          {"viscous_friction", "trolley", "drive_axis"},
+                                          {"direction_asymmetry", "trolley", "drive_axis"},
+                                          {"position_dependent_friction", "trolley", "drive_axis"},
+                                          {"motor_gain", "trolley", "drive_axis"},
+                                          {"actuator_lag", "trolley", "drive_axis"},
+                                          {"", "", "drive_axis"}};
+
+}  // namespace crane::diagnosis::score

@@ -1,0 +1,41 @@
+#pragma once
+/// One data set, scored: a line of JSON in the file of results.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "deck.hpp"
+#include "judgement.hpp"
+
+namespace crane::diagnosis::score {
+
+struct Record {
+  std::size_t number = 0;
+  std::uint64_t seed = 0;
+  std::string kind, rig, hidden;       ///< hidden: "command_delay@trolley + payload_mass"
+  std::vector<std::string> causes;     ///< names, as hidden
+  double multiple = 0, amplitude = 0;  ///< of the first effect
+  std::string judged;                  ///< name_of(Judged); "no data" when the crane leaves its range
+  std::string verdict, found;
+  double gain = 0, oracle_gain = 0;  ///< oracle: refit of the true structure alone
+  bool oracle = false;               ///< there is one
+  int inside = 0, within_5pc = 0, either = 0, parameters = 0;
+  std::string experiment;  ///< proposed next one
+  std::string resolved;    ///< judged again with that run; empty: not tried
+  double data_s = 0, runtime_s = 0, peak_mb = 0;
+};
+
+/// Generates, diagnoses, opens the answer, judges; then the oracle and, for confounded sets, the next
+/// experiment.
+[[nodiscard]] Record scored(const Set& set);
+
+[[nodiscard]] std::string line_of(const Record& record);
+/// Lines that end the file in the middle of a record are left out.
+[[nodiscard]] std::vector<Record> read_records(const std::filesystem::path& file);
+/// One write at the end of the file, so that several processes may share it. @throws std::runtime_error
+void append(const std::filesystem::path& file, const Record& record);
+
+/// The targets' table of the records, as Markdown.
+[[nodiscard]] std::string table_of(const std::vector<Record>& records);
+
+}  // namespace crane::diagnosis::score

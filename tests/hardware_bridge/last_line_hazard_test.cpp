@@ -1,0 +1,129 @@
+// The bridge's own decision, hazard by hazard: what goes wrong, when it is stopped, and why. Each timeline is
+// also run with its check taken away, and has to go unnoticed then: no check is there for nothing, and none
+// stands in for another.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "last_line_timeline.hpp"
+
+namespace crane::bridge::test {
+namespace {
+
+struct Hazard {
+  const char* name;
+  Reason reason;
+  int longest_ticks;  ///< from its begin until the outputs are safe
+  std::function<void(Timeline&)> begin;
+  /// Runs on; the first of these ticks is the first one spoilt.
+  std::function<void(Timeline&, int)> every_tick = [](Timeline&, int) {};
+  double trolley_m = 0.6;
+  friend std::ostream& operator<<(std::ostream& out, const Hazard& hazard) { return out << hazard.name; }
+};
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<Hazard> hazards() {
+  return {
+      {"SupervisorIsSilent", Reason::command_stale, 5, [](Timeline& t) { t.commands_come = false; }},
+      {"CommandIsNotANumber", Reason::command_not_finite, 1, [](Timeline& t) { t.drive_v[1] = kNan; }},
+      {"CommandIsInfinite", Reason::command_not_finite, 1,
+       [](Timeline& t) { t.drive_v[1] = std::numeric_limits<double>::infinity(); }},
+      {"CommandIsBeyondTheDrive", Reason::command_range, 1,
+       [](Timeline& t) {
+         t.drive_v[2] = 9;
+         t.tick();
+         t.drive_v[2] = 10.5;
+       }},
+      {"CommandJumps", Reason::command_rate, 1,
+       [](Timeline& t) {
+         t.drive_v[1] = -9;
+         t.tick();
+         t.drive_v[1] = 9;  // 18 V within a tick of 10 ms and 1000 V/s
+       }},
+      {"AxisRunsIntoItsLimit", Reason::position, 25, [](Timeline& t) { t.drive_v[0] = 3; },
+       [](Timeline&, int) {}, 1.2},
+      {"AxisIsTooFast", Reason::speed, 2, [](Timeline&) {},
+       [](Timeline& t, int tick) { t.speed_mps = tick == 0 ? 1.8 : 0; }},
+      {"LoadSwingsTooFar", Reason::swing, 20, [](Timeline&) {},
+       [](Timeline& t, int) { t.swing_rad += 0.08; }},
+      {"AxisWithoutAZeroIsToMove", Reason::not_homed, 1, [](Timeline& t) { t.unknown = true; }},
+      {"EncoderJumps", Reason::encoder_jump, 1, [](Timeline& t) { t.swing_rad = 0.5; }},
+      {"SwitchClosesFarFromTheLimit", Reason::lost_counts, 1, [](Timeline& t) { t.limit_high = true; }},
+      {"BrakeDoesNotHold", Reason::braked_motion, 30,
+       [](Timeline& t) {
+         t.release = false;
+         t.tick(20);
+         t.slips = true;
+       },
+       [](Timeline& t, int) { t.speed_mps = 0.15; }},
+      {"EncoderIsDead", Reason::encoder_frozen, 11,
+       [](Timeline& t) {
+         t.encoder_dead = true;
+         t.drive_v[0] = 6;
+       }},
+      {"ConverterIsWiredTheWrongWayRound", Reason::drive_response, 11,
+       [](Timeline& t) {
+         t.converter_gives = -1;
+         t.drive_v[0] = 3;
+       }},
+      {"ConverterIsStuck", Reason::drive_response, 11, [](Timeline& t) { t.converter_stuck_v = 5; }},
+  };
+}
+
+class LastLineHazard : public testing::TestWithParam<Hazard> {
+ protected:
+  /// Ordinary ticks, then the hazard. @return ticks from its begin until the crane was stopped, -1: it was
+  /// not
+  static int run(Timeline& timeline, const Hazard& hazard) {
+    timeline.start_at(hazard.trolley_m);
+    EXPECT_TRUE(timeline.tick(40)) << name_of(timeline.line.reason());
+    hazard.begin(timeline);
+    EXPECT_EQ(timeline.line.reason(), Reason::none) << "stopped before the hazard";
+    for (int i = 0; i < 40; ++i) {
+      hazard.every_tick(timeline, i);
+      if (!timeline.tick()) return i + 1;
+    }
+    return -1;
+  }
+};
+
+TEST_P(LastLineHazard, IsStoppedInTimeForItsReasonAndForGood) {
+  const auto& hazard = GetParam();
+  Timeline timeline;
+  const int taken = run(timeline, hazard);
+  EXPECT_GT(taken, 0) << "never stopped";
+  EXPECT_LE(taken, hazard.longest_ticks);
+  EXPECT_EQ(timeline.line.reason(), hazard.reason) << name_of(timeline.line.reason());
+  timeline.expect_safe();
+  timeline.drive_v = {};
+  timeline.commands_come = true;
+  timeline.tick(100);
+  EXPECT_EQ(timeline.line.reason(), hazard.reason) << "a hazard that passes must not restart anything";
+}
+
+TEST_P(LastLineHazard, WithoutItsCheckIsNotStoppedForThatReasonNorInTime) {
+  const auto& hazard = GetParam();
+  std::vector<Check> others;
+  std::ranges::copy_if(last_line_checks(), std::back_inserter(others),
+                       [&hazard](const Check& check) { return check.reason != hazard.reason; });
+  Timeline timeline{others};
+  const int taken = run(timeline, hazard);
+  EXPECT_TRUE(taken < 0 || taken > hazard.longest_ticks)
+      << "stopped by " << name_of(timeline.line.reason()) << " after " << taken << " ticks";
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, LastLineHazard, testing::ValuesIn(hazards()),
+                         [](const auto& test) { return std::string{test.param.name}; });
+
+TEST(LastLine, EveryCheckHasATimelineThatNeedsIt) {
+  const auto all = hazards();
+  for (const auto& check : last_line_checks())
+    EXPECT_TRUE(std::ranges::any_of(all, [&](const Hazard& hazard) { return hazard.reason == check.reason; }))
+        << name_of(check.reason);
+}
+
+}  // namespace
+}  // namespace crane::bridge::test

@@ -1,0 +1,113 @@
+#pragma once
+/// A trolley before the bridge's last line, tick by tick.
+#include <algorithm>
+#include <cmath>
+
+#include "crane/bridge/last_line.hpp"
+#include "subject.hpp"
+
+namespace crane::bridge::test {
+
+inline constexpr double kPeriod_s = 0.01;
+
+inline const runtime::Rig& tower() {
+  static const auto rig = emulated_rig();
+  return rig;
+}
+
+/// The same crane, switched on anywhere: every axis has to be homed.
+inline const runtime::Rig& homing_tower() {
+  static const auto rig = runtime::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
+  return rig;
+}
+
+/// A trolley, its brakes and its supervisor, tick by tick. Tests spoil one of the public numbers.
+class Timeline {
+ public:
+  explicit Timeline(std::span<const Check> checks = last_line_checks(), const runtime::Rig& rig = tower())
+      : line{last_line_parameters(rig), checks}, rig_{rig}, checks_{checks} {
+    tick();
+  }
+
+  double trolley_m = 0.6, speed_mps = 0;
+  double swing_rad = 0;
+  std::array<double, kDrives> drive_v{};
+  bool release = true, permission = true, commands_come = true;
+  bool encoder_dead = false, brake_opens = true;
+  double encoder_offset_m = 0;
+  double converter_gives = 1;  ///< times the volts asked for
+  double converter_stuck_v = 0;
+  bool limit_high = false;
+  bool unknown = false, homing = false,
+       mark = false;  ///< the trolley has no zero; it is homed; it is below its mark
+
+  /// Elsewhere, as a new line that has seen nothing yet.
+  void start_at(double position_m) {
+    line = LastLine{last_line_parameters(rig_), checks_};
+    outputs = {};
+    trolley_m = position_m;
+    tick();
+  }
+  /// @return true while the last line lets the command through
+  bool tick(int ticks = 1) {
+    for (int i = 0; i < ticks; ++i) step();
+    return line.reason() == Reason::none;
+  }
+  /// Ticks until it stops the crane; `most` when it does not.
+  int ticks_until_stopped(int most = 50) {
+    for (int i = 1; i <= most; ++i)
+      if (!tick()) return i;
+    return most;
+  }
+  void expect_safe() {
+    EXPECT_EQ(outputs.drive_v, kNothing);
+    EXPECT_EQ(outputs.brake_release, (std::array<bool, kDrives>{}));
+    tick();
+    EXPECT_FALSE(outputs.watchdog_level) << "toggles on";
+    tick();
+    EXPECT_FALSE(outputs.watchdog_level) << "toggles on";
+  }
+
+  LastLine line;
+  Outputs outputs;
+  std::optional<CommandView> command;
+  std::uint64_t now = 0;
+
+ private:
+  void step() {
+    ++now;
+    if (commands_come)
+      command = CommandView{now - 1, drive_v, {release, release, release}, permission, {homing}};
+    move();
+    Seen seen;
+    if (!encoder_dead) shown_m_ = trolley_m + encoder_offset_m;
+    seen.coordinate = {shown_m_, 0, 1, swing_rad, 0};
+    seen.counts[0] = std::llround(shown_m_ * rig_.encoders[0].counts_per_unit);
+    seen.applied_v = outputs.drive_v;
+    const bool open = brake_opens && outputs.brake_release[0];
+    seen.brake_closed = {!open, !open, !open};
+    seen.limit_high[0] = limit_high;
+    seen.unknown[0] = unknown;
+    seen.mark[0] = mark;
+    outputs = line.decide(command, now, seen);
+  }
+  /// Without friction; an open brake lets the trolley run.
+  void move() {
+    const bool open = brake_opens && outputs.brake_release[0];
+    if (open)
+      speed_mps += 2 * (outputs.drive_v[0] * converter_gives + converter_stuck_v) * kPeriod_s;
+    else if (!slips)
+      speed_mps = 0;
+    trolley_m += speed_mps * kPeriod_s;
+  }
+
+ public:
+  bool slips = false;
+
+ private:
+  double shown_m_ = 0.6;
+  const runtime::Rig& rig_;
+  std::span<const Check> checks_;
+};
+
+}  // namespace crane::bridge::test

@@ -1,0 +1,259 @@
+// Axes without a zero: what is refused, how one creeps to its mark, and every way in which that fails.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "timeline.hpp"
+
+namespace crane::supervisor {
+namespace {
+
+constexpr double kMark_m = 0.1;
+
+Limits homing_limits() {
+  Limits limits = test_limits();
+  limits.axis[0].zero = control::Zero::homing;
+  limits.axis[0].homing = {.mark = control::Mark::limit_low,
+                           .position = kMark_m,
+                           .speed = 0.05,
+                           .approach_speed = 0.01,
+                           .back_off = 0.02,
+                           .volt_limit_v = 4};
+  return limits;
+}
+
+/// A trolley that follows the creeping reference, its limit switches, and a bridge that knows its zero when
+/// the mark was seen twice and the brake has closed.
+class Crane : public Timeline {
+ public:
+  explicit Crane(double from_m = 0.3) : Timeline{homing_limits()}, true_m{from_m} {
+    world.sample.position[0] = 1.4;
+    world.sample.position_unknown[0] = true;
+  }
+
+  double true_m, follows = 1;
+  bool stuck_closed = false, never_closes = false, bridge_agrees = true, mirrored = false;
+
+  void live(double seconds) {
+    for (int i = 0; i < std::lround(seconds / limits.period_s); ++i) live_a_tick();
+  }
+  /// @return seconds until the crane was stopped, at most `longest_s`
+  double live_until_stopped(double longest_s = 60) {
+    for (double passed_s = 0; passed_s < longest_s; passed_s += limits.period_s) {
+      if (state() >= State::stop_c1 || state() == State::locked) return passed_s;
+      live_a_tick();
+    }
+    return longest_s;
+  }
+  Answer home(std::size_t axis = 0) {
+    world.home_axis = axis;
+    return ask(Request::home);
+  }
+  void to_homing() {
+    to_ready();
+    run(0.1);
+    EXPECT_TRUE(home().accepted);
+    for (int i = 0; i < 50 && state() == State::arming; ++i) live(limits.period_s);
+    EXPECT_EQ(state(), State::run);
+  }
+  [[nodiscard]] bool known() const { return !world.sample.position_unknown[0]; }
+  [[nodiscard]] int sights() const { return sights_; }
+
+ private:
+  void live_a_tick() {
+    Sample& sample = world.sample;
+    speed[0] = follows * out.homing_speed[0];
+    if (!sample.brake_closed[0]) true_m += (mirrored ? -speed[0] : speed[0]) * limits.period_s;
+    const bool closed = stuck_closed || (!never_closes && true_m <= kMark_m);
+    sights_ += closed && !sample.mark_active[0] ? 1 : 0;
+    sample.mark_active[0] = sample.limit_low[0] = closed;
+    sample.limit_high[0] = true_m >= 1.4;
+    sample.mark_found[0] = bridge_agrees && sights_ >= 2 && sample.position_unknown[0];
+    if (out.homing[0]) {
+      sample.position_unknown[0] = true;
+    } else if (sample.mark_found[0] && sample.brake_closed[0] && !closed) {
+      sample.position[0] = true_m;
+      sample.position_unknown[0] = sample.mark_found[0] = false;
+    }
+    tick();
+    EXPECT_FALSE(out.brake_release[1]) << "only the axis that is homed";
+    EXPECT_EQ(out.drive_v[1], 0);
+    EXPECT_LE(std::abs(out.drive_v[0]), limits.axis[0].homing.volt_limit_v);
+  }
+  int sights_ = 0;
+};
+
+TEST(HomingLimits, AreCheckedWithTheOthers) {
+  Limits limits = homing_limits();
+  EXPECT_TRUE(problems(limits).empty());
+  limits.axis[0].homing.speed = 0.005;  // below that of the approach
+  limits.axis[0].homing.position = 2;
+  limits.axis[0].homing.back_off = 0;
+  EXPECT_EQ(problems(limits).size(), 3U);
+}
+
+TEST(Homing, WithoutAZeroArmingAndMovingAreRefusedWithWhatToDo) {  // S21
+  Crane t;
+  t.to_ready();
+  t.run(0.1);
+  for (const Answer& answer : {t.arm(), t.move()}) {
+    EXPECT_FALSE(answer.accepted);
+    EXPECT_NE(std::string_view{answer.reason}.find("crane home --axis trolley"), std::string_view::npos);
+  }
+  EXPECT_EQ(t.state(), State::ready);
+  EXPECT_TRUE(t.safe());
+}
+
+TEST(Homing, OfAnAxisWithoutAMarkOrOfAnArmedCraneIsRefused) {
+  Crane t;
+  t.to_locked();
+  EXPECT_FALSE(t.home().accepted) << "reset first";
+  t.reset();
+  EXPECT_FALSE(t.home(1).accepted);
+  t.world.sample.position_unknown[0] = false;
+  t.run(0.2);
+  t.arm();
+  t.run(0.5);
+  ASSERT_EQ(t.state(), State::hold);
+  EXPECT_FALSE(t.home().accepted);
+  EXPECT_EQ(t.state(), State::hold);
+}
+
+TEST(Homing, FindsTheMarkTwiceAndEndsLockedWithAKnownPosition) {  // S22
+  for (const double from_m :
+       {0.3, 0.105, 0.08, 1.4}) {  // the third stands on its mark, the last on the other switch
+    Crane t{from_m};
+    t.to_homing();
+    t.demand(9);  // the gate lets no more through than creeping takes
+    t.live_until_stopped();
+    EXPECT_EQ(t.cause(), Cause::homed) << from_m;
+    t.live(0.5);
+    EXPECT_EQ(t.state(), State::locked) << name_of(t.cause());
+    EXPECT_TRUE(t.safe());
+    EXPECT_TRUE(t.known());
+    EXPECT_EQ(t.sights(), from_m < kMark_m ? 3 : 2);
+    EXPECT_NEAR(t.true_m, kMark_m + 0.02, 0.005) << "off the mark";
+    t.demand(0);
+    t.run(1.1);
+    EXPECT_TRUE(t.reset().accepted);
+    t.run(0.1);
+    EXPECT_TRUE(t.arm().accepted);
+    t.run(0.5);
+    EXPECT_EQ(t.state(), State::hold) << name_of(t.cause());
+  }
+}
+
+TEST(Homing, CreepsBackAndApproachesSlowly) {
+  Crane t;
+  t.to_homing();
+  std::vector<double> speeds;
+  while (t.state() == State::run) {
+    t.live(0.01);
+    const double speed = t.out.homing_speed[0];
+    if (speed != 0 && (speeds.empty() || speeds.back() != speed)) speeds.push_back(speed);
+  }
+  EXPECT_EQ(speeds, (std::vector<double>{-0.05, 0.05, -0.01, 0.05}));
+}
+
+struct Failure {
+  const char* name;
+  std::function<void(Crane&)> begin;
+  HomingFailure expected;
+  double longest_s;
+  double from_m = 0.3;
+  friend std::ostream& operator<<(std::ostream& out, const Failure& failure) { return out << failure.name; }
+};
+
+class HomingFails : public ::testing::TestWithParam<Failure> {};
+
+TEST_P(HomingFails, WithPowerOffANameAndNoZero) {  // S23
+  const auto& failure = GetParam();
+  Crane t{failure.from_m};
+  failure.begin(t);
+  t.to_homing();
+  EXPECT_LE(t.live_until_stopped(), failure.longest_s);
+  EXPECT_EQ(t.state(), State::stop_c0);
+  EXPECT_EQ(t.cause(), Cause::homing_failed);
+  EXPECT_EQ(t.out.homing_failure, failure.expected) << name_of(t.out.homing_failure);
+  EXPECT_STRNE(remedy_for(t.out.homing_failure), "");
+  EXPECT_TRUE(t.safe());
+  t.live(1.5);
+  EXPECT_EQ(t.state(), State::locked);
+  EXPECT_FALSE(t.known());
+  t.reset();
+  t.run(0.1);
+  EXPECT_FALSE(t.arm().accepted);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, HomingFails,
+    ::testing::Values(
+        Failure{"TheSwitchNeverCloses", [](Crane& c) { c.never_closes = true; },
+                HomingFailure::mark_not_found, 30},
+        Failure{"TheSwitchIsStuckClosed", [](Crane& c) { c.stuck_closed = true; }, HomingFailure::mark_stuck,
+                2},
+        Failure{"BothSwitchesAreClosed",
+                [](Crane& c) {
+                  c.stuck_closed = true;
+                  c.true_m = 1.4;
+                },
+                HomingFailure::mark_stuck, 0.1},
+        // Signs of drive and encoder both wrong: the loop is stable, and the axis goes the other way.
+        Failure{"TheOtherSwitchIsReached", [](Crane& c) { c.mirrored = true; }, HomingFailure::other_switch,
+                3, 1.35},
+        Failure{"TheAxisDoesNotFollow", [](Crane& c) { c.follows = 0; }, HomingFailure::no_motion, 2},
+        Failure{"TheAxisGoesTheWrongWay", [](Crane& c) { c.follows = -0.2; }, HomingFailure::no_motion, 5},
+        Failure{"TheBridgeSawTwoPlaces", [](Crane& c) { c.bridge_agrees = false; },
+                HomingFailure::mark_disagrees, 30}),
+    [](const auto& test) { return std::string{test.param.name}; });
+
+TEST(Homing, InterruptedByAStopOrTheEmergencyStopLeavesTheAxisWithoutAZero) {
+  const std::pair<Request, Cause> interruptions[] = {{Request::stop, Cause::operator_stop},
+                                                     {Request::disarm, Cause::operator_disarm},
+                                                     {Request::estop, Cause::operator_estop}};
+  for (const auto& [request, cause] : interruptions) {
+    Crane t;
+    t.to_homing();
+    t.live(1);
+    t.ask(request);
+    t.live(2);
+    EXPECT_EQ(t.cause(), cause);
+    EXPECT_TRUE(t.safe());
+    EXPECT_FALSE(t.known());
+    EXPECT_FALSE(t.out.homing[0]);
+  }
+}
+
+TEST(Homing, AnAxisThatDoesNotCreepIsStopped) {
+  Crane t;
+  t.to_homing();
+  t.follows = 3;
+  t.live(0.03);
+  EXPECT_EQ(t.state(), State::stop_c0);
+  EXPECT_EQ(t.cause(), Cause::overspeed);
+}
+
+TEST(Homing, MovingWhileAnAxisIsHomedIsRefused) {
+  Crane t;
+  t.to_homing();
+  EXPECT_FALSE(t.ask(Request::move).accepted);
+  EXPECT_FALSE(t.arm().accepted);
+  EXPECT_EQ(t.state(), State::run);
+}
+
+TEST(Homing, AZeroThatIsLostWhileArmedStopsTheCrane) {  // S24
+  Timeline t{homing_limits()};
+  t.to_run();
+  ASSERT_EQ(t.state(), State::run);
+  t.world.sample.position_unknown[0] = true;
+  t.tick();
+  EXPECT_EQ(t.state(), State::stop_c0);
+  EXPECT_EQ(t.cause(), Cause::not_homed);
+  EXPECT_TRUE(t.safe());
+}
+
+}  // namespace
+}  // namespace crane::supervisor

@@ -1,0 +1,145 @@
+// Limits of place, speed and swing, and brakes that do not obey.
+#include <gtest/gtest.h>
+
+#include "timeline.hpp"
+
+namespace crane::supervisor {
+namespace {
+
+TEST(Supervisor, StopsBeforeThePositionLimit) {  // S9
+  Timeline t;
+  t.to_run();
+  t.demand(3);
+  t.speed = {0.9, 0, 0};
+  while (t.state() == State::run) t.tick();
+  EXPECT_EQ(t.cause(), Cause::stopping_envelope);
+  EXPECT_EQ(t.out.drive_v[0], 0);  // no voltage towards the limit, not even during the ramp
+  const double left = t.limits.axis[0].high_limit - t.world.sample.position[0];
+  EXPECT_GE(left + 0.9 * t.limits.period_s, stopping_distance(t.limits, 0, 0.9) - 1e-9);
+  t.run(0.5);
+  EXPECT_EQ(t.state(), State::locked);
+  EXPECT_LT(t.world.sample.position[0], t.limits.axis[0].high_limit);
+}
+
+TEST(Supervisor, CutsPowerBeyondThePositionLimitAndStaysLockedThere) {  // S9
+  Timeline t;
+  t.to_run();
+  t.world.sample.position[0] = 1.405;
+  t.tick();
+  EXPECT_EQ(t.state(), State::stop_c0);
+  EXPECT_TRUE(t.safe());
+  t.run(3);
+  EXPECT_STREQ(t.reset().reason, remedy_for(Cause::position_limit));
+}
+
+struct PowerOff {
+  const char* name;
+  void (*cause)(Timeline&);
+  Cause expected;
+};
+
+TEST(Supervisor, CutsPowerAndBrakesInTheTickThatShowsTheCause) {  // S10
+  const PowerOff cases[] = {
+      {"second writer", [](Timeline& t) { t.world.second_writer = true; }, Cause::second_writer},
+      {"stale commands", [](Timeline& t) { t.world.sample.command_stale = true; }, Cause::bridge_latched},
+      {"invalid command", [](Timeline& t) { t.world.sample.command_invalid = true; }, Cause::bridge_latched},
+      {"relay", [](Timeline& t) { t.world.sample.watchdog_dropped = true; }, Cause::bridge_latched},
+      {"limit switch", [](Timeline& t) { t.world.sample.limit_low[1] = true; }, Cause::limit_switch},
+      {"encoder jump", [](Timeline& t) { t.world.sample.position[1] += 0.03; }, Cause::overspeed},
+      {"brake closed by itself", [](Timeline& t) { t.world.sample.brake_closed[0] = true; },
+       Cause::brake_did_not_open}};
+  for (const PowerOff& c : cases) {
+    Timeline t;
+    t.to_run();
+    t.demand(5);
+    t.ticks(2);
+    ASSERT_TRUE(t.powered());
+    c.cause(t);
+    t.tick();
+    EXPECT_EQ(t.state(), State::stop_c0) << c.name;
+    EXPECT_EQ(t.cause(), c.expected) << c.name;
+    EXPECT_TRUE(t.safe()) << c.name;
+    EXPECT_FALSE(t.out.watchdog_permission) << c.name;
+  }
+}
+
+TEST(Supervisor, SwingAboveTheLimitIsDampedFirstAndBrakedWhenItGrows) {  // S11
+  Timeline t;
+  t.to_run();
+  t.speed = {0.2, 0, 0};
+  t.demand(2);
+  t.run(0.2);
+  t.world.sample.swing_tangential_rad = 0.75;
+  t.tick();
+  EXPECT_EQ(t.state(), State::stop_c1);
+  EXPECT_EQ(t.cause(), Cause::swing_limit);
+  t.run(0.2);
+  EXPECT_TRUE(t.released());
+  t.world.sample.swing_tangential_rad = -0.9;
+  t.ticks(2);
+  EXPECT_TRUE(t.safe());
+}
+
+TEST(Supervisor, AFreelySwingingLoadIsNoFaultAndBelowTheLimitDoesNotHinderArming) {  // S11
+  Timeline t;
+  for (int i = 0; i < 3000; ++i) {
+    const double swing = 0.65 * std::sin(3.13 * i * t.limits.period_s);
+    t.world.sample.swing_radial_rad = swing;
+    t.demand(-15 * swing);  // gain scheduling answers a swing at once
+    if (i == 1000) t.world.requests[index_of(Request::reset)] = true;
+    if (i == 1100) t.world.requests[index_of(Request::arm)] = true;
+    t.tick();
+    if (i >= 5 && i < 1000) {
+      ASSERT_EQ(t.state(), State::locked);
+    }
+  }
+  EXPECT_EQ(t.state(), State::hold);
+}
+
+TEST(Supervisor, MotionAfterTheBrakesShouldHaveStoppedItIsAFault) {  // S13
+  Timeline t;
+  t.to_run();
+  t.speed = {0.5, 0, 0};
+  t.run(0.3);
+  t.axes_slip = true;
+  t.estop();
+  EXPECT_EQ(t.state(), State::estop);
+  t.run(0.3);
+  EXPECT_EQ(t.state(), State::fault);
+  EXPECT_EQ(t.cause(), Cause::brake_did_not_close);
+  t.axes_slip = false;
+  t.run(3);
+  EXPECT_FALSE(t.reset().accepted);
+  EXPECT_EQ(t.state(), State::fault);
+}
+
+TEST(Supervisor, ABrakeThatDoesNotReportClosedIsAFault) {  // S13
+  Timeline t;
+  t.to_hold();
+  t.brakes_obey = false;
+  t.world.second_writer = true;
+  t.tick();
+  EXPECT_EQ(t.state(), State::stop_c0);
+  t.run(0.2);
+  EXPECT_EQ(t.state(), State::fault);
+}
+
+TEST(Supervisor, OrdinaryBrakingIsNoFault) {  // S13
+  for (const double deceleration : {5.0, 8.0, 50.0}) {
+    Timeline t;
+    t.to_run();
+    t.speed = {0.8, 0, 0};
+    t.run(0.1);
+    t.estop();
+    t.axes_slip = true;  // slides to a stop, as a braked axis does
+    t.ticks(3);
+    for (int i = 0; i < 200; ++i) {
+      t.speed[0] = std::max(0.0, t.speed[0] - deceleration * t.limits.period_s);
+      t.tick();
+    }
+    EXPECT_EQ(t.state(), State::estop) << deceleration;
+  }
+}
+
+}  // namespace
+}  // namespace crane::supervisor

@@ -1,0 +1,87 @@
+// Stops that an operator or idleness asks for, and which of two causes wins.
+#include <gtest/gtest.h>
+
+#include "timeline.hpp"
+
+namespace crane::supervisor {
+namespace {
+
+TEST(Supervisor, OperatorStopLetsTheControllersBringTheAxesToRest) {  // S7
+  Timeline t;
+  t.to_run();
+  t.speed = {0.3, 0, 0};
+  t.demand(2);
+  t.run(0.3);
+  EXPECT_TRUE(t.stop().accepted);
+  EXPECT_EQ(t.state(), State::stop_c1);
+  EXPECT_TRUE(t.out.stop_motion);
+  EXPECT_TRUE(t.released());
+  EXPECT_EQ(t.out.drive_v[0], 2);
+  t.run(0.3);
+  EXPECT_TRUE(t.released());
+  t.speed = {};
+  t.run(0.3);
+  EXPECT_TRUE(t.safe());
+  EXPECT_EQ(t.state(), State::locked);
+  EXPECT_EQ(t.cause(), Cause::operator_stop);
+}
+
+TEST(Supervisor, AStopThatTakesTooLongClosesTheBrakes) {  // S7
+  Timeline t;
+  t.to_run();
+  t.demand(1);
+  t.speed = {0, 0.2, 0};
+  t.stop();
+  t.run(7.9);
+  EXPECT_TRUE(t.released());
+  t.run(0.2);
+  EXPECT_EQ(t.cause(), Cause::stop_timeout);
+  t.run(0.5);
+  EXPECT_EQ(t.state(), State::locked);
+  EXPECT_TRUE(t.safe());
+}
+
+TEST(Supervisor, DisarmEndsLocked) {  // S7
+  Timeline t;
+  t.to_hold();
+  EXPECT_TRUE(t.disarm().accepted);
+  t.run(0.5);
+  EXPECT_EQ(t.state(), State::locked);
+  EXPECT_EQ(t.cause(), Cause::operator_disarm);
+}
+
+TEST(Supervisor, IdleHoldLocksAfterAMinute) {  // S8
+  Timeline t;
+  t.to_hold();
+  t.run(59);
+  EXPECT_EQ(t.state(), State::hold);
+  t.run(2);
+  EXPECT_EQ(t.state(), State::locked);
+  EXPECT_EQ(t.cause(), Cause::idle);
+}
+
+TEST(Supervisor, AGreaterCauseReplacesALesserOneAndNeverTheOtherWayRound) {  // S15
+  Timeline t;
+  t.to_run();
+  t.speed = {0.2, 0, 0};
+  t.run(0.2);
+  t.stop();
+  EXPECT_EQ(t.cause(), Cause::operator_stop);
+  t.world.demand_arrived = false;
+  t.ticks(3);
+  EXPECT_EQ(t.cause(), Cause::demand_stale);
+  t.world.second_writer = true;
+  t.tick();
+  EXPECT_EQ(t.state(), State::stop_c0);
+  t.estop();
+  EXPECT_EQ(t.state(), State::estop);
+  t.world.second_writer = false;
+  t.world.demand_arrived = true;
+  t.stop();
+  t.run(5);
+  EXPECT_EQ(t.state(), State::estop);
+  EXPECT_EQ(t.cause(), Cause::operator_estop);
+}
+
+}  // namespace
+}  // namespace crane::supervisor

@@ -1,0 +1,237 @@
+// The twin beside a simulated crane: it agrees with its own plant, notices and names what changes, and takes
+// no harm from bad input.
+#include "crane/twin/twin.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+
+#include "simulated_motion.hpp"
+
+namespace crane::test {
+namespace {
+
+using twin::Judgement;
+using twin::Notice;
+using twin::State;
+using twin::Twin;
+
+const runtime::Rig& rig() {
+  static const runtime::Rig kRig = runtime::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  return kRig;
+}
+
+/// Half of the usual learning: seconds of a test are dear.
+twin::Design design() {
+  twin::Design quick;
+  quick.learn_s = 10;
+  return quick;
+}
+
+constexpr long kSecond = 100;  // ticks
+
+class TwinTest : public testing::Test {
+ protected:
+  /// @return the first notice within so many seconds
+  std::optional<Notice> watch(double seconds) {
+    for (long k = 0; k < std::lround(seconds * kSecond); ++k) {
+      twin_.step(motion_.next());
+      if (auto notice = twin_.take_notice()) return notice;
+    }
+    return std::nullopt;
+  }
+  void learn() {
+    const auto notice = watch(20);
+    ASSERT_FALSE(notice) << notice->what;
+    ASSERT_EQ(twin_.judgement().state, State::watching);
+  }
+
+  static constexpr std::uint64_t kSeed = 5;
+  SimulatedMotion motion_{rig(), kSeed};
+  Twin twin_{rig(), design()};
+};
+
+TEST_F(TwinTest, PredictsItsOwnPlantWithinItsBand) {
+  learn();
+  int outside = 0;
+  for (long k = 0; k < 30 * kSecond; ++k) {
+    const Judgement& j = twin_.step(motion_.next());
+    ASSERT_EQ(j.state, State::watching) << "seed " << kSeed << ", tick " << k;
+    for (std::size_t i = 0; i < twin::kColumns; ++i) outside += std::abs(j.residual[i]) > j.band[i];
+  }
+  EXPECT_LT(outside, 30 * kSecond / 1000) << "seed " << kSeed;
+  EXPECT_LT(twin_.judgement().evidence, 0.5);
+  EXPECT_FALSE(twin_.take_notice());
+}
+
+TEST_F(TwinTest, DisturbancesThatWereThereWhileLearningRaiseNoAlarm) {
+  constexpr std::uint64_t kNoisySeed = 11;
+  SimulatedMotion motion{rig(), kNoisySeed, {.drive_v = 0.05, .swing_radps2 = 0.02}};
+  Twin twin{rig(), design()};
+  for (long k = 0; k < 60 * kSecond; ++k) twin.step(motion.next());
+  EXPECT_EQ(twin.judgement().state, State::watching)
+      << "seed " << kNoisySeed << ": " << twin.judgement().cause;
+}
+
+struct Change {
+  const char *name, *cause, *axis;
+  double size;
+  std::function<void(SimulatedMotion&)> happen;
+};
+
+void PrintTo(const Change& change, std::ostream* out) { *out << change.name; }
+
+class ChangeTest : public TwinTest, public testing::WithParamInterface<Change> {};
+
+TEST_P(ChangeTest, IsFoundNamedAndMeasured) {
+  learn();
+  GetParam().happen(motion_);
+  const auto notice = watch(40);
+  ASSERT_TRUE(notice) << "seed " << kSeed;
+  EXPECT_TRUE(notice->deviates);
+  const Judgement& j = twin_.judgement();
+  EXPECT_EQ(j.state, State::deviates);
+  EXPECT_EQ(j.cause, GetParam().cause) << notice->what;
+  EXPECT_EQ(j.axis, GetParam().axis) << notice->what;
+  // The size is linear in the change of the prediction: right to a third.
+  EXPECT_NEAR(j.size, GetParam().size, std::abs(GetParam().size) / 3) << notice->what;
+  EXPECT_NE(notice->what.find(GetParam().cause), std::string::npos) << notice->what;
+  EXPECT_FALSE(notice->remedy.empty());
+  EXPECT_LE(notice->what.size(), 255U);
+  EXPECT_FALSE(watch(3)) << "one event for one deviation";
+}
+
+Change term(const char* name, const char* cause, const char* axis, const char* parameter, double value,
+            double size) {
+  return {name, cause, axis, size, [=](SimulatedMotion& motion) {
+            motion.become_with({cause, axis, {{parameter, value}}});
+          }};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, ChangeTest,
+    testing::Values(term("TrolleyCoulombFriction", "coulomb_friction", "trolley", "level_v", 0.1, 0.1),
+                    term("SlewCoulombFriction", "coulomb_friction", "slew", "level_v", 0.1, 0.1),
+                    term("TrolleyViscousFriction", "viscous_friction", "trolley", "vspm", 1, 1),
+                    term("SlewViscousFriction", "viscous_friction", "slew", "vspm", 0.2, 0.2),
+                    term("TrolleyGain", "motor_gain", "trolley", "factor", 0.9, -0.1),
+                    term("SlewGain", "motor_gain", "slew", "factor", 1.1, 0.1),
+                    term("Payload", "payload_mass", "", "delta_kg", 0.5, 0.5),
+                    term("CableLength", "cable_length", "", "delta_m", 0.05, 0.05),
+                    Change{"TrolleyEncoderSlip", "encoder_slip", "trolley", 0.002,
+                           [](SimulatedMotion& motion) { motion.slip(0, 0.002); }},
+                    Change{"SlewEncoderSlip", "encoder_slip", "slew", -0.003,
+                           [](SimulatedMotion& motion) { motion.slip(1, -0.003); }},
+                    Change{"SwingEncoderSlip", "encoder_slip", "radial", 0.01,
+                           [](SimulatedMotion& motion) { motion.slip(2, 0.01); }},
+                    Change{"Push", "load_pushed", "radial", 0.2,
+                           [](SimulatedMotion& motion) { motion.push(0.2, 0); }}),
+    [](const auto& test) { return std::string{test.param.name}; });
+
+TEST_F(TwinTest, FindsASwingZeroThatWasTakenWhileNobodyLooked) {
+  learn();
+  motion_.become_with({"swing_offset", "tangential", {{"offset_rad", 0.02}}});
+  motion_.next();
+  const auto notice = watch(30);
+  ASSERT_TRUE(notice);
+  EXPECT_EQ(twin_.judgement().cause, "swing_offset") << notice->what;
+  EXPECT_EQ(twin_.judgement().axis, "tangential") << notice->what;
+}
+
+TEST_F(TwinTest, FindsWhatWasWrongFromTheStart) {
+  motion_.become_with({"payload_mass", "", {{"delta_kg", 1}}});
+  const auto notice = watch(40);
+  ASSERT_TRUE(notice);
+  EXPECT_EQ(twin_.judgement().cause, "payload_mass") << notice->what;
+}
+
+TEST_F(TwinTest, AgreesAgainWhenTheCauseIsGone) {
+  learn();
+  motion_.become_with({"coulomb_friction", "slew", {{"level_v", 0.2}}});
+  ASSERT_TRUE(watch(30));
+  motion_.become(rig().plant, rig().terms);
+  const auto notice = watch(30);
+  ASSERT_TRUE(notice);
+  EXPECT_FALSE(notice->deviates);
+  EXPECT_EQ(twin_.judgement().cause, "");
+  EXPECT_FALSE(watch(20));
+}
+
+TEST_F(TwinTest, SaysUnknownToWhatItHasNoNameFor) {
+  learn();
+  motion_.become_with({"torque_ripple", "slew", {{"amplitude_v", 0.5}, {"period", 0.3}}});
+  const auto notice = watch(40);
+  ASSERT_TRUE(notice);
+  EXPECT_EQ(twin_.judgement().cause, "unknown") << notice->what;
+}
+
+TEST_F(TwinTest, WaitsAndCountsAfterMissingTicks) {
+  learn();
+  for (int missing = 0; missing < 5; ++missing) motion_.next();
+  const Judgement& j = twin_.step(motion_.next());
+  EXPECT_EQ(j.state, State::waiting);
+  EXPECT_EQ(j.gaps, 1U);
+  EXPECT_FALSE(watch(10));
+  EXPECT_EQ(twin_.judgement().state, State::watching);
+}
+
+TEST_F(TwinTest, WaitsAndCountsWhatIsNotFinite) {
+  learn();
+  auto sample = motion_.next();
+  sample.applied_v[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(twin_.step(sample).state, State::waiting);
+  sample = motion_.next();
+  sample.rate[2] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(twin_.step(sample).gaps, 2U);
+  EXPECT_FALSE(watch(10));
+  EXPECT_EQ(twin_.judgement().state, State::watching);
+}
+
+TEST_F(TwinTest, BeginsAnewWithAYoungerWriterAndDoesNotListenToAnOlderOne) {
+  learn();
+  auto younger = motion_.next();
+  younger.epoch = 2;
+  younger.tick = 0;
+  EXPECT_EQ(twin_.step(younger).state, State::waiting);
+  EXPECT_EQ(twin_.judgement().gaps, 1U);
+  auto older = motion_.next();
+  older.counts[0] += 100000;
+  twin_.step(older);
+  EXPECT_EQ(twin_.judgement().gaps, 1U);
+  EXPECT_EQ(twin_.judgement().residual[0], 0);
+}
+
+TEST_F(TwinTest, DoesNotJudgeAnAxisThatABrakeHolds) {
+  learn();
+  for (long k = 0; k < 10 * kSecond; ++k) {
+    auto sample = motion_.next();
+    sample.held = {true, true, true};
+    sample.counts[0] = 200000;  // where the brake holds it, whatever is commanded
+    sample.counts[1] = 1000;
+    const Judgement& j = twin_.step(sample);
+    EXPECT_EQ(j.residual[0], 0);
+    EXPECT_EQ(j.residual[1], 0);
+  }
+}
+
+TEST(TwinOfEveryRig, IsQuietWhileTheCraneRests) {
+  for (const auto& entry : std::filesystem::directory_iterator{CRANE_RIGS}) {
+    const auto any_rig = runtime::load_rig(entry.path());
+    Twin twin{any_rig};
+    twin::Sample sample;
+    sample.epoch = 1;
+    for (std::size_t i = 0; i < plant::kAxes; ++i)
+      sample.counts[i] = std::llround(any_rig.encoders[i].sign * any_rig.encoders[i].counts_per_unit *
+                                      any_rig.start.position[i]);
+    for (; sample.tick < 4 * kSecond; ++sample.tick) twin.step(sample);
+    EXPECT_EQ(twin.judgement().state, State::learning) << entry.path();
+    for (std::size_t i = 0; i < twin::kColumns; ++i)
+      EXPECT_NEAR(twin.judgement().residual[i], 0, 1e-3) << entry.path() << ", column " << i;
+    EXPECT_FALSE(twin.take_notice());
+  }
+}
+
+}  // namespace
+}  // namespace crane::test
