@@ -51,7 +51,7 @@ endfunction()
 # crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL | LOOP])
 #   GoogleTest program; each TEST becomes one CTest test. SERIAL: never beside another test (real time, real DDS).
 #   The others carry the label "unit" and are built by the target unit_tests. LOOP: of a room that works while a crane moves; these
-#   carry the label "loop", too, and are built by loop_tests.
+#   carry the label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too.
 add_custom_target(unit_tests)
 add_custom_target(loop_tests)
 function(crane_test name)
@@ -63,10 +63,10 @@ function(crane_test name)
     set(properties RUN_SERIAL TRUE)
   else()
     set(properties "")
-    list(APPEND ARG_LABELS unit)
+    set(ARG_LABELS unit)
     add_dependencies(unit_tests ${name})
     if(ARG_LOOP)
-      list(APPEND ARG_LABELS loop)
+      set(ARG_LABELS unit-loop)
       add_dependencies(loop_tests ${name})
     endif()
   endif()
