@@ -67,6 +67,10 @@ bool Bridge::tick_is_due(std::int64_t now_ns) {
 
 void Bridge::take_commands() {
   while (const auto command = commands_.take()) {
+    if (!tick_ || command->header.tick > *tick_) {  // answers a bridge that was here before
+      ++counts_.late;
+      continue;
+    }
     if (command_epoch_ && command->header.epoch < *command_epoch_) {  // an older supervisor has no say
       ++counts_.conflicting;
       continue;

@@ -47,6 +47,7 @@ static_assert(same(Cause::stop_timeout, crane_CAUSE_STOP_TIMEOUT));
 static_assert(same(Cause::not_homed, crane_CAUSE_NOT_HOMED));
 static_assert(same(Cause::homed, crane_CAUSE_HOMED));
 static_assert(same(Cause::homing_failed, crane_CAUSE_HOMING_FAILED));
+static_assert(same(Cause::bridge_restarted, crane_CAUSE_BRIDGE_RESTARTED));
 static_assert(same(HomingFailure::mark_not_found, crane_HOMING_MARK_NOT_FOUND));
 static_assert(same(HomingFailure::mark_stuck, crane_HOMING_MARK_STUCK));
 static_assert(same(HomingFailure::other_switch, crane_HOMING_OTHER_SWITCH));

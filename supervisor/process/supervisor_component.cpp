@@ -1,6 +1,7 @@
 #include "process/supervisor_component.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_v = runtime::values(demand->total_v);
     }
     input.reference_moving = is_moving(reference);
+    input.bridge_restarted = bridge_epoch_ && *bridge_epoch_ != state->header.epoch;
+    bridge_epoch_ = state->header.epoch;
+    if (input.bridge_restarted) self_test_ = {};
     input.self_test = self_test_.step(state);
     step(input);
   }
@@ -116,6 +120,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
         requests_.reply(*request, last_header_, false, problem);
         continue;
       }
+      if (request->kind == crane_REQUEST_RESET) std::ranges::copy(request->selected, input.confirmed.begin());
       if (request->kind == crane_REQUEST_HOME) input.home_axis = home_axis_of(*request);
       input.requests[static_cast<std::size_t>(*request_of(request->kind))] = true;
       asked.push_back(*request);
@@ -163,6 +168,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   TickMemory memory_;
   msg::Header last_header_{};
   std::int64_t last_step_ns_ = 0;
+  std::optional<std::uint32_t> bridge_epoch_;  ///< start-up number of who writes crane/state
   std::uint64_t conflicts_ = 0;
   std::uint64_t move_id_ = 0;
   int ticks_to_take_up_ = 0;

@@ -8,6 +8,15 @@ constexpr std::array<const char*, kAxes> kNotHomed{
     "the position of the slewing jib is not known: reset, then `crane home --axis slew`",
     "the position of the hoist is not known: reset, then `crane home --axis hoist`"};
 
+constexpr std::array<const char*, kAxes> kUnclear{
+    "the trolley was moving or elsewhere when the bridge ended: see that it stands where `crane status` "
+    "says, "
+    "then `crane reset --confirm-positions`",
+    "the slewing jib was moving or elsewhere when the bridge ended: see that it stands where `crane status` "
+    "says, then `crane reset --confirm-positions`",
+    "the hoist was moving or elsewhere when the bridge ended: see that it stands where `crane status` says, "
+    "then `crane reset --confirm-positions`"};
+
 Answer refuse(const char* reason) { return {.asked = true, .accepted = false, .reason = reason}; }
 constexpr Answer kAccepted{.asked = true, .accepted = true, .reason = ""};
 
@@ -33,6 +42,11 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
     return refuse("an emergency stop was asked for in the same tick: reset again");
   if (m.reset_was_up) return refuse("the reset was already on: take it back, then reset again");
   if (const Cause c = blocking_cause(in); c != Cause::none) return refuse(remedy_for(c));
+  if (in.load_unclear)
+    return refuse(
+        "the load swung when the bridge started, so its zero is wrong: let it hang still, then start the "
+        "bridge again");
+  if (in.place_unclear) return refuse(kUnclear[in.unclear_axis]);
   if (m.state == State::estop && !in.standstill) return refuse("the crane is still moving: wait, then reset");
   if (in.now_s - m.clear_since_s < limits.clear_time_s) {
     return refuse("the causes have been clear for less than a second: wait, then reset again");

@@ -73,6 +73,8 @@ void check_common(const Limits& limits, Problems& problems) {
   problems.at_least("demand_invalid_in_row", limits.demand_invalid_in_row, 1);
   problems.at_least("overruns_in_row", limits.overruns_in_row, 0);
   problems.at_least("clear_time_s", limits.clear_time_s, 0);
+  problems.positive("load_still_rad", limits.load_still_rad);
+  problems.at_least("load_watch_s", limits.load_watch_s, limits.clear_time_s);
   problems.positive("standstill_time_s", limits.standstill_time_s);
   problems.require(limits.c1_ramp_time_s >= 0 && limits.c1_ramp_time_s <= 0.02, "c1_ramp_time_s",
                    limits.c1_ramp_time_s, "must be in [0, 0.02]");

@@ -21,6 +21,7 @@ void observe(const Limits& limits, double now_s, std::uint64_t tick, const PerAx
   }
   memory.position = position;
   memory.tick = tick;
+  memory.seen_s = now_s;
   memory.started = true;
 }
 

@@ -64,6 +64,15 @@ bool accepted(const Answers& answers, Request request) {
   return answers[static_cast<std::size_t>(request)].accepted;
 }
 
+/// What the self-test has shown of the last bridge says nothing about this one. ESTOP and FAULT stay.
+void begin_anew(const Inputs& in, Memory& m) {
+  m.self_test_passed = false;
+  m.clear_since_s = m.fresh_since_s = in.now_s;
+  if (m.state == State::estop || m.state == State::fault) return;
+  enter(State::selftest, Cause::bridge_restarted, in, m);
+  m.releasing = m.ramping = false;
+}
+
 void step_ready(const Inputs& in, const Answers& answers, Memory& m) {
   const Cause blocking = blocking_cause(in);
   if (blocking != Cause::none) {
@@ -130,7 +139,7 @@ void transition(const Limits& limits, const Inputs& in, const Answers& answers, 
     case State::selftest:
       if (in.self_test != SelfTest::passed) break;
       m.self_test_passed = true;
-      enter(State::locked, Cause::start, in, m);
+      enter(State::locked, m.cause, in, m);
       break;
     case State::locked:
     case State::estop:
@@ -185,6 +194,7 @@ Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
   if (blocking_cause(in) != Cause::none || m.state == State::boot) m.clear_since_s = in.now_s;
   if (in.state_stale || in.demand_stale || m.state == State::boot) m.fresh_since_s = in.now_s;
 
+  if (in.bridge_restarted) begin_anew(in, m);
   const Finding finding = worst_cause(limits, in, m);
   if (finding.reaction > severity(m)) react(finding, in, m);
   const Answers answers = answer_all(limits, in, m);

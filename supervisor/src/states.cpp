@@ -57,6 +57,8 @@ constexpr std::array<CauseEntry, kCauses> kTable{{
     {Cause::homed, Reaction::controlled_stop, "HOMED", "the axis has found its mark: reset, then arm"},
     {Cause::homing_failed, Reaction::power_off, "HOMING_FAILED",
      "`crane status` and the events say why; remove the cause, reset, then `crane home`"},
+    {Cause::bridge_restarted, Reaction::power_off, "BRIDGE_RESTARTED",
+     "the positions are those of a new bridge: look where the axes stand, then reset"},
 }};
 
 constexpr bool table_is_in_order() {

@@ -13,6 +13,20 @@ bool all_finite(const Sample& sample) {
          std::isfinite(sample.swing_radial_rad) && std::isfinite(sample.swing_tangential_rad);
 }
 
+/// What has been seen so far was seen by another bridge.
+void take_over_bridge(const Limits& limits, const TickInput& input, TickMemory& memory) {
+  if (!input.bridge_restarted) return;
+  AxisFlags known{};
+  for (std::size_t i = 0; i < kAxes; ++i) known[i] = !memory.sample.position_unknown[i];
+  const bool usable = input.state_arrived && all_finite(input.sample);
+  take_over(limits, input.now_s, memory.motion, known, usable ? &input.sample.position : nullptr,
+            memory.restart);
+  memory.motion = {};
+  memory.brakes = {};
+  memory.sample = {};
+  memory.overruns_in_row = 0;
+}
+
 // @return true when a usable sample has come in this tick
 bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memory) {
   if (!input.state_arrived || !all_finite(input.sample)) {
@@ -27,6 +41,10 @@ bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memor
       rename_place(i, input.sample.position[i], memory.motion, memory.brakes);
   memory.sample = input.sample;
   observe(limits, input.now_s, input.tick, input.sample.position, memory.motion);
+  for (std::size_t i = 0; i < kAxes; ++i)  // an axis without a zero is homed, whatever was thought of it
+    if (memory.sample.position_unknown[i]) memory.restart.doubted[i] = false;
+  watch_load(limits, input.now_s, memory.sample.swing_radial_rad, memory.sample.swing_tangential_rad,
+             memory.restart);
   return true;
 }
 
@@ -44,6 +62,17 @@ AxisFlags unknown_axes(const Limits& limits, const TickMemory& memory) {
   for (std::size_t i = 0; i < kAxes; ++i)
     unknown[i] = limits.axis[i].present && (memory.sample.position_unknown[i] || is_homing(memory, i));
   return unknown;
+}
+
+AxisFlags unclear_axes(const TickInput& input, const TickMemory& memory) {
+  AxisFlags unclear{};
+  for (std::size_t i = 0; i < kAxes; ++i) unclear[i] = memory.restart.doubted[i] && !input.confirmed[i];
+  return unclear;
+}
+
+/// kAxes: none
+std::size_t first_of(const AxisFlags& flags) {
+  return static_cast<std::size_t>(std::ranges::find(flags, true) - flags.begin());
 }
 
 bool every_brake_open(const Limits& limits, const TickMemory& memory) {
@@ -126,8 +155,8 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
 Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelope& envelope,
                       const GateOutput& gated, bool brakes_failed, const TickMemory& memory) {
   const Sample& sample = memory.sample;
-  const AxisFlags unknown = unknown_axes(limits, memory);
-  const auto unhomed = std::ranges::find(unknown, true);
+  const std::size_t unhomed = first_of(unknown_axes(limits, memory));
+  const std::size_t unclear = first_of(unclear_axes(input, memory));
   return {
       .now_s = input.now_s,
       .self_test = input.self_test,
@@ -139,7 +168,11 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .bridge_latched = sample.command_stale || sample.command_invalid,
       .watchdog_dropped = sample.watchdog_dropped,
       .second_writer = input.second_writer,
-      .overrun = limits.overruns_in_row > 0 && memory.overruns_in_row >= limits.overruns_in_row,
+      .bridge_restarted = input.bridge_restarted,
+      .place_unclear =
+          unclear<kAxes, .unclear_axis = unclear % kAxes, .load_unclear = memory.restart.load_doubted,
+                  .overrun = limits.overruns_in_row> 0 &&
+          memory.overruns_in_row >= limits.overruns_in_row,
       .brake_failed = brakes_failed,
       .moved_while_arming =
           memory.machine.releasing && moved(limits, memory.release_position, memory.motion.position),
@@ -148,8 +181,8 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .brakes_closed = every_brake_closed(limits, memory),
       .standstill = standstill(limits, input.now_s, memory.motion),
       .reference_moving = input.reference_moving,
-      .not_homed = unhomed != unknown.end(),
-      .unhomed_axis = unhomed != unknown.end() ? static_cast<std::size_t>(unhomed - unknown.begin()) : 0,
+      .not_homed = unhomed < kAxes,
+      .unhomed_axis = unhomed % kAxes,
       .can_home = limits.axis[input.home_axis].homes(),
       .homed = memory.machine.homing && memory.homing.phase == HomingPhase::done,
       .homing_failure = memory.machine.homing ? memory.homing.failure : HomingFailure::none,
@@ -181,6 +214,7 @@ StatusFlags flags_of(const Inputs& in, const GateOutput& gated, State state) {
 }  // namespace
 
 TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory) noexcept {
+  take_over_bridge(limits, input, memory);
   const bool sampled = take_sample(limits, input, memory);
   const Envelope envelope = envelope_now(limits, memory);
   const bool brakes_failed = watch_brakes(limits, input, sampled, memory);
@@ -195,6 +229,8 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
     memory.homing = {};
     memory.homing_axis = input.home_axis;
   }
+  if (decided.answers[static_cast<std::size_t>(Request::reset)].accepted) memory.restart.doubted = {};
+  if (decided.state == State::ready) memory.restart.watching = false;
   if (decided.brake_release && !was_releasing) memory.release_position = memory.motion.position;
 
   TickOutput out{.state = decided.state,

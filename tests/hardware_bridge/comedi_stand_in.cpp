@@ -96,7 +96,7 @@ int ComediStandIn::read(unsigned subdevice, unsigned channel, unsigned& value) {
 
 int ComediStandIn::direct(unsigned subdevice, unsigned channel, unsigned direction) {
   require_locked(subdevice);
-  require(channel < kChannels, "channel there");
+  require(channel < kChannels && !fixed_lines, "channel there, with a direction to choose");
   note(call("direction", {subdevice, channel, direction}));
   (direction == COMEDI_OUTPUT ? outputs_set_ : inputs_set_)[subdevice] |= 1U << channel;
   return 0;
@@ -105,7 +105,7 @@ int ComediStandIn::direct(unsigned subdevice, unsigned channel, unsigned directi
 int ComediStandIn::bits(unsigned subdevice, unsigned mask, unsigned& value) {
   require_locked(subdevice);
   if (!answers) return -1;
-  require((mask & ~outputs_set_[subdevice]) == 0, "only outputs are written");
+  require(fixed_lines || (mask & ~outputs_set_[subdevice]) == 0, "only outputs are written");
   note(call("bits", {subdevice, mask, value}));
   if (subdevice == kOutputs) {
     output_levels_ = (output_levels_ & ~mask) | (value & mask);
@@ -135,8 +135,9 @@ int comedi_get_subdevice_type(comedi_t*, unsigned subdevice) {
     case ComediStandIn::kAnalogOutputs:
       return COMEDI_SUBD_AO;
     case ComediStandIn::kInputs:
+      return stand_in().fixed_lines ? COMEDI_SUBD_DI : COMEDI_SUBD_DIO;
     case ComediStandIn::kOutputs:
-      return COMEDI_SUBD_DIO;
+      return stand_in().fixed_lines ? COMEDI_SUBD_DO : COMEDI_SUBD_DIO;
     case ComediStandIn::kCountersAt:
       return COMEDI_SUBD_COUNTER;
     default:
@@ -157,9 +158,6 @@ comedi_range* comedi_get_range(comedi_t*, unsigned, unsigned, unsigned range) {
   const double reach_v = range == ComediStandIn::kGoodRange ? stand_in().range_v : 5;
   found = {-reach_v + reach_v / 4096, reach_v, UNIT_volt};
   return &found;
-}
-double comedi_to_phys(lsampl_t data, comedi_range* range, lsampl_t largest) {
-  return range->min + data * ((range->max - range->min) / largest);
 }
 lsampl_t comedi_from_phys(double value, comedi_range* range, lsampl_t largest) {
   EXPECT_TRUE(value >= range->min && value <= range->max) << value;

@@ -34,6 +34,7 @@ class ComediStandIn {
   double range_v = 10;  ///< of the good range
   unsigned stuck_counter = kChannels;
   bool answers = true;
+  bool fixed_lines = false;  ///< inputs and outputs of a kind that cannot be anything else
 
   // What the functions of libcomedi do.
   void note(const std::string& call) { calls_.push_back(call); }

@@ -61,6 +61,23 @@ TEST(ComediBoard, EndsWithZeroVoltsAndOutputsOff) {
   EXPECT_EQ(calls[calls.size() - 4], "volts 0 4095");
 }
 
+TEST(ComediBoard, LinesOfAFixedDirectionAreTakenAsTheyAre) {
+  ComediStandIn device{comedi_rig()};
+  device.fixed_lines = true;
+  Comedi board{comedi_rig()};
+  board.write({{}, {false, false, false}, true});
+  EXPECT_EQ(device.calls().back(), "bits 3 15 8");
+  EXPECT_FALSE(board.read().estop_pressed);
+}
+
+TEST(ComediBoard, ReportsTheVoltsOfTheFirstAndTheLastCode) {
+  ComediStandIn device{comedi_rig()};
+  Comedi board{comedi_rig()};
+  const auto given_v = board.write({{99, -99, 0}, {}, false});
+  EXPECT_NEAR(given_v[0], 10, 20.0 / 8191);  // one end of the range is a step short of 10 V
+  EXPECT_NEAR(given_v[1], -10, 20.0 / 8191);
+}
+
 /// The message when it cannot be opened. Whatever was opened is closed again: the stand-in looks.
 std::string refusal(const std::function<void(ComediStandIn&, runtime::Rig&)>& spoil) {
   auto rig = comedi_rig();

@@ -57,6 +57,9 @@ void set_hazards(unsigned bits, Inputs& in) {
   in.not_homed = bit(6);
   in.second_writer = bit(8);
   in.overrun = bit(9);
+  in.bridge_restarted = bit(9) && bit(4);
+  in.place_unclear = bit(9) && bit(1);
+  in.load_unclear = bit(9) && bit(2);
   in.brake_failed = bit(10);
   in.estop_pressed = bit(11);
 }
@@ -98,6 +101,8 @@ const char* broken_promise(const Memory& before, const Inputs& in, const Memory&
       is != State::ready) {
     return "an accepted reset leads to READY or SELFTEST";
   }
+  if (accepted(Request::reset) && before.state != State::ready && (in.place_unclear || in.load_unclear))
+    return "nothing is reset while a place is unclear";
   if (accepted(Request::arm) && is != State::arming) return "an accepted arm leads to ARMING";
   if (accepted(Request::home) && !(is == State::arming && after.homing))
     return "an accepted homing leads to ARMING for it";
@@ -128,12 +133,18 @@ const char* broken_rule(const Memory& before, const Inputs& in, const Memory& af
   if (is == State::fault && was != State::fault && !in.brake_failed && in.self_test != SelfTest::failed) {
     return "FAULT has two causes";
   }
+  if (in.bridge_restarted && is != State::selftest && is != State::locked && is != State::estop &&
+      is != State::fault)
+    return "a new bridge is tested first";
+  if (in.bridge_restarted && in.self_test != SelfTest::passed && after.self_test_passed)
+    return "a new bridge is not the one that was tested";
+  if (in.bridge_restarted && is == State::selftest) return nullptr;
   if (stopped(was) && !stopped(is) && !(reset && (was == State::locked || was == State::estop))) {
     return "only a reset leads out of a stop";
   }
   if (was == State::estop && is != State::estop && is != State::fault && !reset) return "ESTOP needs a reset";
   const bool at_rest = in.standstill && !in.state_stale;
-  if ((was == State::stop_c0 || was == State::stop_c1) && is == State::locked &&
+  if ((was == State::stop_c0 || was == State::stop_c1) && is == State::locked && !in.bridge_restarted &&
       !(at_rest && in.brakes_closed)) {
     return "a stop ends at a standstill that is seen, with the brakes closed";
   }

@@ -51,9 +51,10 @@ class Timeline {
       if (!world.sample.brake_closed[i] || axes_slip) world.sample.position[i] += speed[i] * limits.period_s;
     }
     ++world.tick;
-    world.now_s = static_cast<double>(world.tick) * limits.period_s;
+    world.now_s = static_cast<double>(++elapsed_) * limits.period_s;
     out = step(limits, world, memory);
     world.requests = {};
+    world.bridge_restarted = false;
     obey(out);
   }
   void ticks(int n) {
@@ -75,6 +76,13 @@ class Timeline {
     const Answer answer = ask(Request::move);
     if (answer.accepted) world.reference_moving = true;
     return answer;
+  }
+
+  /// The next state comes from a bridge that has just been started, and has the axes there.
+  void start_bridge(const PerAxis& position) {
+    world.bridge_restarted = world.state_arrived = true;
+    world.tick = 0;
+    world.sample.position = position;
   }
 
   void to_locked() { run(1.5); }
@@ -107,6 +115,7 @@ class Timeline {
     delayed_.pop_front();
   }
   std::deque<TickOutput> delayed_;
+  std::uint64_t elapsed_ = 0;
 };
 
 }  // namespace crane::supervisor

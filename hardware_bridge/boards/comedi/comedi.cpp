@@ -35,10 +35,10 @@ Comedi::Comedi(const runtime::Rig& rig) : wiring_{rig.wiring}, lines_{rig} {
     fail(std::string{"cannot be opened: "} + std::strerror(errno) +
          "; load its driver (comedi_config, lsmod), or correct device in [wiring]");
   name_ = std::string{"comedi "} + ::comedi_get_board_name(handle_.device);
-  lock(wiring_.counter_subdevice, COMEDI_SUBD_COUNTER, "counter_subdevice");
-  lock(wiring_.analog_output_subdevice, COMEDI_SUBD_AO, "analog_output_subdevice");
-  lock(wiring_.input_subdevice, COMEDI_SUBD_DIO, "input_subdevice");
-  lock(wiring_.output_subdevice, COMEDI_SUBD_DIO, "output_subdevice");
+  lock(wiring_.counter_subdevice, {COMEDI_SUBD_COUNTER}, "counter_subdevice");
+  lock(wiring_.analog_output_subdevice, {COMEDI_SUBD_AO}, "analog_output_subdevice");
+  lock(wiring_.input_subdevice, {COMEDI_SUBD_DIO, COMEDI_SUBD_DI}, "input_subdevice");
+  lock(wiring_.output_subdevice, {COMEDI_SUBD_DIO, COMEDI_SUBD_DO}, "output_subdevice");
   const auto start = start_counts(rig);
   for (std::size_t i = 0; i < kCounters; ++i) {
     const auto& encoder = rig.encoders[i];
@@ -60,11 +60,11 @@ void Comedi::fail(const std::string& what) const {
   throw BoardError("comedi device " + wiring_.device + ": " + what);
 }
 
-void Comedi::lock(int subdevice, int type, const char* key) {
+void Comedi::lock(int subdevice, std::initializer_list<int> types, const char* key) {
   const auto index = as_index(subdevice);
   const auto place = std::string{key} + " = " + std::to_string(subdevice);
   if (subdevice >= ::comedi_get_n_subdevices(handle_.device) ||
-      ::comedi_get_subdevice_type(handle_.device, index) != type)
+      std::ranges::find(types, ::comedi_get_subdevice_type(handle_.device, index)) == types.end())
     fail(place + " is no subdevice of that kind on " + name_ +
          ": correct [wiring] (comedi_board_info lists them)");
   if (::comedi_lock(handle_.device, index) != 0) fail(place + " is in use by another program: stop it first");
@@ -92,11 +92,12 @@ void Comedi::find_converter(std::size_t drive, unsigned channel) {
   fail("analog output " + std::to_string(channel) + " has no range of +-10 V: use another board");
 }
 
-/// Directions of all lines in use.
+/// Directions of all lines in use, where they have a choice.
 void Comedi::find_lines() {
   const auto direct = [this](int subdevice, int channel, unsigned direction, const char* key) {
     require_channel(subdevice, as_index(channel), key);
-    if (::comedi_dio_config(handle_.device, as_index(subdevice), as_index(channel), direction) < 0)
+    const bool fixed = ::comedi_get_subdevice_type(handle_.device, as_index(subdevice)) != COMEDI_SUBD_DIO;
+    if (!fixed && ::comedi_dio_config(handle_.device, as_index(subdevice), as_index(channel), direction) < 0)
       fail(std::string{key} + ": channel " + std::to_string(channel) + " does not take its direction");
   };
   const auto input = [&](int line) {
@@ -172,9 +173,9 @@ unsigned Comedi::code(const Converter& converter, double voltage_v) const noexce
   return ::comedi_from_phys(std::clamp(finite_v, range.min, range.max), &range, converter.largest);
 }
 
+/// Not comedi_to_phys: to it the first and the last code are out of range, and no number.
 double Comedi::voltage_v(const Converter& converter, unsigned code) const noexcept {
-  comedi_range range{converter.low_v, converter.high_v, UNIT_volt};
-  return ::comedi_to_phys(code, &range, converter.largest);
+  return converter.low_v + code * (converter.high_v - converter.low_v) / converter.largest;
 }
 
 std::array<double, kDrives> Comedi::write(const Outputs& outputs) {

@@ -157,23 +157,21 @@ class Judgement {
             named(i) + "] or [encoder." + named(i) + "]");
   }
   void add_swing_sign(std::size_t i, std::size_t swing) {
-    add(Fault::swing_sign, named(swing),
-        "the encoder of " + named(swing) + " counts the wrong way: the load stays behind a motion of the " +
-            named(i) + "; swap A and B, or change sign in [encoder." + named(swing) + "]");
+    add_sign(Fault::swing_sign, swing, "encoder",
+             "counts the wrong way: the load stays behind a motion of the " + named(i) + "; swap A and B");
   }
   void add_drive_sign(std::size_t i) {
-    add(Fault::drive_sign, named(i),
-        "the drive of " + named(i) +
-            " moves it the wrong way, its encoder is right; swap the motor's leads, or change "
-            "sign in [drive." +
-            named(i) + "]");
+    add_sign(Fault::drive_sign, i, "drive",
+             "moves it the wrong way, its encoder is right; swap the motor's leads");
   }
   void add_encoder_sign(std::size_t i) {
-    add(Fault::encoder_sign, named(i),
-        "the encoder of " + named(i) +
-            " counts the wrong way, its drive is right; swap A and B, or change sign in "
-            "[encoder." +
-            named(i) + "]");
+    add_sign(Fault::encoder_sign, i, "encoder", "counts the wrong way, its drive is right; swap A and B");
+  }
+  /// @param part  of the coordinate: drive or encoder
+  void add_sign(Fault fault, std::size_t i, const std::string& part, const std::string& what) {
+    add(fault, named(i),
+        "the " + part + " of " + named(i) + " " + what + ", or change sign in [" + part + "." + named(i) +
+            "]");
   }
 
   void judge_missing_swing(std::size_t i, std::size_t swing) {

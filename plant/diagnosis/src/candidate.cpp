@@ -143,7 +143,7 @@ class Builder {
   void add_structures(bool slew) {
     const auto square = [](double hz) { return std::pow(2 * std::numbers::pi * hz, 2); };
     std::vector<std::vector<double>> jibs, slings;
-    for (const double hz : {1.4, 2.0, 2.8, 4.0})
+    for (const double hz : {1.4, 2.0, 2.8, 4.0, 5.6})
       for (const double share : {0.15, 0.6}) jibs.push_back({1 / square(hz), 0.03, share});
     for (const double hz : {1.2, 1.6, 2.1, 2.6, 3.2, 4.0})
       slings.push_back({0.65, rig_.plant.gravity_mps2 / (0.35 * square(hz))});

@@ -85,27 +85,12 @@ void Course::kick_inner(const plant::InnerAccelerations& accelerations) {
   }
 }
 
-plant::PerAxis Course::drive_accelerations(const State& middle, const plant::InnerState& inner_middle,
-                                           const plant::PerAxis& friction) const {
-  plant::InnerAccelerations ignored{};
-  const plant::Accelerations a = model_.accelerations(middle, actuation_, friction, inner_middle, ignored);
-  return {a.trolley_mps2, a.slew_radps2, 0};
-}
-
-void Course::learn_gains(const State& middle, const plant::InnerState& inner_middle,
-                         const plant::PerAxis& free) {
-  for (const std::size_t axis : {kTrolley, kSlew}) {
-    plant::PerAxis one{};
-    one[axis] = 1;
-    const plant::PerAxis taken = drive_accelerations(middle, inner_middle, one);
-    for (const std::size_t other : {kTrolley, kSlew}) gain_[other][axis] = free[other] - taken[other];
-  }
-  gains_known_ = true;
-}
-
 plant::PerAxis Course::move_drives(const State& middle, const plant::InnerState& inner_middle) {
-  const plant::PerAxis free = drive_accelerations(middle, inner_middle, {});
-  if (!gains_known_) learn_gains(middle, inner_middle, free);
+  plant::InnerAccelerations ignored{};
+  const plant::Accelerations a = model_.accelerations(middle, actuation_, {}, inner_middle, ignored);
+  const plant::PerAxis free{a.trolley_mps2, a.slew_radps2, 0};
+  if (!gains_known_) gain_ = model_.friction_response(middle, actuation_.locks, inner_middle);
+  gains_known_ = true;
   plant::PerAxis friction = last_friction_;
   for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
     if (!simulated_[axis]) continue;
@@ -114,7 +99,7 @@ plant::PerAxis Course::move_drives(const State& middle, const plant::InnerState&
     State moving = middle;
     const auto friction_at = [&](double speed) {
       rate_of(moving, axis) = speed;
-      return model_.friction_v(moving)[axis];
+      return model_.friction_v(moving, static_cast<plant::Axis>(axis));
     };
     const FrictionStep done = friction_step(rate_of(state, axis), pull, gain_[axis][axis], h_, friction_at);
     friction[axis] = done.friction;

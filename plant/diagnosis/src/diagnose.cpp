@@ -57,16 +57,31 @@ std::optional<NextExperiment> proposal(const runtime::Rig& rig, const Hypotheses
   return propose_experiment(rig, *first.candidate, first.values, rival, single->effects[0].values, noise);
 }
 
-Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test, const Request& request) {
-  Study study(rig, train, test, request.excluded);
+/// Whether the best hypothesis explains so much that noise and disturbance are to be learnt from what it
+/// leaves.
+bool hides_the_noise(const Hypotheses& found) {
+  return found.best.train.loss < kLittleLeft * found.base.train.loss && excess(found.best) <= 1;
+}
+
+/// With noise and disturbance learnt from what `before` leaves; then the singles are fitted anew.
+Hypotheses learnt_anew(Study& study, const Request& request, const Hypotheses& before) {
+  request.progress(0.4, "noise and disturbance of what is left");
+  study.learn_disturbance(before.best.effects);
+  return singles_again(study, request, before);
+}
+
+Hypotheses searched(Study& study, const Request& request) {
   request.progress(0.02, "noise and disturbance");
   study.learn_disturbance();
-  Hypotheses found = search(study, request);
-  if (found.best.train.loss < kLittleLeft * found.base.train.loss && excess(found.best) <= 1) {
-    request.progress(0.7, "noise and disturbance of what is left");
-    study.learn_disturbance(found.best.effects);
-    found = search_again(study, request, found);
-  }
+  Hypotheses found = singles(study, request);
+  if (hides_the_noise(found)) return extended(study, request, learnt_anew(study, request, found));
+  found = extended(study, request, found);
+  return hides_the_noise(found) ? extended(study, request, learnt_anew(study, request, found)) : found;
+}
+
+Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test, const Request& request) {
+  Study study(rig, train, test, request.excluded);
+  const Hypotheses found = searched(study, request);
   request.progress(0.88, "what is left");
   auto [result, rivals] = judge(study, found, request.seed);
   request.progress(0.93, "held-out runs");

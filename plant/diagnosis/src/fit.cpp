@@ -13,6 +13,9 @@ using Eigen::VectorXd;
 constexpr int kMostRounds = 12;
 /// Decrease of the loss that is not worth another round.
 constexpr double kLeastGain = 0.3;
+/// After so many rounds a fit that is still this many times what the slopes promise away is given up.
+constexpr int kLeastRounds = 2;
+constexpr double kPromise = 4;
 
 struct Flat {
   std::vector<const FreeParameter*> parameters;
@@ -30,12 +33,20 @@ Flat flatten(const Effects& effects) {
   return flat;
 }
 
-Effects unflatten(Effects effects, const VectorXd& values) {
+/// Rounding must not carry a value beyond its bound.
+Effects unflatten(Effects effects, const Flat& flat, const VectorXd& step) {
   Index i = 0;
   for (Effect& effect : effects)
-    for (double& value : effect.values) value = values[i++];
+    for (double& value : effect.values) {
+      const FreeParameter& p = *flat.parameters[static_cast<std::size_t>(i)];
+      value = std::clamp(flat.values[i] + step[i], p.low, p.high);
+      ++i;
+    }
   return effects;
 }
+
+/// Decrease of the loss of an undamped step without bounds.
+double promised(const MatrixXd& h, const VectorXd& g) { return g.dot(solve(h, g)); }
 
 /// Damped step inside the bounds; a value at its bound that wants out stays there.
 VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, double damping) {
@@ -70,7 +81,7 @@ VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, do
 
 }  // namespace
 
-Fitted Study::fit(Effects effects) const {
+Fitted Study::fit(Effects effects, double hopeless) const {
   Fitted best;
   best.effects = effects;
   best.train = train(effects);
@@ -84,12 +95,13 @@ Fitted Study::fit(Effects effects) const {
     variance = both.by_block.transpose() * both.by_block;
     const VectorXd pull = both.by_block.colwise().sum().transpose();
     const Flat flat = flatten(best.effects);
+    if (round >= kLeastRounds && best.train.loss - kPromise * promised(information, pull) > hopeless) break;
     bool better = false;
     double gained = 0;
     for (int attempt = 0; attempt < 7 && !better; ++attempt) {
       const VectorXd step = bounded_step(information, pull, flat, damping);
       if (step.norm() == 0) break;
-      const Effects moved = unflatten(best.effects, flat.values + step);
+      const Effects moved = unflatten(best.effects, flat, step);
       const Evaluation found = evaluate(*train_drive_, *train_load_, moved, best.train);
       if (found.loss < best.train.loss) {
         gained = best.train.loss - found.loss;

@@ -19,12 +19,20 @@ struct FrictionStep {
 };
 
 /// Root of the increasing v + k f(v) - c.
+/// @param near a guess; an axis that sticks creeps on as it did
 template <class Friction>
-double implicit_speed(double c, double k, Friction&& friction) {
-  constexpr double kExact = 1e-9;
+double implicit_speed(double c, double k, Friction&& friction, double near = 0) {
+  constexpr double kExact = 1e-9, kNear = 1e-5;
   const auto excess = [&](double v) { return v + k * friction(v) - c; };
-  double low = std::min(c, 0.0) - kCreep, high = std::max(c, 0.0) + kCreep;
+  double low = near - kNear, high = near + kNear;
   double at_low = excess(low), at_high = excess(high);
+  if (at_low >= 0) {
+    high = low, at_high = at_low;
+    low = std::min({c, 0.0, near}) - kCreep, at_low = excess(low);
+  } else if (at_high <= 0) {
+    low = high, at_low = at_high;
+    high = std::max({c, 0.0, near}) + kCreep, at_high = excess(high);
+  }
   for (int grown = 0; at_low > 0 && grown < 20; ++grown) low *= 2, at_low = excess(low);
   for (int grown = 0; at_high < 0 && grown < 20; ++grown) high *= 2, at_high = excess(high);
   if (at_low >= 0) return low;
@@ -50,7 +58,7 @@ FrictionStep friction_step(double v, double a, double g, double h, Friction&& fr
     const double taken = h * g != 0 ? (v + h * a - after) / (h * g) : 0;
     return {after, 0.5 * v * (h - rest) + 0.5 * after * rest, taken};
   }
-  const double end = implicit_speed(v + h * a, h * g, friction);
+  const double end = implicit_speed(v + h * a, h * g, friction, v);
   const double taken = h * g != 0 ? (v + h * a - end) / (h * g) : 0;
   return {end, 0.5 * h * (v + end), taken};
 }

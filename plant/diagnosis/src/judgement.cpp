@@ -15,10 +15,8 @@ constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
 /// An unexplained pattern this large against what the named effects explain makes the name doubtful.
 constexpr double kDoubtful = 0.35;
-/// A line in the swing of the bare model that explains so much of what the named effects do.
-constexpr double kImitated = 0.5;
-/// The same where the effects ring by themselves: the starts of their windows follow any line.
-constexpr double kImitatedByRinging = 0.1;
+/// The same for a line in the swing, which flipping signs has told from luck.
+constexpr double kDoubtfulLine = 0.1;
 
 bool holds(const Effects& effects, const Candidate* candidate) {
   return std::any_of(effects.begin(), effects.end(),
@@ -97,28 +95,16 @@ class Judgement {
       remainder.from.push_back(left[i].variable);
     const double explained = all_.base.train.loss - best_.train.loss;
     return std::any_of(left.begin(), left.end(), [&](const Unexplained& u) {
-      return u.serious &&
-             (best_.effects.empty() || ringing() || u.gain > kDoubtful * explained || u.fraction > kDoubtful);
+      const double share = u.line ? kDoubtfulLine : kDoubtful;
+      return u.serious && (best_.effects.empty() || u.gain > share * explained || u.fraction > kDoubtful);
     });
   }
 
-  [[nodiscard]] bool ringing() const {
-    return std::any_of(best_.effects.begin(), best_.effects.end(),
-                       [](const Effect& e) { return e.candidate->nonlinear; });
-  }
-
-  /// Patterns in the residual of the drives and lines in that of the swing, strongest first. A line that does
-  /// as well alone as what was found is another reason to doubt: whatever rings by itself can imitate one.
+  /// Patterns in the residual of the drives and lines in that of the swing, strongest first.
   [[nodiscard]] std::vector<Unexplained> what_is_left() const {
     std::vector<Unexplained> left = find_unexplained(study_, best_.effects, best_.train);
-    const auto add = [&](const Fits& fits, double least) {
-      for (const Unexplained& line : find_swing_lines(study_.load(), fits, seed_))
-        if (line.gain > least) left.push_back(line);
-    };
-    add(best_.train.load, 0);
-    if (!best_.effects.empty())
-      add(all_.base.train.load,
-          (ringing() ? kImitatedByRinging : kImitated) * (all_.base.train.loss - best_.train.loss));
+    for (const Unexplained& line : find_swing_lines(study_.load(), best_.train.load, seed_))
+      left.push_back(line);
     std::sort(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
     return left;
   }
@@ -127,11 +113,16 @@ class Judgement {
   void name() {
     std::vector<const Fitted*> equals;
     for (const Fitted& fitted : all_.all)
-      if (fitted.effects.size() == best_.effects.size() && accepted(fitted, all_.base, seed_))
+      if (fitted.effects.size() == best_.effects.size() && !same(fitted.effects, best_.effects) &&
+          accepted(fitted, all_.base, seed_))
         equals.push_back(&fitted);
-    const std::vector<double> picked = frequencies(equals, seed_);
-    for (std::size_t r = 0; r < equals.size(); ++r)
+    const std::vector<double> picked = frequencies(best_, equals, seed_);
+    double left = 1;
+    for (std::size_t r = 0; r < equals.size(); ++r) {
+      left -= picked[r];
       for (const Effect& effect : equals[r]->effects) frequency_[effect.candidate] += picked[r];
+    }
+    for (const Effect& effect : best_.effects) frequency_[effect.candidate] += left;
     bool clear = true, known = true;
     for (const Effect& effect : best_.effects) {
       clear = clear && frequency_[effect.candidate] >= kClearWin;

@@ -13,11 +13,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLead_s = 0.2;
+/// As long as the longest mean over time of a swing sensor.
+constexpr double kLead_s = 0.3;
 /// Longer windows are cut: whitening takes a matrix of rows times rows.
 constexpr std::size_t kMostRows = 1000;
 constexpr double kPositionStep = 1e-4, kRateStep = 1e-3;
-constexpr int kStartRounds = 3;
+constexpr int kStartRounds = 8;
+/// What the start's directions still explain of a whitened residual, in noise variances: the projection takes
+/// it out as well as another round would.
+constexpr double kStartFound = 0.1;
 /// Mean square of a whitened window, in those of the median window, beyond which it counts less.
 constexpr double kNoisiest = 2.0;
 /// A start direction that changes the window less than this share of the strongest one cannot be solved for:
@@ -160,6 +164,11 @@ MatrixXd Problem::start_slopes(const Replay& replay, std::size_t at, const Vecto
   return slopes;
 }
 
+VectorXd Problem::measured_start(const Replay& replay, const Window& window) {
+  const std::vector<double> start = replay.measured_start(window.first - window.lead);
+  return Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
+}
+
 void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
   fit.simulated = simulate(replay, windows_[at], fit.start);
   MatrixXd slopes = start_slopes(replay, at, fit.start, fit.simulated, 0);
@@ -178,18 +187,24 @@ void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) co
   fit.freedom = static_cast<double>(slopes.cols() - measured);
 }
 
-void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) const {
-  const Window& window = windows_[at];
-  const std::vector<double> start = replay.measured_start(window.first - window.lead);
-  fit.start = Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
-  const VectorXd target = measured(window);
-  linearise(replay, at, fit);
-  for (int round = 1; round < kStartRounds; ++round) {
+/// Rounds with the directions there are. @pre simulated from the start
+void Problem::settle_start(const Replay& replay, std::size_t at, const VectorXd& target,
+                           WindowFit& fit) const {
+  for (int round = 1;; ++round) {
     fit.residual = target - fit.simulated;
     whiten(at, fit.residual);
+    if (round == kStartRounds || (fit.basis.transpose() * fit.residual).squaredNorm() < kStartFound) return;
     fit.start += believable(fit.to_start * fit.residual, bare_start());
-    fit.simulated = simulate(replay, window, fit.start);
+    fit.simulated = simulate(replay, windows_[at], fit.start);
   }
+}
+
+void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) const {
+  const Window& window = windows_[at];
+  fit.start = fit.measured_start = measured_start(replay, window);
+  const VectorXd target = measured(window);
+  linearise(replay, at, fit);
+  settle_start(replay, at, target, fit);
   linearise(replay, at, fit);
   fit.residual = target - fit.simulated;
   whiten(at, fit.residual);
@@ -211,14 +226,11 @@ Fits Problem::fit_near(const Crane& crane, const Fits& near) const {
     WindowFit& fit = fits[w];
     if (static_cast<std::size_t>(fit.start.size()) != replay[window.run].start_size())
       return fit_start(replay[window.run], w, fit);
-    const VectorXd target = measured(window);
-    for (int round = 0;; ++round) {
-      fit.simulated = simulate(replay[window.run], window, fit.start);
-      fit.residual = target - fit.simulated;
-      whiten(w, fit.residual);
-      if (round == kStartRounds - 1) break;
-      fit.start += believable(fit.to_start * fit.residual, bare_start());
-    }
+    const VectorXd target = measured(window), moved = measured_start(replay[window.run], window);
+    fit.start += moved - fit.measured_start;
+    fit.measured_start = moved;
+    fit.simulated = simulate(replay[window.run], window, fit.start);
+    settle_start(replay[window.run], w, target, fit);
     fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
   });
   return fits;
@@ -245,13 +257,9 @@ VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit
   const auto outside = [&](MatrixXd x) -> MatrixXd {
     return x - at.basis * (at.basis.transpose() * x).eval();
   };
-  VectorXd start = at.start;
-  const auto known = start.size(), all = static_cast<Index>(replay.start_size());
-  if (all > known) {
-    const std::vector<double> inner = replay.measured_start(windows_[w].first - windows_[w].lead);
-    start.conservativeResize(all);
-    for (Index i = known; i < all; ++i) start[i] = inner[static_cast<std::size_t>(i)];
-  }
+  VectorXd start = measured_start(replay, windows_[w]);
+  const auto known = at.start.size(), all = start.size();
+  start.head(known) += at.start - at.measured_start;
   const VectorXd simulated = simulate(replay, windows_[w], start);
   MatrixXd change = (simulated - at.simulated) / step;
   whiten(w, change);

@@ -20,11 +20,12 @@ struct Window {
 /// One window around one crane: everything whitened, the start's directions taken out.
 struct WindowFit {
   Eigen::VectorXd start;
-  Eigen::VectorXd simulated;  ///< outputs one after the other, lead left out, not whitened
-  Eigen::VectorXd residual;   ///< measured - simulated, whitened, projected
-  Eigen::MatrixXd basis;      ///< orthonormal directions of the start, whitened
-  Eigen::MatrixXd to_start;   ///< whitened residual to change of start
-  double freedom = 0;         ///< directions of the start that the bare crane does not have
+  Eigen::VectorXd measured_start;  ///< what the crane's sensors make of the measurement
+  Eigen::VectorXd simulated;       ///< outputs one after the other, lead left out, not whitened
+  Eigen::VectorXd residual;        ///< measured - simulated, whitened, projected
+  Eigen::MatrixXd basis;           ///< orthonormal directions of the start, whitened
+  Eigen::MatrixXd to_start;        ///< whitened residual to change of start
+  double freedom = 0;              ///< directions of the start that the bare crane does not have
 };
 using Fits = std::vector<WindowFit>;
 
@@ -89,7 +90,10 @@ class Problem {
                                              Eigen::Index first) const;
   [[nodiscard]] Eigen::VectorXd change_in(const Replay& replay, std::size_t window, const WindowFit& at,
                                           double step, double& own_gain) const;
+  [[nodiscard]] static Eigen::VectorXd measured_start(const Replay& replay, const Window& window);
   void linearise(const Replay& replay, std::size_t window, WindowFit& fit) const;
+  void settle_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
+                    WindowFit& fit) const;
   void fit_start(const Replay& replay, std::size_t window, WindowFit& fit) const;
 
   const Runs& runs_;

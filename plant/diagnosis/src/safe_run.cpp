@@ -67,7 +67,7 @@ class FollowedMotion {
     const double gain = axis == kTrolley ? rig_.plant.trolley_gain_mps2pv : rig_.plant.slew_gain_radps2pv;
     const double volt =
         (wanted.acceleration + kLoop_radps * kLoop_radps * error + 2 * kLoop_radps * error_rate) / gain +
-        model_.friction_v(moving)[axis];
+        model_.friction_v(moving, axis);
     const double most = kVoltShare * rig_.drives[axis].volt_limit_v;
     return std::clamp(volt, -most, most);
   }

@@ -11,20 +11,21 @@ namespace {
 constexpr double kSignificant = 0.01;
 /// Held-out data are fewer: they have to agree, not to prove it alone.
 constexpr double kHeldOutWin = 0.9;
-/// What improves the training loss by a smaller share is of no consequence for the crane.
-constexpr double kLeastShare = 0.01;
+/// What improves the training loss of neither drives nor load by such a share is of no consequence for the
+/// crane.
+constexpr double kLeastShare = 0.03;
 constexpr std::size_t kRefitted = 8;
 constexpr std::size_t kPaired = 5;
-constexpr std::size_t kExtensions = 4;
+constexpr std::size_t kExtensions = 6;
+/// A rival whose training loss will stay this much above the best one's does not win a resample.
+constexpr double kHopeless = 30;
 constexpr int kVotes = 500;
 /// Flipping the signs of fewer blocks proves nothing about what is left beside a fitted effect.
 constexpr std::size_t kFewBlocks = 60;
 
-bool same(const Effects& a, const Effects& b) {
-  if (a.size() != b.size()) return false;
-  return std::all_of(a.begin(), a.end(), [&](const Effect& e) {
-    return std::any_of(b.begin(), b.end(), [&](const Effect& f) { return f.candidate == e.candidate; });
-  });
+bool has(const Effects& effects, const Candidate* candidate) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const Effect& e) { return e.candidate == candidate; });
 }
 
 std::size_t blocks(const Fitted& f) { return f.train.blocks.size() + f.test.blocks.size(); }
@@ -68,10 +69,19 @@ Wins block_wins(const Fitted& f, const Fitted& before, std::uint64_t seed) {
   return wins;
 }
 
+/// Half of them those that promise the largest share, half the surest ones: a large effect is as uneven from
+/// block to block as it is large, and in a rough residual luck promises much.
 std::vector<Score> strongest(const ScoreTable& scores, std::size_t count) {
-  std::vector<Score> order = scores.best;
-  std::sort(order.begin(), order.end(), [](const Score& a, const Score& b) { return a.gain > b.gain; });
-  order.resize(std::min(count, order.size()));
+  std::vector<Score> left = scores.best, order;
+  const auto take = [&](std::size_t up_to, auto&& before) {
+    std::sort(left.begin(), left.end(), before);
+    const std::size_t taken = std::min(up_to - order.size(), left.size());
+    const auto end = left.begin() + static_cast<std::ptrdiff_t>(taken);
+    order.insert(order.end(), left.begin(), end);
+    left.erase(left.begin(), end);
+  };
+  take((count + 1) / 2, [](const Score& a, const Score& b) { return a.share > b.share; });
+  take(count, [](const Score& a, const Score& b) { return a.p_value < b.p_value; });
   return order;
 }
 
@@ -82,7 +92,7 @@ class Search {
     found_.base.test = study.base_test();
   }
 
-  Hypotheses run() {
+  Hypotheses singles() {
     request_.progress(0.1, "scores of all candidates");
     const ScoreTable scores = study_.score({}, found_.base.train, request_.seed);
     found_.detection_p_value = scores.p_value;
@@ -91,45 +101,43 @@ class Search {
     return std::move(found_);
   }
 
-  /// Once more from where the singles are, with another idea of the disturbance.
-  Hypotheses run_again(const Hypotheses& before) {
+  Hypotheses singles_again(const Hypotheses& before) {
     found_.detection_p_value = before.detection_p_value;
-    for (const Fitted& single : before.singles) {
-      found_.singles.push_back(study_.fit(single.effects));
-      const auto at = static_cast<std::size_t>(&single - before.singles.data());
-      rank(found_.singles.back(), before.ranking[at].p_value);
+    const double least = study_.fit(before.best.effects).train.loss;
+    for (std::size_t i = 0; i < before.singles.size(); ++i) {
+      found_.singles.push_back(study_.fit(before.singles[i].effects, least + kHopeless));
+      rank(found_.singles.back(), before.ranking[i].p_value);
     }
     choose();
+    return std::move(found_);
+  }
+
+  Hypotheses extended(const Hypotheses& singles) {
+    found_ = singles;
+    if (!found_.best.effects.empty()) extend();
     return std::move(found_);
   }
 
  private:
   void choose() {
     found_.all = found_.singles;
-    const auto best = std::min_element(found_.singles.begin(), found_.singles.end(), less);
-    if (best == found_.singles.end() || !accepted(*best, found_.base, request_.seed)) {
-      found_.best = found_.base;
-    } else {
-      found_.best = *best;
-      extend();
-    }
+    found_.best = best_accepted(found_.singles, found_.base);
   }
 
-  /// `score`'s candidate as its score says, beside what is there already. A nonlinear one begins in the shape
-  /// that does best as it is.
+  /// `before` when none is accepted in its place.
+  [[nodiscard]] Fitted best_accepted(const std::vector<Fitted>& fitted, const Fitted& before) const {
+    const Fitted* best = nullptr;
+    for (const Fitted& one : fitted)
+      if ((best == nullptr || less(one, *best)) && accepted(one, before, request_.seed)) best = &one;
+    return best == nullptr ? before : *best;
+  }
+
+  /// `score`'s candidate as its score says, beside what is there already.
   [[nodiscard]] Effects begin(const Effects& there, const Score& score) const {
     const Candidate& candidate = study_.candidates()[score.candidate];
-    Effects best = there;
-    best.push_back({&candidate, candidate.begin(candidate.shapes[score.shape], score.amounts)});
-    if (!candidate.nonlinear) return best;
-    double least = INFINITY;
-    for (const Shape& shape : candidate.shapes) {
-      Effects tried = there;
-      tried.push_back({&candidate, candidate.begin(shape, {})});
-      const double loss = study_.train(tried).loss;
-      if (loss < least) least = loss, best = std::move(tried);
-    }
-    return best;
+    Effects all = there;
+    all.push_back({&candidate, candidate.begin(candidate.shapes[score.shape], score.amounts)});
+    return all;
   }
 
   void fit_singles(const ScoreTable& scores) {
@@ -163,9 +171,9 @@ class Search {
       for (const Score& score : strongest(scores, kExtensions))
         tries.push_back(begin(found_.best.effects, score));
       if (effects == 2) add_pairs(tries);
-      Fitted better = best_of(tries);
-      if (!accepted(better, found_.best, request_.seed)) return;
-      found_.best = std::move(better);
+      const std::vector<Fitted> fitted = fits_of(tries);
+      found_.best = best_accepted(fitted, found_.best);
+      if (found_.best.effects.size() < effects) return;
     }
   }
 
@@ -178,14 +186,17 @@ class Search {
       }
   }
 
-  Fitted best_of(const std::vector<Effects>& tries) {
+  /// Fits that cannot come near the best of those before are given up.
+  std::vector<Fitted> fits_of(const std::vector<Effects>& tries) {
     std::vector<Fitted> fitted;
+    double least = found_.best.train.loss;
     for (const Effects& effects : tries) {
-      fitted.push_back(study_.fit(effects));
+      fitted.push_back(study_.fit(effects, least + kHopeless));
+      least = std::min(least, fitted.back().train.loss);
       rank(fitted.back(), 1);
       found_.all.push_back(fitted.back());
     }
-    return *std::min_element(fitted.begin(), fitted.end(), less);
+    return fitted;
   }
 
   const Study& study_;
@@ -195,33 +206,79 @@ class Search {
 
 }  // namespace
 
-Hypotheses search(const Study& study, const Request& request) { return Search(study, request).run(); }
+Hypotheses singles(const Study& study, const Request& request) { return Search(study, request).singles(); }
 
-Hypotheses search_again(const Study& study, const Request& request, const Hypotheses& before) {
-  return Search(study, request).run_again(before);
+Hypotheses singles_again(const Study& study, const Request& request, const Hypotheses& before) {
+  return Search(study, request).singles_again(before);
+}
+
+Hypotheses extended(const Study& study, const Request& request, const Hypotheses& singles) {
+  return Search(study, request).extended(singles);
+}
+
+bool same(const Effects& a, const Effects& b) {
+  return a.size() == b.size() &&
+         std::all_of(a.begin(), a.end(), [&](const Effect& e) { return has(b, e.candidate); });
 }
 
 bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed) {
-  if (before.train.loss - fitted.train.loss < kLeastShare * before.train.loss) return false;
+  const Evaluation &old = before.train, &now = fitted.train;
+  if (now.loss >= old.loss || (old.drive_loss - now.drive_loss < kLeastShare * old.drive_loss &&
+                               old.load_loss - now.load_loss < kLeastShare * old.load_loss))
+    return false;
   const Wins wins = block_wins(fitted, before, seed);
   return wins.all > 1 - kSignificant && wins.held_out > kHeldOutWin;
 }
 
-std::vector<double> frequencies(const std::vector<const Fitted*>& rivals, std::uint64_t seed) {
+namespace {
+
+/// Parts in which what `a` has and `b` has not shows.
+struct ShowsIn {
+  bool drive = false, load = false;
+};
+ShowsIn only_in(const Fitted& a, const Fitted& b) {
+  ShowsIn parts;
+  for (const Effect& e : a.effects) {
+    const bool shared = has(b.effects, e.candidate);
+    parts.drive = parts.drive || (!shared && e.candidate->drive);
+    parts.load = parts.load || (!shared && e.candidate->load);
+  }
+  return parts;
+}
+
+/// What `rival` does better block by block in the parts where it would have to replace what only `best` has.
+std::vector<double> advantage(const Fitted& rival, const Fitted& best) {
+  const ShowsIn parts = only_in(best, rival);
+  std::vector<double> margins;
+  for (const auto& [of_best, of_rival] : {std::pair{&best.train, &rival.train}, {&best.test, &rival.test}})
+    for (std::size_t i = 0; i < of_best->blocks.size(); ++i) {
+      const bool counts = i < of_best->drive_blocks ? parts.drive : parts.load;
+      margins.push_back(counts ? of_best->blocks[i] - of_rival->blocks[i] : 0);
+    }
+  return margins;
+}
+
+}  // namespace
+
+std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
+                                std::uint64_t seed) {
+  std::vector<std::vector<double>> margins;
+  for (const Fitted* rival : rivals) margins.push_back(advantage(*rival, best));
   std::vector<double> picked(rivals.size(), 0.0);
   std::mt19937_64 random(seed + 17);
-  const std::size_t train = rivals[0]->train.blocks.size(), count = blocks(*rivals[0]);
+  const std::size_t count = blocks(best);
   for (int i = 0; i < kVotes; ++i) {
     std::vector<double> total(rivals.size());
     for (std::size_t r = 0; r < rivals.size(); ++r)
-      total[r] = price(*rivals[r]) * static_cast<double>(rivals[r]->parameters);
+      total[r] =
+          price(best) * (static_cast<double>(best.parameters) - static_cast<double>(rivals[r]->parameters));
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t at = static_cast<std::size_t>(random() % count);
-      for (std::size_t r = 0; r < rivals.size(); ++r)
-        total[r] += at < train ? rivals[r]->train.blocks[at] : rivals[r]->test.blocks[at - train];
+      for (std::size_t r = 0; r < rivals.size(); ++r) total[r] += margins[r][at];
     }
-    const auto winner = std::min_element(total.begin(), total.end()) - total.begin();
-    picked[static_cast<std::size_t>(winner)] += 1.0 / kVotes;
+    const auto winner = std::max_element(total.begin(), total.end());
+    if (winner != total.end() && *winner > 0)
+      picked[static_cast<std::size_t>(winner - total.begin())] += 1.0 / kVotes;
   }
   return picked;
 }

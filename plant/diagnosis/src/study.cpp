@@ -19,8 +19,11 @@ Evaluation summed(const Problem& drive, const Problem& load, Fits of_drive, Fits
   result.load = std::move(of_load);
   result.blocks = blocks_of(drive, result.drive);
   const Blocks more = blocks_of(load, result.load);
+  result.drive_blocks = result.blocks.size();
+  result.drive_loss = sum(result.blocks);
+  result.load_loss = sum(more);
+  result.loss = result.drive_loss + result.load_loss;
   result.blocks.insert(result.blocks.end(), more.begin(), more.end());
-  result.loss = sum(result.blocks);
   return result;
 }
 

@@ -27,7 +27,8 @@ inline constexpr double kBlock_s = 2.0;
 struct Evaluation {
   Fits drive, load;
   Blocks blocks;
-  double loss = std::numeric_limits<double>::infinity();
+  std::size_t drive_blocks = 0;  ///< the first of them
+  double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
 };
 
 struct Fitted {
@@ -43,6 +44,7 @@ struct Score {
   double statistic = 0;  ///< chi-square of the block-robust score
   double p_value = 1;    ///< by itself
   double gain = 0;       ///< decrease of the loss that the slopes promise
+  double share = 0;      ///< the same as a share of the loss of the parts that the candidate shows in
   std::vector<double> amounts;
 };
 
@@ -74,7 +76,8 @@ class Study {
   /// Does one more effect explain what `at` leaves? @param seed of the sign flips
   [[nodiscard]] ScoreTable score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const;
   /// Least squares over the training data from the given values, within bounds.
-  [[nodiscard]] Fitted fit(Effects effects) const;
+  /// @param hopeless a training loss: the fit is given up when it will not come below it
+  [[nodiscard]] Fitted fit(Effects effects, double hopeless = std::numeric_limits<double>::infinity()) const;
 
   [[nodiscard]] const Problem& drive() const { return *train_drive_; }
   [[nodiscard]] const Problem& load() const { return *train_load_; }

@@ -140,7 +140,7 @@ std::vector<Unexplained> find_swing_lines(const Problem& load, const Fits& fits,
     std::ostringstream name;
     name.precision(3);
     name << kOutputNames[load.outputs()[output]] << ": time, " << found.hz << " Hz";
-    all.push_back({name.str(), found.gain, found.gain / loss, true});
+    all.push_back({name.str(), found.gain, found.gain / loss, true, true});
   }
   return all;
 }

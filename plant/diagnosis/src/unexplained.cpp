@@ -18,7 +18,7 @@ constexpr double kLeastSpeed = 0.01;  // m/s or rad/s: an extra voltage on an ax
 constexpr std::size_t kFolds = 4;
 /// Share of the drives' loss beyond which an unexplained pattern is taken seriously: friction around
 /// standstill leaves patterns of a few percent in clean data.
-constexpr double kPatternShare = 0.12;
+constexpr double kPatternShare = 0.15;
 /// A force that builds up after a reversal has done so within this share of the travel.
 constexpr double kBuildUp = 0.25;
 
@@ -195,7 +195,7 @@ std::vector<Unexplained> find_unexplained(const Study& study, const Effects& eff
   for (std::size_t v = 0; v < variables.size(); ++v)
     if (gains[v] > 0)
       found.push_back(
-          {variables[v].name, gains[v], gains[v] / drive_loss, gains[v] > kPatternShare * drive_loss});
+          {variables[v].name, gains[v], gains[v] / drive_loss, gains[v] > kPatternShare * drive_loss, false});
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
   return found;
 }

@@ -148,6 +148,15 @@ SwingResponse swing_response(const Parameters& p, const State& s, double trolley
   return response;
 }
 
+DriveResponse drive_response(const Parameters& p, const State& s, const Locks& locks) noexcept {
+  const Mass m = mass(p, s, Angles{s});
+  Locks held = locks;
+  held.acceleration = {};
+  const Column by_force = solve(m, {.x = 1, .phi = 0, .gamma = 0, .theta = 0}, held),
+               by_torque = solve(m, {.x = 0, .phi = 0, .gamma = 1, .theta = 0}, held);
+  return {.trolley_mps2_pn = by_force.x, .slew_radps2_pnm = by_torque.gamma, .coupling = by_force.gamma};
+}
+
 double cable_tension_n(const Parameters& p, const State& s, const Accelerations& q) noexcept {
   const Angles a{s};
   const double l = s.cable_m, f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;

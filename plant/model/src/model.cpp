@@ -30,7 +30,7 @@ Model::Model(const Parameters& parameters, const std::vector<TermSetting>& terms
         command_terms_.push_back(std::move(term));
         break;
       case ActsOn::drive:
-        drive_terms_.push_back(std::move(term));
+        drive_terms_[drive_axis(setting.axis)].push_back(std::move(term));
         break;
       case ActsOn::load:
         load_terms_.push_back(std::move(term));
@@ -74,8 +74,27 @@ PerAxis Model::drive_voltage(const PerAxis& command_v) noexcept {
 
 PerAxis Model::friction_v(const State& state) const noexcept {
   PerAxis sum{};
-  for (const auto& term : drive_terms_) term->add_friction(state, sum);
+  for (const auto& of_axis : drive_terms_)
+    for (const auto& term : of_axis) term->add_friction(state, sum);
   return sum;
+}
+
+double Model::friction_v(const State& state, Axis axis) const noexcept {
+  PerAxis sum{};
+  for (const auto& term : drive_terms_[axis]) term->add_friction(state, sum);
+  return sum[axis];
+}
+
+std::array<PerAxis, kAxes> Model::friction_response(const State& state, const Locks& locks,
+                                                    const InnerState& inner) const noexcept {
+  const Parameters& p = parameters_;
+  const DriveResponse r = drive_response(p, displaced(state, inner), locks);
+  const double force_n = p.trolley_inertia_kg * p.trolley_gain_mps2pv,
+               torque_nm = p.jib_inertia_kgm2 * p.slew_gain_radps2pv;
+  std::array<PerAxis, kAxes> taken{};
+  taken[kTrolley] = {r.trolley_mps2_pn * force_n, r.coupling * torque_nm, 0};
+  taken[kSlew] = {r.coupling * force_n, r.slew_radps2_pnm * torque_nm, 0};
+  return taken;
 }
 
 State Model::displaced(const State& state, const InnerState& inner) const noexcept {

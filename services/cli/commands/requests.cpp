@@ -1,4 +1,4 @@
-/// crane reset, arm, disarm, stop, estop: one request without arguments each.
+/// crane reset, arm, disarm, stop, estop: one request each.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -18,12 +18,17 @@ struct Verb {
 void add(CLI::App& app, Action& chosen, const Verb& verb) {
   auto options = std::make_shared<runtime::BusOptions>(tool_bus());
   auto* command = app.add_subcommand(verb.name, verb.summary);
+  auto confirmed = std::make_shared<bool>(false);
+  if (verb.kind == crane_REQUEST_RESET)
+    command->add_flag("--confirm-positions", *confirmed,
+                      "after a new start of the bridge: every axis stands where `crane status` says");
   runtime::add_bus_options(*command, *options);
   command->footer(verb.footer);
-  command->callback([options, verb, &chosen] {
-    chosen = [options, verb] {
+  command->callback([options, confirmed, verb, &chosen] {
+    chosen = [options, confirmed, verb] {
       auto bus = open_bus(*options, crane_SOURCE_OPERATOR);
-      return report(verb.name, ask(bus, {.kind = verb.kind}));
+      const stack::Wish wish{.kind = verb.kind, .selected = {*confirmed, *confirmed, *confirmed}};
+      return report(verb.name, ask(bus, wish));
     };
   });
 }

@@ -32,6 +32,9 @@ struct Limits {
       0.2;  ///< longer than the opening time: brakes have to report open within it, > 0
   double brake_report_time_s = 0.1;  ///< beyond the closing time: brakes have to report closed by then, > 0
   double idle_lock_s = 60;           ///< HOLD without a move for so long locks the crane, > 0
+  double load_still_rad = 0.005;     ///< a load that swings less when a bridge starts hangs at its zero, > 0
+  double load_watch_s =
+      10;  ///< for so long after the start of a bridge its load is looked at, >= clear_time_s
   double creeping_ratio =
       2.5;  ///< an axis without a zero is too fast above this multiple of its homing speed, >= 1
 };

@@ -7,6 +7,7 @@ namespace crane::supervisor {
 struct MotionMemory {
   bool started = false;
   std::uint64_t tick = 0;     ///< of `position`
+  double seen_s = 0;          ///< time of `position`
   PerAxis position{};         ///< newest sample, unit
   PerAxis speed{};            ///< backward difference of the two newest samples, unit/s
   PerAxis window_position{};  ///< middle of the window the axis has not left since ...

@@ -52,9 +52,10 @@ enum class Cause : std::uint8_t {
   stop_timeout,
   not_homed,
   homed,
-  homing_failed
+  homing_failed,
+  bridge_restarted
 };
-inline constexpr std::size_t kCauses = 26;
+inline constexpr std::size_t kCauses = 27;
 
 /// Why an axis has not been homed.
 enum class HomingFailure : std::uint8_t {

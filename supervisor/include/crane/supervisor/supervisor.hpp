@@ -4,6 +4,7 @@
 #include "crane/supervisor/gate.hpp"
 #include "crane/supervisor/homing.hpp"
 #include "crane/supervisor/motion.hpp"
+#include "crane/supervisor/restart.hpp"
 #include "crane/supervisor/state_machine.hpp"
 
 namespace crane::supervisor {
@@ -30,6 +31,7 @@ struct TickInput {
   std::uint64_t tick = 0;
   bool state_arrived = false;  ///< false: the wait for the state ran out; the step is due all the same
   Sample sample{};  ///< read only when state_arrived; a value that is not finite makes it not arrived
+  bool bridge_restarted = false;  ///< from here on a younger bridge speaks; its ticks begin anew
   bool demand_arrived = false;
   PerAxis demand_v{};
   bool reference_moving = false;
@@ -37,6 +39,7 @@ struct TickInput {
   SelfTest self_test = SelfTest::not_started;
   Requests requests{};
   std::size_t home_axis = 0;  ///< whom Request::home is about, < kAxes
+  AxisFlags confirmed{};  ///< Request::reset: the operator has seen that the axis stands where it is said to
 };
 
 struct TickMemory {
@@ -46,6 +49,7 @@ struct TickMemory {
   GateMemory gate{};
   MotionMemory motion{};
   BrakeMemory brakes{};
+  RestartMemory restart{};
   Sample sample{};  ///< newest
   int state_missing_in_row = 0;
   int overruns_in_row = 0;

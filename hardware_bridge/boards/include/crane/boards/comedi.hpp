@@ -9,6 +9,7 @@
 ///   subdevice. Inputs active low, contacts closed when all is well. Outputs: on is high.
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,7 @@ class Comedi final : public Board {
     unsigned largest = 0;
   };
 
-  void lock(int subdevice, int type, const char* key);
+  void lock(int subdevice, std::initializer_list<int> types, const char* key);
   void require_channel(int subdevice, unsigned channel, const char* key) const;
   void find_converter(std::size_t drive, unsigned channel);
   void find_lines();

@@ -28,11 +28,6 @@ class Course {
   [[nodiscard]] plant::State half_way(const std::array<Moment, kOutputs>& at, const Moment& cable);
   void kick(Output output, double acceleration);
   void kick_inner(const plant::InnerAccelerations& accelerations);
-  [[nodiscard]] plant::PerAxis drive_accelerations(const plant::State& middle,
-                                                   const plant::InnerState& inner_middle,
-                                                   const plant::PerAxis& friction) const;
-  void learn_gains(const plant::State& middle, const plant::InnerState& inner_middle,
-                   const plant::PerAxis& free);
   /// Friction of each axis, solved one after the other with the other's last value.
   plant::PerAxis move_drives(const plant::State& middle, const plant::InnerState& inner_middle);
 
@@ -43,7 +38,7 @@ class Course {
   std::array<double, kOutputs> last_{};
   std::array<double, plant::kMostInner> last_inner_{};
   plant::PerAxis last_friction_{};
-  std::array<std::array<double, 2>, 2> gain_{};
+  std::array<plant::PerAxis, plant::kAxes> gain_{};  ///< accelerations a volt of friction takes
   bool gains_known_ = false;
 };
 

@@ -53,6 +53,15 @@ struct SwingResponse {
                                            double trolley_mps2, double slew_radps2,
                                            const Locks& locks = {}) noexcept;
 
+/// What the accelerations of the drives that are not locked gain per N on the trolley and N m on the slew.
+struct DriveResponse {
+  double trolley_mps2_pn = 0;
+  double slew_radps2_pnm = 0;
+  double coupling = 0;  ///< trolley m/s2 per N m and slew rad/s2 per N, the same by the symmetry of M
+};
+[[nodiscard]] DriveResponse drive_response(const Parameters& parameters, const State& state,
+                                           const Locks& locks = {}) noexcept;
+
 /// Force that keeps the cable at its length [N], > 0 while it is taut: -Q_L of Lagrange's equation for L.
 [[nodiscard]] double cable_tension_n(const Parameters& parameters, const State& state,
                                      const Accelerations& accelerations) noexcept;

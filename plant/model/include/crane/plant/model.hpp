@@ -40,6 +40,11 @@ class Model {
 
   /// Friction in volts that the drive terms add up to.
   [[nodiscard]] PerAxis friction_v(const State& state) const noexcept;
+  [[nodiscard]] double friction_v(const State& state, Axis axis) const noexcept;
+
+  /// What a volt of friction takes from the accelerations of trolley and slew: [accelerated][rubbing axis].
+  [[nodiscard]] std::array<PerAxis, kAxes> friction_response(const State& state, const Locks& locks,
+                                                             const InnerState& inner) const noexcept;
 
   /// Number of coordinates the structure terms have of their own, at most kMostInner.
   [[nodiscard]] std::size_t inner_coordinates() const noexcept { return inner_coordinates_; }
@@ -77,7 +82,7 @@ class Model {
   std::size_t inner_coordinates_ = 0;
   Displacement rest_displacement_;
   std::vector<std::unique_ptr<Term>> command_terms_;
-  std::vector<std::unique_ptr<Term>> drive_terms_;
+  std::array<std::vector<std::unique_ptr<Term>>, kAxes> drive_terms_;  ///< by the axis they act on
   std::vector<std::unique_ptr<Term>> load_terms_;
   std::vector<Structure> structure_terms_;
   std::vector<std::unique_ptr<Term>> sensor_terms_;
