@@ -57,15 +57,27 @@ bool possible(const std::string& rig, const std::vector<truth::Hidden>& effects)
 }
 
 /// Scales the effects one by one to `multiple` detection limits.
-void set_amplitudes(truth::Case& request, double multiple) {
+/// @return what the smallest of them reaches: the crane's bounds stop some before that
+double set_amplitudes(truth::Case& request, double multiple) {
   constexpr double kTrial = 0.5;
+  double reached = multiple;
   for (truth::Hidden& hidden : request.effects) {
     truth::Case alone = request;
     alone.effects = {{hidden.name, kTrial, hidden.axis}};
     alone.training_runs.resize(1);
     const double limit = kTrial / std::max(truth::effect_size(alone).ratio, 1e-6);
-    hidden.amplitude = std::min(multiple * limit, kMostAmplitude);
+    hidden.amplitude = alone.effects[0].amplitude = std::min(multiple * limit, kMostAmplitude);
+    reached = std::min(reached, truth::effect_size(alone).ratio);
   }
+  return reached;
+}
+
+/// The largest of the deck's multiples that an effect comes near to; 0 below all of them.
+double nearest_multiple(double reached) {
+  constexpr double kNear = 0.75;
+  for (const double multiple : kMultiples)
+    if (reached >= kNear * multiple) return multiple;
+  return 0;
 }
 
 /// Every other set is of the tower; the rest takes turns among the rigs that can have the effects.
@@ -132,7 +144,7 @@ Set set_of(std::size_t number, std::uint64_t first_seed) {
   }
   if (!rig.empty()) set.request = case_on(rig, seed);
   set.request.effects = effects;
-  set_amplitudes(set.request, set.multiple);
+  if (!effects.empty()) set.multiple = nearest_multiple(set_amplitudes(set.request, set.multiple));
   return set;
 }
 

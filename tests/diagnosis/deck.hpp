@@ -14,7 +14,7 @@ enum class Kind { clean, single, outside, pair, confounded };
 struct Set {
   std::size_t number = 0;
   Kind kind = Kind::clean;
-  double multiple = 0;  ///< amplitude in detection limits
+  double multiple = 0;  ///< amplitude in detection limits: 4, 2, 1; 0: none, or below all of them
   truth::Case request;
 };
 

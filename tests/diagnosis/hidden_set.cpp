@@ -5,9 +5,7 @@ namespace crane::diagnosis::score {
 const std::vector<HiddenSet> kFoundAlone{{"command_delay", "trolley", "drive_axis"},
                                          {"coulomb_friction", "trolley", "drive_axis", -1},
                                          {"viscous_friction", "trolley", "drive_axis"},
-                                         {"direction_asymmetry", "trolley", "drive_axis"},
                                          {"stribeck_friction", "trolley", "drive_axis"},
-                                         {"position_dependent_friction", "trolley", "drive_axis"},
                                          {"motor_gain", "trolley", "drive_axis"},
                                          {"actuator_lag", "trolley", "drive_axis"},
                                          {"payload_mass", "", "gantry"},
@@ -15,22 +13,28 @@ const std::vector<HiddenSet> kFoundAlone{{"command_delay", "trolley", "drive_axi
                                          {"load_quadratic_drag", "", "tower"},
                                          {"swing_pivot_friction", "", "tower"},
                                          {"jib_tilt", "", "tower"},
-                                         {"jib_flexibility", "", "tower"},
-                                         {"swing_scale", "radial", "tower"}};
+                                         {"swing_scale", "radial", "tower"},
+                                         {"swing_offset", "radial", "tower"},
+                                         {"swing_misalignment", "", "tower"},
+                                         {"cable_length", "", "tower", -1},
+                                         {"position_scale", "trolley", "drive_axis"}};
 
-// Causes that the library has and these data show, but that come out as "unknown", ambiguous or not at all.
-const std::vector<HiddenSet> kNotFoundYet{
-    {"backlash", "trolley", "tower"},           {"double_pendulum", "", "tower"},
-    {"torque_ripple", "trolley", "drive_axis"}, {"position_drift", "trolley", "drive_axis"},
-    {"swing_moving_average", "", "tower"},      {"swing_misalignment", "", "tower"},
-    {"swing_offset", "radial", "tower"},        {"cable_length", "", "tower", -1},
-    {"cable_elasticity", "", "tower"},          {"position_scale", "trolley", "drive_axis"}};
-
-const std::vector<HiddenSet> kWithoutTerm{{"command_delay", "trolley", "drive_axis"},
-                                          {"stribeck_friction", "trolley", "drive_axis"},
+// Causes that the library has and these data show, but that come out as "unknown", ambiguous, with a second
+// cause beside them or not at all. An elastic cable is found as a longer one: its bounce is never measured.
+const std::vector<HiddenSet> kNotFoundYet{{"direction_asymmetry", "trolley", "drive_axis"},
                                           {"position_dependent_friction", "trolley", "drive_axis"},
-                                          {"position_scale", "trolley", "drive_axis"},
-                                          {"motor_gain", "trolley", "drive_axis"},
+                                          {"jib_flexibility", "", "tower"},
+                                          {"backlash", "trolley", "tower"},
+                                          {"double_pendulum", "", "tower"},
+                                          {"torque_ripple", "trolley", "drive_axis"},
+                                          {"position_drift", "trolley", "drive_axis"},
+                                          {"swing_moving_average", "", "tower"},
+                                          {"cable_elasticity", "", "tower"}};
+
+// Without a load a gain and a scale of the encoder take each other's place, and so do, beside Coulomb
+// friction, a delay and a lag.
+const std::vector<HiddenSet> kWithoutTerm{{"stribeck_friction", "trolley", "drive_axis"},
+                                          {"position_dependent_friction", "trolley", "drive_axis"},
                                           {"viscous_friction", "trolley", "drive_axis"},
                                           {"direction_asymmetry", "trolley", "drive_axis"}};
 
@@ -56,8 +60,8 @@ const std::vector<HiddenPair> kPairs{
 
 const std::vector<HiddenSet> kFreshCauses{{"command_delay", "trolley", "drive_axis"},
                                           {"viscous_friction", "trolley", "drive_axis"},
-                                          {"direction_asymmetry", "trolley", "drive_axis"},
-                                          {"position_dependent_friction", "trolley", "drive_axis"},
+                                          {"stribeck_friction", "trolley", "drive_axis"},
+                                          {"position_scale", "trolley", "drive_axis"},
                                           {"motor_gain", "trolley", "drive_axis"},
                                           {"actuator_lag", "trolley", "drive_axis"},
                                           {"", "", "drive_axis"}};

@@ -32,7 +32,7 @@ inline void PrintTo(const HiddenPair& pair, std::ostream* out) {
   truth::Case request;
   request.rig = set.rig;
   request.seed = set.seed;
-  request.seconds = 20;
+  request.seconds = 30;
   if (request.rig == "tower") request.training_runs = {"rich"};
   if (*set.name != '\0') request.effects = {{set.name, set.amplitude, set.axis}};
   return request;

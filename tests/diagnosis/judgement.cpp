@@ -75,7 +75,9 @@ bool confounded(const std::string& a, const std::string& b) {
       {"swing_delay", "swing_moving_average"},
       {"direction_asymmetry", "jib_tilt", "command_offset"},
       {"steady_wind", "swing_offset", "jib_tilt"},
-      {"stribeck_friction", "position_dependent_friction"}};
+      {"stribeck_friction", "position_dependent_friction"},
+      {"motor_gain", "position_scale"},
+      {"cable_elasticity", "cable_length"}};
   const auto holds = [](const std::vector<std::string>& group, const std::string& name) {
     return std::find(group.begin(), group.end(), name) != group.end();
   };

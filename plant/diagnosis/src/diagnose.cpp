@@ -11,7 +11,9 @@ namespace crane::diagnosis {
 namespace {
 
 /// An effect that leaves less than this share of the residual hides the noise, and what is small beside it.
-constexpr double kLittleLeft = 0.25;
+/// Around standstill the noise of a drive is rougher: what is left of it tells less, and has to be left to be
+/// doubted.
+constexpr double kLittleLeftOfDrives = 0.25, kLittleLeftOfLoad = 0.6;
 
 Runs prepared(std::vector<Run> runs, const runtime::Rig& rig) {
   Runs all;
@@ -57,16 +59,18 @@ std::optional<NextExperiment> proposal(const runtime::Rig& rig, const Hypotheses
   return propose_experiment(rig, *first.candidate, first.values, rival, single->effects[0].values, noise);
 }
 
-/// Whether the best hypothesis explains so much that noise and disturbance are to be learnt from what it
+/// Whether the likeliest hypothesis explains so much that noise and disturbance are to be learnt from what it
 /// leaves.
 bool hides_the_noise(const Hypotheses& found) {
-  return found.best.train.loss < kLittleLeft * found.base.train.loss && excess(found.best) <= 1;
+  const Evaluation &base = found.base.train, &left = found.likeliest.train;
+  return excess(found.likeliest) <= 1 && (left.drive_loss < kLittleLeftOfDrives * base.drive_loss ||
+                                          left.load_loss < kLittleLeftOfLoad * base.load_loss);
 }
 
 /// With noise and disturbance learnt from what `before` leaves; then the singles are fitted anew.
 Hypotheses learnt_anew(Study& study, const Request& request, const Hypotheses& before) {
   request.progress(0.4, "noise and disturbance of what is left");
-  study.learn_disturbance(before.best.effects);
+  study.learn_disturbance(before.likeliest.effects);
   return singles_again(study, request, before);
 }
 
@@ -82,10 +86,10 @@ Hypotheses searched(Study& study, const Request& request) {
 Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test, const Request& request) {
   Study study(rig, train, test, request.excluded);
   const Hypotheses found = searched(study, request);
-  request.progress(0.88, "what is left");
-  auto [result, rivals] = judge(study, found, request.seed);
-  request.progress(0.93, "held-out runs");
-  result.held_out = held_out(study, test, found.best.effects, request.seed);
+  request.progress(0.88, "held-out runs");
+  const HeldOut figures = held_out(study, test, found.best.effects, request.seed);
+  request.progress(0.9, "what is left");
+  auto [result, rivals] = judge(study, found, figures, request.seed);
   if (!rivals.empty()) {
     request.progress(0.95, "which motion would tell them apart");
     result.next_experiment = proposal(rig, found, *rivals[0], result.held_out);

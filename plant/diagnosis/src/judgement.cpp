@@ -9,8 +9,9 @@ namespace crane::diagnosis {
 namespace {
 
 /// Mean square of the whitened residual beyond which noise and a coloured force cannot have made it. Swing
-/// keeps to 1 within a few percent; a drive that breaks loose a moment too late or early leaves more.
-constexpr double kWorstSwing = 1.25, kWorstDrive = 4;
+/// keeps to 1 within a few percent; a drive that breaks loose a moment too late or early leaves more, up
+/// to 1.4, and no term has exactly the form of what it stands for.
+constexpr double kWorstSwing = 1.25, kWorstDrive = 1.8, kWorstExtendedDrive = 2.6;
 constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
 /// An unexplained pattern this large against what the named effects explain makes the name doubtful.
@@ -55,8 +56,9 @@ std::string said(const Diagnosis& d) {
 
 class Judgement {
  public:
-  Judgement(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed)
+  Judgement(const Study& study, const Hypotheses& hypotheses, const HeldOut& held_out, std::uint64_t seed)
       : study_(study), all_(hypotheses), best_(hypotheses.best), seed_(seed) {
+    result_.held_out = held_out;
     result_.ranking = hypotheses.ranking;
     result_.detection_p_value = hypotheses.detection_p_value;
   }
@@ -89,15 +91,19 @@ class Judgement {
                                       : "drives: more than sensor noise and a coloured force leave");
       return true;
     }
-    if (left.empty()) return false;
+    const bool unproven =
+        !best_.effects.empty() && !best_.test.blocks.empty() && !(result_.held_out.gain_ci95[0] > 0);
+    if (unproven) remainder.from.emplace_back("held-out runs: no gain of the best hypothesis is proven");
+    if (left.empty()) return unproven;
     remainder.predictable_fraction = left[0].fraction;
     for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
       remainder.from.push_back(left[i].variable);
     const double explained = all_.base.train.loss - best_.train.loss;
-    return std::any_of(left.begin(), left.end(), [&](const Unexplained& u) {
-      const double share = u.line ? kDoubtfulLine : kDoubtful;
-      return u.serious && (best_.effects.empty() || u.gain > share * explained || u.fraction > kDoubtful);
-    });
+    return unproven || std::any_of(left.begin(), left.end(), [&](const Unexplained& u) {
+             const double share = u.line ? kDoubtfulLine : kDoubtful;
+             return u.serious &&
+                    (best_.effects.empty() || u.gain > share * explained || u.fraction > kDoubtful);
+           });
   }
 
   /// Patterns in the residual of the drives and lines in that of the swing, strongest first.
@@ -174,11 +180,12 @@ class Judgement {
 }  // namespace
 
 double excess(const Fitted& best) {
-  return std::max(mean_square(best.train.load) / kWorstSwing, mean_square(best.train.drive) / kWorstDrive);
+  const double worst_drive = best.effects.empty() ? kWorstDrive : kWorstExtendedDrive;
+  return std::max(mean_square(best.train.load) / kWorstSwing, mean_square(best.train.drive) / worst_drive);
 }
 
-Judged judge(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed) {
-  return Judgement(study, hypotheses, seed).run();
+Judged judge(const Study& study, const Hypotheses& hypotheses, const HeldOut& held_out, std::uint64_t seed) {
+  return Judgement(study, hypotheses, held_out, seed).run();
 }
 
 }  // namespace crane::diagnosis

@@ -22,11 +22,13 @@ constexpr int kStartRounds = 8;
 /// What the start's directions still explain of a whitened residual, in noise variances: the projection takes
 /// it out as well as another round would.
 constexpr double kStartFound = 0.1;
+/// The same of a plain residual, as a share of it.
+constexpr double kPlainStartFound = 1e-4;
 /// Mean square of a whitened window, in those of the median window, beyond which it counts less.
 constexpr double kNoisiest = 2.0;
 /// A start direction that changes the window less than this share of the strongest one cannot be solved for:
 /// the speed of an axis that sticks is forgotten at once.
-constexpr double kLeastSlope = 0.02;
+constexpr double kLeastSlope = 0.001;
 /// The measurement knows the start better than this; a larger correction in one round is not believed.
 constexpr double kMostPosition = 0.01, kMostRate = 0.1;
 /// Nothing measures a term's own coordinates: so many times that.
@@ -63,11 +65,12 @@ Problem::Problem(const Runs& runs, Part part, double window_s) : runs_(runs), pa
 std::vector<std::vector<VectorXd>> Problem::residuals(const Crane& crane) const {
   const Fits fits = fit(crane);
   std::vector<std::vector<VectorXd>> result(outputs_.size());
-  for (std::size_t output = 0; output < outputs_.size(); ++output)
-    for (std::size_t w = 0; w < windows_.size(); ++w) {
-      const auto rows = static_cast<Index>(windows_[w].rows);
-      result[output].emplace_back(fits[w].residual.segment(static_cast<Index>(output) * rows, rows));
-    }
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    const VectorXd left = whiteners_.empty() ? fits[w].residual : measured(windows_[w]) - fits[w].simulated;
+    const auto rows = static_cast<Index>(windows_[w].rows);
+    for (std::size_t output = 0; output < outputs_.size(); ++output)
+      result[output].emplace_back(left.segment(static_cast<Index>(output) * rows, rows));
+  }
   return result;
 }
 
@@ -91,28 +94,30 @@ void Problem::weigh(const std::vector<std::vector<VectorXd>>& residuals) {
 
 void Problem::learn_disturbance(const Crane& crane, double natural_radps) {
   whiteners_.clear();
-  const std::vector<std::vector<VectorXd>> plain = residuals(crane);
-  for (int round = 0; round < 3; ++round) {
-    std::vector<Whitener> learned;
-    for (std::size_t output = 0; output < outputs_.size(); ++output) {
-      std::vector<VectorXd> weighted = plain[output];
-      if (round > 0)
-        for (std::size_t w = 0; w < weighted.size(); ++w) weighted[w] *= weights_[output][w];
-      const bool swing = outputs_[output] == kRadialSwing || outputs_[output] == kTangentialSwing;
-      learned.emplace_back(weighted, runs_[windows_[0].run].run.period_s, swing ? natural_radps : 0);
+  // The second time with starts that were solved for with what was learnt the first time.
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::vector<std::vector<VectorXd>> plain = residuals(crane);
+    for (int round = 0; round < 3; ++round) {
+      std::vector<Whitener> learned;
+      for (std::size_t output = 0; output < outputs_.size(); ++output) {
+        std::vector<VectorXd> weighted = plain[output];
+        if (round > 0)
+          for (std::size_t w = 0; w < weighted.size(); ++w) weighted[w] *= weights_[output][w];
+        const bool swing = outputs_[output] == kRadialSwing || outputs_[output] == kTangentialSwing;
+        learned.emplace_back(weighted, runs_[windows_[0].run].run.period_s, swing ? natural_radps : 0);
+      }
+      whiteners_ = std::move(learned);
+      weigh(plain);
     }
-    whiteners_ = std::move(learned);
-    weigh(plain);
   }
 }
 
 void Problem::whiten_like(const Problem& other, const Crane& crane) {
-  whiteners_.clear();
-  const std::vector<std::vector<VectorXd>> plain = residuals(crane);
   whiteners_ = other.whiteners_;
   for (Whitener& whitener : whiteners_)
     for (const Window& window : windows_) whitener.prepare(static_cast<Index>(window.rows));
-  weigh(plain);
+  weights_.assign(outputs_.size(), std::vector<double>(windows_.size(), 1.0));
+  weigh(residuals(crane));
 }
 
 std::vector<Replay> Problem::replays(const Runs& runs, const Crane& crane) const {
@@ -172,12 +177,17 @@ VectorXd Problem::measured_start(const Replay& replay, const Window& window) {
 void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
   fit.simulated = simulate(replay, windows_[at], fit.start);
   MatrixXd slopes = start_slopes(replay, at, fit.start, fit.simulated, 0);
-  // A coordinate of a term's own is in a length of its own: what it changes counts against the rest in shape.
+  // By what a believable change of each does. A coordinate of a term's own is in a length of its own: what it
+  // changes counts against the rest in shape.
   const Index measured = bare_start();
-  const double strongest = slopes.leftCols(measured).colwise().norm().maxCoeff();
-  VectorXd scale = VectorXd::Ones(slopes.cols());
-  for (Index i = measured; i < slopes.cols(); ++i)
-    if (const double norm = slopes.col(i).norm(); norm > 0) scale[i] = strongest / norm;
+  VectorXd scale(slopes.cols());
+  for (Index i = 0; i < measured; ++i) scale[i] = i % 2 == 0 ? kMostPosition : kMostRate;
+  const double strongest =
+      (slopes.leftCols(measured) * scale.head(measured).asDiagonal()).colwise().norm().maxCoeff();
+  for (Index i = measured; i < slopes.cols(); ++i) {
+    const double norm = slopes.col(i).norm();
+    scale[i] = norm > 0 ? strongest / norm : 1;
+  }
   slopes = slopes * scale.asDiagonal();
   Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes.rows(), slopes.cols());
   qr.setThreshold(kLeastSlope);
@@ -187,15 +197,22 @@ void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) co
   fit.freedom = static_cast<double>(slopes.cols() - measured);
 }
 
-/// Rounds with the directions there are. @pre simulated from the start
+/// Rounds with the directions there are, as long as they help: around standstill they may not.
+/// @pre simulated from the start
 void Problem::settle_start(const Replay& replay, std::size_t at, const VectorXd& target,
                            WindowFit& fit) const {
-  for (int round = 1;; ++round) {
-    fit.residual = target - fit.simulated;
-    whiten(at, fit.residual);
-    if (round == kStartRounds || (fit.basis.transpose() * fit.residual).squaredNorm() < kStartFound) return;
-    fit.start += believable(fit.to_start * fit.residual, bare_start());
-    fit.simulated = simulate(replay, windows_[at], fit.start);
+  fit.residual = target - fit.simulated;
+  whiten(at, fit.residual);
+  for (int round = 1; round < kStartRounds; ++round) {
+    const double found = whiteners_.empty() ? kPlainStartFound * fit.residual.squaredNorm() : kStartFound;
+    if ((fit.basis.transpose() * fit.residual).squaredNorm() < found) return;
+    const VectorXd start = fit.start + believable(fit.to_start * fit.residual, bare_start());
+    VectorXd simulated = simulate(replay, windows_[at], start), residual = target - simulated;
+    whiten(at, residual);
+    if (residual.squaredNorm() >= fit.residual.squaredNorm()) return;
+    fit.start = start;
+    fit.simulated = std::move(simulated);
+    fit.residual = std::move(residual);
   }
 }
 

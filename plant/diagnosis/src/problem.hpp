@@ -75,7 +75,7 @@ class Problem {
   [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
 
  private:
-  /// Residuals [output][window], plain.
+  /// Residuals [output][window], not whitened, of starts that were solved for with what is known.
   [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Crane& crane) const;
   /// Numbers of a start that every crane has.
   [[nodiscard]] Eigen::Index bare_start() const { return static_cast<Eigen::Index>(2 * outputs_.size()); }

@@ -103,7 +103,7 @@ class Search {
 
   Hypotheses singles_again(const Hypotheses& before) {
     found_.detection_p_value = before.detection_p_value;
-    const double least = study_.fit(before.best.effects).train.loss;
+    const double least = study_.fit(before.likeliest.effects).train.loss;
     for (std::size_t i = 0; i < before.singles.size(); ++i) {
       found_.singles.push_back(study_.fit(before.singles[i].effects, least + kHopeless));
       rank(found_.singles.back(), before.ranking[i].p_value);
@@ -115,13 +115,16 @@ class Search {
   Hypotheses extended(const Hypotheses& singles) {
     found_ = singles;
     if (!found_.best.effects.empty()) extend();
+    if (!found_.best.effects.empty()) found_.likeliest = found_.best;
     return std::move(found_);
   }
 
  private:
   void choose() {
     found_.all = found_.singles;
-    found_.best = best_accepted(found_.singles, found_.base);
+    found_.best = found_.likeliest = best_accepted(found_.singles, found_.base);
+    if (found_.best.effects.empty() && !found_.singles.empty())
+      found_.likeliest = *std::min_element(found_.singles.begin(), found_.singles.end(), less);
   }
 
   /// `before` when none is accepted in its place.

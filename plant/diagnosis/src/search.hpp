@@ -11,6 +11,7 @@ namespace crane::diagnosis {
 /// Everything that was fitted.
 struct Hypotheses {
   Fitted base, best;  ///< best: without effects when none was accepted
+  Fitted likeliest;   ///< best, or the best single even when it was not accepted
   std::vector<Fitted> singles, all;
   std::vector<Ranked> ranking;
   double detection_p_value = 1;

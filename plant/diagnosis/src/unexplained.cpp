@@ -18,7 +18,7 @@ constexpr double kLeastSpeed = 0.01;  // m/s or rad/s: an extra voltage on an ax
 constexpr std::size_t kFolds = 4;
 /// Share of the drives' loss beyond which an unexplained pattern is taken seriously: friction around
 /// standstill leaves patterns of a few percent in clean data.
-constexpr double kPatternShare = 0.15;
+constexpr double kPatternShare = 0.12;
 /// A force that builds up after a reversal has done so within this share of the travel.
 constexpr double kBuildUp = 0.25;
 
