@@ -1,12 +1,12 @@
 #include "cli/tool_bus.hpp"
 
-#include <ctime>
+#include <chrono>
 
 namespace crane::cli {
 
 bus::Bus open_bus(const runtime::BusOptions& options, crane_Source source) {
   runtime::install_stop_signals();
-  const auto epoch = static_cast<std::uint32_t>(std::time(nullptr));
+  const auto epoch = runtime::epoch_at(std::chrono::system_clock::now());
   return bus::Bus{runtime::bus_options(options, "crane_tool", source, epoch)};
 }
 

@@ -59,7 +59,7 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto rig = load_rig(options.rig);
   const auto& controller = chosen_controller(options.controller, rig);
   const auto clock = options.clock == "lockstep" ? Clock::lockstep : Clock::realtime;
-  const auto epoch = options.epoch != 0 ? options.epoch : static_cast<std::uint32_t>(std::time(nullptr));
+  const auto epoch = options.epoch != 0 ? options.epoch : epoch_at(std::chrono::system_clock::now());
   bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
   if (spec.sole_writer_of != nullptr) refuse_second_writer(bus, *spec.sole_writer_of);
   Node node{bus, {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""}};
@@ -155,10 +155,15 @@ const control::Controller& chosen_controller(const std::string& name, const Rig&
   throw ConfigurationError({"controller = " + wanted + ": must be one of " + known});
 }
 
+std::uint32_t epoch_at(std::chrono::system_clock::time_point time) {
+  using Tenths = std::chrono::duration<std::int64_t, std::deci>;
+  return static_cast<std::uint32_t>(std::chrono::floor<Tenths>(time.time_since_epoch()).count());
+}
+
 void refuse_second_writer(bus::Bus& bus, const topics::Description& topic) {
-  constexpr std::int64_t kDiscovery_ns = 400'000'000;
   const auto probe = bus.cdr_subscriber(topic);
-  for (const auto end_ns = monotonic_ns() + kDiscovery_ns; monotonic_ns() < end_ns && !stop_requested();) {
+  const auto end_ns = monotonic_ns() + std::chrono::nanoseconds{kSoleWriterLook}.count();
+  while (monotonic_ns() < end_ns && !stop_requested()) {
     bus.wait(std::chrono::milliseconds{10});
     if (probe.matched() > 0)
       throw bus::Error("somebody already writes " + std::string{topic.name} + " of crane '" +

@@ -1,6 +1,7 @@
 #pragma once
 /// A component in a process of its own: command line, rig file, bus, signals, the loop.
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -53,7 +54,7 @@ struct LoopOptions {
   std::string rig;
   std::string controller;  ///< empty: the rig file's
   std::string clock = "realtime";
-  std::uint32_t epoch = 0;  ///< 0: seconds since 1970, so that a restarted process is younger
+  std::uint32_t epoch = 0;  ///< 0: epoch_at() the start, so that a restarted process is younger
   int priority = 50;        ///< SCHED_FIFO priority in realtime, 0: ordinary scheduling
   bool verbose = false;
 };
@@ -62,7 +63,16 @@ void add_loop_options(CLI::App& app, LoopOptions& options);
 /// The controller a loop runs. @throws ConfigurationError when the name does not exist, listing those that do
 [[nodiscard]] const control::Controller& chosen_controller(const std::string& name, const Rig& rig);
 
-/// Looks for other writers of `topic` for a moment. @throws bus::Error with the remedy when there is one
+/// Start-up number of a process that starts at `time`: tenths of a second since 1970, without the digits that
+/// do not fit; it begins anew in January 2038.
+[[nodiscard]] std::uint32_t epoch_at(std::chrono::system_clock::time_point time);
+
+/// How long a process looks for another writer before it writes. Longer than a step of epoch_at(), so that
+/// who writes after another one has the higher number.
+inline constexpr std::chrono::milliseconds kSoleWriterLook{400};
+
+/// Looks for other writers of `topic` for kSoleWriterLook. @throws bus::Error with the remedy when there is
+/// one
 void refuse_second_writer(bus::Bus& bus, const topics::Description& topic);
 
 /// main() of every process of the stack. @return exit code
