@@ -80,6 +80,9 @@ TEST_F(Hw, RefusesWhatCannotBe) {
   const auto refused = hw({"calibrate", "--rig", tower_, "--out", other});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.errors.find("calibration of another rig"), std::string::npos) << refused.errors;
+  const auto nowhere = hw({"calibrate", "--rig", tower_, "--out", directory_ / "nowhere" / "x.toml"});
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_EQ(nowhere.output, "") << "asked, and moved, before it said that it cannot write";
   EXPECT_EQ(hw({"jog", "--rig", tower_, "--axis", "trolley", "--volts", "9"}).exit_code, 2);
   EXPECT_EQ(hw({"jog", "--rig", tower_, "--axis", "swing_radial", "--volts", "2"}).exit_code, 2);
   EXPECT_EQ(hw({"probe", "--rig", "gantry"}).exit_code, 2);  // board = simulated

@@ -104,16 +104,27 @@ TEST_F(TrappedCard, RunsTheUnchangedDriverWithRealInstructions) {
   EXPECT_GT(faults, 60 * 40);
 }
 
-TEST_F(TrappedCard, WithoutPermissionIsRefusedWithTheRemedy) {
-  permission_refused_with = EPERM;
+/// What the driver says when the kernel refuses with `error`.
+std::string refusal(int error) {
+  permission_refused_with = error;
+  std::string text = "accepted";
   try {
     (void)open_ports(0x200);
-    FAIL() << "accepted";
-  } catch (const BoardError& error) {
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("no permission for the I/O ports"),
-                                             testing::HasSubstr("cap_sys_rawio")));
+  } catch (const BoardError& refused) {
+    text = refused.what();
   }
   permission_refused_with = 0;
+  return text;
+}
+
+TEST_F(TrappedCard, WithoutPermissionIsRefusedWithTheRemedy) {
+  EXPECT_THAT(refusal(EPERM), testing::AllOf(testing::HasSubstr("no permission for the I/O ports"),
+                                             testing::HasSubstr("cap_sys_rawio")));
+}
+
+TEST_F(TrappedCard, OnAKernelWithoutPortAccessIsRefusedWithWhatTheKernelLacks) {
+  EXPECT_THAT(refusal(ENOSYS), testing::AllOf(testing::HasSubstr("CONFIG_X86_IOPL_IOPERM"),
+                                              testing::Not(testing::HasSubstr("run as root"))));
 }
 
 }  // namespace

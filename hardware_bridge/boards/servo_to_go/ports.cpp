@@ -11,16 +11,21 @@
 namespace crane::bridge {
 namespace {
 
+std::string refusal(int error) {
+  if (error == ENOSYS)
+    return "this kernel gives no program access to I/O ports: boot one with CONFIG_X86_IOPL_IOPERM (Debian's "
+           "has it)";
+  return std::string{"no permission for the I/O ports of the board: "} + std::strerror(error) +
+         "; run as root, or `setcap cap_sys_rawio,cap_sys_nice,cap_ipc_lock+ep` on crane_hardware_bridge and "
+         "crane; refused to root, too: switch Secure Boot off";
+}
+
 class SystemPorts final : public PortIo {
  public:
   explicit SystemPorts(std::uint16_t base_address) {
     for (const unsigned long first : {static_cast<unsigned long>(base_address),
                                       base_address + static_cast<unsigned long>(servo_to_go::kSecondWindow)})
-      if (::ioperm(first, servo_to_go::kWindow, 1) != 0)
-        throw BoardError(std::string{"no permission for the I/O ports of the board: "} +
-                         std::strerror(errno) +
-                         "; run as root, or `setcap cap_sys_rawio,cap_sys_nice,cap_ipc_lock+ep` on "
-                         "crane_hardware_bridge");
+      if (::ioperm(first, servo_to_go::kWindow, 1) != 0) throw BoardError(refusal(errno));
   }
   [[nodiscard]] std::uint8_t in_8(std::uint16_t port) noexcept override { return ::inb(port); }
   [[nodiscard]] std::uint16_t in_16(std::uint16_t port) noexcept override { return ::inw(port); }

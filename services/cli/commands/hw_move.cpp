@@ -1,5 +1,10 @@
 /// crane hw jog, calibrate, selftest: small guarded motions.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -91,6 +96,14 @@ std::string answered(std::istream& in, const std::string& question, bool echo) {
   return answer;
 }
 
+/// Before anything moves.
+void require_writable(const std::filesystem::path& file) {
+  const auto target = std::filesystem::exists(file) ? file : std::filesystem::absolute(file).parent_path();
+  if (::access(target.c_str(), W_OK) != 0)
+    throw runtime::ConfigurationError(
+        {file.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --out"});
+}
+
 void write_file(const std::string& file, const std::string& text) {
   std::ofstream out{file, std::ios::binary};
   out << text;
@@ -103,6 +116,7 @@ int calibrate(const HwMoveOptions& options) {
   if (!options.answers.empty()) answers.open(options.answers);
   OpenBoard opened{options.board};
   bring_up::require_own_file(opened.rig(), options.out);
+  require_writable(options.out);
   bring_up::Session session{opened.rig(), opened.board(), opened.clock()};
   const auto found =
       bring_up::calibrate(session, {.largest_v = options.largest_v,
