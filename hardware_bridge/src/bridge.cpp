@@ -1,5 +1,6 @@
 #include "crane/bridge/bridge.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -117,6 +118,7 @@ void Bridge::tick(std::int64_t now_ns) {
   board_->advance_to(static_cast<std::int64_t>(next) * period_ns_);
   const auto inputs = board_->read();
   const auto measured = measurement_.step(inputs.raw_counts);
+  report_relay(inputs, now_ns);
   const auto now = seen(inputs);
   apply(last_line_.decide(command_, next, now));
   auto sample = state(inputs, measured, sample_time_ns);
@@ -208,6 +210,23 @@ void Bridge::report_latch() {
     node_.error(name_of(reason), std::string{explanation_of(reason)} + ": 0 V, brakes closed, latched",
                 remedy_for(reason));
   reported_ = reason;
+}
+
+/// A relay that drops by itself is no latch of the bridge, and nobody else knows how late the toggles were.
+void Bridge::report_relay(const Inputs& inputs, std::int64_t now_ns) {
+  const auto tick_ns = now_ns - ticked_ns_;
+  if (relay_closed_ && inputs.watchdog_dropped && toggles_ && !inputs.estop_pressed) {
+    const auto late_ms = std::llround(static_cast<double>(std::max(tick_ns, last_tick_ns_)) * 1e-6);
+    node_.error("relay_dropped",
+                "the watchdog relay dropped while its output toggled, the last time after " +
+                    std::to_string(late_ms) + " ms",
+                "look for what keeps the bridge from its ticks (overruns of crane/state), or at relay and "
+                "relay_timeout_s, then `crane reset`");
+  }
+  relay_closed_ = !inputs.watchdog_dropped;
+  toggles_ = command_ && command_->watchdog_permission && last_line_.reason() == Reason::none;
+  ticked_ns_ = now_ns;
+  last_tick_ns_ = tick_ns;
 }
 
 }  // namespace crane::bridge

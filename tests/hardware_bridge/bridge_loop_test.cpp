@@ -1,4 +1,4 @@
-// Which commands the bridge's loop listens to.
+// Which commands the bridge's loop listens to, and what it says of its relay.
 #include <gtest/gtest.h>
 
 #include "crane/boards/emulated_board.hpp"
@@ -9,6 +9,8 @@
 namespace crane::bridge {
 namespace {
 
+constexpr std::int64_t kPeriod_ns = 10'000'000;
+
 msg::Command command_of(std::uint64_t tick, double trolley_v) {
   msg::Command command{};
   command.header.tick = tick;
@@ -18,29 +20,70 @@ msg::Command command_of(std::uint64_t tick, double trolley_v) {
   return command;
 }
 
-TEST(BridgeLoop, ACommandThatAnswersABridgeBeforeItIsNotListenedTo) {
-  constexpr std::int64_t kPeriod_ns = 10'000'000;
-  const auto rig = runtime::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml");
-  const auto network = bus::make_memory_network();
-  bus::Bus own{runtime::memory_options(network, "bridge", crane_SOURCE_BRIDGE)};
-  bus::Bus other{runtime::memory_options(network, "supervisor", crane_SOURCE_SUPERVISOR)};
-  auto commands = other.publisher(topics::command);
-  auto states = other.subscriber(topics::state);
-  runtime::Node node{own, {"bridge", ""}};
-  Bridge bridge{{own, node, rig, *control::find_controller("none"), runtime::Clock::realtime},
-                std::make_unique<EmulatedBoard>(rig, std::make_unique<WiredRig>(rig))};
-  for (std::uint64_t tick = 0; tick < 20; ++tick) {
-    auto of_another = command_of(500, 5);
-    commands.publish(of_another);
-    bridge.poll(static_cast<std::int64_t>(tick) * kPeriod_ns);
-    const auto state = states.take();
-    ASSERT_TRUE(state && state->header.tick == tick);
-    ASSERT_EQ(state->latch_reason, crane_LATCH_NONE) << tick;
-    ASSERT_EQ(state->applied_v[0], 0);
-    ASSERT_EQ(state->applied_command_tick, tick == 0 ? 0 : tick - 1);
-    auto answer = command_of(tick, 0);
-    commands.publish(answer);
+class BridgeLoop : public testing::Test {
+ protected:
+  /// The tick at its time; what it published.
+  msg::State tick(std::uint64_t number) {
+    bridge_.poll(static_cast<std::int64_t>(number) * kPeriod_ns);
+    const auto state = states_.take();
+    EXPECT_TRUE(state && state->header.tick == number);
+    return state.value_or(msg::State{});
   }
+  void publish(msg::Command command) { commands_.publish(command); }
+  /// 20 ticks, each answered.
+  void run_with_closed_relay() {
+    for (std::uint64_t number = 0; number < 20; ++number) {
+      tick(number);
+      publish(command_of(number, 0));
+    }
+    ASSERT_FALSE(tick(20).watchdog_dropped);
+  }
+  std::string told() {
+    std::string codes;
+    while (const auto event = events_.take()) codes += std::string{event->code} + ": " + event->what + '\n';
+    return codes;
+  }
+
+ private:
+  runtime::Rig rig_ = runtime::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml");
+  std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
+  bus::Bus own_{runtime::memory_options(network_, "bridge", crane_SOURCE_BRIDGE)};
+  bus::Bus other_{runtime::memory_options(network_, "supervisor", crane_SOURCE_SUPERVISOR)};
+  bus::Publisher<msg::Command> commands_ = other_.publisher(topics::command);
+  bus::Subscriber<msg::State> states_ = other_.subscriber(topics::state);
+  bus::Subscriber<msg::Event> events_ = other_.subscriber(topics::event);
+  runtime::Node node_{own_, {"bridge", ""}};
+  Bridge bridge_{{own_, node_, rig_, *control::find_controller("none"), runtime::Clock::realtime},
+                 std::make_unique<EmulatedBoard>(rig_, std::make_unique<WiredRig>(rig_))};
+};
+
+TEST_F(BridgeLoop, ACommandThatAnswersABridgeBeforeItIsNotListenedTo) {
+  for (std::uint64_t number = 0; number < 20; ++number) {
+    publish(command_of(500, 5));
+    const auto state = tick(number);
+    ASSERT_EQ(state.latch_reason, crane_LATCH_NONE) << number;
+    ASSERT_EQ(state.applied_v[0], 0);
+    ASSERT_EQ(state.applied_command_tick, number == 0 ? 0 : number - 1);
+    publish(command_of(number, 0));
+  }
+}
+
+TEST_F(BridgeLoop, ARelayThatDropsBecauseATickWasLateIsReportedWithHowLate) {
+  run_with_closed_relay();
+  EXPECT_TRUE(tick(23).watchdog_dropped);
+  EXPECT_EQ(
+      told(),
+      "relay_dropped: the watchdog relay dropped while its output toggled, the last time after 30 ms\n");
+}
+
+TEST_F(BridgeLoop, ARelayThatDropsBecauseTheSupervisorWithdrewItsPermissionIsNoEvent) {
+  run_with_closed_relay();
+  auto last = command_of(20, 0);
+  last.watchdog_permission = false;
+  publish(last);
+  for (std::uint64_t number = 21; number < 24; ++number) tick(number);
+  EXPECT_TRUE(tick(24).watchdog_dropped);
+  EXPECT_EQ(told(), "");
 }
 
 }  // namespace

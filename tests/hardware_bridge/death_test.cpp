@@ -8,6 +8,7 @@
 
 #include <csignal>
 #include <iostream>
+#include <thread>
 
 #include "crane/boards/linked_rig.hpp"
 #include "subject.hpp"
@@ -106,6 +107,26 @@ TEST_P(Death, ByNothingASecondBridgeIsRefusedWhileTheFirstLivesOrHangs) {
 
 INSTANTIATE_TEST_SUITE_P(Models, Death, testing::Values(1, 2),
                          [](const auto& test) { return "servo_to_go_model_" + std::to_string(test.param); });
+
+TEST(RigServer, MissesNoToggleThatCameWhileItWasKeptFromItsStep) {
+  auto rig = emulated_rig();
+  rig.wiring.relay_timeout_s = 1;  // a machine may be busy
+  const auto name = unique_name("late");
+  RigServer server{rig, name, false, 1};
+  LinkedRig card{name};
+  const auto toggling =
+      static_cast<std::uint16_t>(1U << static_cast<unsigned>(rig.wiring.watchdog_output - 16));
+  constexpr std::int64_t kLongEnough_ns = 60'000'000;  // for the relay to close
+  const auto begin_ns = runtime::monotonic_ns();
+  auto now_ns = begin_ns;
+  for (bool level = true; now_ns < begin_ns + kLongEnough_ns; level = !level) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    now_ns = runtime::monotonic_ns();
+    card.set_outputs(level ? toggling : 0);
+  }
+  server.run_to(runtime::monotonic_ns() - begin_ns);
+  EXPECT_FALSE(server.rig().crane().read().watchdog_dropped);
+}
 
 TEST(RigServer, RefusesASecondRigOfTheSameName) {
   const auto rig = emulated_rig();

@@ -64,7 +64,14 @@ void LinkedRig::set_converter(std::size_t channel, std::uint16_t code) noexcept 
 }
 
 void LinkedRig::set_outputs(std::uint16_t levels) noexcept {
-  if (lines_->outputs.exchange(levels) != levels) lines_->toggled_ns = monotonic_ns();
+  if (lines_->outputs.exchange(levels) != levels) {
+    const auto at_ns = monotonic_ns();
+    auto& change = lines_->output_changes[lines_->output_change_count % SharedLines::kOutputChanges];
+    change.at_ns = at_ns;
+    change.levels = levels;
+    ++lines_->output_change_count;
+    lines_->toggled_ns = at_ns;
+  }
   ++lines_->changes;
 }
 
@@ -120,6 +127,7 @@ RigServer::~RigServer() { file_->unlink(); }
 void RigServer::serve_advance() {
   if (!wait_for(lines_->advance, 50'000'000)) return;
   take_lines();
+  seen_output_changes_ = lines_->output_change_count;
   rig_.advance_to(lines_->until_ns);
   put_lines();
   ::sem_post(&lines_->reached);
@@ -129,12 +137,30 @@ void RigServer::run_to(std::int64_t time_ns) {
   constexpr std::int64_t kStep_ns =
       1'000'000;  // so that a moment is known to the millisecond by a late process too
   const auto offset_ns = monotonic_ns() - time_ns;
-  while (rig_.now_ns() < time_ns) {
-    rig_.advance_to(std::min(rig_.now_ns() + kStep_ns, time_ns));
-    note_brakes(rig_.now_ns() + offset_ns);
+  const OutputChange* change = next_output_change();
+  while (rig_.now_ns() < time_ns || (change != nullptr && change->at_ns <= time_ns + offset_ns)) {
+    const auto change_ns = change != nullptr ? change->at_ns - offset_ns : time_ns;
+    const auto now_ns = std::max(rig_.now_ns(), std::min({rig_.now_ns() + kStep_ns, change_ns, time_ns}));
+    rig_.advance_to(now_ns);
+    note_brakes(now_ns + offset_ns);
+    if (change == nullptr || now_ns < change_ns) continue;
+    take_converters();
+    rig_.set_outputs(change->levels);
+    ++seen_output_changes_;
+    change = next_output_change();
   }
-  take_lines();
+  if (change == nullptr) take_lines();
   put_lines();
+}
+
+/// What this process has not seen yet, though it may be some time ago: a toggle in the meantime kept the
+/// relay closed.
+const OutputChange* RigServer::next_output_change() {
+  const std::uint64_t count = lines_->output_change_count;
+  if (seen_output_changes_ == count) return nullptr;
+  if (count - seen_output_changes_ >= SharedLines::kOutputChanges)
+    seen_output_changes_ = count - SharedLines::kOutputChanges + 1;  // the oldest one may be being replaced
+  return &lines_->output_changes[seen_output_changes_ % SharedLines::kOutputChanges];
 }
 
 void RigServer::note_brakes(std::int64_t now_ns) {
@@ -152,11 +178,14 @@ void RigServer::take_lines() {
     seen_kicks_ = kicks;
     rig_.kick(lines_->kick_radial_radps, lines_->kick_tangential_radps);
   }
-  const auto changes = lines_->changes.load();
-  if (changes == seen_changes_) return;
-  seen_changes_ = changes;
-  for (std::size_t i = 0; i < kCardChannels; ++i) rig_.set_converter(i, lines_->codes[i]);
+  if (lines_->changes == seen_changes_) return;
+  take_converters();
   rig_.set_outputs(lines_->outputs);
+}
+
+void RigServer::take_converters() {
+  seen_changes_ = lines_->changes;
+  for (std::size_t i = 0; i < kCardChannels; ++i) rig_.set_converter(i, lines_->codes[i]);
 }
 
 void RigServer::put_lines() {

@@ -39,6 +39,7 @@ class Bridge : public runtime::Component {
   void apply(Outputs outputs);
   void look_for_marks(const Seen& seen);
   void report_latch();
+  void report_relay(const Inputs& inputs, std::int64_t now_ns);
   [[nodiscard]] Seen seen(const Inputs& inputs) const;
   [[nodiscard]] msg::State state(const Inputs& inputs, const control::Measurement& measured,
                                  std::int64_t sample_time_ns) const;
@@ -64,6 +65,10 @@ class Bridge : public runtime::Component {
   std::array<double, kDrives> unit_per_count_{};  ///< and which way the encoder counts
   std::array<double, kDrives> applied_v_{};       ///< what the converters give, positive outward
   Reason reported_ = Reason::none;
+  bool relay_closed_ = false;      ///< at the last tick
+  bool toggles_ = false;           ///< the watchdog output, since the last tick
+  std::int64_t ticked_ns_ = 0;     ///< when the last tick was
+  std::int64_t last_tick_ns_ = 0;  ///< how long after the one before
 };
 
 }  // namespace crane::bridge

@@ -55,13 +55,16 @@ class RigServer {
 
   /// Lockstep: waits up to 50 ms for an advance request and serves it.
   void serve_advance();
-  /// Real time: the crane runs on to `time_ns` with what was on the lines, then sees what is there now.
+  /// Real time: the crane runs on to `time_ns`, with each change of the output lines at its moment, then sees
+  /// what is on the lines now.
   void run_to(std::int64_t time_ns);
   [[nodiscard]] const SharedLines& lines() const { return *lines_; }
   [[nodiscard]] WiredRig& rig() { return rig_; }
 
  private:
+  const OutputChange* next_output_change();
   void take_lines();
+  void take_converters();
   void put_lines();
   void note_brakes(std::int64_t now_ns);
 
@@ -69,6 +72,7 @@ class RigServer {
   SharedLines* lines_ = nullptr;
   WiredRig rig_;
   std::uint32_t seen_changes_ = 0, seen_kicks_ = 0;
+  std::uint64_t seen_output_changes_ = 0;
   bool relay_was_closed_ = false, brakes_were_closed_ = true;
 };
 

@@ -13,6 +13,12 @@
 
 namespace crane::bridge {
 
+/// Levels of the output lines from a moment on; CLOCK_MONOTONIC.
+struct OutputChange {
+  std::atomic<std::int64_t> at_ns{0};
+  std::atomic<std::uint16_t> levels{0};
+};
+
 struct SharedLines {
   std::atomic<std::uint32_t> ready{0};  ///< kReady when the rig has set everything up
   static constexpr std::uint32_t kReady = 0x51A6E001;
@@ -29,6 +35,9 @@ struct SharedLines {
   std::array<std::atomic<std::uint16_t>, kCardChannels> codes{};
   std::atomic<std::uint16_t> outputs{0};
   std::atomic<std::uint32_t> changes{0};  ///< counts every change of codes and outputs
+  static constexpr std::size_t kOutputChanges = 64;
+  std::array<OutputChange, kOutputChanges> output_changes{};  ///< the newest ones, written round
+  std::atomic<std::uint64_t> output_change_count{0};
   std::atomic<std::uint32_t> kicks{0};
   std::atomic<double> kick_radial_radps{0}, kick_tangential_radps{0};
 
