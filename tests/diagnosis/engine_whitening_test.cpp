@@ -30,16 +30,25 @@ std::vector<Eigen::VectorXd> windows(double noise, double acceleration, double c
   return all;
 }
 
+std::vector<Passage> moving(const std::vector<Eigen::VectorXd>& residuals) {
+  std::vector<Passage> passages;
+  for (const Eigen::VectorXd& r : residuals)
+    passages.push_back({0.01, 0, Paces(static_cast<std::size_t>(r.size()))});
+  return passages;
+}
+
 TEST(Whitener, FindsNoiseAndDisturbanceOfADrive) {
-  const Whitener whitener(windows(1e-4, 0.05, 0.5, 4, 11), 0.01, 0);
-  EXPECT_NEAR(whitener.disturbance().noise, 1e-4, 1e-5);
-  EXPECT_NEAR(whitener.disturbance().correlation_s, 0.5, 0.31);  // the grid's neighbours are 0.2 and 1
-  EXPECT_NEAR(whitener.disturbance().acceleration, 0.05, 0.025);
+  const auto residuals = windows(1e-4, 0.05, 0.5, 4, 11);
+  const Disturbance learned = learn(residuals, moving(residuals));
+  EXPECT_NEAR(learned.noise, 1e-4, 1e-5);
+  EXPECT_NEAR(learned.correlation_s, 0.5, 0.31);  // the grid's neighbours are 0.2 and 1
+  EXPECT_NEAR(learned.acceleration, 0.05, 0.025);
 }
 
 TEST(Whitener, MakesTheResidualWhite) {
   const auto residuals = windows(1e-4, 0.05, 0.5, 4, 12);
-  const Whitener whitener(residuals, 0.01, 0);
+  const auto passages = moving(residuals);
+  const Whitener whitener(learn(residuals, passages), passages[0]);
   double square = 0, neighbours = 0;
   for (Eigen::VectorXd r : residuals) {
     // The free start of a window is taken out first, as the fit does.
@@ -54,6 +63,55 @@ TEST(Whitener, MakesTheResidualWhite) {
   const auto count = static_cast<double>(residuals.size());
   EXPECT_NEAR(square / count, 1, 0.1);
   EXPECT_NEAR(neighbours / count, 0, 0.1);
+}
+
+/// Windows of an axis that goes, stands and breaks loose by an impulse that no friction law knows.
+struct Sticking {
+  std::vector<Eigen::VectorXd> residuals;
+  std::vector<Passage> passages;
+};
+Sticking sticking(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  constexpr double kPeriod_s = 0.01, kNoise = 1e-6, kForce = 0.05, kImpulse = 3e-3;
+  Sticking all;
+  for (int w = 0; w < 40; ++w) {
+    Eigen::VectorXd seen(200);
+    Passage passage{kPeriod_s, 0, Paces(200)};
+    double x = 0, v = 0, a = 0;
+    for (std::size_t k = 0; k < 200; ++k) {
+      const std::size_t phase = (k + 13 * static_cast<std::size_t>(w)) % 80;
+      Pace& pace = passage.paces[k];
+      if (phase < 30) pace = {1, Going::standing};
+      if (phase >= 30 && phase < 33) pace = {1, Going::turning};
+      seen[static_cast<Eigen::Index>(k)] = x + kNoise * normal(random);
+      if (pace.going != Going::on) v = 0;
+      if (pace.going == Going::turning) v = kImpulse * normal(random);
+      a = 0.95 * a + 0.31 * kForce * normal(random);
+      if (pace.going != Going::standing) x += kPeriod_s * v, v += kPeriod_s * a;
+    }
+    all.residuals.push_back(seen);
+    all.passages.push_back(passage);
+  }
+  return all;
+}
+
+TEST(Whitener, SeesThatAnAxisSticksAndMakesWhiteWhatItLeaves) {
+  const Sticking data = sticking(3);
+  const Disturbance learned = learn(data.residuals, data.passages);
+  EXPECT_TRUE(learned.sticks);
+  EXPECT_GT(learned.friction, 0);
+  EXPECT_NEAR(learned.noise, 1e-6, 3e-7);
+  EXPECT_GT(learned.acceleration, 0.02);
+  EXPECT_LT(learned.acceleration, 0.12);
+}
+
+TEST(Whitener, DoesNotTakeASlowAxisForOneThatSticks) {
+  auto residuals = windows(1e-4, 0.05, 0.5, 4, 5);
+  auto passages = moving(residuals);
+  for (Passage& passage : passages)
+    for (std::size_t k = 80; k < 120; ++k) passage.paces[k] = {1, Going::standing};
+  EXPECT_FALSE(learn(residuals, passages).sticks);
 }
 
 }  // namespace

@@ -17,19 +17,20 @@ const std::vector<HiddenSet> kFoundAlone{{"command_delay", "trolley", "drive_axi
                                          {"swing_offset", "radial", "tower"},
                                          {"swing_misalignment", "", "tower"},
                                          {"cable_length", "", "tower", -1},
-                                         {"position_scale", "trolley", "drive_axis"}};
+                                         {"position_scale", "trolley", "drive_axis"},
+                                         {"direction_asymmetry", "trolley", "drive_axis"},
+                                         {"position_dependent_friction", "trolley", "drive_axis"},
+                                         {"jib_flexibility", "", "tower"}};
 
 // Causes that the library has and these data show, but that come out as "unknown", ambiguous, with a second
-// cause beside them or not at all. An elastic cable is found as a longer one: its bounce is never measured.
-const std::vector<HiddenSet> kNotFoundYet{{"direction_asymmetry", "trolley", "drive_axis"},
-                                          {"position_dependent_friction", "trolley", "drive_axis"},
-                                          {"jib_flexibility", "", "tower"},
-                                          {"backlash", "trolley", "tower"},
-                                          {"double_pendulum", "", "tower"},
-                                          {"torque_ripple", "trolley", "drive_axis"},
-                                          {"position_drift", "trolley", "drive_axis"},
-                                          {"swing_moving_average", "", "tower"},
-                                          {"cable_elasticity", "", "tower"}};
+// cause beside them or not at all. A brake that drags now and then, outside the library, hides in what
+// friction does around standstill anyway. An elastic cable is found as a longer one: its bounce is never
+// measured.
+const std::vector<HiddenSet> kNotFoundYet{
+    {"backlash", "trolley", "tower"},           {"double_pendulum", "", "tower"},
+    {"torque_ripple", "trolley", "drive_axis"}, {"position_drift", "trolley", "drive_axis"},
+    {"swing_moving_average", "", "tower"},      {"cable_elasticity", "", "tower"},
+    {"sticking_brake", "trolley", "drive_axis"}};
 
 // Without a load a gain and a scale of the encoder take each other's place, and so do, beside Coulomb
 // friction, a delay and a lag.
@@ -42,11 +43,11 @@ const std::vector<HiddenSet> kSwitchedOff{{"command_delay", "trolley", "drive_ax
                                           {"swing_delay", "", "tower", 0},
                                           {"payload_mass", "", "gantry", 0, 9}};
 
+// A gain that drifts is seen where there is no friction.
 const std::vector<HiddenSet> kOutside{
-    {"magnetic_detent", "trolley", "drive_axis"},  {"gain_drift", "trolley", "drive_axis"},
-    {"hysteretic_force", "trolley", "drive_axis"}, {"sticking_brake", "trolley", "drive_axis"},
-    {"periodic_force", "trolley", "drive_axis"},   {"load_periodic_force", "", "gantry"},
-    {"slew_crosstalk", "trolley", "tower"}};
+    {"magnetic_detent", "trolley", "drive_axis"},  {"gain_drift", "trolley", "gantry"},
+    {"hysteretic_force", "trolley", "drive_axis"}, {"periodic_force", "trolley", "drive_axis"},
+    {"load_periodic_force", "", "gantry"},         {"slew_crosstalk", "trolley", "tower"}};
 
 // A dead zone is what Coulomb friction does while the axis moves; an offset likewise of asymmetric friction.
 // One cable length does not tell a delay of the swing from a mean over time.

@@ -52,13 +52,23 @@ Diagnosis oracle(const SealedCase& sealed, const std::vector<HiddenEffect>& answ
   return sealed.diagnosed(request);
 }
 
-void compare_parameters(const Diagnosis& found, const std::vector<HiddenEffect>& answer, Record& record) {
-  for (const Compared& one : compared(found, answer)) {
-    ++record.parameters;
-    record.inside += one.inside();
-    record.within_5pc += one.within_5pc();
-    record.either += one.inside() || one.within_5pc();
-  }
+Json json_of(const std::vector<Compared>& estimates) {
+  Json all = Json::array();
+  for (const Compared& one : estimates)
+    all.push_back({{"cause", one.cause},
+                   {"parameter", one.parameter},
+                   {"truth", one.truth},
+                   {"estimate", one.estimate},
+                   {"std", one.std_dev}});
+  return all;
+}
+
+std::vector<Compared> estimates_in(const Json& all) {
+  std::vector<Compared> estimates;
+  for (const Json& one : all)
+    estimates.push_back(
+        {one.at("cause"), one.at("parameter"), one.at("truth"), one.at("estimate"), one.at("std")});
+  return estimates;
 }
 
 /// Does the proposed run, added to the training data, decide it?
@@ -94,7 +104,7 @@ Record scored(const Set& set) {
     record.gain = found.held_out.gain;
     record.runtime_s = found.runtime_s;
     record.data_s = set.request.seconds * static_cast<double>(set.request.training_runs.size());
-    compare_parameters(found, answer, record);
+    record.estimates = compared(found, answer);
     if (found.next_experiment) record.experiment = found.next_experiment->name;
     record.oracle = set.kind == Kind::single || set.kind == Kind::pair;
     if (record.oracle) record.oracle_gain = oracle(sealed, answer).held_out.gain;
@@ -122,10 +132,7 @@ std::string line_of(const Record& r) {
                   {"gain", r.gain},
                   {"oracle", r.oracle},
                   {"oracle_gain", r.oracle_gain},
-                  {"parameters", r.parameters},
-                  {"inside", r.inside},
-                  {"within_5pc", r.within_5pc},
-                  {"either", r.either},
+                  {"estimates", json_of(r.estimates)},
                   {"experiment", r.experiment},
                   {"resolved", r.resolved},
                   {"data_s", r.data_s},
@@ -155,10 +162,7 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
     json.at("gain").get_to(r.gain);
     json.at("oracle").get_to(r.oracle);
     json.at("oracle_gain").get_to(r.oracle_gain);
-    json.at("parameters").get_to(r.parameters);
-    json.at("inside").get_to(r.inside);
-    json.at("within_5pc").get_to(r.within_5pc);
-    json.at("either").get_to(r.either);
+    r.estimates = estimates_in(json.at("estimates"));
     json.at("experiment").get_to(r.experiment);
     json.at("resolved").get_to(r.resolved);
     json.at("data_s").get_to(r.data_s);

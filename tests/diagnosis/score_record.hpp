@@ -19,9 +19,9 @@ struct Record {
   std::string verdict, found;
   double gain = 0, oracle_gain = 0;  ///< oracle: refit of the true structure alone
   bool oracle = false;               ///< there is one
-  int inside = 0, within_5pc = 0, either = 0, parameters = 0;
-  std::string experiment;  ///< proposed next one
-  std::string resolved;    ///< judged again with that run; empty: not tried
+  std::vector<Compared> estimates;   ///< of the causes that are there
+  std::string experiment;            ///< proposed next one
+  std::string resolved;              ///< judged again with that run; empty: not tried
   double data_s = 0, runtime_s = 0, peak_mb = 0;
 };
 

@@ -31,22 +31,25 @@ std::size_t visit_blocks(const Problem& problem, std::size_t first_block, Visit&
 }  // namespace
 
 BlockScores block_scores(const Problem& problem, const Fits& fits,
-                         const std::vector<std::vector<VectorXd>>& slopes) {
+                         const std::vector<std::vector<VectorXd>>& slopes, Loss loss) {
   BlockScores scores;
   const std::size_t directions = slopes.size();
   const std::size_t blocks = visit_blocks(problem, 0, [](auto...) {});
   scores.by_block = MatrixXd::Zero(static_cast<Index>(blocks), static_cast<Index>(directions));
   scores.curvature = MatrixXd::Zero(static_cast<Index>(directions), static_cast<Index>(directions));
+  std::vector<VectorXd> weights;
+  for (const WindowFit& fit : fits) weights.push_back(weights_of(fit.residual, loss));
   for (std::size_t i = 0; i < directions; ++i) {
     if (slopes[i].empty()) continue;
     visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index row) {
       scores.by_block(static_cast<Index>(block), static_cast<Index>(i)) +=
-          slopes[i][w][row] * fits[w].residual[row];
+          slopes[i][w][row] * weights[w][row] * fits[w].residual[row];
     });
     for (std::size_t j = 0; j <= i; ++j) {
       if (slopes[j].empty()) continue;
       double product = 0;
-      for (std::size_t w = 0; w < fits.size(); ++w) product += slopes[i][w].dot(slopes[j][w]);
+      for (std::size_t w = 0; w < fits.size(); ++w)
+        product += slopes[i][w].dot(weights[w].cwiseProduct(slopes[j][w]));
       scores.curvature(static_cast<Index>(i), static_cast<Index>(j)) = product;
       scores.curvature(static_cast<Index>(j), static_cast<Index>(i)) = product;
     }
@@ -76,7 +79,7 @@ Blocks blocks_of(const Problem& problem, const Fits& fits) {
   Blocks blocks(visit_blocks(problem, 0, [](auto...) {}), 0.0);
   visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index row) {
     const double price = kStartPrice * fits[w].freedom / static_cast<double>(fits[w].residual.size());
-    blocks[block] += fits[w].residual[row] * fits[w].residual[row] + price;
+    blocks[block] += loss_of(fits[w].residual[row]) + price;
   });
   return blocks;
 }

@@ -12,11 +12,12 @@ struct Study::Slopes {
 
 /// Scores of a set of directions.
 struct BlockScores {
-  Eigen::MatrixXd by_block;   ///< block x direction: slope' residual
-  Eigen::MatrixXd curvature;  ///< slope' slope
+  Eigen::MatrixXd by_block;   ///< block x direction: slope' weighted residual
+  Eigen::MatrixXd curvature;  ///< slope' weighted slope
 };
 [[nodiscard]] BlockScores block_scores(const Problem& problem, const Fits& fits,
-                                       const std::vector<std::vector<Eigen::VectorXd>>& slopes);
+                                       const std::vector<std::vector<Eigen::VectorXd>>& slopes,
+                                       Loss loss = Loss::robust);
 /// Blocks of `a`, then those of `b`.
 [[nodiscard]] BlockScores joined(const BlockScores& a, const BlockScores& b);
 

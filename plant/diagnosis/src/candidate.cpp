@@ -102,20 +102,27 @@ class Builder {
         shapes.push_back({share * travel, middle(output) + 0.25 * place * share * travel});
     add(shaped("position_dependent_friction", axis,
                free_parameter("position_dependent_friction", "amplitude_v", 0, 5, 0.02),
-               {free_parameter("position_dependent_friction", "wavelength", 0.1 * travel, 4 * travel,
+               {free_parameter("position_dependent_friction", "wavelength", 0.1 * travel, 2 * travel,
                                0.01 * travel),
                 free_parameter("position_dependent_friction", "tight_at", -100, 100, 0.01 * travel)},
                shapes),
         true, false);
   }
 
+  /// Between two guesses of its phase a ripple does nothing at first, or harm: it begins as the acceleration
+  /// that nothing else explains says.
   void add_ripple(const std::string& axis, Output output) {
-    std::vector<std::vector<double>> shapes;
-    for (const double period : strongest_periods(rig_, runs_, output, 4)) shapes.push_back({period});
-    if (shapes.empty()) return;
-    add(turned("torque_ripple", axis, free_parameter("torque_ripple", "amplitude_v", 0, 5, 0.02),
-               free_parameter("torque_ripple", "phase_rad", -7, 7, 0.02),
-               {free_parameter("torque_ripple", "period", 1e-3, travelled(output), 1e-4)}, shapes),
+    const double gain =
+        output == kTrolleyPosition ? rig_.plant.trolley_gain_mps2pv : rig_.plant.slew_gain_radps2pv;
+    std::vector<std::vector<double>> settings;
+    for (const PositionWave& wave : strongest_waves(rig_, runs_, output, 4))
+      settings.push_back({wave.amplitude / gain, wave.phase_rad, wave.period});
+    if (settings.empty()) return;
+    add(at_once("torque_ripple", axis,
+                {free_parameter("torque_ripple", "amplitude_v", 0, 5, 0.02),
+                 free_parameter("torque_ripple", "phase_rad", -7, 7, 0.02),
+                 free_parameter("torque_ripple", "period", 1e-3, 0.25 * travelled(output), 1e-4)},
+                settings),
         true, false);
   }
 
@@ -127,7 +134,7 @@ class Builder {
     add(amount("cable_length", "", "delta_m", -0.7 * length, 2 * length, 0.005), true, true, true);
     add(amount("load_linear_drag", "", "coefficient_nspm", 0, 50 * m, 0.02 * m), false, true);
     add(amount("load_quadratic_drag", "", "coefficient_ns2pm2", 0, 50 * m, 0.05 * m), false, true);
-    if (trolley || slew)
+    if (trolley || slew || (radial_ && tangential_))
       add(turned("steady_wind", "", free_parameter("steady_wind", "force_n", 0, 2 * m, 0.005 * m * g),
                  free_parameter("steady_wind", "direction_rad", -7, 7, 0.02), {}, {{}}),
           true, true);

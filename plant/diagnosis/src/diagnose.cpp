@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
+#include "compare.hpp"
 #include "crane/diagnosis/diagnosis.hpp"
 #include "held_out.hpp"
 #include "judgement.hpp"
@@ -10,10 +12,10 @@
 namespace crane::diagnosis {
 namespace {
 
-/// An effect that leaves less than this share of the residual hides the noise, and what is small beside it.
-/// Around standstill the noise of a drive is rougher: what is left of it tells less, and has to be left to be
-/// doubted.
-constexpr double kLittleLeftOfDrives = 0.25, kLittleLeftOfLoad = 0.6;
+/// An effect that leaves less than this share of the loss of drives or load has been taken for noise, which
+/// hides what is small beside it.
+constexpr double kHiding = 0.95;
+constexpr std::size_t kContenders = 3;
 
 Runs prepared(std::vector<Run> runs, const runtime::Rig& rig) {
   Runs all;
@@ -59,18 +61,33 @@ std::optional<NextExperiment> proposal(const runtime::Rig& rig, const Hypotheses
   return propose_experiment(rig, *first.candidate, first.values, rival, single->effects[0].values, noise);
 }
 
-/// Whether the likeliest hypothesis explains so much that noise and disturbance are to be learnt from what it
-/// leaves.
-bool hides_the_noise(const Hypotheses& found) {
-  const Evaluation &base = found.base.train, &left = found.likeliest.train;
-  return excess(found.likeliest) <= 1 && (left.drive_loss < kLittleLeftOfDrives * base.drive_loss ||
-                                          left.load_loss < kLittleLeftOfLoad * base.load_loss);
+/// Singles that explain so much that their effect has been taken for noise, best first.
+std::vector<Effects> hiding(const Hypotheses& found) {
+  std::vector<const Fitted*> order;
+  const Evaluation& base = found.base.train;
+  for (const Fitted& single : found.singles)
+    if (single.train.drive_loss < kHiding * base.drive_loss ||
+        single.train.load_loss < kHiding * base.load_loss)
+      order.push_back(&single);
+  std::sort(order.begin(), order.end(), [](const Fitted* a, const Fitted* b) { return less(*a, *b); });
+  order.resize(std::min(order.size(), kContenders));
+  std::vector<Effects> effects;
+  for (const Fitted* single : order) effects.push_back(single->effects);
+  return effects;
 }
 
-/// With noise and disturbance learnt from what `before` leaves; then the singles are fitted anew.
-Hypotheses learnt_anew(Study& study, const Request& request, const Hypotheses& before) {
+/// Noise and disturbance learnt from the residuals of the hypothesis that makes them likeliest: which of two
+/// causes leaves less is hardly seen in units of a noise that holds them both.
+Hypotheses learnt_anew(Study& study, const Request& request, const Hypotheses& before,
+                       const std::vector<Effects>& contenders) {
   request.progress(0.4, "noise and disturbance of what is left");
-  study.learn_disturbance(before.likeliest.effects);
+  const Effects* likeliest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Effects& effects : contenders) {
+    const double misfit = study.learn_disturbance(effects);
+    if (misfit < least) least = misfit, likeliest = &effects;
+  }
+  if (likeliest != &contenders.back()) study.learn_disturbance(*likeliest);
   return singles_again(study, request, before);
 }
 
@@ -78,23 +95,24 @@ Hypotheses searched(Study& study, const Request& request) {
   request.progress(0.02, "noise and disturbance");
   study.learn_disturbance();
   Hypotheses found = singles(study, request);
-  if (hides_the_noise(found)) return extended(study, request, learnt_anew(study, request, found));
-  found = extended(study, request, found);
-  return hides_the_noise(found) ? extended(study, request, learnt_anew(study, request, found)) : found;
+  const std::vector<Effects> contenders = hiding(found);
+  if (!found.best.effects.empty() && !contenders.empty())
+    found = learnt_anew(study, request, found, contenders);
+  return extended(study, request, found);
 }
 
 Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test, const Request& request) {
   Study study(rig, train, test, request.excluded);
   const Hypotheses found = searched(study, request);
   request.progress(0.88, "held-out runs");
-  const HeldOut figures = held_out(study, test, found.best.effects, request.seed);
+  const HeldOut figures = held_out(study, found.best.effects, request.seed);
   request.progress(0.9, "what is left");
   auto [result, rivals] = judge(study, found, figures, request.seed);
   if (!rivals.empty()) {
     request.progress(0.95, "which motion would tell them apart");
     result.next_experiment = proposal(rig, found, *rivals[0], result.held_out);
   }
-  result.traces = traces(test, study.base(), study.with(found.best.effects));
+  result.traces = traces(study, found.best.effects);
   request.progress(1, "done");
   return result;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "blocks.hpp"
 
@@ -13,6 +14,8 @@ using Eigen::VectorXd;
 constexpr int kMostRounds = 12;
 /// Decrease of the loss that is not worth another round.
 constexpr double kLeastGain = 0.3;
+/// The same on the way there, as a share.
+constexpr double kRoughly = 0.003;
 /// After so many rounds a fit that is still this many times what the slopes promise away is given up.
 constexpr int kLeastRounds = 2;
 constexpr double kPromise = 4;
@@ -79,44 +82,62 @@ VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, do
   return step;
 }
 
+/// Price of the starts included.
+double loss_of(const Evaluation& at, Loss loss) {
+  if (loss == Loss::robust) return at.loss;
+  double sum = 0;
+  for (const Fits* fits : {&at.drive, &at.load})
+    for (const WindowFit& fit : *fits) sum += fit.residual.squaredNorm() + kStartPrice * fit.freedom;
+  return sum;
+}
+
 }  // namespace
 
-Fitted Study::fit(Effects effects, double hopeless) const {
-  Fitted best;
-  best.effects = effects;
-  best.train = train(effects);
-  double damping = 1e-3;
-  MatrixXd information, variance;
+BlockScores Study::pulls(const Fitted& at, Loss loss) const {
+  const Slopes slope = slopes(at.effects, at.train);
+  return joined(block_scores(*train_drive_, at.train.drive, slope.drive, loss),
+                block_scores(*train_load_, at.train.load, slope.load, loss));
+}
+
+void Study::descend(Fitted& best, Loss loss, double hopeless) const {
+  double damping = 1e-3, least = loss_of(best.train, loss);
   for (int round = 0; round < kMostRounds; ++round) {
-    const Slopes slope = slopes(best.effects, best.train);
-    const BlockScores both = joined(block_scores(*train_drive_, best.train.drive, slope.drive),
-                                    block_scores(*train_load_, best.train.load, slope.load));
-    information = both.curvature;
-    variance = both.by_block.transpose() * both.by_block;
+    const BlockScores both = pulls(best, loss);
     const VectorXd pull = both.by_block.colwise().sum().transpose();
     const Flat flat = flatten(best.effects);
-    if (round >= kLeastRounds && best.train.loss - kPromise * promised(information, pull) > hopeless) break;
-    bool better = false;
+    if (round >= kLeastRounds && least - kPromise * promised(both.curvature, pull) > hopeless) break;
     double gained = 0;
-    for (int attempt = 0; attempt < 7 && !better; ++attempt) {
-      const VectorXd step = bounded_step(information, pull, flat, damping);
+    for (int attempt = 0; attempt < 7 && gained == 0; ++attempt) {
+      const VectorXd step = bounded_step(both.curvature, pull, flat, damping);
       if (step.norm() == 0) break;
       const Effects moved = unflatten(best.effects, flat, step);
-      const Evaluation found = evaluate(*train_drive_, *train_load_, moved, best.train);
-      if (found.loss < best.train.loss) {
-        gained = best.train.loss - found.loss;
+      Evaluation found = evaluate(*train_drive_, *train_load_, moved, best.train);
+      const double now = loss_of(found, loss);
+      if (now < least) {
+        gained = least - now;
+        least = now;
         best.effects = moved;
-        best.train = found;
+        best.train = std::move(found);
         damping = std::max(1e-6, damping * 0.2);
-        better = true;
       } else {
         damping = std::max(damping, 1e-4) * 8;
       }
     }
-    if (!better || gained < kLeastGain) break;
+    if (gained < (loss == Loss::robust ? kLeastGain : kRoughly * least)) break;
   }
-  const MatrixXd inverse = information.completeOrthogonalDecomposition().pseudoInverse();
-  const MatrixXd covariance = inverse * variance * inverse;
+}
+
+Fitted Study::fit(Effects effects, double hopeless) const {
+  Fitted near;
+  near.effects = std::move(effects);
+  near.train = train(near.effects);
+  Fitted best = near;
+  descend(best, Loss::squares, std::numeric_limits<double>::infinity());
+  if (near.train.loss < best.train.loss) best = near;
+  descend(best, Loss::robust, hopeless);
+  const BlockScores both = pulls(best, Loss::robust);
+  const MatrixXd inverse = both.curvature.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd covariance = inverse * (both.by_block.transpose() * both.by_block) * inverse;
   for (Index i = 0; i < covariance.rows(); ++i)
     best.std_dev.push_back(std::sqrt(std::max(0.0, covariance(i, i))));
   best.parameters = best.std_dev.size();

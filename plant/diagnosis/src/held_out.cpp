@@ -50,37 +50,48 @@ double gain_of(const Compared& c, const std::vector<std::vector<std::size_t>>* p
   return before > 0 ? 1 - std::sqrt(after / before) : 0;
 }
 
+/// A whole run in open loop from a start that its first window solved for.
+std::vector<double> whole_run(const Problem& problem, std::size_t run, const Crane& crane,
+                              const Eigen::VectorXd& start) {
+  const PreparedRun& source = problem.runs()[run];
+  std::vector<double> way(source.run.rows() * problem.outputs().size());
+  Replay(source, crane, problem.part())
+      .run(0, source.run.rows(), {start.data(), static_cast<std::size_t>(start.size())}, way);
+  return way;
+}
+
 }  // namespace
 
-std::vector<Trace> traces(const Runs& runs, const Crane& base, const Crane& extended) {
+std::vector<Trace> traces(const Study& study, const Effects& effects) {
   std::vector<Trace> all;
-  for (const PreparedRun& run : runs) {
-    for (const Part part : {Part::drive, Part::load}) {
-      const auto outputs = simulated_outputs(run, part);
-      if (outputs.empty()) continue;
-      const std::size_t rows = run.run.rows();
-      std::vector<double> before(rows * outputs.size()), after(before.size());
-      const Replay old_replay(run, base, part), new_replay(run, extended, part);
-      old_replay.run(0, rows, old_replay.measured_start(0), before);
-      new_replay.run(0, rows, new_replay.measured_start(0), after);
-      for (std::size_t i = 0; i < outputs.size(); ++i) {
-        Trace trace{run.run.name, kOutputNames[outputs[i]], {}, run.run.measured[outputs[i]], {}, {}};
-        for (std::size_t k = 0; k < rows; ++k)
-          trace.time_s.push_back(run.run.start_s + static_cast<double>(k) * run.run.period_s);
-        const auto first = static_cast<std::ptrdiff_t>(i * rows),
-                   last = first + static_cast<std::ptrdiff_t>(rows);
-        trace.baseline.assign(before.begin() + first, before.begin() + last);
-        trace.extended.assign(after.begin() + first, after.begin() + last);
+  const Evaluation &base = study.base_test(), extended = study.test(effects);
+  for (const auto& [problem, before, after] : {std::tuple{&study.test_drive(), &base.drive, &extended.drive},
+                                               {&study.test_load(), &base.load, &extended.load}})
+    for (std::size_t w = 0; w < problem->windows().size(); ++w) {
+      const Window& window = problem->windows()[w];
+      if (window.first != window.lead) continue;  // begins with its run
+      const std::vector<double> old_way = whole_run(*problem, window.run, study.base(), (*before)[w].start);
+      const std::vector<double> new_way =
+          whole_run(*problem, window.run, study.with(effects), (*after)[w].start);
+      const Run& run = problem->runs()[window.run].run;
+      for (std::size_t i = 0; i < problem->outputs().size(); ++i) {
+        const Output output = problem->outputs()[i];
+        Trace trace{run.name, kOutputNames[output], {}, run.measured[output], {}, {}};
+        for (std::size_t k = 0; k < run.rows(); ++k)
+          trace.time_s.push_back(run.start_s + static_cast<double>(k) * run.period_s);
+        const auto first = static_cast<std::ptrdiff_t>(i * run.rows()),
+                   last = first + static_cast<std::ptrdiff_t>(run.rows());
+        trace.baseline.assign(old_way.begin() + first, old_way.begin() + last);
+        trace.extended.assign(new_way.begin() + first, new_way.begin() + last);
         all.push_back(std::move(trace));
       }
     }
-  }
   return all;
 }
 
-HeldOut held_out(const Study& study, const Runs& test, const Effects& effects, std::uint64_t seed) {
+HeldOut held_out(const Study& study, const Effects& effects, std::uint64_t seed) {
   HeldOut result;
-  if (test.empty()) return result;
+  if (study.test_drive().empty() && study.test_load().empty()) return result;
   const Evaluation& before = study.base_test();
   const Evaluation after = study.test(effects), trained = study.train(effects);
   Compared compared;
@@ -111,7 +122,7 @@ HeldOut held_out(const Study& study, const Runs& test, const Effects& effects, s
   std::sort(gains.begin(), gains.end());
   result.gain_ci95 = {gains[kResamples * 25 / 1000], gains[kResamples * 975 / 1000]};
   std::map<std::string, double> rows;
-  for (const Trace& trace : traces(test, study.base(), study.with(effects))) {
+  for (const Trace& trace : traces(study, effects)) {
     for (std::size_t k = 0; k < trace.measured.size(); ++k) {
       result.whole_baseline_rms[trace.column] += std::pow(trace.measured[k] - trace.baseline[k], 2);
       result.whole_extended_rms[trace.column] += std::pow(trace.measured[k] - trace.extended[k], 2);

@@ -5,10 +5,10 @@
 
 namespace crane::diagnosis {
 
-[[nodiscard]] HeldOut held_out(const Study& study, const Runs& test, const Effects& effects,
-                               std::uint64_t seed);
+[[nodiscard]] HeldOut held_out(const Study& study, const Effects& effects, std::uint64_t seed);
 
-/// Whole runs in structured replays: drives from command and measured swing, load from measured motion.
-[[nodiscard]] std::vector<Trace> traces(const Runs& runs, const Crane& base, const Crane& extended);
+/// The held-out runs, each as a whole, in structured replays: drives from command and measured swing, load
+/// from measured motion. They start where their first window says.
+[[nodiscard]] std::vector<Trace> traces(const Study& study, const Effects& effects);
 
 }  // namespace crane::diagnosis

@@ -50,8 +50,8 @@ Samples unexplained_acceleration(const runtime::Rig& rig, const std::vector<Prep
 
 }  // namespace
 
-std::vector<double> strongest_periods(const runtime::Rig& rig, const std::vector<PreparedRun>& runs,
-                                      Output axis, std::size_t count) {
+std::vector<PositionWave> strongest_waves(const runtime::Rig& rig, const std::vector<PreparedRun>& runs,
+                                          Output axis, std::size_t count) {
   Samples samples = unexplained_acceleration(rig, runs, axis);
   const std::size_t n = samples.position.size();
   if (n < 200) return {};
@@ -69,6 +69,7 @@ std::vector<double> strongest_periods(const runtime::Rig& rig, const std::vector
 
   constexpr int kLines = 400;  // a quarter of a line of the travelled distance apart
   constexpr double kSpacing = 0.25;
+  std::vector<std::complex<double>> lines(kLines);
   std::vector<double> power(kLines);
   std::vector<std::complex<double>> turn(n), at(n, 1.0);
   for (std::size_t k = 0; k < n; ++k)
@@ -76,18 +77,23 @@ std::vector<double> strongest_periods(const runtime::Rig& rig, const std::vector
   for (int line = 0; line < kLines; ++line) {
     std::complex<double> sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += samples.acceleration[k] * at[k], at[k] *= turn[k];
+    lines[static_cast<std::size_t>(line)] = 2.0 / static_cast<double>(n) * sum;
     power[static_cast<std::size_t>(line)] = std::norm(sum);
   }
   constexpr std::size_t kFirst =
-      8;  // two waves over the travel; longer ones are friction that depends on position
+      20;  // five waves over the travel; longer ones are friction that depends on position
   std::vector<std::size_t> peaks;
   for (std::size_t line = kFirst; line + 1 < power.size(); ++line)
     if (power[line] >= power[line - 1] && power[line] >= power[line + 1]) peaks.push_back(line);
   std::sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
-  std::vector<double> periods;
-  for (std::size_t i = 0; i < std::min(count, peaks.size()); ++i)
-    periods.push_back(travel / (kSpacing * static_cast<double>(peaks[i])));
-  return periods;
+  std::vector<PositionWave> waves;
+  for (std::size_t i = 0; i < std::min(count, peaks.size()); ++i) {
+    // a sin(x + psi) = a sin(psi) cos(x) + a cos(psi) sin(x)
+    const std::complex<double> line = lines[peaks[i]];
+    waves.push_back({travel / (kSpacing * static_cast<double>(peaks[i])), std::abs(line),
+                     std::atan2(line.real(), line.imag())});
+  }
+  return waves;
 }
 
 }  // namespace crane::diagnosis

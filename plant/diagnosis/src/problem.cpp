@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "paces.hpp"
 #include "parallel.hpp"
+#include "robust.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -15,8 +17,6 @@ using Eigen::VectorXd;
 
 /// As long as the longest mean over time of a swing sensor.
 constexpr double kLead_s = 0.3;
-/// Longer windows are cut: whitening takes a matrix of rows times rows.
-constexpr std::size_t kMostRows = 1000;
 constexpr double kPositionStep = 1e-4, kRateStep = 1e-3;
 constexpr int kStartRounds = 8;
 /// What the start's directions still explain of a whitened residual, in noise variances: the projection takes
@@ -24,8 +24,7 @@ constexpr int kStartRounds = 8;
 constexpr double kStartFound = 0.1;
 /// The same of a plain residual, as a share of it.
 constexpr double kPlainStartFound = 1e-4;
-/// Mean square of a whitened window, in those of the median window, beyond which it counts less.
-constexpr double kNoisiest = 2.0;
+constexpr int kLearningRounds = 3;
 /// A start direction that changes the window less than this share of the strongest one cannot be solved for:
 /// the speed of an axis that sticks is forgotten at once.
 constexpr double kLeastSlope = 0.001;
@@ -44,9 +43,20 @@ VectorXd believable(VectorXd change, Index measured) {
   return change;
 }
 
+/// Natural frequency about a large swing against that of a small one: gravity pulls back with g / l
+/// cos(swing) per rad.
+double softened(const std::vector<double>& swing_rad, const Window& window) {
+  constexpr double kLeast = 0.1;
+  double mean = 0;
+  for (std::size_t k = window.first; k < window.first + window.rows; ++k)
+    mean += std::cos(swing_rad[k]) / static_cast<double>(window.rows);
+  return std::sqrt(std::max(kLeast, mean));
+}
+
 }  // namespace
 
-Problem::Problem(const Runs& runs, Part part, double window_s) : runs_(runs), part_(part) {
+Problem::Problem(const Runs& runs, Part part, double window_s, double natural_radps)
+    : runs_(runs), part_(part) {
   for (const PreparedRun& run : runs)
     if (outputs_.empty()) outputs_ = simulated_outputs(run, part);
   if (outputs_.empty()) return;
@@ -54,11 +64,24 @@ Problem::Problem(const Runs& runs, Part part, double window_s) : runs_(runs), pa
     const double period_s = runs[i].run.period_s;
     const auto lead = static_cast<std::size_t>(std::lround(kLead_s / period_s));
     const std::size_t rows = runs[i].run.rows();
-    const auto wanted = std::min(static_cast<std::size_t>(window_s / period_s), kMostRows);
+    const auto wanted = static_cast<std::size_t>(window_s / period_s);
     if (rows < lead + wanted / 2) continue;
     const std::size_t count = std::max<std::size_t>(1, (rows - lead + wanted / 2) / wanted);
-    const std::size_t length = std::min((rows - lead) / count, kMostRows);
+    const std::size_t length = (rows - lead) / count;
     for (std::size_t w = 0; w < count; ++w) windows_.push_back({i, lead + w * length, length, lead});
+  }
+  for (const Output output : outputs_) {
+    std::vector<Passage>& of_output = passages_.emplace_back();
+    for (const Window& window : windows_) {
+      const PreparedRun& run = runs[window.run];
+      const std::vector<double>& measured = run.run.measured[output];
+      if (part == Part::drive)
+        of_output.push_back(
+            {run.run.period_s, 0, paces_of(measured, run.run.period_s, window.first, window.rows)});
+      else
+        of_output.push_back(
+            {run.run.period_s, natural_radps * softened(measured, window), Paces(window.rows)});
+    }
   }
 }
 
@@ -66,7 +89,8 @@ std::vector<std::vector<VectorXd>> Problem::residuals(const Crane& crane) const 
   const Fits fits = fit(crane);
   std::vector<std::vector<VectorXd>> result(outputs_.size());
   for (std::size_t w = 0; w < windows_.size(); ++w) {
-    const VectorXd left = whiteners_.empty() ? fits[w].residual : measured(windows_[w]) - fits[w].simulated;
+    const VectorXd left =
+        disturbances_.empty() ? fits[w].residual : measured(windows_[w]) - fits[w].simulated;
     const auto rows = static_cast<Index>(windows_[w].rows);
     for (std::size_t output = 0; output < outputs_.size(); ++output)
       result[output].emplace_back(left.segment(static_cast<Index>(output) * rows, rows));
@@ -74,50 +98,25 @@ std::vector<std::vector<VectorXd>> Problem::residuals(const Crane& crane) const 
   return result;
 }
 
-void Problem::weigh(const std::vector<std::vector<VectorXd>>& residuals) {
-  weights_.assign(outputs_.size(), std::vector<double>(windows_.size(), 1.0));
-  for (std::size_t output = 0; output < outputs_.size(); ++output) {
-    std::vector<double> squares;
-    for (const VectorXd& residual : residuals[output]) {
-      VectorXd white = residual;
-      whiteners_[output].apply(white);
-      squares.push_back(white.squaredNorm() / static_cast<double>(white.size()));
-    }
-    std::vector<double> sorted = squares;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                     sorted.end());
-    const double most = kNoisiest * sorted[sorted.size() / 2];
-    for (std::size_t w = 0; w < squares.size(); ++w)
-      if (most > 0 && squares[w] > most) weights_[output][w] = std::sqrt(most / squares[w]);
-  }
+void Problem::whiten_with(std::vector<Disturbance> disturbances) {
+  disturbances_ = std::move(disturbances);
+  whiteners_.assign(outputs_.size(), {});
+  for (std::size_t output = 0; output < outputs_.size(); ++output)
+    for (const Passage& passage : passages_[output])
+      whiteners_[output].emplace_back(disturbances_[output], passage);
 }
 
-void Problem::learn_disturbance(const Crane& crane, double natural_radps) {
-  whiteners_.clear();
-  // The second time with starts that were solved for with what was learnt the first time.
-  for (int pass = 0; pass < 2; ++pass) {
+void Problem::learn_disturbance(const Crane& crane) {
+  disturbances_.clear();
+  // After the first time with starts that were solved for with what was learnt before.
+  for (int round = 0; round < kLearningRounds; ++round) {
     const std::vector<std::vector<VectorXd>> plain = residuals(crane);
-    for (int round = 0; round < 3; ++round) {
-      std::vector<Whitener> learned;
-      for (std::size_t output = 0; output < outputs_.size(); ++output) {
-        std::vector<VectorXd> weighted = plain[output];
-        if (round > 0)
-          for (std::size_t w = 0; w < weighted.size(); ++w) weighted[w] *= weights_[output][w];
-        const bool swing = outputs_[output] == kRadialSwing || outputs_[output] == kTangentialSwing;
-        learned.emplace_back(weighted, runs_[windows_[0].run].run.period_s, swing ? natural_radps : 0);
-      }
-      whiteners_ = std::move(learned);
-      weigh(plain);
-    }
+    std::vector<Disturbance> learned;
+    for (std::size_t output = 0; output < outputs_.size(); ++output)
+      learned.push_back(learn(plain[output], passages_[output],
+                              disturbances_.empty() ? Disturbance{} : disturbances_[output]));
+    whiten_with(std::move(learned));
   }
-}
-
-void Problem::whiten_like(const Problem& other, const Crane& crane) {
-  whiteners_ = other.whiteners_;
-  for (Whitener& whitener : whiteners_)
-    for (const Window& window : windows_) whitener.prepare(static_cast<Index>(window.rows));
-  weights_.assign(outputs_.size(), std::vector<double>(windows_.size(), 1.0));
-  weigh(residuals(crane));
 }
 
 std::vector<Replay> Problem::replays(const Runs& runs, const Crane& crane) const {
@@ -150,9 +149,8 @@ VectorXd Problem::measured(const Window& window) const {
 
 void Problem::whiten(std::size_t window, Eigen::Ref<MatrixXd> x) const {
   const auto rows = static_cast<Index>(windows_[window].rows);
-  for (std::size_t i = 0; i < whiteners_.size(); ++i) {
-    whiteners_[i].apply(x.middleRows(static_cast<Index>(i) * rows, rows));
-    x.middleRows(static_cast<Index>(i) * rows, rows) *= weights_[i][window];
+  for (std::size_t i = 0; i < disturbances_.size(); ++i) {
+    whiteners_[i][window].apply(x.middleRows(static_cast<Index>(i) * rows, rows));
   }
 }
 
@@ -204,7 +202,7 @@ void Problem::settle_start(const Replay& replay, std::size_t at, const VectorXd&
   fit.residual = target - fit.simulated;
   whiten(at, fit.residual);
   for (int round = 1; round < kStartRounds; ++round) {
-    const double found = whiteners_.empty() ? kPlainStartFound * fit.residual.squaredNorm() : kStartFound;
+    const double found = disturbances_.empty() ? kPlainStartFound * fit.residual.squaredNorm() : kStartFound;
     if ((fit.basis.transpose() * fit.residual).squaredNorm() < found) return;
     const VectorXd start = fit.start + believable(fit.to_start * fit.residual, bare_start());
     VectorXd simulated = simulate(replay, windows_[at], start), residual = target - simulated;
@@ -289,8 +287,8 @@ VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit
     qr.compute(slopes);
     const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(slopes.rows(), qr.rank());
     change -= basis * (basis.transpose() * change).eval();
-    own_gain =
-        (basis.transpose() * at.residual).squaredNorm() - kStartPrice * static_cast<double>(all - known);
+    own_gain = (basis.transpose() * weights_of(at.residual).cwiseProduct(at.residual)).squaredNorm() -
+               kStartPrice * static_cast<double>(all - known);
   }
   return change;
 }

@@ -36,7 +36,8 @@ inline constexpr double kStartPrice = 2;
 class Problem {
  public:
   /// @param window_s wanted length; runs are divided into equal parts of about that
-  Problem(const Runs& runs, Part part, double window_s);
+  /// @param natural_radps of the swing
+  Problem(const Runs& runs, Part part, double window_s, double natural_radps);
 
   [[nodiscard]] Part part() const { return part_; }
   [[nodiscard]] bool empty() const { return windows_.empty(); }
@@ -45,12 +46,13 @@ class Problem {
   [[nodiscard]] const Runs& runs() const { return runs_; }
 
   /// Learns noise and disturbance per output from the residuals of `crane` and whitens with them from now on.
-  /// A window that is far noisier than the others (an axis that broke loose a moment earlier or later) counts
-  /// less.
-  void learn_disturbance(const Crane& crane, double natural_radps);
-  /// Whitens as `other` does; which windows count less is decided here.
-  void whiten_like(const Problem& other, const Crane& crane);
-  [[nodiscard]] const std::vector<Whitener>& whiteners() const { return whiteners_; }
+  void learn_disturbance(const Crane& crane);
+  /// Whitens as `other` does.
+  void whiten_like(const Problem& other) { whiten_with(other.disturbances_); }
+  [[nodiscard]] const Whitener& whitener(std::size_t output, std::size_t window) const {
+    return whiteners_[output][window];
+  }
+  [[nodiscard]] const std::vector<Disturbance>& disturbances() const { return disturbances_; }
 
   /// Solves for the starts from the measured ones.
   [[nodiscard]] Fits fit(const Crane& crane) const;
@@ -67,10 +69,6 @@ class Problem {
   /// The same with other runs (commands changed) through the same crane.
   [[nodiscard]] std::vector<Eigen::VectorXd> change_on(const Runs& runs, const Crane& crane, const Fits& at,
                                                        double step, double* own = nullptr) const;
-  /// What a window's output counts, in (0, 1]. @pre the disturbance is known
-  [[nodiscard]] double weight(std::size_t output, std::size_t window) const {
-    return weights_[output][window];
-  }
   /// Measured rows of a window, outputs one after the other.
   [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
 
@@ -79,7 +77,7 @@ class Problem {
   [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Crane& crane) const;
   /// Numbers of a start that every crane has.
   [[nodiscard]] Eigen::Index bare_start() const { return static_cast<Eigen::Index>(2 * outputs_.size()); }
-  void weigh(const std::vector<std::vector<Eigen::VectorXd>>& residuals);
+  void whiten_with(std::vector<Disturbance> disturbances);
   [[nodiscard]] std::vector<Replay> replays(const Runs& runs, const Crane& crane) const;
   [[nodiscard]] Eigen::VectorXd simulate(const Replay& replay, const Window& window,
                                          const Eigen::VectorXd& start) const;
@@ -100,8 +98,9 @@ class Problem {
   Part part_;
   std::vector<Output> outputs_;
   std::vector<Window> windows_;
-  std::vector<Whitener> whiteners_;           ///< by output; empty: plain residuals
-  std::vector<std::vector<double>> weights_;  ///< by output and window, in (0, 1]
+  std::vector<std::vector<Passage>> passages_;    ///< by output and window
+  std::vector<Disturbance> disturbances_;         ///< by output; empty: plain residuals
+  std::vector<std::vector<Whitener>> whiteners_;  ///< by output and window
 };
 
 }  // namespace crane::diagnosis

@@ -22,7 +22,7 @@ double chi_square_p(double statistic, Index freedom) {
 /// Directions of one candidate in one shape, block by block, what is known already taken out.
 struct Directions {
   MatrixXd by_block, curvature;
-  bool one_sided = false, nonlinear = false;
+  bool one_sided = false;
 
   [[nodiscard]] double statistic(const VectorXd& signs) const {
     const VectorXd sum = by_block.transpose() * signs;
@@ -54,10 +54,17 @@ void judge(const Directions& d, Score& score) {
   const VectorXd amounts = solve(d.curvature, total);
   score.amounts.assign(amounts.data(), amounts.data() + amounts.size());
   score.gain = d.one_sided && total[0] <= 0 ? 0 : std::max(0.0, total.dot(amounts));
-  if (d.nonlinear) score.gain = 2 * total[0] - d.curvature(0, 0);  // the setting as it is
   const VectorXd as_they_are = VectorXd::Ones(d.by_block.rows());
   score.statistic = d.statistic(as_they_are);
   score.p_value = d.p_value(as_they_are);
+}
+
+/// Decrease of the loss when the residuals change by all of `change`.
+double as_it_is(const Fits& fits, const std::vector<VectorXd>& change) {
+  double gain = 0;
+  for (std::size_t w = 0; w < change.size(); ++w)
+    gain += loss_of(fits[w].residual) - loss_of(fits[w].residual - change[w]);
+  return gain;
 }
 
 /// How often does nothing but luck give a p-value as small as `least` somewhere?
@@ -127,10 +134,11 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
                                         block_scores(*train_load_, at.load, all.load)),
                                  fresh);
     directions[i].one_sided = candidates_[scores[i].candidate].one_sided;
-    directions[i].nonlinear = candidates_[scores[i].candidate].nonlinear;
     judge(directions[i], scores[i]);
-    scores[i].gain = std::max(0.0, scores[i].gain + own);
     const Candidate& candidate = candidates_[scores[i].candidate];
+    if (candidate.nonlinear)
+      scores[i].gain = as_it_is(at.drive, all.drive.back()) + as_it_is(at.load, all.load.back());
+    scores[i].gain = std::max(0.0, scores[i].gain + own);
     const double loss = (candidate.drive ? at.drive_loss : 0) + (candidate.load ? at.load_loss : 0);
     scores[i].share = loss > 0 ? scores[i].gain / loss : 0;
   });

@@ -1,73 +1,22 @@
 #include "search.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <random>
+#include <limits>
+
+#include "compare.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
-/// A score this unlikely by luck is something.
-constexpr double kSignificant = 0.01;
-/// Held-out data are fewer: they have to agree, not to prove it alone.
-constexpr double kHeldOutWin = 0.9;
-/// What improves the training loss of neither drives nor load by such a share is of no consequence for the
-/// crane.
-constexpr double kLeastShare = 0.03;
 constexpr std::size_t kRefitted = 8;
 constexpr std::size_t kPaired = 5;
 constexpr std::size_t kExtensions = 6;
+/// Singles that may take the place of one of several effects.
+constexpr std::size_t kExchanged = 2;
 /// A rival whose training loss will stay this much above the best one's does not win a resample.
 constexpr double kHopeless = 30;
-constexpr int kVotes = 500;
 /// Flipping the signs of fewer blocks proves nothing about what is left beside a fitted effect.
 constexpr std::size_t kFewBlocks = 60;
-
-bool has(const Effects& effects, const Candidate* candidate) {
-  return std::any_of(effects.begin(), effects.end(),
-                     [&](const Effect& e) { return e.candidate == candidate; });
-}
-
-std::size_t blocks(const Fitted& f) { return f.train.blocks.size() + f.test.blocks.size(); }
-
-/// Of one parameter, in units of one noise variance: that of the Bayesian information criterion.
-double price(const Fitted& f) { return std::log(static_cast<double>(blocks(f))); }
-
-/// What a hypothesis is judged by: training and held-out loss together with a price for its parameters.
-double value(const Fitted& f) {
-  return f.train.loss + f.test.loss + price(f) * static_cast<double>(f.parameters);
-}
-
-bool less(const Fitted& a, const Fitted& b) { return value(a) < value(b); }
-
-/// Shares of resamples of all blocks in which `f` is better than `before`: in all, in the held-out ones.
-struct Wins {
-  double all = 0, held_out = 0;
-};
-
-Wins block_wins(const Fitted& f, const Fitted& before, std::uint64_t seed) {
-  std::vector<double> difference;
-  for (std::size_t i = 0; i < f.train.blocks.size(); ++i)
-    difference.push_back(before.train.blocks[i] - f.train.blocks[i]);
-  const std::size_t training = difference.size();
-  for (std::size_t i = 0; i < f.test.blocks.size(); ++i)
-    difference.push_back(before.test.blocks[i] - f.test.blocks[i]);
-  const double extra =
-      price(f) * (static_cast<double>(f.parameters) - static_cast<double>(before.parameters));
-  std::mt19937_64 random(seed);
-  Wins wins;
-  for (int i = 0; i < kVotes; ++i) {
-    double all = -extra, held_out = 0;
-    for (std::size_t k = 0; k < difference.size(); ++k) {
-      const std::size_t at = static_cast<std::size_t>(random() % difference.size());
-      all += difference[at];
-      if (at >= training) held_out += difference[at];
-    }
-    wins.all += all > 0 ? 1.0 / kVotes : 0;
-    wins.held_out += f.test.blocks.empty() || held_out > 0 ? 1.0 / kVotes : 0;
-  }
-  return wins;
-}
 
 /// Half of them those that promise the largest share, half the surest ones: a large effect is as uneven from
 /// block to block as it is large, and in a rough residual luck promises much.
@@ -103,9 +52,10 @@ class Search {
 
   Hypotheses singles_again(const Hypotheses& before) {
     found_.detection_p_value = before.detection_p_value;
-    const double least = study_.fit(before.likeliest.effects).train.loss;
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < before.singles.size(); ++i) {
       found_.singles.push_back(study_.fit(before.singles[i].effects, least + kHopeless));
+      least = std::min(least, found_.singles.back().train.loss);
       rank(found_.singles.back(), before.ranking[i].p_value);
     }
     choose();
@@ -115,16 +65,13 @@ class Search {
   Hypotheses extended(const Hypotheses& singles) {
     found_ = singles;
     if (!found_.best.effects.empty()) extend();
-    if (!found_.best.effects.empty()) found_.likeliest = found_.best;
     return std::move(found_);
   }
 
  private:
   void choose() {
     found_.all = found_.singles;
-    found_.best = found_.likeliest = best_accepted(found_.singles, found_.base);
-    if (found_.best.effects.empty() && !found_.singles.empty())
-      found_.likeliest = *std::min_element(found_.singles.begin(), found_.singles.end(), less);
+    found_.best = best_accepted(found_.singles, found_.base);
   }
 
   /// `before` when none is accepted in its place.
@@ -161,7 +108,12 @@ class Search {
     ranked.train_gain = found_.base.train.loss - f.train.loss;
     ranked.test_gain = found_.base.test.loss - f.test.loss;
     ranked.p_value = p_value;
-    found_.ranking.push_back(ranked);
+    const auto known = std::find_if(found_.ranking.begin(), found_.ranking.end(),
+                                    [&](const Ranked& r) { return r.label == ranked.label; });
+    if (known == found_.ranking.end())
+      found_.ranking.push_back(ranked);
+    else if (ranked.train_gain > known->train_gain)
+      ranked.p_value = known->p_value, *known = ranked;
   }
 
   /// Forward from the best, pairs of the best singles beside it.
@@ -174,10 +126,58 @@ class Search {
       for (const Score& score : strongest(scores, kExtensions))
         tries.push_back(begin(found_.best.effects, score));
       if (effects == 2) add_pairs(tries);
-      const std::vector<Fitted> fitted = fits_of(tries);
-      found_.best = best_accepted(fitted, found_.best);
+      const Fitted before = found_.best;
+      found_.best = best_accepted(fits_of(tries), before);
+      if (found_.best.effects.size() < effects) return;
+      std::vector<Fitted> fitted = fits_of(exchanges());
+      fitted.push_back(found_.best);
+      found_.best = best_accepted(fitted, before);
+      while (found_.best.effects.size() > 1 && drop_one()) {
+      }
       if (found_.best.effects.size() < effects) return;
     }
+  }
+
+  /// Leaves out what the others have made superfluous. @return whether there was one
+  bool drop_one() {
+    std::vector<Effects> tries;
+    for (std::size_t i = 0; i < found_.best.effects.size(); ++i) {
+      tries.push_back(found_.best.effects);
+      tries.back().erase(tries.back().begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    const Fitted* dropped = nullptr;
+    const std::vector<Fitted> fitted = fits_of(tries);
+    for (const Fitted& fewer : fitted)
+      if (!accepted(found_.best, fewer, request_.seed) && (dropped == nullptr || less(fewer, *dropped)))
+        dropped = &fewer;
+    if (dropped == nullptr) return false;
+    found_.best = *dropped;
+    return true;
+  }
+
+  /// One of the best effects in another one's place: what was best alone need not be best beside the others.
+  [[nodiscard]] std::vector<Effects> exchanges() const {
+    std::vector<const Fitted*> singles;
+    for (const Fitted& single : found_.singles) singles.push_back(&single);
+    std::sort(singles.begin(), singles.end(), [](const Fitted* a, const Fitted* b) { return less(*a, *b); });
+    std::vector<Effects> all;
+    for (std::size_t i = 0; i < found_.best.effects.size(); ++i) {
+      std::size_t exchanged = 0;
+      for (const Fitted* single : singles) {
+        const Candidate& other = *single->effects[0].candidate;
+        const Candidate& replaced = *found_.best.effects[i].candidate;
+        if (has(found_.best.effects, &other) || other.drive != replaced.drive || other.load != replaced.load)
+          continue;
+        if (++exchanged > kExchanged) break;
+        all.push_back(found_.best.effects);
+        all.back()[i] = single->effects[0];
+      }
+    }
+    std::erase_if(all, [&](const Effects& tried) {
+      return std::any_of(found_.all.begin(), found_.all.end(),
+                         [&](const Fitted& known) { return same(known.effects, tried); });
+    });
+    return all;
   }
 
   void add_pairs(std::vector<Effects>& tries) const {
@@ -217,83 +217,6 @@ Hypotheses singles_again(const Study& study, const Request& request, const Hypot
 
 Hypotheses extended(const Study& study, const Request& request, const Hypotheses& singles) {
   return Search(study, request).extended(singles);
-}
-
-bool same(const Effects& a, const Effects& b) {
-  return a.size() == b.size() &&
-         std::all_of(a.begin(), a.end(), [&](const Effect& e) { return has(b, e.candidate); });
-}
-
-bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed) {
-  const Evaluation &old = before.train, &now = fitted.train;
-  if (now.loss >= old.loss || (old.drive_loss - now.drive_loss < kLeastShare * old.drive_loss &&
-                               old.load_loss - now.load_loss < kLeastShare * old.load_loss))
-    return false;
-  const Wins wins = block_wins(fitted, before, seed);
-  return wins.all > 1 - kSignificant && wins.held_out > kHeldOutWin;
-}
-
-namespace {
-
-/// Parts in which what `a` has and `b` has not shows.
-struct ShowsIn {
-  bool drive = false, load = false;
-};
-ShowsIn only_in(const Fitted& a, const Fitted& b) {
-  ShowsIn parts;
-  for (const Effect& e : a.effects) {
-    const bool shared = has(b.effects, e.candidate);
-    parts.drive = parts.drive || (!shared && e.candidate->drive);
-    parts.load = parts.load || (!shared && e.candidate->load);
-  }
-  return parts;
-}
-
-/// What `rival` does better block by block in the parts where it would have to replace what only `best` has.
-std::vector<double> advantage(const Fitted& rival, const Fitted& best) {
-  const ShowsIn parts = only_in(best, rival);
-  std::vector<double> margins;
-  for (const auto& [of_best, of_rival] : {std::pair{&best.train, &rival.train}, {&best.test, &rival.test}})
-    for (std::size_t i = 0; i < of_best->blocks.size(); ++i) {
-      const bool counts = i < of_best->drive_blocks ? parts.drive : parts.load;
-      margins.push_back(counts ? of_best->blocks[i] - of_rival->blocks[i] : 0);
-    }
-  return margins;
-}
-
-}  // namespace
-
-std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
-                                std::uint64_t seed) {
-  std::vector<std::vector<double>> margins;
-  for (const Fitted* rival : rivals) margins.push_back(advantage(*rival, best));
-  std::vector<double> picked(rivals.size(), 0.0);
-  std::mt19937_64 random(seed + 17);
-  const std::size_t count = blocks(best);
-  for (int i = 0; i < kVotes; ++i) {
-    std::vector<double> total(rivals.size());
-    for (std::size_t r = 0; r < rivals.size(); ++r)
-      total[r] =
-          price(best) * (static_cast<double>(best.parameters) - static_cast<double>(rivals[r]->parameters));
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t at = static_cast<std::size_t>(random() % count);
-      for (std::size_t r = 0; r < rivals.size(); ++r) total[r] += margins[r][at];
-    }
-    const auto winner = std::max_element(total.begin(), total.end());
-    if (winner != total.end() && *winner > 0)
-      picked[static_cast<std::size_t>(winner - total.begin())] += 1.0 / kVotes;
-  }
-  return picked;
-}
-
-std::vector<Estimate> estimates(const Fitted& f) {
-  std::vector<Estimate> all;
-  std::size_t i = 0;
-  for (const Effect& effect : f.effects)
-    for (std::size_t k = 0; k < effect.values.size(); ++k, ++i)
-      all.push_back({effect.candidate->parameters[k].name, effect.candidate->parameters[k].unit,
-                     effect.values[k], f.std_dev[i]});
-  return all;
 }
 
 }  // namespace crane::diagnosis

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Long windows suit a load that nothing drives, short ones a drive whose friction forgets.
-double window_s(const runtime::Rig& rig) { return rig.kind == runtime::RigKind::pendulum ? 5.0 : 2.0; }
+/// Long enough for a swing, short enough for a drive whose friction forgets.
+constexpr double kWindow_s = 2;
 
 Evaluation summed(const Problem& drive, const Problem& load, Fits of_drive, Fits of_load) {
   Evaluation result;
@@ -35,17 +35,15 @@ Fits fit_of(const Problem& problem, const Crane& crane) {
 
 Study::Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded)
-    : base_{rig.plant, rig.terms},
-      natural_radps_(std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist])),
-      candidates_(candidates_for(rig, train)) {
+    : base_{rig.plant, rig.terms}, candidates_(candidates_for(rig, train)) {
   std::erase_if(candidates_, [&](const Candidate& candidate) {
     return std::find(excluded.begin(), excluded.end(), candidate.cause) != excluded.end();
   });
-  const double length_s = window_s(rig);
-  train_drive_ = std::make_unique<Problem>(train, Part::drive, length_s);
-  train_load_ = std::make_unique<Problem>(train, Part::load, length_s);
-  test_drive_ = std::make_unique<Problem>(test, Part::drive, length_s);
-  test_load_ = std::make_unique<Problem>(test, Part::load, length_s);
+  const double natural_radps = std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist]);
+  train_drive_ = std::make_unique<Problem>(train, Part::drive, kWindow_s, natural_radps);
+  train_load_ = std::make_unique<Problem>(train, Part::load, kWindow_s, natural_radps);
+  test_drive_ = std::make_unique<Problem>(test, Part::drive, kWindow_s, natural_radps);
+  test_load_ = std::make_unique<Problem>(test, Part::load, kWindow_s, natural_radps);
 }
 
 Crane Study::with(const Effects& effects) const {
@@ -54,17 +52,20 @@ Crane Study::with(const Effects& effects) const {
   return crane;
 }
 
-void Study::learn_disturbance(const Effects& effects) {
+double Study::learn_disturbance(const Effects& effects) {
+  double misfit = 0;
   const Crane crane = with(effects);
   for (const auto& [train, test] :
        {std::pair{train_drive_.get(), test_drive_.get()}, {train_load_.get(), test_load_.get()}}) {
     if (train->empty()) continue;
-    train->learn_disturbance(crane, natural_radps_);
-    if (!test->empty()) test->whiten_like(*train, crane);
+    train->learn_disturbance(crane);
+    for (const Disturbance& disturbance : train->disturbances()) misfit += disturbance.misfit;
+    if (!test->empty()) test->whiten_like(*train);
   }
   base_train_ =
       summed(*train_drive_, *train_load_, fit_of(*train_drive_, base_), fit_of(*train_load_, base_));
   base_test_ = summed(*test_drive_, *test_load_, fit_of(*test_drive_, base_), fit_of(*test_load_, base_));
+  return misfit;
 }
 
 Evaluation Study::evaluate(const Problem& drive, const Problem& load, const Effects& effects,

@@ -8,6 +8,7 @@
 
 #include "crane/diagnosis/candidate.hpp"
 #include "problem.hpp"
+#include "robust.hpp"
 
 namespace crane::diagnosis {
 
@@ -53,6 +54,8 @@ struct ScoreTable {
   double p_value = 1;       ///< that the largest of all comes from nothing, by flipping the signs of blocks
 };
 
+struct BlockScores;
+
 class Study {
  public:
   /// @param excluded causes that are no candidates
@@ -65,7 +68,8 @@ class Study {
 
   /// Learns noise and disturbance from what the base model with the effects leaves, and evaluates the base
   /// model. Before anything else.
-  void learn_disturbance(const Effects& effects = {});
+  /// @return minus twice the log likelihood of the training residuals, but for a constant
+  double learn_disturbance(const Effects& effects = {});
 
   /// The base model.
   [[nodiscard]] const Evaluation& base_train() const { return base_train_; }
@@ -88,6 +92,10 @@ class Study {
 
  private:
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
+  /// Along every parameter of the effects.
+  [[nodiscard]] BlockScores pulls(const Fitted& at, Loss loss) const;
+  /// Gauss-Newton rounds from where `best` is.
+  void descend(Fitted& best, Loss loss, double hopeless) const;
   /// Every shape of every candidate that is not among the effects.
   [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
   /// Appends the changes that the probes of a candidate's shape make.
@@ -97,7 +105,6 @@ class Study {
                                     const Evaluation& near) const;
 
   Crane base_;
-  double natural_radps_;
   std::vector<Candidate> candidates_;
   std::unique_ptr<Problem> train_drive_, train_load_, test_drive_, test_load_;
   Evaluation base_train_, base_test_;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "parallel.hpp"
+#include "robust.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -23,7 +24,7 @@ constexpr double kLowest_hz = 0.1, kHighest_hz = 4, kSpacing_hz = 0.0125;
 constexpr std::size_t kLineFolds = 4;
 constexpr std::size_t kLineFlips = 99;
 /// Share of the swing's loss: a smaller line is of no consequence for the crane.
-constexpr double kLineShare = 0.02;
+constexpr double kLineShare = 0.012;
 
 /// A force with one frequency on one output, seen through every window: cosine and sine of a run's own phase.
 struct Line {
@@ -36,27 +37,21 @@ struct Line {
 Line line_at(const Problem& load, const Fits& fits, std::size_t output, double hz) {
   Line line{hz, {}, {}};
   const double omega = 2 * std::numbers::pi * hz;
-  std::map<std::size_t, MatrixXd> whitened;  // a wave from the start of a window, by its rows
   for (std::size_t w = 0; w < fits.size(); ++w) {
     const Window& window = load.windows()[w];
-    const double period_s = load.runs()[window.run].run.period_s;
+    const double turn = omega * load.runs()[window.run].run.period_s;
     const auto rows = static_cast<Index>(window.rows), first = static_cast<Index>(output) * rows;
-    if (!whitened.contains(window.rows)) {
-      MatrixXd waves(rows, 2);
-      for (Index k = 0; k < rows; ++k) {
-        const double phase = omega * period_s * static_cast<double>(k);
-        waves(k, 0) = std::cos(phase), waves(k, 1) = std::sin(phase);
-      }
-      load.whiteners()[output].apply(waves);
-      whitened[window.rows] = std::move(waves);
+    MatrixXd waves(rows, 2);
+    for (Index k = 0; k < rows; ++k) {
+      const double phase = turn * static_cast<double>(static_cast<Index>(window.first) + k);
+      waves(k, 0) = std::cos(phase), waves(k, 1) = std::sin(phase);
     }
-    const double begin = omega * period_s * static_cast<double>(window.first);
-    Matrix2d turn;
-    turn << std::cos(begin), std::sin(begin), -std::sin(begin), std::cos(begin);
-    const MatrixXd waves = load.weight(output, w) * whitened[window.rows] * turn;
-    const MatrixXd explained = fits[w].basis.middleRows(first, rows).transpose() * waves;
-    line.pull.emplace_back(waves.transpose() * fits[w].residual.segment(first, rows));
-    line.curvature.emplace_back(waves.transpose() * waves - explained.transpose() * explained);
+    load.whitener(output, w).apply(waves);
+    const MatrixXd basis = fits[w].basis.middleRows(first, rows);
+    waves -= basis * (basis.transpose() * waves).eval();
+    const VectorXd residual = fits[w].residual.segment(first, rows);
+    line.pull.emplace_back(waves.transpose() * weights_of(residual).cwiseProduct(residual));
+    line.curvature.emplace_back(waves.transpose() * waves);
   }
   return line;
 }
@@ -128,7 +123,7 @@ double by_luck(const Problem& load, const std::vector<Line>& lines, std::uint64_
 std::vector<Unexplained> find_swing_lines(const Problem& load, const Fits& fits, std::uint64_t seed) {
   std::vector<Unexplained> all;
   double loss = 0;
-  for (const WindowFit& fit : fits) loss += fit.residual.squaredNorm();
+  for (const WindowFit& fit : fits) loss += loss_of(fit.residual);
   for (std::size_t output = 0; output < load.outputs().size() && !fits.empty(); ++output) {
     const auto count = static_cast<std::size_t>((kHighest_hz - kLowest_hz) / kSpacing_hz);
     std::vector<Line> lines(count);
@@ -140,7 +135,7 @@ std::vector<Unexplained> find_swing_lines(const Problem& load, const Fits& fits,
     std::ostringstream name;
     name.precision(3);
     name << kOutputNames[load.outputs()[output]] << ": time, " << found.hz << " Hz";
-    all.push_back({name.str(), found.gain, found.gain / loss, true, true});
+    all.push_back({name.str(), found.gain, found.gain / loss, true});
   }
   return all;
 }

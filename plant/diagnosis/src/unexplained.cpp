@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "parallel.hpp"
+#include "robust.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -16,9 +17,6 @@ using Eigen::VectorXd;
 constexpr double kProbe_v = 0.05;
 constexpr double kLeastSpeed = 0.01;  // m/s or rad/s: an extra voltage on an axis that sticks does nothing
 constexpr std::size_t kFolds = 4;
-/// Share of the drives' loss beyond which an unexplained pattern is taken seriously: friction around
-/// standstill leaves patterns of a few percent in clean data.
-constexpr double kPatternShare = 0.12;
 /// A force that builds up after a reversal has done so within this share of the travel.
 constexpr double kBuildUp = 0.25;
 
@@ -144,8 +142,9 @@ double cross_validated(const Fits& fits, const std::vector<std::vector<VectorXd>
   for (std::size_t w = 0; w < fits.size(); ++w) {
     MatrixXd j(fits[w].residual.size(), n);
     for (Index i = 0; i < n; ++i) j.col(i) = slopes[static_cast<std::size_t>(i)][w];
-    curvature[w] = j.transpose() * j;
-    pull[w] = j.transpose() * fits[w].residual;
+    const VectorXd weights = weights_of(fits[w].residual);
+    curvature[w] = j.transpose() * weights.asDiagonal() * j;
+    pull[w] = j.transpose() * weights.cwiseProduct(fits[w].residual);
     all_curvature += curvature[w];
     all_pull += pull[w];
   }
@@ -184,7 +183,7 @@ std::vector<Unexplained> find_unexplained(const Study& study, const Effects& eff
   }
   const Crane crane = study.with(effects);
   double drive_loss = 0;
-  for (const WindowFit& fit : at.drive) drive_loss += fit.residual.squaredNorm();
+  for (const WindowFit& fit : at.drive) drive_loss += loss_of(fit.residual);
   std::vector<double> gains(variables.size());
   parallel_for(variables.size(), [&](std::size_t v) {
     std::vector<std::vector<VectorXd>> slopes;
@@ -193,9 +192,7 @@ std::vector<Unexplained> find_unexplained(const Study& study, const Effects& eff
     gains[v] = cross_validated(at.drive, slopes);
   });
   for (std::size_t v = 0; v < variables.size(); ++v)
-    if (gains[v] > 0)
-      found.push_back(
-          {variables[v].name, gains[v], gains[v] / drive_loss, gains[v] > kPatternShare * drive_loss, false});
+    if (gains[v] > 0) found.push_back({variables[v].name, gains[v], gains[v] / drive_loss, false});
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
   return found;
 }

@@ -13,7 +13,6 @@ struct Unexplained {
   std::string variable;  ///< "trolley: position", ...
   double gain = 0;       ///< decrease of the loss, cross-validated
   double fraction = 0;   ///< of the loss of that output's part
-  bool serious = false;  ///< larger than what is left in data of a crane that is as modelled
   bool line = false;     ///< one frequency in the swing
 };
 
