@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "candidate_shapes.hpp"
@@ -202,14 +203,14 @@ class Builder {
   }
 
   [[nodiscard]] double travelled(Output output) const {
-    double low = INFINITY, high = -INFINITY;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const PreparedRun& run : runs_)
       for (const double value : run.run.measured[output])
         low = std::min(low, value), high = std::max(high, value);
     return std::max(high - low, 1e-3);
   }
   [[nodiscard]] double middle(Output output) const {
-    double low = INFINITY, high = -INFINITY;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const PreparedRun& run : runs_)
       for (const double value : run.run.measured[output])
         low = std::min(low, value), high = std::max(high, value);

@@ -109,6 +109,7 @@ std::vector<double> advantage(const Fitted& rival, const Fitted& best) {
 std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
                                 std::uint64_t seed) {
   std::vector<std::vector<double>> margins;
+  margins.reserve(rivals.size());
   for (const Fitted* rival : rivals) margins.push_back(advantage(*rival, best));
   std::vector<double> picked(rivals.size(), 0.0);
   std::mt19937_64 random(seed + 17);

@@ -72,6 +72,7 @@ std::vector<Effects> hiding(const Hypotheses& found) {
   std::sort(order.begin(), order.end(), [](const Fitted* a, const Fitted* b) { return less(*a, *b); });
   order.resize(std::min(order.size(), kContenders));
   std::vector<Effects> effects;
+  effects.reserve(order.size());
   for (const Fitted* single : order) effects.push_back(single->effects);
   return effects;
 }

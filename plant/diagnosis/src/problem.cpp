@@ -123,6 +123,7 @@ std::vector<Replay> Problem::replays(const Runs& runs, const Crane& crane) const
   std::vector<std::optional<Replay>> made(runs.size());
   parallel_for(runs.size(), [&](std::size_t i) { made[i].emplace(runs[i], crane, part_); });
   std::vector<Replay> result;
+  result.reserve(made.size());
   for (auto& replay : made) result.push_back(std::move(*replay));
   return result;
 }
@@ -205,7 +206,8 @@ void Problem::settle_start(const Replay& replay, std::size_t at, const VectorXd&
     const double found = disturbances_.empty() ? kPlainStartFound * fit.residual.squaredNorm() : kStartFound;
     if ((fit.basis.transpose() * fit.residual).squaredNorm() < found) return;
     const VectorXd start = fit.start + believable(fit.to_start * fit.residual, bare_start());
-    VectorXd simulated = simulate(replay, windows_[at], start), residual = target - simulated;
+    VectorXd simulated = simulate(replay, windows_[at], start);
+    VectorXd residual = target - simulated;
     whiten(at, residual);
     if (residual.squaredNorm() >= fit.residual.squaredNorm()) return;
     fit.start = start;
@@ -269,7 +271,7 @@ std::vector<VectorXd> Problem::change_on(const Runs& runs, const Crane& crane, c
 
 VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit& at, double step,
                             double& own_gain) const {
-  const auto outside = [&](MatrixXd x) -> MatrixXd {
+  const auto outside = [&](const MatrixXd& x) -> MatrixXd {
     return x - at.basis * (at.basis.transpose() * x).eval();
   };
   VectorXd start = measured_start(replay, windows_[w]);

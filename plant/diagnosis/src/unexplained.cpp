@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "parallel.hpp"
@@ -51,7 +52,7 @@ Variable binned(const std::string& name, plant::Axis axis, const Runs& runs, std
 }
 
 struct Extent {
-  double low = INFINITY, high = -INFINITY;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
   void take(double value) { low = std::min(low, value), high = std::max(high, value); }
 };
 

@@ -210,9 +210,9 @@ class Learning {
   void begin() {
     const double share = best_.friction;
     Disturbance likeliest = best_;
-    for (double a = 0.1; a < 1e8; a *= 10) {
-      best_.acceleration = a;
-      best_.friction = share * a;
+    for (int decade = -1; decade < 8; ++decade) {
+      best_.acceleration = std::pow(10, decade);
+      best_.friction = share * best_.acceleration;
       const Likelihood tried = likelihood(residuals_, passages_, best_, found_.variance);
       if (tried.value < found_.value) found_ = tried, likeliest = best_;
     }
