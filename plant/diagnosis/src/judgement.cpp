@@ -30,6 +30,11 @@ double mean_loss(const Fits& fits) {
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
 
+/// Mean loss of what the best hypothesis leaves, in the most that noise and a coloured force can make.
+double excess(const Fitted& best) {
+  return std::max(mean_loss(best.train.load) / kWorstSwing, mean_loss(best.train.drive) / kWorstDrive);
+}
+
 std::string said(const Diagnosis& d) {
   std::string names, rivals;
   for (const Cause& cause : d.causes)
@@ -174,10 +179,6 @@ class Judgement {
 };
 
 }  // namespace
-
-double excess(const Fitted& best) {
-  return std::max(mean_loss(best.train.load) / kWorstSwing, mean_loss(best.train.drive) / kWorstDrive);
-}
 
 Judged judge(const Study& study, const Hypotheses& hypotheses, const HeldOut& held_out, std::uint64_t seed) {
   return Judgement(study, hypotheses, held_out, seed).run();
