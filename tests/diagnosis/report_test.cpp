@@ -185,6 +185,36 @@ TEST(ReportPage, SaysVerdictGainCandidatesRestAndNextExperiment) {
   EXPECT_THAT(html, Not(HasSubstr("http://"))) << "nothing comes from a network";
 }
 
+std::string page_of(const Example& example) {
+  return report::to_html(report_page(example.diagnosis, rig_of("gantry"), {example.run}));
+}
+
+TEST(ReportPage, ClaimsNoGainThatTheHeldOutRunsDoNotProve) {
+  Example example;
+  EXPECT_THAT(page_of(example), HasSubstr("error is smaller by 67 % (95 % interval 60 % to 70 %)"));
+  example.diagnosis.held_out.gain_ci95 = {-0.1, 0.7};
+  EXPECT_THAT(page_of(example), HasSubstr("error is not surely smaller: gain 67 % (95 % interval -10 %"));
+  example.diagnosis.held_out.gain = -0.03;
+  example.diagnosis.held_out.gain_ci95 = {-0.07, -0.002};
+  EXPECT_THAT(page_of(example), HasSubstr("error is larger by 3 %"));
+}
+
+TEST(ReportPage, SaysWhatWasHeldOutAndWhichGainEachColumnHas) {
+  const std::string html = page_of(Example{});
+  EXPECT_THAT(html, HasSubstr("1 hypothesis fitted. Held out: held_out.csv (6 s)."));
+  EXPECT_THAT(html, HasSubstr(">0.667<")) << "trolley: 12 mm before, 4 mm after";
+}
+
+TEST(ReportPage, GivesOnlyACandidateAloneAShareOfTheResamples) {
+  Example example;
+  example.diagnosis.ranking = {{"motor_gain (trolley)", {{"factor", "1", 1.1, 0.01}}, 9, 9, 0.5, 0.77},
+                               {"motor_gain (trolley) + jib_tilt", {}, 9, 9, 0.5, 0}};
+  const std::string html = page_of(example);
+  EXPECT_THAT(html, HasSubstr("factor 1.1 [1.08, 1.12]<")) << "a number without a unit has none";
+  EXPECT_THAT(html, HasSubstr("77 %"));
+  EXPECT_THAT(html, Not(HasSubstr(">0 %")));
+}
+
 TEST(ReportFiles, AreWrittenAndRemoveAnEarlierProposal) {
   const auto directory = std::filesystem::path{testing::TempDir()} / "diagnosis_report";
   std::filesystem::create_directories(directory);

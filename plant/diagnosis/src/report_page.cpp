@@ -23,8 +23,10 @@ std::string significant(double value, int digits = 4) {
   return text.data();
 }
 
+std::string unit_of(const Estimate& e) { return e.unit.empty() || e.unit == "1" ? "" : " " + e.unit; }
+
 std::string with_std(const Estimate& e) {
-  return significant(e.value) + " ± " + significant(e.std_dev, 2) + (e.unit.empty() ? "" : " " + e.unit);
+  return significant(e.value) + " ± " + significant(e.std_dev, 2) + unit_of(e);
 }
 
 /// "delay_s 0.03 [0.028, 0.032] s, ..."
@@ -33,7 +35,7 @@ std::string with_intervals(const std::vector<Estimate>& estimates) {
   for (const Estimate& e : estimates)
     text += (text.empty() ? "" : ", ") + e.name + " " + significant(e.value, 3) + " [" +
             significant(e.value - kIn95 * e.std_dev, 3) + ", " + significant(e.value + kIn95 * e.std_dev, 3) +
-            "]" + (e.unit.empty() ? "" : " " + e.unit);
+            "]" + unit_of(e);
   return text;
 }
 
@@ -54,8 +56,8 @@ std::vector<double> thinned(const std::vector<double>& values) {
 
 report::Table causes_table(const Diagnosis& diagnosis) {
   report::Table table{
-      .title = "Causes",
-      .header = {"cause", "axis", "parameters (± standard deviation)", "p value", "resamples"},
+      .title = diagnosis.verdict == Verdict::unknown ? "What known causes explain of it" : "Causes",
+      .header = {"cause", "axis", "parameters (± standard deviation)", "p value alone", "resamples"},
       .rows = {}};
   for (const Cause& cause : diagnosis.causes) {
     std::string parameters;
@@ -70,16 +72,23 @@ report::Table causes_table(const Diagnosis& diagnosis) {
   return table;
 }
 
+/// A gain whose interval holds zero is none that these data prove.
+std::string gain_sentence(const HeldOut& held_out) {
+  const auto [low, high] = held_out.gain_ci95;
+  const std::string interval = " (95 % interval " + percent(low) + " to " + percent(high) + ").";
+  const std::string begin = "On data that were not used for the fit, the extended model's error is ";
+  if (low > 0) return begin + "smaller by " + percent(held_out.gain) + interval;
+  if (high < 0)
+    return begin + "larger by " + percent(-held_out.gain) + ": gain " + percent(held_out.gain) + interval;
+  return begin + "not surely smaller: gain " + percent(held_out.gain) + interval;
+}
+
 report::Section verdict_section(const Diagnosis& diagnosis) {
   report::Section section{.title = "Verdict", .blocks = {}};
   section.blocks.emplace_back(
       report::Verdict{.text = diagnosis.sentence, .tone = tone_of_verdict(diagnosis.verdict)});
-  const HeldOut& held_out = diagnosis.held_out;
   if (!diagnosis.extension.empty())
-    section.blocks.emplace_back(report::Paragraph{
-        "On data that were not used for the fit, the extended model's error is smaller by " +
-        percent(held_out.gain) + " (95 % interval " + percent(held_out.gain_ci95[0]) + " to " +
-        percent(held_out.gain_ci95[1]) + ")."});
+    section.blocks.emplace_back(report::Paragraph{gain_sentence(diagnosis.held_out)});
   if (!diagnosis.causes.empty()) section.blocks.emplace_back(causes_table(diagnosis));
   return section;
 }
@@ -92,19 +101,25 @@ Cell in_milli(const std::map<std::string, double>& values, const std::string& co
 
 report::Table gain_table(const HeldOut& held_out) {
   report::Table table{.title = "Held-out error (rms)",
-                      .header = {"column", "unit", "simulation", "extended", "sensor and disturbance",
-                                 "simulation, whole run", "extended, whole run"},
+                      .header = {"column", "unit", "simulation", "extended", "gain [95 % interval]",
+                                 "sensor and disturbance", "simulation, whole run", "extended, whole run"},
                       .rows = {}};
-  for (const auto& [column, baseline] : held_out.baseline_rms)
+  for (const char* column : kOutputNames) {
+    const auto before = held_out.baseline_rms.find(column), after = held_out.extended_rms.find(column);
+    if (before == held_out.baseline_rms.end() || after == held_out.extended_rms.end()) continue;
     table.rows.push_back({{column},
                           {residual_unit(column)},
                           in_milli(held_out.baseline_rms, column),
                           in_milli(held_out.extended_rms, column),
+                          report::number(1 - after->second / before->second, 3),
                           in_milli(held_out.noise, column),
                           in_milli(held_out.whole_baseline_rms, column),
                           in_milli(held_out.whole_extended_rms, column)});
+  }
   table.rows.push_back(
-      {{"gain, weighted by noise"},
+      {{"all, weighted by noise"},
+       {""},
+       {""},
        {""},
        report::with_interval(held_out.gain, held_out.gain_ci95[0], held_out.gain_ci95[1], 3)});
   return table;
@@ -149,7 +164,7 @@ report::Section residual_section(const Diagnosis& diagnosis, const runtime::Rig&
     for (const Abscissa& abscissa : view.against) {
       report::LinePlot plot{.title = view.column + " against " + abscissa.label,
                             .x_label = abscissa.label,
-                            .y_label = view.unit,
+                            .y_label = "residual [" + view.unit + "]",
                             .x = thinned(abscissa.values),
                             .series = {},
                             .group = ""};
@@ -174,37 +189,38 @@ report::Section residual_section(const Diagnosis& diagnosis, const runtime::Rig&
 report::Section candidates_section(const Diagnosis& diagnosis) {
   report::Section section{.title = "Candidates", .blocks = {}};
   report::Table table{.title = "",
-                      .header = {"candidate", "training gain", "held-out gain", "p value", "resamples",
+                      .header = {"candidate", "training gain", "held-out gain", "p value alone", "resamples",
                                  "parameters [95 % interval]"},
                       .rows = {}};
   for (const Ranked& ranked : diagnosis.ranking) {
     if (table.rows.size() == kMostCandidates) break;
-    const bool alone =
-        ranked.label.find(" + ") == std::string::npos;  // the score test looks at one candidate
+    // The score test looks at one candidate, and resampled data vote on one.
+    const bool alone = ranked.label.find(" + ") == std::string::npos;
     table.rows.push_back(
         {{ranked.label},
          {significant(ranked.train_gain, 4)},
          {significant(ranked.test_gain, 4), ranked.test_gain > 0 ? Tone::neutral : Tone::muted},
          {alone ? significant(ranked.p_value, 2) : "-"},
-         {percent(ranked.resampling_frequency)},
+         {alone ? percent(ranked.resampling_frequency) : "-"},
          {with_intervals(ranked.parameters)}});
   }
   section.blocks.emplace_back(std::move(table));
-  section.blocks.emplace_back(
-      report::Paragraph{"Gains are decreases of the whitened sum of squares, in units of one noise variance. "
-                        "Resamples: how often "
-                        "resampled data pick the candidate."});
+  section.blocks.emplace_back(report::Paragraph{
+      "Gains are decreases of the whitened sum of squares, in units of one noise variance: the "
+      "error that the judgement goes by. P value alone: of the candidate's score with nothing "
+      "else in the model. Resamples: how often resampled data pick the candidate."});
   return section;
 }
 
 report::Section remainder_section(const Diagnosis& diagnosis) {
   report::Section section{.title = "What was not explained", .blocks = {}};
   std::string from;
-  for (const std::string& name : diagnosis.remainder.from) from += (from.empty() ? "" : ", ") + name;
-  section.blocks.emplace_back(
-      report::Paragraph{percent(diagnosis.remainder.predictable_fraction) +
-                        " of what the extended model leaves can still be predicted, cross-validated" +
-                        (from.empty() ? "." : ", from: " + from + ".")});
+  for (const std::string& name : diagnosis.remainder.from) from += (from.empty() ? "" : "; ") + name;
+  section.blocks.emplace_back(report::Paragraph{
+      percent(diagnosis.remainder.predictable_fraction) + " of what the " +
+      (diagnosis.extension.empty() ? "simulation" : "extended model") +
+      " leaves can still be predicted, cross-validated. " +
+      (from.empty() ? "Nothing stands out that it goes with." : "It goes with: " + from + ".")});
   return section;
 }
 
@@ -234,13 +250,22 @@ report::Section next_section(const Diagnosis& diagnosis, const runtime::Rig& rig
   return section;
 }
 
+/// What was held out, with what it lasts: an axis that rests there proves nothing about its drive.
+std::string summary_of(const Diagnosis& diagnosis, const std::vector<Run>& test) {
+  std::string held_out;
+  for (const Run& run : test)
+    held_out += (held_out.empty() ? "" : ", ") + std::filesystem::path{run.name}.filename().string() + " (" +
+                significant(static_cast<double>(run.rows()) * run.period_s, 3) + " s)";
+  return std::to_string(diagnosis.ranking.size()) +
+         (diagnosis.ranking.size() == 1 ? " hypothesis" : " hypotheses") + " fitted. Held out: " + held_out +
+         ".";
+}
+
 }  // namespace
 
 report::Page report_page(const Diagnosis& diagnosis, const runtime::Rig& rig, const std::vector<Run>& test) {
-  report::Page page{.title = "Diagnosis of " + rig.name,
-                    .summary = std::to_string(diagnosis.ranking.size()) + " hypotheses fitted, " +
-                               std::to_string(test.size()) + " held-out pieces of runs.",
-                    .sections = {}};
+  report::Page page{
+      .title = "Diagnosis of " + rig.name, .summary = summary_of(diagnosis, test), .sections = {}};
   page.sections.push_back(verdict_section(diagnosis));
   page.sections.push_back(held_out_section(diagnosis));
   page.sections.push_back(candidates_section(diagnosis));
