@@ -9,7 +9,8 @@ namespace {
 using runtime::Rig;
 using runtime::RigKind;
 
-constexpr double kFriction_v = 0.1, kMuchFriction_v = 0.4, kGain = 0.05, kSlip = 0.01, kOffset_rad = 0.01;
+constexpr double kFriction_v = 0.1, kMuchFriction_v = 0.4, kGain = 0.05, kMuchGain = 0.1, kSlip = 0.01,
+                 kOffset_rad = 0.01;
 constexpr double kPayloadShare = 0.1, kCableShare = 0.03;
 
 Hypothesis hypothesis(const std::string& cause, const std::string& axis, const std::string& parameter,
@@ -30,15 +31,22 @@ double dry_friction_v(const Rig& rig, const std::string& axis) {
   return sum;
 }
 
-/// Dry friction holds or does not: what much of it does is not a multiple of what a little does.
+/// Dry friction holds or does not: what much of it does is not a multiple of what a little does, and less of
+/// it not the contrary of more.
 void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis,
                       const std::string& remedy) {
-  const double less_v = std::min(kMuchFriction_v, 0.6 * dry_friction_v(rig, axis));
-  for (const double size_v : {kFriction_v, kMuchFriction_v, -less_v})
-    if (std::abs(size_v) >= kFriction_v) {
-      list.push_back(hypothesis("coulomb_friction", axis, "level_v", 0, size_v, "V", remedy));
-      list.back().only_near = size_v != kFriction_v;
-    }
+  const double most_lost_v = 0.6 * dry_friction_v(rig, axis);
+  const auto add = [&](double size_v) {
+    list.push_back(hypothesis("coulomb_friction", axis, "level_v", 0, size_v, "V", remedy));
+    list.back().only_near = size_v != kFriction_v;
+  };
+  double lost_v = 0;
+  for (const double size_v : {kFriction_v, 2 * kFriction_v, kMuchFriction_v}) {
+    add(size_v);
+    const double less_v = std::min(size_v, most_lost_v);
+    if (less_v >= kFriction_v && less_v > lost_v) add(-less_v);
+    lost_v = less_v;
+  }
 }
 
 void add_drive(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis,
@@ -49,8 +57,12 @@ void add_drive(std::vector<Hypothesis>& list, const Rig& rig, const std::string&
       "look at bearings, guides and brake of the " + axis + ", then crane identify friction";
   add_dry_friction(list, rig, axis, look);
   list.push_back(hypothesis("viscous_friction", axis, "vspm", 0, viscous, slew ? "V s/rad" : "V s/m", look));
-  list.push_back(hypothesis("motor_gain", axis, "factor", 1, kGain, "1",
-                            "check amplifier, supply and motor of the " + axis));
+  // A drive that pulls less also stays longer where friction holds it.
+  for (const double gain : {kGain, kMuchGain, -kGain, -kMuchGain}) {
+    list.push_back(hypothesis("motor_gain", axis, "factor", 1, gain, "1",
+                              "check amplifier, supply and motor of the " + axis));
+    list.back().only_near = gain != kGain;
+  }
   Hypothesis slipping;
   slipping.cause = "position_drift";
   slipping.axis = axis;

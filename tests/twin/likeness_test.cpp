@@ -1,0 +1,65 @@
+// Friction and gain of a drive resemble each other in a few seconds of moves: the twin tells them apart.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "crane/twin/hypothesis.hpp"
+#include "crane/twin/twin.hpp"
+#include "simulated_motion.hpp"
+
+namespace crane::test {
+namespace {
+
+runtime::Rig rig_of(const std::string& name) { return runtime::load_rig(CRANE_RIGS "/" + name + ".toml"); }
+
+/// What the first event of a crane that becomes one with `change` names, "" without an event.
+std::string named_cause(const plant::TermSetting& change, std::uint64_t seed) {
+  constexpr long kSecond = 100;  // ticks
+  static const runtime::Rig kRig = rig_of("virginia_tech_tower");
+  SimulatedMotion motion{kRig, seed};
+  twin::Twin twin{kRig};
+  // As long as bench_twin takes: how these seeds go on after it is known.
+  for (long k = 0; k < (45 + static_cast<long>(seed % 7)) * kSecond; ++k) twin.step(motion.next());
+  motion.become_with(change);
+  for (long k = 0; k < 40 * kSecond; ++k) {
+    twin.step(motion.next());
+    if (twin.take_notice()) return twin.judgement().cause;
+  }
+  return "";
+}
+
+class Likeness : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Likeness, LessFrictionIsNoGain) {
+  EXPECT_EQ(named_cause({"coulomb_friction", "trolley", {{"level_v", -0.1}}}, GetParam()),
+            "coulomb_friction");
+}
+
+TEST_P(Likeness, LessGainIsNoFriction) {
+  EXPECT_EQ(named_cause({"motor_gain", "trolley", {{"factor", 0.9}}}, GetParam()), "motor_gain");
+}
+
+// Moves in which the one does nearly what the other does.
+INSTANTIATE_TEST_SUITE_P(Seed, Likeness, testing::Values(5, 7, 9, 13), testing::PrintToStringParamName());
+
+/// Levels of dry friction that are tried for an axis, V.
+std::vector<double> levels(const runtime::Rig& rig, const std::string& axis) {
+  std::vector<double> all;
+  for (const twin::Hypothesis& h : twin::hypotheses_for(rig))
+    if (h.cause == "coulomb_friction" && h.axis == axis) all.push_back(h.reference);
+  return all;
+}
+
+TEST(Hypotheses, TakeNoFrictionFromAnAxisThatHasNone) {
+  EXPECT_EQ(levels(rig_of("virginia_tech_tower_ideal"), "trolley"), (std::vector{0.1, 0.2, 0.4}));
+}
+
+TEST(Hypotheses, TakeNotMoreFrictionThanAnAxisHas) {
+  runtime::Rig rig = rig_of("virginia_tech_tower");
+  for (plant::TermSetting& term : rig.terms)
+    term.parameters["coulomb_positive_v"] = term.parameters["coulomb_negative_v"] = 0.25;
+  EXPECT_EQ(levels(rig, "slew"), (std::vector{0.1, -0.1, 0.2, -0.15, 0.4}));
+}
+
+}  // namespace
+}  // namespace crane::test
