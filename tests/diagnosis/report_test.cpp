@@ -205,6 +205,21 @@ TEST(ReportPage, SaysWhatWasHeldOutAndWhichGainEachColumnHas) {
   EXPECT_THAT(html, HasSubstr(">0.667<")) << "trolley: 12 mm before, 4 mm after";
 }
 
+TEST(ReportPage, TellsRunsOfTheSameFileNameApart) {
+  Example example;
+  example.run.name = "/data/monday/recording.mcap";
+  for (Trace& trace : example.diagnosis.traces) trace.run = example.run.name;
+  const std::string html = page_of(example);
+  EXPECT_THAT(html, HasSubstr("Held out: monday/recording.mcap (6 s)."));
+  EXPECT_THAT(html, HasSubstr("trolley_position_m, monday/recording.mcap"));
+}
+
+TEST(ReportPage, WritesLargeNumbersInFull) {
+  Example example;
+  example.diagnosis.ranking[0].train_gain = 204431.2;
+  EXPECT_THAT(page_of(example), HasSubstr(">204431<"));
+}
+
 TEST(ReportPage, GivesOnlyACandidateAloneAShareOfTheResamples) {
   Example example;
   example.diagnosis.ranking = {{"motor_gain (trolley)", {{"factor", "1", 1.1, 0.01}}, 9, 9, 0.5, 0.77},

@@ -14,12 +14,18 @@ using report::Tone;
 constexpr std::size_t kMostPoints = 1500;  // of a curve or cloud: finer than a screen shows
 constexpr std::size_t kMostCandidates = 20;
 constexpr double kIn95 = 1.96;
-constexpr int kMeasuredColor = 8;  // grey
+constexpr double kLargestPlain = 1e7;  // of the numbers written without an exponent
+constexpr int kMeasuredColor = 8;      // grey
 
 std::string significant(double value, int digits = 4) {
   if (!std::isfinite(value)) return "-";
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  // 44210, not 4.421e+04: tables are compared by eye.
+  const bool is_large = std::abs(value) >= std::pow(10, digits) && std::abs(value) < kLargestPlain;
+  if (is_large)
+    std::snprintf(text.data(), text.size(), "%.0f", value);
+  else
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
 }
 
@@ -126,7 +132,7 @@ report::Table gain_table(const HeldOut& held_out) {
 }
 
 report::LinePlot overlay(const Trace& trace, bool extended) {
-  report::LinePlot plot{.title = trace.column + ", " + std::filesystem::path{trace.run}.filename().string(),
+  report::LinePlot plot{.title = trace.column + ", " + short_name(trace.run),
                         .x_label = "time [s]",
                         .y_label = trace.column.ends_with("_m") ? "m" : "rad",
                         .x = thinned(trace.time_s),
@@ -254,7 +260,7 @@ report::Section next_section(const Diagnosis& diagnosis, const runtime::Rig& rig
 std::string summary_of(const Diagnosis& diagnosis, const std::vector<Run>& test) {
   std::string held_out;
   for (const Run& run : test)
-    held_out += (held_out.empty() ? "" : ", ") + std::filesystem::path{run.name}.filename().string() + " (" +
+    held_out += (held_out.empty() ? "" : ", ") + short_name(run.name) + " (" +
                 significant(static_cast<double>(run.rows()) * run.period_s, 3) + " s)";
   return std::to_string(diagnosis.ranking.size()) +
          (diagnosis.ranking.size() == 1 ? " hypothesis" : " hypotheses") + " fitted. Held out: " + held_out +

@@ -55,8 +55,8 @@ void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& dia
       add_panel(panels, std::move(panel));
     }
     if (!panels.empty())
-      experiment::draw_curves(directory / ("overlay_" + std::to_string(++number) + ".svg"),
-                              std::filesystem::path{run}.filename().string(), panels);
+      experiment::draw_curves(directory / ("overlay_" + std::to_string(++number) + ".svg"), short_name(run),
+                              panels);
   }
   for (const ResidualView& view : residual_views(diagnosis, rig, test)) {
     std::vector<CurvePanel> panels;

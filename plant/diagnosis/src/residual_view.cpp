@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "crane/diagnosis/replay.hpp"
 
@@ -100,6 +101,11 @@ class ViewBuilder {
 }  // namespace
 
 std::string residual_unit(const std::string& column) { return column.ends_with("_m") ? "mm" : "mrad"; }
+
+std::string short_name(const std::string& run) {
+  const std::filesystem::path path{run};
+  return (path.parent_path().filename() / path.filename()).string();
+}
 
 std::vector<ResidualView> residual_views(const Diagnosis& diagnosis, const runtime::Rig& rig,
                                          const std::vector<Run>& test) {

@@ -23,6 +23,8 @@ struct ResidualView {
 
 /// "mm" or "mrad".
 [[nodiscard]] std::string residual_unit(const std::string& column);
+/// File and its directory: every run of `crane run` is called recording.mcap.
+[[nodiscard]] std::string short_name(const std::string& run);
 
 /// The simulation of a whole run drifts away from what starts it; so the free motion that a wrong start would
 /// give is taken out of every window, straight for a drive and swinging for a load.
