@@ -5,6 +5,7 @@
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/experiment/metrics.hpp"
+#include "program_run.hpp"
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
 #include "stack/experiment_run.hpp"
@@ -62,6 +63,21 @@ TEST(Realtime, AMoveSettlesAsInLockstep) {
   EXPECT_EQ(session.status()->state, crane_STATE_HOLD);
   // A machine that has other work may skip a tick; a stack that loses more than that has a defect.
   EXPECT_LE(static_cast<double>(metrics.lost_ticks), 0.01 * static_cast<double>(samples.size()));
+}
+
+TEST(Realtime, AScenarioByCommandLeavesWhatWasMeasured) {
+  const recording::TemporaryDirectory directory;
+  recording::put_contents(directory / "move.toml", kScenario);
+  const auto ended = run_program(stack::program_directory() / "crane",
+                                 {"run", (directory / "move.toml").string(), "--clock", "realtime", "--out",
+                                  (directory / "out").string(), "--domain", std::to_string(kDomain)});
+  ASSERT_EQ(ended.exit_code, 0) << ended.errors;
+  const auto table = recording::read_csv(directory / "out" / "run.csv");
+  const auto* time_s = table.find("time_s");
+  const auto* trolley_m = table.find("trolley_position_m");
+  ASSERT_TRUE(time_s != nullptr && trolley_m != nullptr);
+  EXPECT_NEAR(time_s->back(), 5.2, 0.1) << "duration_s after the last move";
+  EXPECT_NEAR(trolley_m->back(), 1.0, 0.05);
 }
 
 }  // namespace

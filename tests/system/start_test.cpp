@@ -90,6 +90,16 @@ TEST_F(Start, AScenarioThatLeavesTheJibIsRefusedBeforeAnythingStarts) {
   EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
 }
 
+TEST_F(Start, ARunInRealTimeRefusesWhatOnlyASimulationCanDo) {
+  const auto ended = crane({"run", "maneuver_1", "--clock", "realtime", "--variants", "heavy_load", "--json",
+                            "--in-process", "--out", out()});
+  EXPECT_EQ(ended.exit_code, kBadInput);
+  for (const char* text :
+       {"not with variant heavy_load of maneuver_1", "not with --json", "not with --in-process"})
+    EXPECT_THAT(ended.errors, HasSubstr(text));
+  EXPECT_FALSE(std::filesystem::exists(out())) << "nothing has begun";
+}
+
 TEST_F(Start, AControllerThatDoesNotExistIsAnsweredWithThoseThatDo) {
   for (const auto& arguments :
        {std::vector<std::string>{"up"}, std::vector<std::string>{"run", "maneuver_1", "--out", out()}}) {

@@ -1,4 +1,5 @@
-/// crane run: scenarios in lockstep, each with figures, CSV, recording and picture, or many side by side.
+/// crane run: scenarios in lockstep, each with figures, CSV, recording and picture, or many side by side; in
+/// real time, as on a rig, with what was measured.
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include "stack/data_files.hpp"
 #include "stack/experiment_run.hpp"
 #include "stack/launch.hpp"
+#include "stack/realtime_run.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -24,7 +26,7 @@ constexpr const char* kDefaultRig = "virginia_tech_tower";
 
 struct RunOptions {
   Names scenarios, controllers, variants;
-  std::string rig, out = "out", plant = "sim";
+  std::string rig, out = "out", plant = "sim", clock = "lockstep";
   bool compare = false, in_process = false, json = false, no_picture = false;
   runtime::BusOptions bus;
   Names vendors;
@@ -80,9 +82,13 @@ std::string directory_name(const RunOptions& options, const stack::PlannedRun& p
          (plan.variant.empty() ? "" : "_" + plan.variant);
 }
 
+stack::Plant plant_of(const RunOptions& options) {
+  return options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
+}
+
 int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
   stack::ExperimentOptions experiment;
-  experiment.plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
+  experiment.plant = plant_of(options);
   experiment.in_process = options.in_process;
   experiment.picture = !options.no_picture;
   experiment.bus = options.bus;
@@ -118,6 +124,42 @@ int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& pl
   else
     experiment::print_table(std::cout, table);
   return completed ? runtime::kExitDone : runtime::kExitFailed;
+}
+
+/// A real crane is as it is, and what is measured on it is all that there is.
+void require_possible_in_realtime(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
+  std::vector<std::string> problems;
+  const auto refuse = [&](bool given, const std::string& option) {
+    if (given) problems.push_back("--clock = realtime: not with " + option);
+  };
+  refuse(options.compare, "--compare");
+  refuse(options.in_process, "--in-process");
+  refuse(options.json, "--json");
+  refuse(options.twin || !options.twin_rig.empty(), "a twin: crane up --twin");
+  for (const auto& plan : plans)
+    refuse(!plan.variant.empty(), "variant " + plan.variant + " of " + plan.scenario.name);
+  if (!problems.empty()) throw runtime::ConfigurationError(problems);
+}
+
+int run_each_in_realtime(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
+  require_possible_in_realtime(options, plans);
+  const auto plant = plant_of(options);
+  const auto vendors = stack::vendors_from(options.vendors, stack::stack_with(plant));
+  for (const auto& plan : plans) {
+    std::filesystem::path directory{options.out};
+    if (plans.size() > 1) directory /= directory_name(options, plan);
+    std::filesystem::create_directories(directory);  // before anything moves
+    const auto table = stack::run_in_realtime({.rig = plan.rig.path,
+                                               .controller = std::string{plan.controller->name},
+                                               .plant = plant,
+                                               .bus = options.bus,
+                                               .vendors = vendors},
+                                              plan.scenario);
+    recording::write_csv(directory / "run.csv", table);
+    std::cerr << plan.scenario.name << ", " << plan.controller->name << ": in real time, measured data in "
+              << (directory / "run.csv").string() << '\n';
+  }
+  return runtime::kExitDone;
 }
 
 void show_progress(std::size_t done, std::size_t all) {
@@ -159,6 +201,7 @@ int compare(const RunOptions& options, const std::vector<stack::PlannedRun>& pla
 int run(const RunOptions& options) {
   runtime::install_stop_signals();
   const auto plans = plans_of(options);
+  if (options.clock == "realtime") return run_each_in_realtime(options, plans);
   return options.compare ? compare(options, plans) : run_each(options, plans);
 }
 
@@ -174,7 +217,7 @@ std::string described_variants() {
 
 void add_run(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<RunOptions>();
-  auto* command = app.add_subcommand("run", "Run scenarios in lockstep and measure them");
+  auto* command = app.add_subcommand("run", "Run scenarios in lockstep and measure them, or in real time");
   command->add_option(
       "scenario", options->scenarios,
       "scenario files or names (maneuver_1, figure_4_10, ...); with --compare default: the three "
@@ -195,6 +238,12 @@ void add_run(CLI::App& app, Action& chosen) {
                    "file names (emulated_servo_to_go); not with --compare")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
+  command
+      ->add_option("--clock", options->clock,
+                   "lockstep, or realtime: as on a rig, only run.csv is written; kicks and a swing at the "
+                   "start are left out; with --plant hardware also a real board")
+      ->check(CLI::IsMember({"lockstep", "realtime"}))
+      ->capture_default_str();
   command->add_option("--out", options->out, "directory for recording, CSV, metrics and picture")
       ->capture_default_str();
   command->add_flag("--compare", options->compare,
@@ -211,6 +260,7 @@ void add_run(CLI::App& app, Action& chosen) {
   runtime::add_bus_options(*command, options->bus);
   command->footer(described_variants() +
                   "Examples: crane run maneuver_1 --controller delayed_1 --out out/m1\n"
+                  "          crane run next_experiment.toml --clock realtime --plant hardware --rig my_rig\n"
                   "          crane run --compare --out out/comparison\n"
                   "          crane run --compare figure_4_10 --out out/figure_4_10");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
