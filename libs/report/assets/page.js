@@ -28,6 +28,12 @@
 
   const shortened = (u, value) => value == null ? "" : String(Number(value.toPrecision(5)));
 
+  // uPlot's own labels have three decimals: on a curve that hardly moves they would all be the same.
+  const ticks = (u, splits, axis, space, step) => {
+    const decimals = Math.min(12, Math.max(0, Math.ceil(-Math.log10(step)) + 1));
+    return splits.map((value) => value == null ? "" : String(Number(value.toFixed(decimals))));
+  };
+
   const look = (series, shown) => {
     const color = palette[series.color % palette.length];
     const common = {label: series.name, stroke: color, width: 1.5, value: shortened,
@@ -82,7 +88,8 @@
     const options = {
       width: element.clientWidth, height: 300, series: looks, bands, hooks,
       scales: {x: {time: false}},
-      axes: [{label: plot.xLabel, labelSize: 22, size: 34}, {label: plot.yLabel, labelSize: 22, size: 64}],
+      axes: [{label: plot.xLabel, labelSize: 22, size: 34, values: ticks},
+             {label: plot.yLabel, labelSize: 22, size: 80, values: ticks}],
       cursor: plot.group ? {sync: {key: plot.group, setSeries: false,
                                    filters: {pub: (type) => type === "mousemove" || type === "mouseleave"}}} : {},
       legend: {live: true},
