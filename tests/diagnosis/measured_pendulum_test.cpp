@@ -1,4 +1,4 @@
-/// A real pendulum (data/SOURCE.md), two pieces of its free decay.
+/// A real pendulum (data/SOURCE.md): its free decay, the last two pieces held out.
 #include <gmock/gmock.h>
 
 #include "cli/diagnosis_data.hpp"
@@ -7,26 +7,41 @@
 namespace crane::diagnosis {
 namespace {
 
-TEST(MeasuredPendulum, LacksFrictionAndNothingThatPushes) {
+Diagnosis diagnosed(const std::string& held_out) {
   const auto rig = runtime::load_rig(std::filesystem::path{CRANE_RIGS} / "uw_pendulum.toml");
   const auto mapping = load_mapping(std::filesystem::path{CRANE_MAPPINGS} / "uw_pendulum.toml");
-  const std::string folder = CRANE_MEASURED;
-  const auto data = cli::read_diagnosis_data({folder + "/uw_pendulum_id1.csv"},
-                                             {folder + "/uw_pendulum_vad1.csv"}, mapping, rig);
-  const Diagnosis found = diagnose(rig, data.train, data.test);
-  // The rig file has no friction at all, and a free decay is nothing but its effect.
-  EXPECT_THAT(found.verdict, testing::AnyOf(Verdict::named, Verdict::ambiguous)) << found.sentence;
-  ASSERT_FALSE(found.causes.empty());
-  EXPECT_THAT(found.causes[0].name,
-              testing::AnyOf("swing_pivot_friction", "load_linear_drag", "load_quadratic_drag"));
-  for (const Cause& cause : found.causes) {
-    if (cause.name != "swing_pivot_friction" && !cause.name.starts_with("load_")) continue;
-    for (const Estimate& e : cause.parameters) EXPECT_GE(e.value, 0) << e.name << " would drive the pendulum";
-  }
-  // Nine seconds later the swing without friction is a third too large and far out of step.
-  EXPECT_LT(found.held_out.whole_extended_rms.at("swing_radial_rad"),
-            0.5 * found.held_out.whole_baseline_rms.at("swing_radial_rad"));
+  const std::string prefix = std::string{CRANE_MEASURED} + "/uw_pendulum_";
+  std::vector<std::string> train;
+  for (const std::string piece : {"id1", "id2", "id3", "id4"}) train.push_back(prefix + piece + ".csv");
+  const auto data = cli::read_diagnosis_data(train, {prefix + held_out + ".csv"}, mapping, rig);
+  return diagnose(rig, data.train, data.test);
 }
+
+/// The rig file has no friction at all. The authors' viscous friction, its start solved for over the whole
+/// piece as here, is 6.5 mrad off over the one held-out piece and 16.2 mrad over the other.
+class MeasuredPendulum : public testing::TestWithParam<std::pair<const char*, double>> {};
+
+TEST_P(MeasuredPendulum, HasDryAndQuadraticFrictionAndNothingThatPushes) {
+  const auto [piece, target_rad] = GetParam();
+  const Diagnosis found = diagnosed(piece);
+  EXPECT_EQ(found.verdict, Verdict::named) << found.sentence;
+  std::map<std::string, double> values;
+  for (const Cause& cause : found.causes)
+    for (const Estimate& e : cause.parameters) values[cause.name + "." + e.name] = e.value;
+  EXPECT_GT(values["swing_pivot_friction.coulomb_nm"], 0) << found.sentence;
+  EXPECT_GT(values["load_quadratic_drag.coefficient_ns2pm2"], 0) << found.sentence;
+  EXPECT_NEAR(values["swing_pivot_friction.viscous_nmsprad"], 0, 1e-5);
+  for (const auto& [name, value] : values)
+    if (!name.starts_with("swing_offset")) {
+      EXPECT_GE(value, 0) << name << " would drive the pendulum";
+    }
+  EXPECT_LT(found.held_out.whole_extended_rms.at("swing_radial_rad"), target_rad);
+  EXPECT_GT(found.held_out.whole_baseline_rms.at("swing_radial_rad"), 3 * target_rad);
+}
+
+INSTANTIATE_TEST_SUITE_P(HeldOut, MeasuredPendulum,
+                         testing::Values(std::pair{"vad1", 3.3e-3}, std::pair{"vad2", 8.5e-3}),
+                         [](const auto& instance) { return std::string{instance.param.first}; });
 
 }  // namespace
 }  // namespace crane::diagnosis

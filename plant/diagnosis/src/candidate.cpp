@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "candidate_shapes.hpp"
-#include "position_spectrum.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -98,33 +97,29 @@ class Builder {
   void add_tight_spots(const std::string& axis, Output output) {
     std::vector<std::vector<double>> shapes;
     const double travel = travelled(output);
+    const FreeParameter wavelength =
+        free_parameter("position_dependent_friction", "wavelength", 0.1 * travel, 2 * travel, 0.01 * travel);
     for (const double share : {1.6, 0.8, 0.4})
-      for (int place = 0; place < 4; ++place)
+      for (int place = 0; place < 4 && share * travel > wavelength.low; ++place)
         shapes.push_back({share * travel, middle(output) + 0.25 * place * share * travel});
-    add(shaped("position_dependent_friction", axis,
-               free_parameter("position_dependent_friction", "amplitude_v", 0, 5, 0.02),
-               {free_parameter("position_dependent_friction", "wavelength", 0.1 * travel, 2 * travel,
-                               0.01 * travel),
-                free_parameter("position_dependent_friction", "tight_at", -100, 100, 0.01 * travel)},
-               shapes),
+    if (shapes.empty()) return;
+    add(shaped(
+            "position_dependent_friction", axis,
+            free_parameter("position_dependent_friction", "amplitude_v", 0, 5, 0.02),
+            {wavelength, free_parameter("position_dependent_friction", "tight_at", -100, 100, 0.01 * travel)},
+            shapes),
         true, false);
   }
 
-  /// Between two guesses of its phase a ripple does nothing at first, or harm: it begins as the acceleration
-  /// that nothing else explains says.
   void add_ripple(const std::string& axis, Output output) {
-    const double gain =
-        output == kTrolleyPosition ? rig_.plant.trolley_gain_mps2pv : rig_.plant.slew_gain_radps2pv;
-    std::vector<std::vector<double>> settings;
-    for (const PositionWave& wave : strongest_waves(rig_, runs_, output, 4))
-      settings.push_back({wave.amplitude / gain, wave.phase_rad, wave.period});
-    if (settings.empty()) return;
-    add(at_once("torque_ripple", axis,
+    Candidate ripple =
+        at_once("torque_ripple", axis,
                 {free_parameter("torque_ripple", "amplitude_v", 0, 5, 0.02),
                  free_parameter("torque_ripple", "phase_rad", -7, 7, 0.02),
                  free_parameter("torque_ripple", "period", 1e-3, 0.25 * travelled(output), 1e-4)},
-                settings),
-        true, false);
+                {});
+    ripple.waves = true;
+    add(std::move(ripple), true, false);
   }
 
   void add_load(bool trolley, bool slew) {

@@ -2,10 +2,12 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "compare.hpp"
 #include "crane/diagnosis/diagnosis.hpp"
 #include "held_out.hpp"
+#include "intervals.hpp"
 #include "judgement.hpp"
 #include "next_experiment.hpp"
 
@@ -29,36 +31,60 @@ double total_s(const Runs& runs) {
   return sum;
 }
 
-/// Whether anything happens in the data.
-void require_excitation(const Runs& runs, const runtime::Rig& rig) {
-  std::vector<std::string> problems;
-  constexpr double kLeast_s = 8;
-  if (total_s(runs) < kLeast_s)
-    problems.push_back("training data: " + std::to_string(total_s(runs)) + " s in all: at least " +
-                       std::to_string(kLeast_s) + " s");
-  double most = 0;
+/// "training data (a.csv, b.csv)"
+std::string called(const std::string& what, const Runs& runs) {
+  std::string names;
   for (const PreparedRun& run : runs)
-    for (const Motion& motion : run.motion)
-      for (const double rate : motion.rate) most = std::max(most, std::abs(rate));
-  if (most < 0.01)
-    problems.push_back("training data: nothing of " + rig.name +
-                       " moves faster than 0.01 /s: record a motion");
+    if (names.find(run.run.name) == std::string::npos) names += (names.empty() ? "" : ", ") + run.run.name;
+  return what + (names.empty() ? "" : " (" + names + ")");
+}
+
+/// What is wrong with runs in which too little happens.
+void add_problems(const std::string& what, const Runs& runs, double least_s, const runtime::Rig& rig,
+                  std::vector<std::string>& problems) {
+  constexpr double kLeastRate = 0.01, kLeastWay = 0.005;
+  if (total_s(runs) < least_s)
+    problems.push_back((std::ostringstream{} << called(what, runs) << ": " << total_s(runs)
+                                             << " s in all: at least " << least_s << " s")
+                           .str());
+  bool moves = false;
+  for (const PreparedRun& run : runs)
+    for (const Motion& motion : run.motion) {
+      if (motion.position.empty()) continue;
+      const auto [low, high] = std::minmax_element(motion.position.begin(), motion.position.end());
+      double fastest = 0;
+      for (const double rate : motion.rate) fastest = std::max(fastest, std::abs(rate));
+      moves = moves || (fastest > kLeastRate && *high - *low > kLeastWay);
+    }
+  if (!moves)
+    problems.push_back((std::ostringstream{} << called(what, runs) << ": nothing of " << rig.name
+                                             << " moves by more than " << kLeastWay << " and faster than "
+                                             << kLeastRate << " /s (m or rad): record a motion")
+                           .str());
+}
+
+/// Whether anything happens in the data.
+void require_excitation(const Runs& train, const Runs& test, const runtime::Rig& rig) {
+  constexpr double kLeastTraining_s = 8, kLeastHeldOut_s = 4;
+  std::vector<std::string> problems;
+  add_problems("training data", train, kLeastTraining_s, rig, problems);
+  if (!test.empty()) add_problems("held-out data", test, kLeastHeldOut_s, rig, problems);
   if (!problems.empty()) throw DataError(problems);
 }
 
-/// The motion that tells the first effect from its strongest rival; what the best model leaves is the noise.
-std::optional<NextExperiment> proposal(const runtime::Rig& rig, const Hypotheses& found,
-                                       const Candidate& rival, const HeldOut& figures) {
+/// The motion that tells the first effect from its strongest rival.
+std::optional<NextExperiment> proposal(const runtime::Rig& rig, const Study& study, const Hypotheses& found,
+                                       const Candidate& rival) {
   const auto single = std::find_if(found.singles.begin(), found.singles.end(),
                                    [&](const Fitted& f) { return f.effects[0].candidate == &rival; });
   if (single == found.singles.end()) return std::nullopt;
-  std::array<double, kOutputs> noise{};
-  for (std::size_t i = 0; i < kOutputs; ++i) {
-    const auto known = figures.noise.find(kOutputNames[i]);
-    noise[i] = known == figures.noise.end() ? 1e-3 : known->second;
-  }
+  Disturbances disturbances{};
+  for (const Problem* problem : {&study.drive(), &study.load()})
+    for (std::size_t i = 0; i < problem->outputs().size(); ++i)
+      disturbances[problem->outputs()[i]] = problem->disturbances()[i];
   const Effect& first = found.best.effects[0];
-  return propose_experiment(rig, *first.candidate, first.values, rival, single->effects[0].values, noise);
+  return propose_experiment(rig, *first.candidate, first.values, rival, single->effects[0].values,
+                            disturbances);
 }
 
 /// Singles that explain so much that their effect has been taken for noise, best first.
@@ -97,21 +123,45 @@ Hypotheses searched(Study& study, const Request& request) {
   study.learn_disturbance();
   Hypotheses found = singles(study, request);
   const std::vector<Effects> contenders = hiding(found);
-  if (!found.best.effects.empty() && !contenders.empty())
-    found = learnt_anew(study, request, found, contenders);
+  if (!contenders.empty()) found = learnt_anew(study, request, found, contenders);
   return extended(study, request, found);
+}
+
+/// The best hypothesis with values of its own: in noise and disturbance of what itself leaves.
+Fitted settled(Study& study, const Fitted& best, std::uint64_t seed) {
+  study.learn_disturbance(best.effects);
+  return with_intervals(study, study.fit(best.effects), seed);
+}
+
+void give_values(const Fitted& best, Diagnosis& result) {
+  const std::vector<Estimate> values = estimates(best);
+  auto next = values.begin();
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    const Effect& effect = best.effects[i];
+    const auto end = next + static_cast<std::ptrdiff_t>(effect.values.size());
+    result.causes[i].parameters.assign(next, end);
+    next = end;
+    result.extension.push_back(effect.candidate->setting(effect.values));
+  }
 }
 
 Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test, const Request& request) {
   Study study(rig, train, test, request.excluded);
-  const Hypotheses found = searched(study, request);
-  request.progress(0.88, "held-out runs");
-  const HeldOut figures = held_out(study, found.best.effects, request.seed);
-  request.progress(0.9, "what is left");
-  auto [result, rivals] = judge(study, found, figures, request.seed);
+  Hypotheses found = searched(study, request);
+  request.progress(0.85, "what is left");
+  auto [result, rivals] = judge(study, found, request.seed);
+  if (!found.best.effects.empty()) {
+    request.progress(0.88, "how well the data know it");
+    found.best = settled(study, found.best, request.seed);
+    give_values(found.best, result);
+  }
+  request.progress(0.92, "held-out runs");
+  result.held_out = held_out(study, found.best.effects, request.seed);
+  if (!found.best.effects.empty() && result.held_out.gain_ci95[1] < 0)
+    doubt(result, "held-out runs: the extended model simulates them worse");
   if (!rivals.empty()) {
     request.progress(0.95, "which motion would tell them apart");
-    result.next_experiment = proposal(rig, found, *rivals[0], result.held_out);
+    result.next_experiment = proposal(rig, study, found, *rivals[0]);
   }
   result.traces = traces(study, found.best.effects);
   request.progress(1, "done");
@@ -128,7 +178,7 @@ Diagnosis diagnose(const runtime::Rig& rig, std::vector<Run> train, std::vector<
                    const Request& request) {
   const auto begin = std::chrono::steady_clock::now();
   const Runs training = prepared(std::move(train), rig), testing = prepared(std::move(test), rig);
-  require_excitation(training, rig);
+  require_excitation(training, testing, rig);
   Diagnosis result = diagnosed(rig, training, testing, request);
   result.runtime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

@@ -109,7 +109,7 @@ void Study::descend(Fitted& best, Loss loss, double hopeless) const {
     double gained = 0;
     for (int attempt = 0; attempt < 7 && gained == 0; ++attempt) {
       const VectorXd step = bounded_step(both.curvature, pull, flat, damping);
-      if (step.norm() == 0) break;
+      if (!step.allFinite() || step.norm() == 0) break;
       const Effects moved = unflatten(best.effects, flat, step);
       Evaluation found = evaluate(*train_drive_, *train_load_, moved, best.train);
       const double now = loss_of(found, loss);
@@ -137,9 +137,10 @@ Fitted Study::fit(Effects effects, double hopeless) const {
   descend(best, Loss::robust, hopeless);
   const BlockScores both = pulls(best, Loss::robust);
   const MatrixXd inverse = both.curvature.completeOrthogonalDecomposition().pseudoInverse();
-  const MatrixXd covariance = inverse * (both.by_block.transpose() * both.by_block) * inverse;
-  for (Index i = 0; i < covariance.rows(); ++i)
-    best.std_dev.push_back(std::sqrt(std::max(0.0, covariance(i, i))));
+  best.by_noise = inverse.diagonal().cwiseMax(0.0).cwiseSqrt();
+  best.covariance = inverse * (both.by_block.transpose() * both.by_block) * inverse;
+  for (const double variance : best.covariance.diagonal())
+    best.std_dev.push_back(std::sqrt(std::max(0.0, variance)));
   best.parameters = best.std_dev.size();
   best.test = test(best.effects);
   return best;

@@ -12,6 +12,9 @@ inline constexpr double kCreep = 0.004;
 /// Slower than this is standstill; a faster axis that turns inside a step comes to rest first.
 inline constexpr double kStandstill = 2e-4;
 
+/// m/s or rad/s: a simulation that is lost, whose bracket rounding would close.
+inline constexpr double kLost = 1e6;
+
 struct FrictionStep {
   double speed = 0;     ///< at the end
   double way = 0;       ///< covered
@@ -23,6 +26,7 @@ struct FrictionStep {
 template <class Friction>
 double implicit_speed(double c, double k, Friction&& friction, double near = 0) {
   constexpr double kExact = 1e-9, kNear = 1e-5;
+  if (!(std::abs(c) < kLost && std::abs(near) < kLost)) return c;
   const auto excess = [&](double v) { return v + k * friction(v) - c; };
   double low = near - kNear, high = near + kNear;
   double at_low = excess(low), at_high = excess(high);

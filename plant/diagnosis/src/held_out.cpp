@@ -50,42 +50,42 @@ double gain_of(const Compared& c, const std::vector<std::vector<std::size_t>>* p
   return before > 0 ? 1 - std::sqrt(after / before) : 0;
 }
 
-/// A whole run in open loop from a start that its first window solved for.
-std::vector<double> whole_run(const Problem& problem, std::size_t run, const Crane& crane,
-                              const Eigen::VectorXd& start) {
-  const PreparedRun& source = problem.runs()[run];
-  std::vector<double> way(source.run.rows() * problem.outputs().size());
-  Replay(source, crane, problem.part())
-      .run(0, source.run.rows(), {start.data(), static_cast<std::size_t>(start.size())}, way);
-  return way;
+/// Every run in open loop, by row.
+std::vector<std::vector<double>> ways(const Problem& whole, const Crane& crane) {
+  std::vector<std::vector<double>> all;
+  const Fits fits = whole.fit(crane);
+  for (std::size_t w = 0; w < fits.size(); ++w) {
+    const PreparedRun& run = whole.runs()[whole.windows()[w].run];
+    const Eigen::VectorXd& start = fits[w].start;
+    std::vector<double>& way = all.emplace_back(run.run.rows() * whole.outputs().size());
+    Replay(run, crane, whole.part())
+        .run(0, run.run.rows(), {start.data(), static_cast<std::size_t>(start.size())}, way);
+  }
+  return all;
 }
 
 }  // namespace
 
 std::vector<Trace> traces(const Study& study, const Effects& effects) {
   std::vector<Trace> all;
-  const Evaluation &base = study.base_test(), extended = study.test(effects);
-  for (const auto& [problem, before, after] : {std::tuple{&study.test_drive(), &base.drive, &extended.drive},
-                                               {&study.test_load(), &base.load, &extended.load}})
-    for (std::size_t w = 0; w < problem->windows().size(); ++w) {
-      const Window& window = problem->windows()[w];
-      if (window.first != window.lead) continue;  // begins with its run
-      const std::vector<double> old_way = whole_run(*problem, window.run, study.base(), (*before)[w].start);
-      const std::vector<double> new_way =
-          whole_run(*problem, window.run, study.with(effects), (*after)[w].start);
-      const Run& run = problem->runs()[window.run].run;
-      for (std::size_t i = 0; i < problem->outputs().size(); ++i) {
-        const Output output = problem->outputs()[i];
+  for (const Problem* problem : {&study.test_drive(), &study.test_load()}) {
+    const Problem whole(problem->runs(), problem->part(), kWholeRun, 0);
+    const auto before = ways(whole, study.base()), after = ways(whole, study.with(effects));
+    for (std::size_t w = 0; w < whole.windows().size(); ++w) {
+      const Run& run = whole.runs()[whole.windows()[w].run].run;
+      for (std::size_t i = 0; i < whole.outputs().size(); ++i) {
+        const Output output = whole.outputs()[i];
         Trace trace{run.name, kOutputNames[output], {}, run.measured[output], {}, {}};
         for (std::size_t k = 0; k < run.rows(); ++k)
           trace.time_s.push_back(run.start_s + static_cast<double>(k) * run.period_s);
         const auto first = static_cast<std::ptrdiff_t>(i * run.rows()),
                    last = first + static_cast<std::ptrdiff_t>(run.rows());
-        trace.baseline.assign(old_way.begin() + first, old_way.begin() + last);
-        trace.extended.assign(new_way.begin() + first, new_way.begin() + last);
+        trace.baseline.assign(before[w].begin() + first, before[w].begin() + last);
+        trace.extended.assign(after[w].begin() + first, after[w].begin() + last);
         all.push_back(std::move(trace));
       }
     }
+  }
   return all;
 }
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "compare.hpp"
+#include "force_lines.hpp"
 #include "robust.hpp"
-#include "swing_lines.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -15,12 +15,12 @@ namespace {
 constexpr double kWorstSwing = 1.25, kWorstDrive = 1.3;
 constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
-/// Share of the loss beyond which an unexplained pattern is taken seriously: friction around standstill
-/// leaves patterns of up to one percent in clean data, a cause whose form is not exactly the term's a few.
-constexpr double kPattern = 0.015, kPatternBeside = 0.05;
-/// A line in the swing, told from luck by flipping signs, this large against what the named effects explain
-/// makes the name doubtful.
-constexpr double kDoubtfulLine = 0.1;
+/// Share of the drives' loss beyond which an unexplained pattern is taken seriously: the right model leaves
+/// up to 0.3 percent.
+constexpr double kPattern = 0.004;
+/// What goes beside a named cause: its form is not exactly the term's. A pattern this large against what the
+/// named effects explain, or against the whole loss, makes the name doubtful.
+constexpr double kDoubtful = 0.025, kGreat = 0.05;
 
 /// 1 where noise and disturbance are as learnt.
 double mean_loss(const Fits& fits) {
@@ -60,9 +60,8 @@ std::string said(const Diagnosis& d) {
 
 class Judgement {
  public:
-  Judgement(const Study& study, const Hypotheses& hypotheses, const HeldOut& held_out, std::uint64_t seed)
+  Judgement(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed)
       : study_(study), all_(hypotheses), best_(hypotheses.best), seed_(seed) {
-    result_.held_out = held_out;
     result_.ranking = hypotheses.ranking;
     result_.detection_p_value = hypotheses.detection_p_value;
   }
@@ -76,8 +75,6 @@ class Judgement {
     else
       name();
     if (result_.verdict != Verdict::none) report_causes();
-    for (const Effect& effect : best_.effects)
-      result_.extension.push_back(effect.candidate->setting(effect.values));
     result_.sentence = said(result_);
     return {std::move(result_), std::move(rivals_)};
   }
@@ -100,18 +97,18 @@ class Judgement {
     for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
       remainder.from.push_back(left[i].variable);
     const double explained = all_.base.train.loss - best_.train.loss;
-    const double worst = best_.effects.empty() ? kPattern : kPatternBeside;
     return std::any_of(left.begin(), left.end(), [&](const Unexplained& u) {
-      if (u.line) return best_.effects.empty() || u.gain > kDoubtfulLine * explained || u.fraction > worst;
-      return u.fraction > worst;
+      const bool counts = u.of_load || u.fraction > kPattern;
+      return counts && (best_.effects.empty() || u.gain > kDoubtful * explained || u.fraction > kGreat);
     });
   }
 
   /// Patterns in the residual of the drives and lines in that of the swing, strongest first.
   [[nodiscard]] std::vector<Unexplained> what_is_left() const {
-    std::vector<Unexplained> left = find_unexplained(study_, best_.effects, best_.train);
-    for (const Unexplained& line : find_swing_lines(study_.load(), best_.train.load, seed_))
-      left.push_back(line);
+    std::vector<Unexplained> left = find_unexplained(study_.drive(), best_.train.drive);
+    for (const auto& [problem, fits] :
+         {std::pair{&study_.drive(), &best_.train.drive}, {&study_.load(), &best_.train.load}})
+      for (const Unexplained& line : find_force_lines(*problem, *fits, seed_)) left.push_back(line);
     std::sort(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
     return left;
   }
@@ -149,12 +146,8 @@ class Judgement {
   }
 
   void report_causes() {
-    const std::vector<Estimate> values = estimates(best_);
-    auto next = values.begin();
     for (const Effect& effect : best_.effects) {
-      const auto end = next + static_cast<std::ptrdiff_t>(effect.values.size());
-      Cause cause{effect.candidate->cause, effect.candidate->axis, {next, end}, 1, 0};
-      next = end;
+      Cause cause{effect.candidate->cause, effect.candidate->axis, {}, 1, 0};
       for (const Ranked& ranked : result_.ranking)
         if (ranked.label == effect.candidate->label()) cause.p_value = ranked.p_value;
       const auto found = frequency_.find(effect.candidate);
@@ -180,8 +173,15 @@ class Judgement {
 
 }  // namespace
 
-Judged judge(const Study& study, const Hypotheses& hypotheses, const HeldOut& held_out, std::uint64_t seed) {
-  return Judgement(study, hypotheses, held_out, seed).run();
+void doubt(Diagnosis& diagnosis, const std::string& why) {
+  diagnosis.verdict = Verdict::unknown;
+  diagnosis.ambiguous_with.clear();
+  diagnosis.remainder.from.insert(diagnosis.remainder.from.begin(), why);
+  diagnosis.sentence = said(diagnosis);
+}
+
+Judged judge(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed) {
+  return Judgement(study, hypotheses, seed).run();
 }
 
 }  // namespace crane::diagnosis

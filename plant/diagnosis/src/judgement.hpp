@@ -4,13 +4,15 @@
 
 namespace crane::diagnosis {
 
-/// Verdict, causes, rivals, what is left, sentence; not the next experiment.
+/// Verdict, causes without their values, rivals, what is left, sentence.
 struct Judged {
   Diagnosis diagnosis;
   std::vector<const Candidate*> rivals;  ///< strongest first; only when ambiguous
 };
-/// @param held_out of the best hypothesis, for the report
-[[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses, const HeldOut& held_out,
-                           std::uint64_t seed);
+/// Makes the verdict "unknown".
+/// @param why what the remainder goes with
+void doubt(Diagnosis& diagnosis, const std::string& why);
+
+[[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed);
 
 }  // namespace crane::diagnosis

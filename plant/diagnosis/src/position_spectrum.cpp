@@ -2,96 +2,87 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
+#include <limits>
 #include <numbers>
+
+#include "force_response.hpp"
+#include "parallel.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
-constexpr double kSlowest = 0.02;  // m/s or rad/s: below it, friction's reversals hide what position does
+using Eigen::Index;
+using Eigen::Matrix2d;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
 
-struct Samples {
-  std::vector<double> position, acceleration;
+constexpr std::size_t kPlaces = 400;
+/// Of a line of the travelled distance.
+constexpr double kSpacing = 0.25;
+/// Five waves over the travel; longer ones are friction that depends on position.
+constexpr std::size_t kFirst = 20;
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-/// What the drive does beyond the model, sample by sample (equation error): rough, but enough for a period.
-Samples unexplained_acceleration(const runtime::Rig& rig, const std::vector<PreparedRun>& runs, Output axis) {
-  Samples samples;
-  plant::Model model(rig.plant, rig.terms, rig.period_s);
-  for (const PreparedRun& run : runs) {
-    const Motion& motion = run.motion[axis];
-    if (motion.position.empty()) continue;
-    const Motion fine = smooth(run.run.measured[axis], run.run.period_s, 2);
-    for (std::size_t k = 1; k + 1 < run.run.rows(); ++k) {
-      if (std::abs(motion.rate[k]) < kSlowest) continue;
-      plant::State state;
-      const auto of = [&](Output o, const std::vector<double> Motion::*what) {
-        return run.motion[o].position.empty() ? 0.0 : (run.motion[o].*what)[k];
-      };
-      state.trolley_m = of(kTrolleyPosition, &Motion::position),
-      state.trolley_mps = of(kTrolleyPosition, &Motion::rate);
-      state.slew_rad = of(kSlewAngle, &Motion::position), state.slew_radps = of(kSlewAngle, &Motion::rate);
-      state.radial_rad = of(kRadialSwing, &Motion::position),
-      state.radial_radps = of(kRadialSwing, &Motion::rate);
-      state.tangential_rad = of(kTangentialSwing, &Motion::position);
-      state.tangential_radps = of(kTangentialSwing, &Motion::rate);
-      state.cable_m = run.run.cable_m[k];
-      plant::Actuation actuation;
-      for (std::size_t i = 0; i < 2; ++i)
-        actuation.drive_v[i] = 0.5 * (run.run.command_v[k - 1][i] + run.run.command_v[k][i]);
-      const plant::Accelerations a = model.accelerations(state, actuation);
-      samples.position.push_back(fine.position[k]);
-      samples.acceleration.push_back(fine.acceleration[k] -
-                                     (axis == kTrolleyPosition ? a.trolley_mps2 : a.slew_radps2));
+Extent travelled(const Problem& drive, Output axis) {
+  Extent extent;
+  for (const Window& window : drive.windows())
+    for (const double at : drive.runs()[window.run].run.measured[axis])
+      extent.low = std::min(extent.low, at), extent.high = std::max(extent.high, at);
+  return extent;
+}
+
+struct Wave {
+  double power = 0;
+  Vector2d amplitude = Vector2d::Zero();  ///< of cosine and sine
+};
+
+Wave wave_of(const Problem& drive, const Fits& fits, std::size_t output, double per_length) {
+  Explained all{VectorXd::Zero(2), MatrixXd::Zero(2, 2)};
+  for (std::size_t w = 0; w < fits.size(); ++w) {
+    const Window& window = drive.windows()[w];
+    const std::vector<double>& position = drive.runs()[window.run].motion[drive.outputs()[output]].position;
+    MatrixXd waves(static_cast<Index>(window.rows), 2);
+    for (Index k = 0; k < waves.rows(); ++k) {
+      const double turn =
+          2 * std::numbers::pi * per_length * position[window.first + static_cast<std::size_t>(k)];
+      waves(k, 0) = std::cos(turn), waves(k, 1) = std::sin(turn);
     }
+    all += explained(drive, fits, w, output, std::move(waves));
   }
-  return samples;
+  const Matrix2d h = all.curvature;
+  const Matrix2d regular = h + (1e-9 * h.trace() + 1e-12) * Matrix2d::Identity();
+  const Vector2d amplitude = regular.inverse() * all.pull;
+  return {all.pull.dot(amplitude), amplitude};
 }
 
 }  // namespace
 
-std::vector<PositionWave> strongest_waves(const runtime::Rig& rig, const std::vector<PreparedRun>& runs,
-                                          Output axis, std::size_t count) {
-  Samples samples = unexplained_acceleration(rig, runs, axis);
-  const std::size_t n = samples.position.size();
-  if (n < 200) return {};
-  const auto [low, high] = std::minmax_element(samples.position.begin(), samples.position.end());
-  const double travel = *high - *low;
+std::vector<PositionWave> strongest_waves(const Problem& drive, const Fits& fits, std::size_t output,
+                                          std::size_t count) {
+  const Extent extent = travelled(drive, drive.outputs()[output]);
+  const double travel = extent.high - extent.low;
   if (!(travel > 0)) return {};
-  double mean = 0;
-  for (const double a : samples.acceleration) mean += a / static_cast<double>(n);
-  // A few slips would drown the rest.
-  std::vector<double> sizes;
-  for (double& a : samples.acceleration) a -= mean, sizes.push_back(std::abs(a));
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(n * 9 / 10), sizes.end());
-  const double limit = sizes[n * 9 / 10];
-  for (double& a : samples.acceleration) a = std::clamp(a, -limit, limit);
-
-  constexpr int kLines = 400;  // a quarter of a line of the travelled distance apart
-  constexpr double kSpacing = 0.25;
-  std::vector<std::complex<double>> lines(kLines);
-  std::vector<double> power(kLines);
-  std::vector<std::complex<double>> turn(n), at(n, 1.0);
-  for (std::size_t k = 0; k < n; ++k)
-    turn[k] = std::polar(1.0, 2 * std::numbers::pi * kSpacing * samples.position[k] / travel);
-  for (int line = 0; line < kLines; ++line) {
-    std::complex<double> sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += samples.acceleration[k] * at[k], at[k] *= turn[k];
-    lines[static_cast<std::size_t>(line)] = 2.0 / static_cast<double>(n) * sum;
-    power[static_cast<std::size_t>(line)] = std::norm(sum);
-  }
-  constexpr std::size_t kFirst =
-      20;  // five waves over the travel; longer ones are friction that depends on position
+  std::vector<Wave> lines(kPlaces);
+  parallel_for(kPlaces, [&](std::size_t line) {
+    if (line + 1 >= kFirst)
+      lines[line] = wave_of(drive, fits, output, kSpacing * static_cast<double>(line) / travel);
+  });
   std::vector<std::size_t> peaks;
-  for (std::size_t line = kFirst; line + 1 < power.size(); ++line)
-    if (power[line] >= power[line - 1] && power[line] >= power[line + 1]) peaks.push_back(line);
-  std::sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
+  for (std::size_t line = kFirst; line + 1 < kPlaces; ++line)
+    if (lines[line].power >= lines[line - 1].power && lines[line].power >= lines[line + 1].power)
+      peaks.push_back(line);
+  std::sort(peaks.begin(), peaks.end(),
+            [&](std::size_t a, std::size_t b) { return lines[a].power > lines[b].power; });
   std::vector<PositionWave> waves;
   for (std::size_t i = 0; i < std::min(count, peaks.size()); ++i) {
     // a sin(x + psi) = a sin(psi) cos(x) + a cos(psi) sin(x)
-    const std::complex<double> line = lines[peaks[i]];
-    waves.push_back({travel / (kSpacing * static_cast<double>(peaks[i])), std::abs(line),
-                     std::atan2(line.real(), line.imag())});
+    const Vector2d& amplitude = lines[peaks[i]].amplitude;
+    waves.push_back({travel / (kSpacing * static_cast<double>(peaks[i])), amplitude.norm(),
+                     std::atan2(amplitude[0], amplitude[1])});
   }
   return waves;
 }

@@ -1,9 +1,8 @@
 #pragma once
-/// Waves over position in a drive's unexplained acceleration.
+/// Waves over position in what is unexplained of a drive.
 #include <vector>
 
-#include "crane/diagnosis/replay.hpp"
-#include "crane/runtime/rig.hpp"
+#include "problem.hpp"
 
 namespace crane::diagnosis {
 
@@ -12,9 +11,9 @@ struct PositionWave {
   double period = 0, amplitude = 0, phase_rad = 0;
 };
 
-/// Peaks of the least-squares spectrum over position of (measured acceleration - model's), strongest first.
-[[nodiscard]] std::vector<PositionWave> strongest_waves(const runtime::Rig& rig,
-                                                        const std::vector<PreparedRun>& runs, Output axis,
-                                                        std::size_t count);
+/// Peaks of the spectrum over position of the force that explains the residual, strongest first.
+/// @param output index into the problem's outputs
+[[nodiscard]] std::vector<PositionWave> strongest_waves(const Problem& drive, const Fits& fits,
+                                                        std::size_t output, std::size_t count);
 
 }  // namespace crane::diagnosis

@@ -64,7 +64,8 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
     const double period_s = runs[i].run.period_s;
     const auto lead = static_cast<std::size_t>(std::lround(kLead_s / period_s));
     const std::size_t rows = runs[i].run.rows();
-    const auto wanted = static_cast<std::size_t>(window_s / period_s);
+    if (rows <= lead) continue;
+    const auto wanted = std::isfinite(window_s) ? static_cast<std::size_t>(window_s / period_s) : rows - lead;
     if (rows < lead + wanted / 2) continue;
     const std::size_t count = std::max<std::size_t>(1, (rows - lead + wanted / 2) / wanted);
     const std::size_t length = (rows - lead) / count;

@@ -2,6 +2,7 @@
 /// Multiple shooting over one part (drive or load) of all runs: the data in windows of a few seconds, each
 /// with a start of its own that is solved for and projected away.
 #include <Eigen/Dense>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,9 @@ using Fits = std::vector<WindowFit>;
 /// A direction of the start that only the extended crane has takes one noise variance out of a window by
 /// luck; more in coloured residuals.
 inline constexpr double kStartPrice = 2;
+
+/// Length of a window that is its run.
+inline constexpr double kWholeRun = std::numeric_limits<double>::infinity();
 
 class Problem {
  public:

@@ -5,6 +5,7 @@
 
 #include "blocks.hpp"
 #include "parallel.hpp"
+#include "position_spectrum.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -14,6 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kSignFlips = 999;
+constexpr std::size_t kWaves = 4;
 
 double chi_square_p(double statistic, Index freedom) {
   return statistic <= 0 ? 1.0 : boost::math::gamma_q(0.5 * static_cast<double>(freedom), 0.5 * statistic);
@@ -87,14 +89,27 @@ double luck(const std::vector<Directions>& directions, double least, std::uint64
 
 }  // namespace
 
-std::vector<Score> Study::places(const Effects& effects) const {
+std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Evaluation& at) const {
+  if (!candidate.waves) return candidate.shapes;
+  const auto& outputs = train_drive_->outputs();
+  const auto axis = static_cast<Output>(plant::drive_axis(candidate.axis));
+  const auto output =
+      static_cast<std::size_t>(std::find(outputs.begin(), outputs.end(), axis) - outputs.begin());
+  const double gain =
+      axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
+  std::vector<Shape> shapes;
+  for (const PositionWave& wave : strongest_waves(*train_drive_, at.drive, output, kWaves))
+    shapes.push_back({{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}});
+  return shapes;
+}
+
+std::vector<Score> Study::places(const Effects& effects, const Evaluation& at) const {
   std::vector<Score> all;
-  for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    const bool there = std::any_of(effects.begin(), effects.end(),
-                                   [&](const Effect& effect) { return effect.candidate == &candidates_[c]; });
-    for (std::size_t s = 0; !there && s < candidates_[c].shapes.size(); ++s)
-      all.push_back({.candidate = c, .shape = s, .amounts = {}});
-  }
+  for (std::size_t c = 0; c < candidates_.size(); ++c)
+    if (std::none_of(effects.begin(), effects.end(),
+                     [&](const Effect& effect) { return effect.candidate == &candidates_[c]; }))
+      for (Shape& shape : shapes_of(candidates_[c], at))
+        all.push_back({.candidate = c, .shape = std::move(shape), .amounts = {}});
   return all;
 }
 
@@ -108,7 +123,7 @@ double Study::add_probes(const Effects& effects, const Evaluation& at, const Sco
     return changes;
   };
   const Candidate& candidate = candidates_[place.candidate];
-  const Shape& shape = candidate.shapes[place.shape];
+  const Shape& shape = place.shape;
   for (std::size_t p = 0; p < shape.probes.size(); ++p) {
     Crane crane = with(effects);
     crane.terms.push_back(shape.probes[p]);
@@ -123,7 +138,7 @@ double Study::add_probes(const Effects& effects, const Evaluation& at, const Sco
 }
 
 ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const {
-  std::vector<Score> scores = places(effects);
+  std::vector<Score> scores = places(effects, at);
   const Slopes known = slopes(effects, at);
   std::vector<Directions> directions(scores.size());
   parallel_for(scores.size(), [&](std::size_t i) {

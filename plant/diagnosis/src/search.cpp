@@ -86,7 +86,7 @@ class Search {
   [[nodiscard]] Effects begin(const Effects& there, const Score& score) const {
     const Candidate& candidate = study_.candidates()[score.candidate];
     Effects all = there;
-    all.push_back({&candidate, candidate.begin(candidate.shapes[score.shape], score.amounts)});
+    all.push_back({&candidate, candidate.begin(score.shape, score.amounts)});
     return all;
   }
 

@@ -36,12 +36,15 @@ struct Fitted {
   Effects effects;
   Evaluation train, test;
   std::vector<double> std_dev;  ///< of all values, one effect after the other; block-robust
+  Eigen::MatrixXd covariance;   ///< the same before resampling
+  Eigen::VectorXd by_noise;     ///< std_dev if noise and disturbance are exactly as learnt
   std::size_t parameters = 0;
 };
 
 /// One candidate in one shape.
 struct Score {
-  std::size_t candidate = 0, shape = 0;
+  std::size_t candidate = 0;
+  Shape shape;
   double statistic = 0;  ///< chi-square of the block-robust score
   double p_value = 1;    ///< by itself
   double gain = 0;       ///< decrease of the loss that the slopes promise
@@ -97,7 +100,8 @@ class Study {
   /// Gauss-Newton rounds from where `best` is.
   void descend(Fitted& best, Loss loss, double hopeless) const;
   /// Every shape of every candidate that is not among the effects.
-  [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
+  [[nodiscard]] std::vector<Score> places(const Effects& effects, const Evaluation& at) const;
+  [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Evaluation& at) const;
   /// Appends the changes that the probes of a candidate's shape make.
   /// @return what the start of its own coordinates gains
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;

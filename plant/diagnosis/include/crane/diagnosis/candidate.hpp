@@ -29,8 +29,11 @@ struct Candidate {
   bool drive = false, load = false;  ///< replays it shows in
   std::vector<FreeParameter> parameters;
   std::vector<Shape> shapes;
-  bool one_sided = false;                ///< single probe with a sign
-  bool nonlinear = false;                ///< a small amount shows nothing; its fit begins at a shape as it is
+  bool one_sided = false;  ///< single probe with a sign
+  bool nonlinear = false;  ///< a small amount shows nothing; its fit begins at a shape as it is
+  /// Between two guesses of its phase a wave over position does nothing at first, or harm: its shapes are the
+  /// waves of what nothing else explains.
+  bool waves = false;
   bool changes_known_parameter = false;  ///< the base model has this quantity; the rig file's value is off
   /// Values to begin a fit with, from the amounts of the probes of one shape.
   std::function<std::vector<double>(const Shape&, const std::vector<double>&)> begin;

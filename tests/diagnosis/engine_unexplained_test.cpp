@@ -1,0 +1,124 @@
+/// What no candidate explains, how well a fit's values are known.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "force_lines.hpp"
+#include "friction_step.hpp"
+#include "intervals.hpp"
+#include "sealed_case.hpp"
+#include "unexplained.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+constexpr double kTick_s = 0.01;
+constexpr double kViscous_vspm = 0.4;
+
+/// A drive axis with viscous friction in a random walk of commands. @param extra_v on top, of time, position
+/// and speed
+template <class Extra>
+PreparedRun moved(const runtime::Rig& rig, double duration_s, unsigned seed, Extra&& extra_v) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Run run;
+  run.name = "run " + std::to_string(seed);
+  run.period_s = kTick_s;
+  const double gain = rig.plant.trolley_gain_mps2pv;
+  double x = 0, v = 0, u = 0, push = 0;
+  for (int k = 0; k < duration_s / kTick_s; ++k) {
+    if (k % 50 == 0) u = 0.5 * normal(random) - 0.6 * x;
+    push += (-push * kTick_s + 0.02 * std::sqrt(2 * kTick_s) * normal(random)) / 1.0;
+    run.measured[kTrolleyPosition].push_back(x + 1e-5 * normal(random));
+    run.command_v.push_back({u, 0, 0});
+    run.cable_m.push_back(1);
+    for (int step = 0; step < 20; ++step) {
+      const double t = kTick_s * (k + step / 20.0);
+      const double a = gain * (u + push + extra_v(t, x, v) - kViscous_vspm * v);
+      x += kTick_s / 20 * (v + 0.5 * kTick_s / 20 * a);
+      v += kTick_s / 20 * a;
+    }
+  }
+  return prepare(std::move(run), rig);
+}
+
+runtime::Rig axis_with_viscous_friction() {
+  runtime::Rig rig = score::rig_file_of("drive_axis");
+  rig.terms = {{"viscous_friction", "trolley", {{"vspm", kViscous_vspm}}}};
+  return rig;
+}
+
+struct Left {
+  std::vector<Unexplained> patterns, lines;
+};
+
+template <class Extra>
+Left left_of(Extra&& extra_v) {
+  const runtime::Rig rig = axis_with_viscous_friction();
+  const Runs runs{moved(rig, 30, 1, extra_v), moved(rig, 30, 2, extra_v)};
+  const Crane crane{rig.plant, rig.terms};
+  Problem drive(runs, Part::drive, 2, 0);
+  drive.learn_disturbance(crane);
+  const Fits fits = drive.fit(crane);
+  return {find_unexplained(drive, fits), find_force_lines(drive, fits, 1)};
+}
+
+TEST(Unexplained, OfTheRightModelIsNothing) {
+  const Left left = left_of([](double, double, double) { return 0.0; });
+  for (const Unexplained& u : left.patterns) EXPECT_LT(u.fraction, 0.004) << u.variable;
+  EXPECT_TRUE(left.lines.empty()) << left.lines[0].variable;
+}
+
+TEST(Unexplained, ForceInOnePlaceGoesWithPosition) {
+  const Left left = left_of([](double, double x, double) {
+    const double s = (x - 0.05) / 0.02;
+    return -0.5 * s * std::exp(-0.5 * s * s);
+  });
+  ASSERT_FALSE(left.patterns.empty());
+  EXPECT_THAT(left.patterns[0].variable, testing::StartsWith("trolley: position"));
+  EXPECT_GT(left.patterns[0].fraction, 0.004);
+}
+
+TEST(Unexplained, ForceThatComesBackInTimeIsALine) {
+  const Left left =
+      left_of([](double t, double, double) { return 0.1 * std::sin(2 * std::numbers::pi * 0.7 * t); });
+  ASSERT_EQ(left.lines.size(), 1U);
+  EXPECT_THAT(left.lines[0].variable, testing::HasSubstr("0.7 Hz"));
+  EXPECT_FALSE(left.lines[0].of_load);
+}
+
+/// Forty bodies of data from fixed seeds: the truth lies inside two standard deviations nearly always, and
+/// not because they are wide.
+TEST(Intervals, HoldTheTruthAndAreNotWide) {
+  runtime::Rig rig = axis_with_viscous_friction();
+  rig.terms.clear();
+  constexpr int kBodies = 40;
+  int inside = 0;
+  double width = 0;
+  for (unsigned seed = 10; seed < 10 + kBodies; ++seed) {
+    const auto nothing = [](double, double, double) { return 0.0; };
+    const Runs train{moved(rig, 60, 2 * seed, nothing)}, test{moved(rig, 10, 2 * seed + 1, nothing)};
+    Study study(rig, train, test);
+    const auto viscous = std::find_if(study.candidates().begin(), study.candidates().end(),
+                                      [](const Candidate& c) { return c.cause == "viscous_friction"; });
+    study.learn_disturbance({{&*viscous, {kViscous_vspm}}});
+    const Fitted fitted = with_intervals(study, study.fit({{&*viscous, {0.1}}}), seed);
+    const double error = fitted.effects[0].values[0] - kViscous_vspm;
+    EXPECT_LT(std::abs(error), 0.05 * kViscous_vspm) << "seed " << seed;
+    inside += std::abs(error) <= 2 * fitted.std_dev[0] ? 1 : 0;
+    width += fitted.std_dev[0] / kViscous_vspm / kBodies;
+  }
+  EXPECT_GE(inside, 35);
+  EXPECT_LT(width, 0.015);
+}
+
+TEST(FrictionStep, OfASimulationThatIsLostIsLostToo) {
+  const auto friction = [](double v) { return std::tanh(v / 5e-4); };
+  for (const double v : {2.75e131, -1e300, std::numeric_limits<double>::infinity()})
+    EXPECT_GT(std::abs(friction_step(v, 0.0, 1.0, 0.005, friction).speed), 1e6) << v;
+}
+
+}  // namespace
+}  // namespace crane::diagnosis
