@@ -34,7 +34,7 @@ struct Shared {
   double factor = 1;
 };
 // The truth's asymmetry is the difference of both directions, the library's half of it; the truth's jib tilts
-// down.
+// down; its swing sensors are turned the other way about.
 constexpr std::array kShared{
     Shared{"coulomb_friction", "coulomb_v", "level_v"},
     Shared{"viscous_friction", "viscous_vspm", "vspm"},
@@ -58,7 +58,7 @@ constexpr std::array kShared{
     Shared{"jib_tilt", "tilt_rad", "angle_rad", -1},
     Shared{"double_pendulum", "sling_m", "lower_length_m"},
     Shared{"swing_offset", "offset_rad", "offset_rad"},
-    Shared{"swing_misalignment", "angle_rad", "angle_rad"},
+    Shared{"swing_misalignment", "angle_rad", "angle_rad", -1},
     Shared{"swing_scale", "factor", "factor"},
     Shared{"position_scale", "factor", "factor"},
     Shared{"swing_delay", "delay_s", "delay_s"},

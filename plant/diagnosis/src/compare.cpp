@@ -11,7 +11,7 @@ namespace {
 constexpr double kHeldOutWin = 0.95;
 /// What improves the training loss of neither drives nor load by such a share is of no consequence for the
 /// crane. Around standstill terms take the place of friction that is not exactly the model's.
-constexpr double kLeastShareOfDrives = 0.035, kLeastShareOfLoad = 0.012;
+constexpr double kLeastShare = 0.012, kLeastShareOfSticking = 0.035;
 constexpr int kVotes = 500;
 
 /// Of one parameter, in units of one noise variance: that of the Bayesian information criterion.
@@ -58,6 +58,12 @@ bool has(const Effects& effects, const Candidate* candidate) {
                      [&](const Effect& e) { return e.candidate == candidate; });
 }
 
+std::string label_of(const Effects& effects) {
+  std::string label;
+  for (const Effect& effect : effects) label += (label.empty() ? "" : " + ") + effect.candidate->label();
+  return label;
+}
+
 std::size_t blocks(const Fitted& f) { return f.train.blocks.size() + f.test.blocks.size(); }
 
 bool less(const Fitted& a, const Fitted& b) { return value(a) < value(b); }
@@ -69,8 +75,9 @@ bool same(const Effects& a, const Effects& b) {
 
 bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed) {
   const Evaluation &old = before.train, &now = fitted.train;
-  if (now.loss >= old.loss || (old.drive_loss - now.drive_loss <= kLeastShareOfDrives * old.drive_loss &&
-                               old.load_loss - now.load_loss <= kLeastShareOfLoad * old.load_loss))
+  const double of_drives = now.sticks ? kLeastShareOfSticking : kLeastShare;
+  if (now.loss >= old.loss || (old.drive_loss - now.drive_loss <= of_drives * old.drive_loss &&
+                               old.load_loss - now.load_loss <= kLeastShare * old.load_loss))
     return false;
   const Wins wins = block_wins(fitted, before, seed);
   return wins.all > 1 - kSignificant && wins.held_out > kHeldOutWin;
@@ -130,13 +137,25 @@ std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitt
   return picked;
 }
 
+namespace {
+
+/// "m/s or rad/s" is one of both where the axis is known.
+std::string unit_on(const std::string& axis, const std::string& unit) {
+  const std::size_t either = unit.find(" or ");
+  if (either == std::string::npos || (axis != "trolley" && axis != "slew")) return unit;
+  return axis == "trolley" ? unit.substr(0, either) : unit.substr(either + 4);
+}
+
+}  // namespace
+
 std::vector<Estimate> estimates(const Fitted& f) {
   std::vector<Estimate> all;
   std::size_t i = 0;
   for (const Effect& effect : f.effects)
     for (std::size_t k = 0; k < effect.values.size(); ++k, ++i)
-      all.push_back({effect.candidate->parameters[k].name, effect.candidate->parameters[k].unit,
-                     effect.values[k], f.std_dev[i]});
+      all.push_back({effect.candidate->parameters[k].name,
+                     unit_on(effect.candidate->axis, effect.candidate->parameters[k].unit), effect.values[k],
+                     f.std_dev[i]});
   return all;
 }
 

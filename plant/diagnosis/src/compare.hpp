@@ -13,6 +13,9 @@ inline constexpr double kSignificant = 0.01;
 
 [[nodiscard]] bool has(const Effects& effects, const Candidate* candidate);
 
+/// "command_delay (trolley) + payload_mass"
+[[nodiscard]] std::string label_of(const Effects& effects);
+
 /// Number of blocks, training and held out.
 [[nodiscard]] std::size_t blocks(const Fitted& fitted);
 

@@ -63,8 +63,8 @@ class Loader {
     time_ = table_.find("time_s");
     if (time_ == nullptr) problem("time_s", "missing", "the first column must be time_s");
     find_columns();
-    if (problems_.empty()) check_time();
-    if (problems_.empty()) check_values();
+    if (time_ != nullptr) check_time();
+    check_values();
     if (!problems_.empty()) throw DataError(problems_);
     cut();
     if (loaded_.runs.empty()) {

@@ -143,6 +143,8 @@ void give_values(const Fitted& best, Diagnosis& result) {
     next = end;
     result.extension.push_back(effect.candidate->setting(effect.values));
   }
+  for (Ranked& ranked : result.ranking)
+    if (ranked.label == label_of(best.effects)) ranked.parameters = values;
 }
 
 Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test, const Request& request) {

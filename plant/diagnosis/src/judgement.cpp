@@ -11,8 +11,9 @@ namespace crane::diagnosis {
 namespace {
 
 /// Mean loss of the whitened residual beyond which noise and a coloured force cannot have made it. Swing
-/// keeps to 1 within a few percent, a drive that breaks loose a moment too late or early to 1.25.
-constexpr double kWorstSwing = 1.25, kWorstDrive = 1.3;
+/// keeps to 1 within a few percent, a drive that breaks loose a moment too late or early to 1.25, to 1.45
+/// where a sensor of the swing that pulls at it is wrong.
+constexpr double kWorstSwing = 1.25, kWorstDrive = 1.3, kWorstBesideSwing = 1.6;
 constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
 /// Share of the drives' loss beyond which an unexplained pattern is taken seriously: the right model leaves
@@ -20,7 +21,7 @@ constexpr double kRunnerUp = 0.1;
 constexpr double kPattern = 0.004;
 /// What goes beside a named cause: its form is not exactly the term's. A pattern this large against what the
 /// named effects explain, or against the whole loss, makes the name doubtful.
-constexpr double kDoubtful = 0.025, kGreat = 0.05;
+constexpr double kDoubtful = 0.05;
 
 /// 1 where noise and disturbance are as learnt.
 double mean_loss(const Fits& fits) {
@@ -32,7 +33,10 @@ double mean_loss(const Fits& fits) {
 
 /// Mean loss of what the best hypothesis leaves, in the most that noise and a coloured force can make.
 double excess(const Fitted& best) {
-  return std::max(mean_loss(best.train.load) / kWorstSwing, mean_loss(best.train.drive) / kWorstDrive);
+  const bool of_swing = std::any_of(best.effects.begin(), best.effects.end(),
+                                    [](const Effect& e) { return e.candidate->load && !e.candidate->drive; });
+  return std::max(mean_loss(best.train.load) / kWorstSwing,
+                  mean_loss(best.train.drive) / (of_swing ? kWorstBesideSwing : kWorstDrive));
 }
 
 std::string said(const Diagnosis& d) {
@@ -55,7 +59,7 @@ std::string said(const Diagnosis& d) {
   }
   const auto& from = d.remainder.from;
   return "Something is wrong that no known cause explains" +
-         (from.empty() ? std::string{"."} : "; it goes with " + from[0] + ".");
+         (from.empty() ? std::string{"."} : " (" + from[0] + ").");
 }
 
 class Judgement {
@@ -88,8 +92,8 @@ class Judgement {
     if (too_much > 1) {
       remainder.predictable_fraction = 1 - 1 / too_much;
       remainder.from.emplace_back(mean_loss(best_.train.load) > kWorstSwing
-                                      ? "swing: more than sensor noise and a coloured force leave"
-                                      : "drives: more than sensor noise and a coloured force leave");
+                                      ? "more in the swing than sensor noise and a coloured force leave"
+                                      : "more in the drives than sensor noise and a coloured force leave");
       return true;
     }
     if (left.empty()) return false;
@@ -99,7 +103,7 @@ class Judgement {
     const double explained = all_.base.train.loss - best_.train.loss;
     return std::any_of(left.begin(), left.end(), [&](const Unexplained& u) {
       const bool counts = u.of_load || u.fraction > kPattern;
-      return counts && (best_.effects.empty() || u.gain > kDoubtful * explained || u.fraction > kGreat);
+      return counts && (best_.effects.empty() || u.gain > kDoubtful * explained || u.fraction > kDoubtful);
     });
   }
 

@@ -102,8 +102,7 @@ class Search {
 
   void rank(const Fitted& f, double p_value) {
     Ranked ranked;
-    for (const Effect& effect : f.effects)
-      ranked.label += (ranked.label.empty() ? "" : " + ") + effect.candidate->label();
+    ranked.label = label_of(f.effects);
     ranked.parameters = estimates(f);
     ranked.train_gain = found_.base.train.loss - f.train.loss;
     ranked.test_gain = found_.base.test.loss - f.test.loss;

@@ -29,6 +29,7 @@ struct Evaluation {
   Fits drive, load;
   Blocks blocks;
   std::size_t drive_blocks = 0;  ///< the first of them
+  bool sticks = false;           ///< one of the drives
   double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
 };
 
