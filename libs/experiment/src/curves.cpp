@@ -19,7 +19,7 @@ const char* style_of(CurveStyle style) {
     case CurveStyle::dashes:
       return "lines lw 1.8 dt (8,5)";
     case CurveStyle::dots:
-      return "points pt 7 ps 0.15";
+      return "points pt 7 ps 0.3";
     default:
       return "lines lw 1.8 dt 1";
   }

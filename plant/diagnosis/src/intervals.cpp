@@ -1,6 +1,7 @@
 #include "intervals.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -14,8 +15,8 @@ using Eigen::VectorXd;
 constexpr int kResamplings = 400;
 /// Values that cost so much more are nowhere best.
 constexpr double kFarLoss = 60;
-/// In standard deviations as the slopes have it.
-constexpr double kFarthest = 64;
+/// Where to look, in standard deviations as the slopes have it.
+constexpr std::array kDistances{0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
 /// A value is better if it is by this much.
 constexpr double kBetter = 1;
 constexpr int kAttempts = 3;
@@ -37,9 +38,9 @@ Effects moved(Effects effects, const VectorXd& step) {
 Profile profile_of(const Study& study, const Fitted& fitted, const VectorXd& direction) {
   Profile profile{{0, fitted.train.blocks}};
   for (const double side : {-1.0, 1.0})
-    for (double t = 0.5; t <= kFarthest; t *= 2) {
-      const Evaluation there = study.train(moved(fitted.effects, side * t * direction));
-      profile.emplace(side * t, there.blocks);
+    for (const double distance : kDistances) {
+      const Evaluation there = study.train(moved(fitted.effects, side * distance * direction));
+      profile.emplace(side * distance, there.blocks);
       if (there.loss > fitted.train.loss + kFarLoss) break;
     }
   return profile;
