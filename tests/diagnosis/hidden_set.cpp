@@ -32,10 +32,11 @@ const std::vector<HiddenSet> kNotFoundYet{
     {"swing_moving_average", "", "tower"},      {"cable_elasticity", "", "tower"},
     {"sticking_brake", "trolley", "drive_axis"}};
 
-// Without a load a gain and a scale of the encoder take each other's place, so do, beside Coulomb friction, a
-// delay and a lag, and Coulomb and Stribeck friction together take that of viscous friction.
+// Without a load a gain and a scale of the encoder take each other's place, and so do, beside Coulomb
+// friction, a delay and a lag.
 const std::vector<HiddenSet> kWithoutTerm{{"stribeck_friction", "trolley", "drive_axis"},
                                           {"position_dependent_friction", "trolley", "drive_axis"},
+                                          {"viscous_friction", "trolley", "drive_axis"},
                                           {"direction_asymmetry", "trolley", "drive_axis"}};
 
 const std::vector<HiddenSet> kSwitchedOff{{"command_delay", "trolley", "drive_axis", 0, 8},
