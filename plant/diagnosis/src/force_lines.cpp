@@ -15,7 +15,6 @@ namespace crane::diagnosis {
 namespace {
 
 using Eigen::Index;
-using Eigen::Matrix2d;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -64,12 +63,6 @@ ByRun summed(const Problem& problem, const Line& line, const VectorXd& signs, st
   return sums;
 }
 
-Vector2d amplitude(const Explained& sums) {
-  const Matrix2d h = sums.curvature;
-  const Matrix2d regular = h + (1e-9 * h.trace() + 1e-12) * Matrix2d::Identity();
-  return regular.inverse() * sums.pull;
-}
-
 /// The best line, each fold predicted by the others: frequency and amplitude.
 struct Found {
   double gain = 0, hz = 0;
@@ -82,7 +75,7 @@ Found cross_validated(const Problem& problem, const std::vector<Line>& lines, co
     for (const Line& line : lines) {
       double gain = 0;
       for (const auto& [run, sums] : summed(problem, line, signs, fold, false))
-        gain += sums.pull.dot(amplitude(sums));
+        gain += sums.pull.dot(wave_amplitude(sums));
       if (gain > most) most = gain, best = &line;
     }
     if (best == nullptr) continue;
@@ -90,7 +83,7 @@ Found cross_validated(const Problem& problem, const std::vector<Line>& lines, co
     for (const auto& [run, own] : summed(problem, *best, signs, fold, true)) {
       const auto known = others.find(run);
       if (known == others.end()) continue;
-      const Vector2d x = amplitude(known->second);
+      const Vector2d x = wave_amplitude(known->second);
       found.gain += own.gain(x);
     }
     found.hz = best->hz;

@@ -47,6 +47,12 @@ Explained& Explained::operator-=(const Explained& other) {
   return *this;
 }
 
+Eigen::Vector2d wave_amplitude(const Explained& wave) {
+  const Eigen::Matrix2d h = wave.curvature;
+  const Eigen::Matrix2d regular = h + (1e-9 * h.trace() + 1e-12) * Eigen::Matrix2d::Identity();
+  return regular.inverse() * wave.pull;
+}
+
 Explained explained(const Problem& problem, const Fits& fits, std::size_t window, std::size_t output,
                     MatrixXd forces) {
   const Index rows = forces.rows(), first = static_cast<Index>(output) * rows;

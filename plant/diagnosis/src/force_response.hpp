@@ -20,6 +20,9 @@ struct Explained {
   Explained& operator-=(const Explained& other);
 };
 
+/// Of cosine and sine, the two patterns of a wave, as the residual has them best.
+[[nodiscard]] Eigen::Vector2d wave_amplitude(const Explained& wave);
+
 /// @param output index into the problem's outputs
 /// @param forces on it, row x pattern
 [[nodiscard]] Explained explained(const Problem& problem, const Fits& fits, std::size_t window,

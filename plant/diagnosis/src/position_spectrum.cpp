@@ -12,7 +12,6 @@ namespace crane::diagnosis {
 namespace {
 
 using Eigen::Index;
-using Eigen::Matrix2d;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -53,9 +52,7 @@ Wave wave_of(const Problem& drive, const Fits& fits, std::size_t output, double 
     }
     all += explained(drive, fits, w, output, std::move(waves));
   }
-  const Matrix2d h = all.curvature;
-  const Matrix2d regular = h + (1e-9 * h.trace() + 1e-12) * Matrix2d::Identity();
-  const Vector2d amplitude = regular.inverse() * all.pull;
+  const Vector2d amplitude = wave_amplitude(all);
   return {all.pull.dot(amplitude), amplitude};
 }
 
