@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "crane/diagnosis/mapping.hpp"
-#include "study.hpp"
+#include "study/study.hpp"
 
 namespace {
 

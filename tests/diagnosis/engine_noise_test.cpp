@@ -3,7 +3,7 @@
 
 #include "robust.hpp"
 #include "sealed_case.hpp"
-#include "study.hpp"
+#include "study/study.hpp"
 #include "truth/truth.hpp"
 
 namespace crane::diagnosis {

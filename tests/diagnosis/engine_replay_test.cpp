@@ -5,7 +5,7 @@
 
 #include "crane/diagnosis/replay.hpp"
 #include "crane/simulator/integrator.hpp"
-#include "friction_step.hpp"
+#include "replay/friction_step.hpp"
 
 namespace crane::diagnosis {
 namespace {

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <random>
 
-#include "force_lines.hpp"
-#include "friction_step.hpp"
-#include "intervals.hpp"
+#include "force/force_lines.hpp"
+#include "replay/friction_step.hpp"
+#include "search/intervals.hpp"
 #include "sealed_case.hpp"
-#include "unexplained.hpp"
+#include "force/unexplained.hpp"
 
 namespace crane::diagnosis {
 namespace {

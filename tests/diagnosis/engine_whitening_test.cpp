@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "whitening.hpp"
+#include "noise/whitening.hpp"
 
 namespace crane::diagnosis {
 namespace {

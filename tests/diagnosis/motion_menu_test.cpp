@@ -1,4 +1,4 @@
-#include "motion_menu.hpp"
+#include "experiment/motion_menu.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "crane/experiment/scenario.hpp"
-#include "safe_run.hpp"
+#include "experiment/safe_run.hpp"
 
 namespace crane::diagnosis {
 namespace {

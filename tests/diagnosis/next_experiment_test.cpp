@@ -1,9 +1,9 @@
-#include "next_experiment.hpp"
+#include "experiment/next_experiment.hpp"
 
 #include <gmock/gmock.h>
 
 #include "crane/experiment/scenario.hpp"
-#include "safe_run.hpp"
+#include "experiment/safe_run.hpp"
 
 namespace crane::diagnosis {
 namespace {

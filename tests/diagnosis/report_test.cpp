@@ -7,7 +7,7 @@
 
 #include "crane/plant/term.hpp"
 #include "crane/simulator/simulated_board.hpp"
-#include "residual_view.hpp"
+#include "report/residual_view.hpp"
 
 namespace crane::diagnosis {
 namespace {

@@ -1,0 +1,19 @@
+#pragma once
+/// Waves over position in what is unexplained of a drive.
+#include <vector>
+
+#include "study/problem.hpp"
+
+namespace crane::diagnosis {
+
+/// amplitude * sin(2 pi position / period + phase_rad), in m/s2 or rad/s2.
+struct PositionWave {
+  double period = 0, amplitude = 0, phase_rad = 0;
+};
+
+/// Peaks of the spectrum over position of the force that explains the residual, strongest first.
+/// @param output index into the problem's outputs
+[[nodiscard]] std::vector<PositionWave> strongest_waves(const Problem& drive, const Fits& fits,
+                                                        std::size_t output, std::size_t count);
+
+}  // namespace crane::diagnosis

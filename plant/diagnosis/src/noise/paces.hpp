@@ -1,0 +1,15 @@
+#pragma once
+/// Where an axis moved slowly and where it stood, from its measured position.
+#include <cstddef>
+#include <vector>
+
+#include "noise/whitening.hpp"
+
+namespace crane::diagnosis {
+
+/// @param position of a whole run, m or rad
+/// @param first row of the window, which is `rows` long
+[[nodiscard]] Paces paces_of(const std::vector<double>& position, double period_s, std::size_t first,
+                             std::size_t rows);
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,114 @@
+#include "crane/diagnosis/course.hpp"
+
+#include "replay/friction_step.hpp"
+
+namespace crane::diagnosis {
+
+using plant::kSlew;
+using plant::kTrolley;
+using plant::State;
+
+Course::Course(const plant::Model& model, const std::array<bool, kOutputs>& simulated,
+               const plant::Locks& locks, double step_s)
+    : model_(model), simulated_(simulated), h_(step_s) {
+  actuation_.locks = locks;
+}
+
+void Course::new_command(const plant::PerAxis& drive_v) {
+  actuation_.drive_v = drive_v;
+  gains_known_ = false;
+}
+
+void Course::step(const std::array<Moment, kOutputs>& at, const Moment& cable_at,
+                  const std::array<Moment, kOutputs>& end, const Moment& cable_end) {
+  const State middle = half_way(at, cable_at);
+  plant::InnerState inner_middle = inner;
+  for (std::size_t i = 0; i < model_.inner_coordinates(); ++i) {
+    inner_middle[i].position += 0.5 * h_ * inner[i].rate;
+    inner_middle[i].rate += 0.5 * h_ * last_inner_[i];
+  }
+  plant::PerAxis friction{};
+  if (simulated_[kTrolleyPosition] || simulated_[kSlewAngle]) friction = move_drives(middle, inner_middle);
+  if (simulated_[kRadialSwing] || simulated_[kTangentialSwing] || model_.inner_coordinates() > 0) {
+    plant::InnerAccelerations inner_acceleration{};
+    const plant::Accelerations a =
+        model_.accelerations(middle, actuation_, friction, inner_middle, inner_acceleration);
+    for (const Output swing : {kRadialSwing, kTangentialSwing})
+      if (simulated_[swing]) kick(swing, acceleration_of(a, swing));
+    kick_inner(inner_acceleration);
+  }
+  follow(end, cable_end);
+}
+
+void Course::follow(const std::array<Moment, kOutputs>& at, const Moment& cable) {
+  for (const Output output : kAllOutputs) {
+    if (simulated_[output]) continue;
+    position_of(state, output) = at[output].position;
+    rate_of(state, output) = at[output].rate;
+  }
+  state.cable_m = cable.position;
+  state.cable_mps = cable.rate;
+}
+
+State Course::half_way(const std::array<Moment, kOutputs>& at, const Moment& cable) {
+  State middle = state;
+  for (const Output output : kAllOutputs) {
+    if (simulated_[output]) {
+      position_of(middle, output) += 0.5 * h_ * rate_of(state, output);
+      rate_of(middle, output) += 0.5 * h_ * last_[output];
+    } else {
+      position_of(middle, output) = at[output].position;
+      rate_of(middle, output) = at[output].rate;
+    }
+  }
+  middle.cable_m = cable.position;
+  middle.cable_mps = cable.rate;
+  actuation_.locks.acceleration = {at[kTrolleyPosition].acceleration, at[kSlewAngle].acceleration,
+                                   cable.acceleration};
+  return middle;
+}
+
+void Course::kick(Output output, double acceleration) {
+  double& rate = rate_of(state, output);
+  const double before = rate;
+  rate += h_ * acceleration;
+  position_of(state, output) += 0.5 * h_ * (before + rate);
+  last_[output] = acceleration;
+}
+
+void Course::kick_inner(const plant::InnerAccelerations& accelerations) {
+  for (std::size_t i = 0; i < model_.inner_coordinates(); ++i) {
+    const double before = inner[i].rate;
+    inner[i].rate += h_ * accelerations[i];
+    inner[i].position += 0.5 * h_ * (before + inner[i].rate);
+    last_inner_[i] = accelerations[i];
+  }
+}
+
+plant::PerAxis Course::move_drives(const State& middle, const plant::InnerState& inner_middle) {
+  plant::InnerAccelerations ignored{};
+  const plant::Accelerations a = model_.accelerations(middle, actuation_, {}, inner_middle, ignored);
+  const plant::PerAxis free{a.trolley_mps2, a.slew_radps2, 0};
+  if (!gains_known_) gain_ = model_.friction_response(middle, actuation_.locks, inner_middle);
+  gains_known_ = true;
+  plant::PerAxis friction = last_friction_;
+  for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
+    if (!simulated_[axis]) continue;
+    const std::size_t other = 1 - axis;
+    const double pull = free[axis] - (simulated_[other] ? gain_[axis][other] * friction[other] : 0);
+    State moving = middle;
+    const auto friction_at = [&](double speed) {
+      rate_of(moving, axis) = speed;
+      return model_.friction_v(moving, static_cast<plant::Axis>(axis));
+    };
+    const FrictionStep done = friction_step(rate_of(state, axis), pull, gain_[axis][axis], h_, friction_at);
+    friction[axis] = done.friction;
+    last_[axis] = (done.speed - rate_of(state, axis)) / h_;
+    rate_of(state, axis) = done.speed;
+    position_of(state, axis) += done.way;
+  }
+  last_friction_ = friction;
+  return friction;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,289 @@
+#include <cmath>
+#include <cstdio>
+
+#include "crane/diagnosis/report.hpp"
+#include "crane/recording/csv.hpp"
+#include "report/residual_view.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using report::Cell;
+using report::Tone;
+
+constexpr std::size_t kMostPoints = 1500;  // of a curve or cloud: finer than a screen shows
+constexpr std::size_t kMostCandidates = 20;
+constexpr double kIn95 = 1.96;
+constexpr double kLargestPlain = 1e7;  // of the numbers written without an exponent
+constexpr int kMeasuredColor = 8;      // grey
+
+std::string significant(double value, int digits = 4) {
+  if (!std::isfinite(value)) return "-";
+  std::array<char, 32> text{};
+  // 44210, not 4.421e+04: tables are compared by eye.
+  const bool is_large = std::abs(value) >= std::pow(10, digits) && std::abs(value) < kLargestPlain;
+  if (is_large)
+    std::snprintf(text.data(), text.size(), "%.0f", value);
+  else
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return text.data();
+}
+
+std::string unit_of(const Estimate& e) { return e.unit.empty() || e.unit == "1" ? "" : " " + e.unit; }
+
+std::string with_std(const Estimate& e) {
+  return significant(e.value) + " ± " + significant(e.std_dev, 2) + unit_of(e);
+}
+
+/// "delay_s 0.03 [0.028, 0.032] s, ..."
+std::string with_intervals(const std::vector<Estimate>& estimates) {
+  std::string text;
+  for (const Estimate& e : estimates)
+    text += (text.empty() ? "" : ", ") + e.name + " " + significant(e.value, 3) + " [" +
+            significant(e.value - kIn95 * e.std_dev, 3) + ", " + significant(e.value + kIn95 * e.std_dev, 3) +
+            "]" + unit_of(e);
+  return text;
+}
+
+std::string percent(double share) { return significant(100 * share, 3) + " %"; }
+
+Tone tone_of_verdict(Verdict verdict) {
+  if (verdict == Verdict::none) return Tone::good;
+  return verdict == Verdict::unknown ? Tone::bad : Tone::neutral;
+}
+
+std::vector<double> thinned(const std::vector<double>& values) {
+  const std::size_t every = (values.size() + kMostPoints - 1) / kMostPoints;
+  if (every <= 1) return values;
+  std::vector<double> result;
+  for (std::size_t i = 0; i < values.size(); i += every) result.push_back(values[i]);
+  return result;
+}
+
+report::Table causes_table(const Diagnosis& diagnosis) {
+  report::Table table{
+      .title = diagnosis.verdict == Verdict::unknown ? "What known causes explain of it" : "Causes",
+      .header = {"cause", "axis", "parameters (± standard deviation)", "p value alone", "resamples"},
+      .rows = {}};
+  for (const Cause& cause : diagnosis.causes) {
+    std::string parameters;
+    for (const Estimate& e : cause.parameters)
+      parameters += (parameters.empty() ? "" : ", ") + e.name + " " + with_std(e);
+    table.rows.push_back({{cause.name},
+                          {cause.axis},
+                          {parameters},
+                          {significant(cause.p_value, 2)},
+                          {percent(cause.resampling_frequency)}});
+  }
+  return table;
+}
+
+/// A gain whose interval holds zero is none that these data prove.
+std::string gain_sentence(const HeldOut& held_out) {
+  const auto [low, high] = held_out.gain_ci95;
+  const std::string interval = " (95 % interval " + percent(low) + " to " + percent(high) + ").";
+  const std::string begin = "On data that were not used for the fit, the extended model's error is ";
+  if (low > 0) return begin + "smaller by " + percent(held_out.gain) + interval;
+  if (high < 0)
+    return begin + "larger by " + percent(-held_out.gain) + ": gain " + percent(held_out.gain) + interval;
+  return begin + "not surely smaller: gain " + percent(held_out.gain) + interval;
+}
+
+report::Section verdict_section(const Diagnosis& diagnosis) {
+  report::Section section{.title = "Verdict", .blocks = {}};
+  section.blocks.emplace_back(
+      report::Verdict{.text = diagnosis.sentence, .tone = tone_of_verdict(diagnosis.verdict)});
+  if (!diagnosis.extension.empty())
+    section.blocks.emplace_back(report::Paragraph{gain_sentence(diagnosis.held_out)});
+  if (!diagnosis.causes.empty()) section.blocks.emplace_back(causes_table(diagnosis));
+  return section;
+}
+
+/// In mm or mrad; "-" where there is none.
+Cell in_milli(const std::map<std::string, double>& values, const std::string& column) {
+  const auto found = values.find(column);
+  return {found == values.end() ? "-" : significant(1000 * found->second, 3)};
+}
+
+report::Table gain_table(const HeldOut& held_out) {
+  report::Table table{.title = "Held-out error (rms)",
+                      .header = {"column", "unit", "simulation", "extended", "gain [95 % interval]",
+                                 "sensor and disturbance", "simulation, whole run", "extended, whole run"},
+                      .rows = {}};
+  for (const char* column : kOutputNames) {
+    const auto before = held_out.baseline_rms.find(column), after = held_out.extended_rms.find(column);
+    if (before == held_out.baseline_rms.end() || after == held_out.extended_rms.end()) continue;
+    table.rows.push_back({{column},
+                          {residual_unit(column)},
+                          in_milli(held_out.baseline_rms, column),
+                          in_milli(held_out.extended_rms, column),
+                          report::number(1 - after->second / before->second, 3),
+                          in_milli(held_out.noise, column),
+                          in_milli(held_out.whole_baseline_rms, column),
+                          in_milli(held_out.whole_extended_rms, column)});
+  }
+  table.rows.push_back(
+      {{"all, weighted by noise"},
+       {""},
+       {""},
+       {""},
+       report::with_interval(held_out.gain, held_out.gain_ci95[0], held_out.gain_ci95[1], 3)});
+  return table;
+}
+
+report::LinePlot overlay(const Trace& trace, bool extended) {
+  report::LinePlot plot{.title = trace.column + ", " + short_name(trace.run),
+                        .x_label = "time [s]",
+                        .y_label = trace.column.ends_with("_m") ? "m" : "rad",
+                        .x = thinned(trace.time_s),
+                        .series = {},
+                        .group = trace.run};
+  plot.series.push_back(
+      {.name = "measured", .x = {}, .y = thinned(trace.measured), .upper = {}, .color = kMeasuredColor});
+  plot.series.push_back(
+      {.name = "simulation", .x = {}, .y = thinned(trace.baseline), .upper = {}, .color = 1, .dashed = true});
+  if (extended)
+    plot.series.push_back(
+        {.name = "extended", .x = {}, .y = thinned(trace.extended), .upper = {}, .color = 0});
+  return plot;
+}
+
+report::Section held_out_section(const Diagnosis& diagnosis) {
+  report::Section section{.title = "Held-out data", .blocks = {}};
+  section.blocks.emplace_back(gain_table(diagnosis.held_out));
+  section.blocks.emplace_back(report::Paragraph{
+      "The curves are whole runs in open loop, started once: small errors add up in them. The table's "
+      "first figures are from windows of a few seconds, each with a start of its own."});
+  for (const Trace& trace : diagnosis.traces)
+    section.blocks.emplace_back(overlay(trace, !diagnosis.extension.empty()));
+  return section;
+}
+
+report::Section residual_section(const Diagnosis& diagnosis, const runtime::Rig& rig,
+                                 const std::vector<Run>& test) {
+  report::Section section{.title = "Residual", .blocks = {}};
+  section.blocks.emplace_back(
+      report::Paragraph{"Measured minus simulated, in windows of two seconds. A cloud with a shape is "
+                        "something the model lacks; the "
+                        "extended model's should have none."});
+  for (const ResidualView& view : residual_views(diagnosis, rig, test))
+    for (const Abscissa& abscissa : view.against) {
+      report::LinePlot plot{.title = view.column + " against " + abscissa.label,
+                            .x_label = abscissa.label,
+                            .y_label = "residual [" + view.unit + "]",
+                            .x = thinned(abscissa.values),
+                            .series = {},
+                            .group = ""};
+      plot.series.push_back({.name = "simulation",
+                             .x = {},
+                             .y = thinned(view.baseline),
+                             .style = report::Style::points,
+                             .upper = {},
+                             .color = 1});
+      if (!diagnosis.extension.empty())
+        plot.series.push_back({.name = "extended",
+                               .x = {},
+                               .y = thinned(view.extended),
+                               .style = report::Style::points,
+                               .upper = {},
+                               .color = 0});
+      section.blocks.emplace_back(std::move(plot));
+    }
+  return section;
+}
+
+report::Section candidates_section(const Diagnosis& diagnosis) {
+  report::Section section{.title = "Candidates", .blocks = {}};
+  report::Table table{.title = "",
+                      .header = {"candidate", "training gain", "held-out gain", "p value alone", "resamples",
+                                 "parameters [95 % interval]"},
+                      .rows = {}};
+  for (const Ranked& ranked : diagnosis.ranking) {
+    if (table.rows.size() == kMostCandidates) break;
+    // The score test looks at one candidate, and resampled data vote on one.
+    const bool alone = ranked.label.find(" + ") == std::string::npos;
+    table.rows.push_back(
+        {{ranked.label},
+         {significant(ranked.train_gain, 4)},
+         {significant(ranked.test_gain, 4), ranked.test_gain > 0 ? Tone::neutral : Tone::muted},
+         {alone ? significant(ranked.p_value, 2) : "-"},
+         {alone ? percent(ranked.resampling_frequency) : "-"},
+         {with_intervals(ranked.parameters)}});
+  }
+  section.blocks.emplace_back(std::move(table));
+  section.blocks.emplace_back(report::Paragraph{
+      "Gains are decreases of the whitened sum of squares, in units of one noise variance: the "
+      "error that the judgement goes by. P value alone: of the candidate's score with nothing "
+      "else in the model. Resamples: how often resampled data pick the candidate."});
+  return section;
+}
+
+report::Section remainder_section(const Diagnosis& diagnosis) {
+  report::Section section{.title = "What was not explained", .blocks = {}};
+  std::string from;
+  for (const std::string& name : diagnosis.remainder.from) from += (from.empty() ? "" : "; ") + name;
+  section.blocks.emplace_back(report::Paragraph{
+      percent(diagnosis.remainder.predictable_fraction) + " of what the " +
+      (diagnosis.extension.empty() ? "simulation" : "extended model") +
+      " leaves can still be predicted, cross-validated. " +
+      (from.empty() ? "Nothing stands out that it goes with." : "It goes with: " + from + ".")});
+  return section;
+}
+
+std::string without_proposal(Verdict verdict) {
+  if (verdict == Verdict::ambiguous)
+    return "No motion of the menu inside the rig's limits tells the candidates apart.";
+  if (verdict == Verdict::unknown)
+    return "None is proposed: there are no candidates to tell apart. A motion that varies what the residual "
+           "goes with, "
+           "and nothing else, shows more.";
+  return "None is needed.";
+}
+
+report::Section next_section(const Diagnosis& diagnosis, const runtime::Rig& rig) {
+  report::Section section{.title = "Next experiment", .blocks = {}};
+  if (!diagnosis.next_experiment) {
+    section.blocks.emplace_back(report::Paragraph{without_proposal(diagnosis.verdict)});
+    return section;
+  }
+  const NextExperiment& next = *diagnosis.next_experiment;
+  section.blocks.emplace_back(report::Verdict{.text = next.description, .tone = Tone::neutral});
+  section.blocks.emplace_back(report::Paragraph{
+      "There the candidates' predictions lie " + significant(next.separation, 3) +
+      " noise standard deviations apart, each refitted. The motion stands in next_experiment.toml: crane run "
+      "next_experiment.toml --rig " +
+      rig.name + "; record it, add it to the training data and diagnose again."});
+  return section;
+}
+
+/// What was held out, with what it lasts: an axis that rests there proves nothing about its drive.
+std::string summary_of(const Diagnosis& diagnosis, const std::vector<Run>& test) {
+  std::string held_out;
+  for (const Run& run : test)
+    held_out += (held_out.empty() ? "" : ", ") + short_name(run.name) + " (" +
+                significant(static_cast<double>(run.rows()) * run.period_s, 3) + " s)";
+  return std::to_string(diagnosis.ranking.size()) +
+         (diagnosis.ranking.size() == 1 ? " hypothesis" : " hypotheses") + " fitted. Held out: " + held_out +
+         ".";
+}
+
+}  // namespace
+
+report::Page report_page(const Diagnosis& diagnosis, const runtime::Rig& rig, const std::vector<Run>& test) {
+  report::Page page{
+      .title = "Diagnosis of " + rig.name, .summary = summary_of(diagnosis, test), .sections = {}};
+  page.sections.push_back(verdict_section(diagnosis));
+  page.sections.push_back(held_out_section(diagnosis));
+  page.sections.push_back(candidates_section(diagnosis));
+  page.sections.push_back(remainder_section(diagnosis));
+  page.sections.push_back(next_section(diagnosis, rig));
+  page.sections.push_back(residual_section(diagnosis, rig, test));
+  if (!diagnosis.notes.empty()) {
+    report::Section notes{.title = "Notes on the data", .blocks = {}};
+    for (const std::string& note : diagnosis.notes) notes.blocks.emplace_back(report::Paragraph{note});
+    page.sections.push_back(std::move(notes));
+  }
+  return page;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,116 @@
+#include "search/intervals.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int kResamplings = 400;
+/// Values that cost so much more are nowhere best.
+constexpr double kFarLoss = 60;
+/// Where to look, in standard deviations as the slopes have it.
+constexpr std::array kDistances{0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
+/// A value is better if it is by this much.
+constexpr double kBetter = 1;
+constexpr int kAttempts = 3;
+
+/// Losses of the blocks along one direction of the values.
+using Profile = std::map<double, Blocks>;
+
+Effects moved(Effects effects, const VectorXd& step) {
+  Index i = 0;
+  for (Effect& effect : effects)
+    for (std::size_t k = 0; k < effect.values.size(); ++k, ++i) {
+      const FreeParameter& p = effect.candidate->parameters[k];
+      effect.values[k] = std::clamp(effect.values[k] + step[i], p.low, p.high);
+    }
+  return effects;
+}
+
+/// Outwards in both directions until nothing can be best there.
+Profile profile_of(const Study& study, const Fitted& fitted, const VectorXd& direction) {
+  Profile profile{{0, fitted.train.blocks}};
+  for (const double side : {-1.0, 1.0})
+    for (const double distance : kDistances) {
+      const Evaluation there = study.train(moved(fitted.effects, side * distance * direction));
+      profile.emplace(side * distance, there.blocks);
+      if (there.loss > fitted.train.loss + kFarLoss) break;
+    }
+  return profile;
+}
+
+/// Where the parabola through the least of the values and its neighbours is least.
+double least_at(const std::vector<double>& at, const std::vector<double>& loss) {
+  const auto k = static_cast<std::size_t>(std::min_element(loss.begin(), loss.end()) - loss.begin());
+  if (k == 0 || k + 1 == loss.size()) return at[k];
+  const double left = (loss[k] - loss[k - 1]) / (at[k] - at[k - 1]);
+  const double right = (loss[k + 1] - loss[k]) / (at[k + 1] - at[k]);
+  const double bend = (right - left) / (0.5 * (at[k + 1] - at[k - 1]));
+  if (!(bend > 0)) return at[k];
+  const double flat = 0.5 * (at[k - 1] + at[k]) - left / bend;
+  return std::clamp(flat, at[k - 1], at[k + 1]);
+}
+
+/// Of the best place on the profile from one resample of the blocks to the next, about 0.
+double spread(const Profile& profile, std::uint64_t seed) {
+  std::vector<double> at;
+  for (const auto& [t, blocks] : profile) at.push_back(t);
+  const std::size_t count = profile.at(0).size();
+  std::mt19937_64 random(seed);
+  double squares = 0;
+  for (int i = 0; i < kResamplings; ++i) {
+    std::vector<double> loss(at.size(), 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t block = static_cast<std::size_t>(random() % count);
+      std::size_t t = 0;
+      for (const auto& [place, blocks] : profile) loss[t++] += blocks[block];
+    }
+    squares += std::pow(least_at(at, loss), 2) / kResamplings;
+  }
+  return std::sqrt(squares);
+}
+
+/// By how much the best place is better than 0.
+struct Best {
+  double gain = 0, at = 0;
+};
+Best best_of(const Profile& profile) {
+  const double here = sum(profile.at(0));
+  Best best;
+  for (const auto& [t, blocks] : profile)
+    if (here - sum(blocks) > best.gain) best = {here - sum(blocks), t};
+  return best;
+}
+
+}  // namespace
+
+Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    std::vector<double> std_dev = fitted.std_dev;
+    Effects better;
+    for (Index i = 0; i < fitted.covariance.cols() && better.empty(); ++i) {
+      double& own = std_dev[static_cast<std::size_t>(i)];
+      if (!(own > 0)) continue;
+      const VectorXd direction = fitted.covariance.col(i) / own;
+      const Profile profile = profile_of(study, fitted, direction);
+      const Best best = best_of(profile);
+      if (best.gain > kBetter && attempt + 1 < kAttempts) better = moved(fitted.effects, best.at * direction);
+      own = std::max(own * spread(profile, seed + static_cast<std::uint64_t>(i)), fitted.by_noise[i]);
+    }
+    if (better.empty()) {
+      fitted.std_dev = std::move(std_dev);
+      return fitted;
+    }
+    fitted = study.fit(better);
+  }
+  return fitted;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,28 @@
+#pragma once
+/// Which hypotheses are fitted.
+#include <cstdint>
+#include <vector>
+
+#include "crane/diagnosis/diagnosis.hpp"
+#include "study/study.hpp"
+
+namespace crane::diagnosis {
+
+/// Everything that was fitted.
+struct Hypotheses {
+  Fitted base, best;  ///< best: without effects when none was accepted
+  std::vector<Fitted> singles, all;
+  std::vector<Ranked> ranking;
+  double detection_p_value = 1;
+};
+
+/// Scores of all candidates and fits of the best.
+[[nodiscard]] Hypotheses singles(const Study& study, const Request& request);
+
+/// Those of `before` once more, after the disturbance was learnt anew.
+[[nodiscard]] Hypotheses singles_again(const Study& study, const Request& request, const Hypotheses& before);
+
+/// Pairs of the singles, and one effect more as long as it helps.
+[[nodiscard]] Hypotheses extended(const Study& study, const Request& request, const Hypotheses& singles);
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,27 @@
+#pragma once
+/// Scores block by block: blocks are what is resampled.
+#include "study/study.hpp"
+
+namespace crane::diagnosis {
+
+/// Changes of the whitened outputs per unit, by value of the effects and window; empty where it does not
+/// show.
+struct Study::Slopes {
+  std::vector<std::vector<Eigen::VectorXd>> drive, load;
+};
+
+/// Scores of a set of directions.
+struct BlockScores {
+  Eigen::MatrixXd by_block;   ///< block x direction: slope' weighted residual
+  Eigen::MatrixXd curvature;  ///< slope' weighted slope
+};
+[[nodiscard]] BlockScores block_scores(const Problem& problem, const Fits& fits,
+                                       const std::vector<std::vector<Eigen::VectorXd>>& slopes,
+                                       Loss loss = Loss::robust);
+/// Blocks of `a`, then those of `b`.
+[[nodiscard]] BlockScores joined(const BlockScores& a, const BlockScores& b);
+
+/// h x = g with a pinch of ridge: two directions may look alike.
+[[nodiscard]] Eigen::VectorXd solve(const Eigen::MatrixXd& h, const Eigen::VectorXd& g);
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,227 @@
+#include "crane/diagnosis/candidate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "study/candidate_shapes.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using plant::TermSetting;
+
+/// What the rig file's drive_friction of an axis has.
+struct KnownFriction {
+  double least_coulomb_v = 0, least_viscous = 0;
+  bool present = false;
+};
+KnownFriction known_friction(const runtime::Rig& rig, const std::string& axis) {
+  KnownFriction known;
+  for (const TermSetting& term : rig.terms) {
+    if (term.name != "drive_friction" || term.axis != axis) continue;
+    const auto value = [&](const char* name) {
+      const auto found = term.parameters.find(name);
+      return found == term.parameters.end() ? 0.0 : found->second;
+    };
+    known = {std::min(value("coulomb_positive_v"), value("coulomb_negative_v")),
+             std::min(value("viscous_positive_vspm"), value("viscous_negative_vspm")), true};
+  }
+  return known;
+}
+
+class Builder {
+ public:
+  Builder(const runtime::Rig& rig, const std::vector<PreparedRun>& runs) : rig_(rig), runs_(runs) {}
+
+  std::vector<Candidate> build() {
+    const auto measured = [&](Output output) {
+      return std::any_of(runs_.begin(), runs_.end(), [&](const PreparedRun& r) { return r.run.has(output); });
+    };
+    const bool load = rig_.plant.load_mass_kg > 0;
+    if (measured(kTrolleyPosition)) add_axis("trolley", kTrolleyPosition, 1.0);
+    if (measured(kSlewAngle)) add_axis("slew", kSlewAngle, 2.0);
+    radial_ = load && measured(kRadialSwing), tangential_ = load && measured(kTangentialSwing);
+    if (radial_ || tangential_) add_load(measured(kTrolleyPosition), measured(kSlewAngle));
+    return std::move(all_);
+  }
+
+ private:
+  void add(Candidate candidate, bool drive, bool load, bool known = false) {
+    candidate.drive = drive;
+    candidate.load = load;
+    candidate.changes_known_parameter = known;
+    all_.push_back(std::move(candidate));
+  }
+
+  void add_axis(const std::string& axis, Output output, double scale) {
+    const KnownFriction known = known_friction(rig_, axis);
+    add(amount("coulomb_friction", axis, "level_v", -known.least_coulomb_v, 5, 0.02), true, false,
+        known.present);
+    add(amount("viscous_friction", axis, "vspm", -known.least_viscous, 50, 0.05), true, false,
+        known.present && known.least_viscous > 0);
+    add(two_amounts("direction_asymmetry", axis,
+                    {free_parameter("direction_asymmetry", "coulomb_v", -3, 3, 0.02),
+                     free_parameter("direction_asymmetry", "viscous_vspm", -20, 20, 0.05)}),
+        true, false);
+    add(shaped("stribeck_friction", axis, free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
+               {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
+               {{0.01}, {0.03}, {0.08}, {0.2}}),
+        true, false);
+    add_tight_spots(axis, output);
+    add_ripple(axis, output);
+    add(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), true, false, true);
+    add(amount("command_offset", axis, "offset_v", -3, 3, 0.02), true, false);
+    add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
+    add(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005), true, false);
+    add(shaped("actuator_lag", axis, free_parameter("actuator_lag", "time_constant_s", 0, 0.5, 0.01),
+               {free_parameter("actuator_lag", "second_s", 0, 0.5, 0.01)}, {{0}}),
+        true, false);
+    // How far the load and the guide move what is behind the gap depends on its inertia more than on the gap.
+    const double carriage = rig_.plant.trolley_mass_kg / rig_.plant.trolley_inertia_kg;
+    const double share = output == kTrolleyPosition ? std::clamp(carriage, 0.05, 0.85) : 0.6;
+    std::vector<std::vector<double>> settings;
+    for (const double gap : {0.003, 0.006})
+      for (const double guide : {0.1, 0.7}) settings.push_back({gap * scale, guide, share});
+    add(at_once("backlash", axis,
+                {free_parameter("backlash", "gap", 0.0002, 0.05, 0.001),
+                 free_parameter("backlash", "guide_deceleration", 0, 2, 0.1),
+                 free_parameter("backlash", "driven_share", 0.02, 0.9, 0.05)},
+                settings),
+        true, true);
+    add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), true, true);
+    add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
+  }
+
+  void add_tight_spots(const std::string& axis, Output output) {
+    std::vector<std::vector<double>> shapes;
+    const double travel = travelled(output);
+    const FreeParameter wavelength =
+        free_parameter("position_dependent_friction", "wavelength", 0.1 * travel, 2 * travel, 0.01 * travel);
+    for (const double share : {1.6, 0.8, 0.4})
+      for (int place = 0; place < 4 && share * travel > wavelength.low; ++place)
+        shapes.push_back({share * travel, middle(output) + 0.25 * place * share * travel});
+    if (shapes.empty()) return;
+    add(shaped(
+            "position_dependent_friction", axis,
+            free_parameter("position_dependent_friction", "amplitude_v", 0, 5, 0.02),
+            {wavelength, free_parameter("position_dependent_friction", "tight_at", -100, 100, 0.01 * travel)},
+            shapes),
+        true, false);
+  }
+
+  void add_ripple(const std::string& axis, Output output) {
+    Candidate ripple =
+        at_once("torque_ripple", axis,
+                {free_parameter("torque_ripple", "amplitude_v", 0, 5, 0.02),
+                 free_parameter("torque_ripple", "phase_rad", -7, 7, 0.02),
+                 free_parameter("torque_ripple", "period", 1e-3, 0.25 * travelled(output), 1e-4)},
+                {});
+    ripple.waves = true;
+    add(std::move(ripple), true, false);
+  }
+
+  void add_load(bool trolley, bool slew) {
+    const double m = rig_.plant.load_mass_kg, g = rig_.plant.gravity_mps2;
+    const double length = rig_.start.position[plant::kHoist];
+    if (trolley || slew)
+      add(amount("payload_mass", "", "delta_kg", -0.9 * m, 10 * m, 0.05 * m), true, true, true);
+    add(amount("cable_length", "", "delta_m", -0.7 * length, 2 * length, 0.005), true, true, true);
+    add(amount("load_linear_drag", "", "coefficient_nspm", 0, 50 * m, 0.02 * m), false, true);
+    add(amount("load_quadratic_drag", "", "coefficient_ns2pm2", 0, 50 * m, 0.05 * m), false, true);
+    if (trolley || slew || (radial_ && tangential_))
+      add(turned("steady_wind", "", free_parameter("steady_wind", "force_n", 0, 2 * m, 0.005 * m * g),
+                 free_parameter("steady_wind", "direction_rad", -7, 7, 0.02), {}, {{}}),
+          true, true);
+    add_pivot_friction();
+    if (trolley) add(amount("jib_tilt", "", "angle_rad", -0.2, 0.2, 0.005), true, true);
+    add_structures(slew);
+    add_swing_sensors();
+  }
+
+  /// Settings a resonance may begin its fit with lie about as far apart as two seconds tell frequencies. An
+  /// elastic cable is not among the candidates: its bounce is never measured, and free to start in every
+  /// window it explains the disturbance of clean data.
+  void add_structures(bool slew) {
+    const auto square = [](double hz) { return std::pow(2 * std::numbers::pi * hz, 2); };
+    std::vector<std::vector<double>> jibs, slings;
+    for (const double hz : {1.4, 2.0, 2.8, 4.0, 5.6})
+      for (const double share : {0.15, 0.6}) jibs.push_back({1 / square(hz), 0.03, share});
+    for (const double hz : {1.2, 1.6, 2.1, 2.6, 3.2, 4.0})
+      slings.push_back({0.65, rig_.plant.gravity_mps2 / (0.35 * square(hz))});
+    if (slew)
+      add(at_once("jib_flexibility", "",
+                  {free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
+                   free_parameter("jib_flexibility", "damping_ratio", 0.001, 0.5, 0.01),
+                   free_parameter("jib_flexibility", "jib_share", 0, 0.9, 0.05)},
+                  jibs),
+          true, true);
+    add(at_once("double_pendulum", "",
+                {free_parameter("double_pendulum", "lower_share", 0.03, 0.85, 0.05),
+                 free_parameter("double_pendulum", "lower_length_m", 0.05, 2, 0.01)},
+                slings),
+        false, true);
+  }
+
+  void add_pivot_friction() {
+    const double m = rig_.plant.load_mass_kg, length = rig_.start.position[plant::kHoist];
+    const double inertia = m * length * length;
+    std::vector<std::string> ways;
+    if (radial_) ways.emplace_back("radial");
+    if (tangential_) ways.emplace_back("tangential");
+    if (ways.size() == 2) ways.emplace_back("");
+    for (const std::string& way : ways)
+      add(two_amounts(
+              "swing_pivot_friction", way,
+              {free_parameter("swing_pivot_friction", "viscous_nmsprad", 0, 10 * inertia, 0.02 * inertia),
+               free_parameter("swing_pivot_friction", "coulomb_nm", 0, inertia, 0.005 * inertia)}),
+          false, true);
+  }
+
+  void add_swing_sensors() {
+    std::vector<std::string> ways;
+    if (radial_) ways.emplace_back("radial");
+    if (tangential_) ways.emplace_back("tangential");
+    for (const std::string& way : ways) {
+      add(amount("swing_offset", way, "offset_rad", -0.3, 0.3, 0.005), false, true);
+      add(amount("swing_scale", way, "factor", 0.5, 2, 0.01), false, true);
+    }
+    if (ways.size() == 2) {
+      add(amount("swing_misalignment", "", "angle_rad", -0.6, 0.6, 0.01), false, true);
+      ways.emplace_back("");
+    }
+    for (const std::string& way : ways) {
+      add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), false, true);
+      add(amount("swing_moving_average", way, "window_s", 0, 0.3, 0.02), false, true);
+    }
+  }
+
+  [[nodiscard]] double travelled(Output output) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const PreparedRun& run : runs_)
+      for (const double value : run.run.measured[output])
+        low = std::min(low, value), high = std::max(high, value);
+    return std::max(high - low, 1e-3);
+  }
+  [[nodiscard]] double middle(Output output) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const PreparedRun& run : runs_)
+      for (const double value : run.run.measured[output])
+        low = std::min(low, value), high = std::max(high, value);
+    return 0.5 * (low + high);
+  }
+
+  const runtime::Rig& rig_;
+  const std::vector<PreparedRun>& runs_;
+  bool radial_ = false, tangential_ = false;
+  std::vector<Candidate> all_;
+};
+
+}  // namespace
+
+std::vector<Candidate> candidates_for(const runtime::Rig& rig, const std::vector<PreparedRun>& runs) {
+  return Builder(rig, runs).build();
+}
+
+}  // namespace crane::diagnosis

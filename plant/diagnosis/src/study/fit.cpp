@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "study/blocks.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostRounds = 12;
+/// Decrease of the loss that is not worth another round.
+constexpr double kLeastGain = 0.3;
+/// The same on the way there, as a share.
+constexpr double kRoughly = 0.003;
+/// After so many rounds a fit that is still this many times what the slopes promise away is given up.
+constexpr int kLeastRounds = 2;
+constexpr double kPromise = 4;
+
+struct Flat {
+  std::vector<const FreeParameter*> parameters;
+  VectorXd values;
+};
+
+Flat flatten(const Effects& effects) {
+  Flat flat;
+  std::vector<double> values;
+  for (const Effect& effect : effects) {
+    for (const FreeParameter& p : effect.candidate->parameters) flat.parameters.push_back(&p);
+    values.insert(values.end(), effect.values.begin(), effect.values.end());
+  }
+  flat.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+  return flat;
+}
+
+/// Rounding must not carry a value beyond its bound.
+Effects unflatten(Effects effects, const Flat& flat, const VectorXd& step) {
+  Index i = 0;
+  for (Effect& effect : effects)
+    for (double& value : effect.values) {
+      const FreeParameter& p = *flat.parameters[static_cast<std::size_t>(i)];
+      value = std::clamp(flat.values[i] + step[i], p.low, p.high);
+      ++i;
+    }
+  return effects;
+}
+
+/// Decrease of the loss of an undamped step without bounds.
+double promised(const MatrixXd& h, const VectorXd& g) { return g.dot(solve(h, g)); }
+
+/// Damped step inside the bounds; a value at its bound that wants out stays there.
+VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, double damping) {
+  std::vector<Index> active;
+  for (Index i = 0; i < flat.values.size(); ++i) active.push_back(i);
+  VectorXd step = VectorXd::Zero(flat.values.size());
+  for (int round = 0; round < 4 && !active.empty(); ++round) {
+    const auto n = static_cast<Index>(active.size());
+    MatrixXd reduced(n, n);
+    VectorXd pull(n);
+    for (Index i = 0; i < n; ++i) {
+      pull[i] = g[active[static_cast<std::size_t>(i)]];
+      for (Index j = 0; j < n; ++j)
+        reduced(i, j) = h(active[static_cast<std::size_t>(i)], active[static_cast<std::size_t>(j)]);
+    }
+    reduced.diagonal() *= 1 + damping;
+    const VectorXd moved = solve(reduced, pull);
+    step.setZero();
+    std::vector<Index> free;
+    for (Index i = 0; i < n; ++i) {
+      const Index at = active[static_cast<std::size_t>(i)];
+      const FreeParameter& p = *flat.parameters[static_cast<std::size_t>(at)];
+      const double wanted = flat.values[at] + moved[i], kept = std::clamp(wanted, p.low, p.high);
+      step[at] = kept - flat.values[at];
+      if (kept == wanted || step[at] != 0) free.push_back(at);
+    }
+    if (free.size() == active.size()) break;
+    active = free;
+  }
+  return step;
+}
+
+/// Price of the starts included.
+double loss_of(const Evaluation& at, Loss loss) {
+  if (loss == Loss::robust) return at.loss;
+  double sum = 0;
+  for (const Fits* fits : {&at.drive, &at.load})
+    for (const WindowFit& fit : *fits) sum += fit.residual.squaredNorm() + kStartPrice * fit.freedom;
+  return sum;
+}
+
+}  // namespace
+
+BlockScores Study::pulls(const Fitted& at, Loss loss) const {
+  const Slopes slope = slopes(at.effects, at.train);
+  return joined(block_scores(*train_drive_, at.train.drive, slope.drive, loss),
+                block_scores(*train_load_, at.train.load, slope.load, loss));
+}
+
+void Study::descend(Fitted& best, Loss loss, double hopeless) const {
+  double damping = 1e-3, least = loss_of(best.train, loss);
+  for (int round = 0; round < kMostRounds; ++round) {
+    const BlockScores both = pulls(best, loss);
+    const VectorXd pull = both.by_block.colwise().sum().transpose();
+    const Flat flat = flatten(best.effects);
+    if (round >= kLeastRounds && least - kPromise * promised(both.curvature, pull) > hopeless) break;
+    double gained = 0;
+    for (int attempt = 0; attempt < 7 && gained == 0; ++attempt) {
+      const VectorXd step = bounded_step(both.curvature, pull, flat, damping);
+      if (!step.allFinite() || step.norm() == 0) break;
+      const Effects moved = unflatten(best.effects, flat, step);
+      Evaluation found = evaluate(*train_drive_, *train_load_, moved, best.train);
+      const double now = loss_of(found, loss);
+      if (now < least) {
+        gained = least - now;
+        least = now;
+        best.effects = moved;
+        best.train = std::move(found);
+        damping = std::max(1e-6, damping * 0.2);
+      } else {
+        damping = std::max(damping, 1e-4) * 8;
+      }
+    }
+    if (gained < (loss == Loss::robust ? kLeastGain : kRoughly * least)) break;
+  }
+}
+
+Fitted Study::fit(Effects effects, double hopeless) const {
+  Fitted near;
+  near.effects = std::move(effects);
+  near.train = train(near.effects);
+  Fitted best = near;
+  descend(best, Loss::squares, std::numeric_limits<double>::infinity());
+  if (near.train.loss < best.train.loss) best = near;
+  descend(best, Loss::robust, hopeless);
+  const BlockScores both = pulls(best, Loss::robust);
+  const MatrixXd inverse = both.curvature.completeOrthogonalDecomposition().pseudoInverse();
+  best.by_noise = inverse.diagonal().cwiseMax(0.0).cwiseSqrt();
+  best.covariance = inverse * (both.by_block.transpose() * both.by_block) * inverse;
+  for (const double variance : best.covariance.diagonal())
+    best.std_dev.push_back(std::sqrt(std::max(0.0, variance)));
+  best.parameters = best.std_dev.size();
+  best.test = test(best.effects);
+  return best;
+}
+
+}  // namespace crane::diagnosis

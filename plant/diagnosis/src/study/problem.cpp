@@ -1,0 +1,299 @@
+#include "study/problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "noise/paces.hpp"
+#include "parallel.hpp"
+#include "robust.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// As long as the longest mean over time of a swing sensor.
+constexpr double kLead_s = 0.3;
+constexpr double kPositionStep = 1e-4, kRateStep = 1e-3;
+constexpr int kStartRounds = 8;
+/// What the start's directions still explain of a whitened residual, in noise variances: the projection takes
+/// it out as well as another round would.
+constexpr double kStartFound = 0.1;
+/// The same of a plain residual, as a share of it.
+constexpr double kPlainStartFound = 1e-4;
+constexpr int kLearningRounds = 3;
+/// A start direction that changes the window less than this share of the strongest one cannot be solved for:
+/// the speed of an axis that sticks is forgotten at once.
+constexpr double kLeastSlope = 0.001;
+/// The measurement knows the start better than this; a larger correction in one round is not believed.
+constexpr double kMostPosition = 0.01, kMostRate = 0.1;
+/// Nothing measures a term's own coordinates: so many times that.
+constexpr double kMostInnerStart = 20;
+
+/// @param measured numbers of the start that the measurement knows about
+VectorXd believable(VectorXd change, Index measured) {
+  for (Index i = 0; i < change.size(); ++i) {
+    const double freer = i < measured ? 1 : kMostInnerStart;
+    const double most = freer * (i % 2 == 0 ? kMostPosition : kMostRate);
+    change[i] = std::isfinite(change[i]) ? std::clamp(change[i], -most, most) : 0.0;
+  }
+  return change;
+}
+
+/// Natural frequency about a large swing against that of a small one: gravity pulls back with g / l
+/// cos(swing) per rad.
+double softened(const std::vector<double>& swing_rad, const Window& window) {
+  constexpr double kLeast = 0.1;
+  double mean = 0;
+  for (std::size_t k = window.first; k < window.first + window.rows; ++k)
+    mean += std::cos(swing_rad[k]) / static_cast<double>(window.rows);
+  return std::sqrt(std::max(kLeast, mean));
+}
+
+}  // namespace
+
+Problem::Problem(const Runs& runs, Part part, double window_s, double natural_radps)
+    : runs_(runs), part_(part) {
+  for (const PreparedRun& run : runs)
+    if (outputs_.empty()) outputs_ = simulated_outputs(run, part);
+  if (outputs_.empty()) return;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const double period_s = runs[i].run.period_s;
+    const auto lead = static_cast<std::size_t>(std::lround(kLead_s / period_s));
+    const std::size_t rows = runs[i].run.rows();
+    if (rows <= lead) continue;
+    const auto wanted = std::isfinite(window_s) ? static_cast<std::size_t>(window_s / period_s) : rows - lead;
+    if (rows < lead + wanted / 2) continue;
+    const std::size_t count = std::max<std::size_t>(1, (rows - lead + wanted / 2) / wanted);
+    const std::size_t length = (rows - lead) / count;
+    for (std::size_t w = 0; w < count; ++w) windows_.push_back({i, lead + w * length, length, lead});
+  }
+  for (const Output output : outputs_) {
+    std::vector<Passage>& of_output = passages_.emplace_back();
+    for (const Window& window : windows_) {
+      const PreparedRun& run = runs[window.run];
+      const std::vector<double>& measured = run.run.measured[output];
+      if (part == Part::drive)
+        of_output.push_back(
+            {run.run.period_s, 0, paces_of(measured, run.run.period_s, window.first, window.rows)});
+      else
+        of_output.push_back(
+            {run.run.period_s, natural_radps * softened(measured, window), Paces(window.rows)});
+    }
+  }
+}
+
+std::vector<std::vector<VectorXd>> Problem::residuals(const Crane& crane) const {
+  const Fits fits = fit(crane);
+  std::vector<std::vector<VectorXd>> result(outputs_.size());
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    const VectorXd left =
+        disturbances_.empty() ? fits[w].residual : measured(windows_[w]) - fits[w].simulated;
+    const auto rows = static_cast<Index>(windows_[w].rows);
+    for (std::size_t output = 0; output < outputs_.size(); ++output)
+      result[output].emplace_back(left.segment(static_cast<Index>(output) * rows, rows));
+  }
+  return result;
+}
+
+void Problem::whiten_with(std::vector<Disturbance> disturbances) {
+  disturbances_ = std::move(disturbances);
+  whiteners_.assign(outputs_.size(), {});
+  for (std::size_t output = 0; output < outputs_.size(); ++output)
+    for (const Passage& passage : passages_[output])
+      whiteners_[output].emplace_back(disturbances_[output], passage);
+}
+
+void Problem::learn_disturbance(const Crane& crane) {
+  disturbances_.clear();
+  // After the first time with starts that were solved for with what was learnt before.
+  for (int round = 0; round < kLearningRounds; ++round) {
+    const std::vector<std::vector<VectorXd>> plain = residuals(crane);
+    std::vector<Disturbance> learned;
+    for (std::size_t output = 0; output < outputs_.size(); ++output)
+      learned.push_back(learn(plain[output], passages_[output],
+                              disturbances_.empty() ? Disturbance{} : disturbances_[output]));
+    whiten_with(std::move(learned));
+  }
+}
+
+std::vector<Replay> Problem::replays(const Runs& runs, const Crane& crane) const {
+  std::vector<std::optional<Replay>> made(runs.size());
+  parallel_for(runs.size(), [&](std::size_t i) { made[i].emplace(runs[i], crane, part_); });
+  std::vector<Replay> result;
+  result.reserve(made.size());
+  for (auto& replay : made) result.push_back(std::move(*replay));
+  return result;
+}
+
+VectorXd Problem::simulate(const Replay& replay, const Window& window, const VectorXd& start) const {
+  const std::size_t all = window.lead + window.rows;
+  std::vector<double> out(all * outputs_.size());
+  replay.run(window.first - window.lead, all, {start.data(), static_cast<std::size_t>(start.size())}, out);
+  VectorXd kept(static_cast<Index>(window.rows * outputs_.size()));
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    kept.segment(static_cast<Index>(i * window.rows), static_cast<Index>(window.rows)) =
+        Eigen::Map<const VectorXd>(&out[i * all + window.lead], static_cast<Index>(window.rows));
+  return kept;
+}
+
+VectorXd Problem::measured(const Window& window) const {
+  VectorXd values(static_cast<Index>(window.rows * outputs_.size()));
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    values.segment(static_cast<Index>(i * window.rows), static_cast<Index>(window.rows)) =
+        Eigen::Map<const VectorXd>(&runs_[window.run].run.measured[outputs_[i]][window.first],
+                                   static_cast<Index>(window.rows));
+  return values;
+}
+
+void Problem::whiten(std::size_t window, Eigen::Ref<MatrixXd> x) const {
+  const auto rows = static_cast<Index>(windows_[window].rows);
+  for (std::size_t i = 0; i < disturbances_.size(); ++i) {
+    whiteners_[i][window].apply(x.middleRows(static_cast<Index>(i) * rows, rows));
+  }
+}
+
+MatrixXd Problem::start_slopes(const Replay& replay, std::size_t at, const VectorXd& start,
+                               const VectorXd& simulated, Index first) const {
+  MatrixXd slopes(simulated.size(), start.size() - first);
+  for (Index i = first; i < start.size(); ++i) {
+    const double step = i % 2 == 0 ? kPositionStep : kRateStep;
+    VectorXd moved = start;
+    moved[i] += step;
+    slopes.col(i - first) = (simulate(replay, windows_[at], moved) - simulated) / step;
+  }
+  whiten(at, slopes);
+  return slopes;
+}
+
+VectorXd Problem::measured_start(const Replay& replay, const Window& window) {
+  const std::vector<double> start = replay.measured_start(window.first - window.lead);
+  return Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
+}
+
+void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
+  fit.simulated = simulate(replay, windows_[at], fit.start);
+  MatrixXd slopes = start_slopes(replay, at, fit.start, fit.simulated, 0);
+  // By what a believable change of each does. A coordinate of a term's own is in a length of its own: what it
+  // changes counts against the rest in shape.
+  const Index measured = bare_start();
+  VectorXd scale(slopes.cols());
+  for (Index i = 0; i < measured; ++i) scale[i] = i % 2 == 0 ? kMostPosition : kMostRate;
+  const double strongest =
+      (slopes.leftCols(measured) * scale.head(measured).asDiagonal()).colwise().norm().maxCoeff();
+  for (Index i = measured; i < slopes.cols(); ++i) {
+    const double norm = slopes.col(i).norm();
+    scale[i] = norm > 0 ? strongest / norm : 1;
+  }
+  slopes = slopes * scale.asDiagonal();
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes.rows(), slopes.cols());
+  qr.setThreshold(kLeastSlope);
+  qr.compute(slopes);
+  fit.basis = qr.householderQ() * MatrixXd::Identity(slopes.rows(), qr.rank());
+  fit.to_start = scale.asDiagonal() * qr.solve(MatrixXd(fit.basis)) * fit.basis.transpose();
+  fit.freedom = static_cast<double>(slopes.cols() - measured);
+}
+
+/// Rounds with the directions there are, as long as they help: around standstill they may not.
+/// @pre simulated from the start
+void Problem::settle_start(const Replay& replay, std::size_t at, const VectorXd& target,
+                           WindowFit& fit) const {
+  fit.residual = target - fit.simulated;
+  whiten(at, fit.residual);
+  for (int round = 1; round < kStartRounds; ++round) {
+    const double found = disturbances_.empty() ? kPlainStartFound * fit.residual.squaredNorm() : kStartFound;
+    if ((fit.basis.transpose() * fit.residual).squaredNorm() < found) return;
+    const VectorXd start = fit.start + believable(fit.to_start * fit.residual, bare_start());
+    VectorXd simulated = simulate(replay, windows_[at], start);
+    VectorXd residual = target - simulated;
+    whiten(at, residual);
+    if (residual.squaredNorm() >= fit.residual.squaredNorm()) return;
+    fit.start = start;
+    fit.simulated = std::move(simulated);
+    fit.residual = std::move(residual);
+  }
+}
+
+void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) const {
+  const Window& window = windows_[at];
+  fit.start = fit.measured_start = measured_start(replay, window);
+  const VectorXd target = measured(window);
+  linearise(replay, at, fit);
+  settle_start(replay, at, target, fit);
+  linearise(replay, at, fit);
+  fit.residual = target - fit.simulated;
+  whiten(at, fit.residual);
+  fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
+}
+
+Fits Problem::fit(const Crane& crane) const {
+  const std::vector<Replay> replay = replays(runs_, crane);
+  Fits fits(windows_.size());
+  parallel_for(windows_.size(), [&](std::size_t w) { fit_start(replay[windows_[w].run], w, fits[w]); });
+  return fits;
+}
+
+Fits Problem::fit_near(const Crane& crane, const Fits& near) const {
+  const std::vector<Replay> replay = replays(runs_, crane);
+  Fits fits = near;
+  parallel_for(windows_.size(), [&](std::size_t w) {
+    const Window& window = windows_[w];
+    WindowFit& fit = fits[w];
+    if (static_cast<std::size_t>(fit.start.size()) != replay[window.run].start_size())
+      return fit_start(replay[window.run], w, fit);
+    const VectorXd target = measured(window), moved = measured_start(replay[window.run], window);
+    fit.start += moved - fit.measured_start;
+    fit.measured_start = moved;
+    fit.simulated = simulate(replay[window.run], window, fit.start);
+    settle_start(replay[window.run], w, target, fit);
+    fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
+  });
+  return fits;
+}
+
+std::vector<VectorXd> Problem::change(const Crane& crane, const Fits& at, double step, double* own) const {
+  return change_on(runs_, crane, at, step, own);
+}
+
+std::vector<VectorXd> Problem::change_on(const Runs& runs, const Crane& crane, const Fits& at, double step,
+                                         double* own) const {
+  const std::vector<Replay> replay = replays(runs, crane);
+  std::vector<VectorXd> changes(windows_.size());
+  std::vector<double> gains(windows_.size());
+  parallel_for(windows_.size(), [&](std::size_t w) {
+    changes[w] = change_in(replay[windows_[w].run], w, at[w], step, gains[w]);
+  });
+  if (own != nullptr) *own = std::accumulate(gains.begin(), gains.end(), 0.0);
+  return changes;
+}
+
+VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit& at, double step,
+                            double& own_gain) const {
+  const auto outside = [&](const MatrixXd& x) -> MatrixXd {
+    return x - at.basis * (at.basis.transpose() * x).eval();
+  };
+  VectorXd start = measured_start(replay, windows_[w]);
+  const auto known = at.start.size(), all = start.size();
+  start.head(known) += at.start - at.measured_start;
+  const VectorXd simulated = simulate(replay, windows_[w], start);
+  MatrixXd change = (simulated - at.simulated) / step;
+  whiten(w, change);
+  change = outside(change);
+  if (all > known) {
+    MatrixXd slopes = outside(start_slopes(replay, w, start, simulated, known));
+    slopes.colwise().normalize();
+    Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes.rows(), slopes.cols());
+    qr.setThreshold(kLeastSlope);
+    qr.compute(slopes);
+    const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(slopes.rows(), qr.rank());
+    change -= basis * (basis.transpose() * change).eval();
+    own_gain = (basis.transpose() * weights_of(at.residual).cwiseProduct(at.residual)).squaredNorm() -
+               kStartPrice * static_cast<double>(all - known);
+  }
+  return change;
+}
+
+}  // namespace crane::diagnosis

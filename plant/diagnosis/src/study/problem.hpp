@@ -1,0 +1,110 @@
+#pragma once
+/// Multiple shooting over one part (drive or load) of all runs: the data in windows of a few seconds, each
+/// with a start of its own that is solved for and projected away.
+#include <Eigen/Dense>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "crane/diagnosis/replay.hpp"
+#include "noise/whitening.hpp"
+
+namespace crane::diagnosis {
+
+using Runs = std::vector<PreparedRun>;
+
+/// Rows compared; the replay begins `lead` rows earlier so that sensors and filters have a past.
+struct Window {
+  std::size_t run = 0, first = 0, rows = 0, lead = 0;
+};
+
+/// One window around one crane: everything whitened, the start's directions taken out.
+struct WindowFit {
+  Eigen::VectorXd start;
+  Eigen::VectorXd measured_start;  ///< what the crane's sensors make of the measurement
+  Eigen::VectorXd simulated;       ///< outputs one after the other, lead left out, not whitened
+  Eigen::VectorXd residual;        ///< measured - simulated, whitened, projected
+  Eigen::MatrixXd basis;           ///< orthonormal directions of the start, whitened
+  Eigen::MatrixXd to_start;        ///< whitened residual to change of start
+  double freedom = 0;              ///< directions of the start that the bare crane does not have
+};
+using Fits = std::vector<WindowFit>;
+
+/// A direction of the start that only the extended crane has takes one noise variance out of a window by
+/// luck; more in coloured residuals.
+inline constexpr double kStartPrice = 2;
+
+/// Length of a window that is its run.
+inline constexpr double kWholeRun = std::numeric_limits<double>::infinity();
+
+class Problem {
+ public:
+  /// @param window_s wanted length; runs are divided into equal parts of about that
+  /// @param natural_radps of the swing
+  Problem(const Runs& runs, Part part, double window_s, double natural_radps);
+
+  [[nodiscard]] Part part() const { return part_; }
+  [[nodiscard]] bool empty() const { return windows_.empty(); }
+  [[nodiscard]] const std::vector<Window>& windows() const { return windows_; }
+  [[nodiscard]] const std::vector<Output>& outputs() const { return outputs_; }
+  [[nodiscard]] const Runs& runs() const { return runs_; }
+
+  /// Learns noise and disturbance per output from the residuals of `crane` and whitens with them from now on.
+  void learn_disturbance(const Crane& crane);
+  /// Whitens as `other` does.
+  void whiten_like(const Problem& other) { whiten_with(other.disturbances_); }
+  [[nodiscard]] const Whitener& whitener(std::size_t output, std::size_t window) const {
+    return whiteners_[output][window];
+  }
+  [[nodiscard]] const std::vector<Disturbance>& disturbances() const { return disturbances_; }
+
+  /// Solves for the starts from the measured ones.
+  [[nodiscard]] Fits fit(const Crane& crane) const;
+  /// Solves for the starts with the directions of `near`, a crane that differs little; as fit() where it has
+  /// other coordinates.
+  [[nodiscard]] Fits fit_near(const Crane& crane, const Fits& near) const;
+  /// Change of the outputs against `at` per unit, whitened and projected: (outputs of crane - at) / step. The
+  /// start of coordinates that only `crane` has is taken out too.
+  /// @param own if given, takes the decrease of the loss that the start of such coordinates makes alone, less
+  /// its price
+  [[nodiscard]] std::vector<Eigen::VectorXd> change(const Crane& crane, const Fits& at, double step,
+                                                    double* own = nullptr) const;
+
+  /// The same with other runs (commands changed) through the same crane.
+  [[nodiscard]] std::vector<Eigen::VectorXd> change_on(const Runs& runs, const Crane& crane, const Fits& at,
+                                                       double step, double* own = nullptr) const;
+  /// Measured rows of a window, outputs one after the other.
+  [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
+
+ private:
+  /// Residuals [output][window], not whitened, of starts that were solved for with what is known.
+  [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Crane& crane) const;
+  /// Numbers of a start that every crane has.
+  [[nodiscard]] Eigen::Index bare_start() const { return static_cast<Eigen::Index>(2 * outputs_.size()); }
+  void whiten_with(std::vector<Disturbance> disturbances);
+  [[nodiscard]] std::vector<Replay> replays(const Runs& runs, const Crane& crane) const;
+  [[nodiscard]] Eigen::VectorXd simulate(const Replay& replay, const Window& window,
+                                         const Eigen::VectorXd& start) const;
+  void whiten(std::size_t window, Eigen::Ref<Eigen::MatrixXd> x) const;
+  /// Whitened changes of the outputs per unit of the start's numbers from `first` on.
+  [[nodiscard]] Eigen::MatrixXd start_slopes(const Replay& replay, std::size_t window,
+                                             const Eigen::VectorXd& start, const Eigen::VectorXd& simulated,
+                                             Eigen::Index first) const;
+  [[nodiscard]] Eigen::VectorXd change_in(const Replay& replay, std::size_t window, const WindowFit& at,
+                                          double step, double& own_gain) const;
+  [[nodiscard]] static Eigen::VectorXd measured_start(const Replay& replay, const Window& window);
+  void linearise(const Replay& replay, std::size_t window, WindowFit& fit) const;
+  void settle_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
+                    WindowFit& fit) const;
+  void fit_start(const Replay& replay, std::size_t window, WindowFit& fit) const;
+
+  const Runs& runs_;
+  Part part_;
+  std::vector<Output> outputs_;
+  std::vector<Window> windows_;
+  std::vector<std::vector<Passage>> passages_;    ///< by output and window
+  std::vector<Disturbance> disturbances_;         ///< by output; empty: plain residuals
+  std::vector<std::vector<Whitener>> whiteners_;  ///< by output and window
+};
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <random>
+
+#include "study/blocks.hpp"
+#include "parallel.hpp"
+#include "force/position_spectrum.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t kSignFlips = 999;
+constexpr std::size_t kWaves = 4;
+
+double chi_square_p(double statistic, Index freedom) {
+  return statistic <= 0 ? 1.0 : boost::math::gamma_q(0.5 * static_cast<double>(freedom), 0.5 * statistic);
+}
+
+/// Directions of one candidate in one shape, block by block, what is known already taken out.
+struct Directions {
+  MatrixXd by_block, curvature;
+  bool one_sided = false;
+
+  [[nodiscard]] double statistic(const VectorXd& signs) const {
+    const VectorXd sum = by_block.transpose() * signs;
+    if (one_sided && sum[0] <= 0) return 0;
+    const VectorXd solved = solve(by_block.transpose() * by_block, sum);
+    return std::max(0.0, sum.dot(solved));
+  }
+  [[nodiscard]] double p_value(const VectorXd& signs) const {
+    return chi_square_p(statistic(signs), by_block.cols());
+  }
+};
+
+/// The last `fresh` directions of `both`, those before them taken out.
+Directions beside_known(const BlockScores& both, Index fresh) {
+  const Index old = both.curvature.cols() - fresh;
+  Directions d{both.by_block.rightCols(fresh), both.curvature.bottomRightCorner(fresh, fresh)};
+  if (old == 0) return d;
+  const MatrixXd cross = both.curvature.topRightCorner(old, fresh);
+  MatrixXd share(old, fresh);
+  for (Index j = 0; j < fresh; ++j)
+    share.col(j) = solve(both.curvature.topLeftCorner(old, old), cross.col(j));
+  d.by_block -= both.by_block.leftCols(old) * share;
+  d.curvature -= cross.transpose() * share;
+  return d;
+}
+
+void judge(const Directions& d, Score& score) {
+  const VectorXd total = d.by_block.colwise().sum().transpose();
+  const VectorXd amounts = solve(d.curvature, total);
+  score.amounts.assign(amounts.data(), amounts.data() + amounts.size());
+  score.gain = d.one_sided && total[0] <= 0 ? 0 : std::max(0.0, total.dot(amounts));
+  const VectorXd as_they_are = VectorXd::Ones(d.by_block.rows());
+  score.statistic = d.statistic(as_they_are);
+  score.p_value = d.p_value(as_they_are);
+}
+
+/// Decrease of the loss when the residuals change by all of `change`.
+double as_it_is(const Fits& fits, const std::vector<VectorXd>& change) {
+  double gain = 0;
+  for (std::size_t w = 0; w < change.size(); ++w)
+    gain += loss_of(fits[w].residual) - loss_of(fits[w].residual - change[w]);
+  return gain;
+}
+
+/// How often does nothing but luck give a p-value as small as `least` somewhere?
+double luck(const std::vector<Directions>& directions, double least, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<VectorXd> signs(kSignFlips);
+  const Index blocks = directions.empty() ? 0 : directions[0].by_block.rows();
+  for (VectorXd& flip : signs) {
+    flip.resize(blocks);
+    for (Index b = 0; b < blocks; ++b) flip[b] = (random() & 1U) != 0U ? 1.0 : -1.0;
+  }
+  std::vector<double> smallest(kSignFlips, 1.0);
+  parallel_for(kSignFlips, [&](std::size_t f) {
+    for (const Directions& d : directions) smallest[f] = std::min(smallest[f], d.p_value(signs[f]));
+  });
+  std::size_t as_small = 1;
+  for (const double value : smallest) as_small += value <= least ? 1 : 0;
+  return static_cast<double>(as_small) / (kSignFlips + 1);
+}
+
+}  // namespace
+
+std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Evaluation& at) const {
+  if (!candidate.waves) return candidate.shapes;
+  const auto& outputs = train_drive_->outputs();
+  const auto axis = static_cast<Output>(plant::drive_axis(candidate.axis));
+  const auto output =
+      static_cast<std::size_t>(std::find(outputs.begin(), outputs.end(), axis) - outputs.begin());
+  const double gain =
+      axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
+  std::vector<Shape> shapes;
+  for (const PositionWave& wave : strongest_waves(*train_drive_, at.drive, output, kWaves))
+    shapes.push_back({{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}});
+  return shapes;
+}
+
+std::vector<Score> Study::places(const Effects& effects, const Evaluation& at) const {
+  std::vector<Score> all;
+  for (std::size_t c = 0; c < candidates_.size(); ++c)
+    if (std::none_of(effects.begin(), effects.end(),
+                     [&](const Effect& effect) { return effect.candidate == &candidates_[c]; }))
+      for (Shape& shape : shapes_of(candidates_[c], at))
+        all.push_back({.candidate = c, .shape = std::move(shape), .amounts = {}});
+  return all;
+}
+
+double Study::add_probes(const Effects& effects, const Evaluation& at, const Score& place,
+                         Slopes& slopes) const {
+  double own = 0;
+  const auto change = [&](const Problem& problem, const Fits& fits, const Crane& crane, double amount) {
+    double gain = 0;
+    auto changes = problem.change(crane, fits, amount, &gain);
+    own += gain;
+    return changes;
+  };
+  const Candidate& candidate = candidates_[place.candidate];
+  const Shape& shape = place.shape;
+  for (std::size_t p = 0; p < shape.probes.size(); ++p) {
+    Crane crane = with(effects);
+    crane.terms.push_back(shape.probes[p]);
+    slopes.drive.push_back(candidate.drive && !train_drive_->empty()
+                               ? change(*train_drive_, at.drive, crane, shape.amounts[p])
+                               : std::vector<VectorXd>{});
+    slopes.load.push_back(candidate.load && !train_load_->empty()
+                              ? change(*train_load_, at.load, crane, shape.amounts[p])
+                              : std::vector<VectorXd>{});
+  }
+  return own;
+}
+
+ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const {
+  std::vector<Score> scores = places(effects, at);
+  const Slopes known = slopes(effects, at);
+  std::vector<Directions> directions(scores.size());
+  parallel_for(scores.size(), [&](std::size_t i) {
+    Slopes all = known;
+    const double own = add_probes(effects, at, scores[i], all);
+    const auto fresh = static_cast<Index>(all.drive.size() - known.drive.size());
+    directions[i] = beside_known(joined(block_scores(*train_drive_, at.drive, all.drive),
+                                        block_scores(*train_load_, at.load, all.load)),
+                                 fresh);
+    directions[i].one_sided = candidates_[scores[i].candidate].one_sided;
+    judge(directions[i], scores[i]);
+    const Candidate& candidate = candidates_[scores[i].candidate];
+    if (candidate.nonlinear)
+      scores[i].gain = as_it_is(at.drive, all.drive.back()) + as_it_is(at.load, all.load.back());
+    scores[i].gain = std::max(0.0, scores[i].gain + own);
+    const double loss = (candidate.drive ? at.drive_loss : 0) + (candidate.load ? at.load_loss : 0);
+    scores[i].share = loss > 0 ? scores[i].gain / loss : 0;
+  });
+  ScoreTable table;
+  double least = 1;
+  for (const Score& score : scores) least = std::min(least, score.p_value);
+  table.p_value = luck(directions, least, seed);
+  for (const Score& score : scores) {
+    if (table.best.empty() || table.best.back().candidate != score.candidate)
+      table.best.push_back(score);
+    else if (score.gain > table.best.back().gain)
+      table.best.back() = score;
+  }
+  return table;
+}
+
+}  // namespace crane::diagnosis

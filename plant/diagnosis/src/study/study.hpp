@@ -1,0 +1,122 @@
+#pragma once
+/// One body of data, one base model, its candidates: score tests and fits of hypotheses.
+#include <Eigen/Dense>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "crane/diagnosis/candidate.hpp"
+#include "study/problem.hpp"
+#include "robust.hpp"
+
+namespace crane::diagnosis {
+
+/// Effects that are taken to be there, with their values.
+struct Effect {
+  const Candidate* candidate = nullptr;
+  std::vector<double> values;
+};
+using Effects = std::vector<Effect>;
+
+/// Sums of squares of consecutive pieces of the whitened residual, about `kBlock_s` of time each: what is
+/// resampled. Parts follow each other: drive, load.
+using Blocks = std::vector<double>;
+inline constexpr double kBlock_s = 2.0;
+
+/// A body of data around one crane.
+struct Evaluation {
+  Fits drive, load;
+  Blocks blocks;
+  std::size_t drive_blocks = 0;  ///< the first of them
+  bool sticks = false;           ///< one of the drives
+  double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
+};
+
+struct Fitted {
+  Effects effects;
+  Evaluation train, test;
+  std::vector<double> std_dev;  ///< of all values, one effect after the other; block-robust
+  Eigen::MatrixXd covariance;   ///< the same before resampling
+  Eigen::VectorXd by_noise;     ///< std_dev if noise and disturbance are exactly as learnt
+  std::size_t parameters = 0;
+};
+
+/// One candidate in one shape.
+struct Score {
+  std::size_t candidate = 0;
+  Shape shape;
+  double statistic = 0;  ///< chi-square of the block-robust score
+  double p_value = 1;    ///< by itself
+  double gain = 0;       ///< decrease of the loss that the slopes promise
+  double share = 0;      ///< the same as a share of the loss of the parts that the candidate shows in
+  std::vector<double> amounts;
+};
+
+struct ScoreTable {
+  std::vector<Score> best;  ///< best shape of every candidate, in the candidates' order
+  double p_value = 1;       ///< that the largest of all comes from nothing, by flipping the signs of blocks
+};
+
+struct BlockScores;
+
+class Study {
+ public:
+  /// @param excluded causes that are no candidates
+  Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
+        const std::vector<std::string>& excluded = {});
+
+  [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
+  [[nodiscard]] const Crane& base() const { return base_; }
+  [[nodiscard]] Crane with(const Effects& effects) const;
+
+  /// Learns noise and disturbance from what the base model with the effects leaves, and evaluates the base
+  /// model. Before anything else.
+  /// @return minus twice the log likelihood of the training residuals, but for a constant
+  double learn_disturbance(const Effects& effects = {});
+
+  /// The base model.
+  [[nodiscard]] const Evaluation& base_train() const { return base_train_; }
+  [[nodiscard]] const Evaluation& base_test() const { return base_test_; }
+  /// Only the parts that `effects` show in are simulated again.
+  [[nodiscard]] Evaluation train(const Effects& effects) const;
+  [[nodiscard]] Evaluation test(const Effects& effects) const;
+  /// Does one more effect explain what `at` leaves? @param seed of the sign flips
+  [[nodiscard]] ScoreTable score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const;
+  /// Least squares over the training data from the given values, within bounds.
+  /// @param hopeless a training loss: the fit is given up when it will not come below it
+  [[nodiscard]] Fitted fit(Effects effects, double hopeless = std::numeric_limits<double>::infinity()) const;
+
+  [[nodiscard]] const Problem& drive() const { return *train_drive_; }
+  [[nodiscard]] const Problem& load() const { return *train_load_; }
+  [[nodiscard]] const Problem& test_drive() const { return *test_drive_; }
+  [[nodiscard]] const Problem& test_load() const { return *test_load_; }
+
+  struct Slopes;
+
+ private:
+  [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
+  /// Along every parameter of the effects.
+  [[nodiscard]] BlockScores pulls(const Fitted& at, Loss loss) const;
+  /// Gauss-Newton rounds from where `best` is.
+  void descend(Fitted& best, Loss loss, double hopeless) const;
+  /// Every shape of every candidate that is not among the effects.
+  [[nodiscard]] std::vector<Score> places(const Effects& effects, const Evaluation& at) const;
+  [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Evaluation& at) const;
+  /// Appends the changes that the probes of a candidate's shape make.
+  /// @return what the start of its own coordinates gains
+  double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
+  [[nodiscard]] Evaluation evaluate(const Problem& drive, const Problem& load, const Effects& effects,
+                                    const Evaluation& near) const;
+
+  Crane base_;
+  std::vector<Candidate> candidates_;
+  std::unique_ptr<Problem> train_drive_, train_load_, test_drive_, test_load_;
+  Evaluation base_train_, base_test_;
+};
+
+/// Loss of each block.
+[[nodiscard]] Blocks blocks_of(const Problem& problem, const Fits& fits);
+[[nodiscard]] double sum(const Blocks& blocks);
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "search/compare.hpp"
+#include "crane/diagnosis/diagnosis.hpp"
+#include "search/held_out.hpp"
+#include "search/intervals.hpp"
+#include "verdict/judgement.hpp"
+#include "experiment/next_experiment.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+/// An effect that leaves less than this share of the loss of drives or load has been taken for noise, which
+/// hides what is small beside it.
+constexpr double kHiding = 0.95;
+constexpr std::size_t kContenders = 3;
+
+Runs prepared(std::vector<Run> runs, const runtime::Rig& rig) {
+  Runs all;
+  for (Run& run : runs) all.push_back(prepare(std::move(run), rig));
+  return all;
+}
+
+double total_s(const Runs& runs) {
+  double sum = 0;
+  for (const PreparedRun& run : runs) sum += run.run.duration_s();
+  return sum;
+}
+
+/// "training data (a.csv, b.csv)"
+std::string called(const std::string& what, const Runs& runs) {
+  std::string names;
+  for (const PreparedRun& run : runs)
+    if (names.find(run.run.name) == std::string::npos) names += (names.empty() ? "" : ", ") + run.run.name;
+  return what + (names.empty() ? "" : " (" + names + ")");
+}
+
+/// What is wrong with runs in which too little happens.
+void add_problems(const std::string& what, const Runs& runs, double least_s, const runtime::Rig& rig,
+                  std::vector<std::string>& problems) {
+  constexpr double kLeastRate = 0.01, kLeastWay = 0.005;
+  if (total_s(runs) < least_s)
+    problems.push_back((std::ostringstream{} << called(what, runs) << ": " << total_s(runs)
+                                             << " s in all: at least " << least_s << " s")
+                           .str());
+  bool moves = false;
+  for (const PreparedRun& run : runs)
+    for (const Motion& motion : run.motion) {
+      if (motion.position.empty()) continue;
+      const auto [low, high] = std::minmax_element(motion.position.begin(), motion.position.end());
+      double fastest = 0;
+      for (const double rate : motion.rate) fastest = std::max(fastest, std::abs(rate));
+      moves = moves || (fastest > kLeastRate && *high - *low > kLeastWay);
+    }
+  if (!moves)
+    problems.push_back((std::ostringstream{} << called(what, runs) << ": nothing of " << rig.name
+                                             << " moves by more than " << kLeastWay << " and faster than "
+                                             << kLeastRate << " /s (m or rad): record a motion")
+                           .str());
+}
+
+/// Whether anything happens in the data.
+void require_excitation(const Runs& train, const Runs& test, const runtime::Rig& rig) {
+  constexpr double kLeastTraining_s = 8, kLeastHeldOut_s = 4;
+  std::vector<std::string> problems;
+  add_problems("training data", train, kLeastTraining_s, rig, problems);
+  if (!test.empty()) add_problems("held-out data", test, kLeastHeldOut_s, rig, problems);
+  if (!problems.empty()) throw DataError(problems);
+}
+
+/// The motion that tells the first effect from its strongest rival.
+std::optional<NextExperiment> proposal(const runtime::Rig& rig, const Study& study, const Hypotheses& found,
+                                       const Candidate& rival) {
+  const auto single = std::find_if(found.singles.begin(), found.singles.end(),
+                                   [&](const Fitted& f) { return f.effects[0].candidate == &rival; });
+  if (single == found.singles.end()) return std::nullopt;
+  Disturbances disturbances{};
+  for (const Problem* problem : {&study.drive(), &study.load()})
+    for (std::size_t i = 0; i < problem->outputs().size(); ++i)
+      disturbances[problem->outputs()[i]] = problem->disturbances()[i];
+  const Effect& first = found.best.effects[0];
+  return propose_experiment(rig, *first.candidate, first.values, rival, single->effects[0].values,
+                            disturbances);
+}
+
+/// Singles that explain so much that their effect has been taken for noise, best first.
+std::vector<Effects> hiding(const Hypotheses& found) {
+  std::vector<const Fitted*> order;
+  const Evaluation& base = found.base.train;
+  for (const Fitted& single : found.singles)
+    if (single.train.drive_loss < kHiding * base.drive_loss ||
+        single.train.load_loss < kHiding * base.load_loss)
+      order.push_back(&single);
+  std::sort(order.begin(), order.end(), [](const Fitted* a, const Fitted* b) { return less(*a, *b); });
+  order.resize(std::min(order.size(), kContenders));
+  std::vector<Effects> effects;
+  effects.reserve(order.size());
+  for (const Fitted* single : order) effects.push_back(single->effects);
+  return effects;
+}
+
+/// Noise and disturbance learnt from the residuals of the hypothesis that makes them likeliest: which of two
+/// causes leaves less is hardly seen in units of a noise that holds them both.
+Hypotheses learnt_anew(Study& study, const Request& request, const Hypotheses& before,
+                       const std::vector<Effects>& contenders) {
+  request.progress(0.4, "noise and disturbance of what is left");
+  const Effects* likeliest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Effects& effects : contenders) {
+    const double misfit = study.learn_disturbance(effects);
+    if (misfit < least) least = misfit, likeliest = &effects;
+  }
+  if (likeliest != &contenders.back()) study.learn_disturbance(*likeliest);
+  return singles_again(study, request, before);
+}
+
+Hypotheses searched(Study& study, const Request& request) {
+  request.progress(0.02, "noise and disturbance");
+  study.learn_disturbance();
+  Hypotheses found = singles(study, request);
+  const std::vector<Effects> contenders = hiding(found);
+  if (!contenders.empty()) found = learnt_anew(study, request, found, contenders);
+  return extended(study, request, found);
+}
+
+/// The best hypothesis with values of its own: in noise and disturbance of what itself leaves.
+Fitted settled(Study& study, const Fitted& best, std::uint64_t seed) {
+  study.learn_disturbance(best.effects);
+  return with_intervals(study, study.fit(best.effects), seed);
+}
+
+void give_values(const Fitted& best, Diagnosis& result) {
+  const std::vector<Estimate> values = estimates(best);
+  auto next = values.begin();
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    const Effect& effect = best.effects[i];
+    const auto end = next + static_cast<std::ptrdiff_t>(effect.values.size());
+    result.causes[i].parameters.assign(next, end);
+    next = end;
+    result.extension.push_back(effect.candidate->setting(effect.values));
+  }
+  for (Ranked& ranked : result.ranking)
+    if (ranked.label == label_of(best.effects)) ranked.parameters = values;
+}
+
+Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test, const Request& request) {
+  Study study(rig, train, test, request.excluded);
+  Hypotheses found = searched(study, request);
+  request.progress(0.85, "what is left");
+  auto [result, rivals] = judge(study, found, request.seed);
+  if (!found.best.effects.empty()) {
+    request.progress(0.88, "how well the data know it");
+    found.best = settled(study, found.best, request.seed);
+    give_values(found.best, result);
+  }
+  request.progress(0.92, "held-out runs");
+  result.held_out = held_out(study, found.best.effects, request.seed);
+  if (!found.best.effects.empty() && result.held_out.gain_ci95[1] < 0)
+    doubt(result, "held-out runs: the extended model simulates them worse");
+  if (!rivals.empty()) {
+    request.progress(0.95, "which motion would tell them apart");
+    result.next_experiment = proposal(rig, study, found, *rivals[0]);
+  }
+  result.traces = traces(study, found.best.effects);
+  request.progress(1, "done");
+  return result;
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  return std::array{"none", "named", "ambiguous", "parameter", "unknown"}[static_cast<std::size_t>(verdict)];
+}
+
+Diagnosis diagnose(const runtime::Rig& rig, std::vector<Run> train, std::vector<Run> test,
+                   const Request& request) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Runs training = prepared(std::move(train), rig), testing = prepared(std::move(test), rig);
+  require_excitation(training, testing, rig);
+  Diagnosis result = diagnosed(rig, training, testing, request);
+  result.runtime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace crane::diagnosis
