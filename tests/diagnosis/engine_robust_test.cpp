@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "noise/paces.hpp"
 #include "force/position_spectrum.hpp"
+#include "noise/paces.hpp"
 #include "robust.hpp"
 #include "sealed_case.hpp"
 

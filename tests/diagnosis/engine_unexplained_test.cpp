@@ -6,10 +6,10 @@
 #include <random>
 
 #include "force/force_lines.hpp"
-#include "replay/friction_step.hpp"
-#include "search/intervals.hpp"
-#include "sealed_case.hpp"
 #include "force/unexplained.hpp"
+#include "replay/friction_step.hpp"
+#include "sealed_case.hpp"
+#include "search/intervals.hpp"
 
 namespace crane::diagnosis {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "experiment/motion_menu.hpp"
+#include "experiment/safe_run.hpp"
 #include "noise/paces.hpp"
 #include "parallel.hpp"
-#include "experiment/safe_run.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -16,13 +16,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kWindow_s = 2.5;
-constexpr double kLead_s = 0.3;  // terms with a memory fill it; not compared
+constexpr double kPredicted_s = 2.5;
+constexpr double kBefore_s = 0.3;  // terms with a memory fill it; not compared
 constexpr double kLeastSeparation = 10;
 constexpr int kRounds = 10;
-constexpr double kLeastGain = 1;    // of the sum of squares
-constexpr double kLeastStep = 0.1;  // of the Gauss-Newton step
-constexpr std::size_t kEvery = 2;   // windows compared: enough to rank motions
+constexpr double kLeastApproach = 1;  // of the sum of squares
+constexpr double kLeastStep = 0.1;    // of the Gauss-Newton step
+constexpr std::size_t kEvery = 2;     // windows compared: enough to rank motions
 
 struct Hypothesis {
   const Candidate* candidate = nullptr;
@@ -37,8 +37,8 @@ class Comparison {
   Comparison(const PreparedRun& run, Part part, double gravity_mps2, const Disturbances& disturbances)
       : run_(run), part_(part), outputs_(simulated_outputs(run, part)) {
     const double period_s = run.run.period_s;
-    rows_ = std::min(static_cast<std::size_t>(std::lround(kWindow_s / period_s)), run.run.rows());
-    lead_ = static_cast<std::size_t>(std::lround(kLead_s / period_s));
+    rows_ = std::min(static_cast<std::size_t>(std::lround(kPredicted_s / period_s)), run.run.rows());
+    lead_ = static_cast<std::size_t>(std::lround(kBefore_s / period_s));
     for (const Output output : outputs_)
       for (std::size_t w = 0; w < windows(); ++w) {
         const std::size_t first = first_of(w) + lead_, kept = rows_ - lead_;
@@ -161,7 +161,7 @@ class Rival {
         gain = residual.squaredNorm() - after.squaredNorm();
         if (gain > 0) hypothesis = next, residual = after;
       }
-      if (gain < kLeastGain) return;
+      if (gain < kLeastApproach) return;
     }
   }
 

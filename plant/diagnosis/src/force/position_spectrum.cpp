@@ -22,16 +22,16 @@ constexpr double kSpacing = 0.25;
 /// Five waves over the travel; longer ones are friction that depends on position.
 constexpr std::size_t kFirst = 20;
 
-struct Extent {
+struct Travel {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-Extent travelled(const Problem& drive, Output axis) {
-  Extent extent;
+Travel travelled(const Problem& drive, Output axis) {
+  Travel way;
   for (const Window& window : drive.windows())
     for (const double at : drive.runs()[window.run].run.measured[axis])
-      extent.low = std::min(extent.low, at), extent.high = std::max(extent.high, at);
-  return extent;
+      way.low = std::min(way.low, at), way.high = std::max(way.high, at);
+  return way;
 }
 
 struct Wave {
@@ -60,8 +60,8 @@ Wave wave_of(const Problem& drive, const Fits& fits, std::size_t output, double 
 
 std::vector<PositionWave> strongest_waves(const Problem& drive, const Fits& fits, std::size_t output,
                                           std::size_t count) {
-  const Extent extent = travelled(drive, drive.outputs()[output]);
-  const double travel = extent.high - extent.low;
+  const Travel way = travelled(drive, drive.outputs()[output]);
+  const double travel = way.high - way.low;
   if (!(travel > 0)) return {};
   std::vector<Wave> lines(kPlaces);
   parallel_for(kPlaces, [&](std::size_t line) {

@@ -83,7 +83,7 @@ VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, do
 }
 
 /// Price of the starts included.
-double loss_of(const Evaluation& at, Loss loss) {
+double total_loss(const Evaluation& at, Loss loss) {
   if (loss == Loss::robust) return at.loss;
   double sum = 0;
   for (const Fits* fits : {&at.drive, &at.load})
@@ -100,7 +100,7 @@ BlockScores Study::pulls(const Fitted& at, Loss loss) const {
 }
 
 void Study::descend(Fitted& best, Loss loss, double hopeless) const {
-  double damping = 1e-3, least = loss_of(best.train, loss);
+  double damping = 1e-3, least = total_loss(best.train, loss);
   for (int round = 0; round < kMostRounds; ++round) {
     const BlockScores both = pulls(best, loss);
     const VectorXd pull = both.by_block.colwise().sum().transpose();
@@ -112,7 +112,7 @@ void Study::descend(Fitted& best, Loss loss, double hopeless) const {
       if (!step.allFinite() || step.norm() == 0) break;
       const Effects moved = unflatten(best.effects, flat, step);
       Evaluation found = evaluate(*train_drive_, *train_load_, moved, best.train);
-      const double now = loss_of(found, loss);
+      const double now = total_loss(found, loss);
       if (now < least) {
         gained = least - now;
         least = now;

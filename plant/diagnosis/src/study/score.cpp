@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "study/blocks.hpp"
-#include "parallel.hpp"
 #include "force/position_spectrum.hpp"
+#include "parallel.hpp"
+#include "study/blocks.hpp"
 
 namespace crane::diagnosis {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "crane/diagnosis/candidate.hpp"
-#include "study/problem.hpp"
 #include "robust.hpp"
+#include "study/problem.hpp"
 
 namespace crane::diagnosis {
 

@@ -4,12 +4,12 @@
 #include <limits>
 #include <sstream>
 
-#include "search/compare.hpp"
 #include "crane/diagnosis/diagnosis.hpp"
+#include "experiment/next_experiment.hpp"
+#include "search/compare.hpp"
 #include "search/held_out.hpp"
 #include "search/intervals.hpp"
 #include "verdict/judgement.hpp"
-#include "experiment/next_experiment.hpp"
 
 namespace crane::diagnosis {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
-#include "search/compare.hpp"
 #include "force/force_lines.hpp"
 #include "robust.hpp"
+#include "search/compare.hpp"
 
 namespace crane::diagnosis {
 namespace {
