@@ -135,6 +135,26 @@ TEST(DoublePendulum, HasTheTwoFrequenciesOfTheTextbook) {
   EXPECT_NEAR(squares[1], p.gravity_mps2 / (2 * m1) * (b + root), 1e-6);
 }
 
+TEST(DoublePendulum, HasItsHookAboveTheEndOfALengthThatReachesToTheLoad) {
+  static constexpr double kLower_m = 0.3;
+  const auto with = [](double raised_m) {
+    return Model{{},
+                 {{"double_pendulum",
+                   "",
+                   {{"lower_share", 0.4}, {"lower_length_m", kLower_m}, {"hook_raised_m", raised_m}}}}};
+  };
+  const InnerState inner{{{0.02, 0.1}, {-0.03, 0.2}}};
+  const auto at = [&](const Model& model, double cable_m) {
+    InnerAccelerations own{};
+    const Accelerations a =
+        model.accelerations({.trolley_m = 0.8, .radial_rad = 0.1, .tangential_rad = -0.2, .cable_m = cable_m},
+                            held(), inner, own);
+    return Eigen::Vector4d{a.radial_radps2, a.tangential_radps2, own[0], own[1]};
+  };
+  EXPECT_LT((at(with(kLower_m), 1) - at(with(0), 1 - kLower_m)).norm(), 1e-12);
+  EXPECT_GT((at(with(kLower_m), 1) - at(with(0), 1)).norm(), 0.1);
+}
+
 TEST(DoublePendulum, KeepsTheMomentumAlongTheJib) {
   constexpr double kShare = 0.4, kLower_m = 0.3;
   const Parameters p;

@@ -145,11 +145,15 @@ class Builder {
   /// window it explains the disturbance of clean data.
   void add_structures(bool slew) {
     const auto square = [](double hz) { return std::pow(2 * std::numbers::pi * hz, 2); };
+    const double most_raised = 0.5 * rig_.start.position[plant::kHoist];
     std::vector<std::vector<double>> jibs, slings;
     for (const double hz : {1.4, 2.0, 2.8, 4.0, 5.6})
       for (const double share : {0.15, 0.6}) jibs.push_back({1 / square(hz), 0.03, share});
-    for (const double hz : {1.2, 1.6, 2.1, 2.6, 3.2, 4.0})
-      slings.push_back({0.65, rig_.plant.gravity_mps2 / (0.35 * square(hz))});
+    // The measured length reaches to the hook or to the load.
+    for (const double hz : {1.2, 1.6, 2.1, 2.6, 3.2, 4.0}) {
+      const double sling = rig_.plant.gravity_mps2 / (0.35 * square(hz));
+      for (const double raised : {0.0, std::min(sling, most_raised)}) slings.push_back({0.65, sling, raised});
+    }
     if (slew)
       add(at_once("jib_flexibility", "",
                   {free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
@@ -159,7 +163,8 @@ class Builder {
           true, true);
     add(at_once("double_pendulum", "",
                 {free_parameter("double_pendulum", "lower_share", 0.03, 0.85, 0.05),
-                 free_parameter("double_pendulum", "lower_length_m", 0.05, 2, 0.01)},
+                 free_parameter("double_pendulum", "lower_length_m", 0.05, 2, 0.01),
+                 free_parameter("double_pendulum", "hook_raised_m", 0, most_raised, 0.005)},
                 slings),
         false, true);
   }

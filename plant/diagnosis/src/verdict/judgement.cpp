@@ -11,9 +11,9 @@ namespace crane::diagnosis {
 namespace {
 
 /// Mean loss of the whitened residual beyond which noise and a coloured force cannot have made it. Swing
-/// keeps to 1 within a few percent, a drive that breaks loose a moment too late or early to 1.25, to 1.45
+/// keeps to 1 within a few percent, a drive that breaks loose a moment too late or early to 1.48, to more
 /// where a sensor of the swing that pulls at it is wrong.
-constexpr double kWorstSwing = 1.25, kWorstDrive = 1.3, kWorstBesideSwing = 1.6;
+constexpr double kWorstSwing = 1.25, kWorstDrive = 1.5, kWorstBesideSwing = 1.75;
 constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
 /// Share of the drives' loss beyond which an unexplained pattern is taken seriously: the right model leaves

@@ -11,10 +11,15 @@ namespace {
 class DoublePendulum final : public Term {
  public:
   explicit DoublePendulum(const TermSetting& s)
-      : lower_share_(s.parameters.at("lower_share")), lower_length_m_(s.parameters.at("lower_length_m")) {}
+      : lower_share_(s.parameters.at("lower_share")),
+        lower_length_m_(s.parameters.at("lower_length_m")),
+        hook_raised_m_(s.parameters.at("hook_raised_m")) {}
 
   void change_parameters(Parameters& crane) const noexcept override {
     crane.load_mass_kg *= 1 - lower_share_;
+  }
+  [[nodiscard]] Displacement rest_displacement(const Parameters& /*crane*/) const noexcept override {
+    return {.cable_m = lower_share_ > 0 ? -hook_raised_m_ : 0};
   }
   [[nodiscard]] std::size_t inner_coordinates() const noexcept override { return lower_share_ > 0 ? 2 : 0; }
 
@@ -45,7 +50,7 @@ class DoublePendulum final : public Term {
  private:
   /// Mass below the hook over mass of the hook.
   [[nodiscard]] double ratio() const { return lower_share_ / (1 - lower_share_); }
-  double lower_share_, lower_length_m_;
+  double lower_share_, lower_length_m_, hook_raised_m_;
 };
 
 }  // namespace
@@ -54,14 +59,16 @@ TermKind double_pendulum() {
   return {
       .name = "double_pendulum",
       .equation =
-          "hook (1 - mu) m at L, load mu m at l below: l phi_2'' = g (1 + r)(sin(phi) - sin(phi_2)) "
+          "hook (1 - mu) m at L - u, load mu m at l below: l phi_2'' = g (1 + r)(sin(phi) - sin(phi_2)) "
           "+ rotation of the frame, likewise theta; F = mu m g along the lower cable on the hook; "
           "r = mu / (1 - mu)",
       .source = "Newton's law of both masses with the cables' tensions at rest; exact for small angles",
       .acts_on = ActsOn::structure,
       .axes = {""},
       .parameters = {{"lower_share", "1", 0, 0, 0.9, "mu, share of the load mass that hangs below the hook"},
-                     {"lower_length_m", "m", 0.3, 0.02, 10, "l, from the hook to the load"}},
+                     {"lower_length_m", "m", 0.3, 0.02, 10, "l, from the hook to the load"},
+                     {"hook_raised_m", "m", 0, 0, 10,
+                      "u, the hook above the end of the measured length; l where that reaches to the load"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<DoublePendulum>(s);
       }};
