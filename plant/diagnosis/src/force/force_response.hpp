@@ -2,7 +2,7 @@
 /// What an extra force does to the residual of a window, along the measured motion: a drive that moves
 /// answers as a free mass, one that stands does not; a pendulum's answer, once free motion is taken out, is
 /// the force times a constant. In units of its own: patterns of force are told by their shape.
-#include "study/problem.hpp"
+#include "shooting/problem.hpp"
 
 namespace crane::diagnosis {
 

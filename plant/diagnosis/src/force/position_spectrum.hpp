@@ -2,7 +2,7 @@
 /// Waves over position in what is unexplained of a drive.
 #include <vector>
 
-#include "study/problem.hpp"
+#include "shooting/problem.hpp"
 
 namespace crane::diagnosis {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study/problem.hpp"
+#include "shooting/problem.hpp"
 
 namespace crane::diagnosis {
 

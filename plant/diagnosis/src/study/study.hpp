@@ -8,7 +8,7 @@
 
 #include "crane/diagnosis/candidate.hpp"
 #include "robust.hpp"
-#include "study/problem.hpp"
+#include "shooting/problem.hpp"
 
 namespace crane::diagnosis {
 

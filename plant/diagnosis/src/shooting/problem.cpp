@@ -1,4 +1,4 @@
-#include "study/problem.hpp"
+#include "shooting/problem.hpp"
 
 #include <algorithm>
 #include <cmath>
