@@ -94,7 +94,7 @@ std::string rig_for(const std::vector<truth::Hidden>& effects, std::size_t turn)
   constexpr std::array kRigs{"gantry", "drive_axis", "pendulum"};
   if (turn % 2 == 0) return "tower";
   for (std::size_t i = 0; i < kRigs.size(); ++i) {
-    const std::string rig = kRigs[(turn / 2 + i) % kRigs.size()];
+    std::string rig = kRigs[(turn / 2 + i) % kRigs.size()];
     if (possible(rig, effects)) return rig;
   }
   return "tower";
@@ -110,7 +110,7 @@ std::vector<std::string> names(bool in_library) {
 /// Two causes that are no confounded pair, every first one with ever another second one.
 std::vector<truth::Hidden> two(std::size_t count) {
   const auto all = names(true);
-  const std::string first = all[count * 5 % all.size()];
+  const std::string& first = all[count * 5 % all.size()];
   for (std::size_t i = count * 11 + 3;; ++i) {
     const std::string& second = all[i % all.size()];
     if (second != first && !confounded(first, second)) return {{first, 1, ""}, {second, 1, ""}};
