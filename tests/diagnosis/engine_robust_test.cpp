@@ -55,10 +55,7 @@ TEST(PositionSpectrum, FindsPeriodAmplitudeAndPhaseOfARipple) {
   }
   std::vector<PreparedRun> runs;
   runs.push_back(prepare(std::move(run), rig));
-  const Crane crane{rig.plant, rig.terms};
-  Problem drive(runs, Part::drive, 2, 0);
-  drive.learn_disturbance(crane);
-  const auto waves = strongest_waves(drive, drive.fit(crane), 0, 3);
+  const auto waves = strongest_waves(under_way(runs, {rig.plant, rig.terms}, kTrolleyPosition), 3);
   ASSERT_FALSE(waves.empty());
   EXPECT_NEAR(waves[0].period, kPeriod_m, 0.02 * kPeriod_m);
   EXPECT_NEAR(waves[0].amplitude, gain * kAmplitude_v, 0.4 * gain * kAmplitude_v);

@@ -60,7 +60,8 @@ const PerColumn& Predictor::predict(const plant::PerAxis& applied_v, const Known
                              std::lerp(before_.cable_mps, now.cable_mps, share), 0};
   };
   for (int step = 0; step < steps_; ++step)
-    course_->step(still, cable((step + 0.5) / steps_), still, cable((step + 1.0) / steps_));
+    course_->step(still, cable((step + 0.5) / steps_));
+  course_->follow(still, cable(1));
   for (const auto column : diagnosis::kAllOutputs)
     position_of(course_->state, column) +=
         slip_[column] * std::abs(rate_of(course_->state, column)) * step_s_ * steps_;

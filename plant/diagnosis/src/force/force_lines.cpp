@@ -7,7 +7,6 @@
 #include <random>
 #include <sstream>
 
-#include "force/force_response.hpp"
 #include "parallel.hpp"
 #include "robust.hpp"
 
@@ -24,41 +23,39 @@ constexpr double kLowest_hz = 0.1, kHighest_hz = 4, kSpacing_hz = 0.0125;
 constexpr std::size_t kLineFolds = 4;
 constexpr std::size_t kLineFlips = 99;
 /// Share of the loss of drives or load: a smaller line is of no consequence for the crane.
-constexpr double kLineOfDrives = 0.004, kLineOfLoad = 0.012;
+constexpr double kLineOfDrives = 0.025, kLineOfLoad = 0.012;
 
-/// A force with one frequency on one output, seen through every window: cosine and sine of a run's own phase.
+/// A force with one frequency on one output, seen through every piece: cosine and sine of a run's own phase.
 struct Line {
   double hz = 0;
-  std::vector<Explained> windows;
+  std::vector<Explained> pieces;
 };
 
-Line line_at(const Problem& problem, const Fits& fits, std::size_t output, double hz) {
+Line line_at(const Pieces& pieces, double hz) {
   Line line{hz, {}};
   const double omega = 2 * std::numbers::pi * hz;
-  for (std::size_t w = 0; w < fits.size(); ++w) {
-    const Window& window = problem.windows()[w];
-    const double turn = omega * problem.runs()[window.run].run.period_s;
-    MatrixXd waves(static_cast<Index>(window.rows), 2);
+  for (const Piece& piece : pieces.all) {
+    const double turn = omega * (*pieces.runs)[piece.run].run.period_s;
+    MatrixXd waves(static_cast<Index>(piece.rows), 2);
     for (Index k = 0; k < waves.rows(); ++k) {
-      const double phase = turn * static_cast<double>(static_cast<Index>(window.first) + k);
+      const double phase = turn * static_cast<double>(static_cast<Index>(piece.first) + k);
       waves(k, 0) = std::cos(phase), waves(k, 1) = std::sin(phase);
     }
-    line.windows.push_back(explained(problem, fits, w, output, std::move(waves)));
+    line.pieces.push_back(explained(pieces, piece, std::move(waves)));
   }
   return line;
 }
 
-/// Sums over the windows of one run, in or out of a fold.
+/// Sums over the pieces of one run, in or out of a fold.
 using ByRun = std::map<std::size_t, Explained>;
 
-ByRun summed(const Problem& problem, const Line& line, const VectorXd& signs, std::size_t fold, bool inside) {
+ByRun summed(const Pieces& pieces, const Line& line, const VectorXd& signs, std::size_t fold, bool inside) {
   ByRun sums;
-  for (std::size_t w = 0; w < line.windows.size(); ++w) {
-    if ((w % kLineFolds == fold) != inside) continue;
-    auto [of_run, fresh] =
-        sums.try_emplace(problem.windows()[w].run, Explained{VectorXd::Zero(2), MatrixXd::Zero(2, 2)});
-    of_run->second.pull += signs[static_cast<Index>(w)] * line.windows[w].pull;
-    of_run->second.curvature += line.windows[w].curvature;
+  for (std::size_t i = 0; i < line.pieces.size(); ++i) {
+    if ((i % kLineFolds == fold) != inside) continue;
+    auto [of_run, fresh] = sums.try_emplace(pieces.all[i].run, Explained{2});
+    of_run->second.pull += signs[static_cast<Index>(i)] * line.pieces[i].pull;
+    of_run->second.curvature += line.pieces[i].curvature;
   }
   return sums;
 }
@@ -67,20 +64,20 @@ ByRun summed(const Problem& problem, const Line& line, const VectorXd& signs, st
 struct Found {
   double gain = 0, hz = 0;
 };
-Found cross_validated(const Problem& problem, const std::vector<Line>& lines, const VectorXd& signs) {
+Found cross_validated(const Pieces& pieces, const std::vector<Line>& lines, const VectorXd& signs) {
   Found found;
   for (std::size_t fold = 0; fold < kLineFolds; ++fold) {
     const Line* best = nullptr;
     double most = 0;
     for (const Line& line : lines) {
       double gain = 0;
-      for (const auto& [run, sums] : summed(problem, line, signs, fold, false))
+      for (const auto& [run, sums] : summed(pieces, line, signs, fold, false))
         gain += sums.pull.dot(wave_amplitude(sums));
       if (gain > most) most = gain, best = &line;
     }
     if (best == nullptr) continue;
-    const ByRun others = summed(problem, *best, signs, fold, false);
-    for (const auto& [run, own] : summed(problem, *best, signs, fold, true)) {
+    const ByRun others = summed(pieces, *best, signs, fold, false);
+    for (const auto& [run, own] : summed(pieces, *best, signs, fold, true)) {
       const auto known = others.find(run);
       if (known == others.end()) continue;
       const Vector2d x = wave_amplitude(known->second);
@@ -91,38 +88,33 @@ Found cross_validated(const Problem& problem, const std::vector<Line>& lines, co
   return found;
 }
 
-/// The most that windows with signs at random give.
-double by_luck(const Problem& problem, const std::vector<Line>& lines, std::uint64_t seed) {
+/// The most that pieces with signs at random give.
+double by_luck(const Pieces& pieces, const std::vector<Line>& lines, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  std::vector<VectorXd> signs(kLineFlips, VectorXd::Ones(static_cast<Index>(problem.windows().size())));
+  std::vector<VectorXd> signs(kLineFlips, VectorXd::Ones(static_cast<Index>(pieces.all.size())));
   for (VectorXd& flip : signs)
     for (double& sign : flip) sign = (random() & 1U) != 0U ? 1.0 : -1.0;
   std::vector<double> gains(kLineFlips);
-  parallel_for(kLineFlips, [&](std::size_t i) { gains[i] = cross_validated(problem, lines, signs[i]).gain; });
+  parallel_for(kLineFlips, [&](std::size_t i) { gains[i] = cross_validated(pieces, lines, signs[i]).gain; });
   return *std::max_element(gains.begin(), gains.end());
 }
 
 }  // namespace
 
-std::vector<Unexplained> find_force_lines(const Problem& problem, const Fits& fits, std::uint64_t seed) {
-  std::vector<Unexplained> all;
-  const double least = problem.part() == Part::drive ? kLineOfDrives : kLineOfLoad;
-  double loss = 0;
-  for (const WindowFit& fit : fits) loss += loss_of(fit.residual);
-  for (std::size_t output = 0; output < problem.outputs().size() && !fits.empty(); ++output) {
-    const auto count = static_cast<std::size_t>((kHighest_hz - kLowest_hz) / kSpacing_hz);
-    std::vector<Line> lines(count);
-    parallel_for(count, [&](std::size_t i) {
-      lines[i] = line_at(problem, fits, output, kLowest_hz + kSpacing_hz * static_cast<double>(i));
-    });
-    const Found found = cross_validated(problem, lines, VectorXd::Ones(static_cast<Index>(fits.size())));
-    if (found.gain < least * loss || found.gain <= by_luck(problem, lines, seed)) continue;
-    std::ostringstream name;
-    name.precision(3);
-    name << kOutputNames[problem.outputs()[output]] << ": time, " << found.hz << " Hz";
-    all.push_back({name.str(), found.gain, found.gain / loss, problem.part() == Part::load});
-  }
-  return all;
+std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t seed) {
+  if (pieces.all.empty()) return std::nullopt;
+  const double loss = pieces.loss(), least = pieces.of_load() ? kLineOfLoad : kLineOfDrives;
+  std::vector<Line> lines(static_cast<std::size_t>((kHighest_hz - kLowest_hz) / kSpacing_hz));
+  parallel_for(lines.size(), [&](std::size_t i) {
+    lines[i] = line_at(pieces, kLowest_hz + kSpacing_hz * static_cast<double>(i));
+  });
+  const Found found =
+      cross_validated(pieces, lines, VectorXd::Ones(static_cast<Index>(pieces.all.size())));
+  if (found.gain < least * loss || found.gain <= by_luck(pieces, lines, seed)) return std::nullopt;
+  std::ostringstream name;
+  name.precision(3);
+  name << kOutputNames[pieces.output] << ": time, " << found.hz << " Hz";
+  return Unexplained{name.str(), found.gain, found.gain / loss, pieces.of_load()};
 }
 
 }  // namespace crane::diagnosis

@@ -1,13 +1,15 @@
 #pragma once
 /// A force on drives or load that comes back in time, whatever the crane does: one line of the spectrum.
+#include <cstdint>
+#include <optional>
+
 #include "force/unexplained.hpp"
 
 namespace crane::diagnosis {
 
-/// For every output the frequency at which such a force predicts it best, out of sample; nothing where
-/// flipping the signs of windows, which leaves no line standing, does as well.
+/// The frequency at which such a force predicts the residual best, out of sample; nothing where flipping the
+/// signs of pieces, which leaves no line standing, does as well.
 /// @param seed of the sign flips
-[[nodiscard]] std::vector<Unexplained> find_force_lines(const Problem& problem, const Fits& fits,
-                                                        std::uint64_t seed);
+[[nodiscard]] std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t seed);
 
 }  // namespace crane::diagnosis

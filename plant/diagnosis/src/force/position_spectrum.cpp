@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "force/force_response.hpp"
 #include "parallel.hpp"
 
 namespace crane::diagnosis {
@@ -26,10 +25,10 @@ struct Travel {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-Travel travelled(const Problem& drive, Output axis) {
+Travel travelled(const Pieces& drive) {
   Travel way;
-  for (const Window& window : drive.windows())
-    for (const double at : drive.runs()[window.run].run.measured[axis])
+  for (const PreparedRun& run : *drive.runs)
+    for (const double at : run.run.measured[drive.output])
       way.low = std::min(way.low, at), way.high = std::max(way.high, at);
   return way;
 }
@@ -39,18 +38,17 @@ struct Wave {
   Vector2d amplitude = Vector2d::Zero();  ///< of cosine and sine
 };
 
-Wave wave_of(const Problem& drive, const Fits& fits, std::size_t output, double per_length) {
-  Explained all{VectorXd::Zero(2), MatrixXd::Zero(2, 2)};
-  for (std::size_t w = 0; w < fits.size(); ++w) {
-    const Window& window = drive.windows()[w];
-    const std::vector<double>& position = drive.runs()[window.run].motion[drive.outputs()[output]].position;
-    MatrixXd waves(static_cast<Index>(window.rows), 2);
+Wave wave_of(const Pieces& drive, double per_length) {
+  Explained all{2};
+  for (const Piece& piece : drive.all) {
+    const std::vector<double>& position = (*drive.runs)[piece.run].motion[drive.output].position;
+    MatrixXd waves(static_cast<Index>(piece.rows), 2);
     for (Index k = 0; k < waves.rows(); ++k) {
       const double turn =
-          2 * std::numbers::pi * per_length * position[window.first + static_cast<std::size_t>(k)];
+          2 * std::numbers::pi * per_length * position[piece.first + static_cast<std::size_t>(k)];
       waves(k, 0) = std::cos(turn), waves(k, 1) = std::sin(turn);
     }
-    all += explained(drive, fits, w, output, std::move(waves));
+    all += explained(drive, piece, std::move(waves));
   }
   const Vector2d amplitude = wave_amplitude(all);
   return {all.pull.dot(amplitude), amplitude};
@@ -58,15 +56,14 @@ Wave wave_of(const Problem& drive, const Fits& fits, std::size_t output, double 
 
 }  // namespace
 
-std::vector<PositionWave> strongest_waves(const Problem& drive, const Fits& fits, std::size_t output,
-                                          std::size_t count) {
-  const Travel way = travelled(drive, drive.outputs()[output]);
+std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count) {
+  const Travel way = travelled(drive);
   const double travel = way.high - way.low;
-  if (!(travel > 0)) return {};
+  if (drive.all.empty() || !(travel > 0)) return {};
   std::vector<Wave> lines(kPlaces);
   parallel_for(kPlaces, [&](std::size_t line) {
     if (line + 1 >= kFirst)
-      lines[line] = wave_of(drive, fits, output, kSpacing * static_cast<double>(line) / travel);
+      lines[line] = wave_of(drive, kSpacing * static_cast<double>(line) / travel);
   });
   std::vector<std::size_t> peaks;
   for (std::size_t line = kFirst; line + 1 < kPlaces; ++line)

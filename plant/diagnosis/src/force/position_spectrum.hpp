@@ -2,7 +2,7 @@
 /// Waves over position in what is unexplained of a drive.
 #include <vector>
 
-#include "shooting/problem.hpp"
+#include "force/pieces.hpp"
 
 namespace crane::diagnosis {
 
@@ -12,8 +12,7 @@ struct PositionWave {
 };
 
 /// Peaks of the spectrum over position of the force that explains the residual, strongest first.
-/// @param output index into the problem's outputs
-[[nodiscard]] std::vector<PositionWave> strongest_waves(const Problem& drive, const Fits& fits,
-                                                        std::size_t output, std::size_t count);
+/// @param drive pieces of one
+[[nodiscard]] std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count);
 
 }  // namespace crane::diagnosis

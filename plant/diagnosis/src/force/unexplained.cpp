@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "force/force_response.hpp"
 #include "parallel.hpp"
 #include "robust.hpp"
 
@@ -88,6 +87,19 @@ std::vector<Variable> variables_of(const Runs& runs, plant::Axis axis) {
                        [&](std::size_t r, std::size_t k) { return runs[r].motion[axis].position[k]; }));
   all.push_back(binned(name + ": speed", axis, runs, 12, speed.low, speed.high,
                        [&](std::size_t r, std::size_t k) { return runs[r].motion[axis].rate[k]; }));
+  // Friction that is elsewhere another one, or at another time.
+  Variable tight = binned(name + ": friction by position", axis, runs, 16, position.low, position.high,
+                          [&](std::size_t r, std::size_t k) { return runs[r].motion[axis].position[k]; });
+  Variable wear =
+      binned(name + ": friction over time", axis, runs, 5, 0, time.high,
+             [&](std::size_t r, std::size_t k) { return static_cast<double>(k) * runs[r].run.period_s; });
+  for (Variable* friction : {&tight, &wear}) {
+    for (Pattern& bin : friction->bins)
+      for (std::size_t r = 0; r < runs.size(); ++r)
+        for (std::size_t k = 0; k < runs[r].run.rows(); ++k)
+          bin.voltage[r][k] = std::copysign(bin.voltage[r][k], runs[r].motion[axis].rate[k]);
+    all.push_back(std::move(*friction));
+  }
   const auto since = since_reversal(runs, axis, kBuildUp * std::max(1e-3, position.high - position.low));
   all.push_back(binned(name + ": way since the last reversal", axis, runs, 13, -1, 1,
                        [&](std::size_t r, std::size_t k) { return since[r][k]; }));
@@ -108,35 +120,31 @@ std::vector<Variable> variables_of(const Runs& runs, plant::Axis axis) {
   return all;
 }
 
-/// Of every window, one column a bin.
-std::vector<Explained> explained_by(const Problem& drive, const Fits& fits, const Variable& variable) {
-  const auto output = static_cast<std::size_t>(
-      std::find(drive.outputs().begin(), drive.outputs().end(), static_cast<Output>(variable.axis)) -
-      drive.outputs().begin());
+/// Of every piece, one column a bin.
+std::vector<Explained> explained_by(const Pieces& pieces, const Variable& variable) {
   std::vector<Explained> all;
-  for (std::size_t w = 0; w < fits.size(); ++w) {
-    const Window& window = drive.windows()[w];
-    MatrixXd forces(static_cast<Index>(window.rows), static_cast<Index>(variable.bins.size()));
+  for (const Piece& piece : pieces.all) {
+    MatrixXd forces(static_cast<Index>(piece.rows), static_cast<Index>(variable.bins.size()));
     for (std::size_t bin = 0; bin < variable.bins.size(); ++bin)
       forces.col(static_cast<Index>(bin)) = Eigen::Map<const VectorXd>(
-          &variable.bins[bin].voltage[window.run][window.first], static_cast<Index>(window.rows));
-    all.push_back(explained(drive, fits, w, output, std::move(forces)));
+          &variable.bins[bin].voltage[piece.run][piece.first], static_cast<Index>(piece.rows));
+    all.push_back(explained(pieces, piece, std::move(forces)));
   }
   return all;
 }
 
-/// Decrease of the loss of windows that did not take part in the fit; 0 unless all folds but one agree.
-double cross_validated(const std::vector<Explained>& windows) {
-  const Index n = windows[0].pull.size();
-  Explained all{VectorXd::Zero(n), MatrixXd::Zero(n, n)};
-  for (const Explained& window : windows) all += window;
+/// Decrease of the loss of pieces that did not take part in the fit; 0 unless all folds but one agree.
+double cross_validated(const std::vector<Explained>& pieces) {
+  const Index n = pieces[0].pull.size();
+  Explained all{n};
+  for (const Explained& piece : pieces) all += piece;
   const double ridge = 1e-3 * all.curvature.trace() / static_cast<double>(n);
   double gain = 0;
   std::size_t agreeing = 0;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    Explained own{VectorXd::Zero(n), MatrixXd::Zero(n, n)}, others = all;
-    for (std::size_t w = 0; w < windows.size(); ++w)
-      if (w * kFolds / windows.size() == fold) own += windows[w];
+    Explained own{n}, others = all;
+    for (std::size_t w = 0; w < pieces.size(); ++w)
+      if (w * kFolds / pieces.size() == fold) own += pieces[w];
     others -= own;
     others.curvature.diagonal().array() += ridge + 1e-12;
     const double gained = own.gain(others.curvature.ldlt().solve(others.pull));
@@ -148,21 +156,16 @@ double cross_validated(const std::vector<Explained>& windows) {
 
 }  // namespace
 
-std::vector<Unexplained> find_unexplained(const Problem& drive, const Fits& fits) {
+std::vector<Unexplained> find_unexplained(const Pieces& pieces) {
   std::vector<Unexplained> found;
-  if (drive.empty()) return found;
-  std::vector<Variable> variables;
-  for (const Output output : drive.outputs()) {
-    auto more = variables_of(drive.runs(), static_cast<plant::Axis>(output));
-    for (Variable& variable : more) variables.push_back(std::move(variable));
-  }
-  double drive_loss = 0;
-  for (const WindowFit& fit : fits) drive_loss += loss_of(fit.residual);
+  if (pieces.all.empty()) return found;
+  const std::vector<Variable> variables = variables_of(*pieces.runs, static_cast<plant::Axis>(pieces.output));
+  const double loss = pieces.loss();
   std::vector<double> gains(variables.size());
   parallel_for(variables.size(),
-               [&](std::size_t v) { gains[v] = cross_validated(explained_by(drive, fits, variables[v])); });
+               [&](std::size_t v) { gains[v] = cross_validated(explained_by(pieces, variables[v])); });
   for (std::size_t v = 0; v < variables.size(); ++v)
-    if (gains[v] > 0) found.push_back({variables[v].name, gains[v], gains[v] / drive_loss, false});
+    if (gains[v] > 0) found.push_back({variables[v].name, gains[v], gains[v] / loss, false});
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
   return found;
 }

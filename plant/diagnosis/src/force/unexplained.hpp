@@ -5,18 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "shooting/problem.hpp"
+#include "force/pieces.hpp"
 
 namespace crane::diagnosis {
 
 struct Unexplained {
   std::string variable;  ///< "trolley: position", ...
   double gain = 0;       ///< decrease of the loss, cross-validated
-  double fraction = 0;   ///< of the loss of that output's part
+  double fraction = 0;   ///< of the pieces' loss
   bool of_load = false;  ///< one frequency in the swing
 };
 
 /// Strongest first; only those that predict.
-[[nodiscard]] std::vector<Unexplained> find_unexplained(const Problem& drive, const Fits& fits);
+/// @param pieces of a drive
+[[nodiscard]] std::vector<Unexplained> find_unexplained(const Pieces& pieces);
 
 }  // namespace crane::diagnosis

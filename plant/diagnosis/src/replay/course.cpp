@@ -19,8 +19,7 @@ void Course::new_command(const plant::PerAxis& drive_v) {
   gains_known_ = false;
 }
 
-void Course::step(const std::array<Moment, kOutputs>& at, const Moment& cable_at,
-                  const std::array<Moment, kOutputs>& end, const Moment& cable_end) {
+void Course::step(const std::array<Moment, kOutputs>& at, const Moment& cable_at) {
   const State middle = half_way(at, cable_at);
   plant::InnerState inner_middle = inner;
   for (std::size_t i = 0; i < model_.inner_coordinates(); ++i) {
@@ -37,7 +36,13 @@ void Course::step(const std::array<Moment, kOutputs>& at, const Moment& cable_at
       if (simulated_[swing]) kick(swing, acceleration_of(a, swing));
     kick_inner(inner_acceleration);
   }
-  follow(end, cable_end);
+}
+
+double Course::acceleration(Output axis, const std::array<Moment, kOutputs>& at, const Moment& cable_at) {
+  const State there = half_way(at, cable_at);
+  plant::InnerAccelerations ignored{};
+  return acceleration_of(
+      model_.accelerations(there, actuation_, model_.friction_v(there), inner, ignored), axis);
 }
 
 void Course::follow(const std::array<Moment, kOutputs>& at, const Moment& cable) {

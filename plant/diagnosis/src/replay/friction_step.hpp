@@ -27,7 +27,11 @@ template <class Friction>
 double implicit_speed(double c, double k, Friction&& friction, double near = 0) {
   constexpr double kExact = 1e-9, kNear = 1e-5;
   if (!(std::abs(c) < kLost && std::abs(near) < kLost)) return c;
-  const auto excess = [&](double v) { return v + k * friction(v) - c; };
+  // It grows at least as fast as v where friction does: so small, v is the root as exactly as it has to be.
+  const auto excess = [&](double v) {
+    const double found = v + k * friction(v) - c;
+    return std::abs(found) < kExact ? 0.0 : found;
+  };
   double low = near - kNear, high = near + kNear;
   double at_low = excess(low), at_high = excess(high);
   if (at_low >= 0) {

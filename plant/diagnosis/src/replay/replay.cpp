@@ -33,10 +33,10 @@ template <class Given>
 void pass(Course& course, const Given& given, const Motion& cable, std::size_t row, int steps,
           double period_s) {
   for (int step = 0; step < steps; ++step) {
-    const double middle = (step + 0.5) / steps, end = (step + 1.0) / steps;
-    course.step(given(row, middle), between(cable, row, middle, period_s), given(row, end),
-                between(cable, row, end, period_s));
+    const double middle = (step + 0.5) / steps;
+    course.step(given(row, middle), between(cable, row, middle, period_s));
   }
+  course.follow(given(row + 1, 0), between(cable, row + 1, 0, period_s));
 }
 
 }  // namespace
@@ -213,6 +213,22 @@ void Replay::run(std::size_t first, std::size_t rows, std::span<const double> st
     course.new_command(p.drive_v[first + k]);
     pass(course, measured, p.source.cable, first + k, p.steps, period_s);
   }
+}
+
+Replay::Guided Replay::guided(Output axis) const {
+  const Parts& p = *parts_;
+  const double period_s = p.source.run.period_s;
+  const std::array<bool, kOutputs> none{};
+  Course course(p.model, none, p.still, period_s);
+  const std::size_t rows = p.source.run.rows();
+  Guided drive{p.given(axis).position, std::vector<double>(rows)};
+  for (std::size_t row = 0; row + 1 < rows; ++row) {
+    if (!p.inner_at.empty()) course.inner = p.inner_at[row];
+    course.new_command(p.drive_v[row]);
+    drive.acceleration[row] = course.acceleration(axis, p.measured_at(none, row, 0.5),
+                                                  between(p.source.cable, row, 0.5, period_s));
+  }
+  return drive;
 }
 
 }  // namespace crane::diagnosis

@@ -10,8 +10,8 @@ namespace {
 /// Held-out data are fewer: they have to agree, not to prove it alone.
 constexpr double kHeldOutWin = 0.95;
 /// What improves the training loss of neither drives nor load by such a share is of no consequence for the
-/// crane. Around standstill terms take the place of friction that is not exactly the model's.
-constexpr double kLeastShare = 0.012, kLeastShareOfSticking = 0.035;
+/// crane.
+constexpr double kLeastShare = 0.012;
 constexpr int kVotes = 500;
 
 /// Of one parameter, in units of one noise variance: that of the Bayesian information criterion.
@@ -75,8 +75,7 @@ bool same(const Effects& a, const Effects& b) {
 
 bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed) {
   const Evaluation &old = before.train, &now = fitted.train;
-  const double of_drives = now.sticks ? kLeastShareOfSticking : kLeastShare;
-  if (now.loss >= old.loss || (old.drive_loss - now.drive_loss <= of_drives * old.drive_loss &&
+  if (now.loss >= old.loss || (old.drive_loss - now.drive_loss <= kLeastShare * old.drive_loss &&
                                old.load_loss - now.load_loss <= kLeastShare * old.load_loss))
     return false;
   const Wins wins = block_wins(fitted, before, seed);

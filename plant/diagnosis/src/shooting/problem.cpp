@@ -15,7 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// As long as the longest mean over time of a swing sensor.
+/// Before a window of the swing: as long as the longest mean over time of its sensor. Drives need none, the
+/// voltage that a lag leaves of their command is known from the beginning of the run.
 constexpr double kLead_s = 0.3;
 constexpr double kPositionStep = 1e-4, kRateStep = 1e-3;
 constexpr int kStartRounds = 8;
@@ -62,7 +63,8 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
   if (outputs_.empty()) return;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const double period_s = runs[i].run.period_s;
-    const auto lead = static_cast<std::size_t>(std::lround(kLead_s / period_s));
+    const auto lead =
+        part == Part::load ? static_cast<std::size_t>(std::lround(kLead_s / period_s)) : std::size_t{0};
     const std::size_t rows = runs[i].run.rows();
     if (rows <= lead) continue;
     const auto wanted = std::isfinite(window_s) ? static_cast<std::size_t>(window_s / period_s) : rows - lead;

@@ -57,13 +57,24 @@ class Builder {
 
   void add_axis(const std::string& axis, Output output, double scale) {
     const KnownFriction known = known_friction(rig_, axis);
-    add(amount("coulomb_friction", axis, "level_v", -known.least_coulomb_v, 5, 0.02), true, false,
+    // Of an axis that the model holds fast where it moved, or the other way about, a little more pull or
+    // friction shows nothing.
+    const double c = known.least_coulomb_v;
+    std::vector<std::vector<double>> levels, sides, offsets, gains;
+    if (c > 0) {
+      levels = {{-0.15 * c}, {-0.3 * c}, {-0.6 * c}, {0.3 * c}};
+      sides = {{-0.1 * c, 0}, {-0.3 * c, 0}, {0.1 * c, 0}, {0.3 * c, 0}};
+      offsets = {{-0.1 * c}, {-0.3 * c}, {0.1 * c}, {0.3 * c}};
+      gains = {{0.8}, {1.15}, {1.4}};
+    }
+    add(reaching(amount("coulomb_friction", axis, "level_v", -c, 5, 0.02), levels), true, false,
         known.present);
     add(amount("viscous_friction", axis, "vspm", -known.least_viscous, 50, 0.05), true, false,
         known.present && known.least_viscous > 0);
-    add(two_amounts("direction_asymmetry", axis,
-                    {free_parameter("direction_asymmetry", "coulomb_v", -3, 3, 0.02),
-                     free_parameter("direction_asymmetry", "viscous_vspm", -20, 20, 0.05)}),
+    add(reaching(two_amounts("direction_asymmetry", axis,
+                             {free_parameter("direction_asymmetry", "coulomb_v", -3, 3, 0.02),
+                              free_parameter("direction_asymmetry", "viscous_vspm", -20, 20, 0.05)}),
+                 sides),
         true, false);
     add(shaped("stribeck_friction", axis, free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
                {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
@@ -71,8 +82,8 @@ class Builder {
         true, false);
     add_tight_spots(axis, output);
     add_ripple(axis, output);
-    add(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), true, false, true);
-    add(amount("command_offset", axis, "offset_v", -3, 3, 0.02), true, false);
+    add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), true, false, true);
+    add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), true, false);
     add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
     add(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005), true, false);
     add(shaped("actuator_lag", axis, free_parameter("actuator_lag", "time_constant_s", 0, 0.5, 0.01),
@@ -137,7 +148,7 @@ class Builder {
     add_pivot_friction();
     if (trolley) add(amount("jib_tilt", "", "angle_rad", -0.2, 0.2, 0.005), true, true);
     add_structures(slew);
-    add_swing_sensors();
+    add_swing_sensors(trolley || slew);
   }
 
   /// Settings a resonance may begin its fit with lie about as far apart as two seconds tell frequencies. An
@@ -184,21 +195,22 @@ class Builder {
           false, true);
   }
 
-  void add_swing_sensors() {
+  /// @param drive whether drives are measured: the load pulls at them as it swings, not as it is measured to
+  void add_swing_sensors(bool drive) {
     std::vector<std::string> ways;
     if (radial_) ways.emplace_back("radial");
     if (tangential_) ways.emplace_back("tangential");
     for (const std::string& way : ways) {
-      add(amount("swing_offset", way, "offset_rad", -0.3, 0.3, 0.005), false, true);
-      add(amount("swing_scale", way, "factor", 0.5, 2, 0.01), false, true);
+      add(amount("swing_offset", way, "offset_rad", -0.3, 0.3, 0.005), drive, true);
+      add(amount("swing_scale", way, "factor", 0.5, 2, 0.01), drive, true);
     }
     if (ways.size() == 2) {
-      add(amount("swing_misalignment", "", "angle_rad", -0.6, 0.6, 0.01), false, true);
+      add(amount("swing_misalignment", "", "angle_rad", -0.6, 0.6, 0.01), drive, true);
       ways.emplace_back("");
     }
     for (const std::string& way : ways) {
-      add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), false, true);
-      add(amount("swing_moving_average", way, "window_s", 0, 0.3, 0.02), false, true);
+      add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), drive, true);
+      add(amount("swing_moving_average", way, "window_s", 0, 0.3, 0.02), drive, true);
     }
   }
 

@@ -28,9 +28,14 @@ Candidate amount(const std::string& cause, const std::string& axis, const std::s
   const FreeParameter& p = c.parameters.front();
   c.one_sided = p.low >= p.null || p.high <= p.null;
   c.shapes = {{{c.setting({p.null + step})}, {step}}};
-  c.begin = [p](const Shape&, const std::vector<double>& amounts) {
+  c.of_amounts = [p](const Shape&, const std::vector<double>& amounts) {
     return std::vector<double>{std::clamp(p.null + amounts[0], p.low, p.high)};
   };
+  return c;
+}
+
+Candidate reaching(Candidate c, const std::vector<std::vector<double>>& settings) {
+  for (const auto& values : settings) c.shapes.push_back({{c.setting(values)}, {1.0}, true});
   return c;
 }
 
@@ -48,7 +53,7 @@ Candidate shaped(const std::string& cause, const std::string& axis, const FreePa
     c.shapes.push_back({{c.setting(values)}, {size.step}});
   }
   const auto parameters = c.parameters;
-  c.begin = [parameters](const Shape& shape, const std::vector<double>& amounts) {
+  c.of_amounts = [parameters](const Shape& shape, const std::vector<double>& amounts) {
     std::vector<double> values;
     for (const FreeParameter& p : parameters) values.push_back(shape.probes[0].parameters.at(p.name));
     const FreeParameter& p = parameters[0];
@@ -77,7 +82,7 @@ Candidate turned(const std::string& cause, const std::string& axis, const FreePa
     c.shapes.push_back(probes);
   }
   const auto parameters = c.parameters;
-  c.begin = [parameters](const Shape& shape, const std::vector<double>& amounts) {
+  c.of_amounts = [parameters](const Shape& shape, const std::vector<double>& amounts) {
     std::vector<double> values;
     for (const FreeParameter& p : parameters) values.push_back(shape.probes[0].parameters.at(p.name));
     values[0] = std::min(std::hypot(amounts[0], amounts[1]), parameters[0].high);
@@ -101,7 +106,7 @@ Candidate two_amounts(const std::string& cause, const std::string& axis, std::ve
   }
   c.shapes = {shape};
   const auto parameters = c.parameters;
-  c.begin = [parameters](const Shape&, const std::vector<double>& amounts) {
+  c.of_amounts = [parameters](const Shape&, const std::vector<double>& amounts) {
     std::vector<double> values;
     for (std::size_t i = 0; i < 2; ++i)
       values.push_back(std::clamp(parameters[i].null + amounts[i], parameters[i].low, parameters[i].high));
@@ -115,16 +120,15 @@ Candidate at_once(const std::string& cause, const std::string& axis, std::vector
   Candidate c;
   c.cause = cause;
   c.axis = axis;
-  c.one_sided = c.nonlinear = true;
   c.parameters = std::move(parameters);
-  for (const auto& values : settings) c.shapes.push_back({{c.setting(values)}, {1.0}});
-  const auto own = c.parameters;
-  c.begin = [own](const Shape& shape, const std::vector<double>&) {
-    std::vector<double> values;
-    for (const FreeParameter& p : own) values.push_back(shape.probes[0].parameters.at(p.name));
-    return values;
-  };
-  return c;
+  return reaching(std::move(c), settings);
+}
+
+std::vector<double> Candidate::begin(const Shape& shape, const std::vector<double>& amounts) const {
+  if (!shape.as_it_is) return of_amounts(shape, amounts);
+  std::vector<double> values;
+  for (const FreeParameter& p : parameters) values.push_back(shape.probes[0].parameters.at(p.name));
+  return values;
 }
 
 plant::TermSetting Candidate::setting(const std::vector<double>& values) const {

@@ -12,6 +12,9 @@ namespace crane::diagnosis {
 [[nodiscard]] Candidate amount(const std::string& cause, const std::string& axis,
                                const std::string& parameter, double low, double high, double step);
 
+/// `candidate` looked at from afar as well: a probe at each of `settings`, where its fit may begin.
+[[nodiscard]] Candidate reaching(Candidate candidate, const std::vector<std::vector<double>>& settings);
+
 /// One amount >= 0 with further parameters that give it a shape: a probe at each of `shapes`.
 [[nodiscard]] Candidate shaped(const std::string& cause, const std::string& axis, const FreeParameter& size,
                                const std::vector<FreeParameter>& of_shape,

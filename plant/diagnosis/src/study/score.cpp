@@ -89,26 +89,23 @@ double luck(const std::vector<Directions>& directions, double least, std::uint64
 
 }  // namespace
 
-std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Evaluation& at) const {
+std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& effects) const {
   if (!candidate.waves) return candidate.shapes;
-  const auto& outputs = train_drive_->outputs();
   const auto axis = static_cast<Output>(plant::drive_axis(candidate.axis));
-  const auto output =
-      static_cast<std::size_t>(std::find(outputs.begin(), outputs.end(), axis) - outputs.begin());
   const double gain =
       axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
   std::vector<Shape> shapes;
-  for (const PositionWave& wave : strongest_waves(*train_drive_, at.drive, output, kWaves))
-    shapes.push_back({{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}});
+  for (const PositionWave& wave : strongest_waves(under_way(train_drive_->runs(), with(effects), axis), kWaves))
+    shapes.push_back({{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}, true});
   return shapes;
 }
 
-std::vector<Score> Study::places(const Effects& effects, const Evaluation& at) const {
+std::vector<Score> Study::places(const Effects& effects) const {
   std::vector<Score> all;
   for (std::size_t c = 0; c < candidates_.size(); ++c)
     if (std::none_of(effects.begin(), effects.end(),
                      [&](const Effect& effect) { return effect.candidate == &candidates_[c]; }))
-      for (Shape& shape : shapes_of(candidates_[c], at))
+      for (Shape& shape : shapes_of(candidates_[c], effects))
         all.push_back({.candidate = c, .shape = std::move(shape), .amounts = {}});
   return all;
 }
@@ -138,7 +135,7 @@ double Study::add_probes(const Effects& effects, const Evaluation& at, const Sco
 }
 
 ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const {
-  std::vector<Score> scores = places(effects, at);
+  std::vector<Score> scores = places(effects);
   const Slopes known = slopes(effects, at);
   std::vector<Directions> directions(scores.size());
   parallel_for(scores.size(), [&](std::size_t i) {
@@ -148,10 +145,11 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
     directions[i] = beside_known(joined(block_scores(*train_drive_, at.drive, all.drive),
                                         block_scores(*train_load_, at.load, all.load)),
                                  fresh);
-    directions[i].one_sided = candidates_[scores[i].candidate].one_sided;
-    judge(directions[i], scores[i]);
     const Candidate& candidate = candidates_[scores[i].candidate];
-    if (candidate.nonlinear)
+    const bool as_it_stands = scores[i].shape.as_it_is;
+    directions[i].one_sided = candidate.one_sided || as_it_stands;
+    judge(directions[i], scores[i]);
+    if (as_it_stands)
       scores[i].gain = as_it_is(at.drive, all.drive.back()) + as_it_is(at.load, all.load.back());
     scores[i].gain = std::max(0.0, scores[i].gain + own);
     const double loss = (candidate.drive ? at.drive_loss : 0) + (candidate.load ? at.load_loss : 0);

@@ -21,7 +21,6 @@ Evaluation summed(const Problem& drive, const Problem& load, Fits of_drive, Fits
   result.blocks = blocks_of(drive, result.drive);
   const Blocks more = blocks_of(load, result.load);
   result.drive_blocks = result.blocks.size();
-  for (const Disturbance& axis : drive.disturbances()) result.sticks = result.sticks || axis.sticks;
   result.drive_loss = sum(result.blocks);
   result.load_loss = sum(more);
   result.loss = result.drive_loss + result.load_loss;

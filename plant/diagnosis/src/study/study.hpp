@@ -29,7 +29,6 @@ struct Evaluation {
   Fits drive, load;
   Blocks blocks;
   std::size_t drive_blocks = 0;  ///< the first of them
-  bool sticks = false;           ///< one of the drives
   double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
 };
 
@@ -101,8 +100,8 @@ class Study {
   /// Gauss-Newton rounds from where `best` is.
   void descend(Fitted& best, Loss loss, double hopeless) const;
   /// Every shape of every candidate that is not among the effects.
-  [[nodiscard]] std::vector<Score> places(const Effects& effects, const Evaluation& at) const;
-  [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Evaluation& at) const;
+  [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
+  [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Effects& effects) const;
   /// Appends the changes that the probes of a candidate's shape make.
   /// @return what the start of its own coordinates gains
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;

@@ -4,24 +4,25 @@
 #include <map>
 
 #include "force/force_lines.hpp"
+#include "force/jumps.hpp"
 #include "robust.hpp"
 #include "search/compare.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
-/// Mean loss of the whitened residual beyond which noise and a coloured force cannot have made it. Swing
-/// keeps to 1 within a few percent, a drive that breaks loose a moment too late or early to 1.48, to more
-/// where a sensor of the swing that pulls at it is wrong.
-constexpr double kWorstSwing = 1.25, kWorstDrive = 1.5, kWorstBesideSwing = 1.75;
+/// Mean loss of the whitened residual beyond which noise and a coloured force cannot have made it: they keep
+/// to 1 within a few percent.
+constexpr double kWorst = 1.25;
 constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
 /// Share of the drives' loss beyond which an unexplained pattern is taken seriously: the right model leaves
-/// up to 0.3 percent.
-constexpr double kPattern = 0.004;
-/// What goes beside a named cause: its form is not exactly the term's. A pattern this large against what the
-/// named effects explain, or against the whole loss, makes the name doubtful.
-constexpr double kDoubtful = 0.05;
+/// up to 0.4 percent.
+constexpr double kPattern = 0.008;
+/// A pattern this large against all that is wrong with the base model makes the names beside it doubtful. A
+/// term's form is not exactly the effect's, so that more may be left of what it is a law of itself; two
+/// effects together can take the form of much that they are not.
+constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveral = 0.02;
 
 /// 1 where noise and disturbance are as learnt.
 double mean_loss(const Fits& fits) {
@@ -31,13 +32,27 @@ double mean_loss(const Fits& fits) {
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
 
-/// Mean loss of what the best hypothesis leaves, in the most that noise and a coloured force can make.
-double excess(const Fitted& best) {
-  const bool of_swing = std::any_of(best.effects.begin(), best.effects.end(),
-                                    [](const Effect& e) { return e.candidate->load && !e.candidate->drive; });
-  return std::max(mean_loss(best.train.load) / kWorstSwing,
-                  mean_loss(best.train.drive) / (of_swing ? kWorstBesideSwing : kWorstDrive));
+/// Whether the pattern goes with what the term is a law of.
+bool of_its_own(const Candidate& candidate, const std::string& variable) {
+  static const std::map<std::string, std::vector<std::string>> kLaws{
+      {"coulomb_friction", {"speed", "way since"}},
+      {"viscous_friction", {"speed"}},
+      {"stribeck_friction", {"speed", "way since"}},
+      {"direction_asymmetry", {"speed", "way since"}},
+      {"position_dependent_friction", {"position", "friction by position"}},
+      {"torque_ripple", {"position"}}};
+  const auto laws = kLaws.find(candidate.cause);
+  return laws != kLaws.end() && variable.starts_with(candidate.axis) &&
+         std::any_of(laws->second.begin(), laws->second.end(), [&](const std::string& with) {
+           return variable.find(": " + with) != std::string::npos;
+         });
 }
+
+/// A pattern, and the loss of the base model in the same noise.
+struct Pattern {
+  Unexplained what;
+  double of_base = 0;
+};
 
 std::string said(const Diagnosis& d) {
   std::string names, rivals;
@@ -86,34 +101,52 @@ class Judgement {
  private:
   /// Whether what is left is too much to be believed; says what it goes with.
   bool doubt() {
-    const double too_much = excess(best_);
-    const std::vector<Unexplained> left = what_is_left();
+    const double load = mean_loss(best_.train.load), drives = mean_loss(best_.train.drive);
     Remainder& remainder = result_.remainder;
-    if (too_much > 1) {
-      remainder.predictable_fraction = 1 - 1 / too_much;
-      remainder.from.emplace_back(mean_loss(best_.train.load) > kWorstSwing
-                                      ? "more in the swing than sensor noise and a coloured force leave"
-                                      : "more in the drives than sensor noise and a coloured force leave");
+    if (std::max(load, drives) > kWorst) {
+      remainder.predictable_fraction = 1 - kWorst / std::max(load, drives);
+      remainder.from.push_back(std::string{load > kWorst ? "more in the swing" : "more in the drives"} +
+                               " than sensor noise and a coloured force leave");
       return true;
     }
+    const std::vector<Pattern> left = what_is_left();
     if (left.empty()) return false;
-    remainder.predictable_fraction = left[0].fraction;
+    remainder.predictable_fraction = left[0].what.fraction;
     for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
-      remainder.from.push_back(left[i].variable);
-    const double explained = all_.base.train.loss - best_.train.loss;
-    return std::any_of(left.begin(), left.end(), [&](const Unexplained& u) {
+      remainder.from.push_back(left[i].what.variable);
+    return std::any_of(left.begin(), left.end(), [&](const Pattern& pattern) {
+      const Unexplained& u = pattern.what;
       const bool counts = u.of_load || u.fraction > kPattern;
-      return counts && (best_.effects.empty() || u.gain > kDoubtful * explained || u.fraction > kDoubtful);
+      return counts && (best_.effects.empty() || u.gain > believable(u) * pattern.of_base);
     });
   }
 
+  /// Beside the named effects, as a share of the base model's loss.
+  [[nodiscard]] double believable(const Unexplained& left) const {
+    if (best_.effects.size() > 1) return kDoubtfulOfSeveral;
+    return of_its_own(*best_.effects[0].candidate, left.variable) ? kDoubtfulOfItsOwn : kDoubtful;
+  }
+
   /// Patterns in the residual of the drives and lines in that of the swing, strongest first.
-  [[nodiscard]] std::vector<Unexplained> what_is_left() const {
-    std::vector<Unexplained> left = find_unexplained(study_.drive(), best_.train.drive);
-    for (const auto& [problem, fits] :
-         {std::pair{&study_.drive(), &best_.train.drive}, {&study_.load(), &best_.train.load}})
-      for (const Unexplained& line : find_force_lines(*problem, *fits, seed_)) left.push_back(line);
-    std::sort(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
+  [[nodiscard]] std::vector<Pattern> what_is_left() const {
+    std::vector<Pattern> left;
+    const Runs& runs = study_.drive().runs();
+    // What rings by itself is a line of its own.
+    const Crane crane = study_.with(best_.effects);
+    const bool rings = !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
+    for (const Output axis : study_.drive().outputs()) {
+      const Pieces pieces = under_way(runs, crane, axis);
+      const double of_base = under_way(runs, study_.base(), axis, pieces.disturbance).squares();
+      for (const Unexplained& pattern : find_unexplained(pieces)) left.push_back({pattern, of_base});
+      if (!rings)
+        if (const auto line = find_force_line(pieces, seed_)) left.push_back({*line, of_base});
+      if (const auto jumps = find_jumps(pieces)) left.push_back({*jumps, of_base});
+    }
+    for (std::size_t output = 0; output < study_.load().outputs().size(); ++output)
+      if (const auto line = find_force_line(windows_of(study_.load(), best_.train.load, output), seed_))
+        left.push_back({*line, all_.base.train.load_loss});
+    std::sort(left.begin(), left.end(),
+              [](const Pattern& a, const Pattern& b) { return a.what.gain > b.what.gain; });
     return left;
   }
 

@@ -21,6 +21,7 @@ struct FreeParameter {
 struct Shape {
   std::vector<plant::TermSetting> probes;
   std::vector<double> amounts;
+  bool as_it_is = false;  ///< one probe, large: what it gains itself counts, and a fit begins there
 };
 
 struct Candidate {
@@ -29,14 +30,16 @@ struct Candidate {
   bool drive = false, load = false;  ///< replays it shows in
   std::vector<FreeParameter> parameters;
   std::vector<Shape> shapes;
-  bool one_sided = false;  ///< single probe with a sign
-  bool nonlinear = false;  ///< a small amount shows nothing; its fit begins at a shape as it is
+  bool one_sided = false;  ///< a small amount has a sign
   /// Between two guesses of its phase a wave over position does nothing at first, or harm: its shapes are the
   /// waves of what nothing else explains.
   bool waves = false;
   bool changes_known_parameter = false;  ///< the base model has this quantity; the rig file's value is off
+  /// Values that the amounts of a shape's small probes come to.
+  std::function<std::vector<double>(const Shape&, const std::vector<double>&)> of_amounts;
+
   /// Values to begin a fit with, from the amounts of the probes of one shape.
-  std::function<std::vector<double>(const Shape&, const std::vector<double>&)> begin;
+  [[nodiscard]] std::vector<double> begin(const Shape& shape, const std::vector<double>& amounts) const;
 
   [[nodiscard]] std::string label() const { return axis.empty() ? cause : cause + " (" + axis + ")"; }
   [[nodiscard]] plant::TermSetting setting(const std::vector<double>& values) const;

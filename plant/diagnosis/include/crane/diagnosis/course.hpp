@@ -18,9 +18,12 @@ class Course {
   plant::InnerState inner{};
 
   void new_command(const plant::PerAxis& drive_v);
-  /// @param at what is measured in the middle of the step, `end` at its end
-  void step(const std::array<Moment, kOutputs>& at, const Moment& cable_at,
-            const std::array<Moment, kOutputs>& end, const Moment& cable_end);
+  /// @param at what is measured in the middle of the step. What is not simulated stays where it is in
+  /// `state`, until it is told to follow
+  void step(const std::array<Moment, kOutputs>& at, const Moment& cable_at);
+  /// Of one axis that is not simulated, as the model has it where everything is measured.
+  [[nodiscard]] double acceleration(Output axis, const std::array<Moment, kOutputs>& at,
+                                    const Moment& cable_at);
   /// Coordinates that are not simulated go where they were measured.
   void follow(const std::array<Moment, kOutputs>& at, const Moment& cable);
 

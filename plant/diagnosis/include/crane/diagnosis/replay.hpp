@@ -57,6 +57,13 @@ class Replay {
   /// @param start as long as start_size(), or without the inner coordinates
   /// @pre first + rows <= rows of the run; sizes fit
   void run(std::size_t first, std::size_t rows, std::span<const double> start, std::span<double> out) const;
+  /// A drive along the measured motion, by row: where it was, the errors of its sensor undone, and how the
+  /// model accelerates it until the next row.
+  struct Guided {
+    std::vector<double> position, acceleration;
+  };
+  /// @pre the part is drive, the axis is measured
+  [[nodiscard]] Guided guided(Output axis) const;
 
  private:
   struct Parts;

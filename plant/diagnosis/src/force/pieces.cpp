@@ -1,0 +1,160 @@
+#include "force/pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "noise/paces.hpp"
+#include "robust.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Shorter ones say nothing beyond their start; longer ones are cut.
+constexpr double kShortest_s = 0.15, kLongest_s = 2;
+
+struct Stretch {
+  std::size_t run = 0, first = 0, rows = 0;
+};
+
+/// Where the axis of a run moves without a rest.
+std::vector<Stretch> stretches_of(const PreparedRun& run, std::size_t number, Output axis) {
+  const std::vector<double>& rate = run.motion[axis].rate;
+  const auto shortest = static_cast<std::size_t>(kShortest_s / run.run.period_s);
+  const auto longest = static_cast<std::size_t>(kLongest_s / run.run.period_s);
+  std::vector<Stretch> all;
+  for (std::size_t first = 0, row = 0; row <= rate.size(); ++row) {
+    const bool goes_on = row < rate.size() && std::abs(rate[row]) >= kStands &&
+                         (row == first || rate[row] * rate[row - 1] > 0);
+    if (goes_on) continue;
+    const std::size_t rows = row - first, count = (rows + longest - 1) / longest;
+    for (std::size_t piece = 0; rows >= shortest && piece < count; ++piece)
+      all.push_back({number, first + piece * rows / count, rows / count});
+    first = row + (row < rate.size() && std::abs(rate[row]) >= kStands ? 0 : 1);
+  }
+  return all;
+}
+
+/// In place: from rest, by accelerations that last a row each.
+template <class Accelerations>
+void integrate(Accelerations&& x, double period_s) {
+  auto way = x.row(0).eval();
+  way.setZero();
+  auto speed = way;
+  for (Index k = 0; k < x.rows(); ++k) {
+    const auto acceleration = x.row(k).eval();
+    x.row(k) = way;
+    way += period_s * (speed + 0.5 * period_s * acceleration);
+    speed += period_s * acceleration;
+  }
+}
+
+VectorXd left_of(const Replay::Guided& drive, const Stretch& at, double period_s) {
+  const auto rows = static_cast<Index>(at.rows);
+  VectorXd way = Eigen::Map<const VectorXd>(&drive.acceleration[at.first], rows);
+  integrate(way, period_s);
+  return Eigen::Map<const VectorXd>(&drive.position[at.first], rows) - way;
+}
+
+Passage passage_of(const PreparedRun& run, const Stretch& at, Output axis) {
+  Passage passage{run.run.period_s, 0,
+                  paces_of(run.run.measured[axis], run.run.period_s, at.first, at.rows)};
+  for (Pace& pace : passage.paces) pace.going = Going::on;
+  return passage;
+}
+
+/// Of position and speed at the start, whitened.
+MatrixXd start_of(const Whitener& whitener, std::size_t rows) {
+  MatrixXd directions(static_cast<Index>(rows), 2);
+  directions.col(0).setOnes();
+  directions.col(1).setLinSpaced(0, 1);
+  whitener.apply(directions);
+  return Eigen::HouseholderQR<MatrixXd>(directions).householderQ() *
+         MatrixXd::Identity(directions.rows(), directions.cols());
+}
+
+}  // namespace
+
+double Pieces::loss() const {
+  double sum = 0;
+  for (const Piece& piece : all) sum += loss_of(piece.residual);
+  return sum;
+}
+
+double Pieces::squares() const {
+  double sum = 0;
+  for (const Piece& piece : all) sum += piece.residual.squaredNorm();
+  return sum;
+}
+
+Pieces under_way(const Runs& runs, const Crane& crane, Output axis, const Disturbance& known) {
+  std::vector<VectorXd> left;
+  std::vector<Passage> passages;
+  std::vector<Stretch> stretches;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!runs[r].run.has(axis)) continue;
+    const Replay::Guided drive = Replay(runs[r], crane, Part::drive).guided(axis);
+    for (const Stretch& stretch : stretches_of(runs[r], r, axis)) {
+      stretches.push_back(stretch);
+      left.push_back(left_of(drive, stretch, runs[r].run.period_s));
+      passages.push_back(passage_of(runs[r], stretch, axis));
+    }
+  }
+  Pieces pieces{&runs, axis, known, {}};
+  if (stretches.empty()) return pieces;
+  if (!(known.noise > 0)) pieces.disturbance = learn(left, passages);
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const auto& [run, first, rows] = stretches[i];
+    Piece piece{run, first, rows, Whitener(pieces.disturbance, passages[i]), std::move(left[i]), {}};
+    piece.basis = start_of(piece.whitener, rows);
+    piece.whitener.apply(piece.residual);
+    piece.residual -= piece.basis * (piece.basis.transpose() * piece.residual).eval();
+    pieces.all.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+Pieces windows_of(const Problem& problem, const Fits& fits, std::size_t output) {
+  Pieces pieces{&problem.runs(), problem.outputs()[output], problem.disturbances()[output], {}};
+  for (std::size_t w = 0; w < fits.size(); ++w) {
+    const Window& window = problem.windows()[w];
+    const auto rows = static_cast<Index>(window.rows), from = static_cast<Index>(output) * rows;
+    pieces.all.push_back({window.run, window.first, window.rows, problem.whitener(output, w),
+                          fits[w].residual.segment(from, rows), fits[w].basis.middleRows(from, rows)});
+  }
+  return pieces;
+}
+
+Explained& Explained::operator+=(const Explained& other) {
+  pull += other.pull;
+  curvature += other.curvature;
+  return *this;
+}
+
+Explained& Explained::operator-=(const Explained& other) {
+  pull -= other.pull;
+  curvature -= other.curvature;
+  return *this;
+}
+
+Eigen::Vector2d wave_amplitude(const Explained& wave) {
+  const Eigen::Matrix2d h = wave.curvature;
+  const Eigen::Matrix2d regular = h + (1e-9 * h.trace() + 1e-12) * Eigen::Matrix2d::Identity();
+  return regular.inverse() * wave.pull;
+}
+
+Explained explained(const Pieces& pieces, const Piece& piece, MatrixXd forces) {
+  if (!pieces.of_load()) integrate(forces, (*pieces.runs)[piece.run].run.period_s);
+  piece.whitener.apply(forces);
+  forces -= piece.basis * (piece.basis.transpose() * forces).eval();
+  const VectorXd weights = weights_of(piece.residual);
+  Explained all;
+  all.pull = forces.transpose() * weights.cwiseProduct(piece.residual);
+  all.curvature = forces.transpose() * weights.asDiagonal() * forces;
+  return all;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,64 @@
+#pragma once
+/// Pieces of one output's residual that a missing force shows in, and what such a force does to them.
+///
+/// Drives: pieces of the way between two rests. The model at the measured speed, with the measured command
+/// and swing, says how the axis accelerates; twice integrated, from a start of its own that is projected
+/// away, this leaves of the measured position what a missing force has made, and that is linear in it. When
+/// the axis breaks loose, and what friction does where it stands, plays no part.
+///
+/// Swing: the windows of the load's replay. A pendulum's answer, once free motion is taken out, is the force
+/// times a constant.
+///
+/// Forces are in units of their own: patterns of force are told by their shape.
+#include "shooting/problem.hpp"
+
+namespace crane::diagnosis {
+
+/// Slower than this [m/s or rad/s], an axis with friction stands.
+inline constexpr double kStands = 0.01;
+
+struct Piece {
+  std::size_t run = 0, first = 0, rows = 0;
+  Whitener whitener;
+  Eigen::VectorXd residual;  ///< whitened, without what the start can make
+  Eigen::MatrixXd basis;     ///< orthonormal: what the start can make, whitened
+};
+
+struct Pieces {
+  const Runs* runs = nullptr;
+  Output output = kTrolleyPosition;
+  Disturbance disturbance;
+  std::vector<Piece> all;
+
+  [[nodiscard]] bool of_load() const { return output == kRadialSwing || output == kTangentialSwing; }
+  [[nodiscard]] double loss() const;
+  [[nodiscard]] double squares() const;
+};
+
+/// @param runs outlive the pieces
+/// @param known noise and disturbance; learnt from the pieces themselves when its noise is 0
+[[nodiscard]] Pieces under_way(const Runs& runs, const Crane& crane, Output axis,
+                               const Disturbance& known = {});
+/// @param problem of the load, its runs outlive the pieces
+/// @param output index into its outputs
+[[nodiscard]] Pieces windows_of(const Problem& problem, const Fits& fits, std::size_t output);
+
+/// How well patterns of force explain residuals: slope' weighted residual and slope' weighted slope.
+struct Explained {
+  explicit Explained(Eigen::Index patterns = 0)
+      : pull(Eigen::VectorXd::Zero(patterns)), curvature(Eigen::MatrixXd::Zero(patterns, patterns)) {}
+  Eigen::VectorXd pull;
+  Eigen::MatrixXd curvature;
+  /// Decrease of the loss that the amplitudes x make.
+  [[nodiscard]] double gain(const Eigen::VectorXd& x) const { return 2 * x.dot(pull) - x.dot(curvature * x); }
+  Explained& operator+=(const Explained& other);
+  Explained& operator-=(const Explained& other);
+};
+
+/// Of cosine and sine, the two patterns of a wave, as the residual has them best.
+[[nodiscard]] Eigen::Vector2d wave_amplitude(const Explained& wave);
+
+/// @param forces on the piece, row x pattern
+[[nodiscard]] Explained explained(const Pieces& pieces, const Piece& piece, Eigen::MatrixXd forces);
+
+}  // namespace crane::diagnosis
