@@ -59,8 +59,7 @@ const PerColumn& Predictor::predict(const plant::PerAxis& applied_v, const Known
     return diagnosis::Moment{std::lerp(before_.cable_m, now.cable_m, share),
                              std::lerp(before_.cable_mps, now.cable_mps, share), 0};
   };
-  for (int step = 0; step < steps_; ++step)
-    course_->step(still, cable((step + 0.5) / steps_));
+  for (int step = 0; step < steps_; ++step) course_->step(still, cable((step + 0.5) / steps_));
   course_->follow(still, cable(1));
   for (const auto column : diagnosis::kAllOutputs)
     position_of(course_->state, column) +=

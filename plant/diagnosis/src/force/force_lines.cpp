@@ -108,8 +108,7 @@ std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t s
   parallel_for(lines.size(), [&](std::size_t i) {
     lines[i] = line_at(pieces, kLowest_hz + kSpacing_hz * static_cast<double>(i));
   });
-  const Found found =
-      cross_validated(pieces, lines, VectorXd::Ones(static_cast<Index>(pieces.all.size())));
+  const Found found = cross_validated(pieces, lines, VectorXd::Ones(static_cast<Index>(pieces.all.size())));
   if (found.gain < least * loss || found.gain <= by_luck(pieces, lines, seed)) return std::nullopt;
   std::ostringstream name;
   name.precision(3);

@@ -20,7 +20,6 @@ constexpr std::size_t kFewest = 3;
 /// Rows at the ends of a piece, where a jump is as good as another start.
 constexpr std::size_t kMargin = 5;
 
-
 /// One column per row at which the position, or the speed, may jump.
 MatrixXd jumps_in(const Piece& piece, bool of_speed) {
   const auto rows = static_cast<Index>(piece.rows), margin = static_cast<Index>(kMargin);

@@ -60,8 +60,7 @@ VectorXd left_of(const Replay::Guided& drive, const Stretch& at, double period_s
 }
 
 Passage passage_of(const PreparedRun& run, const Stretch& at, Output axis) {
-  Passage passage{run.run.period_s, 0,
-                  paces_of(run.run.measured[axis], run.run.period_s, at.first, at.rows)};
+  Passage passage{run.run.period_s, 0, paces_of(run.run.measured[axis], run.run.period_s, at.first, at.rows)};
   for (Pace& pace : passage.paces) pace.going = Going::on;
   return passage;
 }

@@ -62,8 +62,7 @@ std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count
   if (drive.all.empty() || !(travel > 0)) return {};
   std::vector<Wave> lines(kPlaces);
   parallel_for(kPlaces, [&](std::size_t line) {
-    if (line + 1 >= kFirst)
-      lines[line] = wave_of(drive, kSpacing * static_cast<double>(line) / travel);
+    if (line + 1 >= kFirst) lines[line] = wave_of(drive, kSpacing * static_cast<double>(line) / travel);
   });
   std::vector<std::size_t> peaks;
   for (std::size_t line = kFirst; line + 1 < kPlaces; ++line)

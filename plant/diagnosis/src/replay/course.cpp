@@ -41,8 +41,8 @@ void Course::step(const std::array<Moment, kOutputs>& at, const Moment& cable_at
 double Course::acceleration(Output axis, const std::array<Moment, kOutputs>& at, const Moment& cable_at) {
   const State there = half_way(at, cable_at);
   plant::InnerAccelerations ignored{};
-  return acceleration_of(
-      model_.accelerations(there, actuation_, model_.friction_v(there), inner, ignored), axis);
+  return acceleration_of(model_.accelerations(there, actuation_, model_.friction_v(there), inner, ignored),
+                         axis);
 }
 
 void Course::follow(const std::array<Moment, kOutputs>& at, const Moment& cable) {

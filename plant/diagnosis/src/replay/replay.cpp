@@ -225,8 +225,8 @@ Replay::Guided Replay::guided(Output axis) const {
   for (std::size_t row = 0; row + 1 < rows; ++row) {
     if (!p.inner_at.empty()) course.inner = p.inner_at[row];
     course.new_command(p.drive_v[row]);
-    drive.acceleration[row] = course.acceleration(axis, p.measured_at(none, row, 0.5),
-                                                  between(p.source.cable, row, 0.5, period_s));
+    drive.acceleration[row] =
+        course.acceleration(axis, p.measured_at(none, row, 0.5), between(p.source.cable, row, 0.5, period_s));
   }
   return drive;
 }

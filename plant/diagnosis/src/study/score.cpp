@@ -95,8 +95,10 @@ std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& e
   const double gain =
       axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
   std::vector<Shape> shapes;
-  for (const PositionWave& wave : strongest_waves(under_way(train_drive_->runs(), with(effects), axis), kWaves))
-    shapes.push_back({{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}, true});
+  for (const PositionWave& wave :
+       strongest_waves(under_way(train_drive_->runs(), with(effects), axis), kWaves))
+    shapes.push_back(
+        {{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}, true});
   return shapes;
 }
 
