@@ -136,7 +136,9 @@ Set set_of(std::size_t number, std::uint64_t first_seed) {
   if (set.kind == Kind::single || set.kind == Kind::outside) {
     const auto all = names(set.kind == Kind::single);
     effects = {{all[count * (set.kind == Kind::single ? 5 : 1) % all.size()], 1, ""}};
-    if (set.kind == Kind::single) set.multiple = kMultiples[count / all.size() % kMultiples.size()];
+    // Every amplitude of every cause in three rounds, and in any part of a round as many of each.
+    if (set.kind == Kind::single)
+      set.multiple = kMultiples[(count % all.size() + count / all.size()) % kMultiples.size()];
     rig = rig_for(effects, count + count / all.size());
   } else if (set.kind == Kind::pair) {
     effects = two(count);

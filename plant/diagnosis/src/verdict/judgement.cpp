@@ -20,9 +20,10 @@ constexpr double kRunnerUp = 0.1;
 /// up to 0.4 percent.
 constexpr double kPattern = 0.008;
 /// A pattern this large against all that is wrong with the base model makes the names beside it doubtful. A
-/// term's form is not exactly the effect's, so that more may be left of what it is a law of itself; two
-/// effects together can take the form of much that they are not.
-constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveral = 0.02;
+/// term's form is not exactly the effect's, so that more may be left of what it is a law of itself. Several
+/// effects together can take the form of much that they are not, those that are laws of the same of anything.
+constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveral = 0.02,
+                 kDoubtfulOfSeveralLaws = 0.01;
 
 /// 1 where noise and disturbance are as learnt.
 double mean_loss(const Fits& fits) {
@@ -123,8 +124,11 @@ class Judgement {
 
   /// Beside the named effects, as a share of the base model's loss.
   [[nodiscard]] double believable(const Unexplained& left) const {
-    if (best_.effects.size() > 1) return kDoubtfulOfSeveral;
-    return of_its_own(*best_.effects[0].candidate, left.variable) ? kDoubtfulOfItsOwn : kDoubtful;
+    const auto laws = std::count_if(best_.effects.begin(), best_.effects.end(), [&](const Effect& effect) {
+      return of_its_own(*effect.candidate, left.variable);
+    });
+    if (best_.effects.size() > 1) return laws > 1 ? kDoubtfulOfSeveralLaws : kDoubtfulOfSeveral;
+    return laws > 0 ? kDoubtfulOfItsOwn : kDoubtful;
   }
 
   /// Patterns in the residual of the drives and lines in that of the swing, strongest first.
