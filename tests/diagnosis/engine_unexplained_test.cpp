@@ -99,7 +99,7 @@ TEST(Unexplained, ForceThatComesBackInTimeIsALine) {
       left_of([](double t, double, double) { return 0.1 * std::sin(2 * std::numbers::pi * 0.7 * t); });
   ASSERT_TRUE(left.line);
   EXPECT_THAT(left.line->variable, testing::HasSubstr("0.7 Hz"));
-  EXPECT_FALSE(left.line->of_load);
+  EXPECT_EQ(left.line->output, kTrolleyPosition);
 }
 
 TEST(Unexplained, BrakeThatGripsNowAndThenMakesTheSpeedJump) {

@@ -113,7 +113,7 @@ std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t s
   std::ostringstream name;
   name.precision(3);
   name << kOutputNames[pieces.output] << ": time, " << found.hz << " Hz";
-  return Unexplained{name.str(), found.gain, found.gain / loss, pieces.of_load()};
+  return Unexplained{name.str(), GoesWith::frequency, pieces.output, found.gain, found.gain / loss};
 }
 
 }  // namespace crane::diagnosis

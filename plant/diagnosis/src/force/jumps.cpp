@@ -62,7 +62,7 @@ std::optional<Unexplained> find_jumps(const Pieces& pieces) {
   const std::string axis = pieces.output == kTrolleyPosition ? "trolley" : "slew";
   return Unexplained{axis + (rather_position > 0 ? ": jumps of the position, " : ": jumps of the speed, ") +
                          std::to_string(clear) + " in " + std::to_string(found.size()) + " motions",
-                     gain, gain / pieces.loss(), false};
+                     GoesWith::jumps, pieces.output, gain, gain / pieces.loss()};
 }
 
 }  // namespace crane::diagnosis

@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Shorter ones say nothing beyond their start; longer ones are cut.
-constexpr double kShortest_s = 0.15, kLongest_s = 2;
+constexpr double kShortestPiece_s = 0.15, kLongestPiece_s = 2;
 
 struct Stretch {
   std::size_t run = 0, first = 0, rows = 0;
@@ -23,8 +23,8 @@ struct Stretch {
 /// Where the axis of a run moves without a rest.
 std::vector<Stretch> stretches_of(const PreparedRun& run, std::size_t number, Output axis) {
   const std::vector<double>& rate = run.motion[axis].rate;
-  const auto shortest = static_cast<std::size_t>(kShortest_s / run.run.period_s);
-  const auto longest = static_cast<std::size_t>(kLongest_s / run.run.period_s);
+  const auto shortest = static_cast<std::size_t>(kShortestPiece_s / run.run.period_s);
+  const auto longest = static_cast<std::size_t>(kLongestPiece_s / run.run.period_s);
   std::vector<Stretch> all;
   for (std::size_t first = 0, row = 0; row <= rate.size(); ++row) {
     const bool goes_on = row < rate.size() && std::abs(rate[row]) >= kStands &&

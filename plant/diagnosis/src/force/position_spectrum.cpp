@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "parallel.hpp"
+#include "replay/travel.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -20,18 +20,6 @@ constexpr std::size_t kPlaces = 400;
 constexpr double kSpacing = 0.25;
 /// Five waves over the travel; longer ones are friction that depends on position.
 constexpr std::size_t kFirst = 20;
-
-struct Travel {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-};
-
-Travel travelled(const Pieces& drive) {
-  Travel way;
-  for (const PreparedRun& run : *drive.runs)
-    for (const double at : run.run.measured[drive.output])
-      way.low = std::min(way.low, at), way.high = std::max(way.high, at);
-  return way;
-}
 
 struct Wave {
   double power = 0;
@@ -57,8 +45,7 @@ Wave wave_of(const Pieces& drive, double per_length) {
 }  // namespace
 
 std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count) {
-  const Travel way = travelled(drive);
-  const double travel = way.high - way.low;
+  const double travel = travel_of(*drive.runs, drive.output).width();
   if (drive.all.empty() || !(travel > 0)) return {};
   std::vector<Wave> lines(kPlaces);
   parallel_for(kPlaces, [&](std::size_t line) {

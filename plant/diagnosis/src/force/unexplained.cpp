@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
+#include <functional>
 
 #include "parallel.hpp"
-#include "robust.hpp"
+#include "replay/travel.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -19,44 +18,22 @@ constexpr std::size_t kFolds = 4;
 /// A force that builds up after a reversal has done so within this share of the travel.
 constexpr double kBuildUp = 0.25;
 
-/// A force pattern: a voltage by row for every run.
-struct Pattern {
-  std::vector<std::vector<double>> voltage;
-};
+/// Of a run and a row.
+using Along = std::function<double(std::size_t, std::size_t)>;
 
+/// A force that goes with `value`: an amplitude for each of some triangular bins over its extent, times
+/// `force`.
 struct Variable {
   std::string name;
-  plant::Axis axis;
-  std::vector<Pattern> bins;
-};
-
-/// Triangular bins over [low, high] of `value(run, row)`, only while the axis moves.
-template <class Value>
-Variable binned(const std::string& name, plant::Axis axis, const Runs& runs, std::size_t bins, double low,
-                double high, Value&& value) {
-  Variable variable{name, axis, std::vector<Pattern>(bins)};
-  for (Pattern& pattern : variable.bins)
-    for (const PreparedRun& run : runs) pattern.voltage.emplace_back(run.run.rows(), 0.0);
-  if (!(high > low)) return variable;
-  for (std::size_t r = 0; r < runs.size(); ++r)
-    for (std::size_t k = 0; k < runs[r].run.rows(); ++k) {
-      if (std::abs(runs[r].motion[axis].rate[k]) < kStands) continue;
-      const double at =
-          std::clamp((value(r, k) - low) / (high - low), 0.0, 1.0) * static_cast<double>(bins - 1);
-      for (std::size_t b = 0; b < bins; ++b)
-        variable.bins[b].voltage[r][k] = std::max(0.0, 1 - std::abs(at - static_cast<double>(b)));
-    }
-  return variable;
-}
-
-struct Extent {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  void take(double value) { low = std::min(low, value), high = std::max(high, value); }
+  GoesWith with = GoesWith::position;
+  std::size_t bins = 1;
+  Extent over;
+  Along value, force;
 };
 
 /// For every row the way since the axis last turned, with the sign of the direction and drawn out near 0:
 /// +-sqrt(way / far), at most 1.
-std::vector<std::vector<double>> since_reversal(const Runs& runs, plant::Axis axis, double far) {
+std::vector<std::vector<double>> since_reversal(const Runs& runs, Output axis, double far) {
   std::vector<std::vector<double>> all;
   for (const PreparedRun& run : runs) {
     const Motion& motion = run.motion[axis];
@@ -71,63 +48,47 @@ std::vector<std::vector<double>> since_reversal(const Runs& runs, plant::Axis ax
   return all;
 }
 
-std::vector<Variable> variables_of(const Runs& runs, plant::Axis axis) {
-  const std::string name = axis == plant::kTrolley ? "trolley" : "slew";
-  const auto other = static_cast<std::size_t>(axis == plant::kTrolley ? plant::kSlew : plant::kTrolley);
-  Extent position, speed, time;
+std::vector<Variable> variables_of(const Runs& runs, Output axis) {
+  const std::string name = axis == kTrolleyPosition ? "trolley" : "slew";
+  const std::size_t other = axis == kTrolleyPosition ? plant::kSlew : plant::kTrolley;
+  const Extent travel = travel_of(runs, axis);
+  Extent speeds, times{0, 0};
   for (const PreparedRun& run : runs) {
-    for (const double p : run.motion[axis].position) position.take(p);
-    for (const double v : run.motion[axis].rate) speed.take(v);
-    time.take(run.run.duration_s());
+    for (const double v : run.motion[axis].rate) speeds.take(v);
+    times.take(run.run.duration_s());
   }
-  std::vector<Variable> all;
-  all.push_back(binned(name + ": position", axis, runs, 16, position.low, position.high,
-                       [&](std::size_t r, std::size_t k) { return runs[r].motion[axis].position[k]; }));
-  all.push_back(binned(name + ": position, closely", axis, runs, 64, position.low, position.high,
-                       [&](std::size_t r, std::size_t k) { return runs[r].motion[axis].position[k]; }));
-  all.push_back(binned(name + ": speed", axis, runs, 12, speed.low, speed.high,
-                       [&](std::size_t r, std::size_t k) { return runs[r].motion[axis].rate[k]; }));
-  // Friction that is elsewhere another one, or at another time.
-  Variable tight = binned(name + ": friction by position", axis, runs, 16, position.low, position.high,
-                          [&](std::size_t r, std::size_t k) { return runs[r].motion[axis].position[k]; });
-  Variable wear =
-      binned(name + ": friction over time", axis, runs, 5, 0, time.high,
-             [&](std::size_t r, std::size_t k) { return static_cast<double>(k) * runs[r].run.period_s; });
-  for (Variable* friction : {&tight, &wear}) {
-    for (Pattern& bin : friction->bins)
-      for (std::size_t r = 0; r < runs.size(); ++r)
-        for (std::size_t k = 0; k < runs[r].run.rows(); ++k)
-          bin.voltage[r][k] = std::copysign(bin.voltage[r][k], runs[r].motion[axis].rate[k]);
-    all.push_back(std::move(*friction));
-  }
-  const auto since = since_reversal(runs, axis, kBuildUp * std::max(1e-3, position.high - position.low));
-  all.push_back(binned(name + ": way since the last reversal", axis, runs, 13, -1, 1,
-                       [&](std::size_t r, std::size_t k) { return since[r][k]; }));
-  // A gain that drifts: the command itself, weighted by time.
-  Variable drift =
-      binned(name + ": command over time", axis, runs, 5, 0, time.high,
-             [&](std::size_t r, std::size_t k) { return static_cast<double>(k) * runs[r].run.period_s; });
-  Variable crossed{name + ": command of the other drive", axis, std::vector<Pattern>(1)};
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    crossed.bins[0].voltage.emplace_back(runs[r].run.rows());
-    for (std::size_t k = 0; k < runs[r].run.rows(); ++k) {
-      for (Pattern& bin : drift.bins) bin.voltage[r][k] *= runs[r].run.command_v[k][axis];
-      crossed.bins[0].voltage[r][k] = runs[r].run.command_v[k][other];
-    }
-  }
-  all.push_back(std::move(drift));
-  all.push_back(std::move(crossed));
-  return all;
+  const Along position = [&runs, axis](auto r, auto k) { return runs[r].motion[axis].position[k]; };
+  const Along speed = [&runs, axis](auto r, auto k) { return runs[r].motion[axis].rate[k]; };
+  const Along time = [&runs](auto r, auto k) { return static_cast<double>(k) * runs[r].run.period_s; };
+  const Along since = [all = since_reversal(runs, axis, kBuildUp * std::max(1e-3, travel.width()))](
+                          auto r, auto k) { return all[r][k]; };
+  const Along push = [](auto, auto) { return 1.0; };
+  const Along friction = [speed](auto r, auto k) { return std::copysign(1.0, speed(r, k)); };
+  const Along command = [&runs, axis](auto r, auto k) { return runs[r].run.command_v[k][axis]; };
+  const Along other_command = [&runs, other](auto r, auto k) { return runs[r].run.command_v[k][other]; };
+  return {{name + ": position", GoesWith::position, 16, travel, position, push},
+          {name + ": position, closely", GoesWith::position, 64, travel, position, push},
+          {name + ": speed", GoesWith::speed, 12, speeds, speed, push},
+          {name + ": way since the last reversal", GoesWith::reversals, 13, {-1, 1}, since, push},
+          {name + ": friction by position", GoesWith::position, 16, travel, position, friction},
+          {name + ": friction over time", GoesWith::time, 5, times, time, friction},
+          {name + ": command over time", GoesWith::time, 5, times, time, command},
+          {name + ": command of the other drive", GoesWith::other_command, 1, times, time, other_command}};
 }
 
 /// Of every piece, one column a bin.
 std::vector<Explained> explained_by(const Pieces& pieces, const Variable& variable) {
+  const auto last = static_cast<double>(variable.bins - 1);
   std::vector<Explained> all;
   for (const Piece& piece : pieces.all) {
-    MatrixXd forces(static_cast<Index>(piece.rows), static_cast<Index>(variable.bins.size()));
-    for (std::size_t bin = 0; bin < variable.bins.size(); ++bin)
-      forces.col(static_cast<Index>(bin)) = Eigen::Map<const VectorXd>(
-          &variable.bins[bin].voltage[piece.run][piece.first], static_cast<Index>(piece.rows));
+    MatrixXd forces = MatrixXd::Zero(static_cast<Index>(piece.rows), static_cast<Index>(variable.bins));
+    for (Index k = 0; k < forces.rows(); ++k) {
+      const std::size_t row = piece.first + static_cast<std::size_t>(k);
+      const double share = (variable.value(piece.run, row) - variable.over.low) / variable.over.width();
+      const double at = last * std::clamp(share, 0.0, 1.0), force = variable.force(piece.run, row);
+      for (Index bin = 0; bin < forces.cols(); ++bin)
+        forces(k, bin) = force * std::max(0.0, 1 - std::abs(at - static_cast<double>(bin)));
+    }
     all.push_back(explained(pieces, piece, std::move(forces)));
   }
   return all;
@@ -159,13 +120,14 @@ double cross_validated(const std::vector<Explained>& pieces) {
 std::vector<Unexplained> find_unexplained(const Pieces& pieces) {
   std::vector<Unexplained> found;
   if (pieces.all.empty()) return found;
-  const std::vector<Variable> variables = variables_of(*pieces.runs, static_cast<plant::Axis>(pieces.output));
+  const std::vector<Variable> variables = variables_of(*pieces.runs, pieces.output);
   const double loss = pieces.loss();
   std::vector<double> gains(variables.size());
   parallel_for(variables.size(),
                [&](std::size_t v) { gains[v] = cross_validated(explained_by(pieces, variables[v])); });
   for (std::size_t v = 0; v < variables.size(); ++v)
-    if (gains[v] > 0) found.push_back({variables[v].name, gains[v], gains[v] / loss, false});
+    if (gains[v] > 0)
+      found.push_back({variables[v].name, variables[v].with, pieces.output, gains[v], gains[v] / loss});
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
   return found;
 }

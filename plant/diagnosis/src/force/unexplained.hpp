@@ -1,7 +1,7 @@
 #pragma once
-/// Is there anything left that no candidate explains? Drives: an extra voltage that is free in every bin of
-/// position, speed, way since the last reversal, other command ..., tried one variable after the other, out
-/// of sample.
+/// Is there anything left of a drive that no candidate explains? An extra force that is free in every bin of
+/// position, speed, way since the last reversal, command ..., tried one variable after the other, out of
+/// sample.
 #include <string>
 #include <vector>
 
@@ -9,11 +9,14 @@
 
 namespace crane::diagnosis {
 
+enum class GoesWith { position, speed, reversals, time, other_command, frequency, jumps };
+
 struct Unexplained {
   std::string variable;  ///< "trolley: position", ...
-  double gain = 0;       ///< decrease of the loss, cross-validated
-  double fraction = 0;   ///< of the pieces' loss
-  bool of_load = false;  ///< one frequency in the swing
+  GoesWith with = GoesWith::position;
+  Output output = kTrolleyPosition;
+  double gain = 0;      ///< decrease of the loss, cross-validated
+  double fraction = 0;  ///< of the pieces' loss
 };
 
 /// Strongest first; only those that predict.

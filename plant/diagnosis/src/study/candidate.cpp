@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "replay/travel.hpp"
 #include "study/candidate_shapes.hpp"
 
 namespace crane::diagnosis {
@@ -107,12 +107,12 @@ class Builder {
 
   void add_tight_spots(const std::string& axis, Output output) {
     std::vector<std::vector<double>> shapes;
-    const double travel = travelled(output);
+    const double travel = travelled(output), middle = travel_of(runs_, output).middle();
     const FreeParameter wavelength =
         free_parameter("position_dependent_friction", "wavelength", 0.1 * travel, 2 * travel, 0.01 * travel);
     for (const double share : {1.6, 0.8, 0.4})
       for (int place = 0; place < 4 && share * travel > wavelength.low; ++place)
-        shapes.push_back({share * travel, middle(output) + 0.25 * place * share * travel});
+        shapes.push_back({share * travel, middle + 0.25 * place * share * travel});
     if (shapes.empty()) return;
     add(shaped(
             "position_dependent_friction", axis,
@@ -214,19 +214,9 @@ class Builder {
     }
   }
 
+  /// No axis goes less far.
   [[nodiscard]] double travelled(Output output) const {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const PreparedRun& run : runs_)
-      for (const double value : run.run.measured[output])
-        low = std::min(low, value), high = std::max(high, value);
-    return std::max(high - low, 1e-3);
-  }
-  [[nodiscard]] double middle(Output output) const {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const PreparedRun& run : runs_)
-      for (const double value : run.run.measured[output])
-        low = std::min(low, value), high = std::max(high, value);
-    return 0.5 * (low + high);
+    return std::max(travel_of(runs_, output).width(), 1e-3);
   }
 
   const runtime::Rig& rig_;

@@ -19,7 +19,7 @@ namespace {
 constexpr double kHiding = 0.95;
 constexpr std::size_t kContenders = 3;
 /// A smaller share of the held-out error has to be beyond doubt.
-constexpr double kLeastGain = 0.05;
+constexpr double kWorthwhile = 0.05;
 
 Runs prepared(std::vector<Run> runs, const runtime::Rig& rig) {
   Runs all;
@@ -161,7 +161,7 @@ Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test
   }
   request.progress(0.92, "held-out runs");
   result.held_out = held_out(study, found.best.effects, request.seed);
-  if (!found.best.effects.empty() && result.held_out.gain < kLeastGain && result.held_out.gain_ci95[0] < 0)
+  if (!found.best.effects.empty() && result.held_out.gain < kWorthwhile && result.held_out.gain_ci95[0] < 0)
     doubt(result, "held-out runs: the extended model does not simulate them better");
   if (!rivals.empty()) {
     request.progress(0.95, "which motion would tell them apart");

@@ -20,10 +20,9 @@ constexpr double kRunnerUp = 0.1;
 /// up to 0.4 percent.
 constexpr double kPattern = 0.008;
 /// A pattern this large against all that is wrong with the base model makes the names beside it doubtful. A
-/// term's form is not exactly the effect's, so that more may be left of what it is a law of itself. Several
-/// effects together can take the form of much that they are not, those that are laws of the same of anything.
-constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveral = 0.02,
-                 kDoubtfulOfSeveralLaws = 0.01;
+/// term's form is not exactly the effect's, so that more may be left of what it is a law of. Several laws of
+/// the same take any form together.
+constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveralLaws = 0.01;
 
 /// 1 where noise and disturbance are as learnt.
 double mean_loss(const Fits& fits) {
@@ -34,19 +33,17 @@ double mean_loss(const Fits& fits) {
 }
 
 /// Whether the pattern goes with what the term is a law of.
-bool of_its_own(const Candidate& candidate, const std::string& variable) {
-  static const std::map<std::string, std::vector<std::string>> kLaws{
-      {"coulomb_friction", {"speed", "way since"}},
-      {"viscous_friction", {"speed"}},
-      {"stribeck_friction", {"speed", "way since"}},
-      {"direction_asymmetry", {"speed", "way since"}},
-      {"position_dependent_friction", {"position", "friction by position"}},
-      {"torque_ripple", {"position"}}};
+bool of_its_own(const Candidate& candidate, const Unexplained& left) {
+  using enum GoesWith;
+  static const std::map<std::string, GoesWith> kLaws{{"coulomb_friction", speed},
+                                                     {"viscous_friction", speed},
+                                                     {"stribeck_friction", speed},
+                                                     {"direction_asymmetry", speed},
+                                                     {"position_dependent_friction", position},
+                                                     {"torque_ripple", position}};
   const auto laws = kLaws.find(candidate.cause);
-  return laws != kLaws.end() && variable.starts_with(candidate.axis) &&
-         std::any_of(laws->second.begin(), laws->second.end(), [&](const std::string& with) {
-           return variable.find(": " + with) != std::string::npos;
-         });
+  return laws != kLaws.end() && candidate.axis == (left.output == kTrolleyPosition ? "trolley" : "slew") &&
+         left.with == laws->second;
 }
 
 /// A pattern, and the loss of the base model in the same noise.
@@ -117,7 +114,7 @@ class Judgement {
       remainder.from.push_back(left[i].what.variable);
     return std::any_of(left.begin(), left.end(), [&](const Pattern& pattern) {
       const Unexplained& u = pattern.what;
-      const bool counts = u.of_load || u.fraction > kPattern;
+      const bool counts = u.with == GoesWith::frequency || u.fraction > kPattern;
       return counts && (best_.effects.empty() || u.gain > believable(u) * pattern.of_base);
     });
   }
@@ -125,10 +122,9 @@ class Judgement {
   /// Beside the named effects, as a share of the base model's loss.
   [[nodiscard]] double believable(const Unexplained& left) const {
     const auto laws = std::count_if(best_.effects.begin(), best_.effects.end(), [&](const Effect& effect) {
-      return of_its_own(*effect.candidate, left.variable);
+      return of_its_own(*effect.candidate, left);
     });
-    if (best_.effects.size() > 1) return laws > 1 ? kDoubtfulOfSeveralLaws : kDoubtfulOfSeveral;
-    return laws > 0 ? kDoubtfulOfItsOwn : kDoubtful;
+    return laws == 0 ? kDoubtful : laws == 1 ? kDoubtfulOfItsOwn : kDoubtfulOfSeveralLaws;
   }
 
   /// Patterns in the residual of the drives and lines in that of the swing, strongest first.
