@@ -69,6 +69,25 @@ Left left_of(Extra&& extra_v) {
 
 double nothing(double, double, double) { return 0; }
 
+/// What a scale of 7 % leaves to second order would be 2 mm of 40 cm.
+TEST(UnderWay, ErrorsOfTheEncoderAreUndoneAndNeverMakeTheResidualSmaller) {
+  constexpr double kScale = 0.93;
+  const runtime::Rig rig = axis_with_viscous_friction();
+  const Runs as_it_was{moved(rig, 30, 1, nothing)};
+  diagnosis::Run shown = as_it_was[0].run;
+  for (double& position : shown.measured[kTrolleyPosition]) position *= kScale;
+  const Runs scaled{prepare(shown, rig)};
+  Crane crane{rig.plant, rig.terms};
+  crane.terms.push_back({"position_scale", "trolley", {{"factor", kScale}}});
+
+  const auto guided = Replay(scaled[0], crane, Part::drive).guided(kTrolleyPosition);
+  for (std::size_t k = 0; k < shown.rows(); ++k)
+    ASSERT_NEAR(guided.position[k], as_it_was[0].run.measured[kTrolleyPosition][k], 1e-5) << k;
+  const Pieces right = under_way(as_it_was, {rig.plant, rig.terms}, kTrolleyPosition);
+  const Pieces undone = under_way(scaled, crane, kTrolleyPosition, right.disturbance);
+  EXPECT_NEAR(undone.squares() / right.squares(), kScale * kScale, 0.01);
+}
+
 TEST(Unexplained, OfTheRightModelIsNothing) {
   const Left left = left_of(nothing);
   for (const Unexplained& u : left.patterns) EXPECT_LT(u.fraction, 0.008) << u.variable;

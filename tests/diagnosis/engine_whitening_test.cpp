@@ -7,6 +7,8 @@
 namespace crane::diagnosis {
 namespace {
 
+constexpr double kLeastNoise = 1e-7;
+
 /// Windows of a drive with viscous friction under a coloured acceleration, seen with noise.
 std::vector<Eigen::VectorXd> windows(double noise, double acceleration, double correlation_s,
                                      double damping_ps, std::uint64_t seed) {
@@ -39,16 +41,24 @@ std::vector<Passage> moving(const std::vector<Eigen::VectorXd>& residuals) {
 
 TEST(Whitener, FindsNoiseAndDisturbanceOfADrive) {
   const auto residuals = windows(1e-4, 0.05, 0.5, 4, 11);
-  const Disturbance learned = learn(residuals, moving(residuals));
+  const Disturbance learned = learn(residuals, moving(residuals), kLeastNoise);
   EXPECT_NEAR(learned.noise, 1e-4, 1e-5);
   EXPECT_NEAR(learned.correlation_s, 0.5, 0.31);  // the grid's neighbours are 0.2 and 1
   EXPECT_NEAR(learned.acceleration, 0.05, 0.025);
 }
 
+TEST(Whitener, LearnsTheNoiseOfCountsFromAnAxisThatStandsExactlyStill) {
+  const std::vector<Eigen::VectorXd> residuals(3, Eigen::VectorXd::Zero(200));
+  const Disturbance learned = learn(residuals, moving(residuals), 1e-5);
+  EXPECT_EQ(learned.noise, 1e-5);
+  EXPECT_EQ(learned.acceleration, 0);
+  EXPECT_EQ(learned.misfit, 0);
+}
+
 TEST(Whitener, MakesTheResidualWhite) {
   const auto residuals = windows(1e-4, 0.05, 0.5, 4, 12);
   const auto passages = moving(residuals);
-  const Whitener whitener(learn(residuals, passages), passages[0]);
+  const Whitener whitener(learn(residuals, passages, kLeastNoise), passages[0]);
   double square = 0, neighbours = 0;
   for (Eigen::VectorXd r : residuals) {
     // The free start of a window is taken out first, as the fit does.
@@ -98,7 +108,7 @@ Sticking sticking(std::uint64_t seed) {
 
 TEST(Whitener, SeesThatAnAxisSticksAndMakesWhiteWhatItLeaves) {
   const Sticking data = sticking(3);
-  const Disturbance learned = learn(data.residuals, data.passages);
+  const Disturbance learned = learn(data.residuals, data.passages, kLeastNoise);
   EXPECT_TRUE(learned.sticks);
   EXPECT_GT(learned.friction, 0);
   EXPECT_NEAR(learned.noise, 1e-6, 3e-7);
@@ -111,7 +121,7 @@ TEST(Whitener, DoesNotTakeASlowAxisForOneThatSticks) {
   auto passages = moving(residuals);
   for (Passage& passage : passages)
     for (std::size_t k = 80; k < 120; ++k) passage.paces[k] = {1, Going::standing};
-  EXPECT_FALSE(learn(residuals, passages).sticks);
+  EXPECT_FALSE(learn(residuals, passages, kLeastNoise).sticks);
 }
 
 }  // namespace

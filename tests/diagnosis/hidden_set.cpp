@@ -26,8 +26,8 @@ const std::vector<HiddenSet> kFoundAlone{{"command_delay", "trolley", "drive_axi
                                          {"swing_moving_average", "", "tower"}};
 
 // What comes out as "unknown" or as another. An encoder that slips loses its counts at random, in jumps that
-// no law of a term foresees. A gap shows in jumps of the speed, its size not well enough. An elastic cable is
-// found as a longer one: its bounce is never measured.
+// no law of a term foresees. A gap is found, and its size, but its impacts leave jumps of the speed when they
+// come a little later. An elastic cable is found as a longer one: its bounce is never measured.
 const std::vector<HiddenSet> kNotFoundYet{{"backlash", "trolley", "tower"},
                                           {"position_drift", "trolley", "drive_axis"},
                                           {"cable_elasticity", "", "tower"}};

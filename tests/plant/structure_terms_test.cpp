@@ -200,6 +200,7 @@ TEST(DoublePendulum, FollowsTheSwingThatAFlexibleJibLeaves) {
 }
 
 constexpr double kGap_m = 0.004;
+constexpr double kContact_radps = kTurn * 25;
 Model with_backlash(double guide = 1) {
   return Model{{}, {{"backlash", "trolley", {{"gap", kGap_m}, {"guide_deceleration", guide}}}}};
 }
@@ -212,7 +213,7 @@ TEST(Backlash, KeepsTheTrolleyAtRestWhileTheMotorCrossesTheGap) {
       motion = test::step(model, motion, held({acceleration, 0, 0}), kStep_s);
   };
   run(0, 1);  // the motor pushes from behind: b = -h/2 and what friction presses the flank in
-  EXPECT_NEAR(motion.inner[0].position, -kGap_m / 2 - 1 / std::pow(kTurn * 15, 2), 1e-6);
+  EXPECT_NEAR(motion.inner[0].position, -kGap_m / 2 - 1 / std::pow(kContact_radps, 2), 1e-6);
   EXPECT_NEAR(motion.inner[0].rate, 0, 1e-6);
   run(-0.5, 0.2);  // braked more gently than by friction: the flank stays
   EXPECT_LT(motion.inner[0].position, -kGap_m / 2);
@@ -221,7 +222,7 @@ TEST(Backlash, KeepsTheTrolleyAtRestWhileTheMotorCrossesTheGap) {
   EXPECT_LT(motion.state.trolley_mps, -0.01);
   EXPECT_NEAR(moved, 0, 1e-4);
   run(0, 1);  // taken along by the other flank
-  EXPECT_NEAR(motion.inner[0].position, kGap_m / 2 + 1 / std::pow(kTurn * 15, 2), 1e-6);
+  EXPECT_NEAR(motion.inner[0].position, kGap_m / 2 + 1 / std::pow(kContact_radps, 2), 1e-6);
 }
 
 TEST(Backlash, LetsTheLoadFeelNothingOfTheMotorInsideTheGap) {
@@ -231,11 +232,17 @@ TEST(Backlash, LetsTheLoadFeelNothingOfTheMotorInsideTheGap) {
   EXPECT_NEAR(a.radial_radps2, 0, 1e-12);  // without the gap x'' / L = 2
 }
 
+TEST(Backlash, TurningJibThrowsTheTrolleyOutwardThroughTheGap) {
+  InnerAccelerations own{};
+  (void)with_backlash(0).accelerations({.trolley_m = 0.5, .slew_radps = 0.8}, held(), {}, own);
+  EXPECT_NEAR(own[0], 0.5 * 0.8 * 0.8, 1e-12);
+}
+
 TEST(Backlash, FlanksPushAndNeverPull) {
   InnerAccelerations own{};
   const Inner pressed{kGap_m / 2 + 0.001, 0}, leaving{kGap_m / 2 + 0.001, -1};
   (void)with_backlash(0).accelerations({.trolley_m = 0.5}, held(), {{pressed}}, own);
-  EXPECT_NEAR(own[0], -0.001 * std::pow(kTurn * 15, 2), 1e-9);
+  EXPECT_NEAR(own[0], -0.001 * std::pow(kContact_radps, 2), 1e-9);
   (void)with_backlash(0).accelerations({.trolley_m = 0.5}, held(), {{leaving}}, own);
   EXPECT_EQ(own[0], 0);
 }
@@ -246,7 +253,7 @@ TEST(Backlash, LosesEnergyWhileTheMotorRestsAndStaysInItsGap) {
     StructureMotion motion{{.trolley_m = 0.5}, {{{0, 0.2}}}};
     const auto energy = [](const Inner& b) {
       const double depth = std::max(0.0, std::abs(b.position) - kGap_m / 2);
-      return 0.5 * b.rate * b.rate + 0.5 * std::pow(kTurn * 15 * depth, 2);
+      return 0.5 * b.rate * b.rate + 0.5 * std::pow(kContact_radps * depth, 2);
     };
     const double start = energy(motion.inner[0]);
     double last = start;
@@ -254,7 +261,7 @@ TEST(Backlash, LosesEnergyWhileTheMotorRestsAndStaysInItsGap) {
       motion = test::step(model, motion, held(), kStep_s);
       EXPECT_LE(energy(motion.inner[0]), last * (1 + 1e-3));  // what one step of 1 ms is wrong at a contact
       last = energy(motion.inner[0]);
-      EXPECT_LT(std::abs(motion.inner[0].position), kGap_m / 2 + 0.2 / (kTurn * 15));
+      EXPECT_LT(std::abs(motion.inner[0].position), kGap_m / 2 + 0.2 / kContact_radps);
     }
     EXPECT_LT(last, 0.01 * start);
   }

@@ -5,7 +5,7 @@
 namespace crane::twin {
 namespace {
 
-/// As the diagnosis steps: a coordinate of a term's own may ring at 15 Hz.
+/// As the diagnosis steps: a coordinate of a term's own may ring at 25 Hz.
 constexpr double kLongestStep_s = 0.005, kLongestInnerStep_s = 0.0025;
 
 PerColumn columns_of(const plant::Measurement& m) {

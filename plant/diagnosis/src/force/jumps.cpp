@@ -59,7 +59,7 @@ std::optional<Unexplained> find_jumps(const Pieces& pieces) {
     rather_position += of_position - of_speed;
   }
   if (clear < kFewest) return std::nullopt;
-  const std::string axis = pieces.output == kTrolleyPosition ? "trolley" : "slew";
+  const std::string axis = axis_of(pieces.output);
   return Unexplained{axis + (rather_position > 0 ? ": jumps of the position, " : ": jumps of the speed, ") +
                          std::to_string(clear) + " in " + std::to_string(found.size()) + " motions",
                      GoesWith::jumps, pieces.output, gain, gain / pieces.loss()};

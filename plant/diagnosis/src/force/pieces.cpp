@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "noise/paces.hpp"
+#include "parallel.hpp"
 #include "robust.hpp"
 
 namespace crane::diagnosis {
@@ -18,6 +19,7 @@ constexpr double kShortestPiece_s = 0.15, kLongestPiece_s = 2;
 
 struct Stretch {
   std::size_t run = 0, first = 0, rows = 0;
+  std::vector<double> position;
 };
 
 /// Where the axis of a run moves without a rest.
@@ -32,7 +34,7 @@ std::vector<Stretch> stretches_of(const PreparedRun& run, std::size_t number, Ou
     if (goes_on) continue;
     const std::size_t rows = row - first, count = (rows + longest - 1) / longest;
     for (std::size_t piece = 0; rows >= shortest && piece < count; ++piece)
-      all.push_back({number, first + piece * rows / count, rows / count});
+      all.push_back({number, first + piece * rows / count, rows / count, {}});
     first = row + (row < rate.size() && std::abs(rate[row]) >= kStands ? 0 : 1);
   }
   return all;
@@ -52,11 +54,16 @@ void integrate(Accelerations&& x, double period_s) {
   }
 }
 
-VectorXd left_of(const Replay::Guided& drive, const Stretch& at, double period_s) {
-  const auto rows = static_cast<Index>(at.rows);
-  VectorXd way = Eigen::Map<const VectorXd>(&drive.acceleration[at.first], rows);
-  integrate(way, period_s);
-  return Eigen::Map<const VectorXd>(&drive.position[at.first], rows) - way;
+/// In what the sensor shows: a scale of it must not make errors smaller.
+VectorXd left_of(const PreparedRun& run, const Replay::Guided& drive, Output axis, std::size_t first,
+                 std::size_t row_count) {
+  const auto rows = static_cast<Index>(row_count);
+  VectorXd way = Eigen::Map<const VectorXd>(&drive.acceleration[first], rows);
+  integrate(way, run.run.period_s);
+  const std::vector<double>&shown = run.motion[axis].position, &true_position = drive.position;
+  const std::size_t last = first + row_count - 1;
+  const double scale = (shown[last] - shown[first]) / (true_position[last] - true_position[first]);
+  return scale * (Eigen::Map<const VectorXd>(&true_position[first], rows) - way);
 }
 
 Passage passage_of(const PreparedRun& run, const Stretch& at, Output axis) {
@@ -73,6 +80,12 @@ MatrixXd start_of(const Whitener& whitener, std::size_t rows) {
   whitener.apply(directions);
   return Eigen::HouseholderQR<MatrixXd>(directions).householderQ() *
          MatrixXd::Identity(directions.rows(), directions.cols());
+}
+
+/// Whitens first.
+void take_start_out(const Piece& piece, VectorXd& residual) {
+  piece.whitener.apply(residual);
+  residual -= piece.basis * (piece.basis.transpose() * residual).eval();
 }
 
 }  // namespace
@@ -96,24 +109,43 @@ Pieces under_way(const Runs& runs, const Crane& crane, Output axis, const Distur
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!runs[r].run.has(axis)) continue;
     const Replay::Guided drive = Replay(runs[r], crane, Part::drive).guided(axis);
-    for (const Stretch& stretch : stretches_of(runs[r], r, axis)) {
-      stretches.push_back(stretch);
-      left.push_back(left_of(drive, stretch, runs[r].run.period_s));
+    for (Stretch& stretch : stretches_of(runs[r], r, axis)) {
+      const auto from = drive.position.begin() + static_cast<std::ptrdiff_t>(stretch.first);
+      stretch.position.assign(from, from + static_cast<std::ptrdiff_t>(stretch.rows));
+      left.push_back(left_of(runs[r], drive, axis, stretch.first, stretch.rows));
       passages.push_back(passage_of(runs[r], stretch, axis));
+      stretches.push_back(std::move(stretch));
     }
   }
   Pieces pieces{&runs, axis, known, {}};
   if (stretches.empty()) return pieces;
-  if (!(known.noise > 0)) pieces.disturbance = learn(left, passages);
+  if (!(known.noise > 0)) pieces.disturbance = learn(left, passages, runs[0].least_noise[axis]);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
-    const auto& [run, first, rows] = stretches[i];
-    Piece piece{run, first, rows, Whitener(pieces.disturbance, passages[i]), std::move(left[i]), {}};
+    auto& [run, first, rows, position] = stretches[i];
+    Piece piece{
+        run, first, rows, std::move(position), Whitener(pieces.disturbance, passages[i]), std::move(left[i]),
+        {}};
     piece.basis = start_of(piece.whitener, rows);
-    piece.whitener.apply(piece.residual);
-    piece.residual -= piece.basis * (piece.basis.transpose() * piece.residual).eval();
+    take_start_out(piece, piece.residual);
     pieces.all.push_back(std::move(piece));
   }
   return pieces;
+}
+
+std::vector<VectorXd> residuals_of(const Pieces& pieces, const Crane& crane) {
+  const Runs& runs = *pieces.runs;
+  std::vector<VectorXd> residuals(pieces.all.size());
+  parallel_for(runs.size(), [&](std::size_t r) {
+    if (!runs[r].run.has(pieces.output)) return;
+    const Replay::Guided drive = Replay(runs[r], crane, Part::drive).guided(pieces.output);
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      const Piece& piece = pieces.all[i];
+      if (piece.run != r) continue;
+      residuals[i] = left_of(runs[r], drive, pieces.output, piece.first, piece.rows);
+      take_start_out(piece, residuals[i]);
+    }
+  });
+  return residuals;
 }
 
 Pieces windows_of(const Problem& problem, const Fits& fits, std::size_t output) {
@@ -121,8 +153,13 @@ Pieces windows_of(const Problem& problem, const Fits& fits, std::size_t output) 
   for (std::size_t w = 0; w < fits.size(); ++w) {
     const Window& window = problem.windows()[w];
     const auto rows = static_cast<Index>(window.rows), from = static_cast<Index>(output) * rows;
-    pieces.all.push_back({window.run, window.first, window.rows, problem.whitener(output, w),
-                          fits[w].residual.segment(from, rows), fits[w].basis.middleRows(from, rows)});
+    pieces.all.push_back({window.run,
+                          window.first,
+                          window.rows,
+                          {},
+                          problem.whitener(output, w),
+                          fits[w].residual.segment(from, rows),
+                          fits[w].basis.middleRows(from, rows)});
   }
   return pieces;
 }

@@ -14,11 +14,17 @@
 
 namespace crane::diagnosis {
 
+/// "trolley" or "slew".
+[[nodiscard]] inline const char* axis_of(Output drive) {
+  return drive == kTrolleyPosition ? "trolley" : "slew";
+}
+
 /// Slower than this [m/s or rad/s], an axis with friction stands.
 inline constexpr double kStands = 0.01;
 
 struct Piece {
   std::size_t run = 0, first = 0, rows = 0;
+  std::vector<double> position;  ///< of a drive by row [m or rad], the errors of its sensor undone
   Whitener whitener;
   Eigen::VectorXd residual;  ///< whitened, without what the start can make
   Eigen::MatrixXd basis;     ///< orthonormal: what the start can make, whitened
@@ -39,6 +45,9 @@ struct Pieces {
 /// @param known noise and disturbance; learnt from the pieces themselves when its noise is 0
 [[nodiscard]] Pieces under_way(const Runs& runs, const Crane& crane, Output axis,
                                const Disturbance& known = {});
+/// What another crane leaves of each piece of a drive, whitened in the same way, without what the start can
+/// make.
+[[nodiscard]] std::vector<Eigen::VectorXd> residuals_of(const Pieces& pieces, const Crane& crane);
 /// @param problem of the load, its runs outlive the pieces
 /// @param output index into its outputs
 [[nodiscard]] Pieces windows_of(const Problem& problem, const Fits& fits, std::size_t output);

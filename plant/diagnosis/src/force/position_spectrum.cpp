@@ -20,26 +20,38 @@ constexpr std::size_t kPlaces = 400;
 constexpr double kSpacing = 0.25;
 /// Five waves over the travel; longer ones are friction that depends on position.
 constexpr std::size_t kFirst = 20;
+/// Between two lines: a wave that is right in the middle of the travel has to be right at its ends.
+constexpr std::size_t kFiner = 8;
 
 struct Wave {
-  double power = 0;
+  double per_length = 0, power = 0;
   Vector2d amplitude = Vector2d::Zero();  ///< of cosine and sine
 };
 
 Wave wave_of(const Pieces& drive, double per_length) {
   Explained all{2};
   for (const Piece& piece : drive.all) {
-    const std::vector<double>& position = (*drive.runs)[piece.run].motion[drive.output].position;
     MatrixXd waves(static_cast<Index>(piece.rows), 2);
-    for (Index k = 0; k < waves.rows(); ++k) {
-      const double turn =
-          2 * std::numbers::pi * per_length * position[piece.first + static_cast<std::size_t>(k)];
-      waves(k, 0) = std::cos(turn), waves(k, 1) = std::sin(turn);
+    for (std::size_t k = 0; k < piece.rows; ++k) {
+      const double middle = 0.5 * (piece.position[k] + piece.position[std::min(k + 1, piece.rows - 1)]);
+      const double turn = 2 * std::numbers::pi * per_length * middle;
+      waves.row(static_cast<Index>(k)) << std::cos(turn), std::sin(turn);
     }
     all += explained(drive, piece, std::move(waves));
   }
   const Vector2d amplitude = wave_amplitude(all);
-  return {all.pull.dot(amplitude), amplitude};
+  return {per_length, all.pull.dot(amplitude), amplitude};
+}
+
+/// The strongest one nearer to `peak` than the lines beside it.
+Wave refined(const Pieces& drive, const Wave& peak, double spacing) {
+  std::vector<Wave> around(2 * kFiner - 1);
+  parallel_for(around.size(), [&](std::size_t i) {
+    const double lines = (static_cast<double>(i) + 1) / kFiner - 1;
+    around[i] = wave_of(drive, peak.per_length + lines * spacing);
+  });
+  return *std::max_element(around.begin(), around.end(),
+                           [](const Wave& a, const Wave& b) { return a.power < b.power; });
 }
 
 }  // namespace
@@ -47,9 +59,10 @@ Wave wave_of(const Pieces& drive, double per_length) {
 std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count) {
   const double travel = travel_of(*drive.runs, drive.output).width();
   if (drive.all.empty() || !(travel > 0)) return {};
+  const double spacing = kSpacing / travel;
   std::vector<Wave> lines(kPlaces);
   parallel_for(kPlaces, [&](std::size_t line) {
-    if (line + 1 >= kFirst) lines[line] = wave_of(drive, kSpacing * static_cast<double>(line) / travel);
+    if (line + 1 >= kFirst) lines[line] = wave_of(drive, spacing * static_cast<double>(line));
   });
   std::vector<std::size_t> peaks;
   for (std::size_t line = kFirst; line + 1 < kPlaces; ++line)
@@ -60,9 +73,9 @@ std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count
   std::vector<PositionWave> waves;
   for (std::size_t i = 0; i < std::min(count, peaks.size()); ++i) {
     // a sin(x + psi) = a sin(psi) cos(x) + a cos(psi) sin(x)
-    const Vector2d& amplitude = lines[peaks[i]].amplitude;
-    waves.push_back({travel / (kSpacing * static_cast<double>(peaks[i])), amplitude.norm(),
-                     std::atan2(amplitude[0], amplitude[1])});
+    const Wave wave = refined(drive, lines[peaks[i]], spacing);
+    waves.push_back(
+        {1 / wave.per_length, wave.amplitude.norm(), std::atan2(wave.amplitude[0], wave.amplitude[1])});
   }
   return waves;
 }

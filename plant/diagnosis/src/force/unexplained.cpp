@@ -49,7 +49,7 @@ std::vector<std::vector<double>> since_reversal(const Runs& runs, Output axis, d
 }
 
 std::vector<Variable> variables_of(const Runs& runs, Output axis) {
-  const std::string name = axis == kTrolleyPosition ? "trolley" : "slew";
+  const std::string name = axis_of(axis);
   const std::size_t other = axis == kTrolleyPosition ? plant::kSlew : plant::kTrolley;
   const Extent travel = travel_of(runs, axis);
   Extent speeds, times{0, 0};

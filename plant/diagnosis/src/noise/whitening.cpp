@@ -158,8 +158,8 @@ Likelihood likelihood(const std::vector<VectorXd>& residuals, const std::vector<
 /// One number after the other, each on its grid, until nothing gets better. Accelerations are in noises.
 class Learning {
  public:
-  Learning(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages)
-      : residuals_(residuals), passages_(passages) {}
+  Learning(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages, double least_noise)
+      : residuals_(residuals), passages_(passages), least_noise_(least_noise) {}
 
   Disturbance run(const Disturbance& near) {
     if (near.noise > 0) return search(in_noises(near));
@@ -201,8 +201,8 @@ class Learning {
     const double noise = std::sqrt(found_.variance);
     found.acceleration *= noise;
     found.friction *= noise;
-    found.noise = std::max(noise, kLeastNoise);
-    found.misfit = found_.value;
+    found.noise = std::max(noise, least_noise_);
+    found.misfit = std::isfinite(found_.value) ? found_.value : 0;  // residuals of nothing but zeros
     return found;
   }
 
@@ -240,6 +240,7 @@ class Learning {
 
   const std::vector<VectorXd>& residuals_;
   const std::vector<Passage>& passages_;
+  double least_noise_;
   Disturbance best_;
   Likelihood found_;
 };
@@ -247,8 +248,8 @@ class Learning {
 }  // namespace
 
 Disturbance learn(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages,
-                  const Disturbance& near) {
-  return Learning(residuals, passages).run(near);
+                  double least_noise, const Disturbance& near) {
+  return Learning(residuals, passages, least_noise).run(near);
 }
 
 Whitener::Whitener(const Disturbance& disturbance, const Passage& passage)

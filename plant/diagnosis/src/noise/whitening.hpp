@@ -12,9 +12,6 @@
 
 namespace crane::diagnosis {
 
-/// m or rad: no encoder is finer, and an axis that stands still leaves nothing at all.
-inline constexpr double kLeastNoise = 1e-7;
-
 struct Disturbance {
   double noise = 0;          ///< standard deviation of the sensor, m or rad
   double acceleration = 0;   ///< of a, m/s2 or rad/s2
@@ -44,9 +41,11 @@ struct Passage {
 
 /// @param residuals of windows, all of one output; lengths may differ
 /// @param passages one for each of them
+/// @param least_noise of the sensor, m or rad
 /// @param near where to begin, if something is known
 [[nodiscard]] Disturbance learn(const std::vector<Eigen::VectorXd>& residuals,
-                                const std::vector<Passage>& passages, const Disturbance& near = {});
+                                const std::vector<Passage>& passages, double least_noise,
+                                const Disturbance& near = {});
 
 class Whitener {
  public:

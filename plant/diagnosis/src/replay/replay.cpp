@@ -11,7 +11,7 @@ namespace {
 
 using plant::State;
 
-/// A coordinate of a term's own may ring at 15 Hz.
+/// A coordinate of a term's own may ring at 25 Hz.
 constexpr double kLongestStep_s = 0.005, kLongestInnerStep_s = 0.0025;
 constexpr double kSmoothing_s = 0.03;
 
@@ -39,6 +39,18 @@ void pass(Course& course, const Given& given, const Motion& cable, std::size_t r
   course.follow(given(row + 1, 0), between(cable, row + 1, 0, period_s));
 }
 
+/// Standard deviation of a value that is rounded to whole counts. What has no encoder is known to this.
+std::array<double, kOutputs> noise_of_counts(const runtime::Rig& rig) {
+  constexpr double kLeast = 1e-7;
+  constexpr std::array<std::size_t, kOutputs> kEncoders{0, 1, 3, 4};
+  std::array<double, kOutputs> noise{};
+  for (std::size_t i = 0; i < kOutputs; ++i) {
+    const double counts = rig.encoders[kEncoders[i]].counts_per_unit;
+    noise[i] = counts > 0 ? std::max(kLeast, 1 / (counts * std::sqrt(12.0))) : kLeast;
+  }
+  return noise;
+}
+
 }  // namespace
 
 const char* name_of(Part part) {
@@ -57,6 +69,7 @@ PreparedRun prepare(Run run, const runtime::Rig& rig) {
           smooth(run.measured[i], run.period_s, half_width_of(static_cast<Output>(i), run.period_s));
   prepared.cable = smooth(run.cable_m, run.period_s, smoothing_half_width(run.period_s));
   prepared.kind = rig.kind;
+  prepared.least_noise = noise_of_counts(rig);
   prepared.run = std::move(run);
   return prepared;
 }
@@ -99,25 +112,28 @@ struct Replay::Parts {
     return sensors ? corrected[output] : source.motion[output];
   }
 
-  /// What the coordinates were when the sensors reported what was measured, to first order in the sensors'
-  /// errors.
+  /// What the coordinates were when the sensors reported what was measured: a drive's to a millionth of its
+  /// encoder's scale, the swing's to first order, for to undo a delay again and again makes noise of it.
   void undo_sensors() {
+    constexpr int kRounds = 5;
     const Run& run = source.run;
-    plant::Model fresh(crane.parameters, crane.terms, run.period_s);
     std::array<std::vector<double>, kOutputs> values = run.measured;
-    for (std::size_t k = 0; k < run.rows(); ++k) {
-      State at;
-      for (std::size_t i = 0; i < kOutputs; ++i)
-        if (!values[i].empty()) position_of(at, static_cast<Output>(i)) = run.measured[i][k];
-      at.cable_m = run.cable_m[k];
-      const plant::Measurement reported = fresh.measure(at);
-      for (std::size_t i = 0; i < kOutputs; ++i)
-        if (!values[i].empty())
-          values[i][k] += run.measured[i][k] - measured_of(reported, static_cast<Output>(i));
+    for (int round = 0; round < kRounds; ++round) {
+      plant::Model fresh(crane.parameters, crane.terms, run.period_s);
+      for (std::size_t k = 0; k < run.rows(); ++k) {
+        State at;
+        for (const Output output : kAllOutputs)
+          if (run.has(output)) position_of(at, output) = values[output][k];
+        at.cable_m = run.cable_m[k];
+        const plant::Measurement reported = fresh.measure(at);
+        for (const Output output : kAllOutputs)
+          if (run.has(output) && (round == 0 || output == kTrolleyPosition || output == kSlewAngle))
+            values[output][k] += run.measured[output][k] - measured_of(reported, output);
+      }
     }
-    for (std::size_t i = 0; i < kOutputs; ++i)
-      if (!values[i].empty())
-        corrected[i] = smooth(values[i], run.period_s, half_width_of(static_cast<Output>(i), run.period_s));
+    for (const Output output : kAllOutputs)
+      if (run.has(output))
+        corrected[output] = smooth(values[output], run.period_s, half_width_of(output, run.period_s));
   }
 
   const PreparedRun& source;

@@ -102,7 +102,8 @@ HeldOut held_out(const Study& study, const Effects& effects, std::uint64_t seed)
       const std::string name = kOutputNames[problem->outputs()[o]];
       compared.before.push_back(squares(*problem, *old_fits, o));
       compared.after.push_back(squares(*problem, *new_fits, o));
-      compared.noise.push_back(std::max(kLeastNoise, std::sqrt(mean(squares(*learned, *learned_fits, o)))));
+      compared.noise.push_back(std::max(learned->runs()[0].least_noise[problem->outputs()[o]],
+                                        std::sqrt(mean(squares(*learned, *learned_fits, o)))));
       result.baseline_rms[name] = std::sqrt(mean(compared.before.back()));
       result.extended_rms[name] = std::sqrt(mean(compared.after.back()));
       result.noise[name] = compared.noise.back();

@@ -116,7 +116,7 @@ void Problem::learn_disturbance(const Crane& crane) {
     const std::vector<std::vector<VectorXd>> plain = residuals(crane);
     std::vector<Disturbance> learned;
     for (std::size_t output = 0; output < outputs_.size(); ++output)
-      learned.push_back(learn(plain[output], passages_[output],
+      learned.push_back(learn(plain[output], passages_[output], runs_[0].least_noise[outputs_[output]],
                               disturbances_.empty() ? Disturbance{} : disturbances_[output]));
     whiten_with(std::move(learned));
   }

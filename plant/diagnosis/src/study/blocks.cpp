@@ -57,6 +57,25 @@ BlockScores block_scores(const Problem& problem, const Fits& fits,
   return scores;
 }
 
+void add_scores(const std::vector<std::size_t>& blocks, const std::vector<VectorXd>& residuals,
+                const std::vector<std::vector<VectorXd>>& slopes, Loss loss, BlockScores& scores) {
+  for (std::size_t k = 0; k < residuals.size(); ++k) {
+    const VectorXd weights = weights_of(residuals[k], loss);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      if (slopes[i].empty()) continue;
+      const VectorXd weighted = weights.cwiseProduct(slopes[i][k]);
+      const auto column = static_cast<Index>(i);
+      scores.by_block(static_cast<Index>(blocks[k]), column) += weighted.dot(residuals[k]);
+      for (std::size_t j = 0; j <= i; ++j) {
+        if (slopes[j].empty()) continue;
+        const auto row = static_cast<Index>(j);
+        scores.curvature(row, column) += weighted.dot(slopes[j][k]);
+        scores.curvature(column, row) = scores.curvature(row, column);
+      }
+    }
+  }
+}
+
 BlockScores joined(const BlockScores& a, const BlockScores& b) {
   BlockScores both;
   both.by_block.resize(a.by_block.rows() + b.by_block.rows(), std::max(a.by_block.cols(), b.by_block.cols()));

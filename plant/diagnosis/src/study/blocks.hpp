@@ -4,10 +4,10 @@
 
 namespace crane::diagnosis {
 
-/// Changes of the whitened outputs per unit, by value of the effects and window; empty where it does not
-/// show.
+/// Changes of the whitened outputs per unit, by value of the effects and window or piece; empty where it does
+/// not show.
 struct Study::Slopes {
-  std::vector<std::vector<Eigen::VectorXd>> drive, load;
+  std::vector<std::vector<Eigen::VectorXd>> drive, under_way, load;
 };
 
 /// Scores of a set of directions.
@@ -18,6 +18,9 @@ struct BlockScores {
 [[nodiscard]] BlockScores block_scores(const Problem& problem, const Fits& fits,
                                        const std::vector<std::vector<Eigen::VectorXd>>& slopes,
                                        Loss loss = Loss::robust);
+/// Adds the scores of residuals that belong to `blocks`.
+void add_scores(const std::vector<std::size_t>& blocks, const std::vector<Eigen::VectorXd>& residuals,
+                const std::vector<std::vector<Eigen::VectorXd>>& slopes, Loss loss, BlockScores& scores);
 /// Blocks of `a`, then those of `b`.
 [[nodiscard]] BlockScores joined(const BlockScores& a, const BlockScores& b);
 

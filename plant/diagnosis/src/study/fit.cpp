@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "study/blocks.hpp"
 
@@ -12,6 +13,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostRounds = 12;
+/// Ever more damped steps of a round, of all values and of one effect's alone.
+constexpr int kAttempts = 7, kAttemptsAlone = 3;
+constexpr double kFirstDamping = 1e-3;
 /// Decrease of the loss that is not worth another round.
 constexpr double kLeastGain = 0.3;
 /// The same on the way there, as a share.
@@ -51,10 +55,9 @@ Effects unflatten(Effects effects, const Flat& flat, const VectorXd& step) {
 /// Decrease of the loss of an undamped step without bounds.
 double promised(const MatrixXd& h, const VectorXd& g) { return g.dot(solve(h, g)); }
 
-/// Damped step inside the bounds; a value at its bound that wants out stays there.
-VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, double damping) {
-  std::vector<Index> active;
-  for (Index i = 0; i < flat.values.size(); ++i) active.push_back(i);
+/// Damped step of the values `active` inside the bounds; one at its bound that wants out stays there.
+VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, double damping,
+                      std::vector<Index> active) {
   VectorXd step = VectorXd::Zero(flat.values.size());
   for (int round = 0; round < 4 && !active.empty(); ++round) {
     const auto n = static_cast<Index>(active.size());
@@ -82,46 +85,65 @@ VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, do
   return step;
 }
 
+/// Which values are moved together: all; and, of several effects, those of each alone. One whose loss goes in
+/// steps must not hold up the others.
+std::vector<std::vector<Index>> moved_together(const Effects& effects) {
+  std::vector<std::vector<Index>> groups(1);
+  Index next = 0;
+  for (const Effect& effect : effects) {
+    std::vector<Index> own(effect.values.size());
+    for (Index& i : own) i = next++;
+    groups[0].insert(groups[0].end(), own.begin(), own.end());
+    groups.push_back(std::move(own));
+  }
+  if (effects.size() == 1) groups.pop_back();
+  return groups;
+}
+
 /// Price of the starts included.
 double total_loss(const Evaluation& at, Loss loss) {
   if (loss == Loss::robust) return at.loss;
   double sum = 0;
   for (const Fits* fits : {&at.drive, &at.load})
     for (const WindowFit& fit : *fits) sum += fit.residual.squaredNorm() + kStartPrice * fit.freedom;
+  for (const VectorXd& residual : at.under_way) sum += residual.squaredNorm();
   return sum;
 }
 
 }  // namespace
 
 BlockScores Study::pulls(const Fitted& at, Loss loss) const {
-  const Slopes slope = slopes(at.effects, at.train);
-  return joined(block_scores(*train_drive_, at.train.drive, slope.drive, loss),
-                block_scores(*train_load_, at.train.load, slope.load, loss));
+  return block_scores(at.train, slopes(at.effects, at.train), loss);
 }
 
 void Study::descend(Fitted& best, Loss loss, double hopeless) const {
-  double damping = 1e-3, least = total_loss(best.train, loss);
+  double damping = kFirstDamping, least = total_loss(best.train, loss);
   for (int round = 0; round < kMostRounds; ++round) {
     const BlockScores both = pulls(best, loss);
     const VectorXd pull = both.by_block.colwise().sum().transpose();
     const Flat flat = flatten(best.effects);
     if (round >= kLeastRounds && least - kPromise * promised(both.curvature, pull) > hopeless) break;
     double gained = 0;
-    for (int attempt = 0; attempt < 7 && gained == 0; ++attempt) {
-      const VectorXd step = bounded_step(both.curvature, pull, flat, damping);
-      if (!step.allFinite() || step.norm() == 0) break;
-      const Effects moved = unflatten(best.effects, flat, step);
-      Evaluation found = evaluate(*train_drive_, *train_load_, moved, best.train);
-      const double now = total_loss(found, loss);
-      if (now < least) {
-        gained = least - now;
-        least = now;
-        best.effects = moved;
-        best.train = std::move(found);
-        damping = std::max(1e-6, damping * 0.2);
-      } else {
-        damping = std::max(damping, 1e-4) * 8;
+    const auto groups = moved_together(best.effects);
+    for (std::size_t group = 0; group < groups.size() && gained == 0; ++group) {
+      const int attempts = group == 0 ? kAttempts : kAttemptsAlone;
+      for (int attempt = 0; attempt < attempts && gained == 0; ++attempt) {
+        const VectorXd step = bounded_step(both.curvature, pull, flat, damping, groups[group]);
+        if (!step.allFinite() || step.norm() == 0) break;
+        const Effects moved = unflatten(best.effects, flat, step);
+        Evaluation found = evaluate(train_, moved, best.train);
+        const double now = total_loss(found, loss);
+        if (now < least) {
+          gained = least - now;
+          least = now;
+          best.effects = moved;
+          best.train = std::move(found);
+          damping = std::max(1e-6, damping * 0.2);
+        } else {
+          damping = std::max(damping, 1e-4) * 8;
+        }
       }
+      if (gained == 0) damping = kFirstDamping;
     }
     if (gained < (loss == Loss::robust ? kLeastGain : kRoughly * least)) break;
   }
@@ -138,6 +160,11 @@ Fitted Study::fit(Effects effects, double hopeless) const {
   const BlockScores both = pulls(best, Loss::robust);
   const MatrixXd inverse = both.curvature.completeOrthogonalDecomposition().pseudoInverse();
   best.by_noise = inverse.diagonal().cwiseMax(0.0).cwiseSqrt();
+  // The replay of a drive and its pieces under way see the same noise: together they know no more than one.
+  Index value = 0;
+  for (const Effect& effect : best.effects)
+    for (std::size_t k = 0; k < effect.values.size(); ++k, ++value)
+      if (effect.candidate->drive) best.by_noise[value] *= std::numbers::sqrt2;
   best.covariance = inverse * (both.by_block.transpose() * both.by_block) * inverse;
   for (const double variance : best.covariance.diagonal())
     best.std_dev.push_back(std::sqrt(std::max(0.0, variance)));

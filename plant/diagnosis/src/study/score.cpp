@@ -61,11 +61,15 @@ void judge(const Directions& d, Score& score) {
   score.p_value = d.p_value(as_they_are);
 }
 
+const VectorXd& residual_of(const WindowFit& fit) { return fit.residual; }
+const VectorXd& residual_of(const VectorXd& residual) { return residual; }
+
 /// Decrease of the loss when the residuals change by all of `change`.
-double as_it_is(const Fits& fits, const std::vector<VectorXd>& change) {
+template <class Parts>
+double as_it_is(const Parts& parts, const std::vector<VectorXd>& change) {
   double gain = 0;
   for (std::size_t w = 0; w < change.size(); ++w)
-    gain += loss_of(fits[w].residual) - loss_of(fits[w].residual - change[w]);
+    gain += loss_of(residual_of(parts[w])) - loss_of(residual_of(parts[w]) - change[w]);
   return gain;
 }
 
@@ -96,7 +100,7 @@ std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& e
       axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
   std::vector<Shape> shapes;
   for (const PositionWave& wave :
-       strongest_waves(under_way(train_drive_->runs(), with(effects), axis), kWaves))
+       strongest_waves(under_way(train_.drive.runs(), with(effects), axis), kWaves))
     shapes.push_back(
         {{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}, true});
   return shapes;
@@ -115,23 +119,11 @@ std::vector<Score> Study::places(const Effects& effects) const {
 double Study::add_probes(const Effects& effects, const Evaluation& at, const Score& place,
                          Slopes& slopes) const {
   double own = 0;
-  const auto change = [&](const Problem& problem, const Fits& fits, const Crane& crane, double amount) {
-    double gain = 0;
-    auto changes = problem.change(crane, fits, amount, &gain);
-    own += gain;
-    return changes;
-  };
-  const Candidate& candidate = candidates_[place.candidate];
   const Shape& shape = place.shape;
   for (std::size_t p = 0; p < shape.probes.size(); ++p) {
     Crane crane = with(effects);
     crane.terms.push_back(shape.probes[p]);
-    slopes.drive.push_back(candidate.drive && !train_drive_->empty()
-                               ? change(*train_drive_, at.drive, crane, shape.amounts[p])
-                               : std::vector<VectorXd>{});
-    slopes.load.push_back(candidate.load && !train_load_->empty()
-                              ? change(*train_load_, at.load, crane, shape.amounts[p])
-                              : std::vector<VectorXd>{});
+    own += add_slope(candidates_[place.candidate], crane, at, shape.amounts[p], slopes);
   }
   return own;
 }
@@ -144,16 +136,15 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
     Slopes all = known;
     const double own = add_probes(effects, at, scores[i], all);
     const auto fresh = static_cast<Index>(all.drive.size() - known.drive.size());
-    directions[i] = beside_known(joined(block_scores(*train_drive_, at.drive, all.drive),
-                                        block_scores(*train_load_, at.load, all.load)),
-                                 fresh);
+    directions[i] = beside_known(block_scores(at, all), fresh);
     const Candidate& candidate = candidates_[scores[i].candidate];
     const bool as_it_stands = scores[i].shape.as_it_is;
     directions[i].one_sided = candidate.one_sided || as_it_stands;
     judge(directions[i], scores[i]);
     if (as_it_stands)
-      scores[i].gain = as_it_is(at.drive, all.drive.back()) + as_it_is(at.load, all.load.back());
-    scores[i].gain = std::max(0.0, scores[i].gain + own);
+      scores[i].gain = as_it_is(at.drive, all.drive.back()) + as_it_is(at.load, all.load.back()) +
+                       as_it_is(at.under_way, all.under_way.back());
+    scores[i].gain += own;
     const double loss = (candidate.drive ? at.drive_loss : 0) + (candidate.load ? at.load_loss : 0);
     scores[i].share = loss > 0 ? scores[i].gain / loss : 0;
   });

@@ -14,18 +14,25 @@ using Eigen::VectorXd;
 /// too late or not at all: in longer windows these, not the error, make the residual.
 constexpr double kSwingWindow_s = 2, kDriveWindow_s = 1;
 
-Evaluation summed(const Problem& drive, const Problem& load, Fits of_drive, Fits of_load) {
+Evaluation summed(const Study::Body& body, Fits of_drive, Fits of_load, std::vector<VectorXd> under_way) {
   Evaluation result;
   result.drive = std::move(of_drive);
   result.load = std::move(of_load);
-  result.blocks = blocks_of(drive, result.drive);
-  const Blocks more = blocks_of(load, result.load);
+  result.under_way = std::move(under_way);
+  result.blocks = blocks_of(body.drive, result.drive);
+  for (std::size_t i = 0; i < result.under_way.size(); ++i)
+    result.blocks[body.under_way.windows()[i]] += loss_of(result.under_way[i]);
+  const Blocks more = blocks_of(body.load, result.load);
   result.drive_blocks = result.blocks.size();
   result.drive_loss = sum(result.blocks);
   result.load_loss = sum(more);
   result.loss = result.drive_loss + result.load_loss;
   result.blocks.insert(result.blocks.end(), more.begin(), more.end());
   return result;
+}
+
+double natural_radps(const runtime::Rig& rig) {
+  return std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist]);
 }
 
 Fits fit_of(const Problem& problem, const Crane& crane) {
@@ -36,16 +43,18 @@ Fits fit_of(const Problem& problem, const Crane& crane) {
 
 Study::Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded)
-    : base_{rig.plant, rig.terms}, candidates_(candidates_for(rig, train)) {
+    : base_{rig.plant, rig.terms},
+      candidates_(candidates_for(rig, train)),
+      train_(train, natural_radps(rig)),
+      test_(test, natural_radps(rig)) {
   std::erase_if(candidates_, [&](const Candidate& candidate) {
     return std::find(excluded.begin(), excluded.end(), candidate.cause) != excluded.end();
   });
-  const double natural_radps = std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist]);
-  train_drive_ = std::make_unique<Problem>(train, Part::drive, kDriveWindow_s, natural_radps);
-  train_load_ = std::make_unique<Problem>(train, Part::load, kSwingWindow_s, natural_radps);
-  test_drive_ = std::make_unique<Problem>(test, Part::drive, kDriveWindow_s, natural_radps);
-  test_load_ = std::make_unique<Problem>(test, Part::load, kSwingWindow_s, natural_radps);
 }
+
+Study::Body::Body(const Runs& runs, double natural_radps)
+    : drive(runs, Part::drive, kDriveWindow_s, natural_radps),
+      load(runs, Part::load, kSwingWindow_s, natural_radps) {}
 
 Crane Study::with(const Effects& effects) const {
   Crane crane = base_;
@@ -56,36 +65,54 @@ Crane Study::with(const Effects& effects) const {
 double Study::learn_disturbance(const Effects& effects) {
   double misfit = 0;
   const Crane crane = with(effects);
-  for (const auto& [train, test] :
-       {std::pair{train_drive_.get(), test_drive_.get()}, {train_load_.get(), test_load_.get()}}) {
+  for (const auto& [train, test] : {std::pair{&train_.drive, &test_.drive}, {&train_.load, &test_.load}}) {
     if (train->empty()) continue;
     train->learn_disturbance(crane);
     for (const Disturbance& disturbance : train->disturbances()) misfit += disturbance.misfit;
     if (!test->empty()) test->whiten_like(*train);
   }
-  base_train_ =
-      summed(*train_drive_, *train_load_, fit_of(*train_drive_, base_), fit_of(*train_load_, base_));
-  base_test_ = summed(*test_drive_, *test_load_, fit_of(*test_drive_, base_), fit_of(*test_load_, base_));
+  misfit += train_.under_way.learn_disturbance(crane);
+  test_.under_way.whiten_like(train_.under_way, crane);
+  base_train_ = evaluated(train_);
+  base_test_ = evaluated(test_);
   return misfit;
 }
 
-Evaluation Study::evaluate(const Problem& drive, const Problem& load, const Effects& effects,
-                           const Evaluation& near) const {
+Evaluation Study::evaluated(const Body& body) const {
+  return summed(body, fit_of(body.drive, base_), fit_of(body.load, base_), body.under_way.residuals(base_));
+}
+
+Evaluation Study::evaluate(const Body& body, const Effects& effects, const Evaluation& near) const {
   const Crane crane = with(effects);
   bool in_drive = false, in_load = false;
   for (const Effect& effect : effects) {
     in_drive = in_drive || effect.candidate->drive;
     in_load = in_load || effect.candidate->load;
   }
-  return summed(drive, load, in_drive ? drive.fit_near(crane, near.drive) : near.drive,
-                in_load ? load.fit_near(crane, near.load) : near.load);
+  return summed(body, in_drive ? body.drive.fit_near(crane, near.drive) : near.drive,
+                in_load ? body.load.fit_near(crane, near.load) : near.load,
+                in_drive ? body.under_way.residuals(crane) : near.under_way);
 }
 
-Evaluation Study::train(const Effects& effects) const {
-  return evaluate(*train_drive_, *train_load_, effects, base_train_);
+Evaluation Study::train(const Effects& effects) const { return evaluate(train_, effects, base_train_); }
+Evaluation Study::test(const Effects& effects) const { return evaluate(test_, effects, base_test_); }
+
+double Study::add_slope(const Candidate& candidate, const Crane& crane, const Evaluation& at, double step,
+                        Slopes& slopes) const {
+  double of_drive = 0, of_load = 0;
+  const bool in_drive = candidate.drive && !train_.drive.empty();
+  const bool in_load = candidate.load && !train_.load.empty();
+  using Changes = std::vector<VectorXd>;
+  slopes.drive.push_back(in_drive ? train_.drive.change(crane, at.drive, step, &of_drive) : Changes{});
+  slopes.under_way.push_back(in_drive ? train_.under_way.change(crane, at.under_way, step) : Changes{});
+  slopes.load.push_back(in_load ? train_.load.change(crane, at.load, step, &of_load) : Changes{});
+  return of_drive + of_load;
 }
-Evaluation Study::test(const Effects& effects) const {
-  return evaluate(*test_drive_, *test_load_, effects, base_test_);
+
+BlockScores Study::block_scores(const Evaluation& at, const Slopes& slopes, Loss loss) const {
+  BlockScores drive = diagnosis::block_scores(train_.drive, at.drive, slopes.drive, loss);
+  add_scores(train_.under_way.windows(), at.under_way, slopes.under_way, loss, drive);
+  return joined(drive, diagnosis::block_scores(train_.load, at.load, slopes.load, loss));
 }
 
 Study::Slopes Study::slopes(const Effects& effects, const Evaluation& at) const {
@@ -99,12 +126,7 @@ Study::Slopes Study::slopes(const Effects& effects, const Evaluation& at) const 
       const double step = value + p.step <= p.high ? p.step : -p.step;
       value += 0.3 * step;
       const Crane crane = with(moved);
-      result.drive.push_back(candidate.drive && !train_drive_->empty()
-                                 ? train_drive_->change(crane, at.drive, 0.3 * step)
-                                 : std::vector<VectorXd>{});
-      result.load.push_back(candidate.load && !train_load_->empty()
-                                ? train_load_->change(crane, at.load, 0.3 * step)
-                                : std::vector<VectorXd>{});
+      add_slope(candidate, crane, at, 0.3 * step, result);
     }
   }
   return result;

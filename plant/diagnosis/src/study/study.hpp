@@ -3,12 +3,12 @@
 #include <Eigen/Dense>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "crane/diagnosis/candidate.hpp"
 #include "robust.hpp"
 #include "shooting/problem.hpp"
+#include "study/under_way.hpp"
 
 namespace crane::diagnosis {
 
@@ -20,13 +20,14 @@ struct Effect {
 using Effects = std::vector<Effect>;
 
 /// Sums of squares of consecutive pieces of the whitened residual, about `kBlock_s` of time each: what is
-/// resampled. Parts follow each other: drive, load.
+/// resampled. Parts follow each other: drive, with what it leaves under way, and load.
 using Blocks = std::vector<double>;
 inline constexpr double kBlock_s = 2.0;
 
 /// A body of data around one crane.
 struct Evaluation {
   Fits drive, load;
+  std::vector<Eigen::VectorXd> under_way;  ///< whitened residuals of the drives along the measured motion
   Blocks blocks;
   std::size_t drive_blocks = 0;  ///< the first of them
   double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
@@ -47,7 +48,7 @@ struct Score {
   Shape shape;
   double statistic = 0;  ///< chi-square of the block-robust score
   double p_value = 1;    ///< by itself
-  double gain = 0;       ///< decrease of the loss that the slopes promise
+  double gain = 0;       ///< promised decrease of the loss; less than 0 where a shape as it is does harm
   double share = 0;      ///< the same as a share of the loss of the parts that the candidate shows in
   std::vector<double> amounts;
 };
@@ -86,12 +87,20 @@ class Study {
   /// @param hopeless a training loss: the fit is given up when it will not come below it
   [[nodiscard]] Fitted fit(Effects effects, double hopeless = std::numeric_limits<double>::infinity()) const;
 
-  [[nodiscard]] const Problem& drive() const { return *train_drive_; }
-  [[nodiscard]] const Problem& load() const { return *train_load_; }
-  [[nodiscard]] const Problem& test_drive() const { return *test_drive_; }
-  [[nodiscard]] const Problem& test_load() const { return *test_load_; }
+  [[nodiscard]] const Problem& drive() const { return train_.drive; }
+  [[nodiscard]] const Problem& load() const { return train_.load; }
+  [[nodiscard]] const Problem& test_drive() const { return test_.drive; }
+  [[nodiscard]] const Problem& test_load() const { return test_.load; }
 
   struct Slopes;
+  /// Runs, in their three views.
+  struct Body {
+    Body(const Runs& runs, double natural_radps);
+    Body(const Body&) = delete;
+    Body& operator=(const Body&) = delete;
+    Problem drive, load;
+    UnderWay under_way{drive};
+  };
 
  private:
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
@@ -99,18 +108,26 @@ class Study {
   [[nodiscard]] BlockScores pulls(const Fitted& at, Loss loss) const;
   /// Gauss-Newton rounds from where `best` is.
   void descend(Fitted& best, Loss loss, double hopeless) const;
+  /// Scores of directions around `at`.
+  [[nodiscard]] BlockScores block_scores(const Evaluation& at, const Slopes& slopes,
+                                         Loss loss = Loss::robust) const;
+  /// Appends the changes per unit that `crane` makes, in the parts that the candidate shows in.
+  /// @return what the start of coordinates of its own gains
+  double add_slope(const Candidate& candidate, const Crane& crane, const Evaluation& at, double step,
+                   Slopes& slopes) const;
   /// Every shape of every candidate that is not among the effects.
   [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
   [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Effects& effects) const;
   /// Appends the changes that the probes of a candidate's shape make.
   /// @return what the start of its own coordinates gains
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
-  [[nodiscard]] Evaluation evaluate(const Problem& drive, const Problem& load, const Effects& effects,
-                                    const Evaluation& near) const;
+  /// Around the base crane.
+  [[nodiscard]] Evaluation evaluated(const Body& body) const;
+  [[nodiscard]] Evaluation evaluate(const Body& body, const Effects& effects, const Evaluation& near) const;
 
   Crane base_;
   std::vector<Candidate> candidates_;
-  std::unique_ptr<Problem> train_drive_, train_load_, test_drive_, test_load_;
+  Body train_, test_;
   Evaluation base_train_, base_test_;
 };
 

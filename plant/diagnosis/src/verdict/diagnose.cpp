@@ -110,7 +110,7 @@ std::vector<Effects> hiding(const Hypotheses& found) {
 Hypotheses learnt_anew(Study& study, const Request& request, const Hypotheses& before,
                        const std::vector<Effects>& contenders) {
   request.progress(0.4, "noise and disturbance of what is left");
-  const Effects* likeliest = nullptr;
+  const Effects* likeliest = &contenders.front();
   double least = std::numeric_limits<double>::infinity();
   for (const Effects& effects : contenders) {
     const double misfit = study.learn_disturbance(effects);

@@ -1,6 +1,7 @@
 #include "verdict/judgement.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "force/force_lines.hpp"
@@ -23,6 +24,9 @@ constexpr double kPattern = 0.008;
 /// term's form is not exactly the effect's, so that more may be left of what it is a law of. Several laws of
 /// the same take any form together.
 constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveralLaws = 0.01;
+/// So does one that is this large against what one of the names explains on its axis: it may be there for
+/// what is left.
+constexpr double kDoubtfulOfOneName = 0.5;
 
 /// 1 where noise and disturbance are as learnt.
 double mean_loss(const Fits& fits) {
@@ -32,24 +36,28 @@ double mean_loss(const Fits& fits) {
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
 
+double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
+  double sum = 0;
+  for (const Eigen::VectorXd& residual : residuals) sum += residual.squaredNorm();
+  return sum;
+}
+
 /// Whether the pattern goes with what the term is a law of.
 bool of_its_own(const Candidate& candidate, const Unexplained& left) {
   using enum GoesWith;
-  static const std::map<std::string, GoesWith> kLaws{{"coulomb_friction", speed},
-                                                     {"viscous_friction", speed},
-                                                     {"stribeck_friction", speed},
-                                                     {"direction_asymmetry", speed},
-                                                     {"position_dependent_friction", position},
-                                                     {"torque_ripple", position}};
+  static const std::map<std::string, GoesWith> kLaws{
+      {"coulomb_friction", speed},    {"viscous_friction", speed}, {"stribeck_friction", speed},
+      {"direction_asymmetry", speed}, {"backlash", jumps},         {"position_dependent_friction", position},
+      {"torque_ripple", position}};
   const auto laws = kLaws.find(candidate.cause);
-  return laws != kLaws.end() && candidate.axis == (left.output == kTrolleyPosition ? "trolley" : "slew") &&
-         left.with == laws->second;
+  return laws != kLaws.end() && candidate.axis == axis_of(left.output) && left.with == laws->second;
 }
 
-/// A pattern, and the loss of the base model in the same noise.
+/// A pattern, and in the same noise the squares of the base model and what the weakest of the names on its
+/// axis takes off them.
 struct Pattern {
   Unexplained what;
-  double of_base = 0;
+  double of_base = 0, of_weakest = std::numeric_limits<double>::infinity();
 };
 
 std::string said(const Diagnosis& d) {
@@ -115,7 +123,8 @@ class Judgement {
     return std::any_of(left.begin(), left.end(), [&](const Pattern& pattern) {
       const Unexplained& u = pattern.what;
       const bool counts = u.with == GoesWith::frequency || u.fraction > kPattern;
-      return counts && (best_.effects.empty() || u.gain > believable(u) * pattern.of_base);
+      return counts && (best_.effects.empty() || u.gain > believable(u) * pattern.of_base ||
+                        u.gain > kDoubtfulOfOneName * pattern.of_weakest);
     });
   }
 
@@ -136,11 +145,15 @@ class Judgement {
     const bool rings = !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
     for (const Output axis : study_.drive().outputs()) {
       const Pieces pieces = under_way(runs, crane, axis);
-      const double of_base = under_way(runs, study_.base(), axis, pieces.disturbance).squares();
-      for (const Unexplained& pattern : find_unexplained(pieces)) left.push_back({pattern, of_base});
+      const double of_base = squares_of(residuals_of(pieces, study_.base()));
+      const std::vector<double> by_each = explained_by_each(pieces);
+      const auto add = [&](const Unexplained& what) {
+        left.push_back({what, of_base, weakest(by_each, what)});
+      };
+      for (const Unexplained& pattern : find_unexplained(pieces)) add(pattern);
       if (!rings)
-        if (const auto line = find_force_line(pieces, seed_)) left.push_back({*line, of_base});
-      if (const auto jumps = find_jumps(pieces)) left.push_back({*jumps, of_base});
+        if (const auto line = find_force_line(pieces, seed_)) add(*line);
+      if (const auto jumps = find_jumps(pieces)) add(*jumps);
     }
     for (std::size_t output = 0; output < study_.load().outputs().size(); ++output)
       if (const auto line = find_force_line(windows_of(study_.load(), best_.train.load, output), seed_))
@@ -148,6 +161,26 @@ class Judgement {
     std::sort(left.begin(), left.end(),
               [](const Pattern& a, const Pattern& b) { return a.what.gain > b.what.gain; });
     return left;
+  }
+
+  /// Of each of the effects, what it takes off the squares of a drive's pieces; infinite on another axis.
+  [[nodiscard]] std::vector<double> explained_by_each(const Pieces& pieces) const {
+    std::vector<double> explained(best_.effects.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < explained.size(); ++i) {
+      if (best_.effects[i].candidate->axis != axis_of(pieces.output)) continue;
+      Effects others = best_.effects;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      explained[i] = squares_of(residuals_of(pieces, study_.with(others))) - pieces.squares();
+    }
+    return explained;
+  }
+
+  /// The least that any of the effects explains but those of whose own law the pattern is.
+  [[nodiscard]] double weakest(const std::vector<double>& explained, const Unexplained& left) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < explained.size(); ++i)
+      if (!of_its_own(*best_.effects[i].candidate, left)) least = std::min(least, explained[i]);
+    return least;
   }
 
   /// Who wins among all accepted hypotheses of the best one's size.

@@ -8,19 +8,21 @@
 namespace crane::plant {
 namespace {
 
-/// Contact of the flanks: a spring of 15 Hz with the suspended side's inertia, damped in proportion to how
-/// deep it is pressed, so that the force is continuous, and never pulling.
-constexpr double kContact_radps2 = 4 * std::numbers::pi * std::numbers::pi * 15 * 15;
-constexpr double kContactDamping_radps = 2 * 0.5 * 2 * std::numbers::pi * 15;
-constexpr double kSoftShare = 0.1;  // of the gap: depth of full damping
+/// Contact of the flanks: a spring with the suspended side's inertia, of 25 Hz in a nut and 15 Hz in the gear
+/// of a jib, never pulling, from which steel comes back with almost half its speed. The damping sets in over
+/// the first part of the depth, so that the force is continuous.
+constexpr double kNut_radps = 2 * std::numbers::pi * 25, kGear_radps = 2 * std::numbers::pi * 15;
+constexpr double kContactDampingRatio = 0.25;
+constexpr double kSoftShare = 0.02;  // of the gap: depth of full damping
 /// Guide friction changes its direction over this speed [m/s or rad/s]: an explicit step of 2.5 ms stays
 /// stable.
-constexpr double kGuideSmoothing = 0.005;
+constexpr double kGuideSmoothing = 0.003;
 
 class Backlash final : public Term {
  public:
   explicit Backlash(const TermSetting& s)
       : slew_(s.axis == "slew"),
+        contact_radps_(slew_ ? kGear_radps : kNut_radps),
         gap_(s.parameters.at("gap")),
         guide_deceleration_(s.parameters.at("guide_deceleration")),
         driven_share_(gap_ > 0 ? s.parameters.at("driven_share") : 0) {}
@@ -49,6 +51,8 @@ class Backlash final : public Term {
     const double speed = slew_ ? state.slew_radps : state.trolley_mps;  // of the suspended side
     const double motor = slew_ ? drives.slew_radps2 : drives.trolley_mps2;
     acceleration[0] = contact(inner[0]) - guide_deceleration_ * smooth_sign(speed, kGuideSmoothing) - motor;
+    // The jib's turning throws a trolley outward, which the motor holds only where a flank touches.
+    if (!slew_) acceleration[0] += state.trolley_m * state.slew_radps * state.slew_radps;
     if (driven_share_ > 0) acceleration[0] += pull(crane, state) / driven_inertia(crane);
   }
 
@@ -67,11 +71,12 @@ class Backlash final : public Term {
     const double depth = std::abs(inner.position) - 0.5 * gap_;
     if (depth <= 0) return 0;
     const double side = std::copysign(1.0, inner.position);
-    const double damping = kContactDamping_radps * std::min(1.0, depth / (kSoftShare * gap_));
-    return -side * std::max(0.0, kContact_radps2 * depth + damping * side * inner.rate);
+    const double damping =
+        2 * kContactDampingRatio * contact_radps_ * std::min(1.0, depth / (kSoftShare * gap_));
+    return -side * std::max(0.0, contact_radps_ * contact_radps_ * depth + damping * side * inner.rate);
   }
   bool slew_;
-  double gap_, guide_deceleration_, driven_share_;
+  double contact_radps_, gap_, guide_deceleration_, driven_share_;
 };
 
 }  // namespace
@@ -80,9 +85,10 @@ TermKind backlash() {
   return {
       .name = "backlash",
       .equation =
-          "the load hangs at p + b, b'' = k - a tanh((p' + b')/v_s) + P/(j J) - p''; contact k is 0 for |b| "
-          "< "
-          "h/2 and a damped spring of 15 Hz beyond; the motor moves (1 - j) J and feels -j J k",
+          "the load hangs at p + b, b'' = k - a tanh((p' + b')/v_s) + P/(j J) + Z - p''; contact k is 0 for "
+          "|b| < h/2 and a damped spring of 25 Hz (trolley) or 15 Hz (jib) beyond; Z = (x + b) slew'^2 of a "
+          "trolley, 0 of a jib; the "
+          "motor moves (1 - j) J and feels -j J k",
       .source = "play of nut or gear between motor, which has the encoder, and trolley or jib",
       .acts_on = ActsOn::structure,
       .axes = {"trolley", "slew"},

@@ -31,6 +31,7 @@ struct PreparedRun {
   runtime::RigKind kind = runtime::RigKind::tower;
   std::array<Motion, kOutputs> motion;  ///< smoothed; empty without a measurement
   Motion cable;
+  std::array<double, kOutputs> least_noise{};  ///< what counting alone makes, m or rad
 };
 [[nodiscard]] PreparedRun prepare(Run run, const runtime::Rig& rig);
 
@@ -60,7 +61,8 @@ class Replay {
   /// A drive along the measured motion, by row: where it was, the errors of its sensor undone, and how the
   /// model accelerates it until the next row.
   struct Guided {
-    std::vector<double> position, acceleration;
+    std::vector<double> position;      ///< m or rad
+    std::vector<double> acceleration;  ///< m/s2 or rad/s2
   };
   /// @pre the part is drive, the axis is measured
   [[nodiscard]] Guided guided(Output axis) const;

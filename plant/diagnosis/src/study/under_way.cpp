@@ -1,0 +1,58 @@
+#include "study/under_way.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+/// The last window of the run that begins before the middle of the piece.
+std::size_t window_of(const std::vector<Window>& windows, const Piece& piece) {
+  const std::size_t middle = piece.first + piece.rows / 2;
+  std::size_t found = 0;
+  for (std::size_t w = 0; w < windows.size(); ++w)
+    if (windows[w].run == piece.run && (windows[w].first <= middle || windows[found].run != piece.run))
+      found = w;
+  return found;
+}
+
+}  // namespace
+
+double UnderWay::learn_disturbance(const Crane& crane) {
+  axes_.clear();
+  double misfit = 0;
+  if (drive_.empty()) return misfit;
+  for (const Output axis : drive_.outputs()) {
+    axes_.push_back(under_way(drive_.runs(), crane, axis));
+    misfit += axes_.back().disturbance.misfit;
+  }
+  find_windows();
+  return misfit;
+}
+
+void UnderWay::whiten_like(const UnderWay& other, const Crane& crane) {
+  axes_.clear();
+  if (drive_.empty()) return;
+  for (const Pieces& axis : other.axes_)
+    axes_.push_back(under_way(drive_.runs(), crane, axis.output, axis.disturbance));
+  find_windows();
+}
+
+void UnderWay::find_windows() {
+  windows_.clear();
+  for (const Pieces& axis : axes_)
+    for (const Piece& piece : axis.all) windows_.push_back(window_of(drive_.windows(), piece));
+}
+
+std::vector<Eigen::VectorXd> UnderWay::residuals(const Crane& crane) const {
+  std::vector<Eigen::VectorXd> all;
+  for (const Pieces& axis : axes_)
+    for (Eigen::VectorXd& residual : residuals_of(axis, crane)) all.push_back(std::move(residual));
+  return all;
+}
+
+std::vector<Eigen::VectorXd> UnderWay::change(const Crane& crane, const std::vector<Eigen::VectorXd>& at,
+                                              double step) const {
+  std::vector<Eigen::VectorXd> changes = residuals(crane);
+  for (std::size_t i = 0; i < changes.size(); ++i) changes[i] = (at[i] - changes[i]) / step;
+  return changes;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,36 @@
+#pragma once
+/// The drives along the measured motion, between two rests (force/pieces.hpp): the part of the residual that
+/// does not hang on when exactly an axis breaks loose, beside the windows of the drives' replay.
+#include "force/pieces.hpp"
+
+namespace crane::diagnosis {
+
+class UnderWay {
+ public:
+  /// @param drive of the same runs; outlives this
+  explicit UnderWay(const Problem& drive) : drive_(drive) {}
+
+  /// Learns noise and disturbance of each axis from what `crane` leaves, and whitens with them from now on.
+  /// @return minus twice the log likelihood, but for a constant
+  double learn_disturbance(const Crane& crane);
+  /// Whitens as `other` does. @param crane any of these runs
+  void whiten_like(const UnderWay& other, const Crane& crane);
+
+  /// Whitened residual of every piece, without what its start can make.
+  [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const Crane& crane) const;
+  /// Change of the outputs against the crane that left `at`, per unit.
+  [[nodiscard]] std::vector<Eigen::VectorXd> change(const Crane& crane,
+                                                    const std::vector<Eigen::VectorXd>& at,
+                                                    double step) const;
+  /// Of every piece the window of the drives' replay that it belongs to.
+  [[nodiscard]] const std::vector<std::size_t>& windows() const { return windows_; }
+
+ private:
+  void find_windows();
+
+  const Problem& drive_;
+  std::vector<Pieces> axes_;
+  std::vector<std::size_t> windows_;
+};
+
+}  // namespace crane::diagnosis
