@@ -47,13 +47,13 @@ Run integrated(const runtime::Rig& rig, double seconds, double liveliness = 1) {
 
 double worst(const Run& run, const runtime::Rig& rig, Part part) {
   const PreparedRun prepared = prepare(run, rig);
-  const Replay replay(prepared, {rig.plant, rig.terms}, part);
+  const Replay replay(prepared, {rig.plant, rig.terms});
   const auto outputs = simulated_outputs(prepared, part);
   const std::size_t rows = 200;
   double most = 0;
   for (std::size_t first = 5; first + rows < run.rows(); first += rows) {
     std::vector<double> out(rows * outputs.size());
-    auto start = replay.measured_start(first);
+    auto start = replay.measured_start(part, first);
     // The measured rate is a difference quotient; the comparison is about the equations, not about it.
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       const auto& y = run.measured[outputs[i]];
@@ -61,7 +61,7 @@ double worst(const Run& run, const runtime::Rig& rig, Part part) {
       start[2 * i + 1] =
           (8 * (y[first + 1] - y[first - 1]) - (y[first + 2] - y[first - 2])) / (12 * run.period_s);
     }
-    replay.run(first, rows, start, out);
+    replay.run(part, first, rows, start, out);
     for (std::size_t i = 0; i < outputs.size(); ++i)
       for (std::size_t k = 0; k < rows; ++k)
         most = std::max(most, std::abs(out[i * rows + k] - run.measured[outputs[i]][first + k]));

@@ -55,7 +55,8 @@ TEST(PositionSpectrum, FindsPeriodAmplitudeAndPhaseOfARipple) {
   }
   std::vector<PreparedRun> runs;
   runs.push_back(prepare(std::move(run), rig));
-  const auto waves = strongest_waves(under_way(runs, {rig.plant, rig.terms}, kTrolleyPosition), 3);
+  const auto waves =
+      strongest_waves(pieces_of(runs, replays_of(runs, {rig.plant, rig.terms}), kTrolleyPosition), 3);
   ASSERT_FALSE(waves.empty());
   EXPECT_NEAR(waves[0].period, kPeriod_m, 0.02 * kPeriod_m);
   EXPECT_NEAR(waves[0].amplitude, gain * kAmplitude_v, 0.4 * gain * kAmplitude_v);

@@ -57,7 +57,7 @@ struct Left {
 };
 
 Left left_in(const Runs& runs, const runtime::Rig& rig) {
-  const Pieces pieces = under_way(runs, {rig.plant, rig.terms}, kTrolleyPosition);
+  const Pieces pieces = pieces_of(runs, replays_of(runs, {rig.plant, rig.terms}), kTrolleyPosition);
   return {find_unexplained(pieces), find_force_line(pieces, 1), find_jumps(pieces)};
 }
 
@@ -80,11 +80,12 @@ TEST(UnderWay, ErrorsOfTheEncoderAreUndoneAndNeverMakeTheResidualSmaller) {
   Crane crane{rig.plant, rig.terms};
   crane.terms.push_back({"position_scale", "trolley", {{"factor", kScale}}});
 
-  const auto guided = Replay(scaled[0], crane, Part::drive).guided(kTrolleyPosition);
+  const Replays replays = replays_of(scaled, crane);
+  const auto guided = replays[0].guided(kTrolleyPosition);
   for (std::size_t k = 0; k < shown.rows(); ++k)
     ASSERT_NEAR(guided.position[k], as_it_was[0].run.measured[kTrolleyPosition][k], 1e-5) << k;
-  const Pieces right = under_way(as_it_was, {rig.plant, rig.terms}, kTrolleyPosition);
-  const Pieces undone = under_way(scaled, crane, kTrolleyPosition, right.disturbance);
+  const Pieces right = pieces_of(as_it_was, replays_of(as_it_was, {rig.plant, rig.terms}), kTrolleyPosition);
+  const Pieces undone = pieces_of(scaled, replays, kTrolleyPosition, right.disturbance);
   EXPECT_NEAR(undone.squares() / right.squares(), kScale * kScale, 0.01);
 }
 

@@ -127,7 +127,7 @@ class SlopesOfTheFit : public testing::TestWithParam<Tested> {
                          kStart.tangential_rad, kStart.tangential_radps};
     std::vector<double> start, out(kRows * outputs.size());
     for (const Output output : outputs) start.insert(start.end(), {all[2 * output], all[2 * output + 1]});
-    Replay(runs_[0], crane, part).run(0, kRows, start, out);
+    Replay(runs_[0], crane).run(part, 0, kRows, start, out);
     return out;
   }
 
@@ -180,7 +180,7 @@ TEST(SensorErrors, AreUndoneBeforeTheSwingPullsAtTheDrives) {
   const auto furthest = [&](const std::vector<plant::TermSetting>& simulated) {
     std::vector<double> out(2 * kRows);
     const std::array start{kStart.trolley_m, kStart.trolley_mps, kStart.slew_rad, kStart.slew_radps};
-    Replay(run, {rig.plant, simulated}, Part::drive).run(0, kRows, start, out);
+    Replay(run, {rig.plant, simulated}).run(Part::drive, 0, kRows, start, out);
     double most = 0;
     for (std::size_t k = 0; k < kRows; ++k)
       for (const Output axis : {kTrolleyPosition, kSlewAngle})

@@ -57,10 +57,10 @@ class Comparison {
     const auto kept = static_cast<Index>(rows_ - lead_), columns = static_cast<Index>(outputs_.size());
     MatrixXd all(static_cast<Index>(windows()) * kept, columns);
     if (outputs_.empty()) return all;
-    const Replay replay(run_, crane, part_);
+    const Replay replay(run_, crane);
     const bool first_time = bases_.empty();
     for (std::size_t w = 0; w < windows(); ++w) {
-      const auto start = replay.measured_start(first_of(w));
+      const auto start = replay.measured_start(part_, first_of(w));
       const VectorXd simulated = simulate(replay, w, start);
       VectorXd residual = measured(w) - simulated;
       whiten(w, residual);
@@ -92,7 +92,7 @@ class Comparison {
   [[nodiscard]] VectorXd simulate(const Replay& replay, std::size_t window,
                                   const std::vector<double>& start) const {
     std::vector<double> values(outputs_.size() * rows_);
-    replay.run(first_of(window), rows_, start, values);
+    replay.run(part_, first_of(window), rows_, start, values);
     return kept_of(values);
   }
   [[nodiscard]] VectorXd measured(std::size_t window) const {

@@ -132,7 +132,7 @@ std::optional<PreparedRun> safe_run(const runtime::Rig& rig, const Crane& crane,
   const auto outputs = simulated_outputs(prepared, Part::whole);
   std::vector<double> begin, reported(outputs.size() * rows);
   for (const Output output : outputs) begin.insert(begin.end(), {start[output], 0.0});
-  Replay(prepared, crane, Part::whole).run(0, rows, begin, reported);
+  Replay(prepared, crane).run(Part::whole, 0, rows, begin, reported);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const auto first = reported.begin() + static_cast<std::ptrdiff_t>(i * rows);
     run.measured[outputs[i]].assign(first, first + static_cast<std::ptrdiff_t>(rows));

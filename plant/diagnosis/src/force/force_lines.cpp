@@ -7,6 +7,7 @@
 #include <random>
 #include <sstream>
 
+#include "force/explained.hpp"
 #include "parallel.hpp"
 #include "robust.hpp"
 

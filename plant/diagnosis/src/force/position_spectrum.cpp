@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "force/explained.hpp"
 #include "parallel.hpp"
 #include "replay/travel.hpp"
 

@@ -2,7 +2,7 @@
 /// Waves over position in what is unexplained of a drive.
 #include <vector>
 
-#include "force/pieces.hpp"
+#include "shooting/pieces.hpp"
 
 namespace crane::diagnosis {
 

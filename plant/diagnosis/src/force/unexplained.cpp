@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "force/explained.hpp"
 #include "parallel.hpp"
 #include "replay/travel.hpp"
 

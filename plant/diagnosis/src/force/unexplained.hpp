@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "force/pieces.hpp"
+#include "shooting/pieces.hpp"
 
 namespace crane::diagnosis {
 

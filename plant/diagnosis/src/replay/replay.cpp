@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "crane/diagnosis/course.hpp"
+#include "parallel.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -85,24 +86,28 @@ std::vector<Output> simulated_outputs(const PreparedRun& run, Part part) {
 }
 
 struct Replay::Parts {
-  Parts(const PreparedRun& prepared, const Crane& the_crane, Part part)
+  Parts(const PreparedRun& prepared, const Crane& the_crane)
       : source(prepared),
         crane(the_crane),
         model(crane.parameters, crane.terms, prepared.run.period_s),
-        sensors(has_sensor_term(crane)),
-        outputs(simulated_outputs(prepared, part)) {
+        sensors(has_sensor_term(crane)) {
     ringing = model.ringing_coordinates();
-    for (const Output output : outputs) simulated[output] = true;
     const double longest_s = model.inner_coordinates() > 0 ? kLongestInnerStep_s : kLongestStep_s;
     steps = std::max(1, static_cast<int>(std::ceil(prepared.run.period_s / longest_s - 1e-9)));
     for (const plant::PerAxis& command : prepared.run.command_v)
       drive_v.push_back(model.drive_voltage(command));
     if (sensors) undo_sensors();
-    still.axis = {!prepared.run.has(kTrolleyPosition), !prepared.run.has(kSlewAngle), true};
-    still.radial = !prepared.run.has(kRadialSwing) || crane.parameters.load_mass_kg == 0;
-    still.tangential = !prepared.run.has(kTangentialSwing) || crane.parameters.load_mass_kg == 0;
-    for (const Output axis : {kTrolleyPosition, kSlewAngle})
-      if (!simulated[axis]) still.axis[axis] = true;
+    if (model.inner_coordinates() > 0) follow_inner();
+  }
+
+  /// Coordinates that stand still or go where they were measured while the others are simulated.
+  [[nodiscard]] plant::Locks locks(const std::array<bool, kOutputs>& simulated) const {
+    const bool loaded = crane.parameters.load_mass_kg > 0;
+    plant::Locks locks;
+    locks.axis = {!simulated[kTrolleyPosition], !simulated[kSlewAngle], true};
+    locks.radial = !source.run.has(kRadialSwing) || !loaded;
+    locks.tangential = !source.run.has(kTangentialSwing) || !loaded;
+    return locks;
   }
 
   [[nodiscard]] std::array<Moment, kOutputs> measured_at(const std::array<bool, kOutputs>& free,
@@ -140,11 +145,8 @@ struct Replay::Parts {
   Crane crane;
   mutable plant::Model model;  // friction and forces only; its memory is not used after construction
   bool sensors;
-  std::vector<Output> outputs;
   std::vector<std::size_t> ringing;  ///< inner coordinates that have a start of their own
-  std::array<bool, kOutputs> simulated{};
   int steps = 1;
-  plant::Locks still;
   std::vector<plant::PerAxis> drive_v;
   std::array<Motion, kOutputs> corrected;
   std::vector<plant::InnerState>
@@ -164,9 +166,7 @@ std::array<Moment, kOutputs> Replay::Parts::measured_at(const std::array<bool, k
 void Replay::Parts::follow_inner() {
   const double period_s = source.run.period_s;
   const std::array<bool, kOutputs> none{};
-  plant::Locks all = still;
-  all.axis = {true, true, true};
-  Course course(model, none, all, period_s / steps);
+  Course course(model, none, locks(none), period_s / steps);
   const auto measured = [&](std::size_t row, double share) { return measured_at(none, row, share); };
   course.follow(measured(0, 0), between(source.cable, 0, 0, period_s));
   for (std::size_t row = 0; row < source.run.rows(); ++row) {
@@ -177,18 +177,17 @@ void Replay::Parts::follow_inner() {
   }
 }
 
-Replay::Replay(const PreparedRun& run, const Crane& crane, Part part)
-    : parts_(std::make_unique<Parts>(run, crane, part)) {
-  if (parts_->model.inner_coordinates() > 0) parts_->follow_inner();
-}
+Replay::Replay(const PreparedRun& run, const Crane& crane) : parts_(std::make_unique<Parts>(run, crane)) {}
 Replay::~Replay() = default;
 Replay::Replay(Replay&&) noexcept = default;
 
-std::size_t Replay::start_size() const { return 2 * (parts_->outputs.size() + parts_->ringing.size()); }
+std::size_t Replay::start_size(Part part) const {
+  return 2 * (simulated_outputs(parts_->source, part).size() + parts_->ringing.size());
+}
 
-std::vector<double> Replay::measured_start(std::size_t first) const {
+std::vector<double> Replay::measured_start(Part part, std::size_t first) const {
   std::vector<double> start;
-  for (const Output output : parts_->outputs) {
+  for (const Output output : simulated_outputs(parts_->source, part)) {
     const Motion& motion = parts_->given(output);
     start.push_back(motion.position[first]);
     start.push_back(motion.rate[first]);
@@ -200,30 +199,32 @@ std::vector<double> Replay::measured_start(std::size_t first) const {
   return start;
 }
 
-void Replay::run(std::size_t first, std::size_t rows, std::span<const double> start,
+void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const double> start,
                  std::span<double> out) const {
   const Parts& p = *parts_;
   const double period_s = p.source.run.period_s;
-  Course course(p.model, p.simulated, p.still, period_s / p.steps);
-  const auto measured = [&](std::size_t row, double share) { return p.measured_at(p.simulated, row, share); };
+  const std::vector<Output> outputs = simulated_outputs(p.source, part);
+  std::array<bool, kOutputs> simulated{};
+  for (const Output output : outputs) simulated[output] = true;
+  Course course(p.model, simulated, p.locks(simulated), period_s / p.steps);
+  const auto measured = [&](std::size_t row, double share) { return p.measured_at(simulated, row, share); };
   course.follow(measured(first, 0), between(p.source.cable, first, 0, period_s));
-  for (std::size_t i = 0; i < p.outputs.size(); ++i) {
-    position_of(course.state, p.outputs[i]) = start[2 * i];
-    rate_of(course.state, p.outputs[i]) = start[2 * i + 1];
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    position_of(course.state, outputs[i]) = start[2 * i];
+    rate_of(course.state, outputs[i]) = start[2 * i + 1];
   }
   if (!p.inner_at.empty()) course.inner = p.inner_at[first];
-  for (std::size_t i = 0, at = 2 * p.outputs.size(); at < start.size(); ++i, at += 2)
+  for (std::size_t i = 0, at = 2 * outputs.size(); at < start.size(); ++i, at += 2)
     course.inner[p.ringing[i]] = {start[at], start[at + 1]};
   std::optional<plant::Model> sensing;
   if (p.sensors) sensing.emplace(p.crane.parameters, p.crane.terms, period_s);
   for (std::size_t k = 0; k < rows; ++k) {
     if (sensing) {
       const plant::Measurement reported = sensing->measure(course.state);
-      for (std::size_t i = 0; i < p.outputs.size(); ++i)
-        out[i * rows + k] = measured_of(reported, p.outputs[i]);
+      for (std::size_t i = 0; i < outputs.size(); ++i) out[i * rows + k] = measured_of(reported, outputs[i]);
     } else {
-      for (std::size_t i = 0; i < p.outputs.size(); ++i)
-        out[i * rows + k] = position_of(course.state, p.outputs[i]);
+      for (std::size_t i = 0; i < outputs.size(); ++i)
+        out[i * rows + k] = position_of(course.state, outputs[i]);
     }
     if (k + 1 == rows) break;
     course.new_command(p.drive_v[first + k]);
@@ -235,7 +236,9 @@ Replay::Guided Replay::guided(Output axis) const {
   const Parts& p = *parts_;
   const double period_s = p.source.run.period_s;
   const std::array<bool, kOutputs> none{};
-  Course course(p.model, none, p.still, period_s);
+  std::array<bool, kOutputs> drives{};
+  for (const Output drive : simulated_outputs(p.source, Part::drive)) drives[drive] = true;
+  Course course(p.model, none, p.locks(drives), period_s);
   const std::size_t rows = p.source.run.rows();
   Guided drive{p.given(axis).position, std::vector<double>(rows)};
   for (std::size_t row = 0; row + 1 < rows; ++row) {
@@ -245,6 +248,15 @@ Replay::Guided Replay::guided(Output axis) const {
         course.acceleration(axis, p.measured_at(none, row, 0.5), between(p.source.cable, row, 0.5, period_s));
   }
   return drive;
+}
+
+Replays replays_of(const Runs& runs, const Crane& crane) {
+  std::vector<std::optional<Replay>> made(runs.size());
+  parallel_for(runs.size(), [&](std::size_t i) { made[i].emplace(runs[i], crane); });
+  Replays replays;
+  replays.reserve(made.size());
+  for (auto& replay : made) replays.push_back(std::move(*replay));
+  return replays;
 }
 
 }  // namespace crane::diagnosis

@@ -53,13 +53,13 @@ double gain_of(const Compared& c, const std::vector<std::vector<std::size_t>>* p
 /// Every run in open loop, by row.
 std::vector<std::vector<double>> ways(const Problem& whole, const Crane& crane) {
   std::vector<std::vector<double>> all;
-  const Fits fits = whole.fit(crane);
+  const Replays replays = replays_of(whole.runs(), crane);
+  const Fits fits = whole.fit(replays);
   for (std::size_t w = 0; w < fits.size(); ++w) {
-    const PreparedRun& run = whole.runs()[whole.windows()[w].run];
+    const std::size_t run = whole.windows()[w].run, rows = whole.runs()[run].run.rows();
     const Eigen::VectorXd& start = fits[w].start;
-    std::vector<double>& way = all.emplace_back(run.run.rows() * whole.outputs().size());
-    Replay(run, crane, whole.part())
-        .run(0, run.run.rows(), {start.data(), static_cast<std::size_t>(start.size())}, way);
+    std::vector<double>& way = all.emplace_back(rows * whole.outputs().size());
+    replays[run].run(whole.part(), 0, rows, {start.data(), static_cast<std::size_t>(start.size())}, way);
   }
   return all;
 }

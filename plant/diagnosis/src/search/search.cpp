@@ -95,7 +95,7 @@ class Search {
     for (std::size_t i = 0; i < order.size(); ++i) {
       request_.progress(0.15 + 0.3 * static_cast<double>(i) / kRefitted,
                         "fit of " + study_.candidates()[order[i].candidate].label());
-      found_.singles.push_back(study_.fit(begin({}, order[i])));
+      found_.singles.push_back(study_.fit(begin({}, order[i]), found_.base.train.loss));
       rank(found_.singles.back(), order[i].p_value);
     }
   }
@@ -180,9 +180,13 @@ class Search {
   }
 
   void add_pairs(std::vector<Effects>& tries) const {
-    for (std::size_t i = 0; i < std::min(kPaired, found_.singles.size()); ++i)
+    std::vector<Effect> helpful;
+    for (const Fitted& single : found_.singles)
+      if (single.train.loss < found_.base.train.loss && helpful.size() < kPaired)
+        helpful.push_back(single.effects[0]);
+    for (std::size_t i = 0; i < helpful.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        const Effects pair{found_.singles[i].effects[0], found_.singles[j].effects[0]};
+        const Effects pair{helpful[i], helpful[j]};
         if (std::none_of(tries.begin(), tries.end(), [&](const Effects& known) { return same(known, pair); }))
           tries.push_back(pair);
       }

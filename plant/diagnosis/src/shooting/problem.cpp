@@ -88,7 +88,7 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
   }
 }
 
-std::vector<std::vector<VectorXd>> Problem::residuals(const Crane& crane) const {
+std::vector<std::vector<VectorXd>> Problem::residuals(const Replays& crane) const {
   const Fits fits = fit(crane);
   std::vector<std::vector<VectorXd>> result(outputs_.size());
   for (std::size_t w = 0; w < windows_.size(); ++w) {
@@ -109,7 +109,7 @@ void Problem::whiten_with(std::vector<Disturbance> disturbances) {
       whiteners_[output].emplace_back(disturbances_[output], passage);
 }
 
-void Problem::learn_disturbance(const Crane& crane) {
+void Problem::learn_disturbance(const Replays& crane) {
   disturbances_.clear();
   // After the first time with starts that were solved for with what was learnt before.
   for (int round = 0; round < kLearningRounds; ++round) {
@@ -122,19 +122,11 @@ void Problem::learn_disturbance(const Crane& crane) {
   }
 }
 
-std::vector<Replay> Problem::replays(const Runs& runs, const Crane& crane) const {
-  std::vector<std::optional<Replay>> made(runs.size());
-  parallel_for(runs.size(), [&](std::size_t i) { made[i].emplace(runs[i], crane, part_); });
-  std::vector<Replay> result;
-  result.reserve(made.size());
-  for (auto& replay : made) result.push_back(std::move(*replay));
-  return result;
-}
-
 VectorXd Problem::simulate(const Replay& replay, const Window& window, const VectorXd& start) const {
   const std::size_t all = window.lead + window.rows;
   std::vector<double> out(all * outputs_.size());
-  replay.run(window.first - window.lead, all, {start.data(), static_cast<std::size_t>(start.size())}, out);
+  replay.run(part_, window.first - window.lead, all, {start.data(), static_cast<std::size_t>(start.size())},
+             out);
   VectorXd kept(static_cast<Index>(window.rows * outputs_.size()));
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     kept.segment(static_cast<Index>(i * window.rows), static_cast<Index>(window.rows)) =
@@ -171,8 +163,8 @@ MatrixXd Problem::start_slopes(const Replay& replay, std::size_t at, const Vecto
   return slopes;
 }
 
-VectorXd Problem::measured_start(const Replay& replay, const Window& window) {
-  const std::vector<double> start = replay.measured_start(window.first - window.lead);
+VectorXd Problem::measured_start(const Replay& replay, const Window& window) const {
+  const std::vector<double> start = replay.measured_start(part_, window.first - window.lead);
   return Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
 }
 
@@ -231,42 +223,35 @@ void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) co
   fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
 }
 
-Fits Problem::fit(const Crane& crane) const {
-  const std::vector<Replay> replay = replays(runs_, crane);
+Fits Problem::fit(const Replays& crane) const {
   Fits fits(windows_.size());
-  parallel_for(windows_.size(), [&](std::size_t w) { fit_start(replay[windows_[w].run], w, fits[w]); });
+  parallel_for(windows_.size(), [&](std::size_t w) { fit_start(crane[windows_[w].run], w, fits[w]); });
   return fits;
 }
 
-Fits Problem::fit_near(const Crane& crane, const Fits& near) const {
-  const std::vector<Replay> replay = replays(runs_, crane);
+Fits Problem::fit_near(const Replays& crane, const Fits& near) const {
   Fits fits = near;
   parallel_for(windows_.size(), [&](std::size_t w) {
     const Window& window = windows_[w];
     WindowFit& fit = fits[w];
-    if (static_cast<std::size_t>(fit.start.size()) != replay[window.run].start_size())
-      return fit_start(replay[window.run], w, fit);
-    const VectorXd target = measured(window), moved = measured_start(replay[window.run], window);
+    const Replay& replay = crane[window.run];
+    if (static_cast<std::size_t>(fit.start.size()) != replay.start_size(part_))
+      return fit_start(replay, w, fit);
+    const VectorXd target = measured(window), moved = measured_start(replay, window);
     fit.start += moved - fit.measured_start;
     fit.measured_start = moved;
-    fit.simulated = simulate(replay[window.run], window, fit.start);
-    settle_start(replay[window.run], w, target, fit);
+    fit.simulated = simulate(replay, window, fit.start);
+    settle_start(replay, w, target, fit);
     fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
   });
   return fits;
 }
 
-std::vector<VectorXd> Problem::change(const Crane& crane, const Fits& at, double step, double* own) const {
-  return change_on(runs_, crane, at, step, own);
-}
-
-std::vector<VectorXd> Problem::change_on(const Runs& runs, const Crane& crane, const Fits& at, double step,
-                                         double* own) const {
-  const std::vector<Replay> replay = replays(runs, crane);
+std::vector<VectorXd> Problem::change(const Replays& crane, const Fits& at, double step, double* own) const {
   std::vector<VectorXd> changes(windows_.size());
   std::vector<double> gains(windows_.size());
   parallel_for(windows_.size(), [&](std::size_t w) {
-    changes[w] = change_in(replay[windows_[w].run], w, at[w], step, gains[w]);
+    changes[w] = change_in(crane[windows_[w].run], w, at[w], step, gains[w]);
   });
   if (own != nullptr) *own = std::accumulate(gains.begin(), gains.end(), 0.0);
   return changes;

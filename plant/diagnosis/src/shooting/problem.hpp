@@ -11,8 +11,6 @@
 
 namespace crane::diagnosis {
 
-using Runs = std::vector<PreparedRun>;
-
 /// Rows compared; the replay begins `lead` rows earlier so that sensors and filters have a past.
 struct Window {
   std::size_t run = 0, first = 0, rows = 0, lead = 0;
@@ -37,6 +35,7 @@ inline constexpr double kStartPrice = 2;
 /// Length of a window that is its run.
 inline constexpr double kWholeRun = std::numeric_limits<double>::infinity();
 
+/// A crane is handed to it as its replays on the problem's runs.
 class Problem {
  public:
   /// @param window_s wanted length; runs are divided into equal parts of about that
@@ -49,8 +48,8 @@ class Problem {
   [[nodiscard]] const std::vector<Output>& outputs() const { return outputs_; }
   [[nodiscard]] const Runs& runs() const { return runs_; }
 
-  /// Learns noise and disturbance per output from the residuals of `crane` and whitens with them from now on.
-  void learn_disturbance(const Crane& crane);
+  /// Learns noise and disturbance per output from the residuals of a crane and whitens with them from now on.
+  void learn_disturbance(const Replays& crane);
   /// Whitens as `other` does.
   void whiten_like(const Problem& other) { whiten_with(other.disturbances_); }
   [[nodiscard]] const Whitener& whitener(std::size_t output, std::size_t window) const {
@@ -59,30 +58,25 @@ class Problem {
   [[nodiscard]] const std::vector<Disturbance>& disturbances() const { return disturbances_; }
 
   /// Solves for the starts from the measured ones.
-  [[nodiscard]] Fits fit(const Crane& crane) const;
+  [[nodiscard]] Fits fit(const Replays& crane) const;
   /// Solves for the starts with the directions of `near`, a crane that differs little; as fit() where it has
   /// other coordinates.
-  [[nodiscard]] Fits fit_near(const Crane& crane, const Fits& near) const;
+  [[nodiscard]] Fits fit_near(const Replays& crane, const Fits& near) const;
   /// Change of the outputs against `at` per unit, whitened and projected: (outputs of crane - at) / step. The
   /// start of coordinates that only `crane` has is taken out too.
   /// @param own if given, takes the decrease of the loss that the start of such coordinates makes alone, less
   /// its price
-  [[nodiscard]] std::vector<Eigen::VectorXd> change(const Crane& crane, const Fits& at, double step,
+  [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane, const Fits& at, double step,
                                                     double* own = nullptr) const;
-
-  /// The same with other runs (commands changed) through the same crane.
-  [[nodiscard]] std::vector<Eigen::VectorXd> change_on(const Runs& runs, const Crane& crane, const Fits& at,
-                                                       double step, double* own = nullptr) const;
   /// Measured rows of a window, outputs one after the other.
   [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
 
  private:
   /// Residuals [output][window], not whitened, of starts that were solved for with what is known.
-  [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Crane& crane) const;
+  [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Replays& crane) const;
   /// Numbers of a start that every crane has.
   [[nodiscard]] Eigen::Index bare_start() const { return static_cast<Eigen::Index>(2 * outputs_.size()); }
   void whiten_with(std::vector<Disturbance> disturbances);
-  [[nodiscard]] std::vector<Replay> replays(const Runs& runs, const Crane& crane) const;
   [[nodiscard]] Eigen::VectorXd simulate(const Replay& replay, const Window& window,
                                          const Eigen::VectorXd& start) const;
   void whiten(std::size_t window, Eigen::Ref<Eigen::MatrixXd> x) const;
@@ -92,7 +86,7 @@ class Problem {
                                              Eigen::Index first) const;
   [[nodiscard]] Eigen::VectorXd change_in(const Replay& replay, std::size_t window, const WindowFit& at,
                                           double step, double& own_gain) const;
-  [[nodiscard]] static Eigen::VectorXd measured_start(const Replay& replay, const Window& window);
+  [[nodiscard]] Eigen::VectorXd measured_start(const Replay& replay, const Window& window) const;
   void linearise(const Replay& replay, std::size_t window, WindowFit& fit) const;
   void settle_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
                     WindowFit& fit) const;

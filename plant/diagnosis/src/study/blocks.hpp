@@ -14,6 +14,8 @@ struct Study::Slopes {
 struct BlockScores {
   Eigen::MatrixXd by_block;   ///< block x direction: slope' weighted residual
   Eigen::MatrixXd curvature;  ///< slope' weighted slope
+  /// By direction, of all blocks.
+  [[nodiscard]] Eigen::VectorXd pull() const { return by_block.colwise().sum().transpose(); }
 };
 [[nodiscard]] BlockScores block_scores(const Problem& problem, const Fits& fits,
                                        const std::vector<std::vector<Eigen::VectorXd>>& slopes,

@@ -13,8 +13,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostRounds = 12;
-/// Ever more damped steps of a round, of all values and of one effect's alone.
-constexpr int kAttempts = 7, kAttemptsAlone = 3;
+/// Ever more damped steps of a round; of one effect's values alone, or where there is little hope.
+constexpr int kAttempts = 7, kFewAttempts = 3;
 constexpr double kFirstDamping = 1e-3;
 /// Decrease of the loss that is not worth another round.
 constexpr double kLeastGain = 0.3;
@@ -53,7 +53,7 @@ Effects unflatten(Effects effects, const Flat& flat, const VectorXd& step) {
 }
 
 /// Decrease of the loss of an undamped step without bounds.
-double promised(const MatrixXd& h, const VectorXd& g) { return g.dot(solve(h, g)); }
+double promised(const BlockScores& at) { return at.pull().dot(solve(at.curvature, at.pull())); }
 
 /// Damped step of the values `active` inside the bounds; one at its bound that wants out stays there.
 VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, double damping,
@@ -112,21 +112,20 @@ double total_loss(const Evaluation& at, Loss loss) {
 
 }  // namespace
 
-BlockScores Study::pulls(const Fitted& at, Loss loss) const {
-  return block_scores(at.train, slopes(at.effects, at.train), loss);
-}
-
 void Study::descend(Fitted& best, Loss loss, double hopeless) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
   for (int round = 0; round < kMostRounds; ++round) {
-    const BlockScores both = pulls(best, loss);
-    const VectorXd pull = both.by_block.colwise().sum().transpose();
+    const Slopes along = slopes(best.effects, best.train);
+    if (round >= kLeastRounds &&
+        best.train.loss - kPromise * promised(block_scores(best.train, along)) > hopeless)
+      break;
+    const BlockScores both = block_scores(best.train, along, loss);
+    const VectorXd pull = both.pull();
     const Flat flat = flatten(best.effects);
-    if (round >= kLeastRounds && least - kPromise * promised(both.curvature, pull) > hopeless) break;
     double gained = 0;
     const auto groups = moved_together(best.effects);
     for (std::size_t group = 0; group < groups.size() && gained == 0; ++group) {
-      const int attempts = group == 0 ? kAttempts : kAttemptsAlone;
+      const int attempts = group == 0 && best.train.loss <= hopeless ? kAttempts : kFewAttempts;
       for (int attempt = 0; attempt < attempts && gained == 0; ++attempt) {
         const VectorXd step = bounded_step(both.curvature, pull, flat, damping, groups[group]);
         if (!step.allFinite() || step.norm() == 0) break;
@@ -154,10 +153,10 @@ Fitted Study::fit(Effects effects, double hopeless) const {
   near.effects = std::move(effects);
   near.train = train(near.effects);
   Fitted best = near;
-  descend(best, Loss::squares, std::numeric_limits<double>::infinity());
+  descend(best, Loss::squares, hopeless);
   if (near.train.loss < best.train.loss) best = near;
   descend(best, Loss::robust, hopeless);
-  const BlockScores both = pulls(best, Loss::robust);
+  const BlockScores both = block_scores(best.train, slopes(best.effects, best.train));
   const MatrixXd inverse = both.curvature.completeOrthogonalDecomposition().pseudoInverse();
   best.by_noise = inverse.diagonal().cwiseMax(0.0).cwiseSqrt();
   // The replay of a drive and its pieces under way see the same noise: together they know no more than one.

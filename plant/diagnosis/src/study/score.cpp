@@ -98,9 +98,9 @@ std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& e
   const auto axis = static_cast<Output>(plant::drive_axis(candidate.axis));
   const double gain =
       axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
+  const Replays replays = replays_of(train_.runs, with(effects));
   std::vector<Shape> shapes;
-  for (const PositionWave& wave :
-       strongest_waves(under_way(train_.drive.runs(), with(effects), axis), kWaves))
+  for (const PositionWave& wave : strongest_waves(pieces_of(train_.runs, replays, axis), kWaves))
     shapes.push_back(
         {{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}, true});
   return shapes;

@@ -35,7 +35,7 @@ double natural_radps(const runtime::Rig& rig) {
   return std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist]);
 }
 
-Fits fit_of(const Problem& problem, const Crane& crane) {
+Fits fit_of(const Problem& problem, const Replays& crane) {
   return problem.empty() ? Fits{} : problem.fit(crane);
 }
 
@@ -52,9 +52,10 @@ Study::Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
   });
 }
 
-Study::Body::Body(const Runs& runs, double natural_radps)
-    : drive(runs, Part::drive, kDriveWindow_s, natural_radps),
-      load(runs, Part::load, kSwingWindow_s, natural_radps) {}
+Study::Body::Body(const Runs& all, double natural_radps)
+    : runs(all),
+      drive(all, Part::drive, kDriveWindow_s, natural_radps),
+      load(all, Part::load, kSwingWindow_s, natural_radps) {}
 
 Crane Study::with(const Effects& effects) const {
   Crane crane = base_;
@@ -64,7 +65,7 @@ Crane Study::with(const Effects& effects) const {
 
 double Study::learn_disturbance(const Effects& effects) {
   double misfit = 0;
-  const Crane crane = with(effects);
+  const Replays crane = replays_of(train_.runs, with(effects));
   for (const auto& [train, test] : {std::pair{&train_.drive, &test_.drive}, {&train_.load, &test_.load}}) {
     if (train->empty()) continue;
     train->learn_disturbance(crane);
@@ -72,18 +73,19 @@ double Study::learn_disturbance(const Effects& effects) {
     if (!test->empty()) test->whiten_like(*train);
   }
   misfit += train_.under_way.learn_disturbance(crane);
-  test_.under_way.whiten_like(train_.under_way, crane);
-  base_train_ = evaluated(train_);
-  base_test_ = evaluated(test_);
+  const Replays base_train = replays_of(train_.runs, base_), base_test = replays_of(test_.runs, base_);
+  test_.under_way.whiten_like(train_.under_way, base_test);
+  base_train_ = evaluated(train_, base_train);
+  base_test_ = evaluated(test_, base_test);
   return misfit;
 }
 
-Evaluation Study::evaluated(const Body& body) const {
-  return summed(body, fit_of(body.drive, base_), fit_of(body.load, base_), body.under_way.residuals(base_));
+Evaluation Study::evaluated(const Body& body, const Replays& base) const {
+  return summed(body, fit_of(body.drive, base), fit_of(body.load, base), body.under_way.residuals(base));
 }
 
 Evaluation Study::evaluate(const Body& body, const Effects& effects, const Evaluation& near) const {
-  const Crane crane = with(effects);
+  const Replays crane = replays_of(body.runs, with(effects));
   bool in_drive = false, in_load = false;
   for (const Effect& effect : effects) {
     in_drive = in_drive || effect.candidate->drive;
@@ -100,12 +102,13 @@ Evaluation Study::test(const Effects& effects) const { return evaluate(test_, ef
 double Study::add_slope(const Candidate& candidate, const Crane& crane, const Evaluation& at, double step,
                         Slopes& slopes) const {
   double of_drive = 0, of_load = 0;
+  const Replays replays = replays_of(train_.runs, crane);
   const bool in_drive = candidate.drive && !train_.drive.empty();
   const bool in_load = candidate.load && !train_.load.empty();
   using Changes = std::vector<VectorXd>;
-  slopes.drive.push_back(in_drive ? train_.drive.change(crane, at.drive, step, &of_drive) : Changes{});
-  slopes.under_way.push_back(in_drive ? train_.under_way.change(crane, at.under_way, step) : Changes{});
-  slopes.load.push_back(in_load ? train_.load.change(crane, at.load, step, &of_load) : Changes{});
+  slopes.drive.push_back(in_drive ? train_.drive.change(replays, at.drive, step, &of_drive) : Changes{});
+  slopes.under_way.push_back(in_drive ? train_.under_way.change(replays, at.under_way, step) : Changes{});
+  slopes.load.push_back(in_load ? train_.load.change(replays, at.load, step, &of_load) : Changes{});
   return of_drive + of_load;
 }
 

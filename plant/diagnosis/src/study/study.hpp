@@ -8,7 +8,7 @@
 #include "crane/diagnosis/candidate.hpp"
 #include "robust.hpp"
 #include "shooting/problem.hpp"
-#include "study/under_way.hpp"
+#include "shooting/under_way.hpp"
 
 namespace crane::diagnosis {
 
@@ -95,17 +95,16 @@ class Study {
   struct Slopes;
   /// Runs, in their three views.
   struct Body {
-    Body(const Runs& runs, double natural_radps);
+    Body(const Runs& all, double natural_radps);
     Body(const Body&) = delete;
     Body& operator=(const Body&) = delete;
+    const Runs& runs;
     Problem drive, load;
     UnderWay under_way{drive};
   };
 
  private:
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
-  /// Along every parameter of the effects.
-  [[nodiscard]] BlockScores pulls(const Fitted& at, Loss loss) const;
   /// Gauss-Newton rounds from where `best` is.
   void descend(Fitted& best, Loss loss, double hopeless) const;
   /// Scores of directions around `at`.
@@ -122,7 +121,7 @@ class Study {
   /// @return what the start of its own coordinates gains
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
   /// Around the base crane.
-  [[nodiscard]] Evaluation evaluated(const Body& body) const;
+  [[nodiscard]] Evaluation evaluated(const Body& body, const Replays& base) const;
   [[nodiscard]] Evaluation evaluate(const Body& body, const Effects& effects, const Evaluation& near) const;
 
   Crane base_;

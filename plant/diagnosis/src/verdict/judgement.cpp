@@ -143,9 +143,10 @@ class Judgement {
     // What rings by itself is a line of its own.
     const Crane crane = study_.with(best_.effects);
     const bool rings = !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
+    const Replays best = replays_of(runs, crane), base = replays_of(runs, study_.base());
     for (const Output axis : study_.drive().outputs()) {
-      const Pieces pieces = under_way(runs, crane, axis);
-      const double of_base = squares_of(residuals_of(pieces, study_.base()));
+      const Pieces pieces = pieces_of(runs, best, axis);
+      const double of_base = squares_of(residuals_of(pieces, base));
       const std::vector<double> by_each = explained_by_each(pieces);
       const auto add = [&](const Unexplained& what) {
         left.push_back({what, of_base, weakest(by_each, what)});
@@ -156,7 +157,7 @@ class Judgement {
       if (const auto jumps = find_jumps(pieces)) add(*jumps);
     }
     for (std::size_t output = 0; output < study_.load().outputs().size(); ++output)
-      if (const auto line = find_force_line(windows_of(study_.load(), best_.train.load, output), seed_))
+      if (const auto line = find_force_line(pieces_of(study_.load(), best_.train.load, output), seed_))
         left.push_back({*line, all_.base.train.load_loss});
     std::sort(left.begin(), left.end(),
               [](const Pattern& a, const Pattern& b) { return a.what.gain > b.what.gain; });
@@ -170,7 +171,8 @@ class Judgement {
       if (best_.effects[i].candidate->axis != axis_of(pieces.output)) continue;
       Effects others = best_.effects;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      explained[i] = squares_of(residuals_of(pieces, study_.with(others))) - pieces.squares();
+      explained[i] =
+          squares_of(residuals_of(pieces, replays_of(*pieces.runs, study_.with(others)))) - pieces.squares();
     }
     return explained;
   }

@@ -8,6 +8,7 @@
 /// order. Friction is taken at the mid-point of a step and implicitly around standstill, where tanh(v / v_s)
 /// is stiff; a reversal inside a step is met exactly.
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "crane/diagnosis/data.hpp"
@@ -41,35 +42,43 @@ struct PreparedRun {
 /// Which outputs a part simulates on a run; the order is that of Output.
 [[nodiscard]] std::vector<Output> simulated_outputs(const PreparedRun& run, Part part);
 
-/// One crane on one run: command terms have gone over the whole of it.
+/// One crane on one run: command terms have gone over the whole of it, the errors of the crane's sensors are
+/// taken out of the measured motion, its terms' own coordinates have followed that motion.
 class Replay {
  public:
-  Replay(const PreparedRun& run, const Crane& crane, Part part);
+  /// @param run outlives the replay
+  Replay(const PreparedRun& run, const Crane& crane);
   ~Replay();
   Replay(Replay&&) noexcept;
 
-  /// Numbers that start a window: position and rate per simulated output, then those of the model's inner
-  /// coordinates that ring on by themselves. Inner coordinates that are not given begin where the measured
-  /// motion of the whole run has brought them.
-  [[nodiscard]] std::size_t start_size() const;
+  /// Numbers that start a window of a part: position and rate per simulated output, then those of the model's
+  /// inner coordinates that ring on by themselves. Inner coordinates that are not given begin where the
+  /// measured motion of the whole run has brought them.
+  [[nodiscard]] std::size_t start_size(Part part) const;
   /// What the measurement says about them at row `first`.
-  [[nodiscard]] std::vector<double> measured_start(std::size_t first) const;
+  [[nodiscard]] std::vector<double> measured_start(Part part, std::size_t first) const;
   /// Rows first ... first + rows - 1 from `start` at row `first`; `out` takes output by output.
-  /// @param start as long as start_size(), or without the inner coordinates
+  /// @param start as long as start_size(part), or without the inner coordinates
   /// @pre first + rows <= rows of the run; sizes fit
-  void run(std::size_t first, std::size_t rows, std::span<const double> start, std::span<double> out) const;
+  void run(Part part, std::size_t first, std::size_t rows, std::span<const double> start,
+           std::span<double> out) const;
   /// A drive along the measured motion, by row: where it was, the errors of its sensor undone, and how the
   /// model accelerates it until the next row.
   struct Guided {
     std::vector<double> position;      ///< m or rad
     std::vector<double> acceleration;  ///< m/s2 or rad/s2
   };
-  /// @pre the part is drive, the axis is measured
+  /// @pre the axis is measured
   [[nodiscard]] Guided guided(Output axis) const;
 
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+using Runs = std::vector<PreparedRun>;
+using Replays = std::vector<Replay>;
+/// The crane on every run. @param runs outlive the replays
+[[nodiscard]] Replays replays_of(const Runs& runs, const Crane& crane);
 
 }  // namespace crane::diagnosis

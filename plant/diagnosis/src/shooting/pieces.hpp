@@ -1,5 +1,5 @@
 #pragma once
-/// Pieces of one output's residual that a missing force shows in, and what such a force does to them.
+/// Pieces of one output's residual that a missing force shows in.
 ///
 /// Drives: pieces of the way between two rests. The model at the measured speed, with the measured command
 /// and swing, says how the axis accelerates; twice integrated, from a start of its own that is projected
@@ -41,33 +41,18 @@ struct Pieces {
   [[nodiscard]] double squares() const;
 };
 
-/// @param runs outlive the pieces
+/// Of a drive. @param runs outlive the pieces
 /// @param known noise and disturbance; learnt from the pieces themselves when its noise is 0
-[[nodiscard]] Pieces under_way(const Runs& runs, const Crane& crane, Output axis,
+[[nodiscard]] Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis,
                                const Disturbance& known = {});
 /// What another crane leaves of each piece of a drive, whitened in the same way, without what the start can
 /// make.
-[[nodiscard]] std::vector<Eigen::VectorXd> residuals_of(const Pieces& pieces, const Crane& crane);
+[[nodiscard]] std::vector<Eigen::VectorXd> residuals_of(const Pieces& pieces, const Replays& crane);
 /// @param problem of the load, its runs outlive the pieces
 /// @param output index into its outputs
-[[nodiscard]] Pieces windows_of(const Problem& problem, const Fits& fits, std::size_t output);
+[[nodiscard]] Pieces pieces_of(const Problem& problem, const Fits& fits, std::size_t output);
 
-/// How well patterns of force explain residuals: slope' weighted residual and slope' weighted slope.
-struct Explained {
-  explicit Explained(Eigen::Index patterns = 0)
-      : pull(Eigen::VectorXd::Zero(patterns)), curvature(Eigen::MatrixXd::Zero(patterns, patterns)) {}
-  Eigen::VectorXd pull;
-  Eigen::MatrixXd curvature;
-  /// Decrease of the loss that the amplitudes x make.
-  [[nodiscard]] double gain(const Eigen::VectorXd& x) const { return 2 * x.dot(pull) - x.dot(curvature * x); }
-  Explained& operator+=(const Explained& other);
-  Explained& operator-=(const Explained& other);
-};
-
-/// Of cosine and sine, the two patterns of a wave, as the residual has them best.
-[[nodiscard]] Eigen::Vector2d wave_amplitude(const Explained& wave);
-
-/// @param forces on the piece, row x pattern
-[[nodiscard]] Explained explained(const Pieces& pieces, const Piece& piece, Eigen::MatrixXd forces);
+/// What forces on a piece, row x pattern, make of its residual: whitened, without what the start can make.
+[[nodiscard]] Eigen::MatrixXd made_by(const Pieces& pieces, const Piece& piece, Eigen::MatrixXd forces);
 
 }  // namespace crane::diagnosis

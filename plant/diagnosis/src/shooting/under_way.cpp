@@ -1,4 +1,4 @@
-#include "study/under_way.hpp"
+#include "shooting/under_way.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -15,23 +15,23 @@ std::size_t window_of(const std::vector<Window>& windows, const Piece& piece) {
 
 }  // namespace
 
-double UnderWay::learn_disturbance(const Crane& crane) {
+double UnderWay::learn_disturbance(const Replays& crane) {
   axes_.clear();
   double misfit = 0;
   if (drive_.empty()) return misfit;
   for (const Output axis : drive_.outputs()) {
-    axes_.push_back(under_way(drive_.runs(), crane, axis));
+    axes_.push_back(pieces_of(drive_.runs(), crane, axis));
     misfit += axes_.back().disturbance.misfit;
   }
   find_windows();
   return misfit;
 }
 
-void UnderWay::whiten_like(const UnderWay& other, const Crane& crane) {
+void UnderWay::whiten_like(const UnderWay& other, const Replays& crane) {
   axes_.clear();
   if (drive_.empty()) return;
   for (const Pieces& axis : other.axes_)
-    axes_.push_back(under_way(drive_.runs(), crane, axis.output, axis.disturbance));
+    axes_.push_back(pieces_of(drive_.runs(), crane, axis.output, axis.disturbance));
   find_windows();
 }
 
@@ -41,14 +41,14 @@ void UnderWay::find_windows() {
     for (const Piece& piece : axis.all) windows_.push_back(window_of(drive_.windows(), piece));
 }
 
-std::vector<Eigen::VectorXd> UnderWay::residuals(const Crane& crane) const {
+std::vector<Eigen::VectorXd> UnderWay::residuals(const Replays& crane) const {
   std::vector<Eigen::VectorXd> all;
   for (const Pieces& axis : axes_)
     for (Eigen::VectorXd& residual : residuals_of(axis, crane)) all.push_back(std::move(residual));
   return all;
 }
 
-std::vector<Eigen::VectorXd> UnderWay::change(const Crane& crane, const std::vector<Eigen::VectorXd>& at,
+std::vector<Eigen::VectorXd> UnderWay::change(const Replays& crane, const std::vector<Eigen::VectorXd>& at,
                                               double step) const {
   std::vector<Eigen::VectorXd> changes = residuals(crane);
   for (std::size_t i = 0; i < changes.size(); ++i) changes[i] = (at[i] - changes[i]) / step;

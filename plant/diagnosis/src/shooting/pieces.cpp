@@ -1,4 +1,4 @@
-#include "force/pieces.hpp"
+#include "shooting/pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,13 +102,13 @@ double Pieces::squares() const {
   return sum;
 }
 
-Pieces under_way(const Runs& runs, const Crane& crane, Output axis, const Disturbance& known) {
+Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis, const Disturbance& known) {
   std::vector<VectorXd> left;
   std::vector<Passage> passages;
   std::vector<Stretch> stretches;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!runs[r].run.has(axis)) continue;
-    const Replay::Guided drive = Replay(runs[r], crane, Part::drive).guided(axis);
+    const Replay::Guided drive = crane[r].guided(axis);
     for (Stretch& stretch : stretches_of(runs[r], r, axis)) {
       const auto from = drive.position.begin() + static_cast<std::ptrdiff_t>(stretch.first);
       stretch.position.assign(from, from + static_cast<std::ptrdiff_t>(stretch.rows));
@@ -132,12 +132,12 @@ Pieces under_way(const Runs& runs, const Crane& crane, Output axis, const Distur
   return pieces;
 }
 
-std::vector<VectorXd> residuals_of(const Pieces& pieces, const Crane& crane) {
+std::vector<VectorXd> residuals_of(const Pieces& pieces, const Replays& crane) {
   const Runs& runs = *pieces.runs;
   std::vector<VectorXd> residuals(pieces.all.size());
   parallel_for(runs.size(), [&](std::size_t r) {
     if (!runs[r].run.has(pieces.output)) return;
-    const Replay::Guided drive = Replay(runs[r], crane, Part::drive).guided(pieces.output);
+    const Replay::Guided drive = crane[r].guided(pieces.output);
     for (std::size_t i = 0; i < residuals.size(); ++i) {
       const Piece& piece = pieces.all[i];
       if (piece.run != r) continue;
@@ -148,7 +148,7 @@ std::vector<VectorXd> residuals_of(const Pieces& pieces, const Crane& crane) {
   return residuals;
 }
 
-Pieces windows_of(const Problem& problem, const Fits& fits, std::size_t output) {
+Pieces pieces_of(const Problem& problem, const Fits& fits, std::size_t output) {
   Pieces pieces{&problem.runs(), problem.outputs()[output], problem.disturbances()[output], {}};
   for (std::size_t w = 0; w < fits.size(); ++w) {
     const Window& window = problem.windows()[w];
@@ -164,33 +164,11 @@ Pieces windows_of(const Problem& problem, const Fits& fits, std::size_t output) 
   return pieces;
 }
 
-Explained& Explained::operator+=(const Explained& other) {
-  pull += other.pull;
-  curvature += other.curvature;
-  return *this;
-}
-
-Explained& Explained::operator-=(const Explained& other) {
-  pull -= other.pull;
-  curvature -= other.curvature;
-  return *this;
-}
-
-Eigen::Vector2d wave_amplitude(const Explained& wave) {
-  const Eigen::Matrix2d h = wave.curvature;
-  const Eigen::Matrix2d regular = h + (1e-9 * h.trace() + 1e-12) * Eigen::Matrix2d::Identity();
-  return regular.inverse() * wave.pull;
-}
-
-Explained explained(const Pieces& pieces, const Piece& piece, MatrixXd forces) {
+MatrixXd made_by(const Pieces& pieces, const Piece& piece, MatrixXd forces) {
   if (!pieces.of_load()) integrate(forces, (*pieces.runs)[piece.run].run.period_s);
   piece.whitener.apply(forces);
   forces -= piece.basis * (piece.basis.transpose() * forces).eval();
-  const VectorXd weights = weights_of(piece.residual);
-  Explained all;
-  all.pull = forces.transpose() * weights.cwiseProduct(piece.residual);
-  all.curvature = forces.transpose() * weights.asDiagonal() * forces;
-  return all;
+  return forces;
 }
 
 }  // namespace crane::diagnosis

@@ -1,7 +1,7 @@
 #pragma once
-/// The drives along the measured motion, between two rests (force/pieces.hpp): the part of the residual that
+/// The drives along the measured motion, between two rests (pieces.hpp): the part of the residual that
 /// does not hang on when exactly an axis breaks loose, beside the windows of the drives' replay.
-#include "force/pieces.hpp"
+#include "shooting/pieces.hpp"
 
 namespace crane::diagnosis {
 
@@ -12,14 +12,14 @@ class UnderWay {
 
   /// Learns noise and disturbance of each axis from what `crane` leaves, and whitens with them from now on.
   /// @return minus twice the log likelihood, but for a constant
-  double learn_disturbance(const Crane& crane);
+  double learn_disturbance(const Replays& crane);
   /// Whitens as `other` does. @param crane any of these runs
-  void whiten_like(const UnderWay& other, const Crane& crane);
+  void whiten_like(const UnderWay& other, const Replays& crane);
 
   /// Whitened residual of every piece, without what its start can make.
-  [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const Crane& crane) const;
+  [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const Replays& crane) const;
   /// Change of the outputs against the crane that left `at`, per unit.
-  [[nodiscard]] std::vector<Eigen::VectorXd> change(const Crane& crane,
+  [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane,
                                                     const std::vector<Eigen::VectorXd>& at,
                                                     double step) const;
   /// Of every piece the window of the drives' replay that it belongs to.
