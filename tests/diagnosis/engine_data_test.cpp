@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "crane/diagnosis/data.hpp"
 
@@ -160,6 +161,25 @@ TEST(Smoothing, IsExactForCubicsUpToTheEnds) {
     EXPECT_NEAR(motion.position[at], cubic[at], 1e-9);
     EXPECT_NEAR(motion.rate[at], 2 - 6 * t + 1.5 * t * t, 1e-8);
     EXPECT_NEAR(motion.acceleration[at], -6 + 3 * t, 1e-6);
+  }
+}
+
+TEST(Spline, IsWhatItsAccelerationIntegratedTwiceGivesBack) {
+  constexpr double kPeriod_s = 0.01;
+  const std::uint64_t seed = 4;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> any;
+  std::vector<double> measured{0};
+  for (double speed = 0.3; measured.size() < 300; speed += 0.02 * any(random))
+    measured.push_back(measured.back() + kPeriod_s * speed);
+  const Motion motion = spline(measured, kPeriod_s);
+  double way = measured[0], speed = motion.rate[0];
+  for (std::size_t k = 0; k + 1 < measured.size(); ++k) {
+    ASSERT_NEAR(way, measured[k], 1e-9) << "seed " << seed << ", row " << k;
+    ASSERT_NEAR(speed, motion.rate[k], 1e-7) << "seed " << seed << ", row " << k;
+    const double a = motion.acceleration[k], b = motion.acceleration[k + 1];
+    way += kPeriod_s * speed + kPeriod_s * kPeriod_s * (2 * a + b) / 6;
+    speed += 0.5 * kPeriod_s * (a + b);
   }
 }
 

@@ -44,7 +44,7 @@ Sensed Crane::sense() const {
   if (physics_.swing_average_s > 0) {
     const int samples = std::max(1, static_cast<int>(std::lround(physics_.swing_average_s / 0.001)));
     for (int i = 0; i < samples; ++i) {
-      const auto one = swing_at(time_s_ - physics_.swing_delay_s - 0.001 * i);
+      const auto one = swing_at(time_s_ - physics_.swing_delay_s - 0.001 * (i + 0.5));
       for (std::size_t k = 0; k < 2; ++k) swing[k] += one[k] / samples;
     }
   } else {

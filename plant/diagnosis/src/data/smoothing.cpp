@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 
 #include "crane/diagnosis/data.hpp"
 
@@ -28,6 +29,20 @@ Motion smooth(std::span<const double> measured, double period_s, int half_width)
     motion.position[at] = w.row(0).dot(samples);
     motion.rate[at] = order >= 1 ? w.row(1).dot(samples) : 0;
     motion.acceleration[at] = order >= 2 ? 2 * w.row(2).dot(samples) : 0;
+  }
+  return motion;
+}
+
+Motion spline(std::span<const double> measured, double period_s) {
+  constexpr std::size_t kFewest = 8;
+  if (measured.size() < kFewest) return smooth(measured, period_s, 1);
+  const boost::math::interpolators::cardinal_cubic_b_spline<double> through(measured.begin(), measured.end(),
+                                                                            0, period_s);
+  Motion motion{{measured.begin(), measured.end()}, {}, {}};
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    const double time_s = static_cast<double>(k) * period_s;
+    motion.rate.push_back(through.prime(time_s));
+    motion.acceleration.push_back(through.double_prime(time_s));
   }
   return motion;
 }

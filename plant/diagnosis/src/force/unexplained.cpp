@@ -116,6 +116,15 @@ double cross_validated(const std::vector<Explained>& pieces) {
   return agreeing + 1 >= kFolds ? gain : 0;
 }
 
+/// Of a pattern over time, only what a constant of the same kind does not do.
+double gain_of(const Pieces& pieces, const Variable& variable) {
+  const double gain = cross_validated(explained_by(pieces, variable));
+  if (variable.with != GoesWith::time || gain <= 0) return gain;
+  Variable constant = variable;
+  constant.bins = 1;
+  return gain - std::max(0.0, cross_validated(explained_by(pieces, constant)));
+}
+
 }  // namespace
 
 std::vector<Unexplained> find_unexplained(const Pieces& pieces) {
@@ -124,8 +133,7 @@ std::vector<Unexplained> find_unexplained(const Pieces& pieces) {
   const std::vector<Variable> variables = variables_of(*pieces.runs, pieces.output);
   const double loss = pieces.loss();
   std::vector<double> gains(variables.size());
-  parallel_for(variables.size(),
-               [&](std::size_t v) { gains[v] = cross_validated(explained_by(pieces, variables[v])); });
+  parallel_for(variables.size(), [&](std::size_t v) { gains[v] = gain_of(pieces, variables[v]); });
   for (std::size_t v = 0; v < variables.size(); ++v)
     if (gains[v] > 0)
       found.push_back({variables[v].name, variables[v].with, pieces.output, gains[v], gains[v] / loss});

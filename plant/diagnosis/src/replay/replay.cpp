@@ -23,21 +23,17 @@ bool has_sensor_term(const Crane& crane) {
   });
 }
 
-/// A drive's acceleration is not smoothed: it is integrated twice again, which gives back the measured
-/// position, and smoothing would take away from what excites the swing.
-int half_width_of(Output output, double period_s) {
-  return output == kTrolleyPosition || output == kSlewAngle ? 1 : smoothing_half_width(period_s);
+/// A drive's motion is not smoothed: that would take away from what excites the swing, a thousandth of the
+/// amplitude already with second differences of neighbours.
+Motion motion_of(Output output, const std::vector<double>& measured, double period_s) {
+  const bool drive = output == kTrolleyPosition || output == kSlewAngle;
+  return drive ? spline(measured, period_s) : smooth(measured, period_s, smoothing_half_width(period_s));
 }
 
-/// Runs the course over one period from `row`, measured motion between.
-template <class Given>
-void pass(Course& course, const Given& given, const Motion& cable, std::size_t row, int steps,
-          double period_s) {
-  for (int step = 0; step < steps; ++step) {
-    const double middle = (step + 0.5) / steps;
-    course.step(given(row, middle), between(cable, row, middle, period_s));
-  }
-  course.follow(given(row + 1, 0), between(cable, row + 1, 0, period_s));
+int steps_of(const Crane& crane, double period_s) {
+  const bool inner = plant::Model(crane.parameters, crane.terms).inner_coordinates() > 0;
+  return std::max(
+      1, static_cast<int>(std::ceil(period_s / (inner ? kLongestInnerStep_s : kLongestStep_s) - 1e-9)));
 }
 
 /// Standard deviation of a value that is rounded to whole counts. What has no encoder is known to this.
@@ -66,8 +62,7 @@ PreparedRun prepare(Run run, const runtime::Rig& rig) {
   PreparedRun prepared;
   for (std::size_t i = 0; i < kOutputs; ++i)
     if (!run.measured[i].empty())
-      prepared.motion[i] =
-          smooth(run.measured[i], run.period_s, half_width_of(static_cast<Output>(i), run.period_s));
+      prepared.motion[i] = motion_of(static_cast<Output>(i), run.measured[i], run.period_s);
   prepared.cable = smooth(run.cable_m, run.period_s, smoothing_half_width(run.period_s));
   prepared.kind = rig.kind;
   prepared.least_noise = noise_of_counts(rig);
@@ -89,13 +84,13 @@ struct Replay::Parts {
   Parts(const PreparedRun& prepared, const Crane& the_crane)
       : source(prepared),
         crane(the_crane),
-        model(crane.parameters, crane.terms, prepared.run.period_s),
+        steps(steps_of(crane, prepared.run.period_s)),
+        model(crane.parameters, crane.terms, step_s()),
         sensors(has_sensor_term(crane)) {
     ringing = model.ringing_coordinates();
-    const double longest_s = model.inner_coordinates() > 0 ? kLongestInnerStep_s : kLongestStep_s;
-    steps = std::max(1, static_cast<int>(std::ceil(prepared.run.period_s / longest_s - 1e-9)));
+    drive_v.reserve(prepared.run.rows() * static_cast<std::size_t>(steps));
     for (const plant::PerAxis& command : prepared.run.command_v)
-      drive_v.push_back(model.drive_voltage(command));
+      for (int step = 0; step < steps; ++step) drive_v.push_back(model.drive_voltage(command));
     if (sensors) undo_sensors();
     if (model.inner_coordinates() > 0) follow_inner();
   }
@@ -108,6 +103,28 @@ struct Replay::Parts {
     locks.radial = !source.run.has(kRadialSwing) || !loaded;
     locks.tangential = !source.run.has(kTangentialSwing) || !loaded;
     return locks;
+  }
+
+  [[nodiscard]] double step_s() const { return source.run.period_s / steps; }
+  /// Calls visit(voltage, whether it is another than before) for every step from a row to the next.
+  template <class Visit>
+  void visit_steps(std::size_t row, Visit&& visit) const {
+    const auto first = row * static_cast<std::size_t>(steps);
+    for (int step = 0; step < steps; ++step) {
+      const auto at = first + static_cast<std::size_t>(step);
+      visit(step, drive_v[at], step == 0 || drive_v[at] != drive_v[at - 1]);
+    }
+  }
+  /// The course from a row to the next, what is not simulated as measured.
+  template <class Given>
+  void pass(Course& course, const Given& measured, std::size_t row) const {
+    const double period_s = source.run.period_s;
+    visit_steps(row, [&](int step, const plant::PerAxis& volts, bool changed) {
+      const double middle = (step + 0.5) / steps;
+      if (changed) course.new_command(volts);
+      course.step(measured(row, middle), between(source.cable, row, middle, period_s));
+    });
+    course.follow(measured(row + 1, 0), between(source.cable, row + 1, 0, period_s));
   }
 
   [[nodiscard]] std::array<Moment, kOutputs> measured_at(const std::array<bool, kOutputs>& free,
@@ -137,17 +154,16 @@ struct Replay::Parts {
       }
     }
     for (const Output output : kAllOutputs)
-      if (run.has(output))
-        corrected[output] = smooth(values[output], run.period_s, half_width_of(output, run.period_s));
+      if (run.has(output)) corrected[output] = motion_of(output, values[output], run.period_s);
   }
 
   const PreparedRun& source;
   Crane crane;
+  int steps;                   ///< from a row to the next
   mutable plant::Model model;  // friction and forces only; its memory is not used after construction
   bool sensors;
-  std::vector<std::size_t> ringing;  ///< inner coordinates that have a start of their own
-  int steps = 1;
-  std::vector<plant::PerAxis> drive_v;
+  std::vector<std::size_t> ringing;     ///< inner coordinates that have a start of their own
+  std::vector<plant::PerAxis> drive_v;  ///< by step
   std::array<Motion, kOutputs> corrected;
   std::vector<plant::InnerState>
       inner_at;  ///< along the measured motion, by row; empty without inner coordinates
@@ -166,14 +182,13 @@ std::array<Moment, kOutputs> Replay::Parts::measured_at(const std::array<bool, k
 void Replay::Parts::follow_inner() {
   const double period_s = source.run.period_s;
   const std::array<bool, kOutputs> none{};
-  Course course(model, none, locks(none), period_s / steps);
+  Course course(model, none, locks(none), step_s());
   const auto measured = [&](std::size_t row, double share) { return measured_at(none, row, share); };
   course.follow(measured(0, 0), between(source.cable, 0, 0, period_s));
   for (std::size_t row = 0; row < source.run.rows(); ++row) {
     inner_at.push_back(course.inner);
     if (row + 1 == source.run.rows()) break;
-    course.new_command(drive_v[row]);
-    pass(course, measured, source.cable, row, steps, period_s);
+    pass(course, measured, row);
   }
 }
 
@@ -206,7 +221,7 @@ void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const
   const std::vector<Output> outputs = simulated_outputs(p.source, part);
   std::array<bool, kOutputs> simulated{};
   for (const Output output : outputs) simulated[output] = true;
-  Course course(p.model, simulated, p.locks(simulated), period_s / p.steps);
+  Course course(p.model, simulated, p.locks(simulated), p.step_s());
   const auto measured = [&](std::size_t row, double share) { return p.measured_at(simulated, row, share); };
   course.follow(measured(first, 0), between(p.source.cable, first, 0, period_s));
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -227,8 +242,7 @@ void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const
         out[i * rows + k] = position_of(course.state, outputs[i]);
     }
     if (k + 1 == rows) break;
-    course.new_command(p.drive_v[first + k]);
-    pass(course, measured, p.source.cable, first + k, p.steps, period_s);
+    p.pass(course, measured, first + k);
   }
 }
 
@@ -240,12 +254,21 @@ Replay::Guided Replay::guided(Output axis) const {
   for (const Output drive : simulated_outputs(p.source, Part::drive)) drives[drive] = true;
   Course course(p.model, none, p.locks(drives), period_s);
   const std::size_t rows = p.source.run.rows();
-  Guided drive{p.given(axis).position, std::vector<double>(rows)};
+  const double h = p.step_s();
+  Guided drive{p.given(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
   for (std::size_t row = 0; row + 1 < rows; ++row) {
     if (!p.inner_at.empty()) course.inner = p.inner_at[row];
-    course.new_command(p.drive_v[row]);
-    drive.acceleration[row] =
-        course.acceleration(axis, p.measured_at(none, row, 0.5), between(p.source.cable, row, 0.5, period_s));
+    const auto middle = p.measured_at(none, row, 0.5);
+    const Moment cable = between(p.source.cable, row, 0.5, period_s);
+    double acceleration = 0;
+    p.visit_steps(row, [&](int, const plant::PerAxis& volts, bool changed) {
+      if (changed) {
+        course.new_command(volts);
+        acceleration = course.acceleration(axis, middle, cable);
+      }
+      drive.way[row] += h * (drive.speed[row] + 0.5 * h * acceleration);
+      drive.speed[row] += h * acceleration;
+    });
   }
   return drive;
 }

@@ -12,14 +12,26 @@ constexpr double kHeldOutWin = 0.95;
 /// What improves the training loss of neither drives nor load by such a share is of no consequence for the
 /// crane.
 constexpr double kLeastShare = 0.012;
+/// A term's form is not exactly the effect's: beside it, another one on the same axis that takes less than
+/// this share of what it explains may only make up for that.
+constexpr double kLeastBeside = 0.01;
 constexpr int kVotes = 500;
 
 /// Of one parameter, in units of one noise variance: that of the Bayesian information criterion.
 double price(const Fitted& f) { return std::log(static_cast<double>(blocks(f))); }
 
+double total(const Fitted& f) { return f.train.loss + f.test.loss; }
+
 /// What a hypothesis is judged by: training and held-out loss together with a price for its parameters.
-double value(const Fitted& f) {
-  return f.train.loss + f.test.loss + price(f) * static_cast<double>(f.parameters);
+double value(const Fitted& f) { return total(f) + price(f) * static_cast<double>(f.parameters); }
+
+/// Whether something that only `fitted` has acts where `before` has something too.
+bool shares_axis(const Fitted& fitted, const Fitted& before) {
+  return std::any_of(fitted.effects.begin(), fitted.effects.end(), [&](const Effect& added) {
+    return !has(before.effects, added.candidate) &&
+           std::any_of(before.effects.begin(), before.effects.end(),
+                       [&](const Effect& there) { return there.candidate->axis == added.candidate->axis; });
+  });
 }
 
 /// Shares of resamples of all blocks in which `f` is better than `before`: in all, in the held-out ones.
@@ -73,10 +85,13 @@ bool same(const Effects& a, const Effects& b) {
          std::all_of(a.begin(), a.end(), [&](const Effect& e) { return has(b, e.candidate); });
 }
 
-bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed) {
+bool accepted(const Fitted& fitted, const Fitted& before, const Fitted& base, std::uint64_t seed) {
   const Evaluation &old = before.train, &now = fitted.train;
   if (now.loss >= old.loss || (old.drive_loss - now.drive_loss <= kLeastShare * old.drive_loss &&
                                old.load_loss - now.load_loss <= kLeastShare * old.load_loss))
+    return false;
+  if (shares_axis(fitted, before) &&
+      total(before) - total(fitted) < kLeastBeside * (total(base) - total(before)))
     return false;
   const Wins wins = block_wins(fitted, before, seed);
   return wins.all > 1 - kSignificant && wins.held_out > kHeldOutWin;

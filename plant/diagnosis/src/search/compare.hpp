@@ -25,8 +25,11 @@ inline constexpr double kSignificant = 0.01;
 /// The same candidates, whatever their values.
 [[nodiscard]] bool same(const Effects& a, const Effects& b);
 
-/// Better in training by a share of what was left that matters, and out of sample beyond doubt.
-[[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed);
+/// Better in training by a share of what was left that matters, by more than the form of what `before` has on
+/// the same axis may be off, and out of sample beyond doubt.
+/// @param base without effects
+[[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, const Fitted& base,
+                            std::uint64_t seed);
 
 /// How often, when the blocks are resampled, each of the rivals does better than `best` where it would have
 /// to replace what only `best` has; the rest of the votes are for `best`.

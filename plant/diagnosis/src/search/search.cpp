@@ -78,7 +78,8 @@ class Search {
   [[nodiscard]] Fitted best_accepted(const std::vector<Fitted>& fitted, const Fitted& before) const {
     const Fitted* best = nullptr;
     for (const Fitted& one : fitted)
-      if ((best == nullptr || less(one, *best)) && accepted(one, before, request_.seed)) best = &one;
+      if ((best == nullptr || less(one, *best)) && accepted(one, before, found_.base, request_.seed))
+        best = &one;
     return best == nullptr ? before : *best;
   }
 
@@ -147,7 +148,8 @@ class Search {
     const Fitted* dropped = nullptr;
     const std::vector<Fitted> fitted = fits_of(tries);
     for (const Fitted& fewer : fitted)
-      if (!accepted(found_.best, fewer, request_.seed) && (dropped == nullptr || less(fewer, *dropped)))
+      if (!accepted(found_.best, fewer, found_.base, request_.seed) &&
+          (dropped == nullptr || less(fewer, *dropped)))
         dropped = &fewer;
     if (dropped == nullptr) return false;
     found_.best = *dropped;

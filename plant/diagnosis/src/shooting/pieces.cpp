@@ -41,13 +41,10 @@ std::vector<Stretch> stretches_of(const PreparedRun& run, std::size_t number, Ou
 }
 
 /// In place: from rest, by accelerations that last a row each.
-template <class Accelerations>
-void integrate(Accelerations&& x, double period_s) {
-  auto way = x.row(0).eval();
-  way.setZero();
-  auto speed = way;
+void integrate(MatrixXd& x, double period_s) {
+  Eigen::RowVectorXd way = Eigen::RowVectorXd::Zero(x.cols()), speed = way;
   for (Index k = 0; k < x.rows(); ++k) {
-    const auto acceleration = x.row(k).eval();
+    const Eigen::RowVectorXd acceleration = x.row(k);
     x.row(k) = way;
     way += period_s * (speed + 0.5 * period_s * acceleration);
     speed += period_s * acceleration;
@@ -58,8 +55,13 @@ void integrate(Accelerations&& x, double period_s) {
 VectorXd left_of(const PreparedRun& run, const Replay::Guided& drive, Output axis, std::size_t first,
                  std::size_t row_count) {
   const auto rows = static_cast<Index>(row_count);
-  VectorXd way = Eigen::Map<const VectorXd>(&drive.acceleration[first], rows);
-  integrate(way, run.run.period_s);
+  VectorXd way(rows);
+  double position = 0, speed = 0;
+  for (std::size_t k = 0; k < row_count; ++k) {
+    way[static_cast<Index>(k)] = position;
+    position += run.run.period_s * speed + drive.way[first + k];
+    speed += drive.speed[first + k];
+  }
   const std::vector<double>&shown = run.motion[axis].position, &true_position = drive.position;
   const std::size_t last = first + row_count - 1;
   const double scale = (shown[last] - shown[first]) / (true_position[last] - true_position[first]);

@@ -24,6 +24,8 @@ constexpr double kPattern = 0.008;
 /// term's form is not exactly the effect's, so that more may be left of what it is a law of. Several laws of
 /// the same take any form together.
 constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveralLaws = 0.01;
+/// No term of a drive changes with time.
+constexpr double kDoubtfulOverTime = 0.01;
 /// So does one that is this large against what one of the names explains on its axis: it may be there for
 /// what is left.
 constexpr double kDoubtfulOfOneName = 0.5;
@@ -130,6 +132,7 @@ class Judgement {
 
   /// Beside the named effects, as a share of the base model's loss.
   [[nodiscard]] double believable(const Unexplained& left) const {
+    if (left.with == GoesWith::time) return kDoubtfulOverTime;
     const auto laws = std::count_if(best_.effects.begin(), best_.effects.end(), [&](const Effect& effect) {
       return of_its_own(*effect.candidate, left);
     });
@@ -190,7 +193,7 @@ class Judgement {
     std::vector<const Fitted*> equals;
     for (const Fitted& fitted : all_.all)
       if (fitted.effects.size() == best_.effects.size() && !same(fitted.effects, best_.effects) &&
-          accepted(fitted, all_.base, seed_))
+          accepted(fitted, all_.base, all_.base, seed_))
         equals.push_back(&fitted);
     const std::vector<double> picked = frequencies(best_, equals, seed_);
     double left = 1;

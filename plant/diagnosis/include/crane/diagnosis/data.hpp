@@ -59,11 +59,15 @@ class DataError : public std::runtime_error {
 [[nodiscard]] Loaded load_run(const recording::Table& table, const runtime::Rig& rig,
                               const std::string& name);
 
-/// Position, rate and acceleration from a measured position by a local cubic over 2 half_width + 1 samples:
-/// no phase lag; exact for cubics. At the ends the window is one-sided.
+/// By sample.
 struct Motion {
   std::vector<double> position, rate, acceleration;
 };
+/// From a measured position by a local cubic over 2 half_width + 1 samples: no phase lag; exact for cubics.
+/// At the ends the window is one-sided.
 [[nodiscard]] Motion smooth(std::span<const double> measured, double period_s, int half_width);
+/// From a measured position by the cubic spline through the samples: its acceleration, straight between them
+/// and integrated twice, gives them back.
+[[nodiscard]] Motion spline(std::span<const double> measured, double period_s);
 
 }  // namespace crane::diagnosis

@@ -6,7 +6,8 @@
 ///
 /// Fixed steps of at most 5 ms (2.5 ms when a term has coordinates of its own), drift-kick-drift, second
 /// order. Friction is taken at the mid-point of a step and implicitly around standstill, where tanh(v / v_s)
-/// is stiff; a reversal inside a step is met exactly.
+/// is stiff; a reversal inside a step is met exactly. A command that terms delay or smooth changes from step
+/// to step, not from row to row.
 #include <memory>
 #include <span>
 #include <vector>
@@ -62,11 +63,12 @@ class Replay {
   /// @pre first + rows <= rows of the run; sizes fit
   void run(Part part, std::size_t first, std::size_t rows, std::span<const double> start,
            std::span<double> out) const;
-  /// A drive along the measured motion, by row: where it was, the errors of its sensor undone, and how the
-  /// model accelerates it until the next row.
+  /// A drive along the measured motion, by row: where it was, the errors of its sensor undone, and what the
+  /// model's acceleration makes of speed and way until the next row.
   struct Guided {
-    std::vector<double> position;      ///< m or rad
-    std::vector<double> acceleration;  ///< m/s2 or rad/s2
+    std::vector<double> position;  ///< m or rad
+    std::vector<double> speed;     ///< gained, m/s or rad/s
+    std::vector<double> way;       ///< gone from rest, m or rad
   };
   /// @pre the axis is measured
   [[nodiscard]] Guided guided(Output axis) const;
