@@ -114,6 +114,20 @@ TEST(Unexplained, FrictionInOnePlaceIsFrictionByPosition) {
   EXPECT_GT(left.patterns[0].fraction, 0.02);
 }
 
+double over_time(const Left& left) {
+  double most = 0;
+  for (const Unexplained& u : left.patterns)
+    if (u.with == GoesWith::time) most = std::max(most, u.fraction);
+  return most;
+}
+
+TEST(Unexplained, FrictionThatGrowsGoesWithTimeAndOneThatStaysDoesNot) {
+  const Left grows = left_of([](double t, double, double v) { return -0.2 * t / 30 * std::tanh(v / 1e-3); });
+  const Left stays = left_of([](double, double, double v) { return -0.1 * std::tanh(v / 1e-3); });
+  EXPECT_GT(over_time(grows), 0.02);
+  EXPECT_LT(over_time(stays), 0.004);
+}
+
 TEST(Unexplained, ForceThatComesBackInTimeIsALine) {
   const Left left =
       left_of([](double t, double, double) { return 0.1 * std::sin(2 * std::numbers::pi * 0.7 * t); });
