@@ -24,6 +24,7 @@ struct DiagnoseOptions {
   std::string rig = "virginia_tech_tower", mapping, out = "out/diagnose";
   std::vector<std::string> train, test;
   std::uint64_t seed = 1;
+  std::size_t effects = 3;
   bool json = false, no_picture = false;
 };
 
@@ -74,6 +75,7 @@ int diagnose_data(const DiagnoseOptions& options) {
   fs::create_directories(options.out);  // before the long work
   diagnosis::Request request;
   request.seed = options.seed;
+  request.most_effects = options.effects;
   if (::isatty(STDERR_FILENO) == 1) request.progress = show_share;
   Diagnosis result = diagnosis::diagnose(rig, data.train, data.test, request);
   result.notes.insert(result.notes.begin(), data.notes.begin(), data.notes.end());
@@ -112,6 +114,9 @@ void add_diagnose(CLI::App& app, Action& chosen) {
   command
       ->add_option("--out", options->out,
                    "directory for report.html, report.json, extended.toml and pictures")
+      ->capture_default_str();
+  command->add_option("--effects", options->effects, "most causes at once: fewer are found sooner")
+      ->check(CLI::Range(1, 3))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of the resampling")->capture_default_str();
   command->add_flag("--json", options->json, "print report.json");
