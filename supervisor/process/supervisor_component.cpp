@@ -18,9 +18,10 @@ namespace {
 
 using runtime::Context;
 
-constexpr double kWaitShare = 0.6;      // of a period, for the demand: the last hop before the bridge
-constexpr double kSilentPeriods = 1.5;  // without a state: the step is due all the same
-constexpr int kTicksToTakeUp = 20;      // from the acceptance of a move until the planner follows it
+constexpr double kWaitShare = 0.6;       // of a period, for the demand: the last hop before the bridge
+constexpr double kSilentPeriods = 1.5;   // without a state: the step is due all the same
+constexpr double kRespitePeriods = 0.5;  // after a step, or a wake-up, that came late
+constexpr int kTicksToTakeUp = 20;       // from the acceptance of a move until the planner follows it
 
 class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg::Reference> {
  public:
@@ -43,12 +44,16 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
 
  protected:
-  void handle_requests(std::int64_t /*now_ns*/) override { requests_.receive(); }
+  void handle_requests(std::int64_t now_ns) override {
+    now_ns_ = now_ns;
+    requests_.receive();
+  }
 
   void on_tick(std::uint64_t tick, const msg::State* state, const msg::Demand* demand,
                const msg::Reference* reference) override {
     last_header_ = runtime::answer_to(state->header);
-    last_step_ns_ = state->header.sample_time_ns;
+    expect_state_by(std::max(state->header.sample_time_ns + periods_ns(kSilentPeriods),
+                             now_ns_ + periods_ns(kRespitePeriods)));
     TickInput input;
     input.now_s = static_cast<double>(state->header.sample_time_ns) * 1e-9;
     input.tick = tick;
@@ -68,8 +73,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   /// No state comes: the bridge is dead, hung or cut off. Says so, and asks for nothing.
   bool on_idle(std::int64_t now_ns) override {
-    if (!realtime_ || last_step_ns_ == 0 || now_ns < silence_ends_ns()) return false;
-    last_step_ns_ = now_ns;
+    if (now_ns < silence_ends_ns() || woke_late(now_ns)) return false;
+    expect_state_by(now_ns + periods_ns(kSilentPeriods));
     TickInput input;
     input.now_s = static_cast<double>(now_ns) * 1e-9;
     input.tick = last_header_.tick;
@@ -78,8 +83,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     return true;
   }
   [[nodiscard]] std::int64_t wake_at_ns() const override {
-    const auto due = JoinedComponent::wake_at_ns();
-    return realtime_ && last_step_ns_ != 0 ? std::min(due, silence_ends_ns()) : due;
+    return std::min(JoinedComponent::wake_at_ns(), silence_ends_ns());
   }
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
   [[nodiscard]] bool outputs_connected() const override { return commands_.matched() > 0; }
@@ -95,8 +99,24 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     if (ticks_to_take_up_ > 0) --ticks_to_take_up_;
     return reference_moving_ || ticks_to_take_up_ > 0;
   }
+  [[nodiscard]] std::int64_t periods_ns(double periods) const {
+    return static_cast<std::int64_t>(periods * limits_.period_s * 1e9);
+  }
+  /// Never while a state has come and waits for its demand: then the join says when the step is due.
   [[nodiscard]] std::int64_t silence_ends_ns() const {
-    return last_step_ns_ + static_cast<std::int64_t>(kSilentPeriods * limits_.period_s * 1e9);
+    return realtime_ && open_leader() == nullptr ? state_due_ns_ : runtime::kNever;
+  }
+  void expect_state_by(std::int64_t time_ns) {
+    state_due_ns_ = time_ns;
+    has_respite_ = false;
+  }
+  /// When this process did not get the processor in time, what has arrived may not have been handed over yet:
+  /// one pause of the computer must not count as several missing ticks. Grants a respite, once per step.
+  bool woke_late(std::int64_t now_ns) {
+    if (has_respite_ || now_ns < state_due_ns_ + periods_ns(kRespitePeriods) / 2) return false;
+    state_due_ns_ = now_ns + periods_ns(kRespitePeriods);
+    has_respite_ = true;
+    return true;
   }
 
   void step(TickInput& input) {
@@ -167,7 +187,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   StartUpTest self_test_;
   TickMemory memory_;
   msg::Header last_header_{};
-  std::int64_t last_step_ns_ = 0;
+  std::int64_t now_ns_ = 0;
+  std::int64_t state_due_ns_ = runtime::kNever;  ///< until then a state is expected, kNever: before the first
+  bool has_respite_ = false;
   std::optional<std::uint32_t> bridge_epoch_;  ///< start-up number of who writes crane/state
   std::uint64_t conflicts_ = 0;
   std::uint64_t move_id_ = 0;

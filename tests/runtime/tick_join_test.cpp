@@ -55,6 +55,21 @@ TEST_F(TickJoining, GivesUpAfterTheBoundAndCountsTheTickLost) {
   EXPECT_EQ(join.counts().lost, 1U);
 }
 
+TEST_F(TickJoining, WaitsHalfTheBoundOnceMoreWhenItWasNotWokenInTime) {
+  auto join = this->join(false);
+  state(1);
+  EXPECT_EQ(join.poll(0), JoinResult::waiting);
+  EXPECT_EQ(join.poll(20'000'000),
+            JoinResult::waiting);  // a pause: what has come may not have been handed over
+  EXPECT_EQ(join.due_ns(), 22'000'000);
+  EXPECT_EQ(join.poll(40'000'000), JoinResult::incomplete);  // paused again: no second respite
+  state(2);
+  EXPECT_EQ(join.poll(40'000'000), JoinResult::waiting);
+  EXPECT_EQ(join.poll(60'000'000), JoinResult::waiting);
+  reference(2);
+  EXPECT_EQ(join.poll(61'000'000), JoinResult::complete);
+}
+
 TEST_F(TickJoining, CountsGapsLateAndDuplicateSamples) {
   auto join = this->join(false);
   for (const auto tick : {1U, 5U}) {

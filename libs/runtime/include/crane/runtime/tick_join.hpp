@@ -104,8 +104,8 @@ class TickJoin {
     drain();
     if (!open(now_ns)) return JoinResult::waiting;
     if (missing() == 0) return finish(JoinResult::complete);
-    if (!policy_.in_order && now_ns >= opened_ns_ + policy_.bound_ns) return finish(JoinResult::incomplete);
-    return JoinResult::waiting;
+    if (policy_.in_order || now_ns < due_ns_ || woke_late(now_ns)) return JoinResult::waiting;
+    return finish(JoinResult::incomplete);
   }
 
   /// The tick of the last result, and its samples: valid until the next poll.
@@ -121,7 +121,7 @@ class TickJoin {
   /// When poll() is due to notice a tick that does not come together.
   [[nodiscard]] std::optional<std::int64_t> due_ns() const {
     if (policy_.in_order || !opened_) return std::nullopt;
-    return opened_ns_ + policy_.bound_ns;
+    return due_ns_;
   }
   [[nodiscard]] const JoinCounts& counts() const { return counts_; }
   [[nodiscard]] bool connected() const {
@@ -151,8 +151,16 @@ class TickJoin {
     if (started_) counts_.lost += *candidate - first_useful_;
     tick_ = first_useful_ = *candidate;
     started_ = opened_ = true;
-    opened_ns_ = now_ns;
+    due_ns_ = now_ns + policy_.bound_ns;
+    has_respite_ = false;
     return true;
+  }
+  /// A process that did not get the processor in time may not have been handed what has arrived meanwhile:
+  /// grants half the bound again, once per tick.
+  bool woke_late(std::int64_t now_ns) {
+    if (has_respite_ || now_ns < due_ns_ + policy_.bound_ns / 2) return false;
+    due_ns_ = now_ns + policy_.bound_ns / 2;
+    return has_respite_ = true;
   }
   [[nodiscard]] std::optional<std::uint64_t> next_in_order() const {
     const auto& leader = std::get<0>(inputs_);
@@ -176,7 +184,8 @@ class TickJoin {
   JoinCounts counts_;
   std::uint64_t tick_ = 0;
   std::uint64_t first_useful_ = 0;  ///< ticks before it are left behind
-  std::int64_t opened_ns_ = 0;
+  std::int64_t due_ns_ = 0;         ///< until then the rest of the open tick is waited for
+  bool has_respite_ = false;
   bool started_ = false, opened_ = false;
 };
 
