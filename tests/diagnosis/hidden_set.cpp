@@ -3,6 +3,7 @@
 namespace crane::diagnosis::score {
 
 const std::vector<HiddenSet> kFoundAlone{{"command_delay", "trolley", "drive_axis"},
+                                         {"command_delay", "trolley", "drive_axis", 3, 11},
                                          {"coulomb_friction", "trolley", "drive_axis", -1},
                                          {"viscous_friction", "trolley", "drive_axis"},
                                          {"stribeck_friction", "trolley", "drive_axis"},

@@ -12,9 +12,9 @@ constexpr double kContactDamping = 0.15, kElasticDamping = 0.03;    // share of 
 
 double sign(double value) { return value < 0 ? -1 : 1; }
 
-/// No output below the threshold, a rounded corner, then the input less the threshold.
+/// No output below the threshold, the mean of both sides, then the input less the threshold; rounded corners.
 double dead_zone(double volts, double threshold_v) {
-  const double width = volts < 0 ? 1.1 * threshold_v : threshold_v;
+  const double width = (volts < 0 ? 1.05 : 0.95) * threshold_v;
   if (width <= 0) return volts;
   const double beyond = std::abs(volts) - width, corner = 0.1 * width;
   return sign(volts) * corner * std::log1p(std::exp(std::min(beyond / corner, 600.0)));

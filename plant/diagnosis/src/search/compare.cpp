@@ -34,6 +34,18 @@ bool shares_axis(const Fitted& fitted, const Fitted& before) {
   });
 }
 
+/// No block outvotes the others: an axis that slips earlier or later once makes as much of one as an effect
+/// of all of them. Twice what all but a twentieth keep to is the most that counts.
+void limit(std::vector<double>& differences) {
+  if (differences.empty()) return;
+  std::vector<double> sizes;
+  sizes.reserve(differences.size());
+  for (const double difference : differences) sizes.push_back(std::abs(difference));
+  const auto usual = sizes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sizes.size()));
+  std::nth_element(sizes.begin(), usual, sizes.end());
+  for (double& difference : differences) difference = std::clamp(difference, -2 * *usual, 2 * *usual);
+}
+
 /// Shares of resamples of all blocks in which `f` is better than `before`: in all, in the held-out ones.
 struct Wins {
   double all = 0, held_out = 0;
@@ -46,6 +58,7 @@ Wins block_wins(const Fitted& f, const Fitted& before, std::uint64_t seed) {
   const std::size_t training = difference.size();
   for (std::size_t i = 0; i < f.test.blocks.size(); ++i)
     difference.push_back(before.test.blocks[i] - f.test.blocks[i]);
+  limit(difference);
   const double extra =
       price(f) * (static_cast<double>(f.parameters) - static_cast<double>(before.parameters));
   std::mt19937_64 random(seed);
@@ -97,6 +110,10 @@ bool accepted(const Fitted& fitted, const Fitted& before, const Fitted& base, st
   return wins.all > 1 - kSignificant && wins.held_out > kHeldOutWin;
 }
 
+bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
+  return block_wins(fitted, base, seed).all > 1 - kSignificant;
+}
+
 namespace {
 
 /// Parts in which what `a` has and `b` has not shows.
@@ -122,6 +139,7 @@ std::vector<double> advantage(const Fitted& rival, const Fitted& best) {
       const bool counts = i < of_best->drive_blocks ? parts.drive : parts.load;
       margins.push_back(counts ? of_best->blocks[i] - of_rival->blocks[i] : 0);
     }
+  limit(margins);
   return margins;
 }
 

@@ -30,6 +30,8 @@ inline constexpr double kSignificant = 0.01;
 /// @param base without effects
 [[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, const Fitted& base,
                             std::uint64_t seed);
+/// Better than `base` in training and held-out data together, beyond resampling.
+[[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 
 /// How often, when the blocks are resampled, each of the rivals does better than `best` where it would have
 /// to replace what only `best` has; the rest of the votes are for `best`.

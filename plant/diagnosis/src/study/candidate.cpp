@@ -85,7 +85,9 @@ class Builder {
     add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), true, false, true);
     add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), true, false);
     add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
-    add(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005), true, false);
+    // Of a command that comes much later than simulated, a little delay shows nothing either.
+    add(reaching(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005), {{0.02}, {0.05}, {0.1}, {0.2}}),
+        true, false);
     add(shaped("actuator_lag", axis, free_parameter("actuator_lag", "time_constant_s", 0, 0.5, 0.01),
                {free_parameter("actuator_lag", "second_s", 0, 0.5, 0.01)}, {{0}}),
         true, false);
@@ -174,7 +176,7 @@ class Builder {
           true, true);
     add(at_once("double_pendulum", "",
                 {free_parameter("double_pendulum", "lower_share", 0.03, 0.85, 0.05),
-                 free_parameter("double_pendulum", "lower_length_m", 0.05, 2, 0.01),
+                 free_parameter("double_pendulum", "lower_length_m", 0.03, 2, 0.01),
                  free_parameter("double_pendulum", "hook_raised_m", 0, most_raised, 0.005)},
                 slings),
         false, true);

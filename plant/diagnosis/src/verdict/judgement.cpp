@@ -188,12 +188,13 @@ class Judgement {
     return least;
   }
 
-  /// Who wins among all accepted hypotheses of the best one's size.
+  /// Who wins among all hypotheses of the best one's size that explain something. One that the held-out data
+  /// do not speak for by themselves may still be the cause, when it does better in all.
   void name() {
     std::vector<const Fitted*> equals;
     for (const Fitted& fitted : all_.all)
       if (fitted.effects.size() == best_.effects.size() && !same(fitted.effects, best_.effects) &&
-          accepted(fitted, all_.base, all_.base, seed_))
+          possible(fitted, all_.base, seed_))
         equals.push_back(&fitted);
     const std::vector<double> picked = frequencies(best_, equals, seed_);
     double left = 1;
