@@ -60,8 +60,9 @@ class Builder {
     // Of an axis that the model holds fast where it moved, or the other way about, a little more pull or
     // friction shows nothing.
     const double c = known.least_coulomb_v;
-    std::vector<std::vector<double>> levels, sides, offsets, gains;
+    std::vector<std::vector<double>> levels, sides, offsets, gains, excesses;
     if (c > 0) {
+      excesses = {{0.3 * c, 0.06}, {0.6 * c, 0.06}, {0.45 * c, 0.12}};
       levels = {{-0.15 * c}, {-0.3 * c}, {-0.6 * c}, {0.3 * c}};
       sides = {{-0.1 * c, 0}, {-0.3 * c, 0}, {0.1 * c, 0}, {0.3 * c, 0}};
       offsets = {{-0.1 * c}, {-0.3 * c}, {0.1 * c}, {0.3 * c}};
@@ -76,9 +77,11 @@ class Builder {
                               free_parameter("direction_asymmetry", "viscous_vspm", -20, 20, 0.05)}),
                  sides),
         true, false);
-    add(shaped("stribeck_friction", axis, free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
-               {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
-               {{0.01}, {0.03}, {0.08}, {0.2}}),
+    add(reaching(
+            shaped("stribeck_friction", axis, free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
+                   {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
+                   {{0.01}, {0.03}, {0.08}, {0.2}}),
+            excesses),
         true, false);
     add_tight_spots(axis, output);
     add_ripple(axis, output);
