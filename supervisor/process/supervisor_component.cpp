@@ -20,6 +20,7 @@ using runtime::Context;
 
 constexpr double kWaitShare = 0.6;       // of a period, for the demand: the last hop before the bridge
 constexpr double kSilentPeriods = 1.5;   // without a state: the step is due all the same
+constexpr double kOpenPeriods = 2;       // more, while a state waits for its demand
 constexpr double kRespitePeriods = 0.5;  // after a step, or a wake-up, that came late
 constexpr int kTicksToTakeUp = 20;       // from the acceptance of a move until the planner follows it
 
@@ -102,9 +103,11 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   [[nodiscard]] std::int64_t periods_ns(double periods) const {
     return static_cast<std::int64_t>(periods * limits_.period_s * 1e9);
   }
-  /// Never while a state has come and waits for its demand: then the join says when the step is due.
+  /// While a state has come and waits for its demand the join says when the step is due; it has a period for
+  /// it, so that one state after the other without a demand cannot put off every step.
   [[nodiscard]] std::int64_t silence_ends_ns() const {
-    return realtime_ && open_leader() == nullptr ? state_due_ns_ : runtime::kNever;
+    if (!realtime_ || state_due_ns_ == runtime::kNever) return runtime::kNever;
+    return state_due_ns_ + (open_leader() == nullptr ? 0 : periods_ns(kOpenPeriods));
   }
   void expect_state_by(std::int64_t time_ns) {
     state_due_ns_ = time_ns;
@@ -113,7 +116,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   /// When this process did not get the processor in time, what has arrived may not have been handed over yet:
   /// one pause of the computer must not count as several missing ticks. Grants a respite, once per step.
   bool woke_late(std::int64_t now_ns) {
-    if (has_respite_ || now_ns < state_due_ns_ + periods_ns(kRespitePeriods) / 2) return false;
+    if (has_respite_ || open_leader() != nullptr ||
+        now_ns < silence_ends_ns() + periods_ns(kRespitePeriods) / 2)
+      return false;
     state_due_ns_ = now_ns + periods_ns(kRespitePeriods);
     has_respite_ = true;
     return true;

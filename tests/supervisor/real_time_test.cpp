@@ -140,5 +140,13 @@ TEST_F(RealTime, ThePausesOfItsOwnDelayTheJudgementByHalfAPeriodAStepAndNoMore) 
   EXPECT_TRUE(state_is_stale());
 }
 
+TEST_F(RealTime, StatesThatComeAsOftenAsItIsWokenDoNotPutOffTheJudgementForEver) {
+  for (std::uint64_t tick = 11; tick <= 25; ++tick) {  // never awake when the bound of a tick ends
+    state_comes(tick);
+    wake_at(10.0 * static_cast<double>(tick));
+  }
+  EXPECT_TRUE(demand_is_stale());
+}
+
 }  // namespace
 }  // namespace crane::supervisor
