@@ -267,6 +267,67 @@ TEST(Backlash, LosesEnergyWhileTheMotorRestsAndStaysInItsGap) {
   }
 }
 
+/// Torque of the motors without friction, what each side's inertia takes of it.
+TEST(FarSide, KeepsTheMomentumOfMotorAndJibWithItsTrolley) {
+  constexpr double kShare = 0.65, kVolts = 2;
+  Parameters crane;
+  crane.load_mass_kg = 0;
+  const std::vector<std::vector<TermSetting>> connections{
+      {{"backlash", "slew", {{"gap", 0.01}, {"guide_deceleration", 0}, {"driven_share", kShare}}}},
+      {{"jib_flexibility", "", {{"compliance_s2", 0.01}, {"jib_share", kShare}}}}};
+  for (const auto& terms : connections)
+    for (const double bent : {0.0, 0.006, -0.007}) {
+      const State state{.trolley_m = 0.8, .trolley_mps = 0.3, .slew_radps = 0.4};
+      Actuation actuation;
+      actuation.drive_v = {0, kVolts, 0};
+      InnerAccelerations own{};
+      const Inner inner{bent, 0.2};
+      const double motor = Model{crane, terms}.accelerations(state, actuation, {{inner}}, own).slew_radps2;
+      const double motor_kgm2 = (1 - kShare) * crane.jib_inertia_kgm2;
+      const double jib_kgm2 = kShare * crane.jib_inertia_kgm2 + crane.trolley_mass_kg * 0.8 * 0.8;
+      const double coriolis_nm = 2 * crane.trolley_mass_kg * 0.8 * 0.3 * (0.4 + inner.rate);
+      EXPECT_NEAR(motor_kgm2 * motor + jib_kgm2 * (motor + own[0]) + coriolis_nm,
+                  crane.jib_inertia_kgm2 * crane.slew_gain_radps2pv * kVolts, 1e-9)
+          << terms[0].name << " " << bent;
+    }
+}
+
+TEST(FarSide, LeavesTheMotorAloneInsideTheGap) {
+  const Model model{{},
+                    {{"backlash", "slew", {{"gap", 0.01}, {"driven_share", 0.65}}},
+                     {"backlash", "trolley", {{"gap", 0.01}, {"driven_share", 0.1}}}}};
+  InnerAccelerations own{};
+  Actuation actuation;
+  actuation.drive_v = {1, 2, 0};
+  const State hanging{.trolley_m = 0.9, .slew_radps = 0.5};
+  const Accelerations a = model.accelerations(hanging, actuation, {}, own);
+  EXPECT_NEAR(a.slew_radps2, 2 * Parameters{}.slew_gain_radps2pv / 0.35, 1e-9);
+  // The load's own centrifugal force pulls at the trolley with a cable that hangs straight down: at nothing.
+  EXPECT_NEAR(a.trolley_mps2, Parameters{}.trolley_gain_mps2pv / 0.9, 0.01);
+}
+
+/// A motor that is stopped by a flank nobody saw coming, and one that goes on where a flank should have been.
+TEST(Backlash, IsCorrectedByWhatTheMotorShows) {
+  constexpr double kHalf = 0.005, kShare = 0.65, kMotor = 0.35 / 0.65;
+  Parameters crane;
+  crane.trolley_mass_kg = 0;
+  const Model model{crane, {{"backlash", "slew", {{"gap", 2 * kHalf}, {"driven_share", kShare}}}}};
+  const auto corrected = [&](const Inner& before, Inner now, double change) {
+    InnerState inner{{now}};
+    model.correct({}, {0, change, 0}, {{before}}, inner);
+    return inner[0];
+  };
+  const Inner struck = corrected({0.001, 0.1}, {0.002, 0.1}, 0.08);
+  EXPECT_EQ(struck.position, kHalf);
+  EXPECT_NEAR(struck.rate, 0.1 - kMotor * 0.08, 1e-12);
+  const Inner missed = corrected({0.004, 0.1}, {0.0051, -0.05}, -0.08);
+  EXPECT_EQ(missed.position, kHalf);
+  EXPECT_NEAR(missed.rate, -0.05 + kMotor * 0.08, 1e-12);
+  const Inner untold = corrected({0.001, 0.1}, {0.002, 0.1}, 0);
+  EXPECT_EQ(untold.position, 0.002);
+  EXPECT_EQ(untold.rate, 0.1);
+}
+
 /// To less than a count of a swing encoder, 2.6e-4 rad; measured 6e-5.
 TEST(Structures, FollowDrivesInFixedStepsOf2Point5Milliseconds) {
   const std::vector<TermSetting> stiffest{

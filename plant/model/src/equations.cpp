@@ -36,7 +36,7 @@ Mass mass(const Parameters& p, const State& s, const Angles& a) {
           .m14 = ml * a.sf * a.st,
           .m22 = ml2 * a.ct * a.ct,
           .m23 = ml2 * a.cf * a.st * a.ct,
-          .m33 = p.jib_inertia_kgm2 + p.trolley_mass_kg * x * x +
+          .m33 = p.jib_inertia_kgm2 + p.slewed_share * p.trolley_mass_kg * x * x +
                  m * (x * x - 2 * l * x * a.sf * a.ct + l * l * horizontal),
           .m34 = ml * (x * a.ct - l * a.sf),
           .m44 = ml2};
@@ -46,9 +46,10 @@ Mass mass(const Parameters& p, const State& s, const Angles& a) {
 double trolley_bias(const Parameters& p, const State& s, const Angles& a, double cable_mps2) {
   const double m = p.load_mass_kg, ml = m * s.cable_m;
   const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
-  return ml * a.sf * a.ct * (f * f + g * g + t * t) - (p.trolley_mass_kg + m) * s.trolley_m * g * g +
-         2 * ml * a.st * a.cf * f * t - 2 * ml * a.ct * g * t -
-         2 * m * s.cable_mps * (a.cf * a.ct * f + a.st * g - a.sf * a.st * t) - m * a.sf * a.ct * cable_mps2;
+  return ml * a.sf * a.ct * (f * f + g * g + t * t) -
+         (p.thrown_share * p.trolley_mass_kg + m) * s.trolley_m * g * g + 2 * ml * a.st * a.cf * f * t -
+         2 * ml * a.ct * g * t - 2 * m * s.cable_mps * (a.cf * a.ct * f + a.st * g - a.sf * a.st * t) -
+         m * a.sf * a.ct * cable_mps2;
 }
 
 /// h2 of (2.18), multiplied by m L cos(theta)
@@ -66,9 +67,10 @@ double slew_bias(const Parameters& p, const State& s, const Angles& a, double ca
   const double m = p.load_mass_kg, l = s.cable_m, x = s.trolley_m, ml = m * l, ml2 = ml * l;
   const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
   const double horizontal = 1 - a.cf * a.cf * a.ct * a.ct;
-  const double coriolis = 2 * g * s.trolley_mps * ((p.trolley_mass_kg + m) * x - ml * a.sf * a.ct) +
-                          2 * ml * g * f * a.cf * a.ct * (l * a.sf * a.ct - x) +
-                          2 * ml * g * t * a.st * (l * a.cf * a.cf * a.ct + x * a.sf);
+  const double coriolis =
+      2 * g * s.trolley_mps * ((p.slewed_share * p.trolley_mass_kg + m) * x - ml * a.sf * a.ct) +
+      2 * ml * g * f * a.cf * a.ct * (l * a.sf * a.ct - x) +
+      2 * ml * g * t * a.st * (l * a.cf * a.cf * a.ct + x * a.sf);
   const double hoisting =
       2 * m * s.cable_mps *
           (g * (l * horizontal - x * a.sf * a.ct) + t * (x * a.ct - l * a.sf) + l * f * a.cf * a.st * a.ct) +

@@ -143,9 +143,12 @@ Accelerations Model::accelerations(const State& state, const Actuation& actuatio
   Accelerations result =
       plant::accelerations(p, seen, forces(seen, actuation, friction, inner), hoisting, actuation.locks);
   if (structure_terms_.empty()) return result;
+  const InnerAccelerations given = inner_accelerations;
   const auto accelerate = [&] {
     for (const auto& [term, first] : structure_terms_)
       term->accelerate(p, seen, result, &inner[first], &inner_accelerations[first]);
+    for (std::size_t i = 0; i < inner_coordinates_; ++i)
+      if (actuation.led[i]) inner_accelerations[i] = given[i];
   };
   accelerate();
   Displacement pushed;
@@ -155,6 +158,12 @@ Accelerations Model::accelerations(const State& state, const Actuation& actuatio
   result.tangential_radps2 += swing.tangential_radps2;
   if (structure_terms_.size() > 1) accelerate();  // the swing, which others follow, has changed
   return result;
+}
+
+void Model::correct(const State& state, const PerAxis& unexplained, const InnerState& before,
+                    InnerState& inner) const noexcept {
+  for (const auto& [term, first] : structure_terms_)
+    term->correct(parameters_, state, unexplained, &before[first], &inner[first]);
 }
 
 Accelerations Model::accelerations(const State& state, const Actuation& actuation, const InnerState& inner,

@@ -26,10 +26,12 @@ void Course::step(const std::array<Moment, kOutputs>& at, const Moment& cable_at
     inner_middle[i].position += 0.5 * h_ * inner[i].rate;
     inner_middle[i].rate += 0.5 * h_ * last_inner_[i];
   }
+  plant::InnerAccelerations inner_acceleration{};
+  actuation_.led = led;
+  lead(inner_middle, inner_acceleration);
   plant::PerAxis friction{};
   if (simulated_[kTrolleyPosition] || simulated_[kSlewAngle]) friction = move_drives(middle, inner_middle);
   if (simulated_[kRadialSwing] || simulated_[kTangentialSwing] || model_.inner_coordinates() > 0) {
-    plant::InnerAccelerations inner_acceleration{};
     const plant::Accelerations a =
         model_.accelerations(middle, actuation_, friction, inner_middle, inner_acceleration);
     for (const Output swing : {kRadialSwing, kTangentialSwing})
@@ -38,11 +40,10 @@ void Course::step(const std::array<Moment, kOutputs>& at, const Moment& cable_at
   }
 }
 
-double Course::acceleration(Output axis, const std::array<Moment, kOutputs>& at, const Moment& cable_at) {
+plant::Accelerations Course::accelerations(const std::array<Moment, kOutputs>& at, const Moment& cable_at) {
   const State there = half_way(at, cable_at);
   plant::InnerAccelerations ignored{};
-  return acceleration_of(model_.accelerations(there, actuation_, model_.friction_v(there), inner, ignored),
-                         axis);
+  return model_.accelerations(there, actuation_, model_.friction_v(there), inner, ignored);
 }
 
 void Course::follow(const std::array<Moment, kOutputs>& at, const Moment& cable) {
@@ -79,6 +80,14 @@ void Course::kick(Output output, double acceleration) {
   rate += h_ * acceleration;
   position_of(state, output) += 0.5 * h_ * (before + rate);
   last_[output] = acceleration;
+}
+
+void Course::lead(plant::InnerState& inner_middle, plant::InnerAccelerations& accelerations) const {
+  for (std::size_t i = 0; i < model_.inner_coordinates(); ++i) {
+    if (!led[i]) continue;
+    inner_middle[i] = {led_at[i].position, led_at[i].rate};
+    accelerations[i] = led_at[i].acceleration;
+  }
 }
 
 void Course::kick_inner(const plant::InnerAccelerations& accelerations) {

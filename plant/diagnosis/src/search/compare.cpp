@@ -25,13 +25,29 @@ double total(const Fitted& f) { return f.train.loss + f.test.loss; }
 /// What a hypothesis is judged by: training and held-out loss together with a price for its parameters.
 double value(const Fitted& f) { return total(f) + price(f) * static_cast<double>(f.parameters); }
 
+/// The axis whose motion a cause changes: the swing's direction goes with the drive that excites it.
+std::string_view direction_of(const Candidate& candidate) {
+  if (candidate.axis == "radial") return "trolley";
+  return candidate.axis == "tangential" ? "slew" : std::string_view{candidate.axis};
+}
+
 /// Whether something that only `fitted` has acts where `before` has something too.
 bool shares_axis(const Fitted& fitted, const Fitted& before) {
   return std::any_of(fitted.effects.begin(), fitted.effects.end(), [&](const Effect& added) {
     return !has(before.effects, added.candidate) &&
-           std::any_of(before.effects.begin(), before.effects.end(),
-                       [&](const Effect& there) { return there.candidate->axis == added.candidate->axis; });
+           std::any_of(before.effects.begin(), before.effects.end(), [&](const Effect& there) {
+             return direction_of(*there.candidate) == direction_of(*added.candidate);
+           });
   });
+}
+
+/// Whether what `fitted` explains beyond `before` is as little as a wrong form may leave, in either data.
+bool makes_up_for_a_form(const Fitted& fitted, const Fitted& before, const Fitted& base) {
+  const auto little = [](double now, double then, double bare) {
+    return then - now < kLeastBeside * (bare - then);
+  };
+  return little(fitted.train.loss, before.train.loss, base.train.loss) ||
+         little(fitted.test.loss, before.test.loss, base.test.loss);
 }
 
 /// No block outvotes the others: an axis that slips earlier or later once makes as much of one as an effect
@@ -103,9 +119,7 @@ bool accepted(const Fitted& fitted, const Fitted& before, const Fitted& base, st
   if (now.loss >= old.loss || (old.drive_loss - now.drive_loss <= kLeastShare * old.drive_loss &&
                                old.load_loss - now.load_loss <= kLeastShare * old.load_loss))
     return false;
-  if (shares_axis(fitted, before) &&
-      total(before) - total(fitted) < kLeastBeside * (total(base) - total(before)))
-    return false;
+  if (shares_axis(fitted, before) && makes_up_for_a_form(fitted, before, base)) return false;
   const Wins wins = block_wins(fitted, before, seed);
   return wins.all > 1 - kSignificant && wins.held_out > kHeldOutWin;
 }

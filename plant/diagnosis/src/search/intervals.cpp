@@ -6,6 +6,8 @@
 #include <map>
 #include <random>
 
+#include "search/rough_interval.hpp"
+
 namespace crane::diagnosis {
 namespace {
 
@@ -23,16 +25,6 @@ constexpr int kAttempts = 3;
 
 /// Losses of the blocks along one direction of the values.
 using Profile = std::map<double, Blocks>;
-
-Effects moved(Effects effects, const VectorXd& step) {
-  Index i = 0;
-  for (Effect& effect : effects)
-    for (std::size_t k = 0; k < effect.values.size(); ++k, ++i) {
-      const FreeParameter& p = effect.candidate->parameters[k];
-      effect.values[k] = std::clamp(effect.values[k] + step[i], p.low, p.high);
-    }
-  return effects;
-}
 
 /// Outwards in both directions until nothing can be best there.
 Profile profile_of(const Study& study, const Fitted& fitted, const VectorXd& direction) {
@@ -106,6 +98,7 @@ Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
     }
     if (better.empty()) {
       fitted.std_dev = std::move(std_dev);
+      widen_rough(study, fitted);
       return fitted;
     }
     fitted = study.fit(better);

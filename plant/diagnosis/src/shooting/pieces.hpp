@@ -10,6 +10,7 @@
 /// times a constant.
 ///
 /// Forces are in units of their own: patterns of force are told by their shape.
+#include "replay/standstill.hpp"
 #include "shooting/problem.hpp"
 
 namespace crane::diagnosis {
@@ -18,9 +19,6 @@ namespace crane::diagnosis {
 [[nodiscard]] inline const char* axis_of(Output drive) {
   return drive == kTrolleyPosition ? "trolley" : "slew";
 }
-
-/// Slower than this [m/s or rad/s], an axis with friction stands.
-inline constexpr double kStands = 0.01;
 
 struct Piece {
   std::size_t run = 0, first = 0, rows = 0;

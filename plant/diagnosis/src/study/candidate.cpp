@@ -98,14 +98,15 @@ class Builder {
     const double carriage = rig_.plant.trolley_mass_kg / rig_.plant.trolley_inertia_kg;
     const double share = output == kTrolleyPosition ? std::clamp(carriage, 0.05, 0.85) : 0.6;
     std::vector<std::vector<double>> settings;
-    for (const double gap : {0.003, 0.006})
-      for (const double guide : {0.1, 0.7}) settings.push_back({gap * scale, guide, share});
-    add(at_once("backlash", axis,
-                {free_parameter("backlash", "gap", 0.0002, 0.05, 0.001),
-                 free_parameter("backlash", "guide_deceleration", 0, 2, 0.1),
-                 free_parameter("backlash", "driven_share", 0.02, 0.9, 0.05)},
-                settings),
-        true, true);
+    for (double gap = 0.001; gap < 0.015; gap *= 1.4)
+      for (const double guide : {0.1, 0.25, 0.6}) settings.push_back({gap * scale, guide, share});
+    Candidate gap = at_once("backlash", axis,
+                            {free_parameter("backlash", "gap", 0.0002, 0.05, 0.001),
+                             free_parameter("backlash", "guide_deceleration", 0, 2, 0.1),
+                             free_parameter("backlash", "driven_share", 0.02, 0.9, 0.05)},
+                            settings);
+    gap.rough = true;
+    add(std::move(gap), true, true);
     add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), true, true);
     add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
   }

@@ -20,6 +20,10 @@ constexpr double kFirstDamping = 1e-3;
 constexpr double kLeastGain = 0.3;
 /// The same on the way there, as a share.
 constexpr double kRoughly = 0.003;
+/// Steps along a value of a loss that is rough (R. Hooke, T. A. Jeeves, J. ACM 8 (1961) 212): the first one
+/// as a share of the value, the last one of the first, after one that helped, after one that did not either
+/// way.
+constexpr double kFirstStep = 0.15, kLastStep = 0.1, kLonger = 1.5, kShorter = 0.5;
 /// After so many rounds a fit that is still this many times what the slopes promise away is given up.
 constexpr int kLeastRounds = 2;
 constexpr double kPromise = 4;
@@ -38,6 +42,11 @@ Flat flatten(const Effects& effects) {
   }
   flat.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
   return flat;
+}
+
+bool same_values(const Effects& a, const Effects& b) {
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](const Effect& x, const Effect& y) { return x.values == y.values; });
 }
 
 /// Rounding must not carry a value beyond its bound.
@@ -148,11 +157,48 @@ void Study::descend(Fitted& best, Loss loss, double hopeless) const {
   }
 }
 
+void Study::step_around(Fitted& best, double Evaluation::*loss) const {
+  const Flat flat = flatten(best.effects);
+  VectorXd values = flat.values, steps(values.size());
+  for (Index i = 0; i < steps.size(); ++i)
+    steps[i] =
+        std::max(kFirstStep * std::abs(values[i]), 0.5 * flat.parameters[static_cast<std::size_t>(i)]->step);
+  const VectorXd least = kLastStep * steps;
+  const auto better = [&](const VectorXd& step) {
+    Fitted tried;
+    tried.effects = unflatten(best.effects, flat, values + step - flat.values);
+    if (same_values(tried.effects, best.effects)) return false;
+    tried.train = evaluate(train_, tried.effects, best.train);
+    if (tried.train.*loss >= best.train.*loss - kLeastGain) return false;
+    best = std::move(tried);
+    values = flatten(best.effects).values;
+    return true;
+  };
+  while ((steps.array().abs() > least.array()).any()) {
+    const VectorXd before = values;
+    for (Index i = 0; i < steps.size(); ++i) {
+      const VectorXd step = steps[i] * VectorXd::Unit(steps.size(), i);
+      if (better(step))
+        steps[i] *= kLonger;
+      else
+        steps[i] *= better(-step) ? -kLonger : kShorter;
+    }
+    const VectorXd way = values - before;
+    while (way.norm() > 0 && better(way)) {
+    }
+  }
+}
+
 Fitted Study::fit(Effects effects, double hopeless) const {
   Fitted near;
   near.effects = std::move(effects);
   near.train = train(near.effects);
   Fitted best = near;
+  if (best.effects.size() == 1 && best.effects[0].candidate->rough) {
+    step_around(best, &Evaluation::load_loss);
+    step_around(best, &Evaluation::loss);
+  }
+  near = best;
   descend(best, Loss::squares, hopeless);
   if (near.train.loss < best.train.loss) best = near;
   descend(best, Loss::robust, hopeless);

@@ -141,9 +141,13 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
     const bool as_it_stands = scores[i].shape.as_it_is;
     directions[i].one_sided = candidate.one_sided || as_it_stands;
     judge(directions[i], scores[i]);
-    if (as_it_stands)
-      scores[i].gain = as_it_is(at.drive, all.drive.back()) + as_it_is(at.load, all.load.back()) +
-                       as_it_is(at.under_way, all.under_way.back());
+    if (as_it_stands) {
+      const double of_load = as_it_is(at.load, all.load.back());
+      scores[i].gain =
+          of_load + as_it_is(at.drive, all.drive.back()) + as_it_is(at.under_way, all.under_way.back());
+      // A drive shows a rough effect only from near by.
+      if (candidate.rough) scores[i].gain = std::max(scores[i].gain, of_load);
+    }
     scores[i].gain += own;
     const double loss = (candidate.drive ? at.drive_loss : 0) + (candidate.load ? at.load_loss : 0);
     scores[i].share = loss > 0 ? scores[i].gain / loss : 0;

@@ -107,6 +107,8 @@ class Study {
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
   /// Gauss-Newton rounds from where `best` is.
   void descend(Fitted& best, Loss loss, double hopeless) const;
+  /// The same by trying: every value by itself, in steps that shrink.
+  void step_around(Fitted& best, double Evaluation::*loss) const;
   /// Scores of directions around `at`.
   [[nodiscard]] BlockScores block_scores(const Evaluation& at, const Slopes& slopes,
                                          Loss loss = Loss::robust) const;

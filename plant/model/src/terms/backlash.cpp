@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "crane/plant/term.hpp"
+#include "terms/far_side.hpp"
 #include "terms/smooth_sign.hpp"
 
 namespace crane::plant {
@@ -25,48 +26,43 @@ class Backlash final : public Term {
         contact_radps_(slew_ ? kGear_radps : kNut_radps),
         gap_(s.parameters.at("gap")),
         guide_deceleration_(s.parameters.at("guide_deceleration")),
-        driven_share_(gap_ > 0 ? s.parameters.at("driven_share") : 0) {}
+        far_(slew_, gap_ > 0 ? s.parameters.at("driven_share") : 0) {}
 
-  /// The motor moves what is before the gap; its force stays what it was.
-  void change_parameters(Parameters& crane) const noexcept override {
-    (slew_ ? crane.jib_inertia_kgm2 : crane.trolley_inertia_kg) *= 1 - driven_share_;
-    (slew_ ? crane.slew_gain_radps2pv : crane.trolley_gain_mps2pv) /= 1 - driven_share_;
-  }
-
+  void change_parameters(Parameters& crane) const noexcept override { far_.split(crane); }
   [[nodiscard]] std::size_t inner_coordinates() const noexcept override { return gap_ > 0 ? 1 : 0; }
   /// Friction forgets where in the gap it once was.
   [[nodiscard]] bool rings() const noexcept override { return false; }
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (gap_ > 0) (slew_ ? sum.slew_rad : sum.trolley_m) += inner[0];
   }
-  /// The contact pushes back on the motor, and the load pulls at what is behind the gap, not at the motor.
   void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
                        Forces& sum) const noexcept override {
-    if (driven_share_ == 0) return;
-    (slew_ ? sum.slew_nm : sum.trolley_n) -= driven_inertia(crane) * contact(inner[0]) + pull(crane, state);
+    far_.push_back(crane, state, contact(inner[0]), sum);
   }
   void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
                   const Inner* inner, double* acceleration) const noexcept override {
     if (gap_ == 0) return;
     const double speed = slew_ ? state.slew_radps : state.trolley_mps;  // of the suspended side
     const double motor = slew_ ? drives.slew_radps2 : drives.trolley_mps2;
-    acceleration[0] = contact(inner[0]) - guide_deceleration_ * smooth_sign(speed, kGuideSmoothing) - motor;
+    acceleration[0] = far_.acceleration(crane, state, contact(inner[0])) -
+                      guide_deceleration_ * smooth_sign(speed, kGuideSmoothing) - motor;
     // The jib's turning throws a trolley outward, which the motor holds only where a flank touches.
     if (!slew_) acceleration[0] += state.trolley_m * state.slew_radps * state.slew_radps;
-    if (driven_share_ > 0) acceleration[0] += pull(crane, state) / driven_inertia(crane);
+  }
+  /// The motor has been struck: what it gained the suspended side lost, which stands at the flank on that
+  /// side. Or it has not been where the flanks met: there they still stand.
+  void correct(const Parameters& crane, const State& state, const PerAxis& unexplained, const Inner* before,
+               Inner* inner) const noexcept override {
+    const double change = unexplained[slew_ ? kSlew : kTrolley];
+    if (!far_.carries() || change == 0) return;
+    const double side = std::copysign(1.0, change), flank = 0.5 * gap_;
+    const bool met = std::max(-side * before[0].position, -side * inner[0].position) > flank;
+    inner[0].position = side * (met ? -flank : std::max(side * inner[0].position, flank));
+    const double fastest = gap_ * contact_radps_;  // a lighter side would be thrown to and fro by noise
+    inner[0].rate = std::clamp(inner[0].rate - far_.passed_on(crane, state, change), -fastest, fastest);
   }
 
  private:
-  [[nodiscard]] double driven_inertia(const Parameters& crane) const {
-    return driven_share_ / (1 - driven_share_) * (slew_ ? crane.jib_inertia_kgm2 : crane.trolley_inertia_kg);
-  }
-  /// Of a load that hangs at rest, N or N m.
-  [[nodiscard]] double pull(const Parameters& crane, const State& state) const {
-    const double ct = std::cos(state.tangential_rad), cf = std::cos(state.radial_rad);
-    const double tension_n = crane.load_mass_kg * crane.gravity_mps2 * ct * cf;
-    return slew_ ? tension_n * std::sin(state.tangential_rad) * state.trolley_m
-                 : -tension_n * ct * std::sin(state.radial_rad);
-  }
   [[nodiscard]] double contact(const Inner& inner) const {
     const double depth = std::abs(inner.position) - 0.5 * gap_;
     if (depth <= 0) return 0;
@@ -76,7 +72,8 @@ class Backlash final : public Term {
     return -side * std::max(0.0, contact_radps_ * contact_radps_ * depth + damping * side * inner.rate);
   }
   bool slew_;
-  double contact_radps_, gap_, guide_deceleration_, driven_share_;
+  double contact_radps_, gap_, guide_deceleration_;
+  FarSide far_;
 };
 
 }  // namespace
@@ -85,10 +82,12 @@ TermKind backlash() {
   return {
       .name = "backlash",
       .equation =
-          "the load hangs at p + b, b'' = k - a tanh((p' + b')/v_s) + P/(j J) + Z - p''; contact k is 0 for "
-          "|b| < h/2 and a damped spring of 25 Hz (trolley) or 15 Hz (jib) beyond; Z = (x + b) slew'^2 of a "
-          "trolley, 0 of a jib; the "
-          "motor moves (1 - j) J and feels -j J k",
+          "the load hangs at p + b, b'' = (j J k + P - C) / (j J + M_j x2) - a tanh((p' + b')/v_s) + Z - "
+          "p''; "
+          "contact k is 0 for |b| < h/2 and a damped spring of 25 Hz (trolley) or 15 Hz (jib) beyond; "
+          "M_j x2 and C = 2 M_j x x' slew' of a jib only, Z = (x + b) slew'^2 of a trolley only; the motor "
+          "moves "
+          "(1 - j) J and feels -(j J k + P)",
       .source = "play of nut or gear between motor, which has the encoder, and trolley or jib",
       .acts_on = ActsOn::structure,
       .axes = {"trolley", "slew"},

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "crane/plant/term.hpp"
+#include "terms/far_side.hpp"
 #include "terms/structure.hpp"
 
 namespace crane::plant {
@@ -11,54 +12,51 @@ class JibFlexibility final : public Term {
   explicit JibFlexibility(const TermSetting& s)
       : compliance_s2_(s.parameters.at("compliance_s2")),
         damping_ratio_(s.parameters.at("damping_ratio")),
-        jib_share_(s.parameters.at("jib_share")),
-        rigid_(compliance_s2_ < 1 / kRigid_radps2) {}
+        rigid_(compliance_s2_ < 1 / kRigid_radps2),
+        far_(true, rigid_ ? 0 : s.parameters.at("jib_share")) {}
 
-  /// The motor turns what does not bend; its force stays what it was.
-  void change_parameters(Parameters& crane) const noexcept override {
-    if (rigid_) return;
-    crane.jib_inertia_kgm2 *= 1 - jib_share_;
-    crane.slew_gain_radps2pv /= 1 - jib_share_;
-  }
+  void change_parameters(Parameters& crane) const noexcept override { far_.split(crane); }
   [[nodiscard]] std::size_t inner_coordinates() const noexcept override { return rigid_ ? 0 : 1; }
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (!rigid_) sum.slew_rad += inner[0];
   }
-  void add_inner_force(const Parameters& crane, const State& /*state*/, const Inner* inner,
+  void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
                        Forces& sum) const noexcept override {
-    if (!rigid_)
-      sum.slew_nm -= jib_share_ / (1 - jib_share_) * crane.jib_inertia_kgm2 * spring_radps2(inner[0]);
+    if (!rigid_) far_.push_back(crane, state, spring_radps2(inner[0]), sum);
   }
-  void accelerate(const Parameters& /*crane*/, const State& /*state*/, const Accelerations& drives,
+  void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
                   const Inner* inner, double* acceleration) const noexcept override {
     if (rigid_) return;
-    acceleration[0] = spring_radps2(inner[0]) - drives.slew_radps2;
+    acceleration[0] = far_.acceleration(crane, state, spring_radps2(inner[0])) - drives.slew_radps2;
   }
 
  private:
   [[nodiscard]] double spring_radps2(const Inner& inner) const {
     return -inner.position / compliance_s2_ - 2 * damping_ratio_ / std::sqrt(compliance_s2_) * inner.rate;
   }
-  double compliance_s2_, damping_ratio_, jib_share_;
+  double compliance_s2_, damping_ratio_;
   bool rigid_;
+  FarSide far_;
 };
 
 }  // namespace
 
 TermKind jib_flexibility() {
-  return {.name = "jib_flexibility",
-          .equation =
-              "the load hangs at gamma + d, d'' = k - gamma'', k = -d/c - 2 z d'/sqrt(c); the motor turns "
-              "(1 - j) J_o and feels -j J_o k",
-          .source = "first sideways bending mode of the jib; f = 1 / (2 pi sqrt(c)) with the root held",
-          .acts_on = ActsOn::structure,
-          .axes = {""},
-          .parameters = {{"compliance_s2", "s2", 0, 0, 0.3, "c; stiffer than 12 Hz counts as rigid"},
-                         {"damping_ratio", "1", 0.02, 0, 1, "z"},
-                         {"jib_share", "1", 0, 0, 0.9, "j, share of the slewing inertia beyond the spring"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-            return std::make_unique<JibFlexibility>(s);
-          }};
+  return {
+      .name = "jib_flexibility",
+      .equation =
+          "the load hangs at gamma + d, d'' = k - gamma'', k = -d/c - 2 z d'/sqrt(c); with j > 0 the spring "
+          "turns j J_o and the trolley, d'' = (j J_o k + P - C) / (j J_o + M_j x2) - gamma'', the motor "
+          "(1 - j) J_o, which feels -(j J_o k + P)",
+      .source = "first sideways bending mode of the jib; f = 1 / (2 pi sqrt(c)) with the root held",
+      .acts_on = ActsOn::structure,
+      .axes = {""},
+      .parameters = {{"compliance_s2", "s2", 0, 0, 0.3, "c; stiffer than 12 Hz counts as rigid"},
+                     {"damping_ratio", "1", 0.02, 0, 1, "z"},
+                     {"jib_share", "1", 0, 0, 0.9, "j, share of the slewing inertia beyond the spring"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<JibFlexibility>(s);
+      }};
 }
 
 }  // namespace crane::plant

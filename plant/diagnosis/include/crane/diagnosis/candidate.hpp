@@ -34,6 +34,7 @@ struct Candidate {
   /// Between two guesses of its phase a wave over position does nothing at first, or harm: its shapes are the
   /// waves of what nothing else explains.
   bool waves = false;
+  bool rough = false;                    ///< its loss goes over the values in steps, which no slope tells of
   bool changes_known_parameter = false;  ///< the base model has this quantity; the rig file's value is off
   /// Values that the amounts of a shape's small probes come to.
   std::function<std::vector<double>(const Shape&, const std::vector<double>&)> of_amounts;

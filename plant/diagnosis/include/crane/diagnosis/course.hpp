@@ -16,20 +16,24 @@ class Course {
 
   plant::State state;
   plant::InnerState inner{};
+  /// Terms' own coordinates that go as given, and where they are in the middle of the next step.
+  std::array<bool, plant::kMostInner> led{};
+  std::array<Moment, plant::kMostInner> led_at{};
 
   void new_command(const plant::PerAxis& drive_v);
   /// @param at what is measured in the middle of the step. What is not simulated stays where it is in
   /// `state`, until it is told to follow
   void step(const std::array<Moment, kOutputs>& at, const Moment& cable_at);
-  /// Of one axis that is not simulated, as the model has it where everything is measured.
-  [[nodiscard]] double acceleration(Output axis, const std::array<Moment, kOutputs>& at,
-                                    const Moment& cable_at);
+  /// As the model has them where everything is measured.
+  [[nodiscard]] plant::Accelerations accelerations(const std::array<Moment, kOutputs>& at,
+                                                   const Moment& cable_at);
   /// Coordinates that are not simulated go where they were measured.
   void follow(const std::array<Moment, kOutputs>& at, const Moment& cable);
 
  private:
   [[nodiscard]] plant::State half_way(const std::array<Moment, kOutputs>& at, const Moment& cable);
   void kick(Output output, double acceleration);
+  void lead(plant::InnerState& inner, plant::InnerAccelerations& accelerations) const;
   void kick_inner(const plant::InnerAccelerations& accelerations);
   /// Friction of each axis, solved one after the other with the other's last value.
   plant::PerAxis move_drives(const plant::State& middle, const plant::InnerState& inner_middle);

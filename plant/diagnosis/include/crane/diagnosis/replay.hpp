@@ -40,6 +40,10 @@ struct PreparedRun {
 /// Samples over which positions are smoothed for their rates and accelerations, each way: 30 ms.
 [[nodiscard]] int smoothing_half_width(double period_s);
 
+/// A measured position with its rate and acceleration: a drive's as the spline through it, a swing's
+/// smoothed.
+[[nodiscard]] Motion motion_of(Output output, const std::vector<double>& measured, double period_s);
+
 /// Which outputs a part simulates on a run; the order is that of Output.
 [[nodiscard]] std::vector<Output> simulated_outputs(const PreparedRun& run, Part part);
 
@@ -69,6 +73,11 @@ class Replay {
     std::vector<double> position;  ///< m or rad
     std::vector<double> speed;     ///< gained, m/s or rad/s
     std::vector<double> way;       ///< gone from rest, m or rad
+
+    void move(std::size_t row, double acceleration, double step_s) {
+      way[row] += step_s * (speed[row] + 0.5 * step_s * acceleration);
+      speed[row] += step_s * acceleration;
+    }
   };
   /// @pre the axis is measured
   [[nodiscard]] Guided guided(Output axis) const;

@@ -13,17 +13,18 @@
 
 namespace crane::plant {
 
+/// Accelerations of a term's own coordinates, in the order of Model's inner coordinates.
+using InnerState = std::array<Inner, kMostInner>;
+using InnerAccelerations = std::array<double, kMostInner>;
+
 /// What acts on the crane besides its own motion; constant between two events of the rig.
 struct Actuation {
   PerAxis drive_v{};  ///< amplifier output, after the command terms [V]
   /// Braking effort on a moving axis: N, N m, and for the hoist m/s2 that replace its drive's acceleration.
   PerAxis brake_effort{};
   Locks locks;
+  std::array<bool, kMostInner> led{};  ///< own coordinates of terms whose accelerations are given
 };
-
-/// Accelerations of a term's own coordinates, in the order of Model's inner coordinates.
-using InnerState = std::array<Inner, kMostInner>;
-using InnerAccelerations = std::array<double, kMostInner>;
 
 class Model {
  public:
@@ -63,6 +64,11 @@ class Model {
                                             InnerAccelerations& inner_accelerations) const noexcept;
   /// For a model without inner coordinates, or with them at rest.
   [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation) const noexcept;
+
+  /// Terms' own coordinates along a measured motion, by what the model has not made of the motors' speed from
+  /// one sample to the next (Term::correct).
+  void correct(const State& state, const PerAxis& unexplained, const InnerState& before,
+               InnerState& inner) const noexcept;
 
   /// What the sensors report; once a tick, because sensor terms may remember.
   [[nodiscard]] Measurement measure(const State& state) noexcept;

@@ -25,6 +25,10 @@ struct Parameters {
   double hoist_gain_mpspv = 0.05;     ///< steady cable speed per volt (speed-controlled drive), > 0
   double hoist_lag_s = 0.1;           ///< time constant of the hoist drive, > 0
 
+  /// Shares of M_j that the slew's motor turns and that pull at the trolley's motor when the jib turns: 0
+  /// where a term puts a gap or a spring between. Not in a rig file.
+  double slewed_share = 1, thrown_share = 1;
+
   /// m_t = m / M, m_r = m / J_o, M_r = M_j / J_o of (2.25) with the two trolley masses kept apart.
   [[nodiscard]] double load_to_trolley_ratio() const { return load_mass_kg / trolley_inertia_kg; }
   [[nodiscard]] double load_to_jib_ratio() const { return load_mass_kg / jib_inertia_kgm2; }

@@ -71,6 +71,12 @@ class Term {
                           const Accelerations& /*drives*/, const Inner* /*inner*/,
                           double* /*acceleration*/) const noexcept {}
 
+  /// From one sample of a measured motion to the next a motor's speed has changed by so much more than the
+  /// model makes of it [m/s, rad/s]: what that says about where the own coordinates are now.
+  /// @param before where they were at the first of the samples
+  virtual void correct(const Parameters& /*crane*/, const State& /*state*/, const PerAxis& /*unexplained*/,
+                       const Inner* /*before*/, Inner* /*inner*/) const noexcept {}
+
   /// Sensor terms, once a tick: turns what is into what is reported. May remember earlier ticks.
   virtual void change_measurement(Measurement& /*measured*/, double /*period_s*/) noexcept {}
 };

@@ -1,0 +1,151 @@
+#include "replay/parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "replay/standstill.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+/// A coordinate of a term's own may ring at 25 Hz.
+constexpr double kLongestStep_s = 0.005, kLongestInnerStep_s = 0.0025;
+/// A motor has been struck when its speed changes from row to row by so many times what half of its changes
+/// beyond the model's keep to.
+constexpr double kStruck = 15;
+
+/// Half of the values so far, the last few hundred rather, are smaller.
+class RunningMedian {
+ public:
+  void take(double value) { median_ *= value > median_ ? 1 + kShare : 1 - kShare; }
+  [[nodiscard]] double value() const { return median_; }
+
+ private:
+  static constexpr double kShare = 0.02;
+  double median_ = 0.02;  // m/s or rad/s, more than noise makes
+};
+
+bool has_sensor_term(const Crane& crane) {
+  return std::any_of(crane.terms.begin(), crane.terms.end(), [](const plant::TermSetting& term) {
+    const plant::TermKind* kind = plant::find_term(term.name);
+    return kind != nullptr && kind->acts_on == plant::ActsOn::sensor;
+  });
+}
+
+int steps_of(const Crane& crane, double period_s) {
+  const bool inner = plant::Model(crane.parameters, crane.terms).inner_coordinates() > 0;
+  return std::max(
+      1, static_cast<int>(std::ceil(period_s / (inner ? kLongestInnerStep_s : kLongestStep_s) - 1e-9)));
+}
+
+}  // namespace
+
+Replay::Parts::Parts(const PreparedRun& prepared, const Crane& the_crane)
+    : source(prepared),
+      crane(the_crane),
+      steps(steps_of(crane, prepared.run.period_s)),
+      model(crane.parameters, crane.terms, step_s()),
+      sensors(has_sensor_term(crane)) {
+  ringing = model.ringing_coordinates();
+  std::fill_n(led.begin(), model.inner_coordinates(), true);
+  for (const std::size_t i : ringing) led[i] = false;
+  drive_v.reserve(prepared.run.rows() * static_cast<std::size_t>(steps));
+  for (const plant::PerAxis& command : prepared.run.command_v)
+    for (int step = 0; step < steps; ++step) drive_v.push_back(model.drive_voltage(command));
+  if (sensors) undo_sensors();
+  if (model.inner_coordinates() > 0) follow_inner();
+}
+
+plant::Locks Replay::Parts::locks(const std::array<bool, kOutputs>& simulated) const {
+  const bool loaded = crane.parameters.load_mass_kg > 0;
+  plant::Locks locks;
+  locks.axis = {!simulated[kTrolleyPosition], !simulated[kSlewAngle], true};
+  locks.radial = !source.run.has(kRadialSwing) || !loaded;
+  locks.tangential = !source.run.has(kTangentialSwing) || !loaded;
+  return locks;
+}
+
+std::array<Moment, kOutputs> Replay::Parts::measured_at(const std::array<bool, kOutputs>& free,
+                                                        std::size_t row, double share) const {
+  std::array<Moment, kOutputs> at;
+  for (std::size_t i = 0; i < kOutputs; ++i)
+    if (!free[i]) at[i] = between(given(static_cast<Output>(i)), row, share, source.run.period_s);
+  return at;
+}
+
+/// What the coordinates were when the sensors reported what was measured: a drive's to a millionth of its
+/// encoder's scale, the swing's to first order, for to undo a delay again and again makes noise of it.
+void Replay::Parts::undo_sensors() {
+  constexpr int kRounds = 5;
+  const Run& run = source.run;
+  std::array<std::vector<double>, kOutputs> values = run.measured;
+  for (int round = 0; round < kRounds; ++round) {
+    plant::Model fresh(crane.parameters, crane.terms, run.period_s);
+    for (std::size_t k = 0; k < run.rows(); ++k) {
+      plant::State at;
+      for (const Output output : kAllOutputs)
+        if (run.has(output)) position_of(at, output) = values[output][k];
+      at.cable_m = run.cable_m[k];
+      const plant::Measurement reported = fresh.measure(at);
+      for (const Output output : kAllOutputs)
+        if (run.has(output) && (round == 0 || output == kTrolleyPosition || output == kSlewAngle))
+          values[output][k] += run.measured[output][k] - measured_of(reported, output);
+    }
+  }
+  for (const Output output : kAllOutputs)
+    if (run.has(output)) corrected[output] = motion_of(output, values[output], run.period_s);
+}
+
+/// The terms' own coordinates are not measured, but what drives them is: they follow it through the whole
+/// run. Flanks of a gap that meet a little early or late would soon meet at quite other times: what the
+/// motors' measured speed shows of impacts corrects them.
+void Replay::Parts::follow_inner() {
+  const std::array<bool, kOutputs> none{};
+  std::array<bool, kOutputs> drives{};
+  for (const Output drive : simulated_outputs(source, Part::drive)) drives[drive] = true;
+  const bool correcting = std::find(led.begin(), led.end(), true) != led.end();
+  Course course(model, none, locks(none), step_s()), motors(model, none, locks(drives), step_s());
+  const std::size_t rows = source.run.rows();
+  for (const Output axis : {kTrolleyPosition, kSlewAngle})
+    if (correcting && drives[axis])
+      guided[axis] = Guided{given(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
+  std::array<RunningMedian, 2> usual;
+  course.follow(measured_at(none, 0, 0), cable_at(0, 0));
+  for (std::size_t row = 0; row < rows; ++row) {
+    inner_at.push_back(course.inner);
+    if (row + 1 == rows) break;
+    visit_steps(row, [&](int step, const plant::PerAxis& volts, bool changed) {
+      const double middle = (step + 0.5) / steps;
+      const auto at = measured_at(none, row, middle);
+      const Moment cable = cable_at(row, middle);
+      if (changed) course.new_command(volts), motors.new_command(volts);
+      if (correcting) {
+        motors.inner = course.inner;
+        const plant::Accelerations a = motors.accelerations(at, cable);
+        for (const Output axis : {kTrolleyPosition, kSlewAngle})
+          if (drives[axis]) guided[axis]->move(row, acceleration_of(a, axis), step_s());
+      }
+      course.step(at, cable);
+    });
+    course.follow(measured_at(none, row + 1, 0), cable_at(row + 1, 0));
+    if (!correcting) continue;
+    plant::PerAxis unexplained{};
+    for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
+      if (!drives[axis]) continue;
+      const double from = given(axis).rate[row], to = given(axis).rate[row + 1];
+      if (std::abs(from) < kStands || std::abs(to) < kStands || from * to < 0) continue;
+      const double change = to - from - guided[axis]->speed[row];
+      if (std::abs(change) > kStruck * usual[axis].value()) unexplained[axis] = change;
+      usual[axis].take(std::abs(change));
+    }
+    model.correct(course.state, unexplained, inner_at.back(), course.inner);
+  }
+  for (std::size_t i = 0; i < model.inner_coordinates(); ++i) {
+    if (!led[i]) continue;
+    std::vector<double> way;
+    for (const plant::InnerState& at : inner_at) way.push_back(at[i].position);
+    inner[i] = spline(way, source.run.period_s);
+  }
+}
+
+}  // namespace crane::diagnosis

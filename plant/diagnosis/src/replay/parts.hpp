@@ -1,0 +1,54 @@
+#pragma once
+/// What a replay has ready: one crane on one run, its commands by step, its motion as its sensors would have
+/// measured it, where its terms' own coordinates are along that motion.
+#include <optional>
+
+#include "crane/diagnosis/course.hpp"
+#include "crane/diagnosis/replay.hpp"
+
+namespace crane::diagnosis {
+
+struct Replay::Parts {
+  Parts(const PreparedRun& prepared, const Crane& the_crane);
+
+  /// Coordinates that stand still or go where they were measured while the others are simulated.
+  [[nodiscard]] plant::Locks locks(const std::array<bool, kOutputs>& simulated) const;
+  [[nodiscard]] double step_s() const { return source.run.period_s / steps; }
+  /// Calls visit(step, voltage, whether it is another than before) for every step from a row to the next.
+  template <class Visit>
+  void visit_steps(std::size_t row, Visit&& visit) const {
+    const auto first = row * static_cast<std::size_t>(steps);
+    for (int step = 0; step < steps; ++step) {
+      const auto at = first + static_cast<std::size_t>(step);
+      visit(step, drive_v[at], step == 0 || drive_v[at] != drive_v[at - 1]);
+    }
+  }
+  /// What is not free as measured, `share` of a period after a row.
+  [[nodiscard]] std::array<Moment, kOutputs> measured_at(const std::array<bool, kOutputs>& free,
+                                                         std::size_t row, double share) const;
+  [[nodiscard]] Moment cable_at(std::size_t row, double share) const {
+    return between(source.cable, row, share, source.run.period_s);
+  }
+  [[nodiscard]] const Motion& given(Output output) const {
+    return sensors ? corrected[output] : source.motion[output];
+  }
+
+  const PreparedRun& source;
+  Crane crane;
+  int steps;                   ///< from a row to the next
+  mutable plant::Model model;  // friction and forces only; its memory is not used after construction
+  bool sensors;
+  std::vector<std::size_t> ringing;           ///< inner coordinates that have a start of their own
+  std::array<bool, plant::kMostInner> led{};  ///< the other ones
+  std::vector<plant::PerAxis> drive_v;        ///< by step
+  std::array<Motion, kOutputs> corrected;
+  std::vector<plant::InnerState> inner_at;      ///< along the measured motion, by row; empty without any
+  std::array<Motion, plant::kMostInner> inner;  ///< the same of those that are led
+  std::array<std::optional<Guided>, 2> guided;  ///< drives beside led coordinates
+
+ private:
+  void undo_sensors();
+  void follow_inner();
+};
+
+}  // namespace crane::diagnosis
