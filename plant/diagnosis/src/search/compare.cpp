@@ -131,9 +131,6 @@ bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
 namespace {
 
 /// Parts in which what `a` has and `b` has not shows.
-struct ShowsIn {
-  bool drive = false, load = false;
-};
 ShowsIn only_in(const Fitted& a, const Fitted& b) {
   ShowsIn parts;
   for (const Effect& e : a.effects) {

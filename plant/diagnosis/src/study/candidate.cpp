@@ -99,7 +99,7 @@ class Builder {
     const double share = output == kTrolleyPosition ? std::clamp(carriage, 0.05, 0.85) : 0.6;
     std::vector<std::vector<double>> settings;
     for (double gap = 0.001; gap < 0.015; gap *= 1.4)
-      for (const double guide : {0.1, 0.25, 0.6}) settings.push_back({gap * scale, guide, share});
+      for (const double guide : {0.1, 0.6}) settings.push_back({gap * scale, guide, share});
     Candidate gap = at_once("backlash", axis,
                             {free_parameter("backlash", "gap", 0.0002, 0.05, 0.001),
                              free_parameter("backlash", "guide_deceleration", 0, 2, 0.1),

@@ -120,10 +120,13 @@ double Study::add_probes(const Effects& effects, const Evaluation& at, const Sco
                          Slopes& slopes) const {
   double own = 0;
   const Shape& shape = place.shape;
+  const Candidate& candidate = candidates_[place.candidate];
+  // Drives show a rough effect only from near by, the load from afar.
+  const bool near_by = !candidate.rough || train_.load.empty();
   for (std::size_t p = 0; p < shape.probes.size(); ++p) {
     Crane crane = with(effects);
     crane.terms.push_back(shape.probes[p]);
-    own += add_slope(candidates_[place.candidate], crane, at, shape.amounts[p], slopes);
+    own += add_slope(crane, at, shape.amounts[p], {candidate.drive && near_by, candidate.load}, slopes);
   }
   return own;
 }
@@ -141,13 +144,9 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
     const bool as_it_stands = scores[i].shape.as_it_is;
     directions[i].one_sided = candidate.one_sided || as_it_stands;
     judge(directions[i], scores[i]);
-    if (as_it_stands) {
-      const double of_load = as_it_is(at.load, all.load.back());
-      scores[i].gain =
-          of_load + as_it_is(at.drive, all.drive.back()) + as_it_is(at.under_way, all.under_way.back());
-      // A drive shows a rough effect only from near by.
-      if (candidate.rough) scores[i].gain = std::max(scores[i].gain, of_load);
-    }
+    if (as_it_stands)
+      scores[i].gain = as_it_is(at.drive, all.drive.back()) + as_it_is(at.load, all.load.back()) +
+                       as_it_is(at.under_way, all.under_way.back());
     scores[i].gain += own;
     const double loss = (candidate.drive ? at.drive_loss : 0) + (candidate.load ? at.load_loss : 0);
     scores[i].share = loss > 0 ? scores[i].gain / loss : 0;

@@ -99,12 +99,12 @@ Evaluation Study::evaluate(const Body& body, const Effects& effects, const Evalu
 Evaluation Study::train(const Effects& effects) const { return evaluate(train_, effects, base_train_); }
 Evaluation Study::test(const Effects& effects) const { return evaluate(test_, effects, base_test_); }
 
-double Study::add_slope(const Candidate& candidate, const Crane& crane, const Evaluation& at, double step,
+double Study::add_slope(const Crane& crane, const Evaluation& at, double step, ShowsIn parts,
                         Slopes& slopes) const {
   double of_drive = 0, of_load = 0;
   const Replays replays = replays_of(train_.runs, crane);
-  const bool in_drive = candidate.drive && !train_.drive.empty();
-  const bool in_load = candidate.load && !train_.load.empty();
+  const bool in_drive = parts.drive && !train_.drive.empty();
+  const bool in_load = parts.load && !train_.load.empty();
   using Changes = std::vector<VectorXd>;
   slopes.drive.push_back(in_drive ? train_.drive.change(replays, at.drive, step, &of_drive) : Changes{});
   slopes.under_way.push_back(in_drive ? train_.under_way.change(replays, at.under_way, step) : Changes{});
@@ -129,7 +129,7 @@ Study::Slopes Study::slopes(const Effects& effects, const Evaluation& at) const 
       const double step = value + p.step <= p.high ? p.step : -p.step;
       value += 0.3 * step;
       const Crane crane = with(moved);
-      add_slope(candidate, crane, at, 0.3 * step, result);
+      add_slope(crane, at, 0.3 * step, {candidate.drive, candidate.load}, result);
     }
   }
   return result;

@@ -42,6 +42,11 @@ struct Fitted {
   std::size_t parameters = 0;
 };
 
+/// Parts that something shows in.
+struct ShowsIn {
+  bool drive = false, load = false;
+};
+
 /// One candidate in one shape.
 struct Score {
   std::size_t candidate = 0;
@@ -112,9 +117,9 @@ class Study {
   /// Scores of directions around `at`.
   [[nodiscard]] BlockScores block_scores(const Evaluation& at, const Slopes& slopes,
                                          Loss loss = Loss::robust) const;
-  /// Appends the changes per unit that `crane` makes, in the parts that the candidate shows in.
+  /// Appends the changes per unit that `crane` makes in the parts.
   /// @return what the start of coordinates of its own gains
-  double add_slope(const Candidate& candidate, const Crane& crane, const Evaluation& at, double step,
+  double add_slope(const Crane& crane, const Evaluation& at, double step, ShowsIn parts,
                    Slopes& slopes) const;
   /// Every shape of every candidate that is not among the effects.
   [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
