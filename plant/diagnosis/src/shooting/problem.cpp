@@ -168,6 +168,14 @@ VectorXd Problem::measured_start(const Replay& replay, const Window& window) con
   return Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
 }
 
+/// Of a crane that differs little. What rings on by itself would come in quite another phase out of the whole
+/// run: it starts where it did.
+VectorXd Problem::near_start(const WindowFit& at, const VectorXd& measured) const {
+  VectorXd start = at.start;
+  start.head(bare_start()) += measured.head(bare_start()) - at.measured_start.head(bare_start());
+  return start;
+}
+
 void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
   fit.simulated = simulate(replay, windows_[at], fit.start);
   MatrixXd slopes = start_slopes(replay, at, fit.start, fit.simulated, 0);
@@ -238,7 +246,7 @@ Fits Problem::fit_near(const Replays& crane, const Fits& near) const {
     if (static_cast<std::size_t>(fit.start.size()) != replay.start_size(part_))
       return fit_start(replay, w, fit);
     const VectorXd target = measured(window), moved = measured_start(replay, window);
-    fit.start += moved - fit.measured_start;
+    fit.start = near_start(fit, moved);
     fit.measured_start = moved;
     fit.simulated = simulate(replay, window, fit.start);
     settle_start(replay, w, target, fit);
@@ -264,7 +272,7 @@ VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit
   };
   VectorXd start = measured_start(replay, windows_[w]);
   const auto known = at.start.size(), all = start.size();
-  start.head(known) += at.start - at.measured_start;
+  start.head(known) = near_start(at, start.head(known));
   const VectorXd simulated = simulate(replay, windows_[w], start);
   MatrixXd change = (simulated - at.simulated) / step;
   whiten(w, change);

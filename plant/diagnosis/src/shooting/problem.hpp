@@ -87,6 +87,7 @@ class Problem {
   [[nodiscard]] Eigen::VectorXd change_in(const Replay& replay, std::size_t window, const WindowFit& at,
                                           double step, double& own_gain) const;
   [[nodiscard]] Eigen::VectorXd measured_start(const Replay& replay, const Window& window) const;
+  [[nodiscard]] Eigen::VectorXd near_start(const WindowFit& at, const Eigen::VectorXd& measured) const;
   void linearise(const Replay& replay, std::size_t window, WindowFit& fit) const;
   void settle_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
                     WindowFit& fit) const;

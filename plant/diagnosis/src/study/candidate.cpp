@@ -179,9 +179,9 @@ class Builder {
                   jibs),
           true, true);
     add(at_once("double_pendulum", "",
-                {free_parameter("double_pendulum", "lower_share", 0.03, 0.85, 0.05),
-                 free_parameter("double_pendulum", "lower_length_m", 0.03, 2, 0.01),
-                 free_parameter("double_pendulum", "hook_raised_m", 0, most_raised, 0.005)},
+                {free_parameter("double_pendulum", "lower_share", 0.03, 0.85, 0.001),
+                 free_parameter("double_pendulum", "lower_length_m", 0.03, 2, 0.0001),
+                 free_parameter("double_pendulum", "hook_raised_m", 0, most_raised, 0.001)},
                 slings),
         false, true);
   }
