@@ -14,6 +14,8 @@ constexpr std::array kPattern{Kind::single, Kind::clean, Kind::single, Kind::pai
                               Kind::single, Kind::clean, Kind::single, Kind::confounded};
 constexpr std::array kMultiples{4.0, 2.0, 1.0};
 constexpr double kClear = 4, kSeconds = 30;
+/// Of data too poor to tell what is alike: one run, and how long.
+constexpr double kPoor = 3, kPoorSeconds = 12;
 /// Beyond this many times the nominal amplitude a crane is no crane any more.
 constexpr double kMostAmplitude = 3;
 
@@ -149,6 +151,11 @@ Set set_of(std::size_t number, std::uint64_t first_seed) {
     set.request = case_on("tower", seed);
     set.request.training_runs = {alike.run, alike.run};
     set.request.test_runs = {alike.run};
+    if (count % 2 == 1) {
+      set.multiple = kPoor;
+      set.request.seconds = kPoorSeconds;
+      set.request.training_runs.resize(1);
+    }
   } else {
     rig = rig_for({}, count);
     set.multiple = 0;

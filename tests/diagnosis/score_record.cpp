@@ -71,12 +71,16 @@ std::vector<Compared> estimates_in(const Json& all) {
   return estimates;
 }
 
+/// About what the motions of the menu last.
+constexpr double kProposedSeconds = 24;
+
 /// Does the proposed run, added to the training data, decide it?
 void try_experiment(const Set& set, Record& record) {
   truth::Case more = set.request;
   const std::string run = run_like(record.experiment);
   if (run.empty()) return;
-  more.training_runs.push_back(run);
+  for (double seconds = 0; seconds < kProposedSeconds; seconds += more.seconds)
+    more.training_runs.push_back(run);
   const SealedCase sealed(more);
   record.resolved = name_of(judge(sealed.diagnosed(), sealed.answer()));
 }

@@ -14,17 +14,6 @@ constexpr double kLongestStep_s = 0.005, kLongestInnerStep_s = 0.0025;
 /// beyond the model's keep to.
 constexpr double kStruck = 15;
 
-/// Half of the values so far, the last few hundred rather, are smaller.
-class RunningMedian {
- public:
-  void take(double value) { median_ *= value > median_ ? 1 + kShare : 1 - kShare; }
-  [[nodiscard]] double value() const { return median_; }
-
- private:
-  static constexpr double kShare = 0.02;
-  double median_ = 0.02;  // m/s or rad/s, more than noise makes
-};
-
 bool has_sensor_term(const Crane& crane) {
   return std::any_of(crane.terms.begin(), crane.terms.end(), [](const plant::TermSetting& term) {
     const plant::TermKind* kind = plant::find_term(term.name);
@@ -96,6 +85,20 @@ void Replay::Parts::undo_sensors() {
     if (run.has(output)) corrected[output] = motion_of(output, values[output], run.period_s);
 }
 
+/// What the motors' speeds show of impacts between a row and the next, beside what usually is unexplained.
+plant::PerAxis Replay::Parts::impacts_after(std::size_t row, std::array<RunningMedian, 2>& usual) const {
+  plant::PerAxis unexplained{};
+  for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
+    if (!guided[axis]) continue;
+    const double from = given(axis).rate[row], to = given(axis).rate[row + 1];
+    if (std::abs(from) < kStands || std::abs(to) < kStands || from * to < 0) continue;
+    const double change = to - from - guided[axis]->speed[row];
+    if (std::abs(change) > kStruck * usual[axis].value()) unexplained[axis] = change;
+    usual[axis].take(std::abs(change));
+  }
+  return unexplained;
+}
+
 /// The terms' own coordinates are not measured, but what drives them is: they follow it through the whole
 /// run. Flanks of a gap that meet a little early or late would soon meet at quite other times: what the
 /// motors' measured speed shows of impacts corrects them.
@@ -129,16 +132,7 @@ void Replay::Parts::follow_inner() {
     });
     course.follow(measured_at(none, row + 1, 0), cable_at(row + 1, 0));
     if (!correcting) continue;
-    plant::PerAxis unexplained{};
-    for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
-      if (!drives[axis]) continue;
-      const double from = given(axis).rate[row], to = given(axis).rate[row + 1];
-      if (std::abs(from) < kStands || std::abs(to) < kStands || from * to < 0) continue;
-      const double change = to - from - guided[axis]->speed[row];
-      if (std::abs(change) > kStruck * usual[axis].value()) unexplained[axis] = change;
-      usual[axis].take(std::abs(change));
-    }
-    model.correct(course.state, unexplained, inner_at.back(), course.inner);
+    model.correct(course.state, impacts_after(row, usual), inner_at.back(), course.inner);
   }
   for (std::size_t i = 0; i < model.inner_coordinates(); ++i) {
     if (!led[i]) continue;

@@ -8,6 +8,17 @@
 
 namespace crane::diagnosis {
 
+/// Half of the values so far, the last few hundred rather, are smaller.
+class RunningMedian {
+ public:
+  void take(double value) { median_ *= value > median_ ? 1 + kShare : 1 - kShare; }
+  [[nodiscard]] double value() const { return median_; }
+
+ private:
+  static constexpr double kShare = 0.02;
+  double median_ = 0.02;  // m/s or rad/s, more than noise makes
+};
+
 struct Replay::Parts {
   Parts(const PreparedRun& prepared, const Crane& the_crane);
 
@@ -49,6 +60,7 @@ struct Replay::Parts {
  private:
   void undo_sensors();
   void follow_inner();
+  [[nodiscard]] plant::PerAxis impacts_after(std::size_t row, std::array<RunningMedian, 2>& usual) const;
 };
 
 }  // namespace crane::diagnosis

@@ -94,11 +94,17 @@ class Builder {
     add(shaped("actuator_lag", axis, free_parameter("actuator_lag", "time_constant_s", 0, 0.5, 0.01),
                {free_parameter("actuator_lag", "second_s", 0, 0.5, 0.01)}, {{0}}),
         true, false);
-    // How far the load and the guide move what is behind the gap depends on its inertia more than on the gap.
+    add_gap(axis, output, scale);
+    add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), true, true);
+    add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
+  }
+
+  /// How far the load and the guide move what is behind the gap depends on its inertia more than on the gap.
+  void add_gap(const std::string& axis, Output output, double scale) {
     const double carriage = rig_.plant.trolley_mass_kg / rig_.plant.trolley_inertia_kg;
     const double share = output == kTrolleyPosition ? std::clamp(carriage, 0.05, 0.85) : 0.6;
     std::vector<std::vector<double>> settings;
-    for (double gap = 0.001; gap < 0.015; gap *= 1.4)
+    for (const double gap : {0.001, 0.0014, 0.002, 0.0027, 0.0038, 0.0054, 0.0075, 0.0105, 0.0148})
       for (const double guide : {0.1, 0.6}) settings.push_back({gap * scale, guide, share});
     Candidate gap = at_once("backlash", axis,
                             {free_parameter("backlash", "gap", 0.0002, 0.05, 0.001),
@@ -107,8 +113,6 @@ class Builder {
                             settings);
     gap.rough = true;
     add(std::move(gap), true, true);
-    add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), true, true);
-    add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
   }
 
   void add_tight_spots(const std::string& axis, Output output) {
