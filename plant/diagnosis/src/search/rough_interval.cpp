@@ -41,16 +41,6 @@ std::vector<VectorXd> places_about(Index values) {
 
 }  // namespace
 
-Effects moved(Effects effects, const VectorXd& step) {
-  Index i = 0;
-  for (Effect& effect : effects)
-    for (std::size_t k = 0; k < effect.values.size(); ++k, ++i) {
-      const FreeParameter& p = effect.candidate->parameters[k];
-      effect.values[k] = std::clamp(effect.values[k] + step[i], p.low, p.high);
-    }
-  return effects;
-}
-
 void widen_rough(const Study& study, Fitted& fitted) {
   const std::vector<Index> rough = rough_values(fitted.effects);
   const auto n = static_cast<Index>(rough.size());

@@ -8,7 +8,4 @@ namespace crane::diagnosis {
 /// that.
 void widen_rough(const Study& study, Fitted& fitted);
 
-/// Every value moved by its number of `step`, within its bounds.
-[[nodiscard]] Effects moved(Effects effects, const Eigen::VectorXd& step);
-
 }  // namespace crane::diagnosis

@@ -49,18 +49,6 @@ bool same_values(const Effects& a, const Effects& b) {
                     [](const Effect& x, const Effect& y) { return x.values == y.values; });
 }
 
-/// Rounding must not carry a value beyond its bound.
-Effects unflatten(Effects effects, const Flat& flat, const VectorXd& step) {
-  Index i = 0;
-  for (Effect& effect : effects)
-    for (double& value : effect.values) {
-      const FreeParameter& p = *flat.parameters[static_cast<std::size_t>(i)];
-      value = std::clamp(flat.values[i] + step[i], p.low, p.high);
-      ++i;
-    }
-  return effects;
-}
-
 /// Decrease of the loss of an undamped step without bounds.
 double promised(const BlockScores& at) { return at.pull().dot(solve(at.curvature, at.pull())); }
 
@@ -138,13 +126,13 @@ void Study::descend(Fitted& best, Loss loss, double hopeless) const {
       for (int attempt = 0; attempt < attempts && gained == 0; ++attempt) {
         const VectorXd step = bounded_step(both.curvature, pull, flat, damping, groups[group]);
         if (!step.allFinite() || step.norm() == 0) break;
-        const Effects moved = unflatten(best.effects, flat, step);
-        Evaluation found = evaluate(train_, moved, best.train);
+        const Effects tried = moved(best.effects, step);
+        Evaluation found = evaluate(train_, tried, best.train);
         const double now = total_loss(found, loss);
         if (now < least) {
           gained = least - now;
           least = now;
-          best.effects = moved;
+          best.effects = tried;
           best.train = std::move(found);
           damping = std::max(1e-6, damping * 0.2);
         } else {
@@ -158,15 +146,15 @@ void Study::descend(Fitted& best, Loss loss, double hopeless) const {
 }
 
 void Study::step_around(Fitted& best, double Evaluation::*loss) const {
-  const Flat flat = flatten(best.effects);
-  VectorXd values = flat.values, steps(values.size());
+  const Flat from = flatten(best.effects);
+  VectorXd values = from.values, steps(values.size());
   for (Index i = 0; i < steps.size(); ++i)
     steps[i] =
-        std::max(kFirstStep * std::abs(values[i]), 0.5 * flat.parameters[static_cast<std::size_t>(i)]->step);
+        std::max(kFirstStep * std::abs(values[i]), 0.5 * from.parameters[static_cast<std::size_t>(i)]->step);
   const VectorXd least = kLastStep * steps;
   const auto better = [&](const VectorXd& step) {
     Fitted tried;
-    tried.effects = unflatten(best.effects, flat, values + step - flat.values);
+    tried.effects = moved(best.effects, step);
     if (same_values(tried.effects, best.effects)) return false;
     tried.train = evaluate(train_, tried.effects, best.train);
     if (tried.train.*loss >= best.train.*loss - kLeastGain) return false;
@@ -195,7 +183,7 @@ Fitted Study::fit(Effects effects, double hopeless) const {
   near.train = train(near.effects);
   Fitted best = near;
   if (best.effects.size() == 1 && best.effects[0].candidate->rough) {
-    step_around(best, &Evaluation::load_loss);
+    if (!train_.load.empty()) step_around(best, &Evaluation::load_loss);
     step_around(best, &Evaluation::loss);
   }
   near = best;

@@ -41,6 +41,16 @@ Fits fit_of(const Problem& problem, const Replays& crane) {
 
 }  // namespace
 
+Effects moved(Effects effects, const VectorXd& step) {
+  Index i = 0;
+  for (Effect& effect : effects)
+    for (std::size_t k = 0; k < effect.values.size(); ++k, ++i) {
+      const FreeParameter& p = effect.candidate->parameters[k];
+      effect.values[k] = std::clamp(effect.values[k] + step[i], p.low, p.high);
+    }
+  return effects;
+}
+
 Study::Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded)
     : base_{rig.plant, rig.terms},

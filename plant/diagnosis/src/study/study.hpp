@@ -137,6 +137,8 @@ class Study {
   Evaluation base_train_, base_test_;
 };
 
+/// Every value moved by its number of `step`, within its bounds: rounding must not carry it beyond.
+[[nodiscard]] Effects moved(Effects effects, const Eigen::VectorXd& step);
 /// Loss of each block.
 [[nodiscard]] Blocks blocks_of(const Problem& problem, const Fits& fits);
 [[nodiscard]] double sum(const Blocks& blocks);

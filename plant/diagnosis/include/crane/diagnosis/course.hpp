@@ -33,6 +33,7 @@ class Course {
  private:
   [[nodiscard]] plant::State half_way(const std::array<Moment, kOutputs>& at, const Moment& cable);
   void kick(Output output, double acceleration);
+  /// What goes as given, put in the place of what was extrapolated.
   void lead(plant::InnerState& inner, plant::InnerAccelerations& accelerations) const;
   void kick_inner(const plant::InnerAccelerations& accelerations);
   /// Friction of each axis, solved one after the other with the other's last value.

@@ -58,7 +58,8 @@ class Replay {
 
   /// Numbers that start a window of a part: position and rate per simulated output, then those of the model's
   /// inner coordinates that ring on by themselves. Inner coordinates that are not given begin where the
-  /// measured motion of the whole run has brought them.
+  /// measured motion of the whole run has brought them, and in a replay of the load go where it brings them:
+  /// what the motors' measured speed shows of impacts has corrected that.
   [[nodiscard]] std::size_t start_size(Part part) const;
   /// What the measurement says about them at row `first`.
   [[nodiscard]] std::vector<double> measured_start(Part part, std::size_t first) const;
