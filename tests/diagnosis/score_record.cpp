@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -79,8 +80,8 @@ void try_experiment(const Set& set, Record& record) {
   truth::Case more = set.request;
   const std::string run = run_like(record.experiment);
   if (run.empty()) return;
-  for (double seconds = 0; seconds < kProposedSeconds; seconds += more.seconds)
-    more.training_runs.push_back(run);
+  const double runs = std::ceil(kProposedSeconds / more.seconds);
+  more.training_runs.insert(more.training_runs.end(), static_cast<std::size_t>(runs), run);
   const SealedCase sealed(more);
   record.resolved = name_of(judge(sealed.diagnosed(), sealed.answer()));
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "structure_motion.hpp"
@@ -21,7 +22,7 @@ TEST(Backlash, KeepsTheTrolleyAtRestWhileTheMotorCrossesTheGap) {
   const Model model = with_backlash();
   StructureMotion motion{{.trolley_m = 0.5, .trolley_mps = 0.1}};
   const auto run = [&](double acceleration, double seconds) {
-    for (double t = 0; t < seconds; t += kFine_s)
+    for (long left = std::lround(seconds / kFine_s); left > 0; --left)
       motion = test::step(model, motion, held({acceleration, 0, 0}), kFine_s);
   };
   run(0, 1);  // the motor pushes from behind: b = -h/2 and what friction presses the flank in

@@ -4,8 +4,6 @@
 
 namespace crane::diagnosis {
 
-using plant::kSlew;
-using plant::kTrolley;
 using plant::State;
 
 Course::Course(const plant::Model& model, const std::array<bool, kOutputs>& simulated,

@@ -10,8 +10,6 @@
 namespace crane::diagnosis {
 namespace {
 
-using plant::State;
-
 constexpr double kSmoothing_s = 0.03;
 
 /// Standard deviation of a value that is rounded to whole counts. What has no encoder is known to this.

@@ -163,7 +163,7 @@ void Study::step_around(Fitted& best, double Evaluation::*loss) const {
     return true;
   };
   while ((steps.array().abs() > least.array()).any()) {
-    const VectorXd before = values;
+    const VectorXd before = flatten(best.effects).values;
     for (Index i = 0; i < steps.size(); ++i) {
       const VectorXd step = steps[i] * VectorXd::Unit(steps.size(), i);
       if (better(step))

@@ -8,6 +8,7 @@
 namespace crane::diagnosis {
 namespace {
 
+using Eigen::Index;
 using Eigen::VectorXd;
 
 /// Long enough for a swing. Where a drive sticks and slips, an error of its friction makes slips that come
