@@ -25,11 +25,14 @@ class Conversation {
       : bus_{bus},
         wish_{wish},
         client_{bus, "crane " + std::to_string(::getpid()), first_id()},
-        supervisor_{bus.subscriber(topics::supervisor)} {}
+        supervisor_{bus.subscriber(topics::supervisor)} {
+    if (wish.kind == crane_REQUEST_MOVE) planner_ = bus.subscriber(topics::reference);
+  }
 
-  void find_supervisor(double timeout_s) {
+  void find_listeners(double timeout_s) {
     if (!wait_until(bus_, timeout_s, [this] { return found(); }))
-      throw NoAnswer("no supervisor" + where_and_remedy(bus_.options()));
+      throw NoAnswer((heard_supervisor_ && !heard_planner() ? "no trajectory planner" : "no supervisor") +
+                     where_and_remedy(bus_.options()));
   }
 
   Answer exchange(double timeout_s) {
@@ -52,12 +55,17 @@ class Conversation {
   }
 
  private:
-  /// Other processes listen to requests, too; a supervisor is known by its status. Whoever may answer must
-  /// have been found in both directions.
+  [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }
+
+  /// Other processes listen to requests, too; a supervisor is known by its status, the planner by its
+  /// reference. Whoever may answer must have been found in both directions: one that is known makes known
+  /// that it answers before it makes known what it is known by.
   bool found() {
-    while (supervisor_.take()) heard_ = true;
+    while (supervisor_.take()) heard_supervisor_ = true;
+    while (planner_ && planner_->take()) heard_reference_ = true;
     if (client_.listeners() == 0 || client_.answerers() == 0) return false;
-    return may_be_repeated(wish_.kind) || (heard_ && client_.listeners() >= client_.answerers());
+    return may_be_repeated(wish_.kind) ||
+           (heard_supervisor_ && heard_planner() && client_.listeners() >= client_.answerers());
   }
 
   std::optional<Answer> take_answer() {
@@ -72,7 +80,9 @@ class Conversation {
   const stack::Wish& wish_;
   stack::OperatorClient client_;
   bus::Subscriber<msg::SupervisorStatus> supervisor_;
-  bool heard_ = false;
+  std::optional<bus::Subscriber<msg::Reference>> planner_;
+  bool heard_supervisor_ = false;
+  bool heard_reference_ = false;
   std::vector<std::uint64_t> sent_;
 };
 
@@ -80,7 +90,7 @@ class Conversation {
 
 Answer ask(bus::Bus& bus, const stack::Wish& wish, const Patience& patience) {
   Conversation conversation{bus, wish};
-  conversation.find_supervisor(patience.find_s);
+  conversation.find_listeners(patience.find_s);
   return conversation.exchange(patience.reply_s);
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/log_export.hpp"
+#include "cli/move_follower.hpp"
 #include "cli/operator_request.hpp"
 #include "cli/sample_json.hpp"
 #include "cli/snapshot.hpp"
@@ -128,10 +129,14 @@ TEST_F(Observers, SnapshotNamesTheCauseAndItsRemedy) {
 
 TEST_F(Observers, SnapshotOfNobodyIsEmpty) { EXPECT_TRUE(listen(tool_, 0.01).empty()); }
 
-/// Answers every request the same way, and publishes its status as a supervisor does.
+enum class Planner : std::uint8_t { absent, deaf, listening };
+
+/// Answers every request the same way, holds the crane after it, and publishes its status as a supervisor
+/// does; the reference beside it as a planner does.
 class FakeSupervisor {
  public:
-  FakeSupervisor(bus::Bus& bus, bool accepts) : bus_{bus}, thread_{[this, accepts] { run(accepts); }} {}
+  FakeSupervisor(bus::Bus& bus, bool accepts, Planner planner = Planner::absent)
+      : bus_{bus}, thread_{[this, accepts, planner] { run(accepts, planner); }} {}
   ~FakeSupervisor() {
     done_ = true;
     thread_.join();
@@ -140,13 +145,17 @@ class FakeSupervisor {
   FakeSupervisor& operator=(const FakeSupervisor&) = delete;
 
  private:
-  void run(bool accepts) {
+  void run(bool accepts, Planner planner) {
     auto requests = bus_.subscriber(topics::request);
     auto replies = bus_.publisher(topics::reply);
     auto statuses = bus_.publisher(topics::supervisor);
+    auto references = bus_.publisher(topics::reference);
+    msg::SupervisorStatus status{};
+    status.state = crane_STATE_HOLD;
+    msg::Reference reference{};
     while (!done_) {
-      msg::SupervisorStatus status{};
       statuses.publish(status);
+      if (planner != Planner::absent) references.publish(reference);
       bus_.wait(std::chrono::milliseconds{1});
       while (const auto request = requests.take()) {
         msg::Reply reply{};
@@ -155,6 +164,8 @@ class FakeSupervisor {
         reply.accepted = accepts;
         runtime::assign(reply.reason, accepts ? "" : "the crane is LOCKED");
         replies.publish(reply);
+        if (accepts) status.request_id = request->id;
+        if (accepts && planner == Planner::listening) reference.request_id = request->id;
       }
     }
   }
@@ -180,6 +191,29 @@ TEST_F(Observers, RequestToNobodySaysWhereItLooked) {
   EXPECT_THAT([&] { (void)ask(tool_, {.kind = crane_REQUEST_ARM}, {.find_s = 0.01, .reply_s = 0.01}); },
               testing::ThrowsMessage<NoAnswer>(
                   testing::AllOf(HasSubstr("'crane'"), HasSubstr("domain 0"), HasSubstr("--interface"))));
+}
+
+constexpr Patience kPatience{.find_s = 10, .reply_s = 10};
+const stack::Wish kMove{.kind = crane_REQUEST_MOVE, .selected = {true}, .target = {1.0}};
+
+TEST_F(Observers, MoveIsOverWhenThePlannerHasTakenItUpAndTheCraneIsHeld) {
+  const FakeSupervisor supervisor{crane_, true, Planner::listening};
+  MoveFollower follower{tool_};
+  EXPECT_NO_THROW(follower.follow(ask(tool_, kMove, kPatience).id, 10));
+}
+
+TEST_F(Observers, MoveThatThePlannerNeverHeardOfIsNotDone) {
+  const FakeSupervisor supervisor{crane_, true, Planner::deaf};
+  MoveFollower follower{tool_};
+  const auto id = ask(tool_, kMove, kPatience).id;
+  EXPECT_THAT([&] { follower.follow(id, 10); }, testing::ThrowsMessage<std::runtime_error>(
+                                                    HasSubstr("the trajectory planner did not take it up")));
+}
+
+TEST_F(Observers, MoveIsNotSentBeforeThePlannerIsFound) {
+  const FakeSupervisor supervisor{crane_, true, Planner::absent};
+  EXPECT_THAT([&] { (void)ask(tool_, kMove, {.find_s = 0.2, .reply_s = 10}); },
+              testing::ThrowsMessage<NoAnswer>(HasSubstr("no trajectory planner")));
 }
 
 TEST(SampleJson, FieldNamesALeafOrWhatIsBelowIt) {

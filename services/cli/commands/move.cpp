@@ -3,10 +3,10 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/move_follower.hpp"
 #include "cli/operator_request.hpp"
 #include "cli/units.hpp"
 #include "commands.hpp"
-#include "crane/supervisor/states.hpp"
 
 namespace crane::cli {
 namespace {
@@ -18,42 +18,12 @@ struct MoveOptions {
   runtime::BusOptions bus = tool_bus();
 };
 
-/// Follows the supervisor until the move is over. @throws std::runtime_error when it does not end well
-void follow(bus::Bus& bus, bus::Subscriber<msg::SupervisorStatus>& statuses, std::uint64_t id,
-            double timeout_s) {
-  constexpr int kSettled = 50;  // ticks in HOLD, one after the other: a single one may lie between two in RUN
-  bool taken_up = false;
-  int held = 0;
-  wait_until(bus, timeout_s, [&] {
-    while (const auto status = statuses.take()) {
-      if (status->request_id != id) {
-        if (taken_up) throw std::runtime_error("move: replaced by a later one");
-        continue;  // sent before the move was accepted
-      }
-      taken_up = true;
-      held = status->state == crane_STATE_HOLD ? held + 1 : 0;
-      if (held >= kSettled) return true;
-      if (status->state == crane_STATE_HOLD || status->state == crane_STATE_RUN) continue;
-      const auto cause = static_cast<supervisor::Cause>(status->cause);
-      throw std::runtime_error(std::string{"move: stopped in "} +
-                               supervisor::name_of(static_cast<supervisor::State>(status->state)) +
-                               " because of " + supervisor::name_of(cause) + ": " +
-                               supervisor::remedy_for(cause));
-    }
-    return false;
-  });
-  if (held < kSettled)
-    throw std::runtime_error(runtime::stop_requested()
-                                 ? "move: no longer waited for; the crane goes on"
-                                 : "move: not at the target in time; the crane goes on");
-}
-
 int move(const MoveOptions& options) {
   auto bus = open_bus(options.bus, crane_SOURCE_OPERATOR);
-  auto statuses = bus.subscriber(topics::supervisor);
+  MoveFollower follower{bus};
   const auto answer = ask(bus, options.wish);
   if (!answer.accepted || !options.wait) return report("move", answer);
-  follow(bus, statuses, answer.id, options.timeout_s);
+  follower.follow(answer.id, options.timeout_s);
   std::cout << "move: done\n";
   return runtime::kExitDone;
 }

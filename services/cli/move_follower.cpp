@@ -1,0 +1,52 @@
+#include "cli/move_follower.hpp"
+
+#include <stdexcept>
+
+#include "crane/supervisor/states.hpp"
+
+namespace crane::cli {
+namespace {
+
+constexpr int kSettledTicks = 50;  // in HOLD, one after the other: a single one may lie between two in RUN
+
+[[noreturn]] void throw_stopped(const msg::SupervisorStatus& status) {
+  const auto cause = static_cast<supervisor::Cause>(status.cause);
+  throw std::runtime_error(
+      std::string{"move: stopped in "} + supervisor::name_of(static_cast<supervisor::State>(status.state)) +
+      " because of " + supervisor::name_of(cause) + ": " + supervisor::remedy_for(cause));
+}
+
+}  // namespace
+
+MoveFollower::MoveFollower(bus::Bus& bus)
+    : bus_{bus},
+      statuses_{bus.subscriber(topics::supervisor)},
+      references_{bus.subscriber(topics::reference)} {}
+
+bool MoveFollower::over(std::uint64_t id) {
+  while (const auto reference = references_.take()) executed_ = executed_ || reference->request_id == id;
+  while (const auto status = statuses_.take()) {
+    if (status->request_id != id) {
+      if (accepted_) throw std::runtime_error("move: replaced by a later one");
+      continue;  // sent before the move was accepted
+    }
+    accepted_ = true;
+    if (status->state != crane_STATE_HOLD && status->state != crane_STATE_RUN) throw_stopped(*status);
+    held_ticks_ = status->state == crane_STATE_HOLD ? held_ticks_ + 1 : 0;
+  }
+  return held_ticks_ >= kSettledTicks;
+}
+
+void MoveFollower::follow(std::uint64_t id, double timeout_s) {
+  accepted_ = executed_ = false;
+  held_ticks_ = 0;
+  if (!wait_until(bus_, timeout_s, [this, id] { return over(id); }))
+    throw std::runtime_error(runtime::stop_requested()
+                                 ? "move: no longer waited for; the crane goes on"
+                                 : "move: not at the target in time; the crane goes on");
+  if (!executed_)
+    throw std::runtime_error(
+        "move: the trajectory planner did not take it up and the crane stays where it is: move again");
+}
+
+}  // namespace crane::cli
