@@ -117,12 +117,11 @@ TEST(RigFile, DoesNotExtendItselfOrWhatIsNotThere) {
     (void)load_rig(directory / "a.toml");
     FAIL() << "accepted";
   } catch (const ConfigurationError& error) {
-    EXPECT_THAT(error.problems(),
-                testing::Contains((directory / "b.toml").string() +
-                                  ":1: extends = \"a.toml\": must not lead back to this file"));
+    EXPECT_THAT(error.problems(), ElementsAre((directory / "b.toml").string() +
+                                              ":1: extends = \"a.toml\": must not lead back to this file"));
   }
-  EXPECT_THAT(problems_of("extends = 'nowhere.toml'\n"),
-              testing::Contains(testing::HasSubstr("must name a file")));
+  EXPECT_THAT(problems_of("extends = 'nowhere.toml'\n"), ElementsAre(testing::HasSubstr("must name a file")))
+      << "what only the missing file could say is no problem of this one";
 }
 
 TEST(RigFile, SaysHowMovesArePlanned) {

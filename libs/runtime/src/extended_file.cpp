@@ -9,6 +9,11 @@
 namespace crane::runtime {
 namespace {
 
+/// Without its base nothing else about the file can be judged.
+[[noreturn]] void refuse(const TomlTable& document, const std::string& extended, const std::string& rule) {
+  throw ConfigurationError({document.place("extends") + "extends = \"" + extended + "\": " + rule});
+}
+
 TomlTable with_base_outside(const std::string& text, const std::filesystem::path& file,
                             std::vector<std::filesystem::path> chain) {
   TomlTable document(text, file.string());
@@ -16,13 +21,11 @@ TomlTable with_base_outside(const std::string& text, const std::filesystem::path
   if (extended.empty()) return document;
   chain.push_back(file.lexically_normal());
   const auto base = (file.parent_path() / extended).lexically_normal();
-  if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
-    document.problem("extends", "must not lead back to this file");
-  } else if (!std::filesystem::is_regular_file(base)) {
-    document.problem("extends", "must name a file, relative to this one");
-  } else {
-    document.inherit(with_base_outside(file_text(base), base, chain));
-  }
+  if (std::find(chain.begin(), chain.end(), base) != chain.end())
+    refuse(document, extended, "must not lead back to this file");
+  if (!std::filesystem::is_regular_file(base))
+    refuse(document, extended, "must name a file, relative to this one");
+  document.inherit(with_base_outside(file_text(base), base, chain));
   return document;
 }
 

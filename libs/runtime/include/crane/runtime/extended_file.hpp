@@ -11,7 +11,7 @@ namespace crane::runtime {
 [[nodiscard]] std::string file_text(const std::filesystem::path& file);
 
 /// Document with the values of the files it extends underneath its own. @throws ConfigurationError on a
-/// syntax error; a wrong `extends` is a problem of the document
+/// syntax error or a wrong `extends`
 [[nodiscard]] TomlTable with_base(const std::string& text, const std::filesystem::path& file);
 
 }  // namespace crane::runtime
