@@ -67,5 +67,55 @@ TEST_F(Compared, WhatTheHeldOutDataSpeakAgainstIsPossibleAndNotAccepted) {
   EXPECT_FALSE(accepted(fitted, base, base, kSeed));
 }
 
+TEST_F(Compared, WhatAFewHeldOutBlocksSpeakForIsLikelyAndNotAccepted) {
+  for (double& block : train) block -= 4;
+  test[7] -= 20, test[21] += 3;
+  evaluate();
+  EXPECT_FALSE(accepted(fitted, base, base, kSeed));
+  EXPECT_TRUE(likely(fitted, base, kSeed));
+}
+
+TEST_F(Compared, WhatTheHeldOutDataSpeakAgainstIsNotLikely) {
+  for (double& block : train) block -= 4;
+  for (double& block : test) block += 1;
+  evaluate();
+  EXPECT_FALSE(likely(fitted, base, kSeed));
+}
+
+/// Two causes of one drive; the first is the best.
+struct Rivals : Compared {
+  Rivals() {
+    for (Candidate* candidate : {&first, &second}) candidate->drive = true;
+    fitted.effects = {{&first, {}}};
+    base.effects = {{&second, {}}};
+    base.parameters = 1;
+  }
+  [[nodiscard]] double votes_for_second() { return frequencies(fitted, {&base}, kSeed).at(0); }
+  Candidate first, second;
+};
+
+TEST_F(Rivals, WhatIsBetterInTrainingWinsTheVotesWhenTheHeldOutDataAreAlike) {
+  for (double& block : train) block -= 4;
+  test[3] -= 10, test[9] += 10;
+  evaluate();
+  EXPECT_LT(votes_for_second(), 0.05);
+}
+
+TEST_F(Rivals, WhatOneMoreParameterGainsInTrainingOnlyLeavesTheVotesOpen) {
+  for (double& block : train) block -= 4;
+  test[3] -= 10, test[9] += 10;
+  fitted.parameters = 2;
+  evaluate();
+  EXPECT_GT(votes_for_second(), 0.2);
+}
+
+TEST_F(Rivals, WhatOneMoreParameterGainsOutOfSampleTooWinsTheVotes) {
+  for (double& block : train) block -= 4;
+  for (double& block : test) block -= 4;
+  fitted.parameters = 2;
+  evaluate();
+  EXPECT_LT(votes_for_second(), 0.05);
+}
+
 }  // namespace
 }  // namespace crane::diagnosis

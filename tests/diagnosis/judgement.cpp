@@ -18,14 +18,18 @@ bool fits(const Cause& cause, const HiddenEffect& hidden) {
 Judged judge_named(const Diagnosis& found, const std::vector<HiddenEffect>& hidden) {
   std::size_t there = 0, alike = 0;
   for (const HiddenEffect& effect : hidden) {
-    there += std::any_of(found.causes.begin(), found.causes.end(),
-                         [&](const Cause& cause) { return fits(cause, effect); });
-    alike += std::any_of(found.causes.begin(), found.causes.end(),
-                         [&](const Cause& cause) { return confounded(cause.name, effect.name); });
+    const auto any = [&](auto&& is_it) {
+      return std::any_of(found.causes.begin(), found.causes.end(), is_it);
+    };
+    if (any([&](const Cause& cause) { return fits(cause, effect); }))
+      ++there;
+    else if (any([&](const Cause& cause) { return confounded(cause.name, effect.name); }))
+      ++alike;
   }
   if (there == hidden.size()) return found.causes.size() == hidden.size() ? Judged::right : Judged::beside;
-  if (there > 0) return Judged::partly;
-  return alike > 0 && found.causes.size() <= hidden.size() ? Judged::group : Judged::wrong;
+  const bool too_many = found.causes.size() > hidden.size();
+  if (there + alike == hidden.size() && !too_many) return Judged::group;
+  return there > 0 || (alike > 0 && !too_many) ? Judged::partly : Judged::wrong;
 }
 
 /// A number that the truth and the library both have: library = factor * truth.

@@ -11,9 +11,10 @@ namespace crane::diagnosis::score {
 enum class Judged {
   right,       ///< what is there is named and nothing else; nothing: "none"; outside the library: "unknown"
   among,       ///< ambiguous, what is there among the suspects
-  group,       ///< named is another cause of the same confounded group (docs/diagnosis.md, Limits)
+  group,       ///< named is, for some or all of what is there, another cause of the same confounded group
+               ///< (docs/diagnosis.md, Limits)
   beside,      ///< named together with a cause that is not there
-  partly,      ///< some of several causes named
+  partly,      ///< some of several causes named, or one that is alike
   unsure,      ///< "unknown" where a cause of the library is there
   missed,      ///< "none" where something is wrong
   wrong,       ///< a cause named that is not there, with confidence

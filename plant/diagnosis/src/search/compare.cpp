@@ -10,9 +10,10 @@ namespace {
 
 /// Held-out data are fewer: they have to agree, not to prove it alone.
 constexpr double kHeldOutWin = 0.95;
+constexpr double kHeldOutAgrees = 0.5;
 /// What improves the training loss of neither drives nor load by such a share is of no consequence for the
-/// crane.
-constexpr double kLeastShare = 0.012;
+/// crane. Friction is no law as exact as a pendulum's.
+constexpr double kLeastDriveShare = 0.012, kLeastLoadShare = 0.007;
 /// A term's form is not exactly the effect's: beside it, another one on the same axis that takes less than
 /// this share of what it explains may only make up for that.
 constexpr double kLeastBeside = 0.01;
@@ -49,6 +50,12 @@ bool makes_up_for_a_form(const Fitted& fitted, const Fitted& before, const Fitte
   };
   return little(fitted.train.loss, before.train.loss, base.train.loss) ||
          little(fitted.test.loss, before.test.loss, base.test.loss);
+}
+
+/// Whether the loss of drives or load is less by a share that matters for the crane.
+bool matters(const Evaluation& now, const Evaluation& old) {
+  return now.loss < old.loss && (old.drive_loss - now.drive_loss > kLeastDriveShare * old.drive_loss ||
+                                 old.load_loss - now.load_loss > kLeastLoadShare * old.load_loss);
 }
 
 /// No block outvotes the others: an axis that slips earlier or later once makes as much of one as an effect
@@ -116,13 +123,16 @@ bool same(const Effects& a, const Effects& b) {
 }
 
 bool accepted(const Fitted& fitted, const Fitted& before, const Fitted& base, std::uint64_t seed) {
-  const Evaluation &old = before.train, &now = fitted.train;
-  if (now.loss >= old.loss || (old.drive_loss - now.drive_loss <= kLeastShare * old.drive_loss &&
-                               old.load_loss - now.load_loss <= kLeastShare * old.load_loss))
-    return false;
+  if (!matters(fitted.train, before.train)) return false;
   if (shares_axis(fitted, before) && makes_up_for_a_form(fitted, before, base)) return false;
   const Wins wins = block_wins(fitted, before, seed);
   return wins.all > 1 - kSignificant && wins.held_out > kHeldOutWin;
+}
+
+bool likely(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
+  if (!matters(fitted.train, base.train) && !matters(fitted.test, base.test)) return false;
+  const Wins wins = block_wins(fitted, base, seed);
+  return wins.all > 1 - kSignificant && wins.held_out > kHeldOutAgrees;
 }
 
 bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
@@ -164,16 +174,21 @@ std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitt
   for (const Fitted* rival : rivals) margins.push_back(advantage(*rival, best));
   std::vector<double> picked(rivals.size(), 0.0);
   std::mt19937_64 random(seed + 17);
-  const std::size_t count = blocks(best);
+  const std::size_t count = blocks(best), training = best.train.blocks.size();
   for (int i = 0; i < kVotes; ++i) {
-    std::vector<double> total(rivals.size());
+    std::vector<double> total(rivals.size()), held_out(rivals.size(), 0.0);
     for (std::size_t r = 0; r < rivals.size(); ++r)
       total[r] =
           price(best) * (static_cast<double>(best.parameters) - static_cast<double>(rivals[r]->parameters));
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t at = static_cast<std::size_t>(random() % count);
-      for (std::size_t r = 0; r < rivals.size(); ++r) total[r] += margins[r][at];
+      for (std::size_t r = 0; r < rivals.size(); ++r) {
+        total[r] += margins[r][at];
+        if (at >= training) held_out[r] += margins[r][at];
+      }
     }
+    for (std::size_t r = 0; r < rivals.size(); ++r)
+      if (rivals[r]->parameters < best.parameters) total[r] = std::max(total[r], held_out[r]);
     const auto winner = std::max_element(total.begin(), total.end());
     if (winner != total.end() && *winner > 0)
       picked[static_cast<std::size_t>(winner - total.begin())] += 1.0 / kVotes;

@@ -33,8 +33,13 @@ inline constexpr double kSignificant = 0.01;
 /// Better than `base` in training and held-out data together, beyond resampling.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 
+/// Better by a share that matters, in training or held-out data, and in all beyond doubt; the held-out data
+/// agree, but may be too few to prove it.
+[[nodiscard]] bool likely(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
+
 /// How often, when the blocks are resampled, each of the rivals does better than `best` where it would have
-/// to replace what only `best` has; the rest of the votes are for `best`.
+/// to replace what only `best` has; of a rival with fewer parameters the held-out blocks alone suffice: what
+/// more parameters gain in training has to hold out of sample. The rest of the votes are for `best`.
 [[nodiscard]] std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
                                               std::uint64_t seed);
 

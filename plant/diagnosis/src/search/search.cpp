@@ -64,7 +64,7 @@ class Search {
 
   Hypotheses extended(const Hypotheses& singles) {
     found_ = singles;
-    if (!found_.best.effects.empty()) extend();
+    if (!found_.best.effects.empty() && found_.proven) extend();
     return std::move(found_);
   }
 
@@ -72,6 +72,11 @@ class Search {
   void choose() {
     found_.all = found_.singles;
     found_.best = best_accepted(found_.singles, found_.base);
+    found_.proven = true;
+    if (!found_.best.effects.empty() || found_.detection_p_value > kSignificant) return;
+    for (const Fitted& single : found_.singles)
+      if ((found_.proven || less(single, found_.best)) && likely(single, found_.base, request_.seed))
+        found_.best = single, found_.proven = false;
   }
 
   /// `before` when none is accepted in its place.
@@ -83,12 +88,17 @@ class Search {
     return best == nullptr ? before : *best;
   }
 
-  /// `score`'s candidate as its score says, beside what is there already.
+  /// `score`'s candidate beside what is there already, with those of its starts that do best.
   [[nodiscard]] Effects begin(const Effects& there, const Score& score) const {
-    const Candidate& candidate = study_.candidates()[score.candidate];
-    Effects all = there;
-    all.push_back({&candidate, candidate.begin(score.shape, score.amounts)});
-    return all;
+    Effects best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::vector<double>& values : score.starts) {
+      Effects all = there;
+      all.push_back({&study_.candidates()[score.candidate], values});
+      const double loss = score.starts.size() > 1 ? study_.train(all).loss : 0;
+      if (loss < least) least = loss, best = std::move(all);
+    }
+    return best;
   }
 
   void fit_singles(const ScoreTable& scores) {

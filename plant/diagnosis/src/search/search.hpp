@@ -10,7 +10,9 @@ namespace crane::diagnosis {
 
 /// Everything that was fitted.
 struct Hypotheses {
-  Fitted base, best;  ///< best: without effects when none was accepted
+  Fitted base, best;  ///< best: without effects when none was accepted or likely
+  bool proven =
+      true;  ///< the best was accepted; otherwise it is likely, and the held-out data are too few to tell
   std::vector<Fitted> singles, all;
   std::vector<Ranked> ranking;
   double detection_p_value = 1;

@@ -64,8 +64,10 @@ class Builder {
     if (c > 0) {
       excesses = {{0.3 * c, 0.06}, {0.6 * c, 0.06}, {0.45 * c, 0.12}};
       levels = {{-0.15 * c}, {-0.3 * c}, {-0.6 * c}, {0.3 * c}};
-      sides = {{-0.1 * c, 0}, {-0.3 * c, 0}, {0.1 * c, 0}, {0.3 * c, 0}};
-      offsets = {{-0.1 * c}, {-0.3 * c}, {0.1 * c}, {0.3 * c}};
+      for (const double share : {-0.3, -0.1, -0.04, 0.04, 0.1, 0.3}) {
+        sides.push_back({share * c, 0});
+        offsets.push_back({share * c});
+      }
       gains = {{0.8}, {1.15}, {1.4}};
     }
     add(reaching(amount("coulomb_friction", axis, "level_v", -c, 5, 0.02), levels), true, false,
@@ -89,7 +91,8 @@ class Builder {
     add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), true, false);
     add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
     // Of a command that comes much later than simulated, a little delay shows nothing either.
-    add(reaching(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005), {{0.02}, {0.05}, {0.1}, {0.2}}),
+    add(reaching(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005),
+                 {{0.02}, {0.035}, {0.05}, {0.07}, {0.1}, {0.14}, {0.2}}),
         true, false);
     add(shaped("actuator_lag", axis, free_parameter("actuator_lag", "time_constant_s", 0, 0.5, 0.01),
                {free_parameter("actuator_lag", "second_s", 0, 0.5, 0.01)}, {{0}}),

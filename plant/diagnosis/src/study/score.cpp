@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <random>
+#include <span>
 
 #include "force/position_spectrum.hpp"
 #include "parallel.hpp"
@@ -16,6 +18,8 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kSignFlips = 999;
 constexpr std::size_t kWaves = 4;
+constexpr std::size_t kStartShapes = 3;
+constexpr std::array kStartShares{1.0, 0.4};
 
 double chi_square_p(double statistic, Index freedom) {
   return statistic <= 0 ? 1.0 : boost::math::gamma_q(0.5 * static_cast<double>(freedom), 0.5 * statistic);
@@ -91,6 +95,33 @@ double luck(const std::vector<Directions>& directions, double least, std::uint64
   return static_cast<double>(as_small) / (kSignFlips + 1);
 }
 
+/// The shapes that promise most, those as they are or the others.
+std::vector<const Score*> most_promising(std::span<const Score> shapes, bool as_it_is, std::size_t count) {
+  std::vector<const Score*> order;
+  for (const Score& score : shapes)
+    if (score.shape.as_it_is == as_it_is && score.gain > 0) order.push_back(&score);
+  std::sort(order.begin(), order.end(), [](const Score* a, const Score* b) { return a->gain > b->gain; });
+  order.resize(std::min(order.size(), count));
+  return order;
+}
+
+/// The best of a candidate's shapes. What a small amount promises is not what it gains at large, of friction
+/// least of all: a fit may begin at several shapes, at all of the amount or less of it.
+Score best_shape(const Candidate& candidate, std::span<const Score> shapes) {
+  Score best = *std::max_element(shapes.begin(), shapes.end(),
+                                 [](const Score& a, const Score& b) { return a.gain < b.gain; });
+  for (const Score* start : most_promising(shapes, true, 1))
+    best.starts.push_back(candidate.begin(start->shape, start->amounts));
+  for (const Score* start : most_promising(shapes, false, kStartShapes))
+    for (const double share : kStartShares) {
+      std::vector<double> amounts = start->amounts;
+      for (double& amount : amounts) amount *= share;
+      best.starts.push_back(candidate.begin(start->shape, amounts));
+    }
+  if (best.starts.empty()) best.starts.push_back(candidate.begin(best.shape, best.amounts));
+  return best;
+}
+
 }  // namespace
 
 std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& effects) const {
@@ -112,7 +143,7 @@ std::vector<Score> Study::places(const Effects& effects) const {
     if (std::none_of(effects.begin(), effects.end(),
                      [&](const Effect& effect) { return effect.candidate == &candidates_[c]; }))
       for (Shape& shape : shapes_of(candidates_[c], effects))
-        all.push_back({.candidate = c, .shape = std::move(shape), .amounts = {}});
+        all.push_back({.candidate = c, .shape = std::move(shape), .amounts = {}, .starts = {}});
   return all;
 }
 
@@ -155,11 +186,11 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
   double least = 1;
   for (const Score& score : scores) least = std::min(least, score.p_value);
   table.p_value = luck(directions, least, seed);
-  for (const Score& score : scores) {
-    if (table.best.empty() || table.best.back().candidate != score.candidate)
-      table.best.push_back(score);
-    else if (score.gain > table.best.back().gain)
-      table.best.back() = score;
+  for (auto first = scores.begin(); first != scores.end();) {
+    const auto end = std::find_if(first, scores.end(),
+                                  [&](const Score& score) { return score.candidate != first->candidate; });
+    table.best.push_back(best_shape(candidates_[first->candidate], {first, end}));
+    first = end;
   }
   return table;
 }

@@ -56,11 +56,13 @@ struct Score {
   double gain = 0;       ///< promised decrease of the loss; less than 0 where a shape as it is does harm
   double share = 0;      ///< the same as a share of the loss of the parts that the candidate shows in
   std::vector<double> amounts;
+  std::vector<std::vector<double>> starts;  ///< values that a fit may begin at
 };
 
 struct ScoreTable {
-  std::vector<Score> best;  ///< best shape of every candidate, in the candidates' order
-  double p_value = 1;       ///< that the largest of all comes from nothing, by flipping the signs of blocks
+  std::vector<Score>
+      best;  ///< best shape of every candidate with where its fit may begin, in the candidates' order
+  double p_value = 1;  ///< that the largest of all comes from nothing, by flipping the signs of blocks
 };
 
 struct BlockScores;

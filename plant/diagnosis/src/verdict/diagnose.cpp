@@ -18,8 +18,8 @@ namespace {
 /// hides what is small beside it.
 constexpr double kHiding = 0.95;
 constexpr std::size_t kContenders = 3;
-/// A smaller share of the held-out error has to be beyond doubt. Several causes that are not worth so much
-/// each are rather what two laws make of one that has no name.
+/// A smaller share of the held-out error, where a cause acts, has to be beyond doubt. Several causes that are
+/// not worth so much each are rather what two laws make of one that has no name.
 constexpr double kWorthwhile = 0.05;
 
 Runs prepared(std::vector<Run> runs, const runtime::Rig& rig) {
@@ -150,11 +150,22 @@ void give_values(const Fitted& best, Diagnosis& result) {
     if (ranked.label == label_of(best.effects)) ranked.parameters = values;
 }
 
-bool worthwhile(const HeldOut& held_out, std::size_t causes) {
+/// Of the column that a cause improves most, of those that it acts on.
+double gain_where_it_acts(const HeldOut& held_out, const Candidate& cause) {
+  double most = 0;
+  for (const auto& [name, before] : held_out.baseline_rms) {
+    const bool of_load = name.starts_with("swing"), of_its_axis = name.find(cause.axis) != std::string::npos;
+    if (!(of_load ? cause.load : cause.drive) || !of_its_axis || !(before > 0)) continue;
+    most = std::max(most, 1 - held_out.extended_rms.at(name) / before);
+  }
+  return most;
+}
+
+bool worthwhile(const HeldOut& held_out, const Effects& effects) {
   const bool nothing_held_out = held_out.baseline_rms.empty();
-  if (causes == 0 || nothing_held_out) return true;
-  if (causes > 1) return held_out.gain >= kWorthwhile * static_cast<double>(causes);
-  return held_out.gain >= kWorthwhile || held_out.gain_ci95[0] >= 0;
+  if (effects.empty() || nothing_held_out) return true;
+  if (effects.size() > 1) return held_out.gain >= kWorthwhile * static_cast<double>(effects.size());
+  return gain_where_it_acts(held_out, *effects[0].candidate) >= kWorthwhile || held_out.gain_ci95[0] >= 0;
 }
 
 Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test, const Request& request) {
@@ -169,7 +180,7 @@ Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test
   }
   request.progress(0.92, "held-out runs");
   result.held_out = held_out(study, found.best.effects, request.seed);
-  if (!worthwhile(result.held_out, found.best.effects.size()))
+  if (!worthwhile(result.held_out, found.best.effects))
     doubt(result, "held-out runs: the extended model hardly simulates them better");
   if (!rivals.empty()) {
     request.progress(0.95, "which motion would tell them apart");

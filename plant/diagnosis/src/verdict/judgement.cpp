@@ -20,6 +20,8 @@ constexpr double kRunnerUp = 0.1;
 /// Share of the drives' loss beyond which an unexplained pattern is taken seriously: the right model leaves
 /// up to 0.4 percent.
 constexpr double kPattern = 0.008;
+/// Luck makes patterns of so many noise variances, in short data as in long.
+constexpr double kLuck = 15;
 /// A pattern this large against all that is wrong with the base model makes the names beside it doubtful. A
 /// term's form is not exactly the effect's, so that more may be left of what it is a law of. Several laws of
 /// the same take any form together.
@@ -124,7 +126,7 @@ class Judgement {
       remainder.from.push_back(left[i].what.variable);
     return std::any_of(left.begin(), left.end(), [&](const Pattern& pattern) {
       const Unexplained& u = pattern.what;
-      const bool counts = u.with == GoesWith::frequency || u.fraction > kPattern;
+      const bool counts = u.with == GoesWith::frequency || (u.fraction > kPattern && u.gain > kLuck);
       return counts && (best_.effects.empty() || u.gain > believable(u) * pattern.of_base ||
                         u.gain > kDoubtfulOfOneName * pattern.of_weakest);
     });
@@ -211,8 +213,11 @@ class Judgement {
     for (const auto& [candidate, share] : frequency_)
       if (share >= kRunnerUp && !has(best_.effects, candidate)) rivals_.push_back(candidate);
     result_.verdict = !clear && !rivals_.empty() ? Verdict::ambiguous
+                      : !all_.proven             ? Verdict::unknown
                       : known                    ? Verdict::parameter
                                                  : Verdict::named;
+    if (result_.verdict == Verdict::unknown)
+      result_.remainder.from.emplace_back("held-out runs: too little in them to prove a cause");
     if (result_.verdict != Verdict::ambiguous) rivals_.clear();
     std::sort(rivals_.begin(), rivals_.end(),
               [&](const Candidate* a, const Candidate* b) { return frequency_[a] > frequency_[b]; });
