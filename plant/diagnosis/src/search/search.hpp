@@ -11,8 +11,8 @@ namespace crane::diagnosis {
 /// Everything that was fitted.
 struct Hypotheses {
   Fitted base, best;  ///< best: without effects when none was accepted or likely
-  bool proven =
-      true;  ///< the best was accepted; otherwise it is likely, and the held-out data are too few to tell
+  /// The best was accepted; otherwise it is likely, and the held-out data are too few to prove it.
+  bool proven = true;
   std::vector<Fitted> singles, all;
   std::vector<Ranked> ranking;
   double detection_p_value = 1;

@@ -60,8 +60,8 @@ struct Score {
 };
 
 struct ScoreTable {
-  std::vector<Score>
-      best;  ///< best shape of every candidate with where its fit may begin, in the candidates' order
+  /// Best shape of every candidate with where its fit may begin, in the candidates' order.
+  std::vector<Score> best;
   double p_value = 1;  ///< that the largest of all comes from nothing, by flipping the signs of blocks
 };
 

@@ -216,8 +216,9 @@ class Judgement {
                       : !all_.proven             ? Verdict::unknown
                       : known                    ? Verdict::parameter
                                                  : Verdict::named;
+    auto& from = result_.remainder.from;
     if (result_.verdict == Verdict::unknown)
-      result_.remainder.from.emplace_back("held-out runs: too little in them to prove a cause");
+      from.insert(from.begin(), "held-out runs: too little in them to prove a cause");
     if (result_.verdict != Verdict::ambiguous) rivals_.clear();
     std::sort(rivals_.begin(), rivals_.end(),
               [&](const Candidate* a, const Candidate* b) { return frequency_[a] > frequency_[b]; });
