@@ -35,7 +35,8 @@ TEST_P(Noise, LearntFromACraneAsModelledIsWhatItLeaves) {
   request.seconds = 20;
   const runtime::Rig rig = score::rig_file_of(request.rig);
   const Runs train = runs_of(truth::generate(request).training, rig);
-  Study study(rig, train, {});
+  const Runs none;
+  Study study(rig, train, none);
   study.learn_disturbance();
   EXPECT_GT(mean_loss(study.base_train().drive), 0.9);
   EXPECT_LT(mean_loss(study.base_train().drive), 1.3);

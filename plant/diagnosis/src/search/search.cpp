@@ -88,17 +88,43 @@ class Search {
     return best == nullptr ? before : *best;
   }
 
+  [[nodiscard]] Effects best_start(const std::vector<Effects>& starts) const {
+    if (starts.size() == 1) return starts[0];
+    const Effects* best = &starts[0];
+    double least = std::numeric_limits<double>::infinity();
+    for (const Effects& start : starts)
+      if (const double loss = study_.train(start).loss; loss < least) least = loss, best = &start;
+    return *best;
+  }
+
   /// `score`'s candidate beside what is there already, with those of its starts that do best.
   [[nodiscard]] Effects begin(const Effects& there, const Score& score) const {
-    Effects best;
-    double least = std::numeric_limits<double>::infinity();
+    std::vector<Effects> starts;
     for (const std::vector<double>& values : score.starts) {
-      Effects all = there;
-      all.push_back({&study_.candidates()[score.candidate], values});
-      const double loss = score.starts.size() > 1 ? study_.train(all).loss : 0;
-      if (loss < least) least = loss, best = std::move(all);
+      starts.push_back(there);
+      starts.back().push_back({&study_.candidates()[score.candidate], values});
     }
-    return best;
+    return best_start(starts);
+  }
+
+  /// A wave goes over other places when the axis is elsewhere than its sensor says.
+  [[nodiscard]] Effects with_fresh_wave(const Effects& effects) const {
+    std::vector<Effects> starts{effects};
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      const Candidate& wave = *effects[i].candidate;
+      if (!wave.waves) continue;
+      Effects others = effects;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const auto moves_places = [&](const Effect& other) {
+        return other.candidate->axis == wave.axis && other.candidate->load;
+      };
+      if (std::none_of(others.begin(), others.end(), moves_places)) continue;
+      for (const Shape& shape : study_.shapes_of(wave, others)) {
+        starts.push_back(effects);
+        starts.back()[i].values = wave.begin(shape, shape.amounts);
+      }
+    }
+    return best_start(starts);
   }
 
   void fit_singles(const ScoreTable& scores) {
@@ -209,7 +235,7 @@ class Search {
     std::vector<Fitted> fitted;
     double least = found_.best.train.loss;
     for (const Effects& effects : tries) {
-      fitted.push_back(study_.fit(effects, least + kHopeless));
+      fitted.push_back(study_.fit(with_fresh_wave(effects), least + kHopeless));
       least = std::min(least, fitted.back().train.loss);
       rank(fitted.back(), 1);
       found_.all.push_back(fitted.back());

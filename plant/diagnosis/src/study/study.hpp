@@ -69,9 +69,12 @@ struct BlockScores;
 
 class Study {
  public:
+  /// @param train, test outlive the study
   /// @param excluded causes that are no candidates
   Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
         const std::vector<std::string>& excluded = {});
+  Study(const runtime::Rig& rig, const Runs& train, Runs&& test,
+        const std::vector<std::string>& excluded = {}) = delete;
 
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
   [[nodiscard]] const Crane& base() const { return base_; }
@@ -90,6 +93,9 @@ class Study {
   [[nodiscard]] Evaluation test(const Effects& effects) const;
   /// Does one more effect explain what `at` leaves? @param seed of the sign flips
   [[nodiscard]] ScoreTable score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const;
+  /// Shapes of a candidate; those of a wave are the strongest in the force that is missing beside the
+  /// effects.
+  [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Effects& effects) const;
   /// Least squares over the training data from the given values, within bounds.
   /// @param hopeless a training loss: the fit is given up when it will not come below it
   [[nodiscard]] Fitted fit(Effects effects, double hopeless = std::numeric_limits<double>::infinity()) const;
@@ -125,7 +131,6 @@ class Study {
                    Slopes& slopes) const;
   /// Every shape of every candidate that is not among the effects.
   [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
-  [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Effects& effects) const;
   /// Appends the changes that the probes of a candidate's shape make.
   /// @return what the start of its own coordinates gains
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
