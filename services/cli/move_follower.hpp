@@ -11,9 +11,9 @@ class MoveFollower {
 
   /// Waits until the trajectory planner has executed the move and the supervisor holds the crane again.
   /// @param id  of the accepted request
-  /// @throws std::runtime_error  the crane stopped, another move replaced this one, the planner never took it
-  /// up,
-  ///                             or the time is up: says which
+  /// @param timeout_s  longest wait
+  /// @throws std::runtime_error saying which: the crane stopped, another move replaced this one, the planner
+  /// never took it up, or the time is up
   void follow(std::uint64_t id, double timeout_s);
 
  private:

@@ -10,8 +10,9 @@ namespace {
 
 /// Held-out data are fewer: they have to agree, not to prove it alone.
 constexpr double kHeldOutWin = 0.95;
+/// So do those that are too few to prove anything.
 constexpr double kHeldOutAgrees = 0.5;
-/// What improves the training loss of neither drives nor load by such a share is of no consequence for the
+/// What improves the loss of neither drives nor load by such a share is of no consequence for the
 /// crane. Friction is no law as exact as a pendulum's.
 constexpr double kLeastDriveShare = 0.012, kLeastLoadShare = 0.007;
 /// A term's form is not exactly the effect's: beside it, another one on the same axis that takes less than
