@@ -54,6 +54,15 @@ TEST(PositionDrift, GrowsWithTheDistanceTravelledEitherWay) {
   EXPECT_NEAR(model.measure({.trolley_m = 0.5}).trolley_m, 0.5 + 0.01 * 0.8, 1e-15);
 }
 
+TEST(PositionDrift, ComesInJumpsWhereCountsAreLost) {
+  Model model = sensing({"position_drift", "slew", {{"rate", -0.01}, {"jump", 0.002}}});
+  const auto lost = [&](double at) { return model.measure({.slew_rad = at}).slew_rad - at; };
+  EXPECT_EQ(lost(0), 0);
+  EXPECT_NEAR(lost(0.19), 0, 1e-15);
+  EXPECT_NEAR(lost(0.21), -0.002, 1e-15);
+  EXPECT_NEAR(lost(0), -0.004, 1e-15);
+}
+
 TEST(SwingDelay, ReportsWhatWasSoManyTicksAgoAndTheFirstSampleBefore) {
   const auto ramp = [](int i) { return 0.001 * (i + 5); };
   const auto whole = radial_reports({"swing_delay", "radial", {{"delay_s", 0.03}}}, ramp, 40);

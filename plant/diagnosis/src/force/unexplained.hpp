@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "crane/diagnosis/candidate.hpp"
 #include "shooting/pieces.hpp"
 
 namespace crane::diagnosis {
-
-enum class GoesWith { position, speed, reversals, time, other_command, frequency, jumps };
 
 struct Unexplained {
   std::string variable;  ///< "trolley: position", ...

@@ -66,22 +66,28 @@ std::vector<std::vector<double>> ways(const Problem& whole, const Crane& crane) 
 
 }  // namespace
 
-std::vector<Trace> traces(const Study& study, const Effects& effects) {
+std::vector<Trace> traces(const Study& study, const Study& as_measured, const Effects& effects) {
   std::vector<Trace> all;
-  for (const Problem* problem : {&study.test_drive(), &study.test_load()}) {
+  for (const auto& [problem, problem_as_measured] :
+       {std::pair{&study.test_drive(), &as_measured.test_drive()},
+        {&study.test_load(), &as_measured.test_load()}}) {
     const Problem whole(problem->runs(), problem->part(), kWholeRun, 0);
-    const auto before = ways(whole, study.base()), after = ways(whole, study.with(effects));
+    const Problem whole_as_measured(problem_as_measured->runs(), problem->part(), kWholeRun, 0);
+    const auto before = ways(whole_as_measured, study.base()), after = ways(whole, study.with(effects));
     for (std::size_t w = 0; w < whole.windows().size(); ++w) {
-      const Run& run = whole.runs()[whole.windows()[w].run].run;
+      const std::size_t number = whole.windows()[w].run;
+      const Run& run = whole_as_measured.runs()[number].run;
       for (std::size_t i = 0; i < whole.outputs().size(); ++i) {
         const Output output = whole.outputs()[i];
         Trace trace{run.name, kOutputNames[output], {}, run.measured[output], {}, {}};
-        for (std::size_t k = 0; k < run.rows(); ++k)
-          trace.time_s.push_back(run.start_s + static_cast<double>(k) * run.period_s);
         const auto first = static_cast<std::ptrdiff_t>(i * run.rows()),
                    last = first + static_cast<std::ptrdiff_t>(run.rows());
         trace.baseline.assign(before[w].begin() + first, before[w].begin() + last);
         trace.extended.assign(after[w].begin() + first, after[w].begin() + last);
+        for (std::size_t k = 0; k < run.rows(); ++k) {
+          trace.time_s.push_back(run.start_s + static_cast<double>(k) * run.period_s);
+          trace.extended[k] += run.measured[output][k] - whole.runs()[number].run.measured[output][k];
+        }
         all.push_back(std::move(trace));
       }
     }
@@ -89,18 +95,20 @@ std::vector<Trace> traces(const Study& study, const Effects& effects) {
   return all;
 }
 
-HeldOut held_out(const Study& study, const Effects& effects, std::uint64_t seed) {
+HeldOut held_out(const Study& study, const Study& as_measured, const Effects& effects, std::uint64_t seed) {
   HeldOut result;
   if (study.test_drive().empty() && study.test_load().empty()) return result;
-  const Evaluation& before = study.base_test();
+  const Evaluation& before = as_measured.base_test();
   const Evaluation after = study.test(effects), trained = study.train(effects);
   Compared compared;
-  for (const auto& [problem, old_fits, new_fits, learned, learned_fits] :
-       {std::tuple{&study.test_drive(), &before.drive, &after.drive, &study.drive(), &trained.drive},
-        {&study.test_load(), &before.load, &after.load, &study.load(), &trained.load}}) {
+  for (const auto& [old_problem, old_fits, problem, new_fits, learned, learned_fits] :
+       {std::tuple{&as_measured.test_drive(), &before.drive, &study.test_drive(), &after.drive,
+                   &study.drive(), &trained.drive},
+        {&as_measured.test_load(), &before.load, &study.test_load(), &after.load, &study.load(),
+         &trained.load}}) {
     for (std::size_t o = 0; o < problem->outputs().size(); ++o) {
       const std::string name = kOutputNames[problem->outputs()[o]];
-      compared.before.push_back(squares(*problem, *old_fits, o));
+      compared.before.push_back(squares(*old_problem, *old_fits, o));
       compared.after.push_back(squares(*problem, *new_fits, o));
       compared.noise.push_back(std::max(learned->runs()[0].least_noise[problem->outputs()[o]],
                                         std::sqrt(mean(squares(*learned, *learned_fits, o)))));
@@ -123,7 +131,7 @@ HeldOut held_out(const Study& study, const Effects& effects, std::uint64_t seed)
   std::sort(gains.begin(), gains.end());
   result.gain_ci95 = {gains[kResamples * 25 / 1000], gains[kResamples * 975 / 1000]};
   std::map<std::string, double> rows;
-  for (const Trace& trace : traces(study, effects)) {
+  for (const Trace& trace : traces(study, as_measured, effects)) {
     for (std::size_t k = 0; k < trace.measured.size(); ++k) {
       result.whole_baseline_rms[trace.column] += std::pow(trace.measured[k] - trace.baseline[k], 2);
       result.whole_extended_rms[trace.column] += std::pow(trace.measured[k] - trace.extended[k], 2);

@@ -15,11 +15,6 @@
 
 namespace crane::diagnosis {
 
-/// "trolley" or "slew".
-[[nodiscard]] inline const char* axis_of(Output drive) {
-  return drive == kTrolleyPosition ? "trolley" : "slew";
-}
-
 struct Piece {
   std::size_t run = 0, first = 0, rows = 0;
   std::vector<double> position;  ///< of a drive by row [m or rad], the errors of its sensor undone

@@ -55,6 +55,11 @@ class Builder {
     all_.push_back(std::move(candidate));
   }
 
+  void add_force(GoesWith law, Candidate candidate, bool known = false) {
+    candidate.law = law;
+    add(std::move(candidate), true, false, known);
+  }
+
   void add_axis(const std::string& axis, Output output, double scale) {
     const KnownFriction known = known_friction(rig_, axis);
     // Of an axis that the model holds fast where it moved, or the other way about, a little more pull or
@@ -70,21 +75,21 @@ class Builder {
       }
       gains = {{0.8}, {1.15}, {1.4}};
     }
-    add(reaching(amount("coulomb_friction", axis, "level_v", -c, 5, 0.02), levels), true, false,
-        known.present);
-    add(amount("viscous_friction", axis, "vspm", -known.least_viscous, 50, 0.05), true, false,
-        known.present && known.least_viscous > 0);
-    add(reaching(two_amounts("direction_asymmetry", axis,
-                             {free_parameter("direction_asymmetry", "coulomb_v", -3, 3, 0.02),
-                              free_parameter("direction_asymmetry", "viscous_vspm", -20, 20, 0.05)}),
-                 sides),
-        true, false);
-    add(reaching(
-            shaped("stribeck_friction", axis, free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
-                   {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
-                   {{0.01}, {0.03}, {0.08}, {0.2}}),
-            excesses),
-        true, false);
+    add_force(GoesWith::speed, reaching(amount("coulomb_friction", axis, "level_v", -c, 5, 0.02), levels),
+              known.present);
+    add_force(GoesWith::speed, amount("viscous_friction", axis, "vspm", -known.least_viscous, 50, 0.05),
+              known.present && known.least_viscous > 0);
+    add_force(GoesWith::speed,
+              reaching(two_amounts("direction_asymmetry", axis,
+                                   {free_parameter("direction_asymmetry", "coulomb_v", -3, 3, 0.02),
+                                    free_parameter("direction_asymmetry", "viscous_vspm", -20, 20, 0.05)}),
+                       sides));
+    add_force(GoesWith::speed,
+              reaching(shaped("stribeck_friction", axis,
+                              free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
+                              {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
+                              {{0.01}, {0.03}, {0.08}, {0.2}}),
+                       excesses));
     add_tight_spots(axis, output);
     add_ripple(axis, output);
     add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), true, false, true);
@@ -115,6 +120,7 @@ class Builder {
                              free_parameter("backlash", "driven_share", 0.02, 0.9, 0.05)},
                             settings);
     gap.rough = true;
+    gap.law = GoesWith::jumps;
     add(std::move(gap), true, true);
   }
 
@@ -127,12 +133,12 @@ class Builder {
       for (int place = 0; place < 4 && share * travel > wavelength.low; ++place)
         shapes.push_back({share * travel, middle + 0.25 * place * share * travel});
     if (shapes.empty()) return;
-    add(shaped(
-            "position_dependent_friction", axis,
-            free_parameter("position_dependent_friction", "amplitude_v", 0, 5, 0.02),
-            {wavelength, free_parameter("position_dependent_friction", "tight_at", -100, 100, 0.01 * travel)},
-            shapes),
-        true, false);
+    add_force(GoesWith::position,
+              shaped("position_dependent_friction", axis,
+                     free_parameter("position_dependent_friction", "amplitude_v", 0, 5, 0.02),
+                     {wavelength,
+                      free_parameter("position_dependent_friction", "tight_at", -100, 100, 0.01 * travel)},
+                     shapes));
   }
 
   void add_ripple(const std::string& axis, Output output) {
@@ -143,7 +149,7 @@ class Builder {
                  free_parameter("torque_ripple", "period", 1e-3, 0.25 * travelled(output), 1e-4)},
                 {});
     ripple.waves = true;
-    add(std::move(ripple), true, false);
+    add_force(GoesWith::position, std::move(ripple));
   }
 
   void add_load(bool trolley, bool slew) {

@@ -77,18 +77,30 @@ Crane Study::with(const Effects& effects) const {
 double Study::learn_disturbance(const Effects& effects) {
   double misfit = 0;
   const Replays crane = replays_of(train_.runs, with(effects));
-  for (const auto& [train, test] : {std::pair{&train_.drive, &test_.drive}, {&train_.load, &test_.load}}) {
+  for (Problem* train : {&train_.drive, &train_.load}) {
     if (train->empty()) continue;
     train->learn_disturbance(crane);
     for (const Disturbance& disturbance : train->disturbances()) misfit += disturbance.misfit;
-    if (!test->empty()) test->whiten_like(*train);
   }
   misfit += train_.under_way.learn_disturbance(crane);
+  evaluate_base();
+  return misfit;
+}
+
+void Study::whiten_like(const Study& other) {
+  if (!train_.drive.empty()) train_.drive.whiten_like(other.train_.drive);
+  if (!train_.load.empty()) train_.load.whiten_like(other.train_.load);
+  train_.under_way.whiten_like(other.train_.under_way, replays_of(train_.runs, base_));
+  evaluate_base();
+}
+
+void Study::evaluate_base() {
+  if (!test_.drive.empty()) test_.drive.whiten_like(train_.drive);
+  if (!test_.load.empty()) test_.load.whiten_like(train_.load);
   const Replays base_train = replays_of(train_.runs, base_), base_test = replays_of(test_.runs, base_);
   test_.under_way.whiten_like(train_.under_way, base_test);
   base_train_ = evaluated(train_, base_train);
   base_test_ = evaluated(test_, base_test);
-  return misfit;
 }
 
 Evaluation Study::evaluated(const Body& body, const Replays& base) const {

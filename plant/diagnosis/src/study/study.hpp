@@ -84,6 +84,8 @@ class Study {
   /// model. Before anything else.
   /// @return minus twice the log likelihood of the training residuals, but for a constant
   double learn_disturbance(const Effects& effects = {});
+  /// Takes noise and disturbance from a study of the same runs, whose data differ.
+  void whiten_like(const Study& other);
 
   /// The base model.
   [[nodiscard]] const Evaluation& base_train() const { return base_train_; }
@@ -136,6 +138,8 @@ class Study {
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
   /// Around the base crane.
   [[nodiscard]] Evaluation evaluated(const Body& body, const Replays& base) const;
+  /// @pre the training data are whitened
+  void evaluate_base();
   [[nodiscard]] Evaluation evaluate(const Body& body, const Effects& effects, const Evaluation& near) const;
 
   Crane base_;

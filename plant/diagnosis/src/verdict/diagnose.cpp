@@ -5,11 +5,13 @@
 #include <sstream>
 
 #include "crane/diagnosis/diagnosis.hpp"
+#include "crane/diagnosis/moment.hpp"
 #include "experiment/next_experiment.hpp"
 #include "search/compare.hpp"
 #include "search/held_out.hpp"
 #include "search/intervals.hpp"
 #include "verdict/judgement.hpp"
+#include "verdict/losing_encoders.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -153,10 +155,10 @@ void give_values(const Fitted& best, Diagnosis& result) {
 /// Of the column that a cause improves most, of those that it acts on.
 double gain_where_it_acts(const HeldOut& held_out, const Candidate& cause) {
   double most = 0;
-  for (const auto& [name, before] : held_out.baseline_rms) {
-    const bool of_load = name.starts_with("swing"), of_its_axis = name.find(cause.axis) != std::string::npos;
-    if (!(of_load ? cause.load : cause.drive) || !of_its_axis || !(before > 0)) continue;
-    most = std::max(most, 1 - held_out.extended_rms.at(name) / before);
+  for (const Output output : kAllOutputs) {
+    const auto before = held_out.baseline_rms.find(kOutputNames[output]);
+    if (before == held_out.baseline_rms.end() || !cause.acts_on(output) || !(before->second > 0)) continue;
+    most = std::max(most, 1 - held_out.extended_rms.at(before->first) / before->second);
   }
   return most;
 }
@@ -168,27 +170,40 @@ bool worthwhile(const HeldOut& held_out, const Effects& effects) {
   return gain_where_it_acts(held_out, *effects[0].candidate) >= kWorthwhile || held_out.gain_ci95[0] >= 0;
 }
 
-Diagnosis diagnosed(const runtime::Rig& rig, const Runs& train, const Runs& test, const Request& request) {
-  Study study(rig, train, test, request.excluded);
+/// Runs to learn from and held out.
+struct Data {
+  Runs train, test;
+};
+
+/// @param study of data in which what `losing` encoders lost is put back
+/// @param as_measured of the data before that; `study` itself where nothing was lost
+Diagnosis diagnosed(const runtime::Rig& rig, Study& study, Study& as_measured,
+                    const std::vector<LosingEncoder>& losing, const Request& request) {
   Hypotheses found = searched(study, request);
   request.progress(0.85, "what is left");
-  auto [result, rivals] = judge(study, found, request.seed);
+  auto [result, rivals] = judge(study, found, losing, request.seed);
   if (!found.best.effects.empty()) {
     request.progress(0.88, "how well the data know it");
     found.best = settled(study, found.best, request.seed);
     give_values(found.best, result);
   }
   request.progress(0.92, "held-out runs");
-  result.held_out = held_out(study, found.best.effects, request.seed);
+  if (!losing.empty()) as_measured.whiten_like(study);
+  result.held_out = held_out(study, as_measured, found.best.effects, request.seed);
   if (!worthwhile(result.held_out, found.best.effects))
     doubt(result, "held-out runs: the extended model hardly simulates them better");
   if (!rivals.empty()) {
     request.progress(0.95, "which motion would tell them apart");
     result.next_experiment = proposal(rig, study, found, *rivals[0]);
   }
-  result.traces = traces(study, found.best.effects);
+  name_losing(losing, study, as_measured, result);
+  result.traces = traces(study, as_measured, found.best.effects);
   request.progress(1, "done");
   return result;
+}
+
+bool considered(const Request& request, const std::string& cause) {
+  return std::find(request.excluded.begin(), request.excluded.end(), cause) == request.excluded.end();
 }
 
 }  // namespace
@@ -200,9 +215,20 @@ const char* name_of(Verdict verdict) {
 Diagnosis diagnose(const runtime::Rig& rig, std::vector<Run> train, std::vector<Run> test,
                    const Request& request) {
   const auto begin = std::chrono::steady_clock::now();
-  const Runs training = prepared(std::move(train), rig), testing = prepared(std::move(test), rig);
-  require_excitation(training, testing, rig);
-  Diagnosis result = diagnosed(rig, training, testing, request);
+  const Data measured{prepared(train, rig), prepared(test, rig)};
+  require_excitation(measured.train, measured.test, rig);
+  Study as_measured(rig, measured.train, measured.test, request.excluded);
+  std::vector<LosingEncoder> losing;
+  if (considered(request, "position_drift")) losing = losing_encoders(train, rig);
+  Diagnosis result;
+  if (losing.empty()) {
+    result = diagnosed(rig, as_measured, as_measured, losing, request);
+  } else {
+    const Data mended{prepared(put_back(std::move(train), losing), rig),
+                      prepared(put_back(std::move(test), losing), rig)};
+    Study study(rig, mended.train, mended.test, request.excluded);
+    result = diagnosed(rig, study, as_measured, losing, request);
+  }
   result.runtime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -1,13 +1,11 @@
 #include "verdict/judgement.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
-#include "force/force_lines.hpp"
-#include "force/jumps.hpp"
 #include "robust.hpp"
 #include "search/compare.hpp"
+#include "verdict/leftovers.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -15,22 +13,12 @@ namespace {
 /// Mean loss of the whitened residual beyond which noise and a coloured force cannot have made it: they keep
 /// to 1 within a few percent.
 constexpr double kWorst = 1.25;
+/// What is left of a motion, as a share, beyond which no disturbance is to blame, however likely one is that
+/// makes it: the right model leaves up to a fifth, of an axis that sticks and slips. What moves less than by
+/// so much [m or rad] is not asked.
+constexpr double kNotFollowed = 0.4, kMoves = 0.01;
 constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
-/// Share of the drives' loss beyond which an unexplained pattern is taken seriously: the right model leaves
-/// up to 0.4 percent.
-constexpr double kPattern = 0.008;
-/// Luck makes patterns of so many noise variances, in short data as in long.
-constexpr double kLuck = 15;
-/// A pattern this large against all that is wrong with the base model makes the names beside it doubtful. A
-/// term's form is not exactly the effect's, so that more may be left of what it is a law of. Several laws of
-/// the same take any form together.
-constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveralLaws = 0.01;
-/// No term of a drive changes with time.
-constexpr double kDoubtfulOverTime = 0.01;
-/// So does one that is this large against what one of the names explains on its axis: it may be there for
-/// what is left.
-constexpr double kDoubtfulOfOneName = 0.5;
 
 /// 1 where noise and disturbance are as learnt.
 double mean_loss(const Fits& fits) {
@@ -40,57 +28,27 @@ double mean_loss(const Fits& fits) {
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
 
-double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
-  double sum = 0;
-  for (const Eigen::VectorXd& residual : residuals) sum += residual.squaredNorm();
-  return sum;
-}
-
-/// Whether the pattern goes with what the term is a law of.
-bool of_its_own(const Candidate& candidate, const Unexplained& left) {
-  using enum GoesWith;
-  static const std::map<std::string, GoesWith> kLaws{
-      {"coulomb_friction", speed},    {"viscous_friction", speed}, {"stribeck_friction", speed},
-      {"direction_asymmetry", speed}, {"backlash", jumps},         {"position_dependent_friction", position},
-      {"torque_ripple", position}};
-  const auto laws = kLaws.find(candidate.cause);
-  return laws != kLaws.end() && candidate.axis == axis_of(left.output) && left.with == laws->second;
-}
-
-/// A pattern, and in the same noise the squares of the base model and what the weakest of the names on its
-/// axis takes off them.
-struct Pattern {
-  Unexplained what;
-  double of_base = 0, of_weakest = std::numeric_limits<double>::infinity();
-};
-
-std::string said(const Diagnosis& d) {
-  std::string names, rivals;
-  for (const Cause& cause : d.causes)
-    names +=
-        (names.empty() ? "" : " and ") + cause.name + (cause.axis.empty() ? "" : " (" + cause.axis + ")");
-  for (const std::string& rival : d.ambiguous_with) rivals += (rivals.empty() ? "" : ", ") + rival;
-  switch (d.verdict) {
-    case Verdict::none:
-      return "Nothing that these data could show is wrong with the model.";
-    case Verdict::named:
-      return "The simulation lacks " + names + ".";
-    case Verdict::parameter:
-      return "A parameter of the model is off: " + names + ".";
-    case Verdict::ambiguous:
-      return "These data cannot tell " + names + " from " + rivals + ".";
-    case Verdict::unknown:
-      break;
+/// Root mean square of what a simulation leaves of an output in windows, as a share of how it moves there; 0
+/// where it hardly does.
+double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
+  double left = 0, moved = 0, count = 0;
+  for (std::size_t w = 0; w < fits.size(); ++w) {
+    const auto rows = static_cast<Eigen::Index>(problem.windows()[w].rows);
+    const Eigen::VectorXd measured =
+        problem.measured(problem.windows()[w]).segment(static_cast<Eigen::Index>(output) * rows, rows);
+    left +=
+        (measured - fits[w].simulated.segment(static_cast<Eigen::Index>(output) * rows, rows)).squaredNorm();
+    moved += (measured.array() - measured.mean()).matrix().squaredNorm();
+    count += static_cast<double>(rows);
   }
-  const auto& from = d.remainder.from;
-  return "Something is wrong that no known cause explains" +
-         (from.empty() ? std::string{"."} : " (" + from[0] + ").");
+  return moved > kMoves * kMoves * count ? std::sqrt(left / moved) : 0;
 }
 
 class Judgement {
  public:
-  Judgement(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed)
-      : study_(study), all_(hypotheses), best_(hypotheses.best), seed_(seed) {
+  Judgement(const Study& study, const Hypotheses& hypotheses, const std::vector<LosingEncoder>& losing,
+            std::uint64_t seed)
+      : study_(study), all_(hypotheses), best_(hypotheses.best), losing_(losing), seed_(seed) {
     result_.ranking = hypotheses.ranking;
     result_.detection_p_value = hypotheses.detection_p_value;
   }
@@ -119,75 +77,27 @@ class Judgement {
                                " than sensor noise and a coloured force leave");
       return true;
     }
-    const std::vector<Pattern> left = what_is_left();
+    if (const char* column = not_followed()) {
+      remainder.from.push_back(std::string{"the simulation hardly follows "} + column);
+      return true;
+    }
+    const std::vector<Pattern> left = what_is_left(study_, all_, losing_, seed_);
     if (left.empty()) return false;
     remainder.predictable_fraction = left[0].what.fraction;
     for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
       remainder.from.push_back(left[i].what.variable);
-    return std::any_of(left.begin(), left.end(), [&](const Pattern& pattern) {
-      const Unexplained& u = pattern.what;
-      const bool counts = u.with == GoesWith::frequency || (u.fraction > kPattern && u.gain > kLuck);
-      return counts && (best_.effects.empty() || u.gain > believable(u) * pattern.of_base ||
-                        u.gain > kDoubtfulOfOneName * pattern.of_weakest);
-    });
+    return std::any_of(left.begin(), left.end(),
+                       [&](const Pattern& pattern) { return doubtful(pattern, best_.effects); });
   }
 
-  /// Beside the named effects, as a share of the base model's loss.
-  [[nodiscard]] double believable(const Unexplained& left) const {
-    if (left.with == GoesWith::time) return kDoubtfulOverTime;
-    const auto laws = std::count_if(best_.effects.begin(), best_.effects.end(), [&](const Effect& effect) {
-      return of_its_own(*effect.candidate, left);
-    });
-    return laws == 0 ? kDoubtful : laws == 1 ? kDoubtfulOfItsOwn : kDoubtfulOfSeveralLaws;
-  }
-
-  /// Patterns in the residual of the drives and lines in that of the swing, strongest first.
-  [[nodiscard]] std::vector<Pattern> what_is_left() const {
-    std::vector<Pattern> left;
-    const Runs& runs = study_.drive().runs();
-    // What rings by itself is a line of its own.
-    const Crane crane = study_.with(best_.effects);
-    const bool rings = !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
-    const Replays best = replays_of(runs, crane), base = replays_of(runs, study_.base());
-    for (const Output axis : study_.drive().outputs()) {
-      const Pieces pieces = pieces_of(runs, best, axis);
-      const double of_base = squares_of(residuals_of(pieces, base));
-      const std::vector<double> by_each = explained_by_each(pieces);
-      const auto add = [&](const Unexplained& what) {
-        left.push_back({what, of_base, weakest(by_each, what)});
-      };
-      for (const Unexplained& pattern : find_unexplained(pieces)) add(pattern);
-      if (!rings)
-        if (const auto line = find_force_line(pieces, seed_)) add(*line);
-      if (const auto jumps = find_jumps(pieces)) add(*jumps);
-    }
-    for (std::size_t output = 0; output < study_.load().outputs().size(); ++output)
-      if (const auto line = find_force_line(pieces_of(study_.load(), best_.train.load, output), seed_))
-        left.push_back({*line, all_.base.train.load_loss});
-    std::sort(left.begin(), left.end(),
-              [](const Pattern& a, const Pattern& b) { return a.what.gain > b.what.gain; });
-    return left;
-  }
-
-  /// Of each of the effects, what it takes off the squares of a drive's pieces; infinite on another axis.
-  [[nodiscard]] std::vector<double> explained_by_each(const Pieces& pieces) const {
-    std::vector<double> explained(best_.effects.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < explained.size(); ++i) {
-      if (best_.effects[i].candidate->axis != axis_of(pieces.output)) continue;
-      Effects others = best_.effects;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      explained[i] =
-          squares_of(residuals_of(pieces, replays_of(*pieces.runs, study_.with(others)))) - pieces.squares();
-    }
-    return explained;
-  }
-
-  /// The least that any of the effects explains but those of whose own law the pattern is.
-  [[nodiscard]] double weakest(const std::vector<double>& explained, const Unexplained& left) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < explained.size(); ++i)
-      if (!of_its_own(*best_.effects[i].candidate, left)) least = std::min(least, explained[i]);
-    return least;
+  /// Name of an output whose motion is not simulated at all.
+  [[nodiscard]] const char* not_followed() const {
+    for (const auto& [problem, fits] :
+         {std::pair{&study_.drive(), &best_.train.drive}, {&study_.load(), &best_.train.load}})
+      for (std::size_t output = 0; output < problem->outputs().size(); ++output)
+        if (share_not_followed(*problem, *fits, output) > kNotFollowed)
+          return kOutputNames[problem->outputs()[output]];
+    return nullptr;
   }
 
   /// Who wins among all hypotheses of the best one's size that explain something. One that the held-out data
@@ -247,6 +157,7 @@ class Judgement {
   const Study& study_;
   const Hypotheses& all_;
   const Fitted& best_;
+  const std::vector<LosingEncoder>& losing_;
   std::uint64_t seed_;
   std::map<const Candidate*, double> frequency_;
   std::vector<const Candidate*> rivals_;
@@ -255,6 +166,29 @@ class Judgement {
 
 }  // namespace
 
+std::string said(const Diagnosis& d) {
+  std::string names, rivals;
+  for (const Cause& cause : d.causes)
+    names +=
+        (names.empty() ? "" : " and ") + cause.name + (cause.axis.empty() ? "" : " (" + cause.axis + ")");
+  for (const std::string& rival : d.ambiguous_with) rivals += (rivals.empty() ? "" : ", ") + rival;
+  switch (d.verdict) {
+    case Verdict::none:
+      return "Nothing that these data could show is wrong with the model.";
+    case Verdict::named:
+      return "The simulation lacks " + names + ".";
+    case Verdict::parameter:
+      return "A parameter of the model is off: " + names + ".";
+    case Verdict::ambiguous:
+      return "These data cannot tell " + names + " from " + rivals + ".";
+    case Verdict::unknown:
+      break;
+  }
+  const auto& from = d.remainder.from;
+  return "Something is wrong that no known cause explains" +
+         (from.empty() ? std::string{"."} : " (" + from[0] + ").");
+}
+
 void doubt(Diagnosis& diagnosis, const std::string& why) {
   diagnosis.verdict = Verdict::unknown;
   diagnosis.ambiguous_with.clear();
@@ -262,8 +196,9 @@ void doubt(Diagnosis& diagnosis, const std::string& why) {
   diagnosis.sentence = said(diagnosis);
 }
 
-Judged judge(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed) {
-  return Judgement(study, hypotheses, seed).run();
+Judged judge(const Study& study, const Hypotheses& hypotheses, const std::vector<LosingEncoder>& losing,
+             std::uint64_t seed) {
+  return Judgement(study, hypotheses, losing, seed).run();
 }
 
 }  // namespace crane::diagnosis

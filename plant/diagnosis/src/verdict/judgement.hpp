@@ -1,5 +1,6 @@
 #pragma once
 /// The verdict over what was fitted.
+#include "data/lost_counts.hpp"
 #include "search/search.hpp"
 
 namespace crane::diagnosis {
@@ -9,10 +10,15 @@ struct Judged {
   Diagnosis diagnosis;
   std::vector<const Candidate*> rivals;  ///< strongest first; only when ambiguous
 };
+/// The verdict in words.
+[[nodiscard]] std::string said(const Diagnosis& diagnosis);
+
 /// Makes the verdict "unknown".
 /// @param why what the remainder goes with
 void doubt(Diagnosis& diagnosis, const std::string& why);
 
-[[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses, std::uint64_t seed);
+/// @param losing encoders of which jumps were put back: what is left of those is no riddle
+[[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses,
+                           const std::vector<LosingEncoder>& losing, std::uint64_t seed);
 
 }  // namespace crane::diagnosis

@@ -8,18 +8,24 @@ namespace {
 
 class PositionDrift final : public Term {
  public:
-  explicit PositionDrift(const TermSetting& s) : slew_(s.axis == "slew"), rate_(s.parameters.at("rate")) {}
+  explicit PositionDrift(const TermSetting& s)
+      : slew_(s.axis == "slew"), rate_(s.parameters.at("rate")), jump_(s.parameters.at("jump")) {}
 
   void change_measurement(Measurement& measured, double /*period_s*/) noexcept override {
     double& position = slew_ ? measured.slew_rad : measured.trolley_m;
     travelled_ += std::abs(position - last_.value_or(position));
     last_ = position;
-    position += rate_ * travelled_;
+    position += drifted();
   }
 
  private:
+  [[nodiscard]] double drifted() const noexcept {
+    const double smoothly = rate_ * travelled_;
+    return jump_ > 0 ? jump_ * std::trunc(smoothly / jump_) : smoothly;
+  }
+
   bool slew_;
-  double rate_;
+  double rate_, jump_;
   std::optional<double> last_;  // true position one tick ago
   double travelled_ = 0;
 };
@@ -28,11 +34,14 @@ class PositionDrift final : public Term {
 
 TermKind position_drift() {
   return {.name = "position_drift",
-          .equation = "p_measured = p + r s, s the distance travelled since the start, both ways counted",
+          .equation =
+              "p_measured = p + r s, s the distance travelled since the start, both ways counted; rounded "
+              "towards 0 to whole jumps j where j > 0",
           .source = "a friction wheel that slips or an encoder that loses counts while moving",
           .acts_on = ActsOn::sensor,
           .axes = {"trolley", "slew"},
-          .parameters = {{"rate", "m/m or rad/rad", 0, -0.5, 0.5, "r"}},
+          .parameters = {{"rate", "m/m or rad/rad", 0, -0.5, 0.5, "r"},
+                         {"jump", "m or rad", 0, 0, 1, "j, what is lost at a time; 0: smoothly"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<PositionDrift>(s);
           }};

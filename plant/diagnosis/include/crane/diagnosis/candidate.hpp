@@ -1,6 +1,7 @@
 #pragma once
 /// Candidates: every effect the diagnosis may name, as a term of plant/model with what is free in it.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct Shape {
   bool as_it_is = false;  ///< one probe, large: what it gains itself counts, and a fit begins there
 };
 
+/// What a force on an axis may go with.
+enum class GoesWith { position, speed, reversals, time, other_command, frequency, jumps };
+
 struct Candidate {
   std::string cause;                 ///< name of the term
   std::string axis;                  ///< "trolley", "slew", "radial", "tangential" or empty
@@ -35,12 +39,19 @@ struct Candidate {
   /// waves of what nothing else explains.
   bool waves = false;
   bool rough = false;                    ///< its loss goes over the values in steps, which no slope tells of
+  std::optional<GoesWith> law;           ///< what the force it makes on its axis is a law of, if of one thing
   bool changes_known_parameter = false;  ///< the base model has this quantity; the rig file's value is off
   /// Values that the amounts of a shape's small probes come to.
   std::function<std::vector<double>(const Shape&, const std::vector<double>&)> of_amounts;
 
   /// Values to begin a fit with, from the amounts of the probes of one shape.
   [[nodiscard]] std::vector<double> begin(const Shape& shape, const std::vector<double>& amounts) const;
+
+  /// Whether it changes an output by itself, not by what else moves.
+  [[nodiscard]] bool acts_on(Output output) const {
+    const bool of_drive = output == kTrolleyPosition || output == kSlewAngle;
+    return (of_drive ? drive : load) && (axis.empty() || axis == axis_of(output));
+  }
 
   [[nodiscard]] std::string label() const { return axis.empty() ? cause : cause + " (" + axis + ")"; }
   [[nodiscard]] plant::TermSetting setting(const std::vector<double>& values) const;

@@ -20,6 +20,11 @@ inline constexpr std::size_t kOutputs = 4;
 inline constexpr std::array<const char*, kOutputs> kOutputNames{"trolley_position_m", "slew_angle_rad",
                                                                 "swing_radial_rad", "swing_tangential_rad"};
 
+/// Of the drive, or the direction of the swing.
+[[nodiscard]] constexpr const char* axis_of(Output output) {
+  return std::array{"trolley", "slew", "radial", "tangential"}[output];
+}
+
 /// A piece of a run without gaps. Row k: measurement at t_k, command applied from t_k on.
 struct Run {
   std::string name;                                    ///< "train_1.csv", with ", part 2" after a gap

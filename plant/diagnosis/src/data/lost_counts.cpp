@@ -1,0 +1,153 @@
+#include "data/lost_counts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace crane::diagnosis {
+namespace {
+
+/// A clear jump is so many counts and so many times the changes of speed around it.
+constexpr double kCounts = 12, kClear = 4;
+constexpr std::size_t kFewest = 5;
+/// Of an encoder that is known to lose counts, jumps of this share of the usual one are believed, where the
+/// motion around is rough, too.
+constexpr double kUsualShare = 0.4;
+/// Steps on one side of a jump that tell the acceleration, and the next ones, which tell the speed.
+constexpr std::size_t kSide = 6, kBeside = 3;
+constexpr int kRounds = 4;
+
+struct Jump {
+  std::size_t row = 0;  ///< the first one after it
+  double size = 0;
+};
+
+std::vector<double> steps_of(const std::vector<double>& position) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < position.size(); ++k) steps.push_back(position[k] - position[k - 1]);
+  return steps;
+}
+
+std::vector<Jump> clear_jumps(const std::vector<double>& position, double count) {
+  std::vector<Jump> found;
+  const std::vector<double> s = steps_of(position);
+  for (std::size_t k = 2; k + 2 < s.size(); ++k) {
+    const double size = s[k] - 0.5 * (s[k - 1] + s[k + 1]);
+    const double rough = std::max(
+        {std::abs(s[k + 1] - s[k - 1]), std::abs(s[k - 2] - s[k - 1]), std::abs(s[k + 2] - s[k + 1])});
+    if (std::abs(size) > kClear * rough && std::abs(size) > kCounts * count) found.push_back({k + 1, size});
+  }
+  return found;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The step at `k` as those on one side of it have it, by their speed and acceleration; one of them may be a
+/// jump. @param towards -1 for those before, 1 for those after
+std::optional<double> expected(const std::vector<double>& steps, std::size_t k, int towards) {
+  std::vector<double> side, changes, guesses;
+  for (std::size_t d = 1; d <= kSide; ++d) {
+    if (towards < 0 ? k < d : k + d >= steps.size()) break;
+    side.push_back(steps[towards < 0 ? k - d : k + d]);
+  }
+  if (side.size() < kSide) return std::nullopt;
+  for (std::size_t i = 0; i + 1 < side.size(); ++i) changes.push_back(side[i] - side[i + 1]);
+  const double change = median(std::move(changes));
+  for (std::size_t i = 0; i < kBeside; ++i) guesses.push_back(side[i] + change * static_cast<double>(i + 1));
+  return median(std::move(guesses));
+}
+
+/// Steps outside of what the motion before and after makes: one on the way from one speed to another, after
+/// an impact or a push, lies between. The size is by the motion before: a controller that sees the jump
+/// answers it.
+std::vector<Jump> likely_jumps(const std::vector<double>& position, double usual) {
+  std::vector<Jump> found;
+  const std::vector<double> steps = steps_of(position);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const auto before = expected(steps, k, -1), after = expected(steps, k, 1);
+    if (!before && !after) break;
+    const double left = before.value_or(after.value_or(0)), right = after.value_or(left);
+    const double outside = std::max(steps[k] - std::max(left, right), std::min(left, right) - steps[k]);
+    if (outside > kUsualShare * usual) found.push_back({k + 1, steps[k] - left});
+  }
+  return found;
+}
+
+void take_out(std::vector<double>& position, const std::vector<Jump>& jumps) {
+  double lost = 0;
+  auto next = jumps.begin();
+  for (std::size_t k = 0; k < position.size(); ++k) {
+    for (; next != jumps.end() && next->row == k; ++next) lost += next->size;
+    position[k] -= lost;
+  }
+}
+
+/// A jump among several shows when these are taken out. @return all of them
+std::vector<Jump> mend(std::vector<double>& position, double usual) {
+  std::vector<Jump> all;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<Jump> found = likely_jumps(position, usual);
+    if (found.empty()) break;
+    take_out(position, found);
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  return all;
+}
+
+double median_size(const std::vector<Jump>& jumps) {
+  std::vector<double> sizes;
+  for (const Jump& jump : jumps) sizes.push_back(std::abs(jump.size));
+  return median(std::move(sizes));
+}
+
+double way_of(const std::vector<double>& position) {
+  double way = 0;
+  for (const double step : steps_of(position)) way += std::abs(step);
+  return way;
+}
+
+LosingEncoder measured(const std::vector<Run>& runs, Output axis, double usual) {
+  LosingEncoder encoder{.axis = axis, .jump = usual};
+  double way = 0, squares = 0;
+  for (const Run& run : runs) {
+    if (!run.has(axis)) continue;
+    std::vector<double> position = run.measured[axis];
+    for (const Jump& jump : mend(position, usual)) {
+      ++encoder.jumps;
+      encoder.lost += jump.size;
+      squares += jump.size * jump.size;
+    }
+    encoder.duration_s += run.duration_s();
+    way += way_of(position);
+  }
+  encoder.rate = way > 0 ? encoder.lost / way : 0;
+  encoder.rate_std_dev = way > 0 ? std::sqrt(squares) / way : 0;  // jumps come at random
+  return encoder;
+}
+
+}  // namespace
+
+std::vector<LosingEncoder> losing_encoders(const std::vector<Run>& runs, const runtime::Rig& rig) {
+  std::vector<LosingEncoder> losing;
+  for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
+    const double counts_per_unit = rig.encoders[axis].counts_per_unit;
+    if (!(counts_per_unit > 0)) continue;
+    std::vector<Jump> clear;
+    for (const Run& run : runs)
+      for (const Jump& jump : clear_jumps(run.measured[axis], 1 / counts_per_unit)) clear.push_back(jump);
+    if (clear.size() >= kFewest) losing.push_back(measured(runs, axis, median_size(clear)));
+  }
+  return losing;
+}
+
+std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder>& losing) {
+  for (const LosingEncoder& encoder : losing)
+    for (Run& run : runs) (void)mend(run.measured[encoder.axis], encoder.jump);
+  return runs;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,108 @@
+#include "verdict/leftovers.hpp"
+
+#include <algorithm>
+
+#include "force/force_lines.hpp"
+#include "force/jumps.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+/// Share of the drives' loss beyond which an unexplained pattern is taken seriously: the right model leaves
+/// up to 0.4 percent.
+constexpr double kPattern = 0.008;
+/// Luck makes patterns of so many noise variances, in short data as in long.
+constexpr double kLuck = 15;
+/// A pattern this large against all that is wrong with the base model makes the names beside it doubtful. A
+/// term's form is not exactly the effect's, so that more may be left of what it is a law of. Several laws of
+/// the same take any form together.
+constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveralLaws = 0.01;
+/// No term of a drive changes with time.
+constexpr double kDoubtfulOverTime = 0.01;
+/// So does one that is this large against what one of the names explains on its axis: it may be there for
+/// what is left.
+constexpr double kDoubtfulOfOneName = 0.5;
+
+double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
+  double sum = 0;
+  for (const Eigen::VectorXd& residual : residuals) sum += residual.squaredNorm();
+  return sum;
+}
+
+/// Whether the pattern goes with what the candidate is a law of.
+bool of_its_own(const Candidate& candidate, const Unexplained& left) {
+  return candidate.law == left.with && candidate.axis == axis_of(left.output);
+}
+
+/// Beside the effects, as a share of the base model's loss.
+double believable(const Unexplained& left, const Effects& effects) {
+  if (left.with == GoesWith::time) return kDoubtfulOverTime;
+  const auto laws = std::count_if(effects.begin(), effects.end(),
+                                  [&](const Effect& effect) { return of_its_own(*effect.candidate, left); });
+  return laws == 0 ? kDoubtful : laws == 1 ? kDoubtfulOfItsOwn : kDoubtfulOfSeveralLaws;
+}
+
+/// Of each of the effects, what it takes off the squares of a drive's pieces; infinite on another axis.
+std::vector<double> explained_by_each(const Study& study, const Effects& effects, const Pieces& pieces) {
+  std::vector<double> explained(effects.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < explained.size(); ++i) {
+    if (effects[i].candidate->axis != axis_of(pieces.output)) continue;
+    Effects others = effects;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    explained[i] =
+        squares_of(residuals_of(pieces, replays_of(*pieces.runs, study.with(others)))) - pieces.squares();
+  }
+  return explained;
+}
+
+/// The least that any of the effects explains but those of whose own law the pattern is.
+double weakest(const Effects& effects, const std::vector<double>& explained, const Unexplained& left) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < explained.size(); ++i)
+    if (!of_its_own(*effects[i].candidate, left)) least = std::min(least, explained[i]);
+  return least;
+}
+
+}  // namespace
+
+bool doubtful(const Pattern& pattern, const Effects& effects) {
+  const Unexplained& u = pattern.what;
+  const bool counts = u.with == GoesWith::frequency || (u.fraction > kPattern && u.gain > kLuck);
+  return counts && (effects.empty() || u.gain > believable(u, effects) * pattern.of_base ||
+                    u.gain > kDoubtfulOfOneName * pattern.of_weakest);
+}
+
+std::vector<Pattern> what_is_left(const Study& study, const Hypotheses& hypotheses,
+                                  const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
+  std::vector<Pattern> left;
+  const Runs& runs = study.drive().runs();
+  const Effects& effects = hypotheses.best.effects;
+  // What rings by itself is a line of its own.
+  const Crane crane = study.with(effects);
+  const bool rings = !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
+  const Replays best = replays_of(runs, crane), base = replays_of(runs, study.base());
+  for (const Output axis : study.drive().outputs()) {
+    const Pieces pieces = pieces_of(runs, best, axis);
+    const double of_base = squares_of(residuals_of(pieces, base));
+    const std::vector<double> by_each = explained_by_each(study, effects, pieces);
+    const auto add = [&](const Unexplained& what) {
+      left.push_back({what, of_base, weakest(effects, by_each, what)});
+    };
+    for (const Unexplained& pattern : find_unexplained(pieces)) add(pattern);
+    if (!rings)
+      if (const auto line = find_force_line(pieces, seed)) add(*line);
+    const bool loses = std::any_of(losing.begin(), losing.end(),
+                                   [&](const LosingEncoder& encoder) { return encoder.axis == axis; });
+    if (!loses)
+      if (const auto jumps = find_jumps(pieces)) add(*jumps);
+  }
+  const Fits& of_load = hypotheses.best.train.load;
+  for (std::size_t output = 0; output < study.load().outputs().size(); ++output)
+    if (const auto line = find_force_line(pieces_of(study.load(), of_load, output), seed))
+      left.push_back({*line, hypotheses.base.train.load_loss});
+  std::sort(left.begin(), left.end(),
+            [](const Pattern& a, const Pattern& b) { return a.what.gain > b.what.gain; });
+  return left;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,63 @@
+#include "verdict/losing_encoders.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "shooting/pieces.hpp"
+#include "verdict/judgement.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+constexpr const char* kTerm = "position_drift";
+
+std::vector<Estimate> estimates(const LosingEncoder& encoder) {
+  const bool turns = encoder.axis == kSlewAngle;
+  return {{"rate", turns ? "rad/rad" : "m/m", encoder.rate, encoder.rate_std_dev},
+          {"jump", turns ? "rad" : "m", encoder.jump, 0}};
+}
+
+std::string note(const LosingEncoder& encoder) {
+  std::ostringstream text;
+  text << axis_of(encoder.axis) << ": its encoder lost counts " << encoder.jumps << " times in "
+       << encoder.duration_s << " s of training data, " << encoder.lost
+       << (encoder.axis == kSlewAngle ? " rad" : " m")
+       << " in all: jumps from one row to the next that no force makes; they are put back before anything "
+          "else is judged";
+  return text.str();
+}
+
+void rank(const Cause& cause, double train_gain, double test_gain, std::vector<Ranked>& ranking) {
+  const std::string label = cause.name + " (" + cause.axis + ")";
+  std::erase_if(ranking, [&](const Ranked& smooth) { return smooth.label == label; });
+  ranking.insert(ranking.begin(),
+                 {label, cause.parameters, train_gain, test_gain, cause.p_value, cause.resampling_frequency});
+}
+
+}  // namespace
+
+void name_losing(const std::vector<LosingEncoder>& losing, const Study& study, const Study& as_measured,
+                 Diagnosis& diagnosis) {
+  if (losing.empty()) return;
+  const double train_gain = as_measured.base_train().loss - study.base_train().loss;
+  const double test_gain = as_measured.base_test().loss - study.base_test().loss;
+  std::vector<Cause> causes;
+  std::vector<plant::TermSetting> terms;
+  for (const LosingEncoder& encoder : losing) {
+    causes.push_back({.name = kTerm,
+                      .axis = axis_of(encoder.axis),
+                      .parameters = estimates(encoder),
+                      .p_value = 0,
+                      .resampling_frequency = 1});
+    terms.push_back({kTerm, axis_of(encoder.axis), {{"rate", encoder.rate}, {"jump", encoder.jump}}});
+    rank(causes.back(), train_gain, test_gain, diagnosis.ranking);
+    diagnosis.notes.push_back(note(encoder));
+  }
+  diagnosis.causes.insert(diagnosis.causes.begin(), causes.begin(), causes.end());
+  diagnosis.extension.insert(diagnosis.extension.begin(), terms.begin(), terms.end());
+  if (diagnosis.verdict == Verdict::none || diagnosis.verdict == Verdict::parameter)
+    diagnosis.verdict = Verdict::named;
+  diagnosis.sentence = said(diagnosis);
+}
+
+}  // namespace crane::diagnosis
