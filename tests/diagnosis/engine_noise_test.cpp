@@ -1,21 +1,11 @@
 /// What a crane leaves that is exactly as modelled, in units of the noise learnt from it.
 #include <gtest/gtest.h>
 
+#include "data_of_truth.hpp"
 #include "robust.hpp"
-#include "sealed_case.hpp"
-#include "study/study.hpp"
-#include "truth/truth.hpp"
 
 namespace crane::diagnosis {
 namespace {
-
-Runs runs_of(const std::vector<truth::Run>& runs, const runtime::Rig& rig) {
-  Runs all;
-  for (const truth::Run& run : runs)
-    for (Run& piece : load_run(recording::parse_csv(truth::csv(run), run.file), rig, run.file).runs)
-      all.push_back(prepare(std::move(piece), rig));
-  return all;
-}
 
 /// 1 of white noise.
 double mean_loss(const Fits& fits) {
@@ -33,10 +23,9 @@ TEST_P(Noise, LearntFromACraneAsModelledIsWhatItLeaves) {
   request.rig = GetParam();
   request.seed = 29;
   request.seconds = 20;
-  const runtime::Rig rig = score::rig_file_of(request.rig);
-  const Runs train = runs_of(truth::generate(request).training, rig);
+  const DataOfTruth data(request);
   const Runs none;
-  Study study(rig, train, none);
+  Study study(data.rig, data.train, none);
   study.learn_disturbance();
   EXPECT_GT(mean_loss(study.base_train().drive), 0.9);
   EXPECT_LT(mean_loss(study.base_train().drive), 1.3);

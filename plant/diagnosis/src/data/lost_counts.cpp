@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "data/columns.hpp"
+
 namespace crane::diagnosis {
 namespace {
 
@@ -38,12 +40,6 @@ std::vector<Jump> clear_jumps(const std::vector<double>& position, double count)
     if (std::abs(size) > kClear * rough && std::abs(size) > kCounts * count) found.push_back({k + 1, size});
   }
   return found;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The step at `k` as those on one side of it have it, by their speed and acceleration; one of them may be a

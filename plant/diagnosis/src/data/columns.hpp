@@ -1,0 +1,57 @@
+#pragma once
+/// The columns of a table that a run is made of, and what is wrong with them.
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "crane/diagnosis/data.hpp"
+
+namespace crane::diagnosis {
+
+/// One column of the file; without values when it is not there or the rig has nothing that it could measure.
+struct Source {
+  std::string name;
+  const std::vector<double>* values = nullptr;
+};
+
+struct Columns {
+  const std::vector<double>* time_s = nullptr;
+  std::array<Source, kOutputs> outputs;
+  std::array<Source, 2> commands;  ///< of trolley and slew
+  Source cable;
+  double period_s = 0;  ///< median time step
+};
+
+/// What was noticed in one file.
+struct Findings {
+  std::string file;
+  std::vector<std::string> problems, notes;
+
+  void problem(const std::string& column, const std::string& what, const std::string& rule) {
+    problems.push_back(file + ": " + column + ": " + what + ": " + rule);
+  }
+  void note(const std::string& text) { notes.push_back(file + ": " + text); }
+};
+
+/// Finds the columns that the rig has, and what is wrong with their names, times, units and values.
+[[nodiscard]] Columns checked_columns(const recording::Table& table, const runtime::Rig& rig,
+                                      Findings& findings);
+
+/// As messages say it.
+[[nodiscard]] inline std::string number(double value) {
+  std::ostringstream text;
+  text.precision(6);
+  text << value;
+  return text.str();
+}
+
+/// @pre not empty
+[[nodiscard]] inline double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace crane::diagnosis
