@@ -13,9 +13,9 @@ namespace {
 /// Mean loss of the whitened residual beyond which noise and a coloured force cannot have made it: they keep
 /// to 1 within a few percent.
 constexpr double kWorst = 1.25;
-/// What is left of a motion, as a share, beyond which no disturbance is to blame, however likely one is that
-/// makes it: the right model leaves up to a fifth, of an axis that sticks and slips. What moves less than by
-/// so much [m or rad] is not asked.
+/// What is left of a swing, as a share, beyond which no disturbance is to blame, however likely one is that
+/// makes it: the right model leaves a few hundredths. One of less than so much [rad] is not asked. Drives are
+/// not: where one sticks and slips, the right model leaves as much.
 constexpr double kNotFollowed = 0.4, kMoves = 0.01;
 constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
@@ -28,7 +28,7 @@ double mean_loss(const Fits& fits) {
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
 
-/// Root mean square of what a simulation leaves of an output in windows, as a share of how it moves there; 0
+/// Root mean square of what a simulation leaves of a swing in windows, as a share of how it moves there; 0
 /// where it hardly does.
 double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
   double left = 0, moved = 0, count = 0;
@@ -90,13 +90,12 @@ class Judgement {
                        [&](const Pattern& pattern) { return doubtful(pattern, best_.effects); });
   }
 
-  /// Name of an output whose motion is not simulated at all.
+  /// Name of a swing that is not simulated at all.
   [[nodiscard]] const char* not_followed() const {
-    for (const auto& [problem, fits] :
-         {std::pair{&study_.drive(), &best_.train.drive}, {&study_.load(), &best_.train.load}})
-      for (std::size_t output = 0; output < problem->outputs().size(); ++output)
-        if (share_not_followed(*problem, *fits, output) > kNotFollowed)
-          return kOutputNames[problem->outputs()[output]];
+    const std::vector<Output>& outputs = study_.load().outputs();
+    for (std::size_t output = 0; output < outputs.size(); ++output)
+      if (share_not_followed(study_.load(), best_.train.load, output) > kNotFollowed)
+        return kOutputNames[outputs[output]];
     return nullptr;
   }
 
