@@ -26,7 +26,7 @@ inline void PrintTo(const HiddenPair& pair, std::ostream* out) {
   PrintTo(pair.second, out);
 }
 
-/// Runs of 20 s: a rich one to learn from and one to prove it on, where the smaller rigs are cheap also one
+/// Runs of 30 s: a rich one to learn from and one to prove it on, where the smaller rigs are cheap also one
 /// from point to point.
 [[nodiscard]] inline truth::Case case_of(const HiddenSet& set) {
   truth::Case request;

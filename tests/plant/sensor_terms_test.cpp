@@ -19,6 +19,7 @@ template <class Signal>
 std::vector<double> radial_reports(const TermSetting& term, Signal signal, int ticks) {
   Model model = sensing(term);
   std::vector<double> reports;
+  reports.reserve(static_cast<std::size_t>(ticks));
   for (int i = 0; i < ticks; ++i) reports.push_back(model.measure({.radial_rad = signal(i)}).radial_rad);
   return reports;
 }

@@ -26,6 +26,7 @@ struct Jump {
 
 std::vector<double> steps_of(const std::vector<double>& position) {
   std::vector<double> steps;
+  steps.reserve(position.size());
   for (std::size_t k = 1; k < position.size(); ++k) steps.push_back(position[k] - position[k - 1]);
   return steps;
 }
@@ -96,6 +97,7 @@ std::vector<Jump> mend(std::vector<double>& position, double usual) {
 
 double median_size(const std::vector<Jump>& jumps) {
   std::vector<double> sizes;
+  sizes.reserve(jumps.size());
   for (const Jump& jump : jumps) sizes.push_back(std::abs(jump.size));
   return median(std::move(sizes));
 }
@@ -108,7 +110,7 @@ double way_of(const std::vector<double>& position) {
 
 LosingEncoder measured(const std::vector<Run>& runs, Output axis, double usual) {
   LosingEncoder encoder{.axis = axis, .jump = usual};
-  double way = 0, squares = 0;
+  double way = 0, squares = 0, deviations = 0;
   for (const Run& run : runs) {
     if (!run.has(axis)) continue;
     std::vector<double> position = run.measured[axis];
@@ -116,10 +118,14 @@ LosingEncoder measured(const std::vector<Run>& runs, Output axis, double usual) 
       ++encoder.jumps;
       encoder.lost += jump.size;
       squares += jump.size * jump.size;
+      deviations += std::pow(std::abs(jump.size) - usual, 2);
     }
     encoder.duration_s += run.duration_s();
     way += way_of(position);
   }
+  constexpr double kOfAMedian = 1.25;  // its error against a mean's
+  const auto count = static_cast<double>(std::max<std::size_t>(1, encoder.jumps));
+  encoder.jump_std_dev = kOfAMedian * std::sqrt(deviations) / count;
   encoder.rate = way > 0 ? encoder.lost / way : 0;
   encoder.rate_std_dev = way > 0 ? std::sqrt(squares) / way : 0;  // jumps come at random
   return encoder;

@@ -13,7 +13,7 @@ struct LosingEncoder {
   Output axis = kTrolleyPosition;
   std::size_t jumps = 0;              ///< in `duration_s`
   double duration_s = 0, lost = 0;    ///< lost: in all, m or rad, with its sign
-  double jump = 0;                    ///< usual size of one, m or rad, > 0
+  double jump = 0, jump_std_dev = 0;  ///< usual size of one, m or rad, > 0
   double rate = 0, rate_std_dev = 0;  ///< lost per way, m/m or rad/rad
 };
 

@@ -14,7 +14,7 @@ constexpr const char* kTerm = "position_drift";
 std::vector<Estimate> estimates(const LosingEncoder& encoder) {
   const bool turns = encoder.axis == kSlewAngle;
   return {{"rate", turns ? "rad/rad" : "m/m", encoder.rate, encoder.rate_std_dev},
-          {"jump", turns ? "rad" : "m", encoder.jump, 0}};
+          {"jump", turns ? "rad" : "m", encoder.jump, encoder.jump_std_dev}};
 }
 
 std::string note(const LosingEncoder& encoder) {
