@@ -143,6 +143,7 @@ TEST(Diagnosis, RepeatsBitForBit) {
   request.seconds = 12;
   const SealedCase sealed(request);
   const Diagnosis first = sealed.diagnosed(), second = sealed.diagnosed();
+  ASSERT_FALSE(first.causes.empty());
   ASSERT_EQ(first.causes.size(), second.causes.size());
   for (std::size_t i = 0; i < first.causes.size(); ++i)
     EXPECT_EQ(first.causes[i].parameters[0].value, second.causes[i].parameters[0].value);
