@@ -1,8 +1,11 @@
 #include "data/columns.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "data/median.hpp"
 
 namespace crane::diagnosis {
 namespace {

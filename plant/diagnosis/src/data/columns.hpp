@@ -1,6 +1,5 @@
 #pragma once
 /// The columns of a table that a run is made of, and what is wrong with them.
-#include <algorithm>
 #include <array>
 #include <sstream>
 #include <string>
@@ -45,13 +44,6 @@ struct Findings {
   text.precision(6);
   text << value;
   return text.str();
-}
-
-/// @pre not empty
-[[nodiscard]] inline double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace crane::diagnosis

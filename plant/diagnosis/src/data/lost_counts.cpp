@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "data/columns.hpp"
+#include "data/median.hpp"
 
 namespace crane::diagnosis {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "shooting/pieces.hpp"
 #include "verdict/judgement.hpp"
 
 namespace crane::diagnosis {

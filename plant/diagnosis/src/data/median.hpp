@@ -1,0 +1,14 @@
+#pragma once
+#include <algorithm>
+#include <vector>
+
+namespace crane::diagnosis {
+
+/// @pre not empty
+[[nodiscard]] inline double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace crane::diagnosis
