@@ -1,11 +1,14 @@
-/// Where fits begin, on data of a crane that shares no code with the model.
+/// Where fits begin and what they know, on data of a crane that shares no code with the model.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "data_of_truth.hpp"
 #include "search/compare.hpp"
+#include "search/intervals.hpp"
 #include "search/search.hpp"
+#include "truth/truth.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -23,6 +26,38 @@ TEST(Singles, OfACommandThatComesMuchLaterBeginInTheRightValley) {
   const Fitted best = singles(study, Request{}).best;
   ASSERT_EQ(label_of(best.effects), "command_delay (trolley)");
   EXPECT_NEAR(best.effects[0].values[0], 0.105, 0.05 * 0.105);
+}
+
+/// Where the axis breaks loose a little later or earlier, the loss goes up and down by more than all that
+/// tells one amplitude from the next one.
+TEST(Intervals, OfARippleReachAsFarAsItsLossIsRough) {
+  constexpr double kAmplitude_v = 0.6, kWavelength_m = 0.0127;
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+    truth::Case request;
+    request.rig = "drive_axis";
+    request.seed = seed;
+    request.seconds = 20;
+    request.effects = {{"torque_ripple", 1, "trolley"}};
+    const truth::Data generated = truth::generate(request);
+    const DataOfTruth data(request);
+    Study study(data.rig, data.train, data.test);
+    const auto ripple = std::find_if(study.candidates().begin(), study.candidates().end(),
+                                     [](const Candidate& c) { return c.waves; });
+    const auto& answer = generated.answer[0].parameters;
+    const auto phase = std::find_if(answer.begin(), answer.end(),
+                                    [](const truth::Value& v) { return v.name == "phase_rad"; });
+    ASSERT_NE(phase, answer.end());
+    const Effects hidden{{&*ripple, {kAmplitude_v, phase->value, kWavelength_m}}};
+    study.learn_disturbance(hidden);
+    const Fitted fitted = with_intervals(study, study.fit(hidden), seed);
+    const auto error = [&](std::size_t i) {
+      return std::abs(fitted.effects[0].values[i] - hidden[0].values[i]);
+    };
+    EXPECT_LE(error(0), 3 * fitted.std_dev[0]) << "seed " << seed;
+    EXPECT_LE(error(2), 3 * fitted.std_dev[2]) << "seed " << seed;
+    EXPECT_LT(fitted.std_dev[0], 0.1 * kAmplitude_v) << "seed " << seed;
+    EXPECT_LT(fitted.std_dev[2], 1e-3 * kWavelength_m) << "seed " << seed;
+  }
 }
 
 }  // namespace

@@ -26,15 +26,29 @@ constexpr int kAttempts = 3;
 /// Losses of the blocks along one direction of the values.
 using Profile = std::map<double, Blocks>;
 
-/// Outwards in both directions until nothing can be best there.
-Profile profile_of(const Study& study, const Fitted& fitted, const VectorXd& direction) {
+double value_of(const Effects& effects, Index number) {
+  for (const Effect& effect : effects) {
+    const auto count = static_cast<Index>(effect.values.size());
+    if (number < count) return effect.values[static_cast<std::size_t>(number)];
+    number -= count;
+  }
+  return 0;
+}
+
+/// Outwards in both directions until nothing can be best there, or the value is at its bound.
+Profile profile_of(const Study& study, const Fitted& fitted, const VectorXd& direction, Index value) {
   Profile profile{{0, fitted.train.blocks}};
-  for (const double side : {-1.0, 1.0})
+  for (const double side : {-1.0, 1.0}) {
+    double last = value_of(fitted.effects, value);
     for (const double distance : kDistances) {
-      const Evaluation there = study.train(moved(fitted.effects, side * distance * direction));
-      profile.emplace(side * distance, there.blocks);
-      if (there.loss > fitted.train.loss + kFarLoss) break;
+      const Effects there = moved(fitted.effects, side * distance * direction);
+      if (value_of(there, value) == last) break;
+      last = value_of(there, value);
+      const Evaluation found = study.train(there);
+      profile.emplace(side * distance, found.blocks);
+      if (found.loss > fitted.train.loss + kFarLoss) break;
     }
+  }
   return profile;
 }
 
@@ -84,26 +98,28 @@ Best best_of(const Profile& profile) {
 }  // namespace
 
 Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    std::vector<double> std_dev = fitted.std_dev;
+  for (int attempt = 0;; ++attempt) {
+    const bool last = attempt + 1 == kAttempts;
+    const RoughBowl bowl = rough_bowl(study, fitted);
     Effects better;
+    if (!last && bowl.best_loss < fitted.train.loss - kBetter) better = bowl.best;
+    std::vector<double> std_dev = fitted.std_dev;
     for (Index i = 0; i < fitted.covariance.cols() && better.empty(); ++i) {
       double& own = std_dev[static_cast<std::size_t>(i)];
       if (!(own > 0)) continue;
       const VectorXd direction = fitted.covariance.col(i) / own;
-      const Profile profile = profile_of(study, fitted, direction);
+      const Profile profile = profile_of(study, fitted, direction, i);
       const Best best = best_of(profile);
-      if (best.gain > kBetter && attempt + 1 < kAttempts) better = moved(fitted.effects, best.at * direction);
-      own = std::max(own * spread(profile, seed + static_cast<std::uint64_t>(i)), fitted.by_noise[i]);
+      if (!last && best.gain > kBetter) better = moved(fitted.effects, best.at * direction);
+      own = std::max(
+          {own * spread(profile, seed + static_cast<std::uint64_t>(i)), fitted.by_noise[i], bowl.std_dev[i]});
     }
     if (better.empty()) {
       fitted.std_dev = std::move(std_dev);
-      widen_rough(study, fitted);
       return fitted;
     }
     fitted = study.fit(better);
   }
-  return fitted;
 }
 
 }  // namespace crane::diagnosis

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+
+#include "replay/travel.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -11,54 +14,67 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A rough loss is looked at in units of such a share of the value.
-constexpr double kRoughUnit = 0.03;
+/// A rough loss is looked at in units of such a share of a value, and of such an angle of a wave.
+constexpr double kRoughUnit = 0.03, kRoughUnit_rad = 0.03;
+/// Not less than such a share of what can be seen of a value.
+constexpr double kLeastUnit = 0.1;
 constexpr std::array kRoughDistances{1.0, 2.0, 4.0};
+/// A bowl narrower than so many units is looked at in half of them, so many times at most.
+constexpr double kTold = 0.5;
+constexpr int kClosest = 4;
 
-/// Numbers of the values of effects whose loss is rough.
-std::vector<Index> rough_values(const Effects& effects) {
-  std::vector<Index> all;
-  Index i = 0;
-  for (const Effect& effect : effects)
-    for (std::size_t k = 0; k < effect.values.size(); ++k, ++i)
-      if (effect.candidate->rough) all.push_back(i);
-  return all;
+/// Of gaps the flanks, of drives the slips come a little earlier or later.
+bool is_rough(const Candidate& candidate) { return candidate.rough || (candidate.drive && !candidate.load); }
+
+/// By amplitude, by phase, and by a period that shifts the wave at the ends of the travel and not in its
+/// middle.
+MatrixXd directions_of_wave(const Effect& wave, const Extent& travel) {
+  const double amplitude = wave.values[0], period = wave.values[2];
+  const double of_period = kRoughUnit_rad * period * period / (std::numbers::pi * travel.width());
+  MatrixXd directions = MatrixXd::Zero(3, 3);
+  directions(0, 0) = kRoughUnit * amplitude;
+  directions(1, 1) = kRoughUnit_rad;
+  directions(1, 2) = 2 * std::numbers::pi * travel.middle() / (period * period) * of_period;
+  directions(2, 2) = of_period;
+  return directions;
 }
 
-/// Places about 0 in which a bowl can be told: along every value and along every two.
-std::vector<VectorXd> places_about(Index values) {
-  std::vector<VectorXd> places{VectorXd::Zero(values)};
-  for (Index i = 0; i < values; ++i) {
+/// What its values are changed by, one unit a column. An offset of 0 is looked at, too, and a gain of 1.
+MatrixXd directions_of(const Effect& effect, const Runs& runs) {
+  const Candidate& candidate = *effect.candidate;
+  if (candidate.waves)
+    return directions_of_wave(effect,
+                              travel_of(runs, candidate.axis == "slew" ? kSlewAngle : kTrolleyPosition));
+  VectorXd units(static_cast<Index>(effect.values.size()));
+  for (std::size_t i = 0; i < effect.values.size(); ++i) {
+    const double value = effect.values[i], null = candidate.parameters[i].null;
+    units[static_cast<Index>(i)] = std::max(kRoughUnit * std::min(std::abs(value), std::abs(value - null)),
+                                            kLeastUnit * candidate.parameters[i].step);
+  }
+  return units.asDiagonal();
+}
+
+/// Places about 0 in which a bowl can be told: along every direction and along every two.
+std::vector<VectorXd> places_about(Index directions) {
+  std::vector<VectorXd> places{VectorXd::Zero(directions)};
+  for (Index i = 0; i < directions; ++i) {
     for (const double distance : kRoughDistances)
-      for (const double side : {-1.0, 1.0}) places.emplace_back(side * distance * VectorXd::Unit(values, i));
+      for (const double side : {-1.0, 1.0})
+        places.emplace_back(side * distance * VectorXd::Unit(directions, i));
     for (Index j = 0; j < i; ++j)
       for (const double a : {-2.0, 2.0})
         for (const double b : {-2.0, 2.0})
-          places.emplace_back(a * VectorXd::Unit(values, i) + b * VectorXd::Unit(values, j));
+          places.emplace_back(a * VectorXd::Unit(directions, i) + b * VectorXd::Unit(directions, j));
   }
   return places;
 }
 
-}  // namespace
-
-void widen_rough(const Study& study, Fitted& fitted) {
-  const std::vector<Index> rough = rough_values(fitted.effects);
-  const auto n = static_cast<Index>(rough.size());
-  if (n == 0) return;
-  VectorXd unit = VectorXd::Zero(fitted.covariance.cols());
-  Index i = 0;
-  for (const Effect& effect : fitted.effects)
-    for (const double value : effect.values) unit[i++] = kRoughUnit * std::abs(value);
-  const std::vector<VectorXd> places = places_about(n);
-  const auto rows = static_cast<Index>(places.size());
-  MatrixXd powers(rows, 1 + n + n * (n + 1) / 2);
-  VectorXd losses(rows);
-  for (Index row = 0; row < rows; ++row) {
+/// Of the places where the bowl through the losses is not higher than they lie about it.
+MatrixXd covariance_of(const std::vector<VectorXd>& places, const VectorXd& losses) {
+  const Index n = places[0].size();
+  MatrixXd powers(losses.size(), 1 + n + n * (n + 1) / 2);
+  for (Index row = 0; row < losses.size(); ++row) {
     const VectorXd& place = places[static_cast<std::size_t>(row)];
-    VectorXd step = VectorXd::Zero(unit.size());
-    for (Index v = 0; v < n; ++v)
-      step[rough[static_cast<std::size_t>(v)]] = place[v] * unit[rough[static_cast<std::size_t>(v)]];
-    losses[row] = study.train(moved(fitted.effects, step)).loss;
     Index column = 0;
     powers(row, column++) = 1;
     for (Index v = 0; v < n; ++v) powers(row, column++) = place[v];
@@ -66,8 +82,8 @@ void widen_rough(const Study& study, Fitted& fitted) {
       for (Index w = 0; w <= v; ++w) powers(row, column++) = place[v] * place[w];
   }
   const VectorXd bowl = powers.colPivHouseholderQr().solve(losses);
-  const double roughness =
-      std::sqrt((losses - powers * bowl).squaredNorm() / static_cast<double>(rows - powers.cols()));
+  const double freedom = static_cast<double>(losses.size() - powers.cols());
+  const double roughness = std::sqrt((losses - powers * bowl).squaredNorm() / freedom);
   MatrixXd curvature(n, n);
   Index column = 1 + n;
   for (Index v = 0; v < n; ++v)
@@ -75,14 +91,65 @@ void widen_rough(const Study& study, Fitted& fitted) {
       curvature(v, w) = curvature(w, v) = (v == w ? 2 : 1) * bowl[column];
   // Not wider than was looked.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(curvature);
-  const double flattest = 2 * roughness / std::pow(kRoughDistances.back(), 2);
+  const double flattest = std::max(2 * roughness / std::pow(kRoughDistances.back(), 2), 1e-12);
   const VectorXd wide = 2 * roughness * axes.eigenvalues().cwiseMax(flattest).cwiseInverse();
-  const MatrixXd covariance = axes.eigenvectors() * wide.asDiagonal() * axes.eigenvectors().transpose();
-  for (Index v = 0; v < n; ++v) {
-    const Index at = rough[static_cast<std::size_t>(v)];
-    double& own = fitted.std_dev[static_cast<std::size_t>(at)];
-    own = std::max(own, unit[at] * std::sqrt(covariance(v, v)));
+  return axes.eigenvectors() * wide.asDiagonal() * axes.eigenvectors().transpose();
+}
+
+/// Along the values of one effect of a fit.
+class Surroundings {
+ public:
+  /// @param first number of the effect's first value among all of the fit
+  Surroundings(const Study& study, const Fitted& fitted, const Effect& effect, Index first)
+      : study_(study),
+        fitted_(fitted),
+        first_(first),
+        directions_(directions_of(effect, study.drive().runs())),
+        places_(places_about(directions_.cols())) {}
+
+  /// Standard deviations of the effect's values. A loss that is smooth there is no parabola as far as that:
+  /// then it is looked at closer by.
+  VectorXd std_dev(RoughBowl& found) {
+    for (int closer = 0;; ++closer, directions_ *= 0.5) {
+      const MatrixXd covariance = covariance_of(places_, losses(found));
+      if (covariance.diagonal().maxCoeff() > kTold * kTold || closer == kClosest)
+        return (directions_ * covariance * directions_.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+    }
   }
+
+ private:
+  VectorXd losses(RoughBowl& found) {
+    VectorXd all(static_cast<Index>(places_.size()));
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      VectorXd step = VectorXd::Zero(static_cast<Index>(fitted_.parameters));
+      step.segment(first_, directions_.rows()) = directions_ * places_[i];
+      const Effects there = moved(fitted_.effects, step);
+      const double loss = study_.train(there).loss;
+      all[static_cast<Index>(i)] = loss;
+      if (loss < found.best_loss) found.best = there, found.best_loss = loss;
+    }
+    return all;
+  }
+
+  const Study& study_;
+  const Fitted& fitted_;
+  Index first_;
+  MatrixXd directions_;
+  std::vector<VectorXd> places_;
+};
+
+}  // namespace
+
+RoughBowl rough_bowl(const Study& study, const Fitted& fitted) {
+  RoughBowl found{VectorXd::Zero(static_cast<Index>(fitted.parameters)), fitted.effects, fitted.train.loss};
+  Index first = 0;
+  for (const Effect& effect : fitted.effects) {
+    const auto count = static_cast<Index>(effect.values.size());
+    if (is_rough(*effect.candidate))
+      found.std_dev.segment(first, count) = Surroundings(study, fitted, effect, first).std_dev(found);
+    first += count;
+  }
+  return found;
 }
 
 }  // namespace crane::diagnosis
