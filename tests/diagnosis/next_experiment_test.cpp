@@ -26,16 +26,16 @@ struct Suspects {
       if (c.cause == cause && c.axis == axis) return c;
     throw std::runtime_error(cause + " is no candidate");
   }
-  [[nodiscard]] std::optional<NextExperiment> propose(const Candidate& a, double value_a, const Candidate& b,
-                                                      double value_b) const {
-    return propose_experiment(rig, a, first_of(a, value_a), b, first_of(b, value_b), kDisturbances);
+  [[nodiscard]] std::optional<NextExperiment> propose(const Effects& a, const Effects& b) const {
+    return propose_experiment(rig, a, b, kDisturbances);
   }
   /// The first parameter as given, the others without effect.
-  static std::vector<double> first_of(const Candidate& candidate, double value) {
+  [[nodiscard]] Effect effect(const std::string& cause, const std::string& axis, double value) const {
+    const Candidate& candidate = find(cause, axis);
     std::vector<double> values;
     for (const FreeParameter& p : candidate.parameters) values.push_back(p.null);
     values[0] = value;
-    return values;
+    return {&candidate, values};
   }
 
   runtime::Rig rig;
@@ -44,8 +44,8 @@ struct Suspects {
 
 TEST(NextExperiment, TellsADelayFromALag) {
   const Suspects tower("virginia_tech_tower");
-  const auto proposed = tower.propose(tower.find("command_delay", "trolley"), 0.03,
-                                      tower.find("actuator_lag", "trolley"), 0.03);
+  const auto proposed = tower.propose({tower.effect("command_delay", "trolley", 0.03)},
+                                      {tower.effect("actuator_lag", "trolley", 0.03)});
   ASSERT_TRUE(proposed);
   // Amplitude at two frequencies separates them, and only the trolley shows either.
   EXPECT_EQ(proposed->name, "shaking_trolley");
@@ -53,27 +53,37 @@ TEST(NextExperiment, TellsADelayFromALag) {
   EXPECT_NO_THROW((void)experiment::parse_scenario(proposed->scenario, "next.toml", &tower.rig));
 }
 
+TEST(NextExperiment, LeavesAloneWhatIsBeyondDoubt) {
+  const Suspects tower("virginia_tech_tower");
+  const Effect friction = tower.effect("viscous_friction", "slew", 0.3);
+  const auto proposed = tower.propose({friction, tower.effect("command_delay", "trolley", 0.03)},
+                                      {friction, tower.effect("actuator_lag", "trolley", 0.03)});
+  ASSERT_TRUE(proposed);
+  EXPECT_EQ(proposed->name, "shaking_trolley");
+}
+
 TEST(NextExperiment, TellsATiltedJibFromASwingOffset) {
   const Suspects gantry("gantry");
   const auto proposed =
-      gantry.propose(gantry.find("jib_tilt", ""), 0.02, gantry.find("swing_offset", "radial"), 0.02);
+      gantry.propose({gantry.effect("jib_tilt", "", 0.02)}, {gantry.effect("swing_offset", "radial", 0.02)});
   ASSERT_TRUE(proposed);
   EXPECT_GT(proposed->separation, 20);
 }
 
 TEST(NextExperiment, SaysNothingWhereBothAreTheSame) {
   const Suspects axis("drive_axis");
-  const auto& lag = axis.find("actuator_lag", "trolley");
-  const auto proposed = axis.propose(lag, 0.03, lag, 0.05);
+  const Effect lag = axis.effect("actuator_lag", "trolley", 0.03);
+  const Candidate same = *lag.candidate;
+  const auto proposed = axis.propose({lag}, {{&same, {0.05, 0}}});
   EXPECT_FALSE(proposed) << "refitted, it is the same crane, not " << proposed->separation << " away in "
                          << proposed->name;
 }
 
 TEST(NextExperiment, IsTheSameTwice) {
   const Suspects axis("drive_axis");
-  const auto& a = axis.find("command_delay", "trolley");
-  const auto& b = axis.find("actuator_lag", "trolley");
-  const auto one = axis.propose(a, 0.03, b, 0.03), other = axis.propose(a, 0.03, b, 0.03);
+  const Effects a{axis.effect("command_delay", "trolley", 0.03)},
+      b{axis.effect("actuator_lag", "trolley", 0.03)};
+  const auto one = axis.propose(a, b), other = axis.propose(a, b);
   ASSERT_TRUE(one && other);
   EXPECT_EQ(one->name, other->name);
   EXPECT_EQ(one->separation, other->separation);

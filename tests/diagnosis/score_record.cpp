@@ -113,7 +113,7 @@ Record scored(const Set& set) {
     if (found.next_experiment) record.experiment = found.next_experiment->name;
     record.oracle = set.kind == Kind::single || set.kind == Kind::pair;
     if (record.oracle) record.oracle_gain = oracle(sealed, answer).held_out.gain;
-    if (set.kind == Kind::confounded && found.verdict == Verdict::ambiguous) try_experiment(set, record);
+    if (found.verdict == Verdict::ambiguous) try_experiment(set, record);
   } catch (const std::runtime_error& error) {
     record.judged = "no data";
     record.found = error.what();

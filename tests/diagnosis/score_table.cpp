@@ -108,7 +108,7 @@ void add_rest(const Records& all, Targets& table) {
                   pairs.size()));
   table.row("confounded: ambiguous or right", "≥ 95 %",
             share(count(alike, {Judged::right, Judged::among}), alike.size()));
-  const Records tried = only(alike, [](const Record& r) { return !r.resolved.empty(); });
+  const Records tried = only(all, [](const Record& r) { return !r.resolved.empty(); });
   const auto solved = std::count_if(tried.begin(), tried.end(),
                                     [](const Record& r) { return r.resolved == name_of(Judged::right); });
   table.row("ambiguous: the proposed run decides", "≥ 90 %",

@@ -8,6 +8,7 @@
 #include "experiment/safe_run.hpp"
 #include "noise/paces.hpp"
 #include "parallel.hpp"
+#include "search/compare.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -24,10 +25,27 @@ constexpr double kLeastApproach = 1;  // of the sum of squares
 constexpr double kLeastStep = 0.1;    // of the Gauss-Newton step
 constexpr std::size_t kEvery = 2;     // windows compared: enough to rank motions
 
-struct Hypothesis {
-  const Candidate* candidate = nullptr;
-  std::vector<double> values;
-};
+/// Candidates that only one of the two has.
+std::vector<const Candidate*> differing(const Effects& a, const Effects& b) {
+  std::vector<const Candidate*> all;
+  for (const auto& [one, other] : {std::pair{&a, &b}, {&b, &a}})
+    for (const Effect& effect : *one)
+      if (!has(*other, effect.candidate)) all.push_back(effect.candidate);
+  return all;
+}
+
+/// `other` with the values of `truth` of what both have: from there its refit begins.
+Effects beginning_at(const Effects& truth, Effects other) {
+  for (Effect& effect : other)
+    for (const Effect& shared : truth)
+      if (shared.candidate == effect.candidate) effect.values = shared.values;
+  return other;
+}
+
+Crane with(Crane crane, const Effects& effects) {
+  for (const Effect& effect : effects) crane.terms.push_back(effect.candidate->setting(effect.values));
+  return crane;
+}
 
 /// Misfit of a crane to one run in one part, whitened, output by output; the starts of windows are solved for
 /// along the directions of the first crane that is asked.
@@ -126,49 +144,45 @@ class Comparison {
   std::vector<MatrixXd> bases_;
 };
 
-/// The structured parts of one run in which either cause may show.
-class Rival {
+/// The structured parts of one run in which what differs may show.
+class Refit {
  public:
-  Rival(const Crane& base, const PreparedRun& run, const Disturbances& disturbances, const Candidate& a,
-        const Candidate& b)
+  Refit(const Crane& base, const PreparedRun& run, const Disturbances& disturbances,
+        const std::vector<const Candidate*>& causes)
       : base_(base) {
     const double g = base.parameters.gravity_mps2;
-    if (a.drive || b.drive) parts_.emplace_back(run, Part::drive, g, disturbances);
-    if (a.load || b.load) parts_.emplace_back(run, Part::load, g, disturbances);
+    const auto any = [&](bool Candidate::*shows) {
+      return std::any_of(causes.begin(), causes.end(), [&](const Candidate* c) { return c->*shows; });
+    };
+    if (any(&Candidate::drive)) parts_.emplace_back(run, Part::drive, g, disturbances);
+    if (any(&Candidate::load)) parts_.emplace_back(run, Part::load, g, disturbances);
   }
 
   /// Of each part.
-  [[nodiscard]] std::vector<MatrixXd> misfits(const Hypothesis& hypothesis) {
-    Crane crane = base_;
-    crane.terms.push_back(hypothesis.candidate->setting(hypothesis.values));
+  [[nodiscard]] std::vector<MatrixXd> misfits(const Effects& effects) {
+    const Crane crane = with(base_, effects);
     std::vector<MatrixXd> all;
     for (Comparison& part : parts_) all.push_back(part.misfit(crane));
     return all;
   }
 
   /// Gauss-Newton from the values given, inside the bounds.
-  void refit(Hypothesis& hypothesis) {
-    VectorXd residual = stacked(misfits(hypothesis));
+  void approach(Effects& effects) {
+    VectorXd residual = stacked(misfits(effects));
     for (int round = 0; round < kRounds; ++round) {
-      const VectorXd change = step(hypothesis, residual);
+      const VectorXd change = step(effects, residual);
       double gain = 0;
       for (double share = 1; share > kLeastStep && gain <= 0; share *= 0.5) {
-        Hypothesis next = hypothesis;
-        for (std::size_t i = 0; i < next.values.size(); ++i)
-          next.values[i] =
-              within(*hypothesis.candidate, i, next.values[i] + share * change[static_cast<Index>(i)]);
+        const Effects next = moved(effects, share * change);
         const VectorXd after = stacked(misfits(next));
         gain = residual.squaredNorm() - after.squaredNorm();
-        if (gain > 0) hypothesis = next, residual = after;
+        if (gain > 0) effects = next, residual = after;
       }
       if (gain < kLeastApproach) return;
     }
   }
 
  private:
-  static double within(const Candidate& candidate, std::size_t parameter, double value) {
-    return std::clamp(value, candidate.parameters[parameter].low, candidate.parameters[parameter].high);
-  }
   static VectorXd stacked(const std::vector<MatrixXd>& parts) {
     Index size = 0;
     for (const MatrixXd& part : parts) size += part.size();
@@ -180,45 +194,49 @@ class Rival {
     }
     return all;
   }
-  [[nodiscard]] VectorXd step(const Hypothesis& at, const VectorXd& residual) {
-    MatrixXd slopes(residual.size(), static_cast<Index>(at.values.size()));
-    for (std::size_t i = 0; i < at.values.size(); ++i) {
-      const FreeParameter& parameter = at.candidate->parameters[i];
-      Hypothesis moved = at;
-      moved.values[i] += at.values[i] + parameter.step <= parameter.high ? parameter.step : -parameter.step;
-      slopes.col(static_cast<Index>(i)) =
-          (residual - stacked(misfits(moved))) / (moved.values[i] - at.values[i]);
-    }
-    return slopes.colPivHouseholderQr().solve(residual);
+  [[nodiscard]] VectorXd step(const Effects& at, const VectorXd& residual) {
+    std::vector<VectorXd> slopes;
+    for (std::size_t e = 0; e < at.size(); ++e)
+      for (std::size_t i = 0; i < at[e].values.size(); ++i) {
+        const FreeParameter& parameter = at[e].candidate->parameters[i];
+        Effects there = at;
+        double& value = there[e].values[i];
+        value += value + parameter.step <= parameter.high ? parameter.step : -parameter.step;
+        slopes.emplace_back((residual - stacked(misfits(there))) / (value - at[e].values[i]));
+      }
+    MatrixXd all(residual.size(), static_cast<Index>(slopes.size()));
+    for (std::size_t i = 0; i < slopes.size(); ++i) all.col(static_cast<Index>(i)) = slopes[i];
+    return all.colPivHouseholderQr().solve(residual);
   }
 
   Crane base_;
   std::vector<Comparison> parts_;
 };
 
-/// Two causes on one drive show only while that drive is asked to move.
-bool may_show(const SafeMotion& motion, const Candidate& a, const Candidate& b) {
-  if (a.axis != b.axis || (a.axis != "trolley" && a.axis != "slew")) return true;
-  const plant::Axis axis = plant::drive_axis(a.axis);
+/// Causes on one drive show only while that drive is asked to move.
+bool may_show(const SafeMotion& motion, const std::vector<const Candidate*>& causes) {
+  const std::string& name = causes.front()->axis;
+  const auto elsewhere = [&](const Candidate* cause) { return cause->axis != name; };
+  if (std::any_of(causes.begin(), causes.end(), elsewhere) || (name != "trolley" && name != "slew"))
+    return true;
+  const plant::Axis axis = plant::drive_axis(name);
   return std::any_of(motion.references.begin(), motion.references.end(),
                      [axis](const TimedExcitation& part) { return part.reference.axis == axis; });
 }
 
-/// How far `other`, refitted, stays from what `truth` gives, in the column that shows it most, in standard
+/// How far `rival`, refitted, stays from what `truth` gives, in the column that shows it most, in standard
 /// deviations of the noise. Nothing when the motion is not safe for that crane.
-std::optional<double> separation_of(const runtime::Rig& rig, const SafeMotion& motion,
-                                    const Hypothesis& truth, Hypothesis other,
-                                    const Disturbances& disturbances) {
+std::optional<double> separation_of(const runtime::Rig& rig, const SafeMotion& motion, const Effects& truth,
+                                    const Effects& rival, const Disturbances& disturbances) {
   Crane base{rig.plant, rig.terms};
   base.parameters.load_mass_kg = motion.load_mass_kg;
-  Crane crane = base;
-  crane.terms.push_back(truth.candidate->setting(truth.values));
-  const auto run = safe_run(rig, crane, motion);
+  const auto run = safe_run(rig, with(base, truth), motion);
   if (!run) return std::nullopt;
-  Rival rival(base, *run, disturbances, *truth.candidate, *other.candidate);
-  rival.refit(other);
-  const auto left = rival.misfits(other),
-             own = rival.misfits(truth);  // the replay of smoothed data errs a little
+  Refit refit(base, *run, disturbances, differing(truth, rival));
+  Effects nearest = beginning_at(truth, rival);
+  refit.approach(nearest);
+  const auto left = refit.misfits(nearest),
+             own = refit.misfits(truth);  // the replay of smoothed data errs a little
   double most = 0;
   for (std::size_t part = 0; part < left.size(); ++part)
     for (Index i = 0; i < left[part].cols(); ++i) {
@@ -230,17 +248,16 @@ std::optional<double> separation_of(const runtime::Rig& rig, const SafeMotion& m
 
 }  // namespace
 
-std::optional<NextExperiment> propose_experiment(const runtime::Rig& rig, const Candidate& a,
-                                                 const std::vector<double>& values_a, const Candidate& b,
-                                                 const std::vector<double>& values_b,
+std::optional<NextExperiment> propose_experiment(const runtime::Rig& rig, const Effects& a, const Effects& b,
                                                  const Disturbances& disturbances) {
+  const std::vector<const Candidate*> causes = differing(a, b);
+  if (causes.empty()) return std::nullopt;
   const auto menu = motion_menu(rig);
   std::vector<double> separations(menu.size(), 0.0);
-  const Hypothesis first{&a, values_a}, second{&b, values_b};
   parallel_for(menu.size(), [&](std::size_t i) {
-    if (!may_show(menu[i], a, b)) return;
-    const auto one = separation_of(rig, menu[i], first, second, disturbances);
-    const auto other = one ? separation_of(rig, menu[i], second, first, disturbances) : std::nullopt;
+    if (!may_show(menu[i], causes)) return;
+    const auto one = separation_of(rig, menu[i], a, b, disturbances);
+    const auto other = one ? separation_of(rig, menu[i], b, a, disturbances) : std::nullopt;
     if (other) separations[i] = std::min(*one, *other);
   });
   const auto best = std::max_element(separations.begin(), separations.end());

@@ -77,19 +77,13 @@ void require_excitation(const Runs& train, const Runs& test, const runtime::Rig&
   if (!problems.empty()) throw DataError(problems);
 }
 
-/// The motion that tells the first effect from its strongest rival.
-std::optional<NextExperiment> proposal(const runtime::Rig& rig, const Study& study, const Hypotheses& found,
-                                       const Candidate& rival) {
-  const auto single = std::find_if(found.singles.begin(), found.singles.end(),
-                                   [&](const Fitted& f) { return f.effects[0].candidate == &rival; });
-  if (single == found.singles.end()) return std::nullopt;
+/// As learnt from all that is measured.
+Disturbances disturbances_of(const Study& study) {
   Disturbances disturbances{};
   for (const Problem* problem : {&study.drive(), &study.load()})
     for (std::size_t i = 0; i < problem->outputs().size(); ++i)
       disturbances[problem->outputs()[i]] = problem->disturbances()[i];
-  const Effect& first = found.best.effects[0];
-  return propose_experiment(rig, *first.candidate, first.values, rival, single->effects[0].values,
-                            disturbances);
+  return disturbances;
 }
 
 /// Singles that explain so much that their effect has been taken for noise, best first.
@@ -181,7 +175,7 @@ Diagnosis diagnosed(const runtime::Rig& rig, Study& study, Study& as_measured,
                     const std::vector<LosingEncoder>& losing, const Request& request) {
   Hypotheses found = searched(study, request);
   request.progress(0.85, "what is left");
-  auto [result, rivals] = judge(study, found, losing, request.seed);
+  auto [result, rival] = judge(study, found, losing, request.seed);
   if (!found.best.effects.empty()) {
     request.progress(0.88, "how well the data know it");
     found.best = settled(study, found.best, request.seed);
@@ -192,9 +186,9 @@ Diagnosis diagnosed(const runtime::Rig& rig, Study& study, Study& as_measured,
   result.held_out = held_out(study, as_measured, found.best.effects, request.seed);
   if (!worthwhile(result.held_out, found.best.effects))
     doubt(result, "held-out runs: the extended model hardly simulates them better");
-  if (!rivals.empty()) {
+  if (!rival.empty()) {
     request.progress(0.95, "which motion would tell them apart");
-    result.next_experiment = proposal(rig, study, found, *rivals[0]);
+    result.next_experiment = propose_experiment(rig, found.best.effects, rival, disturbances_of(study));
   }
   name_losing(losing, study, as_measured, result);
   result.traces = traces(study, as_measured, found.best.effects);

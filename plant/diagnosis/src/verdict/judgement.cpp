@@ -63,7 +63,7 @@ class Judgement {
       name();
     if (result_.verdict != Verdict::none) report_causes();
     result_.sentence = said(result_);
-    return {std::move(result_), std::move(rivals_)};
+    return {std::move(result_), std::move(rival_)};
   }
 
  private:
@@ -119,21 +119,26 @@ class Judgement {
       clear = clear && frequency_[effect.candidate] >= kClearWin;
       known = known && effect.candidate->changes_known_parameter;
     }
+    std::vector<const Candidate*> rivals;
     for (const auto& [candidate, share] : frequency_)
-      if (share >= kRunnerUp && !has(best_.effects, candidate)) rivals_.push_back(candidate);
-    result_.verdict = !clear && !rivals_.empty() ? Verdict::ambiguous
-                      : !all_.proven             ? Verdict::unknown
-                      : known                    ? Verdict::parameter
-                                                 : Verdict::named;
+      if (share >= kRunnerUp && !has(best_.effects, candidate)) rivals.push_back(candidate);
+    result_.verdict = !clear && !rivals.empty() ? Verdict::ambiguous
+                      : !all_.proven            ? Verdict::unknown
+                      : known                   ? Verdict::parameter
+                                                : Verdict::named;
     auto& from = result_.remainder.from;
     if (result_.verdict == Verdict::unknown)
       from.insert(from.begin(), "held-out runs: too little in them to prove a cause");
-    if (result_.verdict != Verdict::ambiguous) rivals_.clear();
-    std::sort(rivals_.begin(), rivals_.end(),
+    if (result_.verdict != Verdict::ambiguous) return;
+    std::sort(rivals.begin(), rivals.end(),
               [&](const Candidate* a, const Candidate* b) { return frequency_[a] > frequency_[b]; });
     auto& names = result_.ambiguous_with;
-    for (const Candidate* rival : rivals_)
+    for (const Candidate* rival : rivals)
       if (std::find(names.begin(), names.end(), rival->cause) == names.end()) names.push_back(rival->cause);
+    double most = 0;
+    for (std::size_t r = 0; r < equals.size(); ++r)
+      if (has(equals[r]->effects, rivals[0]) && picked[r] > most)
+        most = picked[r], rival_ = equals[r]->effects;
   }
 
   void report_causes() {
@@ -159,18 +164,23 @@ class Judgement {
   const std::vector<LosingEncoder>& losing_;
   std::uint64_t seed_;
   std::map<const Candidate*, double> frequency_;
-  std::vector<const Candidate*> rivals_;
+  Effects rival_;
   Diagnosis result_;
 };
 
 }  // namespace
 
 std::string said(const Diagnosis& d) {
-  std::string names, rivals;
-  for (const Cause& cause : d.causes)
-    names +=
-        (names.empty() ? "" : " and ") + cause.name + (cause.axis.empty() ? "" : " (" + cause.axis + ")");
-  for (const std::string& rival : d.ambiguous_with) rivals += (rivals.empty() ? "" : ", ") + rival;
+  std::string names, clear, contested, rivals;
+  const auto add = [](std::string& list, const char* separator, const std::string& name) {
+    list += (list.empty() ? "" : separator) + name;
+  };
+  for (const Cause& cause : d.causes) {
+    const std::string name = cause.name + (cause.axis.empty() ? "" : " (" + cause.axis + ")");
+    add(names, " and ", name);
+    add(cause.resampling_frequency >= kClearWin ? clear : contested, " and ", name);
+  }
+  for (const std::string& rival : d.ambiguous_with) add(rivals, ", ", rival);
   switch (d.verdict) {
     case Verdict::none:
       return "Nothing that these data could show is wrong with the model.";
@@ -179,7 +189,8 @@ std::string said(const Diagnosis& d) {
     case Verdict::parameter:
       return "A parameter of the model is off: " + names + ".";
     case Verdict::ambiguous:
-      return "These data cannot tell " + names + " from " + rivals + ".";
+      return (clear.empty() ? "These" : "The simulation lacks " + clear + "; these") + " data cannot tell " +
+             contested + " from " + rivals + ".";
     case Verdict::unknown:
       break;
   }

@@ -5,10 +5,11 @@
 
 namespace crane::diagnosis {
 
-/// Verdict, causes without their values, rivals, what is left, sentence.
+/// Verdict, causes without their values, what is left, sentence.
 struct Judged {
   Diagnosis diagnosis;
-  std::vector<const Candidate*> rivals;  ///< strongest first; only when ambiguous
+  Effects rival;  ///< of all hypotheses the one that would most often take the best one's place; only when
+                  ///< ambiguous
 };
 /// The verdict in words.
 [[nodiscard]] std::string said(const Diagnosis& diagnosis);

@@ -56,7 +56,8 @@ void name_losing(const std::vector<LosingEncoder>& losing, const Study& study, c
   diagnosis.extension.insert(diagnosis.extension.begin(), terms.begin(), terms.end());
   if (diagnosis.verdict == Verdict::none || diagnosis.verdict == Verdict::parameter)
     diagnosis.verdict = Verdict::named;
-  diagnosis.sentence = said(diagnosis);
+  diagnosis.sentence =
+      (diagnosis.verdict == Verdict::unknown ? "An encoder loses counts. " : "") + said(diagnosis);
 }
 
 }  // namespace crane::diagnosis
