@@ -168,12 +168,12 @@ Set set_of(std::size_t number, std::uint64_t first_seed) {
 
 std::string run_like(const std::string& experiment) {
   const auto begins = [&](const char* with) { return experiment.starts_with(with); };
+  if (begins("slow_sweep_slew") || begins("half_turn")) return "slew_180";
   if (begins("slow_sweep") || begins("two_speeds")) return "slow";
   if (begins("break_away")) return "rest_breakaway";
   if (begins("shaking")) return "rich";
   if (begins("load_swinging")) return "swing";
   if (begins("second_cable_length")) return "two_lengths";
-  if (begins("half_turn")) return "slew_180";
   return "";  // the truth has no added mass
 }
 

@@ -90,7 +90,12 @@ struct Rivals : Compared {
     base.effects = {{&second, {}}};
     base.parameters = 1;
   }
-  [[nodiscard]] double votes_for_second() { return frequencies(fitted, {&base}, kSeed).at(0); }
+  /// @param explained in each training block by the second
+  [[nodiscard]] double votes_for_second(double explained = 100) {
+    Fitted neither;
+    neither.train = evaluation_of(Blocks(kTrainingBlocks, kOfEach + explained));
+    return frequencies(fitted, {&base}, neither, kSeed).at(0);
+  }
   Candidate first, second;
 };
 
@@ -107,6 +112,14 @@ TEST_F(Rivals, WhatOneMoreParameterGainsInTrainingOnlyLeavesTheVotesOpen) {
   fitted.parameters = 2;
   evaluate();
   EXPECT_GT(votes_for_second(), 0.2);
+}
+
+TEST_F(Rivals, WhatOneMoreParameterExplainsHalfAsMuchAgainWinsTheVotes) {
+  for (double& block : train) block -= 4;
+  test[3] -= 10, test[9] += 10;
+  fitted.parameters = 2;
+  evaluate();
+  EXPECT_LT(votes_for_second(8), 0.05);
 }
 
 TEST_F(Rivals, WhatOneMoreParameterGainsOutOfSampleTooWinsTheVotes) {

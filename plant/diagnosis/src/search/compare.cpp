@@ -18,6 +18,8 @@ constexpr double kLeastDriveShare = 0.012, kLeastLoadShare = 0.007;
 /// A term's form is not exactly the effect's: beside it, another one on the same axis that takes less than
 /// this share of what it explains may only make up for that.
 constexpr double kLeastBeside = 0.01;
+/// What explains less of the training data than such a share of what another one does, does not do as well.
+constexpr double kAsMuch = 0.9;
 constexpr int kVotes = 500;
 
 /// Of one parameter, in units of one noise variance: that of the Bayesian information criterion.
@@ -166,10 +168,16 @@ std::vector<double> advantage(const Fitted& rival, const Fitted& best) {
   return margins;
 }
 
+/// Whether in training it comes as near to `best` as to be told from it only by what more parameters make of
+/// a form that is not exactly the effect's.
+bool explains_as_much(const Fitted& rival, const Fitted& best, const Fitted& base) {
+  return base.train.loss - rival.train.loss > kAsMuch * (base.train.loss - best.train.loss);
+}
+
 }  // namespace
 
 std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
-                                std::uint64_t seed) {
+                                const Fitted& base, std::uint64_t seed) {
   std::vector<std::vector<double>> margins;
   margins.reserve(rivals.size());
   for (const Fitted* rival : rivals) margins.push_back(advantage(*rival, best));
@@ -189,7 +197,8 @@ std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitt
       }
     }
     for (std::size_t r = 0; r < rivals.size(); ++r)
-      if (rivals[r]->parameters < best.parameters) total[r] = std::max(total[r], held_out[r]);
+      if (rivals[r]->parameters < best.parameters && explains_as_much(*rivals[r], best, base))
+        total[r] = std::max(total[r], held_out[r]);
     const auto winner = std::max_element(total.begin(), total.end());
     if (winner != total.end() && *winner > 0)
       picked[static_cast<std::size_t>(winner - total.begin())] += 1.0 / kVotes;

@@ -38,10 +38,12 @@ inline constexpr double kSignificant = 0.01;
 [[nodiscard]] bool likely(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 
 /// How often, when the blocks are resampled, each of the rivals does better than `best` where it would have
-/// to replace what only `best` has; of a rival with fewer parameters the held-out blocks alone suffice: what
-/// more parameters gain in training has to hold out of sample. The rest of the votes are for `best`.
+/// to replace what only `best` has; of a rival with fewer parameters, which explains nine tenths as much of
+/// the training data, the held-out blocks alone suffice: what more parameters gain there has to hold out of
+/// sample. The rest of the votes are for `best`.
+/// @param base without effects
 [[nodiscard]] std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
-                                              std::uint64_t seed);
+                                              const Fitted& base, std::uint64_t seed);
 
 [[nodiscard]] std::vector<Estimate> estimates(const Fitted& fitted);
 

@@ -107,7 +107,7 @@ class Judgement {
       if (fitted.effects.size() == best_.effects.size() && !same(fitted.effects, best_.effects) &&
           possible(fitted, all_.base, seed_))
         equals.push_back(&fitted);
-    const std::vector<double> picked = frequencies(best_, equals, seed_);
+    const std::vector<double> picked = frequencies(best_, equals, all_.base, seed_);
     double left = 1;
     for (std::size_t r = 0; r < equals.size(); ++r) {
       left -= picked[r];
