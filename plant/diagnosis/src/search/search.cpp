@@ -53,11 +53,16 @@ class Search {
   Hypotheses singles_again(const Hypotheses& before) {
     found_.detection_p_value = before.detection_p_value;
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < before.singles.size(); ++i) {
-      found_.singles.push_back(study_.fit(before.singles[i].effects, least + kHopeless));
+    const auto add = [&](const Effects& effects, double p_value) {
+      found_.singles.push_back(study_.fit(effects, least + kHopeless));
       least = std::min(least, found_.singles.back().train.loss);
-      rank(found_.singles.back(), before.ranking[i].p_value);
-    }
+      rank(found_.singles.back(), p_value);
+    };
+    for (std::size_t i = 0; i < before.singles.size(); ++i)
+      add(before.singles[i].effects, before.ranking[i].p_value);
+    const ScoreTable scores = study_.score({}, found_.base.train, request_.seed);
+    for (const Score& score : strongest(scores, kRefitted))
+      if (const Effects effects = begin({}, score); !fitted_alone(effects)) add(effects, score.p_value);
     choose();
     return std::move(found_);
   }
@@ -125,6 +130,11 @@ class Search {
       }
     }
     return best_start(starts);
+  }
+
+  [[nodiscard]] bool fitted_alone(const Effects& effects) const {
+    return std::any_of(found_.singles.begin(), found_.singles.end(),
+                       [&](const Fitted& single) { return same(single.effects, effects); });
   }
 
   void fit_singles(const ScoreTable& scores) {

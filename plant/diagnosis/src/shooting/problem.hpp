@@ -50,8 +50,8 @@ class Problem {
 
   /// Learns noise and disturbance per output from the residuals of a crane and whitens with them from now on.
   void learn_disturbance(const Replays& crane);
-  /// Whitens as `other` does.
-  void whiten_like(const Problem& other) { whiten_with(other.disturbances_); }
+  /// Whitens with these, by output, from now on.
+  void whiten_with(std::vector<Disturbance> disturbances);
   [[nodiscard]] const Whitener& whitener(std::size_t output, std::size_t window) const {
     return whiteners_[output][window];
   }
@@ -76,7 +76,6 @@ class Problem {
   [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Replays& crane) const;
   /// Numbers of a start that every crane has.
   [[nodiscard]] Eigen::Index bare_start() const { return static_cast<Eigen::Index>(2 * outputs_.size()); }
-  void whiten_with(std::vector<Disturbance> disturbances);
   [[nodiscard]] Eigen::VectorXd simulate(const Replay& replay, const Window& window,
                                          const Eigen::VectorXd& start) const;
   void whiten(std::size_t window, Eigen::Ref<Eigen::MatrixXd> x) const;

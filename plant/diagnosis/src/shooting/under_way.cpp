@@ -15,24 +15,25 @@ std::size_t window_of(const std::vector<Window>& windows, const Piece& piece) {
 
 }  // namespace
 
-double UnderWay::learn_disturbance(const Replays& crane) {
-  axes_.clear();
-  double misfit = 0;
-  if (drive_.empty()) return misfit;
-  for (const Output axis : drive_.outputs()) {
-    axes_.push_back(pieces_of(drive_.runs(), crane, axis));
-    misfit += axes_.back().disturbance.misfit;
-  }
-  find_windows();
-  return misfit;
-}
-
-void UnderWay::whiten_like(const UnderWay& other, const Replays& crane) {
+void UnderWay::learn_disturbance(const Replays& crane) {
   axes_.clear();
   if (drive_.empty()) return;
-  for (const Pieces& axis : other.axes_)
-    axes_.push_back(pieces_of(drive_.runs(), crane, axis.output, axis.disturbance));
+  for (const Output axis : drive_.outputs()) axes_.push_back(pieces_of(drive_.runs(), crane, axis));
   find_windows();
+}
+
+void UnderWay::whiten_with(const std::vector<Disturbance>& disturbances, const Replays& crane) {
+  axes_.clear();
+  if (drive_.empty()) return;
+  for (std::size_t i = 0; i < disturbances.size(); ++i)
+    axes_.push_back(pieces_of(drive_.runs(), crane, drive_.outputs()[i], disturbances[i]));
+  find_windows();
+}
+
+std::vector<Disturbance> UnderWay::disturbances() const {
+  std::vector<Disturbance> all;
+  for (const Pieces& axis : axes_) all.push_back(axis.disturbance);
+  return all;
 }
 
 void UnderWay::find_windows() {

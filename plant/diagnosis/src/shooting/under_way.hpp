@@ -11,10 +11,10 @@ class UnderWay {
   explicit UnderWay(const Problem& drive) : drive_(drive) {}
 
   /// Learns noise and disturbance of each axis from what `crane` leaves, and whitens with them from now on.
-  /// @return minus twice the log likelihood, but for a constant
-  double learn_disturbance(const Replays& crane);
-  /// Whitens as `other` does. @param crane any of these runs
-  void whiten_like(const UnderWay& other, const Replays& crane);
+  void learn_disturbance(const Replays& crane);
+  /// Whitens with these, by output of the drives, from now on. @param crane any of these runs
+  void whiten_with(const std::vector<Disturbance>& disturbances, const Replays& crane);
+  [[nodiscard]] std::vector<Disturbance> disturbances() const;
 
   /// Whitened residual of every piece, without what its start can make.
   [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const Replays& crane) const;

@@ -74,31 +74,31 @@ Crane Study::with(const Effects& effects) const {
   return crane;
 }
 
-double Study::learn_disturbance(const Effects& effects) {
-  double misfit = 0;
+void Study::learn_disturbance(const Effects& effects) {
   const Replays crane = replays_of(train_.runs, with(effects));
-  for (Problem* train : {&train_.drive, &train_.load}) {
-    if (train->empty()) continue;
-    train->learn_disturbance(crane);
-    for (const Disturbance& disturbance : train->disturbances()) misfit += disturbance.misfit;
-  }
-  misfit += train_.under_way.learn_disturbance(crane);
+  for (Problem* train : {&train_.drive, &train_.load})
+    if (!train->empty()) train->learn_disturbance(crane);
+  train_.under_way.learn_disturbance(crane);
   evaluate_base();
-  return misfit;
 }
 
-void Study::whiten_like(const Study& other) {
-  if (!train_.drive.empty()) train_.drive.whiten_like(other.train_.drive);
-  if (!train_.load.empty()) train_.load.whiten_like(other.train_.load);
-  train_.under_way.whiten_like(other.train_.under_way, replays_of(train_.runs, base_));
+void Study::whiten_with(const Noise& noise) {
+  if (!train_.drive.empty()) train_.drive.whiten_with(noise.drive);
+  if (!train_.load.empty()) train_.load.whiten_with(noise.load);
+  train_.under_way.whiten_with(noise.under_way, replays_of(train_.runs, base_));
   evaluate_base();
+}
+
+Noise Study::noise() const {
+  return {train_.drive.disturbances(), train_.under_way.disturbances(), train_.load.disturbances()};
 }
 
 void Study::evaluate_base() {
-  if (!test_.drive.empty()) test_.drive.whiten_like(train_.drive);
-  if (!test_.load.empty()) test_.load.whiten_like(train_.load);
+  const Noise noise = this->noise();
+  if (!test_.drive.empty()) test_.drive.whiten_with(noise.drive);
+  if (!test_.load.empty()) test_.load.whiten_with(noise.load);
   const Replays base_train = replays_of(train_.runs, base_), base_test = replays_of(test_.runs, base_);
-  test_.under_way.whiten_like(train_.under_way, base_test);
+  test_.under_way.whiten_with(noise.under_way, base_test);
   base_train_ = evaluated(train_, base_train);
   base_test_ = evaluated(test_, base_test);
 }

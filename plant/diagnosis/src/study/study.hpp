@@ -65,6 +65,11 @@ struct ScoreTable {
   double p_value = 1;  ///< that the largest of all comes from nothing, by flipping the signs of blocks
 };
 
+/// Noise and disturbance: by output of the drives, of the same along the measured motion, and of the load.
+struct Noise {
+  std::vector<Disturbance> drive, under_way, load;
+};
+
 struct BlockScores;
 
 class Study {
@@ -82,10 +87,10 @@ class Study {
 
   /// Learns noise and disturbance from what the base model with the effects leaves, and evaluates the base
   /// model. Before anything else.
-  /// @return minus twice the log likelihood of the training residuals, but for a constant
-  double learn_disturbance(const Effects& effects = {});
-  /// Takes noise and disturbance from a study of the same runs, whose data differ.
-  void whiten_like(const Study& other);
+  void learn_disturbance(const Effects& effects = {});
+  /// The same with what was learnt elsewhere, from the same runs.
+  void whiten_with(const Noise& noise);
+  [[nodiscard]] Noise noise() const;
 
   /// The base model.
   [[nodiscard]] const Evaluation& base_train() const { return base_train_; }

@@ -19,7 +19,9 @@ namespace {
 /// An effect that leaves less than this share of the loss of drives or load has been taken for noise, which
 /// hides what is small beside it.
 constexpr double kHiding = 0.95;
-constexpr std::size_t kContenders = 3;
+constexpr std::size_t kContenders = 2;
+/// The same of a share of the error of a swing, in rad: a force of any size makes up for what goes with none.
+constexpr double kFollowed = 0.8;
 /// A smaller share of the held-out error, where a cause acts, has to be beyond doubt. Several causes that are
 /// not worth so much each are rather what two laws make of one that has no name.
 constexpr double kWorthwhile = 0.05;
@@ -77,7 +79,7 @@ void require_excitation(const Runs& train, const Runs& test, const runtime::Rig&
   if (!problems.empty()) throw DataError(problems);
 }
 
-/// As learnt from all that is measured.
+/// Of the replays, by output; of one that is not measured nothing.
 Disturbances disturbances_of(const Study& study) {
   Disturbances disturbances{};
   for (const Problem* problem : {&study.drive(), &study.load()})
@@ -86,34 +88,68 @@ Disturbances disturbances_of(const Study& study) {
   return disturbances;
 }
 
-/// Singles that explain so much that their effect has been taken for noise, best first.
-std::vector<Effects> hiding(const Hypotheses& found) {
+/// Mean square of what a simulation leaves of an output in windows, not whitened.
+double square_left(const Problem& problem, const Fits& fits, std::size_t output) {
+  double left = 0, count = 0;
+  for (std::size_t w = 0; w < fits.size(); ++w) {
+    const auto rows = static_cast<Eigen::Index>(problem.windows()[w].rows);
+    const Eigen::VectorXd residual = problem.measured(problem.windows()[w]) - fits[w].simulated;
+    left += residual.segment(static_cast<Eigen::Index>(output) * rows, rows).squaredNorm();
+    count += static_cast<double>(rows);
+  }
+  return left / count;
+}
+
+/// Whether a swing is simulated so much better that what was wrong with it has been taken for a force.
+bool follows_better(const Study& study, const Fitted& fitted) {
+  for (std::size_t output = 0; output < study.load().outputs().size(); ++output)
+    if (square_left(study.load(), fitted.train.load, output) <
+        kFollowed * kFollowed * square_left(study.load(), study.base_train().load, output))
+      return true;
+  return false;
+}
+
+/// Singles that explain so much that their effect has been taken for noise, the best ones of the drives and
+/// of the load.
+std::vector<Effects> hiding(const Study& study, const Hypotheses& found) {
   std::vector<const Fitted*> order;
   const Evaluation& base = found.base.train;
   for (const Fitted& single : found.singles)
     if (single.train.drive_loss < kHiding * base.drive_loss ||
-        single.train.load_loss < kHiding * base.load_loss)
+        single.train.load_loss < kHiding * base.load_loss || follows_better(study, single))
       order.push_back(&single);
-  std::sort(order.begin(), order.end(), [](const Fitted* a, const Fitted* b) { return less(*a, *b); });
-  order.resize(std::min(order.size(), kContenders));
   std::vector<Effects> effects;
-  effects.reserve(order.size());
-  for (const Fitted* single : order) effects.push_back(single->effects);
+  for (const auto loss : {&Evaluation::drive_loss, &Evaluation::load_loss}) {
+    std::sort(order.begin(), order.end(),
+              [&](const Fitted* a, const Fitted* b) { return a->train.*loss < b->train.*loss; });
+    for (std::size_t i = 0; i < std::min(order.size(), kContenders); ++i)
+      if (std::none_of(effects.begin(), effects.end(),
+                       [&](const Effects& known) { return same(known, order[i]->effects); }))
+        effects.push_back(order[i]->effects);
+  }
   return effects;
 }
 
-/// Noise and disturbance learnt from the residuals of the hypothesis that makes them likeliest: which of two
+/// Of each output what makes its residual likelier. Both views of a drive are of one crane.
+void take_likelier(Noise& noise, const Noise& other) {
+  for (std::size_t i = 0; i < noise.drive.size(); ++i)
+    if (other.drive[i].misfit + other.under_way[i].misfit < noise.drive[i].misfit + noise.under_way[i].misfit)
+      noise.drive[i] = other.drive[i], noise.under_way[i] = other.under_way[i];
+  for (std::size_t i = 0; i < noise.load.size(); ++i)
+    if (other.load[i].misfit < noise.load[i].misfit) noise.load[i] = other.load[i];
+}
+
+/// Noise and disturbance learnt from the residuals of the hypotheses that make them likeliest: which of two
 /// causes leaves less is hardly seen in units of a noise that holds them both.
 Hypotheses learnt_anew(Study& study, const Request& request, const Hypotheses& before,
                        const std::vector<Effects>& contenders) {
   request.progress(0.4, "noise and disturbance of what is left");
-  const Effects* likeliest = &contenders.front();
-  double least = std::numeric_limits<double>::infinity();
+  Noise likeliest = study.noise();
   for (const Effects& effects : contenders) {
-    const double misfit = study.learn_disturbance(effects);
-    if (misfit < least) least = misfit, likeliest = &effects;
+    study.learn_disturbance(effects);
+    take_likelier(likeliest, study.noise());
   }
-  if (likeliest != &contenders.back()) study.learn_disturbance(*likeliest);
+  study.whiten_with(likeliest);
   return singles_again(study, request, before);
 }
 
@@ -121,7 +157,7 @@ Hypotheses searched(Study& study, const Request& request) {
   request.progress(0.02, "noise and disturbance");
   study.learn_disturbance();
   Hypotheses found = singles(study, request);
-  const std::vector<Effects> contenders = hiding(found);
+  const std::vector<Effects> contenders = hiding(study, found);
   if (!contenders.empty()) found = learnt_anew(study, request, found, contenders);
   return extended(study, request, found);
 }
@@ -182,7 +218,7 @@ Diagnosis diagnosed(const runtime::Rig& rig, Study& study, Study& as_measured,
     give_values(found.best, result);
   }
   request.progress(0.92, "held-out runs");
-  if (!losing.empty()) as_measured.whiten_like(study);
+  if (!losing.empty()) as_measured.whiten_with(study.noise());
   result.held_out = held_out(study, as_measured, found.best.effects, request.seed);
   if (!worthwhile(result.held_out, found.best.effects))
     doubt(result, "held-out runs: the extended model hardly simulates them better");
