@@ -222,7 +222,7 @@ Diagnosis diagnosed(const runtime::Rig& rig, Study& study, Study& as_measured,
   result.held_out = held_out(study, as_measured, found.best.effects, request.seed);
   if (!worthwhile(result.held_out, found.best.effects))
     doubt(result, "held-out runs: the extended model hardly simulates them better");
-  if (!rival.empty()) {
+  if (result.verdict == Verdict::ambiguous) {
     request.progress(0.95, "which motion would tell them apart");
     result.next_experiment = propose_experiment(rig, found.best.effects, rival, disturbances_of(study));
   }
