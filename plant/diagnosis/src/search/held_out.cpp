@@ -12,14 +12,9 @@ using Eigen::Index;
 constexpr int kResamples = 1000;
 
 /// Mean squares of the plain residual by window, for one output of one part.
-std::vector<double> squares(const Problem& problem, const Fits& fits, std::size_t output) {
-  std::vector<double> result;
-  for (std::size_t w = 0; w < fits.size(); ++w) {
-    const auto rows = static_cast<Index>(problem.windows()[w].rows);
-    const Eigen::VectorXd residual = problem.measured(problem.windows()[w]) - fits[w].simulated;
-    result.push_back(residual.segment(static_cast<Index>(output) * rows, rows).squaredNorm() /
-                     static_cast<double>(rows));
-  }
+std::vector<double> mean_squares(const Problem& problem, const Fits& fits, std::size_t output) {
+  std::vector<double> result = problem.squares_left(fits, output);
+  for (std::size_t w = 0; w < result.size(); ++w) result[w] /= static_cast<double>(problem.windows()[w].rows);
   return result;
 }
 
@@ -108,10 +103,10 @@ HeldOut held_out(const Study& study, const Study& as_measured, const Effects& ef
          &trained.load}}) {
     for (std::size_t o = 0; o < problem->outputs().size(); ++o) {
       const std::string name = kOutputNames[problem->outputs()[o]];
-      compared.before.push_back(squares(*old_problem, *old_fits, o));
-      compared.after.push_back(squares(*problem, *new_fits, o));
+      compared.before.push_back(mean_squares(*old_problem, *old_fits, o));
+      compared.after.push_back(mean_squares(*problem, *new_fits, o));
       compared.noise.push_back(std::max(learned->runs()[0].least_noise[problem->outputs()[o]],
-                                        std::sqrt(mean(squares(*learned, *learned_fits, o)))));
+                                        std::sqrt(mean(mean_squares(*learned, *learned_fits, o)))));
       result.baseline_rms[name] = std::sqrt(mean(compared.before.back()));
       result.extended_rms[name] = std::sqrt(mean(compared.after.back()));
       result.noise[name] = compared.noise.back();

@@ -122,6 +122,16 @@ void Problem::learn_disturbance(const Replays& crane) {
   }
 }
 
+std::vector<double> Problem::squares_left(const Fits& fits, std::size_t output) const {
+  std::vector<double> squares;
+  for (std::size_t w = 0; w < fits.size(); ++w) {
+    const auto rows = static_cast<Index>(windows_[w].rows);
+    const VectorXd residual = measured(windows_[w]) - fits[w].simulated;
+    squares.push_back(residual.segment(static_cast<Index>(output) * rows, rows).squaredNorm());
+  }
+  return squares;
+}
+
 VectorXd Problem::simulate(const Replay& replay, const Window& window, const VectorXd& start) const {
   const std::size_t all = window.lead + window.rows;
   std::vector<double> out(all * outputs_.size());

@@ -70,6 +70,8 @@ class Problem {
                                                     double* own = nullptr) const;
   /// Measured rows of a window, outputs one after the other.
   [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
+  /// Sums of squares of measured - simulated by window, not whitened, of one output.
+  [[nodiscard]] std::vector<double> squares_left(const Fits& fits, std::size_t output) const;
 
  private:
   /// Residuals [output][window], not whitened, of starts that were solved for with what is known.

@@ -88,24 +88,13 @@ Disturbances disturbances_of(const Study& study) {
   return disturbances;
 }
 
-/// Mean square of what a simulation leaves of an output in windows, not whitened.
-double square_left(const Problem& problem, const Fits& fits, std::size_t output) {
-  double left = 0, count = 0;
-  for (std::size_t w = 0; w < fits.size(); ++w) {
-    const auto rows = static_cast<Eigen::Index>(problem.windows()[w].rows);
-    const Eigen::VectorXd residual = problem.measured(problem.windows()[w]) - fits[w].simulated;
-    left += residual.segment(static_cast<Eigen::Index>(output) * rows, rows).squaredNorm();
-    count += static_cast<double>(rows);
-  }
-  return left / count;
-}
-
 /// Whether a swing is simulated so much better that what was wrong with it has been taken for a force.
 bool follows_better(const Study& study, const Fitted& fitted) {
+  const auto left = [&](const Fits& fits, std::size_t output) {
+    return std::sqrt(sum(study.load().squares_left(fits, output)));
+  };
   for (std::size_t output = 0; output < study.load().outputs().size(); ++output)
-    if (square_left(study.load(), fitted.train.load, output) <
-        kFollowed * kFollowed * square_left(study.load(), study.base_train().load, output))
-      return true;
+    if (left(fitted.train.load, output) < kFollowed * left(study.base_train().load, output)) return true;
   return false;
 }
 

@@ -31,17 +31,15 @@ double mean_loss(const Fits& fits) {
 /// Root mean square of what a simulation leaves of a swing in windows, as a share of how it moves there; 0
 /// where it hardly does.
 double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
-  double left = 0, moved = 0, count = 0;
-  for (std::size_t w = 0; w < fits.size(); ++w) {
-    const auto rows = static_cast<Eigen::Index>(problem.windows()[w].rows);
+  double moved = 0, count = 0;
+  for (const Window& window : problem.windows()) {
+    const auto rows = static_cast<Eigen::Index>(window.rows);
     const Eigen::VectorXd measured =
-        problem.measured(problem.windows()[w]).segment(static_cast<Eigen::Index>(output) * rows, rows);
-    left +=
-        (measured - fits[w].simulated.segment(static_cast<Eigen::Index>(output) * rows, rows)).squaredNorm();
+        problem.measured(window).segment(static_cast<Eigen::Index>(output) * rows, rows);
     moved += (measured.array() - measured.mean()).matrix().squaredNorm();
     count += static_cast<double>(rows);
   }
-  return moved > kMoves * kMoves * count ? std::sqrt(left / moved) : 0;
+  return moved > kMoves * kMoves * count ? std::sqrt(sum(problem.squares_left(fits, output)) / moved) : 0;
 }
 
 class Judgement {
