@@ -21,7 +21,7 @@ struct Hypotheses {
 /// Scores of all candidates and fits of the best.
 [[nodiscard]] Hypotheses singles(const Study& study, const Request& request);
 
-/// Those of `before` once more, after the disturbance was learnt anew.
+/// Those of `before` once more, after the disturbance was learnt anew, and beside them what scores well now.
 [[nodiscard]] Hypotheses singles_again(const Study& study, const Request& request, const Hypotheses& before);
 
 /// Pairs of the singles, and one effect more as long as it helps.

@@ -19,9 +19,11 @@ namespace {
 /// An effect that leaves less than this share of the loss of drives or load has been taken for noise, which
 /// hides what is small beside it.
 constexpr double kHiding = 0.95;
-constexpr std::size_t kContenders = 2;
-/// The same of a share of the error of a swing, in rad: a force of any size makes up for what goes with none.
+/// So has one that leaves less of the error of a swing, in rad: a force of any size makes up for what goes
+/// with none.
 constexpr double kFollowed = 0.8;
+/// Of the drives, and of the load.
+constexpr std::size_t kContenders = 2;
 /// A smaller share of the held-out error, where a cause acts, has to be beyond doubt. Several causes that are
 /// not worth so much each are rather what two laws make of one that has no name.
 constexpr double kWorthwhile = 0.05;
