@@ -25,6 +25,9 @@ struct Angles {
   double sf, cf, st, ct;  // sin and cos of phi, of theta
 };
 
+/// Without a load they are in none of the equations.
+Angles angles_of(const Parameters& p, const State& s) { return Angles(p.load_mass_kg > 0 ? s : State{}); }
+
 Mass mass(const Parameters& p, const State& s, const Angles& a) {
   const double m = p.load_mass_kg, l = s.cable_m, x = s.trolley_m;
   const double ml = m * l, ml2 = ml * l;
@@ -126,11 +129,12 @@ Column solve(const Mass& m, const Column& r, const Locks& locks) {
 Accelerations accelerations(const Parameters& p, const State& s, const Forces& forces, double cable_mps2,
                             const Locks& locks) noexcept {
   const double hoisting = locks.axis[kHoist] ? locks.acceleration[kHoist] : cable_mps2;
-  const Angles angles{s};
-  const Column right{.x = forces.trolley_n - trolley_bias(p, s, angles, hoisting),
-                     .phi = forces.radial_nm - radial_bias(p, s, angles),
-                     .gamma = forces.slew_nm - slew_bias(p, s, angles, hoisting),
-                     .theta = forces.tangential_nm - tangential_bias(p, s, angles)};
+  const Angles angles = angles_of(p, s);
+  Column right{};  // what is locked has no use for its own
+  if (!locks.axis[kTrolley]) right.x = forces.trolley_n - trolley_bias(p, s, angles, hoisting);
+  if (!locks.radial) right.phi = forces.radial_nm - radial_bias(p, s, angles);
+  if (!locks.axis[kSlew]) right.gamma = forces.slew_nm - slew_bias(p, s, angles, hoisting);
+  if (!locks.tangential) right.theta = forces.tangential_nm - tangential_bias(p, s, angles);
   const Column q = solve(mass(p, s, angles), right, locks);
   return {.trolley_mps2 = q.x,
           .radial_radps2 = q.phi,
@@ -141,7 +145,7 @@ Accelerations accelerations(const Parameters& p, const State& s, const Forces& f
 
 SwingResponse swing_response(const Parameters& p, const State& s, double trolley_mps2, double slew_radps2,
                              const Locks& locks) noexcept {
-  const Mass m = mass(p, s, Angles{s});
+  const Mass m = mass(p, s, angles_of(p, s));
   SwingResponse response;
   if (!locks.radial && m.m22 > 0)
     response.radial_radps2 = -(m.m12 * trolley_mps2 + m.m23 * slew_radps2) / m.m22;
@@ -151,7 +155,7 @@ SwingResponse swing_response(const Parameters& p, const State& s, double trolley
 }
 
 DriveResponse drive_response(const Parameters& p, const State& s, const Locks& locks) noexcept {
-  const Mass m = mass(p, s, Angles{s});
+  const Mass m = mass(p, s, angles_of(p, s));
   Locks held = locks;
   held.acceleration = {};
   const Column by_force = solve(m, {.x = 1, .phi = 0, .gamma = 0, .theta = 0}, held),
@@ -201,7 +205,7 @@ State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& loc
 }
 
 Eigen::Matrix4d mass_matrix(const Parameters& p, const State& s) noexcept {
-  const Mass m = mass(p, s, Angles{s});
+  const Mass m = mass(p, s, angles_of(p, s));
   Eigen::Matrix4d matrix;
   matrix << m.m11, m.m12, m.m13, m.m14,  //
       m.m12, m.m22, m.m23, 0,            //

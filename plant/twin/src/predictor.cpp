@@ -5,9 +5,6 @@
 namespace crane::twin {
 namespace {
 
-/// As the diagnosis steps: a coordinate of a term's own may ring at 25 Hz.
-constexpr double kLongestStep_s = 0.005, kLongestInnerStep_s = 0.0025;
-
 PerColumn columns_of(const plant::Measurement& m) {
   return {m.trolley_m, m.slew_rad, m.radial_rad, m.tangential_rad};
 }
@@ -20,8 +17,7 @@ Predictor::Predictor(const plant::Parameters& parameters, const std::vector<plan
   const double rho = std::exp(-period_s / horizon_s);
   position_gain_ = 1 - rho * rho;
   rate_gain_ = (1 - rho) * (1 - rho) / period_s;
-  const double longest_s = model_->inner_coordinates() > 0 ? kLongestInnerStep_s : kLongestStep_s;
-  steps_ = std::max(1, static_cast<int>(std::ceil(period_s / longest_s - 1e-9)));
+  steps_ = diagnosis::steps_in(period_s, model_->inner_coordinates() > 0);
   step_s_ = period_s / steps_;
 }
 
@@ -32,7 +28,7 @@ void Predictor::restart(const Known& now, const Mask& simulated) {
   locks.radial = !simulated[diagnosis::kRadialSwing];
   locks.tangential = !simulated[diagnosis::kTangentialSwing];
   course_.emplace(*model_, simulated, locks, step_s_);
-  course_->follow(given(now), {now.cable_m, now.cable_mps, 0});
+  course_->follow({given(now), {now.cable_m, now.cable_mps, 0}});
   for (const auto column : diagnosis::kAllOutputs)
     if (simulated[column]) position_of(course_->state, column) = now.reported[column];
   // Where the crane is when its sensors report this, to first order in the sensors' errors.
@@ -59,8 +55,8 @@ const PerColumn& Predictor::predict(const plant::PerAxis& applied_v, const Known
     return diagnosis::Moment{std::lerp(before_.cable_m, now.cable_m, share),
                              std::lerp(before_.cable_mps, now.cable_mps, share), 0};
   };
-  for (int step = 0; step < steps_; ++step) course_->step(still, cable((step + 0.5) / steps_));
-  course_->follow(still, cable(1));
+  for (int step = 0; step < steps_; ++step) course_->step({still, cable((step + 0.5) / steps_)});
+  course_->follow({still, cable(1)});
   for (const auto column : diagnosis::kAllOutputs)
     position_of(course_->state, column) +=
         slip_[column] * std::abs(rate_of(course_->state, column)) * step_s_ * steps_;

@@ -1,10 +1,19 @@
 #include "crane/diagnosis/course.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "replay/friction_step.hpp"
 
 namespace crane::diagnosis {
 
 using plant::State;
+
+int steps_in(double period_s, bool inner_coordinates) {
+  constexpr double kLongestStep_s = 0.005, kLongestInnerStep_s = 0.0025;
+  const double longest_s = inner_coordinates ? kLongestInnerStep_s : kLongestStep_s;
+  return std::max(1, static_cast<int>(std::ceil(period_s / longest_s - 1e-9)));
+}
 
 Course::Course(const plant::Model& model, const std::array<bool, kOutputs>& simulated,
                const plant::Locks& locks, double step_s)
@@ -17,8 +26,8 @@ void Course::new_command(const plant::PerAxis& drive_v) {
   gains_known_ = false;
 }
 
-void Course::step(const std::array<Moment, kOutputs>& at, const Moment& cable_at) {
-  const State middle = half_way(at, cable_at);
+void Course::step(const Measured& at) {
+  const State middle = half_way(at);
   plant::InnerState inner_middle = inner;
   for (std::size_t i = 0; i < model_.inner_coordinates(); ++i) {
     inner_middle[i].position += 0.5 * h_ * inner[i].rate;
@@ -38,37 +47,37 @@ void Course::step(const std::array<Moment, kOutputs>& at, const Moment& cable_at
   }
 }
 
-plant::Accelerations Course::accelerations(const std::array<Moment, kOutputs>& at, const Moment& cable_at) {
-  const State there = half_way(at, cable_at);
+plant::Accelerations Course::accelerations(const Measured& at) {
+  const State there = half_way(at);
   plant::InnerAccelerations ignored{};
   return model_.accelerations(there, actuation_, model_.friction_v(there), inner, ignored);
 }
 
-void Course::follow(const std::array<Moment, kOutputs>& at, const Moment& cable) {
+void Course::follow(const Measured& at) {
   for (const Output output : kAllOutputs) {
     if (simulated_[output]) continue;
-    position_of(state, output) = at[output].position;
-    rate_of(state, output) = at[output].rate;
+    position_of(state, output) = at.output[output].position;
+    rate_of(state, output) = at.output[output].rate;
   }
-  state.cable_m = cable.position;
-  state.cable_mps = cable.rate;
+  state.cable_m = at.cable.position;
+  state.cable_mps = at.cable.rate;
 }
 
-State Course::half_way(const std::array<Moment, kOutputs>& at, const Moment& cable) {
+State Course::half_way(const Measured& at) {
   State middle = state;
   for (const Output output : kAllOutputs) {
     if (simulated_[output]) {
       position_of(middle, output) += 0.5 * h_ * rate_of(state, output);
       rate_of(middle, output) += 0.5 * h_ * last_[output];
     } else {
-      position_of(middle, output) = at[output].position;
-      rate_of(middle, output) = at[output].rate;
+      position_of(middle, output) = at.output[output].position;
+      rate_of(middle, output) = at.output[output].rate;
     }
   }
-  middle.cable_m = cable.position;
-  middle.cable_mps = cable.rate;
-  actuation_.locks.acceleration = {at[kTrolleyPosition].acceleration, at[kSlewAngle].acceleration,
-                                   cable.acceleration};
+  middle.cable_m = at.cable.position;
+  middle.cable_mps = at.cable.rate;
+  actuation_.locks.acceleration = {at.output[kTrolleyPosition].acceleration,
+                                   at.output[kSlewAngle].acceleration, at.cable.acceleration};
   return middle;
 }
 

@@ -16,4 +16,20 @@ Moment between(const Motion& motion, std::size_t row, double share, double perio
           .acceleration = (1 - s) * motion.acceleration[row] + s * motion.acceleration[next]};
 }
 
+std::vector<Measured> half_way_through_steps(const std::array<Motion, kOutputs>& motion, const Motion& cable,
+                                             int steps, double period_s) {
+  std::vector<Measured> all;
+  const std::size_t rows = cable.position.size();
+  all.reserve(rows * static_cast<std::size_t>(steps));
+  for (std::size_t row = 0; row + 1 < rows; ++row)
+    for (int step = 0; step < steps; ++step) {
+      const double share = (step + 0.5) / steps;
+      Measured& at = all.emplace_back();
+      for (const Output output : kAllOutputs)
+        at.output[output] = between(motion[output], row, share, period_s);
+      at.cable = between(cable, row, share, period_s);
+    }
+  return all;
+}
+
 }  // namespace crane::diagnosis

@@ -8,8 +8,6 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A coordinate of a term's own may ring at 25 Hz.
-constexpr double kLongestStep_s = 0.005, kLongestInnerStep_s = 0.0025;
 /// A motor has been struck when its speed changes from row to row by so many times what half of its changes
 /// beyond the model's keep to.
 constexpr double kStruck = 15;
@@ -21,10 +19,8 @@ bool has_sensor_term(const Crane& crane) {
   });
 }
 
-int steps_of(const Crane& crane, double period_s) {
-  const bool inner = plant::Model(crane.parameters, crane.terms).inner_coordinates() > 0;
-  return std::max(
-      1, static_cast<int>(std::ceil(period_s / (inner ? kLongestInnerStep_s : kLongestStep_s) - 1e-9)));
+bool has_inner_coordinates(const Crane& crane) {
+  return plant::Model(crane.parameters, crane.terms).inner_coordinates() > 0;
 }
 
 }  // namespace
@@ -32,7 +28,7 @@ int steps_of(const Crane& crane, double period_s) {
 Replay::Parts::Parts(const PreparedRun& prepared, const Crane& the_crane)
     : source(prepared),
       crane(the_crane),
-      steps(steps_of(crane, prepared.run.period_s)),
+      steps(steps_in(prepared.run.period_s, has_inner_coordinates(crane))),
       model(crane.parameters, crane.terms, step_s()),
       sensors(has_sensor_term(crane)) {
   ringing = model.ringing_coordinates();
@@ -54,11 +50,18 @@ plant::Locks Replay::Parts::locks(const std::array<bool, kOutputs>& simulated) c
   return locks;
 }
 
-std::array<Moment, kOutputs> Replay::Parts::measured_at(const std::array<bool, kOutputs>& free,
-                                                        std::size_t row, double share) const {
-  std::array<Moment, kOutputs> at;
-  for (std::size_t i = 0; i < kOutputs; ++i)
-    if (!free[i]) at[i] = between(given(static_cast<Output>(i)), row, share, source.run.period_s);
+Measured Replay::Parts::measured_at(std::size_t row) const {
+  Measured at;
+  for (const Output output : kAllOutputs) at.output[output] = at_row(given(output), row);
+  at.cable = at_row(source.cable, row);
+  return at;
+}
+
+Measured Replay::Parts::measured_half_way(std::size_t row) const {
+  Measured at;
+  for (const Output output : kAllOutputs)
+    at.output[output] = between(given(output), row, 0.5, source.run.period_s);
+  at.cable = between(source.cable, row, 0.5, source.run.period_s);
   return at;
 }
 
@@ -83,6 +86,7 @@ void Replay::Parts::undo_sensors() {
   }
   for (const Output output : kAllOutputs)
     if (run.has(output)) corrected[output] = motion_of(output, values[output], run.period_s);
+  corrected_half_way = half_way_through_steps(corrected, source.cable, steps, run.period_s);
 }
 
 /// What the motors' speeds show of impacts between a row and the next, beside what usually is unexplained.
@@ -113,24 +117,22 @@ void Replay::Parts::follow_inner() {
     if (correcting && drives[axis])
       guided[axis] = Guided{given(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
   std::array<RunningMedian, 2> usual;
-  course.follow(measured_at(none, 0, 0), cable_at(0, 0));
+  course.follow(measured_at(0));
   for (std::size_t row = 0; row < rows; ++row) {
     inner_at.push_back(course.inner);
     if (row + 1 == rows) break;
     visit_steps(row, [&](int step, const plant::PerAxis& volts, bool changed) {
-      const double middle = (step + 0.5) / steps;
-      const auto at = measured_at(none, row, middle);
-      const Moment cable = cable_at(row, middle);
+      const Measured& at = half_way(row, step);
       if (changed) course.new_command(volts), motors.new_command(volts);
       if (correcting) {
         motors.inner = course.inner;
-        const plant::Accelerations a = motors.accelerations(at, cable);
+        const plant::Accelerations a = motors.accelerations(at);
         for (const Output axis : {kTrolleyPosition, kSlewAngle})
           if (drives[axis]) guided[axis]->move(row, acceleration_of(a, axis), step_s());
       }
-      course.step(at, cable);
+      course.step(at);
     });
-    course.follow(measured_at(none, row + 1, 0), cable_at(row + 1, 0));
+    course.follow(measured_at(row + 1));
     if (!correcting) continue;
     model.correct(course.state, impacts_after(row, usual), inner_at.back(), course.inner);
   }

@@ -34,11 +34,12 @@ struct Replay::Parts {
       visit(step, drive_v[at], step == 0 || drive_v[at] != drive_v[at - 1]);
     }
   }
-  /// What is not free as measured, `share` of a period after a row.
-  [[nodiscard]] std::array<Moment, kOutputs> measured_at(const std::array<bool, kOutputs>& free,
-                                                         std::size_t row, double share) const;
-  [[nodiscard]] Moment cable_at(std::size_t row, double share) const {
-    return between(source.cable, row, share, source.run.period_s);
+  [[nodiscard]] Measured measured_at(std::size_t row) const;
+  /// In the middle between a row and the next; that of a step is half_way.
+  [[nodiscard]] Measured measured_half_way(std::size_t row) const;
+  [[nodiscard]] const Measured& half_way(std::size_t row, int step) const {
+    const auto& all = sensors ? corrected_half_way : source.half_way[model.inner_coordinates() > 0 ? 1 : 0];
+    return all[row * static_cast<std::size_t>(steps) + static_cast<std::size_t>(step)];
   }
   [[nodiscard]] const Motion& given(Output output) const {
     return sensors ? corrected[output] : source.motion[output];
@@ -53,6 +54,7 @@ struct Replay::Parts {
   std::array<bool, plant::kMostInner> led{};  ///< the other ones
   std::vector<plant::PerAxis> drive_v;        ///< by step
   std::array<Motion, kOutputs> corrected;
+  std::vector<Measured> corrected_half_way;
   std::vector<plant::InnerState> inner_at;      ///< along the measured motion, by row; empty without any
   std::array<Motion, plant::kMostInner> inner;  ///< the same of those that are led
   std::array<std::optional<Guided>, 2> guided;  ///< drives beside led coordinates

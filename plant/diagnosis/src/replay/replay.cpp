@@ -47,6 +47,9 @@ PreparedRun prepare(Run run, const runtime::Rig& rig) {
     if (!run.measured[i].empty())
       prepared.motion[i] = motion_of(static_cast<Output>(i), run.measured[i], run.period_s);
   prepared.cable = smooth(run.cable_m, run.period_s, smoothing_half_width(run.period_s));
+  for (const bool inner : {false, true})
+    prepared.half_way[inner ? 1 : 0] =
+        half_way_through_steps(prepared.motion, prepared.cable, steps_in(run.period_s, inner), run.period_s);
   prepared.kind = rig.kind;
   prepared.least_noise = noise_of_counts(rig);
   prepared.run = std::move(run);
@@ -95,15 +98,15 @@ void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const
   Course course(p.model, simulated, p.locks(simulated), p.step_s());
   const auto pass = [&](std::size_t row) {
     p.visit_steps(row, [&](int step, const plant::PerAxis& volts, bool changed) {
-      const double middle = (step + 0.5) / p.steps;
       if (changed) course.new_command(volts);
+      const double middle = (step + 0.5) / p.steps;
       for (std::size_t i = 0; i < course.led.size(); ++i)
         if (course.led[i]) course.led_at[i] = between(p.inner[i], row, middle, period_s);
-      course.step(p.measured_at(simulated, row, middle), p.cable_at(row, middle));
+      course.step(p.half_way(row, step));
     });
-    course.follow(p.measured_at(simulated, row + 1, 0), p.cable_at(row + 1, 0));
+    course.follow(p.measured_at(row + 1));
   };
-  course.follow(p.measured_at(simulated, first, 0), p.cable_at(first, 0));
+  course.follow(p.measured_at(first));
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     position_of(course.state, outputs[i]) = start[2 * i];
     rate_of(course.state, outputs[i]) = start[2 * i + 1];
@@ -139,13 +142,12 @@ Replay::Guided Replay::guided(Output axis) const {
   Guided drive{p.given(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
   for (std::size_t row = 0; row + 1 < rows; ++row) {
     if (!p.inner_at.empty()) course.inner = p.inner_at[row];
-    const auto middle = p.measured_at(none, row, 0.5);
-    const Moment cable = p.cable_at(row, 0.5);
+    const Measured middle = p.measured_half_way(row);
     double acceleration = 0;
     p.visit_steps(row, [&](int, const plant::PerAxis& volts, bool changed) {
       if (changed) {
         course.new_command(volts);
-        acceleration = acceleration_of(course.accelerations(middle, cable), axis);
+        acceleration = acceleration_of(course.accelerations(middle), axis);
       }
       drive.move(row, acceleration, h);
     });

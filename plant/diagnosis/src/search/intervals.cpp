@@ -44,7 +44,7 @@ Profile profile_of(const Study& study, const Fitted& fitted, const VectorXd& dir
       const Effects there = moved(fitted.effects, side * distance * direction);
       if (value_of(there, value) == last) break;
       last = value_of(there, value);
-      const Evaluation found = study.train(there);
+      const Evaluation found = study.train(there, fitted.train);
       profile.emplace(side * distance, found.blocks);
       if (found.loss > fitted.train.loss + kFarLoss) break;
     }

@@ -93,12 +93,21 @@ class Search {
     return best == nullptr ? before : *best;
   }
 
+  /// What has been evaluated of some of the effects.
+  [[nodiscard]] const Evaluation& near(const Effects& effects) const {
+    const Effects& known = found_.best.effects;
+    const bool all = std::all_of(known.begin(), known.end(),
+                                 [&](const Effect& effect) { return has(effects, effect.candidate); });
+    return all && !known.empty() ? found_.best.train : found_.base.train;
+  }
+
   [[nodiscard]] Effects best_start(const std::vector<Effects>& starts) const {
     if (starts.size() == 1) return starts[0];
     const Effects* best = &starts[0];
     double least = std::numeric_limits<double>::infinity();
     for (const Effects& start : starts)
-      if (const double loss = study_.train(start).loss; loss < least) least = loss, best = &start;
+      if (const double loss = study_.train(start, near(start)).loss; loss < least)
+        least = loss, best = &start;
     return *best;
   }
 
@@ -245,7 +254,7 @@ class Search {
     std::vector<Fitted> fitted;
     double least = found_.best.train.loss;
     for (const Effects& effects : tries) {
-      fitted.push_back(study_.fit(with_fresh_wave(effects), least + kHopeless));
+      fitted.push_back(study_.fit(with_fresh_wave(effects), least + kHopeless, near(effects)));
       least = std::min(least, fitted.back().train.loss);
       rank(fitted.back(), 1);
       found_.all.push_back(fitted.back());

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "study/blocks.hpp"
 
@@ -25,7 +26,7 @@ constexpr double kRoughly = 0.003;
 /// way.
 constexpr double kFirstStep = 0.15, kLastStep = 0.1, kLonger = 1.5, kShorter = 0.5;
 /// After so many rounds a fit that is still this many times what the slopes promise away is given up.
-constexpr int kLeastRounds = 2;
+constexpr int kLeastRounds = 1;
 constexpr double kPromise = 4;
 
 struct Flat {
@@ -109,14 +110,14 @@ double total_loss(const Evaluation& at, Loss loss) {
 
 }  // namespace
 
-void Study::descend(Fitted& best, Loss loss, double hopeless) const {
+bool Study::descend(Fitted& best, Loss loss, double hopeless, std::optional<Slopes>& along) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
   for (int round = 0; round < kMostRounds; ++round) {
-    const Slopes along = slopes(best.effects, best.train);
+    if (!along) along = slopes(best.effects, best.train);
     if (round >= kLeastRounds &&
-        best.train.loss - kPromise * promised(block_scores(best.train, along)) > hopeless)
-      break;
-    const BlockScores both = block_scores(best.train, along, loss);
+        best.train.loss - kPromise * promised(block_scores(best.train, *along)) > hopeless)
+      return false;
+    const BlockScores both = block_scores(best.train, *along, loss);
     const VectorXd pull = both.pull();
     const Flat flat = flatten(best.effects);
     double gained = 0;
@@ -134,6 +135,7 @@ void Study::descend(Fitted& best, Loss loss, double hopeless) const {
           least = now;
           best.effects = tried;
           best.train = std::move(found);
+          along.reset();
           damping = std::max(1e-6, damping * 0.2);
         } else {
           damping = std::max(damping, 1e-4) * 8;
@@ -143,6 +145,7 @@ void Study::descend(Fitted& best, Loss loss, double hopeless) const {
     }
     if (gained < (loss == Loss::robust ? kLeastGain : kRoughly * least)) break;
   }
+  return true;
 }
 
 void Study::step_around(Fitted& best, double Evaluation::*loss) const {
@@ -178,19 +181,25 @@ void Study::step_around(Fitted& best, double Evaluation::*loss) const {
 }
 
 Fitted Study::fit(Effects effects, double hopeless) const {
-  Fitted near;
-  near.effects = std::move(effects);
-  near.train = train(near.effects);
-  Fitted best = near;
+  return fit(std::move(effects), hopeless, base_train_);
+}
+
+Fitted Study::fit(Effects effects, double hopeless, const Evaluation& near) const {
+  Fitted start;
+  start.effects = std::move(effects);
+  start.train = train(start.effects, near);
+  Fitted best = start;
   if (best.effects.size() == 1 && best.effects[0].candidate->rough) {
     if (!train_.load.empty()) step_around(best, &Evaluation::load_loss);
     step_around(best, &Evaluation::loss);
   }
-  near = best;
-  descend(best, Loss::squares, hopeless);
-  if (near.train.loss < best.train.loss) best = near;
-  descend(best, Loss::robust, hopeless);
-  const BlockScores both = block_scores(best.train, slopes(best.effects, best.train));
+  start = best;
+  std::optional<Slopes> along;
+  const bool hope = descend(best, Loss::squares, hopeless, along);
+  if (start.train.loss < best.train.loss) best = start, along.reset();
+  if (hope) descend(best, Loss::robust, hopeless, along);
+  if (!along) along = slopes(best.effects, best.train);
+  const BlockScores both = block_scores(best.train, *along);
   const MatrixXd inverse = both.curvature.completeOrthogonalDecomposition().pseudoInverse();
   best.by_noise = inverse.diagonal().cwiseMax(0.0).cwiseSqrt();
   // The replay of a drive and its pieces under way see the same noise: together they know no more than one.

@@ -119,7 +119,10 @@ Evaluation Study::evaluate(const Body& body, const Effects& effects, const Evalu
                 in_drive ? body.under_way.residuals(crane) : near.under_way);
 }
 
-Evaluation Study::train(const Effects& effects) const { return evaluate(train_, effects, base_train_); }
+Evaluation Study::train(const Effects& effects) const { return train(effects, base_train_); }
+Evaluation Study::train(const Effects& effects, const Evaluation& near) const {
+  return evaluate(train_, effects, near);
+}
 Evaluation Study::test(const Effects& effects) const { return evaluate(test_, effects, base_test_); }
 
 double Study::add_slope(const Crane& crane, const Evaluation& at, double step, ShowsIn parts,

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "crane/diagnosis/candidate.hpp"
@@ -97,6 +98,8 @@ class Study {
   [[nodiscard]] const Evaluation& base_test() const { return base_test_; }
   /// Only the parts that `effects` show in are simulated again.
   [[nodiscard]] Evaluation train(const Effects& effects) const;
+  /// @param near of some of the effects: where the starts of the windows begin
+  [[nodiscard]] Evaluation train(const Effects& effects, const Evaluation& near) const;
   [[nodiscard]] Evaluation test(const Effects& effects) const;
   /// Does one more effect explain what `at` leaves? @param seed of the sign flips
   [[nodiscard]] ScoreTable score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const;
@@ -106,6 +109,8 @@ class Study {
   /// Least squares over the training data from the given values, within bounds.
   /// @param hopeless a training loss: the fit is given up when it will not come below it
   [[nodiscard]] Fitted fit(Effects effects, double hopeless = std::numeric_limits<double>::infinity()) const;
+  /// The same beginning near where some of the effects have been evaluated.
+  [[nodiscard]] Fitted fit(Effects effects, double hopeless, const Evaluation& near) const;
 
   [[nodiscard]] const Problem& drive() const { return train_.drive; }
   [[nodiscard]] const Problem& load() const { return train_.load; }
@@ -125,8 +130,9 @@ class Study {
 
  private:
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
-  /// Gauss-Newton rounds from where `best` is.
-  void descend(Fitted& best, Loss loss, double hopeless) const;
+  /// Gauss-Newton rounds from where `best` is. @param along slopes there where they are known, before and
+  /// after @return whether there is still hope
+  bool descend(Fitted& best, Loss loss, double hopeless, std::optional<Slopes>& along) const;
   /// The same by trying: every value by itself, in steps that shrink.
   void step_around(Fitted& best, double Evaluation::*loss) const;
   /// Scores of directions around `at`.

@@ -8,6 +8,9 @@
 
 namespace crane::diagnosis {
 
+/// Equal steps in a period: a coordinate of a term's own may ring at 25 Hz.
+[[nodiscard]] int steps_in(double period_s, bool inner_coordinates);
+
 class Course {
  public:
   /// @param model outlives the course
@@ -23,15 +26,14 @@ class Course {
   void new_command(const plant::PerAxis& drive_v);
   /// @param at what is measured in the middle of the step. What is not simulated stays where it is in
   /// `state`, until it is told to follow
-  void step(const std::array<Moment, kOutputs>& at, const Moment& cable_at);
+  void step(const Measured& at);
   /// As the model has them where everything is measured.
-  [[nodiscard]] plant::Accelerations accelerations(const std::array<Moment, kOutputs>& at,
-                                                   const Moment& cable_at);
+  [[nodiscard]] plant::Accelerations accelerations(const Measured& at);
   /// Coordinates that are not simulated go where they were measured.
-  void follow(const std::array<Moment, kOutputs>& at, const Moment& cable);
+  void follow(const Measured& at);
 
  private:
-  [[nodiscard]] plant::State half_way(const std::array<Moment, kOutputs>& at, const Moment& cable);
+  [[nodiscard]] plant::State half_way(const Measured& at);
   void kick(Output output, double acceleration);
   /// What goes as given, put in the place of what was extrapolated.
   void lead(plant::InnerState& inner, plant::InnerAccelerations& accelerations) const;

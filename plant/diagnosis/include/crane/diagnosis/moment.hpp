@@ -13,38 +13,40 @@ struct Moment {
 /// @param share of the period after `row`, in [0, 1]; zeros for a coordinate that was not measured
 [[nodiscard]] Moment between(const Motion& motion, std::size_t row, double share, double period_s);
 
-[[nodiscard]] inline double& position_of(plant::State& s, Output output) {
-  switch (output) {
-    case kTrolleyPosition:
-      return s.trolley_m;
-    case kSlewAngle:
-      return s.slew_rad;
-    case kRadialSwing:
-      return s.radial_rad;
-    default:
-      return s.tangential_rad;
-  }
+/// The same at a row.
+[[nodiscard]] inline Moment at_row(const Motion& motion, std::size_t row) {
+  if (motion.position.empty()) return {};
+  return {motion.position[row], motion.rate[row], motion.acceleration[row]};
 }
 
-[[nodiscard]] inline double& rate_of(plant::State& s, Output output) {
-  switch (output) {
-    case kTrolleyPosition:
-      return s.trolley_mps;
-    case kSlewAngle:
-      return s.slew_radps;
-    case kRadialSwing:
-      return s.radial_radps;
-    default:
-      return s.tangential_radps;
-  }
-}
+/// Everything that is measured, at one instant; zeros for what is not.
+struct Measured {
+  std::array<Moment, kOutputs> output;
+  Moment cable;
+};
 
+/// What is measured half-way through every one of `steps` equal steps from each row to the next, step by
+/// step; as far as the last row.
+[[nodiscard]] std::vector<Measured> half_way_through_steps(const std::array<Motion, kOutputs>& motion,
+                                                           const Motion& cable, int steps, double period_s);
+
+inline constexpr std::array kPositionOf{&plant::State::trolley_m, &plant::State::slew_rad,
+                                        &plant::State::radial_rad, &plant::State::tangential_rad};
+inline constexpr std::array kRateOf{&plant::State::trolley_mps, &plant::State::slew_radps,
+                                    &plant::State::radial_radps, &plant::State::tangential_radps};
+inline constexpr std::array kAccelerationOf{
+    &plant::Accelerations::trolley_mps2, &plant::Accelerations::slew_radps2,
+    &plant::Accelerations::radial_radps2, &plant::Accelerations::tangential_radps2};
+inline constexpr std::array kMeasuredOf{&plant::Measurement::trolley_m, &plant::Measurement::slew_rad,
+                                        &plant::Measurement::radial_rad, &plant::Measurement::tangential_rad};
+
+[[nodiscard]] inline double& position_of(plant::State& s, Output output) { return s.*kPositionOf[output]; }
+[[nodiscard]] inline double& rate_of(plant::State& s, Output output) { return s.*kRateOf[output]; }
 [[nodiscard]] inline double acceleration_of(const plant::Accelerations& a, Output output) {
-  return std::array{a.trolley_mps2, a.slew_radps2, a.radial_radps2, a.tangential_radps2}[output];
+  return a.*kAccelerationOf[output];
 }
-
 [[nodiscard]] inline double measured_of(const plant::Measurement& m, Output output) {
-  return std::array{m.trolley_m, m.slew_rad, m.radial_rad, m.tangential_rad}[output];
+  return m.*kMeasuredOf[output];
 }
 
 }  // namespace crane::diagnosis

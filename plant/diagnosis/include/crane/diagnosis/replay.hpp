@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "crane/diagnosis/data.hpp"
+#include "crane/diagnosis/moment.hpp"
 #include "crane/plant/model.hpp"
 
 namespace crane::diagnosis {
@@ -33,6 +34,8 @@ struct PreparedRun {
   runtime::RigKind kind = runtime::RigKind::tower;
   std::array<Motion, kOutputs> motion;  ///< smoothed; empty without a measurement
   Motion cable;
+  /// Along `motion`, in steps without and with coordinates of terms' own; what every replay goes by.
+  std::array<std::vector<Measured>, 2> half_way;
   std::array<double, kOutputs> least_noise{};  ///< what counting alone makes, m or rad
 };
 [[nodiscard]] PreparedRun prepare(Run run, const runtime::Rig& rig);

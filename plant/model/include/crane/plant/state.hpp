@@ -36,12 +36,11 @@ static_assert(sizeof(State) == sizeof(StateArray));
 inline constexpr std::array<std::size_t, kAxes> kPositionIndex{0, 2, 4};
 inline constexpr std::size_t kSpeedOffset = 5;
 
+inline constexpr std::array kAxisPosition{&State::trolley_m, &State::slew_rad, &State::cable_m};
+inline constexpr std::array kAxisSpeed{&State::trolley_mps, &State::slew_radps, &State::cable_mps};
+
 /// Position [m, rad, m of cable] and speed of one driven axis.
-[[nodiscard]] inline double position(const State& s, Axis axis) {
-  return PerAxis{s.trolley_m, s.slew_rad, s.cable_m}[axis];
-}
-[[nodiscard]] inline double speed(const State& s, Axis axis) {
-  return PerAxis{s.trolley_mps, s.slew_radps, s.cable_mps}[axis];
-}
+[[nodiscard]] inline double position(const State& s, Axis axis) { return s.*kAxisPosition[axis]; }
+[[nodiscard]] inline double speed(const State& s, Axis axis) { return s.*kAxisSpeed[axis]; }
 
 }  // namespace crane::plant
