@@ -1,7 +1,11 @@
 /// What a verdict says in words.
 #include <gtest/gtest.h>
 
+#include <optional>
+
+#include "data_of_truth.hpp"
 #include "verdict/judgement.hpp"
+#include "verdict/losing_encoders.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -44,6 +48,65 @@ TEST(Sentence, OfADoubtNamesNoCauseAndSaysWhy) {
   EXPECT_TRUE(diagnosis.ambiguous_with.empty());
   EXPECT_EQ(diagnosis.sentence,
             "Something is wrong that no known cause explains (trolley: friction by position).");
+}
+
+/// Beside what is said of the rest of the model.
+class EncoderThatLosesCounts : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    truth::Case request;
+    request.rig = "drive_axis";
+    request.seconds = 10;
+    data_.emplace(request);
+    study_.emplace(data_->rig, data_->train, data_->test);
+    study_->learn_disturbance();
+  }
+  static void TearDownTestSuite() { study_.reset(), data_.reset(); }
+
+  static Diagnosis named_beside(Diagnosis diagnosis) {
+    const LosingEncoder encoder{.axis = kTrolleyPosition,
+                                .jumps = 7,
+                                .duration_s = 20,
+                                .lost = 0.014,
+                                .jump = 0.002,
+                                .jump_std_dev = 1e-4,
+                                .rate = 0.01,
+                                .rate_std_dev = 0.003};
+    name_losing({encoder}, *study_, *study_, diagnosis);
+    return diagnosis;
+  }
+
+  static inline std::optional<DataOfTruth> data_;
+  static inline std::optional<Study> study_;
+};
+
+TEST_F(EncoderThatLosesCounts, IsNamedWhereNothingElseIsWrong) {
+  const Diagnosis found = named_beside(of(Verdict::none, {}));
+  EXPECT_EQ(found.verdict, Verdict::named);
+  EXPECT_EQ(found.sentence, "The simulation lacks position_drift (trolley).");
+  ASSERT_EQ(found.extension.size(), 1U);
+  EXPECT_EQ(found.extension[0].parameters.at("jump"), 0.002);
+}
+
+TEST_F(EncoderThatLosesCounts, IsSaidAlsoWhereTheRestIsUnknown) {
+  const Diagnosis found = named_beside(of(Verdict::unknown, {}));
+  EXPECT_EQ(found.verdict, Verdict::unknown);
+  EXPECT_EQ(found.sentence.find("An encoder loses counts. Something is wrong"), 0U) << found.sentence;
+  EXPECT_EQ(found.causes.at(0).name, "position_drift");
+}
+
+TEST_F(EncoderThatLosesCounts, AndDriftsBesideIsOneCauseWithAllThatItLoses) {
+  Diagnosis before = of(Verdict::named, {cause("position_drift", "trolley", 1), kFriction});
+  before.causes[0].parameters = {{"rate", "m/m", 0.02, 0.004}};
+  before.extension = {{"position_drift", "trolley", {{"rate", 0.02}}}, {"viscous_friction", "slew", {}}};
+  before.ranking.emplace_back().label = "position_drift (trolley)";
+  const Diagnosis found = named_beside(before);
+  EXPECT_EQ(found.sentence, "The simulation lacks position_drift (trolley) and viscous_friction (slew).");
+  ASSERT_EQ(found.extension.size(), 2U);
+  EXPECT_DOUBLE_EQ(found.extension[0].parameters.at("rate"), 0.03);
+  EXPECT_EQ(found.extension[1].name, "viscous_friction");
+  EXPECT_DOUBLE_EQ(found.causes[0].parameters[0].std_dev, 0.005);
+  EXPECT_EQ(found.ranking.size(), 1U);
 }
 
 }  // namespace

@@ -42,9 +42,7 @@ MatrixXd directions_of_wave(const Effect& wave, const Extent& travel) {
 /// What its values are changed by, one unit a column. An offset of 0 is looked at, too, and a gain of 1.
 MatrixXd directions_of(const Effect& effect, const Runs& runs) {
   const Candidate& candidate = *effect.candidate;
-  if (candidate.waves)
-    return directions_of_wave(effect,
-                              travel_of(runs, candidate.axis == "slew" ? kSlewAngle : kTrolleyPosition));
+  if (candidate.waves) return directions_of_wave(effect, travel_of(runs, candidate.drive_output()));
   VectorXd units(static_cast<Index>(effect.values.size()));
   for (std::size_t i = 0; i < effect.values.size(); ++i) {
     const double value = effect.values[i], null = candidate.parameters[i].null;

@@ -126,7 +126,7 @@ Score best_shape(const Candidate& candidate, std::span<const Score> shapes) {
 
 std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& effects) const {
   if (!candidate.waves) return candidate.shapes;
-  const auto axis = static_cast<Output>(plant::drive_axis(candidate.axis));
+  const Output axis = candidate.drive_output();
   const double gain =
       axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
   const Replays replays = replays_of(train_.runs, with(effects));

@@ -52,6 +52,14 @@ Effects moved(Effects effects, const VectorXd& step) {
   return effects;
 }
 
+void Noise::take_likelier(const Noise& other) {
+  for (std::size_t i = 0; i < drive.size(); ++i)
+    if (other.drive[i].misfit + other.under_way[i].misfit < drive[i].misfit + under_way[i].misfit)
+      drive[i] = other.drive[i], under_way[i] = other.under_way[i];
+  for (std::size_t i = 0; i < load.size(); ++i)
+    if (other.load[i].misfit < load[i].misfit) load[i] = other.load[i];
+}
+
 Study::Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded)
     : base_{rig.plant, rig.terms},

@@ -69,6 +69,9 @@ struct ScoreTable {
 /// Noise and disturbance: by output of the drives, of the same along the measured motion, and of the load.
 struct Noise {
   std::vector<Disturbance> drive, under_way, load;
+
+  /// Of each output what makes its residual likelier; both views of a drive are of one crane.
+  void take_likelier(const Noise& other);
 };
 
 struct BlockScores;

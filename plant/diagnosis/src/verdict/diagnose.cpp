@@ -121,15 +121,6 @@ std::vector<Effects> hiding(const Study& study, const Hypotheses& found) {
   return effects;
 }
 
-/// Of each output what makes its residual likelier. Both views of a drive are of one crane.
-void take_likelier(Noise& noise, const Noise& other) {
-  for (std::size_t i = 0; i < noise.drive.size(); ++i)
-    if (other.drive[i].misfit + other.under_way[i].misfit < noise.drive[i].misfit + noise.under_way[i].misfit)
-      noise.drive[i] = other.drive[i], noise.under_way[i] = other.under_way[i];
-  for (std::size_t i = 0; i < noise.load.size(); ++i)
-    if (other.load[i].misfit < noise.load[i].misfit) noise.load[i] = other.load[i];
-}
-
 /// Noise and disturbance learnt from the residuals of the hypotheses that make them likeliest: which of two
 /// causes leaves less is hardly seen in units of a noise that holds them both.
 Hypotheses learnt_anew(Study& study, const Request& request, const Hypotheses& before,
@@ -138,7 +129,7 @@ Hypotheses learnt_anew(Study& study, const Request& request, const Hypotheses& b
   Noise likeliest = study.noise();
   for (const Effects& effects : contenders) {
     study.learn_disturbance(effects);
-    take_likelier(likeliest, study.noise());
+    likeliest.take_likelier(study.noise());
   }
   study.whiten_with(likeliest);
   return singles_again(study, request, before);

@@ -1,6 +1,7 @@
 #include "verdict/losing_encoders.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "verdict/judgement.hpp"
@@ -14,6 +15,20 @@ std::vector<Estimate> estimates(const LosingEncoder& encoder) {
   const bool turns = encoder.axis == kSlewAngle;
   return {{"rate", turns ? "rad/rad" : "m/m", encoder.rate, encoder.rate_std_dev},
           {"jump", turns ? "rad" : "m", encoder.jump, encoder.jump_std_dev}};
+}
+
+/// A drift that was found on the axis beside the jumps is the same encoder's, and no cause of its own.
+LosingEncoder in_all(LosingEncoder encoder, Diagnosis& diagnosis) {
+  const std::string axis = axis_of(encoder.axis);
+  for (const Cause& cause : diagnosis.causes) {
+    if (cause.name != kTerm || cause.axis != axis) continue;
+    encoder.rate += cause.parameters.at(0).value;
+    encoder.rate_std_dev = std::hypot(encoder.rate_std_dev, cause.parameters.at(0).std_dev);
+  }
+  const auto is_drift = [&](const auto& named) { return named.name == kTerm && named.axis == axis; };
+  std::erase_if(diagnosis.causes, is_drift);
+  std::erase_if(diagnosis.extension, is_drift);
+  return encoder;
 }
 
 std::string note(const LosingEncoder& encoder) {
@@ -42,7 +57,8 @@ void name_losing(const std::vector<LosingEncoder>& losing, const Study& study, c
   const double test_gain = as_measured.base_test().loss - study.base_test().loss;
   std::vector<Cause> causes;
   std::vector<plant::TermSetting> terms;
-  for (const LosingEncoder& encoder : losing) {
+  for (const LosingEncoder& jumping : losing) {
+    const LosingEncoder encoder = in_all(jumping, diagnosis);
     causes.push_back({.name = kTerm,
                       .axis = axis_of(encoder.axis),
                       .parameters = estimates(encoder),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crane/diagnosis/replay.hpp"
+#include "crane/plant/term.hpp"
 #include "crane/runtime/rig.hpp"
 
 namespace crane::diagnosis {
@@ -52,6 +53,9 @@ struct Candidate {
     const bool of_drive = output == kTrolleyPosition || output == kSlewAngle;
     return (of_drive ? drive : load) && (axis.empty() || axis == axis_of(output));
   }
+
+  /// @pre the axis is "trolley" or "slew"
+  [[nodiscard]] Output drive_output() const { return static_cast<Output>(plant::drive_axis(axis)); }
 
   [[nodiscard]] std::string label() const { return axis.empty() ? cause : cause + " (" + axis + ")"; }
   [[nodiscard]] plant::TermSetting setting(const std::vector<double>& values) const;
