@@ -50,7 +50,7 @@ endfunction()
 
 # crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL | LOOP])
 #   GoogleTest program; each TEST becomes one CTest test. SERIAL: never beside another test (real time, real DDS).
-#   The others carry the label "unit" and are built by the target unit_tests. LOOP: of a room that works while a crane moves; these
+#   The others carry the label "unit", if no other LABELS are given, and are built by the target unit_tests. LOOP: of a room that works while a crane moves; these
 #   carry the label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too.
 add_custom_target(unit_tests)
 add_custom_target(loop_tests)
@@ -63,11 +63,13 @@ function(crane_test name)
     set(properties RUN_SERIAL TRUE)
   else()
     set(properties "")
-    set(ARG_LABELS unit)
-    add_dependencies(unit_tests ${name})
-    if(ARG_LOOP)
-      set(ARG_LABELS unit-loop)
-      add_dependencies(loop_tests ${name})
+    if(NOT ARG_LABELS)
+      set(ARG_LABELS unit)
+      add_dependencies(unit_tests ${name})
+      if(ARG_LOOP)
+        set(ARG_LABELS unit-loop)
+        add_dependencies(loop_tests ${name})
+      endif()
     endif()
   endif()
   if(ARG_LABELS)
