@@ -42,6 +42,7 @@ TEST(LearntNoise, IsOfEachOutputTheLikelierOne) {
   };
   const auto misfits_of = [](const std::vector<Disturbance>& all) {
     std::vector<double> misfits;
+    misfits.reserve(all.size());
     for (const Disturbance& one : all) misfits.push_back(one.misfit);
     return misfits;
   };
