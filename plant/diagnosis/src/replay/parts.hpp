@@ -34,6 +34,7 @@ struct Replay::Parts {
       visit(step, drive_v[at], step == 0 || drive_v[at] != drive_v[at - 1]);
     }
   }
+  /// The crane as its sensors, their errors undone, have it at a row.
   [[nodiscard]] Measured measured_at(std::size_t row) const;
   /// In the middle between a row and the next; that of a step is half_way.
   [[nodiscard]] Measured measured_half_way(std::size_t row) const;
