@@ -33,23 +33,22 @@ class OwnedServoToGo final : public Board {
   ServoToGo card_;
 };
 
-std::unique_ptr<Board> make_servo_to_go(const runtime::Context& context) {
-  return std::make_unique<OwnedServoToGo>(context.rig);
+std::unique_ptr<Board> make_servo_to_go(const runtime::Rig& rig, const bus::Options& /*bus*/) {
+  return std::make_unique<OwnedServoToGo>(rig);
 }
 
-std::unique_ptr<Board> make_comedi(const runtime::Context& context) {
-  return std::make_unique<Comedi>(context.rig);
+std::unique_ptr<Board> make_comedi(const runtime::Rig& rig, const bus::Options& /*bus*/) {
+  return std::make_unique<Comedi>(rig);
 }
 
 /// In a stack of processes the rig is one too; in a stack in one process it is here.
-std::unique_ptr<Board> make_emulated(const runtime::Context& context) {
-  const auto& options = context.bus.options();
-  std::unique_ptr<EmulatedRig> rig;
-  if (options.vendor == bus::Vendor::memory)
-    rig = std::make_unique<WiredRig>(context.rig);
+std::unique_ptr<Board> make_emulated(const runtime::Rig& rig, const bus::Options& bus) {
+  std::unique_ptr<EmulatedRig> crane;
+  if (bus.vendor == bus::Vendor::memory)
+    crane = std::make_unique<WiredRig>(rig);
   else
-    rig = std::make_unique<LinkedRig>(shared_lines_name(options.crane, options.domain));
-  return std::make_unique<EmulatedBoard>(context.rig, std::move(rig));
+    crane = std::make_unique<LinkedRig>(shared_lines_name(bus.crane, bus.domain));
+  return std::make_unique<EmulatedBoard>(rig, std::move(crane));
 }
 
 }  // namespace
@@ -80,9 +79,10 @@ runtime::ComponentSpec hardware_bridge_spec() {
           "The bridge's loop on the board that the rig file names: encoders, converters, brakes, watchdog.",
       .source = crane_SOURCE_BRIDGE,
       .runs_controller = false,
-      .sole_writer_of = &topics::state.description,
+      .reads = bridge_reads(),
+      .writes = bridge_writes(),
       .make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
-        return std::make_unique<Bridge>(context, board_kind_of(context.rig).make(context));
+        return std::make_unique<Bridge>(context, board_kind_of(context.rig).make(context.rig, context.bus));
       }};
 }
 

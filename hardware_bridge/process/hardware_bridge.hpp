@@ -12,7 +12,7 @@ namespace crane::bridge {
 /// A board a rig file can name.
 struct BoardKind {
   std::string_view name;
-  std::unique_ptr<Board> (*make)(const runtime::Context&);
+  std::unique_ptr<Board> (*make)(const runtime::Rig& rig, const bus::Options& bus);
 };
 [[nodiscard]] const std::vector<BoardKind>& board_kinds();
 

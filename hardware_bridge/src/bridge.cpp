@@ -10,7 +10,18 @@
 namespace crane::bridge {
 
 static_assert(static_cast<int>(Reason::not_homed) == crane_LATCH_NOT_HOMED);
-static_assert(kReasons == crane_LATCH_NOT_HOMED + 1);
+static_assert(static_cast<int>(Reason::second_writer) == crane_LATCH_SECOND_WRITER);
+static_assert(kReasons == crane_LATCH_SECOND_WRITER + 1);
+
+std::vector<runtime::Read> bridge_reads() {
+  return {{&topics::command.description, "volts, brakes, watchdog permission"},
+          {&topics::request.description, "advance (lockstep), kick (simulated rigs)"}};
+}
+
+std::vector<runtime::Write> bridge_writes() {
+  return {{&topics::state.description, "what the rig measures, and the voltage that acts"},
+          {&topics::reply.description, "answers to requests"}};
+}
 
 Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
     : node_{context.node},
@@ -20,8 +31,9 @@ Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
       measurement_{context.rig},
       last_line_{last_line_parameters(context.rig)},
       homing_{context.rig},
-      states_{context.bus.publisher(topics::state, runtime::loop_endpoint(context.clock))},
-      commands_{context.bus.subscriber(topics::command, runtime::loop_endpoint(context.clock))},
+      ports_{context.ports},
+      states_{context.ports.output(topics::state)},
+      commands_{context.ports.loop_input(topics::command)},
       requests_{context, {crane_REQUEST_ADVANCE, crane_REQUEST_KICK}},
       drives_{context.rig.drives} {
   for (std::size_t i = 0; i < kDrives; ++i) {
@@ -46,9 +58,8 @@ std::string Bridge::waiting_for() const {
 
 bool Bridge::poll(std::int64_t now_ns) {
   take_requests();
-  take_commands();
-  node_.beat(now_ns, connected() ? crane_PHASE_READY : crane_PHASE_STARTING, counts_,
-             commands_.counts().rejected);
+  take_commands(now_ns);
+  node_.beat(now_ns, ports_, counts_);
   if (!tick_is_due(now_ns)) return false;
   const auto begin = std::chrono::steady_clock::now();
   tick(now_ns);
@@ -66,19 +77,15 @@ bool Bridge::tick_is_due(std::int64_t now_ns) {
   return *tick_ < until_tick_ && command_ && command_->tick == *tick_;
 }
 
-void Bridge::take_commands() {
-  while (const auto command = commands_.take()) {
+void Bridge::take_commands(std::int64_t now_ns) {
+  std::size_t budget = runtime::LoopReader<msg::Command>::kMostPerPoll;
+  while (const auto taken = commands_->take(now_ns, budget)) {
+    const auto* command = &taken->sample;
     if (!tick_ || command->header.tick > *tick_) {  // answers a bridge that was here before
       ++counts_.late;
       continue;
     }
-    if (command_epoch_ && command->header.epoch < *command_epoch_) {  // an older supervisor has no say
-      ++counts_.conflicting;
-      continue;
-    }
-    const bool younger = command_epoch_ && command->header.epoch > *command_epoch_;
-    command_epoch_ = command->header.epoch;
-    if (command_ && !younger && command->header.tick <= command_->tick) {
+    if (command_ && !taken->taken_over && command->header.tick <= command_->tick) {
       ++(command->header.tick == command_->tick ? counts_.duplicate : counts_.late);
       continue;
     }
@@ -119,7 +126,9 @@ void Bridge::tick(std::int64_t now_ns) {
   const auto inputs = board_->read();
   const auto measured = measurement_.step(inputs.raw_counts);
   report_relay(inputs, now_ns);
-  const auto now = seen(inputs);
+  ports_.watch(now_ns);
+  auto now = seen(inputs);
+  now.second_writer = ports_.disputed(now_ns);
   apply(last_line_.decide(command_, next, now));
   auto sample = state(inputs, measured, sample_time_ns);
   states_.publish(sample);

@@ -227,7 +227,13 @@ bool drive_response(const LastLineParameters& parameters, const Moment& moment) 
   });
 }
 
-constexpr std::array kChecks{Check{Reason::command_stale, command_stale},
+/// Nobody can tell which of two command writers is the supervisor.
+bool second_writer(const LastLineParameters& /*parameters*/, const Moment& moment) noexcept {
+  return (*moment.history)[0].seen.second_writer;
+}
+
+constexpr std::array kChecks{Check{Reason::second_writer, second_writer},
+                             Check{Reason::command_stale, command_stale},
                              Check{Reason::command_not_finite, command_not_finite},
                              Check{Reason::command_range, command_range},
                              Check{Reason::command_rate, command_rate},

@@ -35,6 +35,10 @@ constexpr std::array<Words, kReasons> kWords{{
      "check converter, amplifier and signs, then `crane reset`"},
     {"not_homed", "an axis whose position is not known was to move, or moved, faster than it may creep",
      "`crane reset`, then `crane home`"},
+    {"second_writer", "crane/command has a second writer",
+     "end the other program, then `crane reset`; where the supervisor was started anew beside a hung one, "
+     "end "
+     "the hung one"},
 }};
 
 const Words& words_of(Reason reason) { return kWords[static_cast<std::size_t>(reason)]; }

@@ -11,11 +11,9 @@ constexpr double kWaitShare = 0.4;  // of a period, for the rest of a tick
 class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:
   explicit AntiSwing(const Context& context)
-      : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
-                        context.bus.subscriber(topics::reference, runtime::loop_endpoint(context.clock))},
+      : JoinedComponent{context, kWaitShare, topics::state, topics::reference},
         law_{context.controller.make_anti_swing(context.rig.design)},
-        output_{context.bus.publisher(topics::anti_swing, runtime::loop_endpoint(context.clock))} {}
+        output_{context.ports.output(topics::anti_swing)} {}
 
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Reference* reference) override {
@@ -27,13 +25,13 @@ class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
     sample.header = runtime::answer_to(state->header);
     runtime::assign(sample.drive_v, contribution.drive_v);
     runtime::assign(sample.correction, contribution.correction);
+    sample.second_writer = disputed();
     output_.publish(sample);
   }
-  [[nodiscard]] bool outputs_connected() const override { return output_.matched() > 0; }
 
  private:
   std::unique_ptr<control::Law> law_;
-  bus::Publisher<msg::Contribution> output_;
+  runtime::Output<msg::Contribution> output_;
   bool started_ = false;
 };
 
@@ -45,7 +43,10 @@ runtime::ComponentSpec anti_swing_spec() {
           .summary = "Volts, or a correction of the reference, that damp the load's swing.",
           .source = crane_SOURCE_ANTI_SWING,
           .runs_controller = true,
-          .sole_writer_of = &topics::anti_swing.description,
+          .reads = {{&topics::state.description, "swing angles and rates of the load"},
+                    {&topics::reference.description, "acceleration of the support"}},
+          .writes = {{&topics::anti_swing.description,
+                      "volts, or a correction of the reference, that damp the swing"}},
           .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
             return std::make_unique<AntiSwing>(context);
           }};

@@ -23,7 +23,7 @@ std::optional<Spread> spread(const std::vector<double>& values) {
 void ArrivalStatistics::add(const Arrival& arrival) {
   ++counts_.samples;
   ++window_samples_;
-  if (newest_ && arrival.epoch > newest_->epoch) {
+  if (newest_ && arrival.epoch != newest_->epoch) {
     ++counts_.restarts;
     counts_.lost += missing_.size();
     missing_.clear();

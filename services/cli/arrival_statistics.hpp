@@ -10,7 +10,7 @@ namespace crane::cli {
 
 struct Arrival {
   std::uint64_t tick = 0;
-  std::uint32_t epoch = 0;  ///< start-up number of the writer; a higher one restarts the count of ticks
+  std::uint32_t epoch = 0;  ///< start-up number of the writer; another one restarts the count of ticks
   std::int64_t source_time_ns = 0;   ///< when it was sampled, by the source's clock
   std::int64_t arrival_time_ns = 0;  ///< when it was taken, by this process's monotonic clock
 };

@@ -24,13 +24,15 @@ MoveFollower::MoveFollower(bus::Bus& bus)
       references_{bus.subscriber(topics::reference)} {}
 
 bool MoveFollower::over(std::uint64_t id) {
-  while (const auto reference = references_.take()) executed_ = executed_ || reference->request_id == id;
+  while (const auto reference = references_.take())
+    executed_ = executed_ || (number_ > 0 && reference->move_number == number_);
   while (const auto status = statuses_.take()) {
-    if (status->request_id != id) {
+    if (status->move.request_id != id) {
       if (accepted_) throw std::runtime_error("move: replaced by a later one");
       continue;  // sent before the move was accepted
     }
     accepted_ = true;
+    number_ = status->move.number;
     if (status->state != crane_STATE_HOLD && status->state != crane_STATE_RUN) throw_stopped(*status);
     held_ticks_ = status->state == crane_STATE_HOLD ? held_ticks_ + 1 : 0;
   }
@@ -39,6 +41,7 @@ bool MoveFollower::over(std::uint64_t id) {
 
 void MoveFollower::follow(std::uint64_t id, double timeout_s) {
   accepted_ = executed_ = false;
+  number_ = 0;
   held_ticks_ = 0;
   if (!wait_until(bus_, timeout_s, [this, id] { return over(id); }))
     throw std::runtime_error(runtime::stop_requested()

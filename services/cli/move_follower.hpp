@@ -23,8 +23,9 @@ class MoveFollower {
   bus::Bus& bus_;
   bus::Subscriber<msg::SupervisorStatus> statuses_;
   bus::Subscriber<msg::Reference> references_;
-  bool accepted_ = false;  ///< the supervisor says that this is the move
-  bool executed_ = false;  ///< so does the planner
+  std::uint64_t number_ = 0;  ///< of the move as the supervisor counts it; 0: not accepted yet
+  bool accepted_ = false;     ///< the supervisor says that this is the move
+  bool executed_ = false;     ///< so does the planner
   int held_ticks_ = 0;
 };
 

@@ -6,7 +6,7 @@ namespace crane::cli {
 
 bus::Bus open_bus(const runtime::BusOptions& options, crane_Source source) {
   runtime::install_stop_signals();
-  const auto epoch = runtime::epoch_at(std::chrono::system_clock::now());
+  const auto epoch = runtime::random_epoch();
   return bus::Bus{runtime::bus_options(options, "crane_tool", source, epoch)};
 }
 

@@ -14,12 +14,9 @@ class FrictionCompensation
     : public runtime::JoinedComponent<msg::State, msg::Contribution, msg::Contribution> {
  public:
   explicit FrictionCompensation(const Context& context)
-      : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
-                        context.bus.subscriber(topics::tracking, runtime::loop_endpoint(context.clock)),
-                        context.bus.subscriber(topics::anti_swing, runtime::loop_endpoint(context.clock))},
+      : JoinedComponent{context, kWaitShare, topics::state, topics::tracking, topics::anti_swing},
         friction_{context.rig.design.friction},
-        output_{context.bus.publisher(topics::demand, runtime::loop_endpoint(context.clock))} {}
+        output_{context.ports.output(topics::demand)} {}
 
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Contribution* tracking,
@@ -32,27 +29,31 @@ class FrictionCompensation
       sample.friction_v[i] = control::friction_compensation_v(friction_[i], sample.control_v[i], speed[i]);
       sample.total_v[i] = sample.control_v[i] + sample.friction_v[i];
     }
+    sample.second_writer = disputed() || tracking->second_writer || anti_swing->second_writer;
     output_.publish(sample);
   }
-  [[nodiscard]] bool outputs_connected() const override { return output_.matched() > 0; }
 
  private:
   std::array<control::DriveFriction, control::kAxes> friction_;
-  bus::Publisher<msg::Demand> output_;
+  runtime::Output<msg::Demand> output_;
 };
 
 }  // namespace
 
 runtime::ComponentSpec friction_compensation_spec() {
-  return {.name = "friction_compensation",
-          .program = "crane_friction_compensation",
-          .summary = "Sums the contributions and adds what friction takes away.",
-          .source = crane_SOURCE_FRICTION,
-          .runs_controller = false,
-          .sole_writer_of = &topics::demand.description,
-          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
-            return std::make_unique<FrictionCompensation>(context);
-          }};
+  return {
+      .name = "friction_compensation",
+      .program = "crane_friction_compensation",
+      .summary = "Sums the contributions and adds what friction takes away.",
+      .source = crane_SOURCE_FRICTION,
+      .runs_controller = false,
+      .reads = {{&topics::state.description, "speeds of the axes"},
+                {&topics::tracking.description, "volts of the tracking law"},
+                {&topics::anti_swing.description, "volts of the anti-swing law"}},
+      .writes = {{&topics::demand.description, "sum of the contributions and of the friction compensation"}},
+      .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+        return std::make_unique<FrictionCompensation>(context);
+      }};
 }
 
 }  // namespace crane::services

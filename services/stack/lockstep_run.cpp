@@ -15,20 +15,20 @@ using Collected = runtime::TickJoin<msg::State, msg::Reference, msg::Contributio
                                     msg::Demand, msg::Command, msg::SupervisorStatus>;
 
 constexpr std::uint64_t kChunk_ticks = 50;  // half of what the loop topics keep for a slow reader
-constexpr std::size_t kDepth_ticks = 256;
+constexpr runtime::JoinPolicy kEveryTick{.in_order = true, .depth = 256};
 constexpr std::int64_t kPatience_ns = 10'000'000'000;
 constexpr double kLongestPreparation_s = 20;
 
 Collected collect_from(bus::Bus& bus) {
   const auto input = runtime::loop_endpoint(runtime::Clock::lockstep);
-  return Collected{{.in_order = true, .bound_ns = 0, .depth = kDepth_ticks},
-                   bus.subscriber(topics::state, input),
-                   bus.subscriber(topics::reference, input),
-                   bus.subscriber(topics::tracking, input),
-                   bus.subscriber(topics::anti_swing, input),
-                   bus.subscriber(topics::demand, input),
-                   bus.subscriber(topics::command, input),
-                   bus.subscriber(topics::supervisor, input)};
+  return Collected{kEveryTick,
+                   runtime::loop_reader(bus, topics::state, input),
+                   runtime::loop_reader(bus, topics::reference, input),
+                   runtime::loop_reader(bus, topics::tracking, input),
+                   runtime::loop_reader(bus, topics::anti_swing, input),
+                   runtime::loop_reader(bus, topics::demand, input),
+                   runtime::loop_reader(bus, topics::command, input),
+                   runtime::loop_reader(bus, topics::supervisor, input)};
 }
 
 class LockstepRun {
@@ -42,8 +42,9 @@ class LockstepRun {
         operator_{bus, "crane_run", 1},
         collected_{collect_from(bus)} {
     if (with_twin)
-      twins_.emplace(bus.subscriber(topics::twin, runtime::loop_endpoint(runtime::Clock::lockstep)),
-                     kDepth_ticks);
+      twins_.emplace(
+          runtime::loop_reader(bus, topics::twin, runtime::loop_endpoint(runtime::Clock::lockstep)),
+          kEveryTick);
   }
 
   RunOutcome execute() {
@@ -64,7 +65,7 @@ class LockstepRun {
   }
 
  private:
-  static constexpr int kListeners = 3;  // plant, planner, supervisor
+  static constexpr int kListeners = 2;  // plant, supervisor
 
   [[nodiscard]] std::uint64_t ticks(double time_s) const {
     return static_cast<std::uint64_t>(std::llround(time_s / rig_.period_s));
@@ -106,7 +107,7 @@ class LockstepRun {
   bool twin_is_there() {
     if (!twins_) return true;
     runtime::JoinCounts ignored;
-    (void)twins_->drain(collected_.next_tick(), ignored);
+    (void)twins_->drain(collected_.next_tick(), 0, ignored);
     return twins_->find(collected_.next_tick()) != nullptr;
   }
 
@@ -155,12 +156,12 @@ class LockstepRun {
         wish.selected[i] = move.target[i].has_value();
         wish.target[i] = move.target[i].value_or(0);
       }
-      request(wish, {crane_SOURCE_SUPERVISOR, crane_SOURCE_PLANNER});
+      request(wish, {crane_SOURCE_SUPERVISOR});
     }
     for (const auto& excitation : scenario_.excitations) {
       Wish wish = wish_of(excitation.reference);
       wish.apply_tick = outcome_.hold_tick + ticks(excitation.at_s);
-      request(wish, {crane_SOURCE_SUPERVISOR, crane_SOURCE_PLANNER});
+      request(wish, {crane_SOURCE_SUPERVISOR});
     }
     for (const auto& kick : scenario_.kicks) {
       Wish wish{.kind = crane_REQUEST_KICK, .target = {kick.radial_radps, kick.tangential_radps, 0}};

@@ -36,7 +36,8 @@ std::uint64_t OperatorClient::send(const Wish& wish) {
   request.until_tick = wish.until_tick;
   std::copy_n(wish.sines.begin(), std::min(wish.sines.size(), std::size(request.sine)), request.sine);
   request.duration_s = wish.duration_s;
-  requests_.publish(request);
+  if (!requests_.publish(request))
+    throw bus::Error("the request could not be sent: the middleware refused it");
   return request.id;
 }
 

@@ -12,9 +12,9 @@ class TrackingStep {
  public:
   explicit TrackingStep(const Context& context)
       : law_{context.controller.make_tracking(context.rig.design)},
-        output_{context.bus.publisher(topics::tracking, runtime::loop_endpoint(context.clock))} {}
+        output_{context.ports.output(topics::tracking)} {}
 
-  void operator()(const msg::State& state, const control::Reference& reference) {
+  void operator()(const msg::State& state, const control::Reference& reference, bool disputed) {
     const auto measured = runtime::measurement(state);
     if (!started_) law_->reset(measured);
     started_ = true;
@@ -22,13 +22,13 @@ class TrackingStep {
     msg::Contribution sample{};
     sample.header = runtime::answer_to(state.header);
     runtime::assign(sample.drive_v, contribution.drive_v);
+    sample.second_writer = disputed;
     output_.publish(sample);
   }
-  [[nodiscard]] bool connected() const { return output_.matched() > 0; }
 
  private:
   std::unique_ptr<control::Law> law_;
-  bus::Publisher<msg::Contribution> output_;
+  runtime::Output<msg::Contribution> output_;
   bool started_ = false;
 };
 
@@ -37,16 +37,12 @@ constexpr double kWaitShare = 0.4;  // of a period, for the rest of a tick
 class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:
   explicit Tracking(const Context& context)
-      : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
-                        context.bus.subscriber(topics::reference, runtime::loop_endpoint(context.clock))},
-        step_{context} {}
+      : JoinedComponent{context, kWaitShare, topics::state, topics::reference}, step_{context} {}
 
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Reference* reference) override {
-    step_(*state, runtime::reference(reference->axis));
+    step_(*state, runtime::reference(reference->axis), disputed());
   }
-  [[nodiscard]] bool outputs_connected() const override { return step_.connected(); }
 
  private:
   TrackingStep step_;
@@ -56,10 +52,7 @@ class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
 class CorrectedTracking : public runtime::JoinedComponent<msg::State, msg::Reference, msg::Contribution> {
  public:
   explicit CorrectedTracking(const Context& context)
-      : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
-                        context.bus.subscriber(topics::reference, runtime::loop_endpoint(context.clock)),
-                        context.bus.subscriber(topics::anti_swing, runtime::loop_endpoint(context.clock))},
+      : JoinedComponent{context, kWaitShare, topics::state, topics::reference, topics::anti_swing},
         step_{context} {}
 
  protected:
@@ -72,13 +65,14 @@ class CorrectedTracking : public runtime::JoinedComponent<msg::State, msg::Refer
       wanted[i].speed += correction[i].speed;
       wanted[i].acceleration += correction[i].acceleration;
     }
-    step_(*state, wanted);
+    step_(*state, wanted, disputed());
   }
-  [[nodiscard]] bool outputs_connected() const override { return step_.connected(); }
 
  private:
   TrackingStep step_;
 };
+
+bool corrects_reference(const control::Controller& controller) { return controller.corrects_reference; }
 
 }  // namespace
 
@@ -88,7 +82,10 @@ runtime::ComponentSpec tracking_spec() {
           .summary = "Volts that keep trolley, slew and hoist on their reference.",
           .source = crane_SOURCE_TRACKING,
           .runs_controller = true,
-          .sole_writer_of = &topics::tracking.description,
+          .reads = {{&topics::state.description, "positions and speeds of the axes"},
+                    {&topics::reference.description, "where each axis is to be"},
+                    {&topics::anti_swing.description, "correction of the reference", corrects_reference}},
+          .writes = {{&topics::tracking.description, "volts that keep the axes on their reference"}},
           .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
             if (context.controller.corrects_reference) return std::make_unique<CorrectedTracking>(context);
             return std::make_unique<Tracking>(context);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "crane/runtime/convert.hpp"
-#include "crane/runtime/request_inbox.hpp"
 #include "trajectory_planner/motion.hpp"
 
 namespace crane::services {
@@ -16,7 +15,7 @@ using runtime::Context;
 constexpr double kWaitShare =
     0.8;  // of a period: off the critical path, the reference is needed at the next tick
 
-MoveTarget target_of(const msg::Request& request) {
+MoveTarget target_of(const msg::AcceptedMove& request) {
   MoveTarget move;
   for (std::size_t i = 0; i < control::kAxes; ++i) {
     move.selected[i] = request.selected[i];
@@ -26,7 +25,7 @@ MoveTarget target_of(const msg::Request& request) {
 }
 
 /// @pre exactly one axis is selected, as the supervisor has seen to
-control::Excitation excitation_of(const msg::Request& request) {
+control::Excitation excitation_of(const msg::AcceptedMove& request) {
   control::Excitation excitation;
   while (excitation.axis + 1 < control::kAxes && !request.selected[excitation.axis]) ++excitation.axis;
   excitation.about = request.target[excitation.axis];
@@ -40,21 +39,12 @@ control::Excitation excitation_of(const msg::Request& request) {
 class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::SupervisorStatus> {
  public:
   explicit TrajectoryPlanner(const Context& context)
-      : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
-                        context.bus.subscriber(topics::supervisor, runtime::loop_endpoint(context.clock))},
-        requests_{context, {crane_REQUEST_MOVE, crane_REQUEST_FOLLOW}},
-        output_{context.bus.publisher(topics::reference, runtime::loop_endpoint(context.clock))},
+      : JoinedComponent{context, kWaitShare, topics::state, topics::supervisor},
+        output_{context.ports.output(topics::reference)},
         stale_after_ticks_{context.rig.limits.stale_after_ticks},
         motion_{context.rig, context.controller.reference} {}
 
  protected:
-  void handle_requests(std::int64_t /*now_ns*/) override {
-    requests_.receive();
-    while (const auto request = requests_.take_due(std::numeric_limits<std::uint64_t>::max()))
-      wanted_.push_back(*request);  // until the supervisor accepts it
-  }
-
   /// At the first tick, and after a gap, nobody has published the reference of the tick that waits for it.
   bool on_idle(std::int64_t /*now_ns*/) override {
     const auto* state = open_leader();
@@ -71,6 +61,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       supervisor_ = status->state;
       homing_ = status->homing[0] || status->homing[1] || status->homing[2];
       homing_speed_ = runtime::values(status->homing_speed);
+      if (!known_moves_ || status->header.epoch != supervisor_epoch_) known_moves_ = status->move.number;
+      supervisor_epoch_ = status->header.epoch;
     }
     if (missing_statuses_ >= stale_after_ticks_) supervisor_ = crane_STATE_BOOT;
     const auto measured = runtime::measurement(*state);
@@ -82,26 +74,23 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     } else if (homing_) {
       motion_.creep(homing_speed_, measured, next);
     } else if (status != nullptr) {
-      start_if_accepted(status->request_id, next);
+      start_if_new(status->move, next);
     }
     stopping_ = supervisor_ == crane_STATE_STOP_C1;
     publish(*state, next);
   }
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
-  [[nodiscard]] bool outputs_connected() const override { return output_.matched() > 0; }
 
  private:
-  void start_if_accepted(std::uint64_t accepted_id, std::uint64_t tick) {
-    const auto accepted =
-        std::find_if(wanted_.begin(), wanted_.end(),
-                     [accepted_id](const msg::Request& request) { return request.id == accepted_id; });
-    if (accepted == wanted_.end()) return;
-    if (accepted->kind == crane_REQUEST_FOLLOW)
-      motion_.excite(excitation_of(*accepted), tick);
+  /// Executes the move that the supervisor has accepted last. The first status tells which moves were
+  /// accepted before this process listened: they are not executed.
+  void start_if_new(const msg::AcceptedMove& move, std::uint64_t tick) {
+    if (!known_moves_ || move.number <= *known_moves_) return;
+    known_moves_ = move_number_ = move.number;
+    if (move.kind == crane_REQUEST_FOLLOW)
+      motion_.excite(excitation_of(move), tick);
     else
-      motion_.start(target_of(*accepted), tick);
-    request_id_ = accepted_id;
-    wanted_.erase(wanted_.begin(), accepted + 1);  // what was asked for before is out of date
+      motion_.start(target_of(move), tick);
   }
 
   void publish(const msg::State& state, std::uint64_t tick) {
@@ -109,24 +98,25 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     sample.header = runtime::answer_to(state.header);
     sample.header.tick = tick;
     runtime::assign(sample.axis, motion_.at(tick));
-    sample.request_id = request_id_;
+    sample.move_number = move_number_;
+    sample.second_writer = disputed();
     sample.moving = !motion_.arrived(runtime::measurement(state), tick);
     output_.publish(sample);
     published_ = tick;
   }
 
-  runtime::RequestInbox requests_;
-  bus::Publisher<msg::Reference> output_;
+  runtime::Output<msg::Reference> output_;
   int stale_after_ticks_;
   Motion motion_;
-  std::vector<msg::Request> wanted_;
   std::optional<std::uint64_t> published_;
   crane_SupervisorState supervisor_ = crane_STATE_BOOT;
   std::array<double, control::kAxes> homing_speed_{};
   bool homing_ = false;
   int missing_statuses_ = 0;
   bool stopping_ = false;
-  std::uint64_t request_id_ = 0;
+  std::uint32_t supervisor_epoch_ = 0;        ///< start-up number of the supervisor that counts the moves
+  std::optional<std::uint64_t> known_moves_;  ///< number of the last move that is executed or out of date
+  std::uint64_t move_number_ = 0;             ///< of the move that the reference executes
 };
 
 }  // namespace
@@ -139,7 +129,9 @@ runtime::ComponentSpec trajectory_planner_spec() {
           "Where each axis is to be: steps, accelerate-coast-brake or S-curve moves, shaped if asked for.",
       .source = crane_SOURCE_PLANNER,
       .runs_controller = true,
-      .sole_writer_of = &topics::reference.description,
+      .reads = {{&topics::state.description, "where the axes are when a move begins"},
+                {&topics::supervisor.description, "safety state, and the move that was accepted"}},
+      .writes = {{&topics::reference.description, "where each axis is to be at the next tick"}},
       .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
         return std::make_unique<TrajectoryPlanner>(context);
       }};

@@ -73,6 +73,7 @@ bool moves_axes(const msg::Request& request) {
 }
 
 std::string problem_of(const msg::Request& request, const Limits& limits) {
+  if (request.id == 0) return "id = 0: a client numbers its requests from 1";
   const bool home = request.kind == crane_REQUEST_HOME;
   if (!moves_axes(request) && !home) return "";
   int selected = 0;

@@ -1,5 +1,7 @@
 #include "process/samples.hpp"
 
+#include <algorithm>
+
 #include "crane/runtime/convert.hpp"
 
 namespace crane::supervisor {
@@ -89,8 +91,21 @@ msg::Command command_of(const msg::Header& header, const TickOutput& output) {
   return command;
 }
 
+msg::AcceptedMove accepted_move(const msg::Request& request, std::uint64_t number) {
+  msg::AcceptedMove move{};
+  move.number = number;
+  move.request_id = request.id;
+  std::ranges::copy(request.client, move.client);
+  move.kind = request.kind;
+  std::ranges::copy(request.selected, move.selected);
+  std::ranges::copy(request.target, move.target);
+  std::ranges::copy(request.sine, move.sine);
+  move.duration_s = request.duration_s;
+  return move;
+}
+
 msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& output, const Limits& limits,
-                                std::uint64_t move_id) {
+                                const msg::AcceptedMove& move) {
   msg::SupervisorStatus status{};
   status.header = header;
   status.state = static_cast<crane_SupervisorState>(output.state);
@@ -113,7 +128,7 @@ msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& out
   status.clamped_count = output.clamped_count;
   status.rejected_count = output.rejected_count;
   status.missing_demand_count = output.missing_demand_count;
-  status.request_id = move_id;
+  status.move = move;
   runtime::assign(status.homing_speed, output.homing_speed);
   status.homing_failure = static_cast<crane_HomingFailure>(output.homing_failure);
   return status;

@@ -7,8 +7,10 @@ namespace crane::supervisor {
 
 [[nodiscard]] Sample sample_of(const msg::State& state);
 [[nodiscard]] msg::Command command_of(const msg::Header& header, const TickOutput& output);
-/// @param move_id  the last move that was accepted
+/// The content of a move that was accepted. @pre its kind is REQUEST_MOVE or REQUEST_FOLLOW
+[[nodiscard]] msg::AcceptedMove accepted_move(const msg::Request& request, std::uint64_t number);
+/// @param move  the last one that was accepted
 [[nodiscard]] msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& output,
-                                              const Limits& limits, std::uint64_t move_id);
+                                              const Limits& limits, const msg::AcceptedMove& move);
 
 }  // namespace crane::supervisor

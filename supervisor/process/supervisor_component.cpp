@@ -1,7 +1,6 @@
 #include "process/supervisor_component.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,17 +26,14 @@ constexpr int kTicksToTakeUp = 20;       // from the acceptance of a move until 
 class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg::Reference> {
  public:
   explicit Supervisor(const Context& context)
-      : JoinedComponent{context, runtime::join_policy(context, kWaitShare),
-                        context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock)),
-                        context.bus.subscriber(topics::demand, runtime::loop_endpoint(context.clock)),
-                        context.bus.subscriber(topics::reference, runtime::loop_endpoint(context.clock))},
+      : JoinedComponent{context, kWaitShare, topics::state, topics::demand, topics::reference},
         limits_{limits_of(context.rig)},
         realtime_{context.clock == runtime::Clock::realtime},
         requests_{context,
                   {crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_DISARM, crane_REQUEST_MOVE,
                    crane_REQUEST_FOLLOW, crane_REQUEST_STOP, crane_REQUEST_ESTOP, crane_REQUEST_HOME}},
-        commands_{context.bus.publisher(topics::command, runtime::loop_endpoint(context.clock))},
-        statuses_{context.bus.publisher(topics::supervisor, runtime::loop_endpoint(context.clock))} {
+        commands_{context.ports.output(topics::command)},
+        statuses_{context.ports.output(topics::supervisor)} {
     if (auto found = problems(limits_); !found.empty()) {
       for (auto& problem : found) problem.insert(0, context.rig.path + ": limits: ");
       throw runtime::ConfigurationError{std::move(found)};
@@ -65,8 +61,10 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_v = runtime::values(demand->total_v);
     }
     input.reference_moving = is_moving(reference);
-    input.bridge_restarted = bridge_epoch_ && *bridge_epoch_ != state->header.epoch;
-    bridge_epoch_ = state->header.epoch;
+    input.bridge_restarted = restarts() > bridge_restarts_;
+    bridge_restarts_ = restarts();
+    input.second_writer =
+        (demand != nullptr && demand->second_writer) || (reference != nullptr && reference->second_writer);
     if (input.bridge_restarted) self_test_ = {};
     input.self_test = self_test_.step(state);
     step(input);
@@ -87,7 +85,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     return std::min(JoinedComponent::wake_at_ns(), silence_ends_ns());
   }
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
-  [[nodiscard]] bool outputs_connected() const override { return commands_.matched() > 0; }
 
  private:
   /// From the acceptance of a move until its reference has ended. A planner that never takes the move up, and
@@ -95,7 +92,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   bool is_moving(const msg::Reference* reference) {
     if (reference != nullptr) {
       reference_moving_ = reference->moving;
-      if (reference->request_id == move_id_) ticks_to_take_up_ = 0;
+      if (reference->move_number == move_.number) ticks_to_take_up_ = 0;
     }
     if (ticks_to_take_up_ > 0) --ticks_to_take_up_;
     return reference_moving_ || ticks_to_take_up_ > 0;
@@ -125,15 +122,12 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
 
   void step(TickInput& input) {
-    input.second_writer = counts().conflicting > conflicts_;
-    conflicts_ = counts().conflicting;
+    input.second_writer = input.second_writer || ports().disputed(now_ns_);
     const auto asked = collect(input);
     const auto output = supervisor::step(limits_, input, memory_);
     for (const auto& request : asked) answer(request, output);
-    auto command = command_of(last_header_, output);
-    commands_.publish(command);
-    auto status = status_of(last_header_, output, limits_, move_id_);
-    statuses_.publish(status);
+    commands_.publish(command_of(last_header_, output));
+    statuses_.publish(status_of(last_header_, output, limits_, move_));
     announce(output);
   }
 
@@ -156,7 +150,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   void answer(const msg::Request& request, const TickOutput& output) {
     const auto& verdict = output.answers[static_cast<std::size_t>(*request_of(request.kind))];
     if (moves_axes(request) && verdict.accepted) {
-      move_id_ = request.id;
+      move_ = accepted_move(request, move_.number + 1);
       ticks_to_take_up_ = kTicksToTakeUp;
     }
     requests_.reply(request, last_header_, verdict.accepted, verdict.reason);
@@ -187,17 +181,16 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   Limits limits_;
   bool realtime_;
   runtime::RequestInbox requests_;
-  bus::Publisher<msg::Command> commands_;
-  bus::Publisher<msg::SupervisorStatus> statuses_;
+  runtime::Output<msg::Command> commands_;
+  runtime::Output<msg::SupervisorStatus> statuses_;
   StartUpTest self_test_;
   TickMemory memory_;
   msg::Header last_header_{};
   std::int64_t now_ns_ = 0;
   std::int64_t state_due_ns_ = runtime::kNever;  ///< until then a state is expected, kNever: before the first
   bool has_respite_ = false;
-  std::optional<std::uint32_t> bridge_epoch_;  ///< start-up number of who writes crane/state
-  std::uint64_t conflicts_ = 0;
-  std::uint64_t move_id_ = 0;
+  std::uint64_t bridge_restarts_ = 0;
+  msg::AcceptedMove move_{};  ///< the last one; number 0: none yet
   int ticks_to_take_up_ = 0;
   bool reference_moving_ = false;
   State announced_ = State::boot;
@@ -211,7 +204,13 @@ runtime::ComponentSpec supervisor_spec() {
           .summary = "Safety states, limits, brakes and the command gate: the only writer of crane/command.",
           .source = crane_SOURCE_SUPERVISOR,
           .runs_controller = false,
-          .sole_writer_of = &topics::command.description,
+          .reads = {{&topics::state.description, "what the rig measures: limits, brakes, latches"},
+                    {&topics::demand.description, "volts that pass the gate"},
+                    {&topics::reference.description, "whether a move is under way"},
+                    {&topics::request.description, "reset, arm, disarm, move, follow, home, stop, e-stop"}},
+          .writes = {{&topics::command.description, "volts, brakes, watchdog permission"},
+                     {&topics::supervisor.description, "safety state, and the move that was accepted"},
+                     {&topics::reply.description, "answers to requests"}},
           .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
             return std::make_unique<Supervisor>(context);
           }};

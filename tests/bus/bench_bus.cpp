@@ -76,7 +76,7 @@ void memory_publish_and_take(benchmark::State& run) {
   for (std::int64_t i = 0; i < run.range(0); ++i) readers.push_back(a.subscriber(topics::state));
   auto sample = state();
   while (run.KeepRunning()) {
-    writer.publish(sample);
+    benchmark::DoNotOptimize(writer.publish(sample));
     for (auto& reader : readers) benchmark::DoNotOptimize(reader.take());
   }
 }

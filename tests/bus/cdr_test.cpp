@@ -67,16 +67,17 @@ TEST(CdrCodec, BringsEveryTypeBackUnchanged) {
 }
 
 TEST(CdrCodec, ReadsTheOtherByteOrder) {
-  const CdrCodec& codec =
-      CdrCodec::of(crane_Contribution_desc);  // 8-byte fields, after the header only those
+  const CdrCodec& codec = CdrCodec::of(crane_Contribution_desc);
   Random random{kSeed};
   const auto sample = random_sample(codec, random);
   auto bytes = encoded(codec, sample.data());
   std::size_t at = 0;
-  for (const auto& field : codec.fields())
+  for (const auto& field : codec.fields()) {
+    at = (at + field.size - 1) / field.size * field.size;  // plain CDR aligns every value to its size
     for (std::uint32_t i = 0; i < field.count; ++i, at += field.size)
       std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
                    bytes.begin() + static_cast<std::ptrdiff_t>(at + field.size));
+  }
   ASSERT_EQ(at, bytes.size());
   std::vector<std::uint8_t> copy(codec.sample_bytes());
   ASSERT_TRUE(codec.decode(bytes, true, copy.data()));

@@ -48,6 +48,7 @@ void expect_round_trip(const topics::Topic<T>& topic, Bus& from, Bus& to) {
     T sample{};
     std::memcpy(&sample, testing::random_sample(codec, random).data(), sizeof sample);
     ASSERT_TRUE(writer.publish(sample));
+    detail::seal(topic.description, &sample, from.options().source, from.options().epoch);
     const auto taken = reader.take();
     ASSERT_TRUE(taken) << topic.description.name;
     ASSERT_EQ(testing::encoded(codec, &*taken), testing::encoded(codec, &sample)) << topic.description.name;
@@ -69,7 +70,7 @@ TEST_F(Memory, KeepsEverySampleInOrderUntilItIsTaken) {
   Ticks expected;
   for (std::uint64_t tick = 0; tick < 1000; ++tick) {
     auto sample = state(tick);
-    writer.publish(sample);
+    EXPECT_TRUE(writer.publish(sample));
     expected.push_back(tick);
   }
   EXPECT_EQ(ticks(reader), expected);
@@ -84,7 +85,7 @@ TEST_F(Memory, GivesEveryReaderItsOwnCopy) {
   auto second = b.subscriber(topics::state);
   auto writer = b.publisher(topics::state);
   auto sample = state(5);
-  writer.publish(sample);
+  EXPECT_TRUE(writer.publish(sample));
   EXPECT_EQ(ticks(first), Ticks{5});
   EXPECT_EQ(ticks(second), Ticks{5});
 }
@@ -95,7 +96,7 @@ TEST_F(Memory, WaitSeesASampleThatCameBeforeTheCallAndTimesOutWithoutOne) {
   auto writer = a.publisher(topics::state);
   EXPECT_FALSE(a.wait(1ms));
   auto sample = state(1);
-  writer.publish(sample);
+  EXPECT_TRUE(writer.publish(sample));
   EXPECT_TRUE(a.wait(0ms));
   EXPECT_FALSE(a.wait(1ms));
 }
@@ -107,7 +108,7 @@ TEST_F(Memory, WaitWakesUpForAnotherThread) {
   auto writer = b.publisher(topics::state);
   std::thread other{[&] {
     auto sample = state(1);
-    writer.publish(sample);
+    EXPECT_TRUE(writer.publish(sample));
   }};
   EXPECT_TRUE(a.wait(10s));
   other.join();
@@ -120,7 +121,7 @@ TEST_F(Memory, HistoryReachesALateReaderThatAsksForItInOrderOfPublication) {
   auto two = a.publisher(topics::state, {.history = true});
   for (std::uint64_t tick = 0; tick < 300; ++tick) {
     auto sample = state(tick);
-    (tick % 2 == 0 ? one : two).publish(sample);
+    EXPECT_TRUE((tick % 2 == 0 ? one : two).publish(sample));
   }
   auto without = a.subscriber(topics::state);
   auto with = a.subscriber(topics::state, {.history = true});
@@ -137,11 +138,11 @@ TEST_F(Memory, TheLastStatusOfEveryInstanceReachesALateReader) {
     msg::NodeStatus status{};
     status.node = node;
     status.ticks = 10U + node;
-    writer.publish(status);
+    EXPECT_TRUE(writer.publish(status));
   }
   msg::NodeStatus gone{};
   gone.node = 3;
-  writer.dispose(gone);
+  EXPECT_TRUE(writer.dispose(gone));
   auto reader = a.subscriber(topics::node);
   std::vector<std::uint32_t> nodes;
   while (const auto status = reader.take()) nodes.push_back(status->node);
@@ -155,7 +156,7 @@ TEST_F(Memory, ADisposedInstanceIsToldToReadersThatAsk) {
   auto writer = a.publisher(topics::node);
   msg::NodeStatus status{};
   status.node = 4;
-  writer.dispose(status);
+  EXPECT_TRUE(writer.dispose(status));
   SampleInfo info;
   const auto sample = asks.take(&info);
   ASSERT_TRUE(sample);
@@ -175,9 +176,9 @@ TEST_F(Memory, TwoCranesDoNotSeeEachOtherAndAStarSeesBoth) {
   auto north_writer = north.publisher(topics::state);
   auto south_writer = south.publisher(topics::state);
   auto sample = state(1);
-  north_writer.publish(sample);
+  EXPECT_TRUE(north_writer.publish(sample));
   sample = state(2);
-  south_writer.publish(sample);
+  EXPECT_TRUE(south_writer.publish(sample));
   EXPECT_EQ(ticks(north_reader), Ticks{1});
   EXPECT_EQ(ticks(south_reader), Ticks{2});
   EXPECT_EQ(ticks(all_reader), (Ticks{1, 2}));
@@ -234,7 +235,7 @@ TEST_F(Memory, HandsOutTheBytesThatRecordingsStore) {
   auto reader = a.cdr_subscriber(topics::state.description);
   auto writer = a.publisher(topics::state);
   auto sample = state(77);
-  writer.publish(sample);
+  EXPECT_TRUE(writer.publish(sample));
   std::vector<std::uint8_t> cdr;
   SampleInfo info;
   const auto header = reader.take(cdr, &info);
@@ -243,6 +244,7 @@ TEST_F(Memory, HandsOutTheBytesThatRecordingsStore) {
   EXPECT_EQ(header->source, crane_SOURCE_PLANT);
   EXPECT_EQ(header->epoch, 3U);
   EXPECT_EQ(info.source_time_ns, sample.header.sample_time_ns);
+  detail::seal(topics::state.description, &sample, a.options().source, a.options().epoch);
   auto expected = testing::encoded(CdrCodec::of(crane_CraneState_desc), &sample);
   expected.insert(expected.begin(), {0, 1, 0, 0});
   EXPECT_EQ(cdr, expected);
@@ -261,7 +263,7 @@ TEST_F(Memory, DeliversEverythingFromManyThreads) {
       auto writer = own.publisher(topics::state);
       for (std::uint64_t tick = 0; tick < kEach; ++tick) {
         auto sample = state(tick);
-        writer.publish(sample);
+        EXPECT_TRUE(writer.publish(sample));
       }
     });
   std::uint64_t taken = 0;

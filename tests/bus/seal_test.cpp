@@ -22,7 +22,7 @@ std::vector<std::uint8_t> sealed_sample(const topics::Description& topic, Random
   return sample;
 }
 
-TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeIt) {
+TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeItAndOfTheTopicsName) {
   Random random{kSealSeed};
   for (const auto& topic : topics::kAll) {
     const auto sample = sealed_sample(topic, random);
@@ -30,10 +30,12 @@ TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeIt) {
     std::memcpy(&header, sample.data(), sizeof header);
     EXPECT_EQ(header.source, crane_SOURCE_SUPERVISOR);
     EXPECT_EQ(header.epoch, 42U);
-    const auto bytes = encoded(CdrCodec::of(*topic.descriptor), sample.data());
+    auto bytes = encoded(CdrCodec::of(*topic.descriptor), sample.data());
     std::uint32_t carried = 0;
     std::memcpy(&carried, bytes.data() + bytes.size() - 4, 4);
-    EXPECT_EQ(carried, crc32c_portable(std::span{bytes}.first(bytes.size() - 4))) << topic.name;
+    bytes.resize(bytes.size() - 4);
+    bytes.insert(bytes.end(), topic.name.begin(), topic.name.end());
+    EXPECT_EQ(carried, crc32c_portable(bytes)) << topic.name;
     EXPECT_TRUE(detail::intact(topic, sample.data())) << topic.name;
   }
 }
@@ -66,6 +68,13 @@ TEST(Intact, IsFalseForASampleOfZeros) {  // what the Fast DDS back end makes of
   }
 }
 
+TEST(Intact, IsFalseOnAnotherTopicOfTheSameType) {
+  Random random{kSealSeed};
+  const auto sample = sealed_sample(topics::tracking.description, random);
+  EXPECT_TRUE(detail::intact(topics::tracking.description, sample.data()));
+  EXPECT_FALSE(detail::intact(topics::anti_swing.description, sample.data()));
+}
+
 TEST(Intact, IsFalseAfterAnyFieldChanged) {
   Random random{kSealSeed};
   for (const auto& topic : topics::kAll) {
@@ -90,7 +99,7 @@ TEST(Intact, NoTruncatedPayloadIsHandedOut) {
   Random random{kSealSeed};
   for (const auto& topic : topics::kAll) {
     const auto original = sealed_sample(topic, random);
-    const auto bytes = encoded(CdrCodec::of(*topic.descriptor), original.data());
+    auto bytes = encoded(CdrCodec::of(*topic.descriptor), original.data());
     for (std::size_t length = 0; length < bytes.size(); ++length) {
       const std::vector<std::uint8_t> cut{bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)};
       std::vector<std::uint8_t> sample(original.size());

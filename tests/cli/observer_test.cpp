@@ -46,7 +46,7 @@ TEST_F(Observers, RecorderWritesWhatWasPublishedWithTheTickAsSequence) {
     msg::State state{};
     state.header.tick = tick;
     state.trolley_position_m = 0.01 * static_cast<double>(tick);
-    states.publish(state);
+    EXPECT_TRUE(states.publish(state));
     ASSERT_TRUE(recorder.poll());
   }
   ASSERT_TRUE(recorder.close());
@@ -76,7 +76,7 @@ TEST_F(Observers, ExportQuotesTextAndKeepsNumbersAsTheyAre) {
   reply.request_id = 18'446'744'073'709'551'615U;
   reply.accepted = true;
   runtime::assign(reply.reason, "say \"no\", then stop");
-  replies.publish(reply);
+  EXPECT_TRUE(replies.publish(reply));
   recorder.poll();
   recorder.close();
 
@@ -102,11 +102,11 @@ TEST_F(Observers, SnapshotNamesTheCauseAndItsRemedy) {
       state.brake_closed[0] = true;
       state.position_known[1] = state.position_known[2] = true;
       state.latch_reason = crane_LATCH_LOST_COUNTS;
-      states.publish(state);
+      EXPECT_TRUE(states.publish(state));
       msg::SupervisorStatus status{};
       status.state = crane_STATE_LOCKED;
       status.cause = crane_CAUSE_SWING_LIMIT;
-      statuses.publish(status);
+      EXPECT_TRUE(statuses.publish(status));
       node.beat(runtime::monotonic_ns(), crane_PHASE_READY, {}, 0);
       crane_.wait(std::chrono::milliseconds{1});
     }
@@ -154,8 +154,10 @@ class FakeSupervisor {
     status.state = crane_STATE_HOLD;
     msg::Reference reference{};
     while (!done_) {
-      statuses.publish(status);
-      if (planner != Planner::absent) references.publish(reference);
+      EXPECT_TRUE(statuses.publish(status));
+      if (planner != Planner::absent) {
+        EXPECT_TRUE(references.publish(reference));
+      }
       bus_.wait(std::chrono::milliseconds{1});
       while (const auto request = requests.take()) {
         msg::Reply reply{};
@@ -163,9 +165,12 @@ class FakeSupervisor {
         runtime::assign(reply.client, request->client);
         reply.accepted = accepts;
         runtime::assign(reply.reason, accepts ? "" : "the crane is LOCKED");
-        replies.publish(reply);
-        if (accepts) status.request_id = request->id;
-        if (accepts && planner == Planner::listening) reference.request_id = request->id;
+        EXPECT_TRUE(replies.publish(reply));
+        if (accepts) {
+          status.move.request_id = request->id;
+          ++status.move.number;
+        }
+        if (accepts && planner == Planner::listening) reference.move_number = status.move.number;
       }
     }
   }

@@ -5,6 +5,7 @@
 #include "crane/boards/wired_rig.hpp"
 #include "crane/bridge/bridge.hpp"
 #include "crane/runtime/in_process.hpp"
+#include "process/hardware_bridge.hpp"
 
 namespace crane::bridge {
 namespace {
@@ -29,7 +30,7 @@ class BridgeLoop : public testing::Test {
     EXPECT_TRUE(state && state->header.tick == number);
     return state.value_or(msg::State{});
   }
-  void publish(msg::Command command) { commands_.publish(command); }
+  void publish(const msg::Command& command) { EXPECT_TRUE(commands_.publish(command)); }
   /// 20 ticks, each answered.
   void run_with_closed_relay() {
     for (std::uint64_t number = 0; number < 20; ++number) {
@@ -53,7 +54,10 @@ class BridgeLoop : public testing::Test {
   bus::Subscriber<msg::State> states_ = other_.subscriber(topics::state);
   bus::Subscriber<msg::Event> events_ = other_.subscriber(topics::event);
   runtime::Node node_{own_, {"bridge", ""}};
-  Bridge bridge_{{own_, node_, rig_, *control::find_controller("none"), runtime::Clock::realtime},
+  runtime::ComponentSpec spec_ = hardware_bridge_spec();
+  const control::Controller& none_ = *control::find_controller("none");
+  runtime::Ports ports_{own_, spec_, none_, runtime::Clock::realtime};
+  Bridge bridge_{{ports_, node_, rig_, none_, own_.options(), runtime::Clock::realtime},
                  std::make_unique<EmulatedBoard>(rig_, std::make_unique<WiredRig>(rig_))};
 };
 

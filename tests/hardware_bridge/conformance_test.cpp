@@ -8,6 +8,7 @@
 #include "crane/bridge/bridge.hpp"
 #include "crane/bridge/measurement.hpp"
 #include "crane/runtime/in_process.hpp"
+#include "process/hardware_bridge.hpp"
 #include "subject.hpp"
 
 namespace crane::bridge::test {
@@ -90,8 +91,10 @@ class Lent final : public Board {
 TEST_P(Conformance, IsSafeAfterAnExceptionInTheBridge) {
   bus::Bus bus{runtime::memory_options(bus::make_memory_network(), "bridge", crane_SOURCE_BRIDGE)};
   runtime::Node node{bus, {"bridge", ""}};
-  const runtime::Context context{bus, node, rig_, *control::find_controller("none"),
-                                 runtime::Clock::realtime};
+  const runtime::ComponentSpec spec = hardware_bridge_spec();
+  const auto& none = *control::find_controller("none");
+  runtime::Ports ports{bus, spec, none, runtime::Clock::realtime};
+  const runtime::Context context{ports, node, rig_, none, bus.options(), runtime::Clock::realtime};
   const auto run_into_it = [&] {
     Bridge bridge{context, std::make_unique<Lent>(subject_->board())};
     get_going();

@@ -28,6 +28,7 @@ const double kNan = std::numeric_limits<double>::quiet_NaN();
 std::vector<Hazard> hazards() {
   return {
       {"SupervisorIsSilent", Reason::command_stale, 5, [](Timeline& t) { t.commands_come = false; }},
+      {"CommandHasASecondWriter", Reason::second_writer, 1, [](Timeline& t) { t.second_writer = true; }},
       {"CommandIsNotANumber", Reason::command_not_finite, 1, [](Timeline& t) { t.drive_v[1] = kNan; }},
       {"CommandIsInfinite", Reason::command_not_finite, 1,
        [](Timeline& t) { t.drive_v[1] = std::numeric_limits<double>::infinity(); }},

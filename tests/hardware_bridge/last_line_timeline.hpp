@@ -38,6 +38,7 @@ class Timeline {
   double converter_gives = 1;  ///< times the volts asked for
   double converter_stuck_v = 0;
   bool limit_high = false;
+  bool second_writer = false;
   bool unknown = false, homing = false,
        mark = false;  ///< the trolley has no zero; it is homed; it is below its mark
 
@@ -88,6 +89,7 @@ class Timeline {
     seen.brake_closed = {!open, !open, !open};
     seen.limit_high[0] = limit_high;
     seen.unknown[0] = unknown;
+    seen.second_writer = second_writer;
     seen.mark[0] = mark;
     outputs = line.decide(command, now, seen);
   }

@@ -50,7 +50,8 @@ void bus_round_trip(bus::Vendor vendor) {
     auto out = bus.publisher(topics::anti_swing);
     while (!stop)
       if (bus.wait(50ms))
-        while (auto sample = in.take()) out.publish(*sample);
+        while (auto sample = in.take())
+          if (!out.publish(*sample)) std::abort();
   }};
   {
     bus::Bus bus{options};
@@ -62,7 +63,7 @@ void bus_round_trip(bus::Vendor vendor) {
     msg::Contribution sample{};
     report(std::string{to_string(vendor)}.c_str(), [&] {
       ++sample.header.tick;
-      out.publish(sample);
+      if (!out.publish(sample)) std::abort();
       const auto late = Clock::now() + 100ms;
       while (Clock::now() < late) {
         bus.wait(10ms);

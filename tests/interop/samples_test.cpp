@@ -33,6 +33,7 @@ void expect_unchanged(const topics::Topic<T>& topic, Bus& from, Bus& to) {
     SampleInfo info;
     const auto taken = next(to, reader, &info);
     ASSERT_TRUE(taken) << topic.description.name << ", seed " << kSeed << ", sample " << i;
+    detail::seal(topic.description, &sample, crane_SOURCE_PLANT, 11);  // as publish() does
     auto expected = encoded(codec, &sample);
     ASSERT_EQ(encoded(codec, &*taken), expected) << topic.description.name << ", seed " << kSeed;
     EXPECT_EQ(taken->header.source, crane_SOURCE_PLANT);

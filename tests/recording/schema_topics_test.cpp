@@ -143,21 +143,25 @@ TEST(TopicSchema, ReadsEveryFieldOfReferenceAndContribution) {
   f.header(r.header);
   for (auto& axis : r.axis) f.axis(axis);
   r.moving = true;
-  f.number(r.request_id);
+  f.number(r.move_number);
+  r.second_writer = true;
   f.number(r.crc32c);
   EXPECT_EQ(through_the_codec(topics::reference, r), (ordered_json{{"header", expected(r.header)},
                                                                    {"axis", expected(r.axis)},
                                                                    {"moving", true},
-                                                                   {"request_id", r.request_id},
+                                                                   {"move_number", r.move_number},
+                                                                   {"second_writer", true},
                                                                    {"crc32c", r.crc32c}}));
   msg::Contribution c{};
   f.header(c.header);
   for (double& value : c.drive_v) value = f.real();
   for (auto& axis : c.correction) f.axis(axis);
+  c.second_writer = true;
   f.number(c.crc32c);
   const ordered_json want{{"header", expected(c.header)},
                           {"drive_v", expected(c.drive_v)},
                           {"correction", expected(c.correction)},
+                          {"second_writer", true},
                           {"crc32c", c.crc32c}};
   EXPECT_EQ(through_the_codec(topics::tracking, c), want);
   EXPECT_EQ(through_the_codec(topics::anti_swing, c), want);
@@ -172,11 +176,13 @@ TEST(TopicSchema, ReadsEveryFieldOfDemandAndCommand) {
     d.friction_v[i] = f.real();
     d.total_v[i] = f.real();
   }
+  d.second_writer = true;
   f.number(d.crc32c);
   EXPECT_EQ(through_the_codec(topics::demand, d), (ordered_json{{"header", expected(d.header)},
                                                                 {"control_v", expected(d.control_v)},
                                                                 {"friction_v", expected(d.friction_v)},
                                                                 {"total_v", expected(d.total_v)},
+                                                                {"second_writer", true},
                                                                 {"crc32c", d.crc32c}}));
   msg::Command c{};
   f.header(c.header);
@@ -203,8 +209,20 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
     s.high_limit[i] = f.real();
     s.volt_limit_v[i] = f.real();
   }
-  for (auto* value : {&s.clamped_count, &s.rejected_count, &s.missing_demand_count, &s.request_id})
+  for (auto* value :
+       {&s.clamped_count, &s.rejected_count, &s.missing_demand_count, &s.move.number, &s.move.request_id})
     f.number(*value);
+  f.text(s.move.client);
+  s.move.kind = crane_REQUEST_FOLLOW;
+  s.move.selected[2] = true;
+  for (double& value : s.move.target) value = f.real();
+  auto move_sines = ordered_json::array();
+  for (auto& sine : s.move.sine) {
+    sine = {f.real(), f.real(), f.real()};
+    move_sines.push_back(
+        {{"amplitude", sine.amplitude}, {"frequency_hz", sine.frequency_hz}, {"phase_rad", sine.phase_rad}});
+  }
+  s.move.duration_s = f.real();
   s.homing[1] = true;
   for (double& value : s.homing_speed) value = f.real();
   s.homing_failure = crane_HOMING_MARK_STUCK;
@@ -227,7 +245,15 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
                           {"clamped_count", s.clamped_count},
                           {"rejected_count", s.rejected_count},
                           {"missing_demand_count", s.missing_demand_count},
-                          {"request_id", s.request_id},
+                          {"move",
+                           {{"number", s.move.number},
+                            {"request_id", s.move.request_id},
+                            {"client", s.move.client},
+                            {"kind", "REQUEST_FOLLOW"},
+                            {"selected", {false, false, true}},
+                            {"target", expected(s.move.target)},
+                            {"sine", move_sines},
+                            {"duration_s", s.move.duration_s}}},
                           {"homing", {false, true, false}},
                           {"homing_speed", expected(s.homing_speed)},
                           {"homing_failure", "HOMING_MARK_STUCK"},
@@ -291,7 +317,8 @@ TEST(TopicSchema, ReadsEveryFieldOfNodeAndEvent) {
   f.text(n.controller);
   f.number(n.pid);
   n.phase = crane_PHASE_STOPPING;
-  for (auto* value : {&n.ticks, &n.lost_ticks, &n.late_samples, &n.duplicate_samples, &n.rejected_samples})
+  for (auto* value : {&n.ticks, &n.lost_ticks, &n.late_samples, &n.duplicate_samples, &n.rejected_samples,
+                      &n.foreign_samples, &n.refused_samples})
     f.number(*value);
   n.step_mean_us = f.real();
   n.step_max_us = f.real();
@@ -309,6 +336,8 @@ TEST(TopicSchema, ReadsEveryFieldOfNodeAndEvent) {
                           {"late_samples", n.late_samples},
                           {"duplicate_samples", n.duplicate_samples},
                           {"rejected_samples", n.rejected_samples},
+                          {"foreign_samples", n.foreign_samples},
+                          {"refused_samples", n.refused_samples},
                           {"step_mean_us", n.step_mean_us},
                           {"step_max_us", n.step_max_us},
                           {"crc32c", n.crc32c}};

@@ -10,11 +10,13 @@ namespace {
 
 class TickJoining : public testing::Test {
  protected:
+  static constexpr std::int64_t kPeriod_ns = 10'000'000;
   using Join = TickJoin<msg::State, msg::Reference>;
   Join join(bool in_order) {
-    return Join{{.in_order = in_order, .bound_ns = 4'000'000, .depth = 8},
-                bus_.subscriber(topics::state),
-                bus_.subscriber(topics::reference)};
+    return Join{
+        {.in_order = in_order, .bound_ns = 4'000'000, .depth = 8, .period_ns = in_order ? 0 : kPeriod_ns},
+        loop_reader(plant_, topics::state),
+        loop_reader(plant_, topics::reference)};
   }
   void state(std::uint64_t tick) { publish(states_, tick); }
   void reference(std::uint64_t tick) { publish(references_, tick); }
@@ -24,11 +26,13 @@ class TickJoining : public testing::Test {
   static void publish(bus::Publisher<T>& publisher, std::uint64_t tick) {
     T sample{};
     sample.header.tick = tick;
-    publisher.publish(sample);
+    EXPECT_TRUE(publisher.publish(sample));
   }
-  bus::Bus bus_{memory_options(bus::make_memory_network(), "test", crane_SOURCE_PLANT)};
-  bus::Publisher<msg::State> states_ = bus_.publisher(topics::state);
-  bus::Publisher<msg::Reference> references_ = bus_.publisher(topics::reference);
+  std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
+  bus::Bus plant_{memory_options(network_, "plant", crane_SOURCE_PLANT)};
+  bus::Bus planner_{memory_options(network_, "planner", crane_SOURCE_PLANNER)};
+  bus::Publisher<msg::State> states_ = plant_.publisher(topics::state);
+  bus::Publisher<msg::Reference> references_ = planner_.publisher(topics::reference);
 };
 
 TEST_F(TickJoining, CompletesWithTheSamplesOfTheSameTickOnly) {
@@ -107,6 +111,37 @@ TEST_F(TickJoining, TakesEveryTickInOrderInLockstepHoweverLongItTakes) {
     EXPECT_EQ(join.tick(), tick);
   }
   EXPECT_EQ(join.counts().lost, 0U);
+}
+
+TEST_F(TickJoining, ATickThatTimeCannotHaveReachedBlocksNothing) {
+  auto join = this->join(false);
+  state(1);
+  reference(1);
+  ASSERT_EQ(join.poll(0), JoinResult::complete);
+  for (const auto absurd : {~std::uint64_t{0}, std::uint64_t{1} << 40U, std::uint64_t{1000}}) state(absurd);
+  EXPECT_EQ(join.poll(kPeriod_ns), JoinResult::waiting);
+  EXPECT_EQ(join.counts().ahead, 3U);
+  state(2);
+  reference(2);
+  EXPECT_EQ(join.poll(kPeriod_ns), JoinResult::complete);
+  EXPECT_EQ(join.tick(), 2U);
+}
+
+TEST_F(TickJoining, ATickAfterAPauseOfTheBridgeIsBelieved) {
+  auto join = this->join(false);
+  state(1);
+  reference(1);
+  ASSERT_EQ(join.poll(0), JoinResult::complete);
+  state(1001);  // ten seconds at 100 Hz
+  reference(1001);
+  EXPECT_EQ(join.poll(1000 * kPeriod_ns), JoinResult::complete);
+}
+
+TEST_F(TickJoining, AFloodOfSamplesDoesNotKeepAPollBusyForEver) {
+  auto join = this->join(false);
+  for (int i = 0; i < 2000; ++i) state(1);
+  EXPECT_EQ(join.poll(0), JoinResult::waiting);
+  EXPECT_EQ(join.counts().duplicate, LoopReader<msg::State>::kMostPerPoll - 1);
 }
 
 }  // namespace

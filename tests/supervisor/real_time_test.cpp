@@ -27,15 +27,15 @@ class RealTime : public testing::Test {
   void state_comes(std::uint64_t tick) {
     msg::State state{};
     state.header = header(tick);
-    states_.publish(state);
+    EXPECT_TRUE(states_.publish(state));
   }
   void demand_comes(std::uint64_t tick) {
     msg::Demand demand{};
     demand.header = header(tick);
-    demands_.publish(demand);
+    EXPECT_TRUE(demands_.publish(demand));
     msg::Reference reference{};
     reference.header = header(tick);
-    references_.publish(reference);
+    EXPECT_TRUE(references_.publish(reference));
   }
   /// The process gets the processor now.
   void wake_at(double time_ms) {
@@ -67,16 +67,18 @@ class RealTime : public testing::Test {
     return header;
   }
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
-  bus::Bus test_bus_{runtime::memory_options(network_, "test", crane_SOURCE_PLANT)};
-  bus::Publisher<msg::State> states_ = test_bus_.publisher(topics::state);
-  bus::Publisher<msg::Demand> demands_ = test_bus_.publisher(topics::demand);
-  bus::Publisher<msg::Reference> references_ = test_bus_.publisher(topics::reference);
-  bus::Subscriber<msg::SupervisorStatus> statuses_ = test_bus_.subscriber(topics::supervisor);
+  bus::Bus plant_{runtime::memory_options(network_, "plant", crane_SOURCE_PLANT)};
+  bus::Bus friction_{runtime::memory_options(network_, "friction_compensation", crane_SOURCE_FRICTION)};
+  bus::Bus planner_{runtime::memory_options(network_, "planner", crane_SOURCE_PLANNER)};
+  bus::Publisher<msg::State> states_ = plant_.publisher(topics::state);
+  bus::Publisher<msg::Demand> demands_ = friction_.publisher(topics::demand);
+  bus::Publisher<msg::Reference> references_ = planner_.publisher(topics::reference);
+  bus::Subscriber<msg::SupervisorStatus> statuses_ = planner_.subscriber(topics::supervisor);
   runtime::Rig rig_ = runtime::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
   bus::Bus bus_{runtime::memory_options(network_, "crane_supervisor", crane_SOURCE_SUPERVISOR)};
-  runtime::Node node_{bus_, {"supervisor", ""}};
-  std::unique_ptr<runtime::Component> supervisor_ = supervisor_spec().make(
-      {bus_, node_, rig_, runtime::chosen_controller("", rig_), runtime::Clock::realtime});
+  runtime::HostedComponent hosted_{bus_, supervisor_spec(), rig_, runtime::chosen_controller("", rig_),
+                                   runtime::Clock::realtime};
+  runtime::Component* supervisor_ = &hosted_.component();
   msg::SupervisorStatus status_{};
   int steps_ = 0;
 };

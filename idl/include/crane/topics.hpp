@@ -20,6 +20,7 @@ using Request = crane_Request;
 using Reply = crane_Reply;
 using NodeStatus = crane_NodeStatus;
 using Event = crane_Event;
+using AcceptedMove = crane_AcceptedMove;
 using Twin = crane_Twin;
 }  // namespace crane::msg
 
@@ -33,14 +34,26 @@ enum class Qos : std::uint8_t {
   log      ///< events: the last ones also for a late joiner
 };
 
+/// A set of crane_Source values, one bit each.
+using Sources = std::uint32_t;
+template <class... Source>
+[[nodiscard]] constexpr Sources only(Source... source) {
+  return ((Sources{1} << static_cast<unsigned>(source)) | ...);
+}
+inline constexpr Sources kAnybody = ~Sources{0};
+
 /// A topic without its C++ type.
 struct Description {
   std::string_view name;                     ///< "crane/state"
   std::string_view type;                     ///< IDL name "crane::CraneState"
   const dds_topic_descriptor_t* descriptor;  ///< made by idlc
   Qos qos;
-  bool every_tick;  ///< published once per tick, joined by tick number
+  bool every_tick;  ///< loop topic: one writer at a time, one sample per tick, joined by tick number
+  Sources writers;  ///< kinds of process that may write it
 };
+[[nodiscard]] inline bool may_write(const Description& topic, crane_Source source) {
+  return static_cast<unsigned>(source) < 32 && (topic.writers & only(source)) != 0;
+}
 
 /// A topic with its C++ type: `bus.subscriber(topics::state)`.
 template <class T>
@@ -48,28 +61,29 @@ struct Topic {
   Description description;
 };
 
-// name, C++ type, IDL type, topic, QoS, every tick
-#define CRANE_TOPICS(X)                                           \
-  X(state, CraneState, "crane/state", loop, true)                 \
-  X(reference, Reference, "crane/reference", loop, true)          \
-  X(tracking, Contribution, "crane/tracking", loop, true)         \
-  X(anti_swing, Contribution, "crane/anti_swing", loop, true)     \
-  X(demand, Demand, "crane/demand", loop, true)                   \
-  X(command, Command, "crane/command", loop, true)                \
-  X(supervisor, SupervisorStatus, "crane/supervisor", loop, true) \
-  X(request, Request, "crane/request", script, false)             \
-  X(reply, Reply, "crane/reply", script, false)                   \
-  X(node, NodeStatus, "crane/node", status, false)                \
-  X(event, Event, "crane/event", log, false)                      \
-  X(twin, Twin, "crane/twin", loop, true)
+// variable, IDL type, name, quality of service, every tick, writers
+#define CRANE_TOPICS(X)                                                                          \
+  X(state, CraneState, "crane/state", loop, true, only(crane_SOURCE_PLANT, crane_SOURCE_BRIDGE)) \
+  X(reference, Reference, "crane/reference", loop, true, only(crane_SOURCE_PLANNER))             \
+  X(tracking, Contribution, "crane/tracking", loop, true, only(crane_SOURCE_TRACKING))           \
+  X(anti_swing, Contribution, "crane/anti_swing", loop, true, only(crane_SOURCE_ANTI_SWING))     \
+  X(demand, Demand, "crane/demand", loop, true, only(crane_SOURCE_FRICTION))                     \
+  X(command, Command, "crane/command", loop, true, only(crane_SOURCE_SUPERVISOR))                \
+  X(supervisor, SupervisorStatus, "crane/supervisor", loop, true, only(crane_SOURCE_SUPERVISOR)) \
+  X(request, Request, "crane/request", script, false, kAnybody)                                  \
+  X(reply, Reply, "crane/reply", script, false,                                                  \
+    only(crane_SOURCE_SUPERVISOR, crane_SOURCE_PLANT, crane_SOURCE_BRIDGE))                      \
+  X(node, NodeStatus, "crane/node", status, false, kAnybody)                                     \
+  X(event, Event, "crane/event", log, false, kAnybody)                                           \
+  X(twin, Twin, "crane/twin", loop, true, only(crane_SOURCE_TWIN))
 
-#define CRANE_DECLARE_TOPIC(variable, type, name, qos, every_tick) \
-  inline const Topic<crane_##type> variable{                       \
-      Description{name, "crane::" #type, &crane_##type##_desc, Qos::qos, every_tick}};
+#define CRANE_DECLARE_TOPIC(variable, type, name, qos, every_tick, writers) \
+  inline const Topic<crane_##type> variable{                                \
+      Description{name, "crane::" #type, &crane_##type##_desc, Qos::qos, every_tick, writers}};
 CRANE_TOPICS(CRANE_DECLARE_TOPIC)
 #undef CRANE_DECLARE_TOPIC
 
-#define CRANE_LIST_TOPIC(variable, type, name, qos, every_tick) variable.description,
+#define CRANE_LIST_TOPIC(variable, type, name, qos, every_tick, writers) variable.description,
 /// All topics, in the order in which one tick writes them.
 inline const std::array kAll{CRANE_TOPICS(CRANE_LIST_TOPIC)};
 #undef CRANE_LIST_TOPIC

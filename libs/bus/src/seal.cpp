@@ -12,13 +12,17 @@ namespace {
 
 constexpr std::size_t kCrcBytes = sizeof(std::uint32_t);
 
-/// CRC of everything before the final field. @return false when the sample cannot be encoded
-bool checksum(const CdrCodec& codec, const void* sample, std::uint32_t& crc) {
+/// CRC of everything before the final field, then the topic's name. @return false when the sample cannot be
+/// encoded
+bool checksum(const topics::Description& topic, const void* sample, std::uint32_t& crc) {
+  const CdrCodec& codec = CdrCodec::of(*topic.descriptor);
   thread_local std::vector<std::uint8_t> buffer;  // keeps its size: no allocation per sample
-  if (buffer.size() < codec.max_encoded_bytes()) buffer.resize(codec.max_encoded_bytes());
-  const std::size_t bytes = codec.encode(sample, buffer);
+  const std::size_t needed = codec.max_encoded_bytes() + topic.name.size();
+  if (buffer.size() < needed) buffer.resize(needed);
+  const std::size_t bytes = codec.encode(sample, std::span{buffer}.first(codec.max_encoded_bytes()));
   if (bytes < kCrcBytes) return false;
-  crc = crc32c(std::span{buffer}.first(bytes - kCrcBytes));
+  std::memcpy(buffer.data() + bytes - kCrcBytes, topic.name.data(), topic.name.size());
+  crc = crc32c(std::span{buffer}.first(bytes - kCrcBytes + topic.name.size()));
   return true;
 }
 
@@ -30,7 +34,7 @@ void seal(const topics::Description& topic, void* sample, crane_Source source, s
   header->source = source;
   header->epoch = epoch;
   std::uint32_t crc = 0;
-  if (!checksum(codec, sample, crc)) return;  // an unterminated string: write() refuses it too
+  if (!checksum(topic, sample, crc)) return;  // an unterminated string: write() refuses it too
   std::memcpy(static_cast<std::uint8_t*>(sample) + codec.fields().back().offset, &crc, kCrcBytes);
 }
 
@@ -39,7 +43,7 @@ bool intact(const topics::Description& topic, const void* sample) {
   std::uint32_t carried = 0;
   std::memcpy(&carried, static_cast<const std::uint8_t*>(sample) + codec.fields().back().offset, kCrcBytes);
   std::uint32_t computed = 0;
-  return checksum(codec, sample, computed) && computed == carried;
+  return checksum(topic, sample, computed) && computed == carried;
 }
 
 }  // namespace crane::bus::detail

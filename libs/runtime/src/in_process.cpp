@@ -25,10 +25,7 @@ InProcessStack::InProcessStack(std::span<const ComponentSpec> specs, const Rig& 
 void InProcessStack::add(const ComponentSpec& spec, const Rig& rig, const control::Controller& controller) {
   Room room;
   room.bus = std::make_unique<bus::Bus>(memory_options(network_, std::string{spec.program}, spec.source));
-  room.node = std::make_unique<Node>(
-      *room.bus,
-      NodeIdentity{std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""});
-  room.component = spec.make(Context{*room.bus, *room.node, rig, controller, Clock::lockstep});
+  room.hosted = std::make_unique<HostedComponent>(*room.bus, spec, rig, controller, Clock::lockstep);
   rooms_.push_back(std::move(room));
 }
 
@@ -38,7 +35,7 @@ bool InProcessStack::pump() {
   for (bool progress = true; progress;) {
     progress = false;
     for (auto& room : rooms_)
-      while (room.component->poll(now_ns)) progress = anything = true;
+      while (room.hosted->component().poll(now_ns)) progress = anything = true;
   }
   return anything;
 }
@@ -46,7 +43,8 @@ bool InProcessStack::pump() {
 std::string InProcessStack::waiting_for() const {
   std::string lines;
   for (const auto& room : rooms_)
-    lines += std::string{room.component->name()} + ": " + room.component->waiting_for() + '\n';
+    lines +=
+        std::string{room.hosted->component().name()} + ": " + room.hosted->component().waiting_for() + '\n';
   return lines;
 }
 

@@ -50,7 +50,7 @@ void Node::publish_event(crane_Severity severity, std::string_view code, std::st
   assign(event.code, code);
   assign(event.what, what);
   assign(event.remedy, remedy);
-  events_.publish(event);
+  if (!events_.publish(event)) ++events_refused_;
 }
 
 void Node::stepped(std::uint64_t tick, std::int64_t sample_time_ns, std::int64_t step_ns) {
@@ -76,7 +76,38 @@ void Node::beat(std::int64_t now_ns, crane_NodePhase phase, const JoinCounts& co
   report_.step_max_us = static_cast<double>(step_max_ns_) / 1e3;
   step_sum_ns_ = step_max_ns_ = 0;
   steps_ = 0;
-  status_.publish(report_);
+  if (!status_.publish(report_)) ++events_refused_;
+}
+
+void Node::beat(std::int64_t now_ns, const Ports& ports, const JoinCounts& counts) {
+  report_.foreign_samples = ports.foreign();
+  report_.refused_samples = ports.refused() + events_refused_;
+  report_drops(now_ns, ports);
+  beat(now_ns, ports.connected() ? crane_PHASE_READY : crane_PHASE_STARTING, counts, ports.rejected());
+}
+
+void Node::report_drops(std::int64_t now_ns, const Ports& ports) {
+  const bool disputed = ports.disputed(now_ns);
+  if (disputed && !told_dispute_)
+    error("second_writer", "a second writer on " + ports.dispute(now_ns) + ": its samples are dropped",
+          "find and end the other program, or give one of the two cranes another --crane or --domain, then "
+          "`crane reset`");
+  told_dispute_ = disputed;
+  if (now_ns < next_beat_ns_) return;
+  if (ports.rejected() > told_rejected_)
+    warning("samples_rejected",
+            std::to_string(ports.rejected() - told_rejected_) + " samples had a wrong CRC and were dropped",
+            "look for another version of this program, or for broken traffic, in this domain");
+  if (ports.refused() > told_refused_)
+    error("samples_not_sent", std::to_string(ports.refused() - told_refused_) + " samples could not be sent",
+          "look at the load of this computer and at its network interface");
+  told_rejected_ = ports.rejected();
+  told_refused_ = ports.refused();
+}
+
+void Node::stopping() {
+  report_.phase = crane_PHASE_STOPPING;
+  if (!status_.publish(report_)) ++events_refused_;
 }
 
 }  // namespace crane::runtime

@@ -11,8 +11,9 @@
 #include <ctime>
 #include <filesystem>
 #include <iostream>
+#include <random>
 
-#include "crane/runtime/node.hpp"
+#include "crane/runtime/hosted_component.hpp"
 
 namespace crane::runtime {
 namespace {
@@ -24,9 +25,9 @@ void sleep_until(std::int64_t time_ns) {
   ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
 }
 
-/// Locked memory, and realtime scheduling for every thread of this process: a receive thread of the bus must
-/// not wait for the processor longer than the loop does. Says so where the system does not permit it. Comes
-/// last, so that a process that starts takes no time from those that run.
+/// Locks the memory and requests real-time scheduling for every thread of this process: a receive thread of
+/// the bus must not wait for the processor longer than the loop does. Logs a warning when the system denies
+/// it. Real-time priority is requested last: start-up work must not preempt running processes.
 void enter_realtime(Node& node, int priority) {
   if (priority <= 0) return;
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
@@ -59,14 +60,13 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto rig = load_rig(options.rig);
   const auto& controller = chosen_controller(options.controller, rig);
   const auto clock = options.clock == "lockstep" ? Clock::lockstep : Clock::realtime;
-  const auto epoch = options.epoch != 0 ? options.epoch : epoch_at(std::chrono::system_clock::now());
+  const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
   bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
-  if (spec.sole_writer_of != nullptr) refuse_second_writer(bus, *spec.sole_writer_of);
-  Node node{bus, {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""}};
-  const auto component = spec.make(Context{bus, node, rig, controller, clock});
-  if (clock == Clock::realtime) enter_realtime(node, options.priority);
-  loop(*component, bus);
-  node.beat(monotonic_ns(), crane_PHASE_STOPPING, {}, 0);
+  refuse_second_writer(bus, spec.writes);
+  HostedComponent hosted{bus, spec, rig, controller, clock};
+  if (clock == Clock::realtime) enter_realtime(hosted.node(), options.priority);
+  loop(hosted.component(), bus);
+  hosted.node().stopping();
   return kExitDone;
 }
 
@@ -133,8 +133,7 @@ void add_loop_options(CLI::App& app, LoopOptions& options) {
   app.add_option("--clock", options.clock, "realtime, or lockstep: the plant waits for every command")
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
-  app.add_option("--epoch", options.epoch,
-                 "start-up number; the process with the higher one is the younger one");
+  app.add_option("--epoch", options.epoch, "start-up number, written into every header; 0: a random one");
   app.add_option("--priority", options.priority, "SCHED_FIFO priority in realtime, 0: ordinary scheduling")
       ->check(CLI::Range(0, 98))
       ->capture_default_str();
@@ -155,20 +154,24 @@ const control::Controller& chosen_controller(const std::string& name, const Rig&
   throw ConfigurationError({"controller = " + wanted + ": must be one of " + known});
 }
 
-std::uint32_t epoch_at(std::chrono::system_clock::time_point time) {
-  using Tenths = std::chrono::duration<std::int64_t, std::deci>;
-  return static_cast<std::uint32_t>(std::chrono::floor<Tenths>(time.time_since_epoch()).count());
+std::uint32_t random_epoch() {
+  std::random_device device;
+  return std::uniform_int_distribution<std::uint32_t>{1}(device);
 }
 
-void refuse_second_writer(bus::Bus& bus, const topics::Description& topic) {
-  const auto probe = bus.cdr_subscriber(topic);
+void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes) {
+  std::vector<bus::CdrSubscriber> probes;
+  for (const auto& write : writes)
+    if (write.topic->every_tick) probes.push_back(bus.cdr_subscriber(*write.topic));
+  if (probes.empty()) return;
   const auto end_ns = monotonic_ns() + std::chrono::nanoseconds{kSoleWriterLook}.count();
   while (monotonic_ns() < end_ns && !stop_requested()) {
     bus.wait(std::chrono::milliseconds{10});
-    if (probe.matched() > 0)
-      throw bus::Error("somebody already writes " + std::string{topic.name} + " of crane '" +
-                       bus.options().crane + "' in domain " + std::to_string(bus.options().domain) +
-                       ": stop that stack first, or choose another --crane or --domain");
+    for (const auto& probe : probes)
+      if (probe.matched() > 0)
+        throw bus::Error("somebody already writes " + std::string{probe.topic().name} + " of crane '" +
+                         bus.options().crane + "' in domain " + std::to_string(bus.options().domain) +
+                         ": stop that stack first, or choose another --crane or --domain");
   }
 }
 

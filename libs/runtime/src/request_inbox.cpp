@@ -7,8 +7,8 @@
 namespace crane::runtime {
 
 RequestInbox::RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds)
-    : requests_{context.bus.subscriber(topics::request)},
-      replies_{context.bus.publisher(topics::reply)},
+    : requests_{context.ports.input(topics::request)},
+      replies_{context.ports.output(topics::reply)},
       kinds_{kinds} {}
 
 bool RequestInbox::receive() {

@@ -77,7 +77,8 @@ runtime::ComponentSpec simulated_plant_spec() {
               "The simulated plant: crane, drives, encoders, converters and brakes behind the bridge's loop.",
           .source = crane_SOURCE_PLANT,
           .runs_controller = false,
-          .sole_writer_of = &topics::state.description,
+          .reads = bridge::bridge_reads(),
+          .writes = bridge::bridge_writes(),
           .make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
             return std::make_unique<bridge::Bridge>(
                 context, std::make_unique<SimulatedBoard>(simulated_rig_of(context.rig)));

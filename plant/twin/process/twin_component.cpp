@@ -48,25 +48,26 @@ class TwinComponent : public runtime::Component {
  public:
   explicit TwinComponent(const runtime::Context& context)
       : node_{context.node},
+        ports_{context.ports},
         twin_{context.rig},
-        states_{context.bus.subscriber(topics::state, runtime::loop_endpoint(context.clock))},
-        output_{context.bus.publisher(topics::twin, runtime::loop_endpoint(context.clock))} {}
+        states_{context.ports.loop_input(topics::state)},
+        output_{context.ports.output(topics::twin)} {}
 
   [[nodiscard]] std::string_view name() const override { return node_.identity().name; }
-  [[nodiscard]] bool connected() const override { return states_.matched() > 0; }
   [[nodiscard]] std::string waiting_for() const override { return "the tick after " + std::to_string(tick_); }
   /// A second without a state is worth a sign of life.
   [[nodiscard]] std::int64_t wake_at_ns() const override { return beaten_ns_ + kBeat_ns; }
 
   bool poll(std::int64_t now_ns) override {
-    const auto state = states_.take();
-    if (state) step(*state);
-    if (!state && now_ns < beaten_ns_ + kBeat_ns && connected() == was_connected_) return false;
-    was_connected_ = connected();
+    std::size_t one = 1;
+    const auto state = states_->take(now_ns, one);
+    if (state) step(state->sample);
+    if (!state && now_ns < beaten_ns_ + kBeat_ns && ports_.connected() == was_connected_) return false;
+    was_connected_ = ports_.connected();
     beaten_ns_ = now_ns;
     counts_.lost = twin_.judgement().gaps;
-    node_.beat(now_ns, was_connected_ ? crane_PHASE_READY : crane_PHASE_STARTING, counts_,
-               states_.counts().rejected);
+    ports_.watch(now_ns);
+    node_.beat(now_ns, ports_, counts_);
     return state.has_value();
   }
 
@@ -76,8 +77,7 @@ class TwinComponent : public runtime::Component {
   void step(const msg::State& state) {
     const auto begin = std::chrono::steady_clock::now();
     const auto header = state.header;
-    auto message = message_of(twin_.step(sample_of(state)), header);
-    output_.publish(message);
+    output_.publish(message_of(twin_.step(sample_of(state)), header));
     const auto spent = std::chrono::steady_clock::now() - begin;
     tick_ = header.tick;
     ++counts_.completed;
@@ -91,9 +91,10 @@ class TwinComponent : public runtime::Component {
   }
 
   runtime::Node& node_;
+  runtime::Ports& ports_;
   Twin twin_;
-  bus::Subscriber<msg::State> states_;
-  bus::Publisher<msg::Twin> output_;
+  std::shared_ptr<runtime::LoopReader<msg::State>> states_;
+  runtime::Output<msg::Twin> output_;
   runtime::JoinCounts counts_;
   std::uint64_t tick_ = 0;
   std::int64_t beaten_ns_ = 0;
@@ -109,7 +110,8 @@ runtime::ComponentSpec twin_spec() {
               "The model beside the crane: predicts what the sensors report and says when it no longer does.",
           .source = crane_SOURCE_TWIN,
           .runs_controller = false,
-          .sole_writer_of = &topics::twin.description,
+          .reads = {{&topics::state.description, "counts, speeds and the voltage that acts"}},
+          .writes = {{&topics::twin.description, "prediction, residual, likely cause", false}},
           .make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
             return std::make_unique<TwinComponent>(context);
           }};

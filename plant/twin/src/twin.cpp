@@ -107,8 +107,7 @@ bool Twin::follows(const Sample& sample) const {
 }
 
 const Judgement& Twin::step(const Sample& sample) {
-  if (last_ && (sample.epoch < last_->epoch || (sample.epoch == last_->epoch && sample.tick <= last_->tick)))
-    return judgement_;
+  if (last_ && sample.epoch == last_->epoch && sample.tick <= last_->tick) return judgement_;
   const Known now = known(sample);
   if (!sample.homed || !usable(sample, now)) {
     if (sample.homed) ++judgement_.gaps;

@@ -54,9 +54,7 @@ std::unique_ptr<bridge::Board> OpenBoard::opened(const BoardOptions& options) {
   if (!options.wired_as.empty())
     return std::make_unique<bridge::EmulatedBoard>(
         rig_, std::make_unique<bridge::WiredRig>(runtime::load_rig(stack::find_rig(options.wired_as))));
-  const runtime::Context context{bus_, node_, rig_, *control::find_controller("none"),
-                                 runtime::Clock::realtime};
-  return bridge::board_kind_of(rig_).make(context);
+  return bridge::board_kind_of(rig_).make(rig_, bus_.options());
 }
 
 }  // namespace crane::cli

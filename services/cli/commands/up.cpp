@@ -6,6 +6,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "process/hardware_bridge.hpp"
+#include "process/supervisor_component.hpp"
 #include "process/twin_component.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
@@ -66,7 +67,7 @@ int up(UpOptions options) {
   options.launch.vendors = stack::vendors_from(options.vendors, specs);
 
   bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};
-  runtime::refuse_second_writer(bus, topics::command.description);
+  runtime::refuse_second_writer(bus, supervisor::supervisor_spec().writes);
   stack::ChildProcesses children;
   if (plant == stack::Plant::hardware) stack::launch_rig(children, rig, options.launch);
   stack::launch(children, loop, options.launch);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "crane/bridge/board.hpp"
 #include "crane/bridge/homing.hpp"
@@ -15,6 +16,10 @@
 #include "crane/runtime/tick_join.hpp"
 
 namespace crane::bridge {
+
+/// Wiring of every component that is a Bridge on some board.
+[[nodiscard]] std::vector<runtime::Read> bridge_reads();
+[[nodiscard]] std::vector<runtime::Write> bridge_writes();
 
 class Bridge : public runtime::Component {
  public:
@@ -28,12 +33,11 @@ class Bridge : public runtime::Component {
   bool poll(std::int64_t now_ns) override;
   [[nodiscard]] std::int64_t wake_at_ns() const override;
   [[nodiscard]] bool paced() const override { return clock_ == runtime::Clock::realtime; }
-  [[nodiscard]] bool connected() const override { return states_.matched() > 0 && commands_.matched() > 0; }
   [[nodiscard]] std::string waiting_for() const override;
 
  private:
   [[nodiscard]] bool tick_is_due(std::int64_t now_ns);
-  void take_commands();
+  void take_commands(std::int64_t now_ns);
   void take_requests();
   void tick(std::int64_t now_ns);
   void apply(Outputs outputs);
@@ -51,12 +55,12 @@ class Bridge : public runtime::Component {
   MeasurementPipeline measurement_;
   LastLine last_line_;
   Homing homing_;
-  bus::Publisher<msg::State> states_;
-  bus::Subscriber<msg::Command> commands_;
+  runtime::Ports& ports_;
+  runtime::Output<msg::State> states_;
+  std::shared_ptr<runtime::LoopReader<msg::Command>> commands_;
   runtime::RequestInbox requests_;
   runtime::JoinCounts counts_;
   std::optional<CommandView> command_;
-  std::optional<std::uint32_t> command_epoch_;
   std::optional<std::uint64_t> tick_;  ///< last tick published
   std::uint64_t until_tick_ = 0;       ///< lockstep: runs up to this tick
   std::int64_t start_ns_ = 0;          ///< realtime: when tick 0 was

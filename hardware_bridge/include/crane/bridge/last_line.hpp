@@ -33,6 +33,7 @@ struct Seen {
   std::array<bool, kDrives> limit_low{}, limit_high{};
   std::array<bool, kDrives> unknown{};  ///< the axis has to be homed: its coordinate counts from anywhere
   std::array<bool, kDrives> mark{};     ///< see mark_active()
+  bool second_writer = false;           ///< crane/command has had another writer within the last second
 };
 
 /// The numbers are those of LatchReason in idl/crane.idl.
@@ -50,9 +51,10 @@ enum class Reason : std::uint8_t {
   braked_motion,
   encoder_frozen,
   drive_response,
-  not_homed
+  not_homed,
+  second_writer
 };
-inline constexpr std::size_t kReasons = 14;
+inline constexpr std::size_t kReasons = 15;
 [[nodiscard]] std::string_view name_of(Reason reason) noexcept;  ///< "encoder_jump"
 [[nodiscard]] std::string_view explanation_of(Reason reason) noexcept;
 [[nodiscard]] std::string_view remedy_for(Reason reason) noexcept;

@@ -159,6 +159,8 @@ class CycloneReader final : public detail::Reader {
     info = {.source_time_ns = from.source_timestamp,
             .valid = from.valid_data,
             .disposed = from.instance_state == DDS_IST_NOT_ALIVE_DISPOSED};
+    // Cyclone DDS gives every matched writer a handle that is unique in this process.
+    std::memcpy(info.writer.data(), &from.publication_handle, sizeof from.publication_handle);
     return true;
   }
   [[nodiscard]] int matched() const override {

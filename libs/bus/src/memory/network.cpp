@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace crane::bus {
 
@@ -44,6 +45,7 @@ void MemoryNetwork::add(WriterPort& writer) {
   News news;
   {
     const std::lock_guard lock{mutex_};
+    writer.number = ++writers_so_far_;
     writers_.push_back(&writer);
     for (ReaderPort* reader : readers_) {
       if (!connects(writer, *reader)) continue;
@@ -110,7 +112,8 @@ void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose
   // An in-process stack has one clock: that of its plant. Its time makes two runs equal bit for bit.
   const auto time_ns = static_cast<const msg::Header*>(sample)->sample_time_ns;
   const std::lock_guard lock{mutex_};
-  const Stamp stamp{++published_, {.source_time_ns = time_ns, .valid = !dispose, .disposed = dispose}};
+  Stamp stamp{++published_, {.source_time_ns = time_ns, .valid = !dispose, .disposed = dispose}};
+  std::memcpy(stamp.info.writer.data(), &writer.number, sizeof writer.number);
   for (ReaderPort* reader : writer.readers) {
     reader->queue.push(sample, stamp);
     reader->doorbell->ring();

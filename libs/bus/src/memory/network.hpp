@@ -21,6 +21,7 @@ struct Port {
 struct ReaderPort;
 struct WriterPort : Port {
   History history;
+  std::uint64_t number = 0;            ///< given by the network: unique in it
   std::vector<ReaderPort*> readers{};  ///< in order of their creation
 };
 struct ReaderPort : Port {
@@ -52,7 +53,7 @@ class MemoryNetwork {
   mutable std::mutex mutex_;
   std::vector<memory::WriterPort*> writers_;
   std::vector<memory::ReaderPort*> readers_;
-  std::uint64_t published_ = 0;
+  std::uint64_t published_ = 0, writers_so_far_ = 0;
 };
 
 }  // namespace crane::bus

@@ -5,10 +5,15 @@
 ///   bus::Bus bus{options};
 ///   auto states = bus.subscriber(topics::state);
 ///   auto commands = bus.publisher(topics::command);
-///   while (bus.wait(10ms)) while (auto sample = states.take()) commands.publish(answer(*sample));
+///   while (!stop) {
+///     bus.wait(10ms);
+///     while (auto sample = states.take())
+///       if (!commands.publish(answer(*sample))) ++refused;
+///   }
 ///
 /// Every sample carries a Header and a CRC-32C: publish() writes source, epoch and CRC, take() hands out
 /// only samples whose CRC is right and counts the others.
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -84,10 +89,16 @@ struct EndpointOptions {
   EventHandler on_event{};
 };
 
+/// Who wrote a sample, as the middleware tells it: equal for all samples of one writer, different for any two
+/// writers. Valid within this process. A header can be copied by anybody; this cannot be chosen by its sender
+/// as long as the sender uses a DDS implementation.
+using WriterId = std::array<std::uint8_t, 16>;
+
 struct SampleInfo {
   std::int64_t source_time_ns = 0;  ///< writer's clock; memory: the header's sample_time_ns
   bool valid = false;               ///< false: only the instance's state changed
   bool disposed = false;
+  WriterId writer{};
 };
 
 /// Counted since creation.
@@ -113,7 +124,8 @@ class Reader {
   virtual bool take(void* sample, SampleInfo& info) = 0;
   [[nodiscard]] virtual int matched() const = 0;
 };
-/// Adds source, epoch and CRC in place.
+/// Adds source, epoch and CRC in place. The CRC covers the topic's name, too: a sample carried over to
+/// another topic of the same type is not intact.
 void seal(const topics::Description& topic, void* sample, crane_Source source, std::uint32_t epoch);
 [[nodiscard]] bool intact(const topics::Description& topic, const void* sample);
 }  // namespace detail
@@ -128,12 +140,12 @@ class Publisher {
       : topic_{&topic}, writer_{std::move(writer)}, source_{source}, epoch_{epoch} {}
 
   /// Fills in source, epoch and CRC of `sample` and sends it. @return false when the vendor refused
-  bool publish(T& sample) {
+  [[nodiscard]] bool publish(T sample) {
     detail::seal(*topic_, &sample, source_, epoch_);
     return writer_->write(&sample);
   }
-  bool dispose(T& sample) { return writer_->dispose(&sample); }
-  bool assert_liveliness() { return writer_->assert_liveliness(); }
+  [[nodiscard]] bool dispose(const T& sample) { return writer_->dispose(&sample); }
+  [[nodiscard]] bool assert_liveliness() { return writer_->assert_liveliness(); }
   /// Readers matched now.
   [[nodiscard]] int matched() const { return writer_->matched(); }
 
@@ -196,7 +208,7 @@ class CdrSubscriber {
 };
 
 /// One participant in one domain. Threads: publish, take and wait belong to one thread, events come on
-/// others. Publishers and subscribers must be destroyed before their Bus.
+/// others. Publishers and subscribers keep the participant alive: they may outlive their Bus.
 class Bus {
  public:
   explicit Bus(Options options);  ///< @throws Error

@@ -11,16 +11,12 @@
 
 #include "crane/bus/bus.hpp"
 #include "crane/control/law.hpp"
+#include "crane/runtime/ports.hpp"
 #include "crane/runtime/rig.hpp"
 
 namespace crane::runtime {
 
 inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-
-enum class Clock : std::uint8_t {
-  realtime,  ///< the clock master ticks with CLOCK_MONOTONIC; who is late is left behind
-  lockstep   ///< the plant advances when command k has come; nobody is ever late, and runs repeat bit for bit
-};
 
 class Component {
  public:
@@ -32,8 +28,6 @@ class Component {
   [[nodiscard]] virtual std::int64_t wake_at_ns() const { return kNever; }
   /// True for a clock master: its host sleeps until wake_at_ns() and is not woken by samples.
   [[nodiscard]] virtual bool paced() const { return false; }
-  /// Every input has a writer and every output a reader.
-  [[nodiscard]] virtual bool connected() const = 0;
   /// What it is waiting for, for the message when a lockstep run stands still.
   [[nodiscard]] virtual std::string waiting_for() const = 0;
 };
@@ -42,19 +36,12 @@ class Node;
 
 /// What a component is built from. Everything outlives the component.
 struct Context {
-  bus::Bus& bus;
+  Ports& ports;  ///< its endpoints: those that its ComponentSpec declares
   Node& node;
   const Rig& rig;
   const control::Controller& controller;
+  const bus::Options& bus;  ///< domain and crane it runs in
   Clock clock = Clock::lockstep;
 };
-
-/// Endpoints of the loop. In real time only what comes from now on counts; in lockstep every tick from the
-/// first, also for a process that joins a moment later.
-[[nodiscard]] inline bus::EndpointOptions loop_endpoint(Clock clock) {
-  bus::EndpointOptions endpoint;
-  endpoint.history = clock == Clock::lockstep;
-  return endpoint;
-}
 
 }  // namespace crane::runtime

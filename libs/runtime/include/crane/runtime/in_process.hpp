@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "crane/runtime/component.hpp"
-#include "crane/runtime/node.hpp"
-#include "crane/runtime/process.hpp"
+#include "crane/runtime/hosted_component.hpp"
 
 namespace crane::runtime {
 
@@ -25,13 +23,12 @@ class InProcessStack {
   bool pump();
   /// One line per component: what it waits for.
   [[nodiscard]] std::string waiting_for() const;
-  [[nodiscard]] Component& component(std::size_t index) { return *rooms_.at(index).component; }
+  [[nodiscard]] Component& component(std::size_t index) { return rooms_.at(index).hosted->component(); }
 
  private:
   struct Room {
     std::unique_ptr<bus::Bus> bus;
-    std::unique_ptr<Node> node;
-    std::unique_ptr<Component> component;
+    std::unique_ptr<HostedComponent> hosted;
   };
   std::shared_ptr<bus::MemoryNetwork> network_;
   std::vector<Room> rooms_;

@@ -12,9 +12,11 @@ namespace crane::runtime {
 /// How long a realtime component waits for the rest of a tick, as a share of the period.
 [[nodiscard]] inline JoinPolicy join_policy(const Context& context, double share_of_period,
                                             std::size_t depth = 8) {
+  const auto period_ns = static_cast<std::int64_t>(context.rig.period_s * 1e9);
   return {.in_order = context.clock == Clock::lockstep,
           .bound_ns = static_cast<std::int64_t>(share_of_period * context.rig.period_s * 1e9),
-          .depth = depth};
+          .depth = depth,
+          .period_ns = context.clock == Clock::lockstep ? 0 : period_ns};
 }
 
 template <class... Inputs>
@@ -25,10 +27,11 @@ class JoinedComponent : public Component {
   bool poll(std::int64_t now_ns) override {
     handle_requests(now_ns);
     const auto result = join_.poll(now_ns);
-    node_.beat(now_ns, connected() ? crane_PHASE_READY : crane_PHASE_STARTING, join_.counts(),
-               join_.rejected());
+    node_.beat(now_ns, ports_, join_.counts());
     if (result == JoinResult::waiting) return on_idle(now_ns);
     if (result == JoinResult::incomplete && !steps_incomplete_ticks()) return true;
+    ports_.watch(now_ns);
+    disputed_ = ports_.disputed(now_ns);
     const auto begin = std::chrono::steady_clock::now();
     std::apply([this](const auto*... sample) { on_tick(join_.tick(), sample...); }, samples());
     const auto spent = std::chrono::steady_clock::now() - begin;
@@ -38,19 +41,21 @@ class JoinedComponent : public Component {
     return true;
   }
   [[nodiscard]] std::int64_t wake_at_ns() const override { return join_.due_ns().value_or(kNever); }
-  [[nodiscard]] bool connected() const override { return join_.connected() && outputs_connected(); }
   [[nodiscard]] std::string waiting_for() const override {
     return "tick " + std::to_string(join_.next_tick()) +
            ", inputs missing (bit mask): " + std::to_string(join_.missing());
   }
 
  protected:
-  JoinedComponent(const Context& context, const JoinPolicy& policy, bus::Subscriber<Inputs>... inputs)
-      : node_{context.node}, join_{policy, std::move(inputs)...} {}
+  /// @param wait_share  how long the rest of a tick is waited for in real time, as a share of the period
+  /// @param inputs      the topics that are joined; the first one leads
+  JoinedComponent(const Context& context, double wait_share, const topics::Topic<Inputs>&... inputs)
+      : node_{context.node},
+        ports_{context.ports},
+        join_{join_policy(context, wait_share), context.ports.loop_input(inputs)...} {}
 
   /// Steps tick `tick`. A pointer is null only when the tick is incomplete and steps_incomplete_ticks().
   virtual void on_tick(std::uint64_t tick, const Inputs*... samples) = 0;
-  [[nodiscard]] virtual bool outputs_connected() const = 0;
   [[nodiscard]] virtual bool steps_incomplete_ticks() const { return false; }
   virtual void handle_requests(std::int64_t /*now_ns*/) {}
   /// No tick to step. @return true when something was done
@@ -61,6 +66,10 @@ class JoinedComponent : public Component {
     return join_.open_tick() ? join_.template get<0>() : nullptr;
   }
   [[nodiscard]] const JoinCounts& counts() const { return join_.counts(); }
+  /// A topic that this component reads had a second writer when the step of this tick began.
+  [[nodiscard]] bool disputed() const { return disputed_; }
+  [[nodiscard]] std::uint64_t restarts() const { return join_.restarts(); }
+  [[nodiscard]] const Ports& ports() const { return ports_; }
   Node& node() { return node_; }
 
  private:
@@ -72,7 +81,9 @@ class JoinedComponent : public Component {
     return {join_.template get<I>()...};
   }
   Node& node_;
+  Ports& ports_;
   TickJoin<Inputs...> join_;
+  bool disputed_ = false;
 };
 
 }  // namespace crane::runtime

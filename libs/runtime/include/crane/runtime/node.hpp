@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "crane/bus/bus.hpp"
+#include "crane/runtime/ports.hpp"
 #include "crane/runtime/tick_join.hpp"
 
 namespace crane::runtime {
@@ -26,12 +27,18 @@ class Node {
 
   /// Time spent in one step, and the tick it belonged to.
   void stepped(std::uint64_t tick, std::int64_t sample_time_ns, std::int64_t step_ns);
-  /// Publishes the status when a second has passed or the phase has changed.
+  /// Publishes the status when a second has passed or the phase has changed. Reports once what `ports` has
+  /// begun to drop: samples of a second writer, samples with a wrong CRC, samples that could not be sent.
+  void beat(std::int64_t now_ns, const Ports& ports, const JoinCounts& counts);
+  /// The same for a process without a wiring of its own (recorder). @param rejected  samples with a wrong CRC
   void beat(std::int64_t now_ns, crane_NodePhase phase, const JoinCounts& counts, std::uint64_t rejected);
+  /// Publishes the last status with PHASE_STOPPING.
+  void stopping();
 
   [[nodiscard]] const NodeIdentity& identity() const { return identity_; }
 
  private:
+  void report_drops(std::int64_t now_ns, const Ports& ports);
   void publish_event(crane_Severity severity, std::string_view code, std::string_view what,
                      std::string_view remedy);
 
@@ -42,6 +49,8 @@ class Node {
   std::int64_t next_beat_ns_ = 0;
   std::int64_t step_sum_ns_ = 0, step_max_ns_ = 0;
   std::uint64_t steps_ = 0;
+  std::uint64_t events_refused_ = 0, told_rejected_ = 0, told_refused_ = 0;
+  bool told_dispute_ = false;
 };
 
 /// Copies into a bounded IDL string; cuts what does not fit.

@@ -22,18 +22,6 @@ inline constexpr int kExitDone = 0;
 inline constexpr int kExitFailed = 1;    ///< it did not work; the reason is on standard error
 inline constexpr int kExitBadInput = 2;  ///< arguments or files
 
-/// What a process of the stack is. One of these per component; `crane up` and the in-process host read them
-/// too.
-struct ComponentSpec {
-  std::string_view name;     ///< "tracking"
-  std::string_view program;  ///< "crane_tracking"
-  std::string_view summary;
-  crane_Source source;
-  bool runs_controller;                       ///< its law depends on --controller
-  const topics::Description* sole_writer_of;  ///< refuses to start beside another writer of it; null: nothing
-  std::unique_ptr<Component> (*make)(const Context&);
-};
-
 /// Options every process of a stack and every tool has.
 struct BusOptions {
   std::string vendor = "cyclone";
@@ -54,7 +42,7 @@ struct LoopOptions {
   std::string rig;
   std::string controller;  ///< empty: the rig file's
   std::string clock = "realtime";
-  std::uint32_t epoch = 0;  ///< 0: epoch_at() the start, so that a restarted process is younger
+  std::uint32_t epoch = 0;  ///< 0: a random start-up number
   int priority = 50;        ///< SCHED_FIFO priority in realtime, 0: ordinary scheduling
   bool verbose = false;
 };
@@ -63,17 +51,17 @@ void add_loop_options(CLI::App& app, LoopOptions& options);
 /// The controller a loop runs. @throws ConfigurationError when the name does not exist, listing those that do
 [[nodiscard]] const control::Controller& chosen_controller(const std::string& name, const Rig& rig);
 
-/// Start-up number of a process that starts at `time`: tenths of a second since 1970, without the digits that
-/// do not fit; it begins anew in January 2038.
-[[nodiscard]] std::uint32_t epoch_at(std::chrono::system_clock::time_point time);
+/// Start-up number of a process: random, never 0. Numbers are compared for equality only, so that no clock
+/// decides which of two processes is believed.
+[[nodiscard]] std::uint32_t random_epoch();
 
-/// How long a process looks for another writer before it writes. Longer than a step of epoch_at(), so that
-/// who writes after another one has the higher number.
+/// How long a process looks for another writer before it writes. Discovery across vendors may take longer;
+/// the readers look for a second writer at every tick (writer_binding.hpp).
 inline constexpr std::chrono::milliseconds kSoleWriterLook{400};
 
-/// Looks for other writers of `topic` for kSoleWriterLook. @throws bus::Error with the remedy when there is
-/// one
-void refuse_second_writer(bus::Bus& bus, const topics::Description& topic);
+/// Looks for other writers of the loop topics among `writes` for kSoleWriterLook. @throws bus::Error with the
+/// remedy when there is one
+void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes);
 
 /// main() of every process of the stack. @return exit code
 int run_process(int argc, char** argv, const ComponentSpec& spec);

@@ -25,7 +25,7 @@ class RequestInbox {
 
  private:
   bus::Subscriber<msg::Request> requests_;
-  bus::Publisher<msg::Reply> replies_;
+  Output<msg::Reply> replies_;
   std::vector<crane_RequestKind> kinds_;
   std::vector<msg::Request> waiting_;
 };

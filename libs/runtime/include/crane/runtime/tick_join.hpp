@@ -4,55 +4,51 @@
 /// together is counted lost. Lockstep: every tick in order, however long it takes.
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "crane/bus/bus.hpp"
+#include "crane/runtime/loop_reader.hpp"
 
 namespace crane::runtime {
 
 struct JoinPolicy {
-  bool in_order = true;       ///< lockstep
-  std::int64_t bound_ns = 0;  ///< realtime: how long the rest of a tick is waited for after its leader came
-  std::size_t depth = 8;      ///< ticks an input may run ahead of the slowest
+  bool in_order = true;        ///< lockstep
+  std::int64_t bound_ns = 0;   ///< realtime: how long the rest of a tick is waited for after its leader came
+  std::size_t depth = 8;       ///< ticks an input may run ahead of the slowest
+  std::int64_t period_ns = 0;  ///< realtime: the leader's ticks come no faster; 0: any tick is believed
 };
 
 /// Counted since creation.
 struct JoinCounts {
   std::uint64_t completed = 0;
-  std::uint64_t lost = 0;         ///< ticks that never came together, or whose leader never came
-  std::uint64_t late = 0;         ///< samples of a tick already left behind
-  std::uint64_t duplicate = 0;    ///< second sample of the same tick
-  std::uint64_t conflicting = 0;  ///< samples of an older writer while a younger one exists
+  std::uint64_t lost = 0;       ///< ticks that never came together, or whose leader never came
+  std::uint64_t late = 0;       ///< samples of a tick already left behind
+  std::uint64_t duplicate = 0;  ///< second sample of the same tick
+  std::uint64_t ahead = 0;      ///< samples of a tick that cannot have begun yet
 };
 
 /// Samples of one topic, kept by tick until they are used.
 template <class T>
 class TickInput {
  public:
-  TickInput(bus::Subscriber<T> subscriber, std::size_t depth)
-      : subscriber_{std::move(subscriber)}, ring_(depth) {}
+  TickInput(std::shared_ptr<LoopReader<T>> reader, const JoinPolicy& policy)
+      : reader_{std::move(reader)}, policy_{policy}, ring_(policy.depth) {}
 
-  /// Takes what has arrived. @return true when a younger writer took over and the past is void
-  bool drain(std::uint64_t first_useful_tick, JoinCounts& counts) {
+  /// Takes what has arrived. @return true when a new writer took over and the past is void
+  bool drain(std::uint64_t first_useful_tick, std::int64_t now_ns, JoinCounts& counts) {
     bool restarted = false;
-    while (const auto sample = subscriber_.take()) {
-      const auto& header = sample->header;
-      if (epoch_ && header.epoch < *epoch_) {
-        ++counts.conflicting;
-        continue;
-      }
-      if (epoch_ && header.epoch > *epoch_) {
+    std::size_t budget = LoopReader<T>::kMostPerPoll;
+    while (const auto taken = reader_->take(now_ns, budget)) {
+      if (taken->taken_over) {
         restarted = true;
         first_useful_tick = 0;
         for (auto& slot : ring_) slot.reset();
         newest_.reset();
       }
-      epoch_ = header.epoch;
-      store(*sample, first_useful_tick, counts);
+      store(taken->sample, first_useful_tick, now_ns, counts);
     }
     return restarted;
   }
@@ -67,25 +63,37 @@ class TickInput {
       if (slot && (!tick || slot->header.tick < *tick)) tick = slot->header.tick;
     return tick;
   }
-  [[nodiscard]] bool connected() const { return subscriber_.matched() > 0; }
-  [[nodiscard]] std::uint64_t rejected() const { return subscriber_.counts().rejected; }
 
  private:
-  void store(const T& sample, std::uint64_t first_useful_tick, JoinCounts& counts) {
+  void store(const T& sample, std::uint64_t first_useful_tick, std::int64_t now_ns, JoinCounts& counts) {
     const auto tick = sample.header.tick;
     if (find(tick) != nullptr) {
       ++counts.duplicate;
     } else if (tick < first_useful_tick) {
       ++counts.late;
+    } else if (is_ahead(tick, now_ns)) {
+      ++counts.ahead;
     } else {
       ring_[tick % ring_.size()] = sample;
-      newest_ = std::max(newest_.value_or(0), tick);
+      if (newest_ && tick <= *newest_) return;
+      newest_ = tick;
+      newest_ns_ = now_ns;
     }
   }
-  bus::Subscriber<T> subscriber_;
+  /// A tick number that time cannot have reached would make every later sample look late. Twice the rate and
+  /// a history more are believed: clocks of two hosts differ, and samples queue up.
+  [[nodiscard]] bool is_ahead(std::uint64_t tick, std::int64_t now_ns) const {
+    constexpr std::uint64_t kQueued_ticks = 128;
+    if (policy_.period_ns <= 0 || !newest_ || tick <= *newest_) return false;
+    const auto elapsed = static_cast<std::uint64_t>((now_ns - newest_ns_) / policy_.period_ns);
+    return tick - *newest_ > 2 * elapsed + kQueued_ticks;
+  }
+
+  std::shared_ptr<LoopReader<T>> reader_;
+  JoinPolicy policy_;
   std::vector<std::optional<T>> ring_;
   std::optional<std::uint64_t> newest_;
-  std::optional<std::uint32_t> epoch_;
+  std::int64_t newest_ns_ = 0;  ///< when it was taken
 };
 
 enum class JoinResult : std::uint8_t {
@@ -97,11 +105,11 @@ enum class JoinResult : std::uint8_t {
 template <class... T>
 class TickJoin {
  public:
-  explicit TickJoin(const JoinPolicy& policy, bus::Subscriber<T>... inputs)
-      : policy_{policy}, inputs_{TickInput<T>{std::move(inputs), policy.depth}...} {}
+  explicit TickJoin(const JoinPolicy& policy, std::shared_ptr<LoopReader<T>>... inputs)
+      : policy_{policy}, inputs_{TickInput<T>{std::move(inputs), policy}...} {}
 
   JoinResult poll(std::int64_t now_ns) {
-    drain();
+    drain(now_ns);
     if (!open(now_ns)) return JoinResult::waiting;
     if (missing() == 0) return finish(JoinResult::complete);
     if (policy_.in_order || now_ns < due_ns_ || woke_late(now_ns)) return JoinResult::waiting;
@@ -124,24 +132,20 @@ class TickJoin {
     return due_ns_;
   }
   [[nodiscard]] const JoinCounts& counts() const { return counts_; }
-  [[nodiscard]] bool connected() const {
-    return std::apply([](const auto&... input) { return (input.connected() && ...); }, inputs_);
-  }
-  [[nodiscard]] std::uint64_t rejected() const {
-    return std::apply([](const auto&... input) { return (input.rejected() + ...); }, inputs_);
-  }
+  /// How often a new writer of the leading topic has taken over.
+  [[nodiscard]] std::uint64_t restarts() const { return restarts_; }
   /// Bit i: input i of the open tick has not come; bit 0 also when no tick is open.
   [[nodiscard]] std::uint32_t missing() const { return missing(std::index_sequence_for<T...>{}); }
   [[nodiscard]] std::uint64_t next_tick() const { return opened_ ? tick_ : first_useful_; }
 
  private:
-  void drain() {
-    const bool restarted = std::get<0>(inputs_).drain(first_useful_, counts_);
-    if (restarted) {
+  void drain(std::int64_t now_ns) {
+    if (std::get<0>(inputs_).drain(first_useful_, now_ns, counts_)) {
+      ++restarts_;
       first_useful_ = 0;
       started_ = opened_ = false;
     }
-    std::apply([this](auto&, auto&... others) { (others.drain(first_useful_, counts_), ...); }, inputs_);
+    std::apply([&](auto&, auto&... others) { (others.drain(first_useful_, now_ns, counts_), ...); }, inputs_);
   }
   /// Decides which tick is worked on. @return false when there is none
   bool open(std::int64_t now_ns) {
@@ -182,6 +186,7 @@ class TickJoin {
   JoinPolicy policy_;
   std::tuple<TickInput<T>...> inputs_;
   JoinCounts counts_;
+  std::uint64_t restarts_ = 0;
   std::uint64_t tick_ = 0;
   std::uint64_t first_useful_ = 0;  ///< ticks before it are left behind
   std::int64_t due_ns_ = 0;         ///< until then the rest of the open tick is waited for

@@ -1,0 +1,27 @@
+#pragma once
+/// A component with its node and its ports, as both hosts build it.
+#include <memory>
+
+#include "crane/runtime/component.hpp"
+#include "crane/runtime/node.hpp"
+
+namespace crane::runtime {
+
+class HostedComponent {
+ public:
+  /// Builds the component of `spec`. Everything must outlive it.
+  /// @throws std::logic_error when its endpoints are not those that `spec` declares
+  HostedComponent(bus::Bus& bus, const ComponentSpec& spec, const Rig& rig,
+                  const control::Controller& controller, Clock clock);
+  [[nodiscard]] Component& component() { return *component_; }
+  [[nodiscard]] Node& node() { return node_; }
+  [[nodiscard]] const Ports& ports() const { return ports_; }
+
+ private:
+  ComponentSpec spec_;
+  Node node_;
+  Ports ports_;
+  std::unique_ptr<Component> component_;
+};
+
+}  // namespace crane::runtime

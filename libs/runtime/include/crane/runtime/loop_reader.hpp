@@ -1,0 +1,71 @@
+#pragma once
+/// A subscriber of a loop topic that hands out the samples of one writer only.
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "crane/bus/bus.hpp"
+#include "crane/runtime/writer_binding.hpp"
+
+namespace crane::runtime {
+
+/// What all loop readers have in common, whatever their type; for the checks of a process.
+class LoopInput {
+ public:
+  explicit LoopInput(const topics::Description& topic) : binding_{topic} {}
+  virtual ~LoopInput() = default;
+  [[nodiscard]] const WriterBinding& binding() const { return binding_; }
+  [[nodiscard]] virtual int matched() const = 0;
+  [[nodiscard]] virtual std::uint64_t rejected() const = 0;  ///< samples with a wrong CRC
+  /// Notices a second writer that is matched and silent. Call once per tick.
+  void watch(std::int64_t now_ns) { binding_.watch(now_ns, matched()); }
+
+ protected:
+  WriterBinding binding_;
+};
+
+template <class T>
+class LoopReader final : public LoopInput {
+ public:
+  /// Samples taken in one call of a component's poll(), at most: two full histories of a writer. A flood
+  /// keeps nobody busy for ever; what is left waits for the next poll.
+  static constexpr std::size_t kMostPerPoll = 256;
+
+  LoopReader(const topics::Topic<T>& topic, bus::Subscriber<T> subscriber)
+      : LoopInput{topic.description}, subscriber_{std::move(subscriber)} {}
+
+  struct Taken {
+    T sample;
+    bool taken_over;  ///< the first sample of a new writer: forget what the old one said
+  };
+  /// The next sample of the bound writer. @param budget  samples this poll may still take; counted down
+  std::optional<Taken> take(std::int64_t now_ns, std::size_t& budget) {
+    bus::SampleInfo info;
+    while (budget > 0) {
+      auto sample = subscriber_.take(&info);
+      if (!sample) return std::nullopt;
+      --budget;
+      if (!info.valid) continue;
+      const Writer writer{info.writer, sample->header.source, sample->header.epoch};
+      const auto verdict = binding_.judge(writer, now_ns, matched());
+      if (verdict == WriterBinding::Verdict::foreign) continue;
+      return Taken{std::move(*sample), verdict == WriterBinding::Verdict::taken_over};
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] int matched() const override { return subscriber_.matched(); }
+  [[nodiscard]] std::uint64_t rejected() const override { return subscriber_.counts().rejected; }
+
+ private:
+  bus::Subscriber<T> subscriber_;
+};
+
+/// A reader off the wiring, for tools and tests.
+template <class T>
+[[nodiscard]] std::shared_ptr<LoopReader<T>> loop_reader(bus::Bus& bus, const topics::Topic<T>& topic,
+                                                         const bus::EndpointOptions& endpoint = {}) {
+  return std::make_shared<LoopReader<T>>(topic, bus.subscriber(topic, endpoint));
+}
+
+}  // namespace crane::runtime

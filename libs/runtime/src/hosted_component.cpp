@@ -1,0 +1,14 @@
+#include "crane/runtime/hosted_component.hpp"
+
+namespace crane::runtime {
+
+HostedComponent::HostedComponent(bus::Bus& bus, const ComponentSpec& spec, const Rig& rig,
+                                 const control::Controller& controller, Clock clock)
+    : spec_{spec},
+      node_{bus, {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""}},
+      ports_{bus, spec_, controller, clock},
+      component_{spec_.make(Context{ports_, node_, rig, controller, bus.options(), clock})} {
+  ports_.require_complete();
+}
+
+}  // namespace crane::runtime

@@ -1,0 +1,108 @@
+// Whose samples of a loop topic count, as timelines. Times in milliseconds.
+#include "crane/runtime/writer_binding.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+#include "crane/runtime/process.hpp"
+
+namespace crane::runtime {
+namespace {
+
+using Verdict = WriterBinding::Verdict;
+
+constexpr std::int64_t ms(std::int64_t time_ms) { return time_ms * 1'000'000; }
+
+Writer writer(std::uint8_t id, std::uint32_t epoch = 7, crane_Source source = crane_SOURCE_SUPERVISOR) {
+  Writer writer;
+  writer.id[0] = id;
+  writer.source = source;
+  writer.epoch = epoch;
+  return writer;
+}
+
+class Binding : public testing::Test {
+ protected:
+  /// The supervisor speaks every 10 ms, up to and including `until_ms`.
+  void supervisor_speaks_until(std::int64_t until_ms) {
+    for (; now_ms_ <= until_ms; now_ms_ += 10)
+      ASSERT_EQ(binding_.judge(writer(1), ms(now_ms_), 1), Verdict::own);
+  }
+  std::int64_t now_ms_ = 0;
+  WriterBinding binding_{topics::command.description};
+};
+
+TEST_F(Binding, BelongsToTheFirstWriterThatMayWriteTheTopic) {
+  EXPECT_EQ(binding_.judge(writer(9, 7, crane_SOURCE_OPERATOR), ms(0), 1), Verdict::foreign);
+  EXPECT_FALSE(binding_.bound());
+  supervisor_speaks_until(100);
+  EXPECT_EQ(binding_.foreign(), 1U);
+}
+
+TEST_F(Binding, RefusesEveryOtherWriterWhateverItsHeaderSays) {
+  supervisor_speaks_until(100);
+  const std::vector<Writer> strangers{
+      writer(2),                             // the supervisor's own header, from another DDS writer
+      writer(2, 8),                          // a higher start-up number
+      writer(2, 0xFFFFFFFF),                 //
+      writer(2, 7, crane_SOURCE_PLANT),      //
+      writer(1, 8),                          // the bound DDS writer under another start-up number
+      writer(1, 7, crane_SOURCE_OPERATOR)};  // ... and as another kind of process
+  for (const auto& stranger : strangers) {
+    EXPECT_EQ(binding_.judge(stranger, ms(105), 2), Verdict::foreign);
+    EXPECT_TRUE(binding_.disputed(ms(105)));
+  }
+  EXPECT_EQ(binding_.foreign(), strangers.size());
+  EXPECT_EQ(binding_.judge(writer(1), ms(110), 2), Verdict::own);
+}
+
+TEST_F(Binding, OfNobodyWhileTwoWritersAreThere) {
+  EXPECT_EQ(binding_.judge(writer(1), ms(0), 2), Verdict::foreign);
+  EXPECT_EQ(binding_.judge(writer(2), ms(0), 2), Verdict::foreign);
+  EXPECT_TRUE(binding_.disputed(ms(10)));
+  EXPECT_EQ(binding_.judge(writer(1), ms(500), 1), Verdict::own);  // the other one has gone
+}
+
+TEST_F(Binding, IsDisputedByAWriterThatIsMatchedAndSilent) {
+  supervisor_speaks_until(100);
+  binding_.watch(ms(100), 2);
+  EXPECT_TRUE(binding_.disputed(ms(100)));
+}
+
+TEST_F(Binding, StaysDisputedForASecondAfterTheLastSign) {
+  supervisor_speaks_until(100);
+  (void)binding_.judge(writer(2), ms(100), 2);
+  EXPECT_TRUE(binding_.disputed(ms(1099)));
+  EXPECT_FALSE(binding_.disputed(ms(1101)));
+}
+
+TEST_F(Binding, PassesToANewStartOnlyAfterTheOldOneHasBeenSilent) {
+  supervisor_speaks_until(100);
+  EXPECT_EQ(binding_.judge(writer(2, 8), ms(299), 2), Verdict::foreign);
+  EXPECT_EQ(binding_.judge(writer(2, 8), ms(300), 2), Verdict::taken_over);
+  EXPECT_EQ(binding_.judge(writer(2, 8), ms(310), 2), Verdict::own);
+  EXPECT_EQ(binding_.judge(writer(1), ms(320), 2), Verdict::foreign);  // the old one wakes up again
+}
+
+TEST_F(Binding, IsNotDisputedByADeadWriterThatDdsHasNotGivenUpYet) {
+  supervisor_speaks_until(100);
+  ASSERT_EQ(binding_.judge(writer(2, 8), ms(700), 2), Verdict::taken_over);
+  binding_.watch(ms(700), 2);
+  EXPECT_FALSE(binding_.disputed(ms(700)));
+  binding_.watch(ms(800), 1);  // its lease has ended
+  ASSERT_EQ(binding_.judge(writer(2, 8), ms(810), 1), Verdict::own);
+  binding_.watch(ms(810), 2);  // and this is a stranger
+  EXPECT_TRUE(binding_.disputed(ms(810)));
+}
+
+TEST(Epoch, IsRandomAndNeverZero) {
+  std::set<std::uint32_t> seen;
+  for (int i = 0; i < 1000; ++i) seen.insert(random_epoch());
+  EXPECT_GT(seen.size(), 990U);
+  EXPECT_FALSE(seen.contains(0));
+}
+
+}  // namespace
+}  // namespace crane::runtime

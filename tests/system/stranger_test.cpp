@@ -1,0 +1,177 @@
+/// A program of somebody else joins the domain with the project's own bus and writes what only a process of
+/// the stack may write. It copies the headers it hears. Whatever it writes, nothing moves that must not, and
+/// the supervisor or the bridge says why.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "running_stack.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint32_t kDomain = 65;
+
+/// Takes the newest sample of one topic, spoils it and publishes it again, as the writer it was heard from.
+template <class T>
+class Stranger {
+ public:
+  Stranger(const runtime::BusOptions& options, const topics::Topic<T>& topic, void (*spoil)(T&),
+           int epoch_ahead)
+      : ear_{runtime::bus_options(options, "stranger", crane_SOURCE_MONITOR, 0)},
+        heard_{ear_.subscriber(topic)} {
+    const auto end = std::chrono::steady_clock::now() + 5s;
+    std::optional<T> sample;
+    while (!sample && std::chrono::steady_clock::now() < end) {
+      ear_.wait(10ms);
+      sample = heard_.take();
+    }
+    if (!sample) throw std::runtime_error("the stranger hears nothing");
+    forged_ = *sample;
+    spoil(forged_);
+    mouth_.emplace(runtime::bus_options(options, "stranger", forged_.header.source,
+                                        forged_.header.epoch + static_cast<std::uint32_t>(epoch_ahead)));
+    writer_.emplace(mouth_->publisher(topic));
+  }
+  /// Publishes the forged sample for the tick of now and the next one.
+  void speak() {
+    while (const auto sample = heard_.take()) forged_.header.tick = sample->header.tick;
+    for (int ahead = 0; ahead < 2; ++ahead, ++forged_.header.tick) EXPECT_TRUE(writer_->publish(forged_));
+  }
+
+ private:
+  bus::Bus ear_;
+  bus::Subscriber<T> heard_;
+  std::optional<bus::Bus> mouth_;
+  std::optional<bus::Publisher<T>> writer_;
+  T forged_{};
+};
+
+void full_speed(double (&drive_v)[3]) {
+  for (double& v : drive_v) v = 5;
+}
+void open_and_push(msg::Command& command) {
+  full_speed(command.drive_v);
+  for (bool& release : command.brake_release) release = true;
+  command.watchdog_permission = true;
+}
+void push(msg::Contribution& contribution) { full_speed(contribution.drive_v); }
+void ask_for_all(msg::Demand& demand) { full_speed(demand.total_v); }
+void far_away(msg::Reference& reference) { reference.axis[0].position += 1; }
+void elsewhere(msg::State& state) {
+  state.trolley_position_m += 0.3;
+  for (bool& closed : state.brake_closed) closed = false;
+}
+void armed(msg::SupervisorStatus& status) {
+  status.state = crane_STATE_RUN;
+  status.move.number += 1;
+  status.move.kind = crane_REQUEST_MOVE;
+  status.move.selected[0] = true;
+  status.move.target[0] = 1.2;
+}
+
+struct Attack {
+  const char* topic;
+  const char* vendor;
+  int epoch_ahead;  ///< of the start-up number that was heard
+};
+std::ostream& operator<<(std::ostream& out, const Attack& attack) {
+  return out << attack.topic << " from " << attack.vendor << ", start-up number + " << attack.epoch_ahead;
+}
+std::string test_name(const testing::TestParamInfo<Attack>& test) {
+  return std::string{test.param.topic} + "_" + test.param.vendor +
+         (test.param.epoch_ahead > 0 ? "_younger" : "");
+}
+
+class StrangerTest : public testing::TestWithParam<Attack> {
+ protected:
+  void attack_for(std::chrono::milliseconds duration) {
+    auto options = stack_.bus_options();
+    options.vendor = GetParam().vendor;
+    const std::string topic = GetParam().topic;
+    const auto run = [&](const auto& on, auto spoil) {
+      Stranger stranger{options, on, spoil, GetParam().epoch_ahead};
+      stack_.forget();
+      (void)stack_.until(
+          [&] {
+            stranger.speak();
+            return false;
+          },
+          duration);
+    };
+    if (topic == "command") run(topics::command, open_and_push);
+    if (topic == "demand") run(topics::demand, ask_for_all);
+    if (topic == "tracking") run(topics::tracking, push);
+    if (topic == "anti_swing") run(topics::anti_swing, push);
+    if (topic == "reference") run(topics::reference, far_away);
+    if (topic == "state") run(topics::state, elsewhere);
+    if (topic == "supervisor") run(topics::supervisor, armed);
+  }
+  /// States of the real plant: those that say what its own encoders count.
+  [[nodiscard]] std::vector<msg::State> honest_states() const {
+    auto states = stack_.observer().states();
+    if (std::string{GetParam().topic} == "state")
+      std::erase_if(states, [this](const msg::State& state) {
+        const double counted_m = static_cast<double>(state.counts[0]) * kTrolleyUnitPerCount;
+        return std::abs(state.trolley_position_m - counted_m) > 0.1;
+      });
+    return states;
+  }
+  [[nodiscard]] bool stopped_for_a_second_writer() const {
+    const auto& statuses = stack_.observer().statuses();
+    const auto& states = stack_.observer().states();
+    return std::any_of(statuses.begin(), statuses.end(),
+                       [](const auto& status) { return status.cause == crane_CAUSE_SECOND_WRITER; }) ||
+           std::any_of(states.begin(), states.end(),
+                       [](const auto& state) { return state.latch_reason == crane_LATCH_SECOND_WRITER; });
+  }
+  const double kTrolleyUnitPerCount =
+      1 / runtime::load_rig(stack::find_rig("virginia_tech_tower").string()).encoders[0].counts_per_unit;
+  RunningStack stack_{kDomain, "virginia_tech_tower"};
+};
+
+TEST_P(StrangerTest, MovesNothingOfALockedCrane) {
+  ASSERT_TRUE(stack_.until(
+      [this] {
+        const auto& statuses = stack_.observer().statuses();
+        return !statuses.empty() && statuses.back().state == crane_STATE_LOCKED;
+      },
+      5s));
+  attack_for(1500ms);
+  const auto states = honest_states();
+  ASSERT_GT(states.size(), 100U);
+  for (const auto& state : states)
+    for (std::size_t i = 0; i < 3; ++i)
+      ASSERT_TRUE(state.applied_v[i] == 0 && state.brake_closed[i])
+          << GetParam() << ", tick " << state.header.tick;
+  EXPECT_EQ(states.front().trolley_position_m, states.back().trolley_position_m);
+}
+
+TEST_P(StrangerTest, StopsAnArmedCraneInsteadOfMovingIt) {
+  stack_.session().arm();
+  attack_for(1500ms);
+  const auto states = honest_states();
+  ASSERT_GT(states.size(), 100U);
+  EXPECT_TRUE(stopped_for_a_second_writer()) << GetParam();
+  EXPECT_NEAR(states.front().trolley_position_m, states.back().trolley_position_m, 0.01);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(states.back().brake_closed[i]) << GetParam();
+    EXPECT_EQ(states.back().applied_v[i], 0) << GetParam();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OnEveryLoopTopic, StrangerTest,
+                         testing::Values(Attack{"command", "cyclone", 0}, Attack{"command", "fastdds", 1},
+                                         Attack{"demand", "cyclone", 0}, Attack{"tracking", "fastdds", 0},
+                                         Attack{"anti_swing", "cyclone", 1},
+                                         Attack{"reference", "cyclone", 0}, Attack{"state", "cyclone", 0},
+                                         Attack{"supervisor", "fastdds", 1}),
+                         test_name);
+
+}  // namespace
+}  // namespace crane::system_test
