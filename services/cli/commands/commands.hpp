@@ -22,6 +22,7 @@ void add_move(CLI::App& app, Action& chosen);
 void add_stop(CLI::App& app, Action& chosen);
 void add_estop(CLI::App& app, Action& chosen);
 void add_topic(CLI::App& app, Action& chosen);
+void add_graph(CLI::App& app, Action& chosen);
 void add_record(CLI::App& app, Action& chosen);
 void add_log(CLI::App& app, Action& chosen);
 void add_identify(CLI::App& app, Action& chosen);

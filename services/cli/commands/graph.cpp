@@ -1,0 +1,37 @@
+/// crane graph: the wiring of a stack, as its components declare it.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands/commands.hpp"
+#include "stack/wiring_graph.hpp"
+
+namespace crane::cli {
+namespace {
+
+int draw(const std::string& format) {
+  const auto components = stack::all_components();
+  if (format == "mermaid") std::cout << stack::wiring_mermaid(components);
+  if (format == "dot") std::cout << stack::wiring_dot(components);
+  if (format == "json") std::cout << stack::wiring_json(components).dump(2) << '\n';
+  if (format == "topics") std::cout << stack::wiring_table(components);
+  if (format == "components") std::cout << stack::component_table(components);
+  return runtime::kExitDone;
+}
+
+}  // namespace
+
+void add_graph(CLI::App& app, Action& chosen) {
+  auto format = std::make_shared<std::string>("mermaid");
+  auto* command =
+      app.add_subcommand("graph", "The wiring of a stack: what each process reads and writes, and what for");
+  command
+      ->add_option("--format", *format,
+                   "mermaid or dot: a diagram; topics or components: a table; json: for other programs")
+      ->check(CLI::IsMember({"mermaid", "dot", "json", "topics", "components"}))
+      ->capture_default_str();
+  command->footer("Example: crane graph --format dot | dot -Tsvg > wiring.svg");
+  command->callback([format, &chosen] { chosen = [format] { return draw(*format); }; });
+}
+
+}  // namespace crane::cli

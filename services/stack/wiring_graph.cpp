@@ -1,0 +1,175 @@
+#include "stack/wiring_graph.hpp"
+
+#include <algorithm>
+
+#include "process/hardware_bridge.hpp"
+#include "process/twin_component.hpp"
+#include "stack/stack.hpp"
+
+namespace crane::stack {
+namespace {
+
+using runtime::ComponentSpec;
+using runtime::Read;
+using runtime::Write;
+using topics::Description;
+
+constexpr const char* kOperator = "operator tools";
+constexpr const char* kEveryProcess = "every process";
+
+std::string joined(const std::vector<std::string>& parts, const std::string& separator) {
+  std::string text;
+  for (const auto& part : parts) text += (text.empty() ? "" : separator) + part;
+  return text;
+}
+
+bool names(const Description* listed, const Description& topic) { return listed->name == topic.name; }
+
+/// Topics that tools and every process write or read without a wiring of their own.
+bool is_observers_business(const Description& topic) {
+  return names(&topics::node.description, topic) || names(&topics::event.description, topic);
+}
+
+std::vector<std::string> writers_of(const std::vector<ComponentSpec>& components, const Description& topic) {
+  if (is_observers_business(topic)) return {kEveryProcess};
+  if (names(&topics::request.description, topic)) return {kOperator};
+  std::vector<std::string> writers;
+  for (const auto& component : components)
+    if (std::ranges::any_of(component.writes, [&](const Write& write) { return names(write.topic, topic); }))
+      writers.emplace_back(component.name);
+  return writers;
+}
+
+std::vector<std::string> readers_of(const std::vector<ComponentSpec>& components, const Description& topic) {
+  std::vector<std::string> readers;
+  for (const auto& component : components)
+    for (const auto& read : component.reads)
+      if (names(read.topic, topic))
+        readers.push_back(std::string{component.name} +
+                          (read.needed_by == nullptr ? "" : " (some controllers)"));
+  if (names(&topics::reply.description, topic)) readers.emplace_back(kOperator);
+  readers.emplace_back("monitors");
+  return readers;
+}
+
+std::string_view name_of(topics::Qos qos) {
+  switch (qos) {
+    case topics::Qos::loop:
+      return "loop";
+    case topics::Qos::script:
+      return "script";
+    case topics::Qos::status:
+      return "status";
+    case topics::Qos::log:
+      return "log";
+  }
+  return "";
+}
+
+/// "crane/anti_swing" -> "anti_swing".
+std::string short_name(const Description& topic) {
+  const std::string name{topic.name};
+  return name.substr(name.find('/') + 1);
+}
+
+struct Arrow {
+  std::string from, to, topic;
+};
+
+/// The clock master stands for both of its kinds: a stack has the simulated plant or the hardware bridge.
+std::string node_of(std::string_view component) {
+  return component == "hardware_bridge" ? "plant" : std::string{component};
+}
+
+std::vector<Arrow> arrows_of(const std::vector<ComponentSpec>& components) {
+  std::vector<Arrow> arrows;
+  const auto add = [&arrows](Arrow arrow) {
+    const bool known = std::ranges::any_of(arrows, [&](const Arrow& other) {
+      return other.from == arrow.from && other.to == arrow.to && other.topic == arrow.topic;
+    });
+    if (!known) arrows.push_back(std::move(arrow));
+  };
+  for (const auto& reader : components)
+    for (const auto& read : reader.reads) {
+      if (names(read.topic, topics::request.description))
+        add({"operator", node_of(reader.name), short_name(*read.topic)});
+      for (const auto& writer : components)
+        for (const auto& write : writer.writes)
+          if (names(write.topic, *read.topic))
+            add({node_of(writer.name), node_of(reader.name), short_name(*read.topic)});
+    }
+  return arrows;
+}
+
+}  // namespace
+
+std::vector<ComponentSpec> all_components() {
+  auto components = simulated_stack();
+  components.insert(components.begin() + 1, bridge::hardware_bridge_spec());
+  components.push_back(twin::twin_spec());
+  return components;
+}
+
+std::string wiring_table(const std::vector<ComponentSpec>& components) {
+  std::string table =
+      "| topic | type | written by | read by | quality of service |\n|---|---|---|---|---|\n";
+  for (const auto& topic : topics::kAll) {
+    const std::string type{topic.type.substr(topic.type.rfind(':') + 1)};
+    table += "| `" + std::string{topic.name} + "` | " + type + " | " +
+             joined(writers_of(components, topic), topic.every_tick ? " **or** " : ", ") + " | " +
+             joined(readers_of(components, topic), ", ") + " | " + std::string{name_of(topic.qos)} + " |\n";
+  }
+  return table;
+}
+
+std::string component_table(const std::vector<ComponentSpec>& components) {
+  std::string table = "| component | reads | writes |\n|---|---|---|\n";
+  for (const auto& component : components) {
+    std::vector<std::string> reads, writes;
+    for (const auto& read : component.reads)
+      reads.push_back(short_name(*read.topic) + ": " + std::string{read.purpose} +
+                      (read.needed_by == nullptr ? "" : " (some controllers)"));
+    for (const auto& write : component.writes)
+      writes.push_back(short_name(*write.topic) + ": " + std::string{write.purpose});
+    table += "| `" + std::string{component.name} + "` | " + joined(reads, "<br>") + " | " +
+             joined(writes, "<br>") + " |\n";
+  }
+  return table;
+}
+
+std::string wiring_mermaid(const std::vector<ComponentSpec>& components) {
+  std::string chart =
+      "flowchart LR\n  plant[\"plant or hardware_bridge<br/>(clock master)\"]\n  operator((operator tools))\n";
+  for (const auto& arrow : arrows_of(components))
+    chart += "  " + arrow.from + " -- " + arrow.topic + " --> " + arrow.to + "\n";
+  return chart;
+}
+
+std::string wiring_dot(const std::vector<ComponentSpec>& components) {
+  std::string graph =
+      "digraph crane {\n  rankdir=LR;\n  plant [label=\"plant or hardware_bridge\\n(clock master)\"];\n";
+  for (const auto& arrow : arrows_of(components))
+    graph += "  " + arrow.from + " -> " + arrow.to + " [label=\"" + arrow.topic + "\"];\n";
+  return graph + "}\n";
+}
+
+nlohmann::ordered_json wiring_json(const std::vector<ComponentSpec>& components) {
+  auto result = nlohmann::ordered_json::array();
+  for (const auto& component : components) {
+    auto reads = nlohmann::ordered_json::array(), writes = nlohmann::ordered_json::array();
+    for (const auto& read : component.reads)
+      reads.push_back({{"topic", read.topic->name},
+                       {"purpose", read.purpose},
+                       {"all_controllers", read.needed_by == nullptr}});
+    for (const auto& write : component.writes)
+      writes.push_back({{"topic", write.topic->name}, {"purpose", write.purpose}});
+    result.push_back({{"component", component.name},
+                      {"program", component.program},
+                      {"summary", component.summary},
+                      {"reads", reads},
+                      {"writes", writes}});
+  }
+  return result;
+}
+
+}  // namespace crane::stack

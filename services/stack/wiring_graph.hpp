@@ -1,0 +1,25 @@
+#pragma once
+/// The wiring of a stack, drawn from what its components declare: as a table and a diagram for the documents, as
+/// dot or JSON for tools.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "crane/runtime/wiring.hpp"
+
+namespace crane::stack {
+
+/// All components that may be part of a stack: simulated plant, hardware bridge, loop, twin.
+[[nodiscard]] std::vector<runtime::ComponentSpec> all_components();
+
+/// Markdown: one line per topic with its type, writers, readers and quality of service.
+[[nodiscard]] std::string wiring_table(const std::vector<runtime::ComponentSpec>& components);
+/// Markdown: what each component reads and writes, and what for.
+[[nodiscard]] std::string component_table(const std::vector<runtime::ComponentSpec>& components);
+/// Mermaid flow chart: components are nodes, topics are arrows.
+[[nodiscard]] std::string wiring_mermaid(const std::vector<runtime::ComponentSpec>& components);
+/// Graphviz.
+[[nodiscard]] std::string wiring_dot(const std::vector<runtime::ComponentSpec>& components);
+[[nodiscard]] nlohmann::ordered_json wiring_json(const std::vector<runtime::ComponentSpec>& components);
+
+}  // namespace crane::stack

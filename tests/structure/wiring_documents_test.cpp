@@ -1,0 +1,66 @@
+// The documents show the wiring that the components declare. What differs is printed with the command that makes
+// the right text.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "stack/stack.hpp"
+#include "stack/wiring_graph.hpp"
+
+namespace crane::stack {
+namespace {
+
+std::string text_of(const std::string& file) {
+  std::ifstream in{std::string{CRANE_SOURCE_DIRECTORY} + "/" + file};
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The text between "<!-- crane graph --format FORMAT -->" and "<!-- end -->", without the fence of a diagram.
+std::string generated_part(const std::string& file, const std::string& format) {
+  const auto text = text_of(file);
+  const auto begin = "<!-- crane graph --format " + format + " -->\n";
+  const auto from = text.find(begin);
+  if (from == std::string::npos) return "no " + begin + " in " + file;
+  auto part = text.substr(from + begin.size(), text.find("<!-- end -->", from) - from - begin.size());
+  const std::string fence = "```mermaid\n";
+  if (part.rfind(fence, 0) == 0) part = part.substr(fence.size(), part.rfind("```") - fence.size());
+  return part;
+}
+
+TEST(Documents, ShowTheTopicsAsTheComponentsDeclareThem) {
+  EXPECT_EQ(generated_part("idl/README.md", "topics"), wiring_table(all_components()))
+      << "put the output of `crane graph --format topics` there";
+}
+
+TEST(Documents, ShowWhatEachComponentReadsAndWrites) {
+  EXPECT_EQ(generated_part("docs/architecture.md", "components"), component_table(all_components()))
+      << "put the output of `crane graph --format components` there";
+}
+
+TEST(Documents, ShowTheDiagramOfTheWiring) {
+  EXPECT_EQ(generated_part("README.md", "mermaid"), wiring_mermaid(all_components()))
+      << "put the output of `crane graph --format mermaid` there";
+}
+
+TEST(Wiring, GivesEveryLoopTopicOneWriterInAStack) {
+  for (const auto plant : {Plant::simulated, Plant::hardware}) {
+    const auto components = stack_with(plant);
+    for (const auto& topic : topics::kAll) {
+      if (!topic.every_tick || topic.name == topics::twin.description.name) continue;
+      int writers = 0;
+      for (const auto& component : components)
+        for (const auto& write : component.writes)
+          if (write.topic->name == topic.name) {
+            ++writers;
+            EXPECT_TRUE(topics::may_write(topic, component.source)) << component.name << ", " << topic.name;
+          }
+      EXPECT_EQ(writers, 1) << topic.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace crane::stack
