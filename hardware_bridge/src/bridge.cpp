@@ -41,6 +41,10 @@ Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
     unit_per_count_[i] = encoder.counts_per_unit > 0 ? encoder.sign / encoder.counts_per_unit : 0;
   }
   board_->make_safe();
+  if (clock_ == runtime::Clock::lockstep && !board_->simulates_time())
+    throw runtime::ConfigurationError(
+        {context.rig.path + ": board = " + context.rig.board +
+         ": a real rig does not wait for commands; start the stack with --clock realtime"});
 }
 
 Bridge::~Bridge() { board_->make_safe(); }
@@ -121,13 +125,15 @@ void Bridge::tick(std::int64_t now_ns) {
     next = elapsed;  // what could not be kept is skipped, not caught up with
     sample_time_ns = now_ns;
   }
+  const auto previous = tick_;
   tick_ = next;
   board_->advance_to(static_cast<std::int64_t>(next) * period_ns_);
   const auto inputs = board_->read();
-  const auto measured = measurement_.step(inputs.raw_counts);
+  const auto measured = measurement_.step(inputs.raw_counts, latched_at(previous, next, sample_time_ns));
   report_relay(inputs, now_ns);
   ports_.watch(now_ns);
   auto now = seen(inputs);
+  now.time_ns = sample_time_ns;
   now.second_writer = ports_.disputed(now_ns);
   apply(last_line_.decide(command_, next, now));
   auto sample = state(inputs, measured, sample_time_ns);
@@ -135,6 +141,15 @@ void Bridge::tick(std::int64_t now_ns) {
   ++counts_.completed;
   report_latch();
   look_for_marks(now);
+}
+
+/// Where the sample of tick `next` lies on the grid of ticks.
+Latched Bridge::latched_at(std::optional<std::uint64_t> previous, std::uint64_t next,
+                           std::int64_t sample_time_ns) const {
+  if (clock_ == runtime::Clock::lockstep) return {};
+  const auto due_ns = start_ns_ + static_cast<std::int64_t>(next) * period_ns_;
+  return {.ticks = previous ? next - *previous : 1,
+          .late_s = static_cast<double>(sample_time_ns - due_ns) / 1e9};
 }
 
 /// A position that becomes known is published from the next tick on.

@@ -13,10 +13,14 @@ bool asks_for_motion(const CommandView& command, std::size_t axis) {
   return command.brake_release[axis] || command.drive_v[axis] != 0;
 }
 
+/// Time between two samples, however late one of them was; at least a hundredth of a period, so that nothing
+/// is divided by zero.
 double seconds(const LastLineParameters& parameters, const Moment& moment, std::size_t newer,
                std::size_t older) {
+  constexpr double kShortest_periods = 0.01;
   const auto& history = *moment.history;
-  return static_cast<double>(history[newer].tick - history[older].tick) * parameters.period_s;
+  const auto elapsed_ns = history[newer].seen.time_ns - history[older].seen.time_ns;
+  return std::max(static_cast<double>(elapsed_ns) / 1e9, kShortest_periods * parameters.period_s);
 }
 
 /// Mean speed in the tick that ended `age` entries ago.
@@ -171,23 +175,53 @@ bool braked_motion(const LastLineParameters& parameters, const Moment& moment) n
   });
 }
 
-/// The drive pushes hard enough for any friction, the brake is open, and nothing is counted: the encoder is
-/// dead, or the brake has not opened.
+constexpr std::int64_t kFlicker_counts = 2;  // of an encoder on the edge of a count
+
+bool stands(const History& history, std::size_t i, std::size_t newer, std::size_t older) {
+  return std::abs(history[newer].seen.counts[i] - history[older].seen.counts[i]) <= kFlicker_counts;
+}
+
+/// Ticks until now in which the axis was free, was pushed to the side it is pushed to now, and was not seen
+/// to move.
+std::size_t pushed_in_vain(const History& history, std::size_t i) {
+  const double side = history[0].seen.applied_v[i] > 0 ? 1 : -1;
+  std::size_t ticks = 0;
+  while (ticks + 1 < history.size() && history[ticks].free[i] &&
+         side * history[ticks].seen.applied_v[i] > 0 && stands(history, i, 0, ticks + 1))
+    ++ticks;
+  return ticks;
+}
+
+/// The least way that an axis with a zero must have gone under the volts it got: from rest, with the smallest
+/// gain, against 1.5 times its friction and the largest pull of the load. A healthy encoder shows far less
+/// than kMustShow.
+bool has_gone_unseen(const LastLineParameters& parameters, const AxisLine& axis, const History& history,
+                     std::size_t i) {
+  constexpr double kMustShow = 0.005;  // m, rad, m of cable: twenty times the play of a gear
+  double way = 0, speed = 0;
+  for (std::size_t age = pushed_in_vain(history, i); age-- > 0;) {
+    const double net_v = std::max(std::abs(history[age].seen.applied_v[i]) - axis.certain_motion_v, 0.0);
+    if (axis.lag_s > 0)
+      speed += (axis.gain_low * net_v - speed) * std::min(parameters.period_s / axis.lag_s, 1.0);
+    else
+      speed += axis.gain_low * net_v * parameters.period_s;
+    way += speed * parameters.period_s;
+  }
+  return way > kMustShow;
+}
+
+/// The drive pushes harder than any friction and load can hold, the brake is open, and nothing is counted:
+/// the encoder is dead, or the brake has not opened.
 bool encoder_frozen(const LastLineParameters& parameters, const Moment& moment) noexcept {
   constexpr double kWindow_s = 0.1;
-  constexpr std::int64_t kFlicker_counts = 2;
   const auto window = static_cast<std::size_t>(std::llround(kWindow_s / parameters.period_s));
   const auto ticks = std::clamp<std::size_t>(window, 2, History::kLength - 1);
   const auto& history = *moment.history;
-  if (history.size() <= ticks) return false;
   return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
-    const double side = history[0].seen.applied_v[i] > 0 ? 1 : -1;
-    const double certain_v = history[0].seen.unknown[i] ? axis.creeping_motion_v : axis.certain_motion_v;
-    for (std::size_t age = 0; age < ticks; ++age) {
-      if (!history[age].free[i] || side * history[age].seen.applied_v[i] < certain_v) return false;
-      if (std::abs(history[age].seen.counts[i] - history[ticks].seen.counts[i]) > kFlicker_counts)
-        return false;
-    }
+    if (!history[0].seen.unknown[i]) return has_gone_unseen(parameters, axis, history, i);
+    if (pushed_in_vain(history, i) < ticks) return false;
+    for (std::size_t age = 0; age < ticks; ++age)
+      if (std::abs(history[age].seen.applied_v[i]) < axis.creeping_motion_v) return false;
     return true;
   });
 }

@@ -24,16 +24,27 @@ void set_gains(AxisLine& axis, std::size_t i, const runtime::Rig& rig) {
   }
 }
 
+/// Volts that the load can hold against a drive when it swings as far as the supervisor allows.
+double load_pull_v(std::size_t i, const runtime::Rig& rig) {
+  const auto& crane = rig.design.crane;
+  const double force_n = crane.load_mass_kg * crane.gravity_mps2 * std::sin(rig.limits.swing_limit_rad);
+  if (i == plant::kTrolley) return force_n / (crane.trolley_inertia_kg * crane.trolley_gain_mps2pv);
+  if (i != plant::kSlew || !rig.drives[plant::kTrolley].present) return 0;
+  const double torque_nm = force_n * rig.drives[plant::kTrolley].high_limit;
+  return torque_nm / (crane.jib_inertia_kgm2 * crane.slew_gain_radps2pv);
+}
+
 AxisLine axis_line(const runtime::Rig& rig, std::size_t i) {
   const auto& drive = rig.drives[i];
   const auto& friction = rig.design.friction[i];
   AxisLine axis;
   static_cast<control::DriveLimits&>(axis) = drive;
   if (!drive.present) return axis;
-  constexpr double kCertain_v = 3, kBeyondFriction = 1.5, kCertainCreep_v = 0.8;
+  // Friction grows with temperature and dust; half of it, and half a volt of offsets, are left to that.
+  constexpr double kOffset_v = 0.5, kBeyondFriction = 1.5, kCertainCreep_v = 0.8;
   const double friction_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
                                       friction.stiction_positive_v, friction.stiction_negative_v});
-  axis.certain_motion_v = kCertain_v + kBeyondFriction * friction_v;
+  axis.certain_motion_v = kOffset_v + kBeyondFriction * friction_v + load_pull_v(i, rig);
   axis.creeping_motion_v = kCertainCreep_v + friction_v;
   set_gains(axis, i, rig);
   return axis;

@@ -1,5 +1,7 @@
 #include "crane/bridge/measurement.hpp"
 
+#include <algorithm>
+
 namespace crane::bridge {
 
 std::int64_t CountUnwrapper::step(std::int32_t raw_counts) noexcept {
@@ -22,17 +24,29 @@ Coordinate::Coordinate(const runtime::Encoder& encoder, double period_s, double 
       low_pass_{control::butterworth_low_pass(cut_off_ratio)},
       differentiator_{control::al_alaoui_second_order(1 / period_s)} {}
 
-void Coordinate::step(std::int32_t raw_counts) noexcept {
+void Coordinate::filter(double position) noexcept {
+  smooth_ = control::step(low_pass_, low_pass_memory_, position);
+  rate_ = control::step(differentiator_, differentiator_memory_, smooth_);
+}
+
+void Coordinate::step(std::int32_t raw_counts, const Latched& latched) noexcept {
   counts_ = unwrapper_.step(raw_counts) + shift_;
   position_ = static_cast<double>(counts_) * units_per_count_;
   if (!started_) {
     started_ = true;
     low_pass_memory_ = control::settled(low_pass_, position_);
     differentiator_memory_ = control::settled(differentiator_, position_);
+    gridded_ = position_;
+    rate_ = 0;
   }
-  const double smooth = control::step(low_pass_, low_pass_memory_, position_);
-  rate_ = control::step(differentiator_, differentiator_memory_, smooth);
-  if (filter_position_) position_ = smooth;
+  constexpr std::uint64_t kMostFilled = 100;  // longer pauses have ended every motion
+  const double target = position_ - rate_ * latched.late_s;
+  const auto steps = std::clamp<std::uint64_t>(latched.ticks, 1, kMostFilled);
+  for (std::uint64_t i = 1; i < steps; ++i)
+    filter(gridded_ + (target - gridded_) * static_cast<double>(i) / static_cast<double>(steps));
+  filter(target);
+  gridded_ = target;
+  if (filter_position_) position_ = smooth_;
 }
 
 void Coordinate::shift(std::int64_t change) noexcept {
@@ -57,9 +71,9 @@ MeasurementPipeline::MeasurementPipeline(const runtime::Rig& rig)
     : coordinates_{coordinate(rig, 0), coordinate(rig, 1), coordinate(rig, 2), coordinate(rig, 3),
                    coordinate(rig, 4)} {}
 
-control::Measurement MeasurementPipeline::step(
-    const std::array<std::int32_t, kCounters>& raw_counts) noexcept {
-  for (std::size_t i = 0; i < kCounters; ++i) coordinates_[i].step(raw_counts[i]);
+control::Measurement MeasurementPipeline::step(const std::array<std::int32_t, kCounters>& raw_counts,
+                                               const Latched& latched) noexcept {
+  for (std::size_t i = 0; i < kCounters; ++i) coordinates_[i].step(raw_counts[i], latched);
   control::Measurement measured;
   for (std::size_t i = 0; i < plant::kAxes; ++i) {
     measured.position[i] = coordinates_[i].position();

@@ -1,5 +1,7 @@
 #include "stack/launch.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <set>
 #include <stdexcept>
@@ -39,6 +41,7 @@ void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>&
                                        std::to_string(options.priority)});
     if (!options.controller.empty()) arguments.insert(arguments.end(), {"--controller", options.controller});
     if (options.epoch != 0) arguments.insert(arguments.end(), {"--epoch", std::to_string(options.epoch)});
+    arguments.insert(arguments.end(), {"--parent", std::to_string(::getpid())});
     if (options.verbose) arguments.emplace_back("--verbose");
     children.start(std::string{spec.name}, std::string{spec.program}, arguments);
   }

@@ -60,6 +60,7 @@ static_assert(same(HomingFailure::mark_disagrees, crane_HOMING_MARK_DISAGREES));
 
 Sample sample_of(const msg::State& state) {
   Sample sample;
+  sample.time_s = static_cast<double>(state.header.sample_time_ns) / 1e9;
   sample.position = {state.trolley_position_m, state.slew_angle_rad, state.cable_length_m};
   sample.swing_radial_rad = state.swing_radial_rad;
   sample.swing_tangential_rad = state.swing_tangential_rad;

@@ -8,6 +8,7 @@
 #include "crane/runtime/joined_component.hpp"
 #include "crane/runtime/request_inbox.hpp"
 #include "crane/supervisor/supervisor.hpp"
+#include "process/clock_offset.hpp"
 #include "process/request_rules.hpp"
 #include "process/samples.hpp"
 #include "process/start_up_test.hpp"
@@ -49,10 +50,12 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   void on_tick(std::uint64_t tick, const msg::State* state, const msg::Demand* demand,
                const msg::Reference* reference) override {
     last_header_ = runtime::answer_to(state->header);
-    expect_state_by(std::max(state->header.sample_time_ns + periods_ns(kSilentPeriods),
-                             now_ns_ + periods_ns(kRespitePeriods)));
+    if (restarts() > bridge_restarts_) bridge_clock_ = {};
+    const auto sampled_ns = realtime_ ? bridge_clock_.local_ns(state->header.sample_time_ns, now_ns_)
+                                      : state->header.sample_time_ns;
+    expect_state_by(std::max(sampled_ns + periods_ns(kSilentPeriods), now_ns_ + periods_ns(kRespitePeriods)));
     TickInput input;
-    input.now_s = static_cast<double>(state->header.sample_time_ns) * 1e-9;
+    input.now_s = seconds(sampled_ns);
     input.tick = tick;
     input.state_arrived = true;
     input.sample = sample_of(*state);
@@ -72,10 +75,11 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   /// No state comes: the bridge is dead, hung or cut off. Says so, and asks for nothing.
   bool on_idle(std::int64_t now_ns) override {
+    if (const auto* state = open_leader()) (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
     if (now_ns < silence_ends_ns() || woke_late(now_ns)) return false;
     expect_state_by(now_ns + periods_ns(kSilentPeriods));
     TickInput input;
-    input.now_s = static_cast<double>(now_ns) * 1e-9;
+    input.now_s = seconds(now_ns);
     input.tick = last_header_.tick;
     input.self_test = self_test_.step(nullptr);
     step(input);
@@ -97,6 +101,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     if (ticks_to_take_up_ > 0) --ticks_to_take_up_;
     return reference_moving_ || ticks_to_take_up_ > 0;
   }
+  [[nodiscard]] static double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns) / 1e9; }
   [[nodiscard]] std::int64_t periods_ns(double periods) const {
     return static_cast<std::int64_t>(periods * limits_.period_s * 1e9);
   }
@@ -180,6 +185,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   Limits limits_;
   bool realtime_;
+  ClockOffset bridge_clock_;
   runtime::RequestInbox requests_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;

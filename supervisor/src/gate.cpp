@@ -58,11 +58,20 @@ int rate_pressure_limit(const Limits& limits) noexcept {
   return 2 * (10 + static_cast<int>(std::min(std::ceil(reversal_ticks), kMost_ticks)));
 }
 
+namespace {
+bool is_plausible(const Limits& limits, const PerAxis& demand_v) noexcept {
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if (limits.axis[i].present && !(std::abs(demand_v[i]) <= kAbsurd * limits.axis[i].volt_limit_v))
+      return false;
+  return std::ranges::all_of(demand_v, [](double v) { return std::isfinite(v); });
+}
+}  // namespace
+
 GateOutput gate(const Limits& limits, const GateInput& input, GateMemory& memory) noexcept {
   GateOutput output;
-  const bool finite = std::ranges::all_of(input.demand_v, [](double v) { return std::isfinite(v); });
-  output.invalid = input.arrived && !finite;
-  const bool usable = input.arrived && finite;
+  const bool plausible = is_plausible(limits, input.demand_v);
+  output.invalid = input.arrived && !plausible;
+  const bool usable = input.arrived && plausible;
   memory.missing_in_row = usable ? 0 : std::min(memory.missing_in_row + 1, kCountEnd);
   memory.invalid_in_row = output.invalid ? std::min(memory.invalid_in_row + 1, kCountEnd) : 0;
   if (output.invalid) ++memory.rejected_count;

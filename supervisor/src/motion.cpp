@@ -5,14 +5,11 @@
 
 namespace crane::supervisor {
 
-void observe(const Limits& limits, double now_s, std::uint64_t tick, const PerAxis& position,
+void observe(const Limits& limits, double now_s, double sampled_s, const PerAxis& position,
              MotionMemory& memory) noexcept {
-  if (memory.started && tick <= memory.tick) return;
+  if (memory.started && !(sampled_s > memory.sampled_s)) return;
   for (std::size_t i = 0; i < kAxes; ++i) {
-    if (memory.started) {
-      const double elapsed_s = static_cast<double>(tick - memory.tick) * limits.period_s;
-      memory.speed[i] = (position[i] - memory.position[i]) / elapsed_s;
-    }
+    if (memory.started) memory.speed[i] = (position[i] - memory.position[i]) / (sampled_s - memory.sampled_s);
     const double window = limits.axis[i].standstill_speed * limits.standstill_time_s;
     if (!memory.started || std::abs(position[i] - memory.window_position[i]) > window) {
       memory.window_position[i] = position[i];
@@ -20,7 +17,7 @@ void observe(const Limits& limits, double now_s, std::uint64_t tick, const PerAx
     }
   }
   memory.position = position;
-  memory.tick = tick;
+  memory.sampled_s = sampled_s;
   memory.seen_s = now_s;
   memory.started = true;
 }

@@ -25,7 +25,7 @@ constexpr std::array<CauseEntry, kCauses> kTable{{
     {Cause::demand_stale, Reaction::ramped_stop, "DEMAND_STALE",
      "no crane/demand arrives: check planner, tracking, anti_swing and friction_compensation"},
     {Cause::demand_invalid, Reaction::ramped_stop, "DEMAND_INVALID",
-     "a controller publishes values that are not finite: check its gains and inputs"},
+     "a controller publishes values that are not finite, or absurdly large: check its gains and inputs"},
     {Cause::demand_rate, Reaction::ramped_stop, "DEMAND_RATE",
      "the demand jumps, or does not match a crane at rest: check the controller and its reference"},
     {Cause::bridge_latched, Reaction::power_off, "BRIDGE_LATCHED",

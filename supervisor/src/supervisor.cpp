@@ -9,7 +9,8 @@ namespace {
 constexpr int kCounterEnd = 1'000'000;  // counts in a row stop here: a stream may be missing for months
 
 bool all_finite(const Sample& sample) {
-  return std::ranges::all_of(sample.position, [](double x) { return std::isfinite(x); }) &&
+  return std::isfinite(sample.time_s) &&
+         std::ranges::all_of(sample.position, [](double x) { return std::isfinite(x); }) &&
          std::isfinite(sample.swing_radial_rad) && std::isfinite(sample.swing_tangential_rad);
 }
 
@@ -40,7 +41,7 @@ bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memor
     if (memory.motion.started && memory.sample.position_unknown[i] && !input.sample.position_unknown[i])
       rename_place(i, input.sample.position[i], memory.motion, memory.brakes);
   memory.sample = input.sample;
-  observe(limits, input.now_s, input.tick, input.sample.position, memory.motion);
+  observe(limits, input.now_s, input.sample.time_s, input.sample.position, memory.motion);
   for (std::size_t i = 0; i < kAxes; ++i)  // an axis without a zero is homed, whatever was thought of it
     if (memory.sample.position_unknown[i]) memory.restart.doubted[i] = false;
   watch_load(limits, input.now_s, memory.sample.swing_radial_rad, memory.sample.swing_tangential_rad,

@@ -39,6 +39,7 @@ class Timeline {
   double converter_stuck_v = 0;
   bool limit_high = false;
   bool second_writer = false;
+  double late_s = 0;  ///< the board latched this tick so much after its time
   bool unknown = false, homing = false,
        mark = false;  ///< the trolley has no zero; it is homed; it is below its mark
 
@@ -81,6 +82,7 @@ class Timeline {
       command = CommandView{now - 1, drive_v, {release, release, release}, permission, {homing}};
     move();
     Seen seen;
+    seen.time_ns = std::llround((static_cast<double>(now) * kPeriod_s + late_s) * 1e9);
     if (!encoder_dead) shown_m_ = trolley_m + encoder_offset_m;
     seen.coordinate = {shown_m_, 0, 1, swing_rad, 0};
     seen.counts[0] = std::llround(shown_m_ * rig_.encoders[0].counts_per_unit);

@@ -44,6 +44,23 @@ TEST(Coordinate, GivesTheSlopeOfARampWithTheSignOfItsWiring) {
   }
 }
 
+TEST(Coordinate, GivesTheSlopeOfARampWhateverIsLatchedLateOrSkipped) {
+  constexpr double kPeriod_s = 0.01, kSpeed = 1, kCounts = 1e5;
+  Coordinate coordinate{{.channel = 0, .counts_per_unit = kCounts, .sign = 1}, kPeriod_s, 0.05};
+  int before = -1;
+  for (int tick = 0; tick < 400; ++tick) {
+    if (tick % 30 >= 28) continue;  // two ticks are skipped
+    const Latched latched{.ticks = static_cast<std::uint64_t>(tick - before),
+                          .late_s = tick % 7 == 3 ? 0.5 * kPeriod_s : 0};
+    const double time_s = tick * kPeriod_s + latched.late_s;
+    coordinate.step(static_cast<std::int32_t>(std::lround(kSpeed * time_s * kCounts)), latched);
+    before = tick;
+    if (tick > 200) {
+      ASSERT_NEAR(coordinate.rate(), kSpeed, 0.01) << "tick " << tick;
+    }
+  }
+}
+
 TEST(Coordinate, PassesItsPositionOnBehindTheLowPassWhereAskedTo) {
   // Butterworth of order 2 at 5 Hz delays a slow ramp by sqrt(2) / (2 pi 5 Hz) = 45 ms.
   Coordinate bare{{.channel = 0, .counts_per_unit = 1e5, .sign = 1}, 0.01, 0.05};

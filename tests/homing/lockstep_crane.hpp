@@ -50,6 +50,7 @@ class SpoiltBoard final : public bridge::Board {
     return board_->write(outputs);
   }
   void make_safe() noexcept override { board_->make_safe(); }
+  [[nodiscard]] bool simulates_time() const override { return true; }
   void advance_to(std::int64_t time_ns) override { board_->advance_to(time_ns); }
   [[nodiscard]] simulator::SimulatedBoard& crane() { return *crane_; }
 

@@ -33,9 +33,9 @@ TEST(Gate, PassesAnOrdinaryDemandUnchanged) {
   }
 }
 
-TEST(Gate, SaturatesFiniteDemandsWithoutEverStopping) {
+TEST(Gate, SaturatesDemandsOfALawWithoutEverStopping) {
   GateMemory memory;
-  for (const double v : {12.8, 1e6, 1e300, std::numeric_limits<double>::max()}) {
+  for (const double v : {12.8, 65.0, 100.0, 10.0 * kAbsurd}) {
     for (int i = 0; i < 1000; ++i) {
       const GateOutput out = pass(test_limits(), memory, v);
       ASSERT_EQ(out.drive_v[0], 10);
@@ -44,6 +44,19 @@ TEST(Gate, SaturatesFiniteDemandsWithoutEverStopping) {
     }
   }
   EXPECT_EQ(memory.clamped_count, 4000U);
+}
+
+TEST(Gate, RejectsDemandsThatNoLawAsksForAndStopsAtTheThird) {
+  for (const double v : {10.0 * kAbsurd * 1.01, 1e300, -1e300, std::numeric_limits<double>::max()}) {
+    GateMemory memory;
+    pass(test_limits(), memory, 2);
+    for (int i = 0; i < 3; ++i) {
+      const GateOutput out = pass(test_limits(), memory, v);
+      EXPECT_TRUE(out.invalid) << v;
+      EXPECT_LE(out.drive_v[0], 2) << v;
+      EXPECT_EQ(out.cause, i < 2 ? Cause::none : Cause::demand_invalid) << v;
+    }
+  }
 }
 
 TEST(Gate, RejectsAWholeDemandWithOneValueThatIsNotFinite) {

@@ -21,6 +21,23 @@ TEST(Supervisor, StopsBeforeThePositionLimit) {  // S9
   EXPECT_LT(t.world.sample.position[0], t.limits.axis[0].high_limit);
 }
 
+TEST(Supervisor, DividesByTheTimeBetweenTwoSamplesNotByThePeriod) {
+  Timeline t;
+  t.to_run();
+  t.demand(3);
+  t.speed = {0.9, 0, 0};  // max_speed is 1
+  for (int i = 0; i < 20; ++i) {
+    const bool late = i % 4 == 2;
+    t.late_s = late ? 0.5 * t.limits.period_s : 0;
+    const double way = t.speed[0] * t.late_s;
+    t.world.sample.position[0] += way;
+    t.tick();
+    t.world.sample.position[0] -= way;
+    ASSERT_EQ(t.state(), State::run) << name_of(t.cause()) << ", tick " << i;
+    ASSERT_NEAR(t.memory.motion.speed[0], 0.9, 1e-9);
+  }
+}
+
 TEST(Supervisor, CutsPowerBeyondThePositionLimitAndStaysLockedThere) {  // S9
   Timeline t;
   t.to_run();

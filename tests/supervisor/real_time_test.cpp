@@ -2,18 +2,21 @@
 // samples come late, or when the process itself did not get the processor. Times in milliseconds.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "crane/runtime/in_process.hpp"
 #include "process/supervisor_component.hpp"
 
 namespace crane::supervisor {
 namespace {
 
-class RealTime : public testing::Test {
+class SupervisorInRealTime : public testing::Test {
  protected:
   static constexpr std::int64_t kBegin_ns = 1'000'000'000;
 
   /// Ten ticks with everything in time; tick 10 is stepped at 100.5 ms.
-  RealTime() {
+  /// @param bridge_ahead_ns  how far the clock of the bridge's host is ahead of the supervisor's
+  explicit SupervisorInRealTime(std::int64_t bridge_ahead_ns = 0) : bridge_ahead_ns_{bridge_ahead_ns} {
     for (std::uint64_t tick = 1; tick <= 10; ++tick) {
       const double at_ms = 10.0 * static_cast<double>(tick);
       state_comes(tick);
@@ -39,7 +42,7 @@ class RealTime : public testing::Test {
   }
   /// The process gets the processor now.
   void wake_at(double time_ms) {
-    const auto now_ns = kBegin_ns + static_cast<std::int64_t>(time_ms * 1e6);
+    const auto now_ns = kBegin_ns + std::llround(time_ms * 1e6);
     while (supervisor_->poll(now_ns)) continue;
     while (const auto status = statuses_.take()) {
       status_ = *status;
@@ -59,13 +62,14 @@ class RealTime : public testing::Test {
   [[nodiscard]] int steps() const { return steps_; }
 
  private:
-  static msg::Header header(std::uint64_t tick) {
+  [[nodiscard]] msg::Header header(std::uint64_t tick) const {
     msg::Header header{};
     header.tick = tick;
-    header.sample_time_ns = kBegin_ns + static_cast<std::int64_t>(tick) * 10'000'000;
+    header.sample_time_ns = kBegin_ns + bridge_ahead_ns_ + static_cast<std::int64_t>(tick) * 10'000'000;
     header.epoch = 1;
     return header;
   }
+  std::int64_t bridge_ahead_ns_;
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
   bus::Bus plant_{runtime::memory_options(network_, "plant", crane_SOURCE_PLANT)};
   bus::Bus friction_{runtime::memory_options(network_, "friction_compensation", crane_SOURCE_FRICTION)};
@@ -82,6 +86,31 @@ class RealTime : public testing::Test {
   msg::SupervisorStatus status_{};
   int steps_ = 0;
 };
+
+using RealTime = SupervisorInRealTime;
+
+class RealTimeOnTwoHosts : public SupervisorInRealTime, public testing::WithParamInterface<std::int64_t> {
+ protected:
+  RealTimeOnTwoHosts() : SupervisorInRealTime{GetParam()} {}
+};
+
+TEST_P(RealTimeOnTwoHosts, SilenceIsJudgedByTheOwnClock) {
+  state_comes(11);
+  wake_at(110);
+  demand_comes(11);
+  wake_at(110.5);
+  EXPECT_FALSE(state_is_stale());
+  EXPECT_EQ(steps(), 11);
+  sleep_until(139.9);
+  EXPECT_EQ(steps(), 12);
+  EXPECT_FALSE(state_is_stale());
+  sleep_until(155.1);  // 125, 140 and 155 ms
+  EXPECT_EQ(steps(), 14);
+  EXPECT_TRUE(state_is_stale());
+}
+
+INSTANTIATE_TEST_SUITE_P(ClocksAnHourApart, RealTimeOnTwoHosts,
+                         testing::Values(0, 3'600'000'000'000, -3'600'000'000'000));
 
 TEST_F(RealTime, CountsATickWhoseDemandDoesNotComeOnce) {
   state_comes(11);

@@ -42,6 +42,8 @@ class Timeline {
   bool brakes_obey = true;  // false: the brakes stay as they are
   bool axes_slip = false;   // true: closed brakes do not hold
   bool relay_obeys = true;
+  double bridge_clock_ahead_s = 0;  // the bridge runs on another host
+  double late_s = 0;                // the bridge latched this sample so much after its time
 
   TickMemory memory;
   TickOutput out;
@@ -52,6 +54,7 @@ class Timeline {
     }
     ++world.tick;
     world.now_s = static_cast<double>(++elapsed_) * limits.period_s;
+    if (world.state_arrived) world.sample.time_s = world.now_s + bridge_clock_ahead_s + late_s;
     out = step(limits, world, memory);
     world.requests = {};
     world.bridge_restarted = false;

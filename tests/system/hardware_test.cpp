@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstring>
 #include <iostream>
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/boards/linked_rig.hpp"
+#include "crane/bridge/bridge.hpp"
+#include "crane/runtime/in_process.hpp"
+#include "process/hardware_bridge.hpp"
 #include "program_run.hpp"
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
@@ -101,8 +105,31 @@ TEST_P(BridgeDeath, AtFullSpeedClosesTheBrakesWithin50MsOfTheLastToggle) {
   EXPECT_LE(monitor.lines().brakes_closed_ns - toggled_ns, kBound_ns);
 }
 
-INSTANTIATE_TEST_SUITE_P(By, BridgeDeath, testing::Values(SIGKILL, SIGSTOP),
-                         [](const auto& test) { return test.param == SIGKILL ? "SIGKILL" : "SIGSTOP"; });
+// The first four are caught and end the process in order, the others leave it to the relay.
+INSTANTIATE_TEST_SUITE_P(By, BridgeDeath,
+                         testing::Values(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGKILL, SIGSTOP, SIGABRT,
+                                         SIGSEGV),
+                         [](const auto& test) { return "SIG" + std::string{::sigabbrev_np(test.param)}; });
+
+TEST(BridgeProcess, GoesOnWhenItsTerminalIsClosed) {
+  RunningStack running{kDomain, kRig, stack::Plant::hardware};
+  running.session().arm();
+  running.send("hardware_bridge", SIGPIPE);
+  running.forget();
+  running.listen(500ms);
+  ASSERT_GT(running.observer().states().size(), 30U);
+  EXPECT_EQ(running.observer().states().back().latch_reason, crane_LATCH_NONE);
+}
+
+TEST(BridgeProcess, EndsWithTheProgramThatStartedItWhateverItsFileMayDo) {
+  const int not_the_parent = 1;
+  const auto ended =
+      run_program(stack::program_directory() / "crane_hardware_bridge",
+                  {"--rig", stack::find_rig(kRig).string(), "--domain", std::to_string(kDomain), "--crane",
+                   crane_name(), "--parent", std::to_string(not_the_parent)});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.errors, HasSubstr("has ended"));
+}
 
 class HardwareStart : public testing::Test {
  protected:
@@ -127,6 +154,33 @@ TEST_F(HardwareStart, ALockstepRunOnARealCraneIsRefused) {
                             "--out", (directory_ / "out").string()});
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_THAT(ended.errors, HasSubstr("lockstep needs board = \"emulated\""));
+}
+
+TEST(BridgeInLockstep, IsRefusedOnABoardThatDoesNotSimulateTime) {
+  class Real final : public bridge::Board {
+   public:
+    [[nodiscard]] std::string_view name() const override { return "real"; }
+    [[nodiscard]] bridge::Inputs read() override { return {}; }
+    std::array<double, bridge::kDrives> write(const bridge::Outputs& outputs) override {
+      return outputs.drive_v;
+    }
+    void make_safe() noexcept override {}
+    void advance_to(std::int64_t /*time_ns*/) override {}
+  };
+  const auto rig = runtime::load_rig(stack::find_rig(kRig));
+  auto spec = bridge::hardware_bridge_spec();
+  spec.make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
+    return std::make_unique<bridge::Bridge>(context, std::make_unique<Real>());
+  };
+  bus::Bus bus{runtime::memory_options(bus::make_memory_network(), "bridge", crane_SOURCE_BRIDGE)};
+  const auto& none = *control::find_controller("none");
+  EXPECT_NO_THROW((runtime::HostedComponent{bus, spec, rig, none, runtime::Clock::realtime}));
+  try {
+    runtime::HostedComponent{bus, spec, rig, none, runtime::Clock::lockstep};
+    FAIL() << "accepted";
+  } catch (const runtime::ConfigurationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("--clock realtime"));
+  }
 }
 
 TEST_F(HardwareStart, ABridgeWithoutItsRigSaysWhatToStart) {

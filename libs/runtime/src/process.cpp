@@ -1,28 +1,31 @@
 #include "crane/runtime/process.hpp"
 
 #include <sched.h>
+#include <spdlog/async.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/mman.h>
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <random>
+#include <system_error>
 
 #include "crane/runtime/hosted_component.hpp"
+#include "crane/runtime/signals.hpp"
 
 namespace crane::runtime {
 namespace {
 
-volatile std::sig_atomic_t stop_signal = 0;
-
 void sleep_until(std::int64_t time_ns) {
   const timespec at{.tv_sec = time_ns / 1'000'000'000, .tv_nsec = time_ns % 1'000'000'000};
-  ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+  const int error = ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+  if (error != 0 && error != EINTR)  // a signal ends the sleep early: poll() sees that nothing is due yet
+    throw std::system_error{error, std::generic_category(), "clock_nanosleep"};
 }
 
 /// Locks the memory and requests real-time scheduling for every thread of this process: a receive thread of
@@ -41,6 +44,14 @@ void enter_realtime(Node& node, int priority) {
                  "ticks may be late under load; grant CAP_SYS_NICE or start with --priority 0");
     return;
   }
+}
+
+/// A terminal that is stopped (Ctrl-S) or a full pipe blocks whoever writes to it. The loop hands its lines
+/// to a thread; when kMostLines wait, the oldest is dropped.
+void log_without_waiting() {
+  constexpr std::size_t kMostLines = 256;
+  spdlog::init_thread_pool(kMostLines, 1);
+  spdlog::set_default_logger(spdlog::create_async_nb<spdlog::sinks::stderr_color_sink_mt>(""));
 }
 
 void loop(Component& component, bus::Bus& bus) {
@@ -76,15 +87,6 @@ std::int64_t monotonic_ns() {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
   return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
-}
-
-bool stop_requested() { return stop_signal != 0; }
-
-void install_stop_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { stop_signal = signal; };
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
 }
 
 void add_bus_options(CLI::App& app, BusOptions& options) {
@@ -137,6 +139,7 @@ void add_loop_options(CLI::App& app, LoopOptions& options) {
   app.add_option("--priority", options.priority, "SCHED_FIFO priority in realtime, 0: ordinary scheduling")
       ->check(CLI::Range(0, 98))
       ->capture_default_str();
+  app.add_option("--parent", options.parent, "process id of the program that started this one: ends with it");
   app.add_flag("--verbose", options.verbose, "log every detail");
 }
 
@@ -184,15 +187,20 @@ int run_process(int argc, char** argv, const ComponentSpec& spec) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitDone : kExitBadInput;
   }
+  log_without_waiting();
   spdlog::set_level(options.verbose ? spdlog::level::debug : spdlog::level::warn);
   install_stop_signals();
   try {
+    if (options.parent != 0) die_with(options.parent);
     return run(spec, options);
   } catch (const ConfigurationError& error) {
     std::cerr << error.what() << '\n';
     return kExitBadInput;
   } catch (const std::exception& error) {
     std::cerr << spec.program << ": " << error.what() << '\n';
+    return kExitFailed;
+  } catch (...) {  // unwinds the stack: the bridge leaves its board at 0 V with closed brakes
+    std::cerr << spec.program << ": ended by an exception of an unknown type\n";
     return kExitFailed;
   }
 }

@@ -12,17 +12,33 @@ RequestInbox::RequestInbox(const Context& context, std::initializer_list<crane_R
       kinds_{kinds} {}
 
 bool RequestInbox::receive() {
+  constexpr int kMostPerCall = 64;
   bool any = false;
-  while (const auto request = requests_.take()) {
+  for (int taken = 0; taken < kMostPerCall; ++taken) {
+    const auto request = requests_.take();
+    if (!request) break;
     if (std::find(kinds_.begin(), kinds_.end(), request->kind) == kinds_.end()) continue;
     any = true;
+    if (waiting_.size() >= kMostWaiting) {
+      reply(*request, request->header, false, "too many requests wait for their tick: send fewer at a time");
+      continue;
+    }
     waiting_.push_back(*request);
     if (request->apply_tick > 0) reply(*request, request->header, true, "scheduled");
   }
   return any;
 }
 
+void RequestInbox::refuse_too_late(std::uint64_t tick) {
+  std::erase_if(waiting_, [&](const msg::Request& request) {
+    const bool too_late = request.apply_tick > tick && request.apply_tick - tick > kFarthest_ticks;
+    if (too_late) reply(request, request.header, false, "apply_tick lies more than 1000000 ticks ahead");
+    return too_late;
+  });
+}
+
 std::optional<msg::Request> RequestInbox::take_due(std::uint64_t tick) {
+  refuse_too_late(tick);
   const auto due = std::find_if(waiting_.begin(), waiting_.end(),
                                 [tick](const msg::Request& request) { return request.apply_tick <= tick; });
   if (due == waiting_.end()) return std::nullopt;

@@ -9,6 +9,11 @@ void read_limits(TomlTable& root, Rig& rig) {
   limits.stale_after_ticks = table.integer("stale_after_ticks", 1, 100, limits.stale_after_ticks);
   limits.demand_stale_after_ticks =
       table.integer("demand_stale_after_ticks", 1, 100, limits.demand_stale_after_ticks);
+  // The bridge is the last to notice that nobody commands the crane any more.
+  constexpr double kLongestSilence_s = 0.1;
+  if (limits.stale_after_ticks * rig.period_s > kLongestSilence_s + 1e-9)
+    table.problem("stale_after_ticks",
+                  "times period_s must be at most 0.1 s: a crane without commands must stop");
   limits.idle_lock_s = table.number("idle_lock_s", Range::above(0, 86400), limits.idle_lock_s);
 }
 

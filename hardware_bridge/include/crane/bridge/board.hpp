@@ -40,6 +40,8 @@ class Board {
   virtual void make_safe() noexcept = 0;
   /// Lets the rig's own time run on to `time_ns` (simulated boards; a no-op where nature does it).
   virtual void advance_to(std::int64_t time_ns) = 0;
+  /// Time passes on this board only in advance_to(): it can run in lockstep. A rig in nature cannot wait.
+  [[nodiscard]] virtual bool simulates_time() const { return false; }
   /// Adds to the swing rates at this instant: a push against the load. @return false where nature does the
   /// pushing
   virtual bool kick(double /*radial_radps*/, double /*tangential_radps*/) { return false; }

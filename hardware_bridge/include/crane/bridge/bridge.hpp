@@ -41,6 +41,8 @@ class Bridge : public runtime::Component {
   void take_requests();
   void tick(std::int64_t now_ns);
   void apply(Outputs outputs);
+  [[nodiscard]] Latched latched_at(std::optional<std::uint64_t> previous, std::uint64_t next,
+                                   std::int64_t sample_time_ns) const;
   void look_for_marks(const Seen& seen);
   void report_latch();
   void report_relay(const Inputs& inputs, std::int64_t now_ns);

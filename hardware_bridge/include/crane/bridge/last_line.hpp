@@ -26,6 +26,7 @@ struct CommandView {
 
 /// What was measured at the tick that is decided about.
 struct Seen {
+  std::int64_t time_ns = 0;                      ///< when the counters were latched
   std::array<std::int64_t, kCounters> counts{};  ///< unwrapped
   std::array<double, kCounters> coordinate{};    ///< m, rad, m of cable, rad, rad
   std::array<double, kDrives> applied_v{};       ///< what the converters gave since the tick before
@@ -65,7 +66,7 @@ inline constexpr std::size_t kReasons = 15;
 /// One drive axis; unit is m or rad. A limit switch that closes farther inside than the soft margin is a
 /// wrong position.
 struct AxisLine : control::DriveLimits {
-  double certain_motion_v = 5;   ///< more than this moves the axis whatever its friction
+  double certain_motion_v = 5;   ///< more than this moves the axis whatever friction and load do
   double creeping_motion_v = 2;  ///< the same for an axis that creeps to its mark, where less is at stake
   double gain_low = 0;           ///< smallest and largest acceleration per volt, or ...
   double gain_high = 0;

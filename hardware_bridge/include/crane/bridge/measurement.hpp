@@ -21,14 +21,22 @@ class CountUnwrapper {
   bool started_ = false;
 };
 
-/// Position and its rate from one encoder.
+/// Where a sample lies on the grid of ticks.
+struct Latched {
+  std::uint64_t ticks = 1;  ///< since the sample before, >= 1
+  double late_s = 0;        ///< after the time of its tick, >= 0
+};
+
+/// Position and its rate from one encoder. The filters want samples that are a period apart: a sample that
+/// was latched late is moved back to the time of its tick by the present rate, and ticks that were skipped
+/// are filled in between the sample before and this one. The position itself is that of the sample.
 class Coordinate {
  public:
   /// @param cut_off_ratio   of the low-pass in front of the differentiator; 0: none
   /// @param filter_position the position passed on is behind the low-pass, too
   Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio,
              bool filter_position = false);
-  void step(std::int32_t raw_counts) noexcept;
+  void step(std::int32_t raw_counts, const Latched& latched = {}) noexcept;
   /// The same place is `change` counts farther from now on; the axis rests there.
   void shift(std::int64_t change) noexcept;
   [[nodiscard]] std::int64_t counts() const { return counts_; }
@@ -36,6 +44,8 @@ class Coordinate {
   [[nodiscard]] double rate() const { return rate_; }          ///< per second
 
  private:
+  void filter(double position) noexcept;
+
   CountUnwrapper unwrapper_;
   double units_per_count_;
   bool filter_position_;
@@ -46,13 +56,16 @@ class Coordinate {
   std::int64_t shift_ = 0;
   std::int64_t counts_ = 0;
   double position_ = 0, rate_ = 0;
+  double smooth_ = 0;   ///< behind the low-pass
+  double gridded_ = 0;  ///< position at the time of the last tick
 };
 
 class MeasurementPipeline {
  public:
   explicit MeasurementPipeline(const runtime::Rig& rig);
   /// One tick. @return positions, speeds, swing angles and rates in SI units
-  control::Measurement step(const std::array<std::int32_t, kCounters>& raw_counts) noexcept;
+  control::Measurement step(const std::array<std::int32_t, kCounters>& raw_counts,
+                            const Latched& latched = {}) noexcept;
   [[nodiscard]] const std::array<Coordinate, kCounters>& coordinates() const { return coordinates_; }
   /// See Coordinate; acts from the next step on.
   void shift(std::size_t counter, std::int64_t change) noexcept { coordinates_[counter].shift(change); }

@@ -6,16 +6,17 @@ namespace crane::supervisor {
 
 struct MotionMemory {
   bool started = false;
-  std::uint64_t tick = 0;     ///< of `position`
-  double seen_s = 0;          ///< time of `position`
+  double sampled_s = 0;       ///< when `position` was latched, by the clock of the bridge
+  double seen_s = 0;          ///< when it was seen, by the supervisor's clock
   PerAxis position{};         ///< newest sample, unit
   PerAxis speed{};            ///< backward difference of the two newest samples, unit/s
   PerAxis window_position{};  ///< middle of the window the axis has not left since ...
   PerAxis window_since_s{};   ///< ... this time
 };
 
-/// Takes the positions of one tick. A sample of the same or an earlier tick is ignored.
-void observe(const Limits& limits, double now_s, std::uint64_t tick, const PerAxis& position,
+/// Takes the positions of one tick. A speed is the way over the time between the two samples, however late a
+/// tick was. A sample of the same or an earlier time is ignored.
+void observe(const Limits& limits, double now_s, double sampled_s, const PerAxis& position,
              MotionMemory& memory) noexcept;
 
 /// Every present axis has stayed within standstill_speed * standstill_time_s for standstill_time_s.

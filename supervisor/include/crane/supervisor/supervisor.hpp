@@ -11,6 +11,7 @@ namespace crane::supervisor {
 
 /// What crane/state says.
 struct Sample {
+  double time_s = 0;  ///< when it was latched, by the clock of the bridge
   PerAxis position{};
   double swing_radial_rad = 0;
   double swing_tangential_rad = 0;
@@ -27,7 +28,8 @@ struct Sample {
 };
 
 struct TickInput {
-  double now_s = 0;
+  double now_s =
+      0;  ///< by the supervisor's own clock, which never goes back; silence and idle are judged by it
   std::uint64_t tick = 0;
   bool state_arrived = false;  ///< false: the wait for the state ran out; the step is due all the same
   Sample sample{};  ///< read only when state_arrived; a value that is not finite makes it not arrived

@@ -16,6 +16,7 @@ class EmulatedBoard final : public Board {
   std::array<double, kDrives> write(const Outputs& outputs) override { return driver_.write(outputs); }
   void make_safe() noexcept override { driver_.make_safe(); }
   void advance_to(std::int64_t time_ns) override { rig_->advance_to(time_ns); }
+  [[nodiscard]] bool simulates_time() const override { return true; }
   bool kick(double radial_radps, double tangential_radps) override;
 
  private:

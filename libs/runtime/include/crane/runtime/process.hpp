@@ -11,6 +11,7 @@
 
 #include "crane/bus/bus.hpp"
 #include "crane/runtime/component.hpp"
+#include "crane/runtime/signals.hpp"
 
 namespace CLI {
 class App;
@@ -44,6 +45,7 @@ struct LoopOptions {
   std::string clock = "realtime";
   std::uint32_t epoch = 0;  ///< 0: a random start-up number
   int priority = 50;        ///< SCHED_FIFO priority in realtime, 0: ordinary scheduling
+  int parent = 0;           ///< process id; not 0: this process ends with that one
   bool verbose = false;
 };
 void add_loop_options(CLI::App& app, LoopOptions& options);
@@ -65,10 +67,6 @@ void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes);
 
 /// main() of every process of the stack. @return exit code
 int run_process(int argc, char** argv, const ComponentSpec& spec);
-
-/// Set by SIGINT and SIGTERM once install_stop_signals() was called.
-[[nodiscard]] bool stop_requested();
-void install_stop_signals();
 
 [[nodiscard]] std::int64_t monotonic_ns();
 

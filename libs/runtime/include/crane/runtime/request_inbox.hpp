@@ -13,13 +13,21 @@ namespace crane::runtime {
 
 class RequestInbox {
  public:
+  /// Requests that may wait for their tick. A move, its kicks and its stop are a handful; a flood must not
+  /// fill the memory.
+  static constexpr std::size_t kMostWaiting = 256;
+  /// Requests for a later tick than this many from now are refused: 2.8 hours at 100 Hz.
+  static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
+
   /// @param kinds what this process acts on; everything else is ignored
   RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds);
 
-  /// Takes what has arrived; confirms requests for a later tick with the reason "scheduled".
+  /// Takes what has arrived, 64 requests at most; confirms requests for a later tick with the reason
+  /// "scheduled", and refuses those that find no room.
   /// @return true when something arrived
   bool receive();
-  /// The next request due on `tick`, in the order of arrival; nothing when there is none.
+  /// The next request due on `tick`, in the order of arrival; nothing when there is none. Refuses requests
+  /// that are due later than kFarthest_ticks after `tick`.
   [[nodiscard]] std::optional<msg::Request> take_due(std::uint64_t tick);
   void reply(const msg::Request& request, const msg::Header& header, bool accepted, std::string_view reason);
 
@@ -27,6 +35,7 @@ class RequestInbox {
   bus::Subscriber<msg::Request> requests_;
   Output<msg::Reply> replies_;
   std::vector<crane_RequestKind> kinds_;
+  void refuse_too_late(std::uint64_t tick);
   std::vector<msg::Request> waiting_;
 };
 

@@ -46,6 +46,7 @@ class SimulatedBoard final : public bridge::Board {
   /// Integrates to `time_ns`; nothing happens when that is not later than now().
   /// @throws std::runtime_error when integration fails; the rig then stays where it was
   void advance_to(std::int64_t time_ns) override;
+  [[nodiscard]] bool simulates_time() const override { return true; }
   /// Ways the cable cannot swing are left out. @return true
   bool kick(double radial_radps, double tangential_radps) override;
 

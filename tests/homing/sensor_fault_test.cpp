@@ -1,0 +1,53 @@
+// An encoder that dies in a move, in closed loop: the axis is stopped far from the end of its travel.
+#include "lockstep_crane.hpp"
+
+namespace crane::homing_test {
+namespace {
+
+struct FrozenMove {
+  std::size_t axis;
+  double distance;  ///< m or rad
+};
+std::ostream& operator<<(std::ostream& out, const FrozenMove& move) {
+  return out << control::kAxisNames[move.axis] << " by " << move.distance;
+}
+
+runtime::Rig tower() { return runtime::load_rig(CRANE_RIGS "/virginia_tech_tower.toml"); }
+
+class EncoderDies : public testing::TestWithParam<FrozenMove> {};
+
+TEST_P(EncoderDies, AsAMoveBeginsAndTheAxisStopsInsideItsLimits) {
+  const auto [axis, distance] = GetParam();
+  LockstepCrane crane{"simulated", tower(), tower()};
+  crane.arm();
+  ASSERT_EQ(crane.status().state, crane_STATE_HOLD);
+  const double start = crane.truth(axis);
+  std::optional<std::int32_t> frozen;
+  crane.spoil = [&frozen, axis = axis](bridge::Inputs& inputs, const plant::State& /*truth*/) {
+    if (!frozen) frozen = inputs.raw_counts[axis];
+    inputs.raw_counts[axis] = *frozen;
+  };
+  stack::Wish move{.kind = crane_REQUEST_MOVE};
+  move.selected[axis] = true;
+  move.target[axis] = start + distance;
+  ASSERT_EQ(crane.ask(move), "");
+  double farthest = 0;
+  crane.every_tick = [&] { farthest = std::max(farthest, std::abs(crane.truth(axis) - start)); };
+  crane.run_until([&crane] { return crane.state().latch_reason != crane_LATCH_NONE; }, 3);
+  EXPECT_EQ(crane.state().latch_reason, crane_LATCH_ENCODER_FROZEN);
+  crane.run(0.5);
+  EXPECT_TRUE(crane.safe());
+  std::cout << GetParam() << ": stopped after " << farthest << '\n';
+  EXPECT_LT(farthest, 0.1) << "m or rad";
+}
+
+INSTANTIATE_TEST_SUITE_P(InAMove, EncoderDies,
+                         testing::Values(FrozenMove{plant::kTrolley, 0.75}, FrozenMove{plant::kTrolley, 0.5},
+                                         FrozenMove{plant::kTrolley, 1.0}, FrozenMove{plant::kSlew, 1.57}),
+                         [](const auto& test) {
+                           return std::string{control::kAxisNames[test.param.axis]} + "_" +
+                                  std::to_string(std::lround(100 * test.param.distance));
+                         });
+
+}  // namespace
+}  // namespace crane::homing_test

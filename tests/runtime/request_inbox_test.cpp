@@ -1,0 +1,77 @@
+// Requests wait for their tick, in bounds.
+#include "crane/runtime/request_inbox.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "crane/runtime/in_process.hpp"
+
+namespace crane::runtime {
+namespace {
+
+class Inbox : public testing::Test {
+ protected:
+  void send(std::uint64_t id, std::uint64_t apply_tick) {
+    msg::Request request{};
+    request.id = id;
+    request.kind = crane_REQUEST_STOP;
+    request.apply_tick = apply_tick;
+    ASSERT_TRUE(requests_.publish(request));
+  }
+  std::size_t refusals() {
+    std::size_t count = 0;
+    while (const auto reply = replies_.take()) count += reply->accepted ? 0 : 1;
+    return count;
+  }
+
+  std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
+  bus::Bus operator_{memory_options(network_, "operator", crane_SOURCE_OPERATOR)};
+  bus::Publisher<msg::Request> requests_ = operator_.publisher(topics::request);
+  bus::Subscriber<msg::Reply> replies_ = operator_.subscriber(topics::reply);
+  bus::Bus own_{memory_options(network_, "supervisor", crane_SOURCE_SUPERVISOR)};
+  ComponentSpec spec_{.name = "supervisor",
+                      .program = "",
+                      .summary = "",
+                      .source = crane_SOURCE_SUPERVISOR,
+                      .runs_controller = false,
+                      .reads = {{&topics::request.description, ""}},
+                      .writes = {{&topics::reply.description, ""}},
+                      .make = nullptr};
+  const control::Controller& none_ = *control::find_controller("none");
+  Ports ports_{own_, spec_, none_, Clock::realtime};
+  Node node_{own_, {"supervisor", ""}};
+  Rig rig_;
+  RequestInbox inbox_{{ports_, node_, rig_, none_, own_.options(), Clock::realtime}, {crane_REQUEST_STOP}};
+};
+
+TEST_F(Inbox, HandsOutARequestOnItsTickAndNotBefore) {
+  send(1, 20);
+  send(2, 0);
+  inbox_.receive();
+  EXPECT_EQ(inbox_.take_due(19)->id, 2U);
+  EXPECT_FALSE(inbox_.take_due(19));
+  EXPECT_EQ(inbox_.take_due(20)->id, 1U);
+}
+
+TEST_F(Inbox, RefusesARequestForATickThatIsHoursAhead) {
+  send(1, ~std::uint64_t{0});
+  inbox_.receive();
+  EXPECT_FALSE(inbox_.take_due(5));
+  EXPECT_EQ(refusals(), 1U);
+  send(2, 5 + RequestInbox::kFarthest_ticks);
+  inbox_.receive();
+  EXPECT_FALSE(inbox_.take_due(5));
+  EXPECT_EQ(refusals(), 0U);
+}
+
+TEST_F(Inbox, AFloodFillsNeitherItsMemoryNorATick) {
+  for (std::uint64_t id = 1; id <= 1000; ++id) send(id, 500'000);
+  int calls = 0;
+  while (inbox_.receive()) ++calls;
+  EXPECT_GE(calls, 1000 / 64);
+  EXPECT_EQ(refusals(), 1000 - RequestInbox::kMostWaiting);
+}
+
+}  // namespace
+}  // namespace crane::runtime
