@@ -50,6 +50,7 @@ void enter_realtime(Node& node, int priority) {
 /// to a thread; when kMostLines wait, the oldest is dropped.
 void log_without_waiting() {
   constexpr std::size_t kMostLines = 256;
+  spdlog::drop_all();
   spdlog::init_thread_pool(kMostLines, 1);
   spdlog::set_default_logger(spdlog::create_async_nb<spdlog::sinks::stderr_color_sink_mt>(""));
 }
@@ -187,10 +188,10 @@ int run_process(int argc, char** argv, const ComponentSpec& spec) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitDone : kExitBadInput;
   }
-  log_without_waiting();
-  spdlog::set_level(options.verbose ? spdlog::level::debug : spdlog::level::warn);
-  install_stop_signals();
   try {
+    log_without_waiting();
+    spdlog::set_level(options.verbose ? spdlog::level::debug : spdlog::level::warn);
+    install_stop_signals();
     if (options.parent != 0) die_with(options.parent);
     return run(spec, options);
   } catch (const ConfigurationError& error) {
