@@ -54,8 +54,11 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
         table.add({cause.name, cause.axis, e.name, rounded(e.value), rounded(e.std_dev), e.unit});
     table.print(std::cout);
   }
+  for (const auto& cause : diagnosis.attempted)
+    std::cout << "tried: " << cause.name << (cause.axis.empty() ? "" : " (" + cause.axis + ")")
+              << " explains most of it and is not proven as a cause\n";
   const auto& held_out = diagnosis.held_out;
-  if (!diagnosis.extension.empty())
+  if (!diagnosis.extension.empty() && diagnosis.verdict != diagnosis::Verdict::unknown)
     std::cout << "held-out gain " << rounded(held_out.gain) << " [" << rounded(held_out.gain_ci95[0]) << ", "
               << rounded(held_out.gain_ci95[1]) << "] (95 %)\n";
   if (diagnosis.next_experiment)

@@ -46,6 +46,9 @@ ordered_json held_out_json(const HeldOut& held_out) {
           {"noise", held_out.noise},
           {"whole_baseline_rms", held_out.whole_baseline_rms},
           {"whole_extended_rms", held_out.whole_extended_rms},
+          {"held_value_rms", held_out.held_value_rms},
+          {"whole_held_value_rms", held_out.whole_held_value_rms},
+          {"whole_extended_motion", held_out.whole_extended_motion},
           {"gain", held_out.gain},
           {"gain_ci95", held_out.gain_ci95}};
 }
@@ -61,6 +64,7 @@ ordered_json to_json(const Diagnosis& diagnosis) {
   return {{"verdict", name_of(diagnosis.verdict)},
           {"sentence", diagnosis.sentence},
           {"causes", causes_json(diagnosis.causes)},
+          {"attempted", causes_json(diagnosis.attempted)},
           {"ambiguous_with", diagnosis.ambiguous_with},
           {"next_experiment", next},
           {"held_out", held_out_json(diagnosis.held_out)},

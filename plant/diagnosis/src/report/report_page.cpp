@@ -60,12 +60,12 @@ std::vector<double> thinned(const std::vector<double>& values) {
   return result;
 }
 
-report::Table causes_table(const Diagnosis& diagnosis) {
+report::Table causes_table(const std::string& title, const std::vector<Cause>& causes) {
   report::Table table{
-      .title = diagnosis.verdict == Verdict::unknown ? "What known causes explain of it" : "Causes",
+      .title = title,
       .header = {"cause", "axis", "parameters (± standard deviation)", "p value alone", "resamples"},
       .rows = {}};
-  for (const Cause& cause : diagnosis.causes) {
+  for (const Cause& cause : causes) {
     std::string parameters;
     for (const Estimate& e : cause.parameters)
       parameters += (parameters.empty() ? "" : ", ") + e.name + " " + with_std(e);
@@ -95,7 +95,10 @@ report::Section verdict_section(const Diagnosis& diagnosis) {
       report::Verdict{.text = diagnosis.sentence, .tone = tone_of_verdict(diagnosis.verdict)});
   if (!diagnosis.extension.empty())
     section.blocks.emplace_back(report::Paragraph{gain_sentence(diagnosis.held_out)});
-  if (!diagnosis.causes.empty()) section.blocks.emplace_back(causes_table(diagnosis));
+  if (!diagnosis.causes.empty()) section.blocks.emplace_back(causes_table("Causes", diagnosis.causes));
+  if (!diagnosis.attempted.empty())
+    section.blocks.emplace_back(
+        causes_table("Explains most of it, and is not proven as a cause", diagnosis.attempted));
   return section;
 }
 
@@ -108,7 +111,8 @@ Cell in_milli(const std::map<std::string, double>& values, const std::string& co
 report::Table gain_table(const HeldOut& held_out) {
   report::Table table{.title = "Held-out error (rms)",
                       .header = {"column", "unit", "simulation", "extended", "gain [95 % interval]",
-                                 "sensor and disturbance", "simulation, whole run", "extended, whole run"},
+                                 "sensor and disturbance", "first value held", "simulation, whole run",
+                                 "extended, whole run", "first value held, whole run"},
                       .rows = {}};
   for (const char* column : kOutputNames) {
     const auto before = held_out.baseline_rms.find(column), after = held_out.extended_rms.find(column);
@@ -119,8 +123,10 @@ report::Table gain_table(const HeldOut& held_out) {
                           in_milli(held_out.extended_rms, column),
                           report::number(1 - after->second / before->second, 3),
                           in_milli(held_out.noise, column),
+                          in_milli(held_out.held_value_rms, column),
                           in_milli(held_out.whole_baseline_rms, column),
-                          in_milli(held_out.whole_extended_rms, column)});
+                          in_milli(held_out.whole_extended_rms, column),
+                          in_milli(held_out.whole_held_value_rms, column)});
   }
   table.rows.push_back(
       {{"all, weighted by noise"},

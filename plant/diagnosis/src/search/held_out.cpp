@@ -11,12 +11,22 @@ using Eigen::Index;
 
 constexpr int kResamples = 1000;
 
-/// Mean squares of the plain residual by window, for one output of one part.
-std::vector<double> mean_squares(const Problem& problem, const Fits& fits, std::size_t output) {
-  std::vector<double> result = problem.squares_left(fits, output);
-  for (std::size_t w = 0; w < result.size(); ++w) result[w] /= static_cast<double>(problem.windows()[w].rows);
-  return result;
-}
+/// Windows of one part whose starts make the error least, in m or rad: a start that is best in units of a
+/// learnt noise may leave more than standing still.
+struct PlainFits {
+  Problem problem;
+  Fits fits;
+
+  PlainFits(const Problem& windows, const Crane& crane)
+      : problem{windows.plain()}, fits{problem.fit(replays_of(problem.runs(), crane))} {}
+  /// Mean squares by window, of one output.
+  [[nodiscard]] std::vector<double> mean_squares(std::size_t output) const {
+    std::vector<double> result = problem.squares_left(fits, output);
+    for (std::size_t w = 0; w < result.size(); ++w)
+      result[w] /= static_cast<double>(problem.windows()[w].rows);
+    return result;
+  }
+};
 
 double mean(const std::vector<double>& values) {
   double sum = 0;
@@ -43,6 +53,24 @@ double gain_of(const Compared& c, const std::vector<std::vector<std::size_t>>* p
     before += weight * b, after += weight * a;
   }
   return before > 0 ? 1 - std::sqrt(after / before) : 0;
+}
+
+/// Mean squares of measured - first measured value by window, for one output.
+std::vector<double> held_value_squares(const Problem& problem, std::size_t output) {
+  std::vector<double> result;
+  for (const Window& window : problem.windows()) {
+    const auto rows = static_cast<Index>(window.rows);
+    const Eigen::VectorXd part = problem.measured(window).segment(static_cast<Index>(output) * rows, rows);
+    result.push_back((part.array() - part[0]).matrix().squaredNorm() / static_cast<double>(rows));
+  }
+  return result;
+}
+
+double scatter(const std::vector<double>& values) {
+  const double middle = mean(values);
+  double sum = 0;
+  for (const double value : values) sum += (value - middle) * (value - middle);
+  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 /// Every run in open loop, by row.
@@ -93,23 +121,23 @@ std::vector<Trace> traces(const Study& study, const Study& as_measured, const Ef
 HeldOut held_out(const Study& study, const Study& as_measured, const Effects& effects, std::uint64_t seed) {
   HeldOut result;
   if (study.test_drive().empty() && study.test_load().empty()) return result;
-  const Evaluation& before = as_measured.base_test();
-  const Evaluation after = study.test(effects), trained = study.train(effects);
+  const Crane extended = study.with(effects);
   Compared compared;
-  for (const auto& [old_problem, old_fits, problem, new_fits, learned, learned_fits] :
-       {std::tuple{&as_measured.test_drive(), &before.drive, &study.test_drive(), &after.drive,
-                   &study.drive(), &trained.drive},
-        {&as_measured.test_load(), &before.load, &study.test_load(), &after.load, &study.load(),
-         &trained.load}}) {
+  for (const auto& [as_it_was, problem, learned] :
+       {std::tuple{&as_measured.test_drive(), &study.test_drive(), &study.drive()},
+        {&as_measured.test_load(), &study.test_load(), &study.load()}}) {
+    if (problem->empty()) continue;
+    const PlainFits before{*as_it_was, study.base()}, after{*problem, extended}, trained{*learned, extended};
     for (std::size_t o = 0; o < problem->outputs().size(); ++o) {
       const std::string name = kOutputNames[problem->outputs()[o]];
-      compared.before.push_back(mean_squares(*old_problem, *old_fits, o));
-      compared.after.push_back(mean_squares(*problem, *new_fits, o));
+      compared.before.push_back(before.mean_squares(o));
+      compared.after.push_back(after.mean_squares(o));
       compared.noise.push_back(std::max(learned->runs()[0].least_noise[problem->outputs()[o]],
-                                        std::sqrt(mean(mean_squares(*learned, *learned_fits, o)))));
+                                        std::sqrt(mean(trained.mean_squares(o)))));
       result.baseline_rms[name] = std::sqrt(mean(compared.before.back()));
       result.extended_rms[name] = std::sqrt(mean(compared.after.back()));
       result.noise[name] = compared.noise.back();
+      result.held_value_rms[name] = std::sqrt(mean(held_value_squares(*problem, o)));
     }
   }
   result.gain = gain_of(compared, nullptr);
@@ -125,15 +153,20 @@ HeldOut held_out(const Study& study, const Study& as_measured, const Effects& ef
   }
   std::sort(gains.begin(), gains.end());
   result.gain_ci95 = {gains[kResamples * 25 / 1000], gains[kResamples * 975 / 1000]};
-  std::map<std::string, double> rows;
+  std::map<std::string, double> rows, measured_motion, simulated_motion;
   for (const Trace& trace : traces(study, as_measured, effects)) {
+    measured_motion[trace.column] += scatter(trace.measured);
+    simulated_motion[trace.column] += scatter(trace.extended);
     for (std::size_t k = 0; k < trace.measured.size(); ++k) {
+      result.whole_held_value_rms[trace.column] += std::pow(trace.measured[k] - trace.measured[0], 2);
       result.whole_baseline_rms[trace.column] += std::pow(trace.measured[k] - trace.baseline[k], 2);
       result.whole_extended_rms[trace.column] += std::pow(trace.measured[k] - trace.extended[k], 2);
     }
     rows[trace.column] += static_cast<double>(trace.measured.size());
   }
-  for (auto* rms : {&result.whole_baseline_rms, &result.whole_extended_rms})
+  for (const auto& [name, motion] : measured_motion)
+    result.whole_extended_motion[name] = motion > 0 ? simulated_motion[name] / motion : 1;
+  for (auto* rms : {&result.whole_baseline_rms, &result.whole_extended_rms, &result.whole_held_value_rms})
     for (auto& [name, value] : *rms) value = std::sqrt(value / rows[name]);
   return result;
 }

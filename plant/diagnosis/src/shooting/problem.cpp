@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "noise/paces.hpp"
@@ -29,15 +30,21 @@ constexpr int kLearningRounds = 3;
 /// A start direction that changes the window less than this share of the strongest one cannot be solved for:
 /// the speed of an axis that sticks is forgotten at once.
 constexpr double kLeastSlope = 0.001;
-/// The measurement knows the start better than this; a larger correction in one round is not believed.
+/// Largest correction of a start in the first round [m or rad, per s]: the measurement usually knows it
+/// better. Of a swing, each round that helps doubles the largest correction of the next one (trust region).
 constexpr double kMostPosition = 0.01, kMostRate = 0.1;
+/// A swing of whose motion a start leaves more than this share is looked for from other beginnings, too.
+constexpr double kPoorlyFollowed = 0.3;
+/// Linearisations of one start, at most: the pendulum is nearly linear in its start.
+constexpr int kLinearisations = 4;
 /// Nothing measures a term's own coordinates: so many times that.
 constexpr double kMostInnerStart = 20;
 
 /// @param measured numbers of the start that the measurement knows about
-VectorXd believable(VectorXd change, Index measured) {
+/// @param trust multiple of the largest correction
+VectorXd believable(VectorXd change, Index measured, double trust) {
   for (Index i = 0; i < change.size(); ++i) {
-    const double freer = i < measured ? 1 : kMostInnerStart;
+    const double freer = trust * (i < measured ? 1 : kMostInnerStart);
     const double most = freer * (i % 2 == 0 ? kMostPosition : kMostRate);
     change[i] = std::isfinite(change[i]) ? std::clamp(change[i], -most, most) : 0.0;
   }
@@ -120,6 +127,13 @@ void Problem::learn_disturbance(const Replays& crane) {
                               disturbances_.empty() ? Disturbance{} : disturbances_[output]));
     whiten_with(std::move(learned));
   }
+}
+
+Problem Problem::plain() const {
+  Problem copy = *this;
+  copy.disturbances_.clear();
+  copy.whiteners_.clear();
+  return copy;
 }
 
 std::vector<double> Problem::squares_left(const Fits& fits, std::size_t output) const {
@@ -215,26 +229,70 @@ void Problem::settle_start(const Replay& replay, std::size_t at, const VectorXd&
                            WindowFit& fit) const {
   fit.residual = target - fit.simulated;
   whiten(at, fit.residual);
+  double trust = 1;
   for (int round = 1; round < kStartRounds; ++round) {
     const double found = disturbances_.empty() ? kPlainStartFound * fit.residual.squaredNorm() : kStartFound;
     if ((fit.basis.transpose() * fit.residual).squaredNorm() < found) return;
-    const VectorXd start = fit.start + believable(fit.to_start * fit.residual, bare_start());
+    const VectorXd start = fit.start + believable(fit.to_start * fit.residual, bare_start(), trust);
     VectorXd simulated = simulate(replay, windows_[at], start);
     VectorXd residual = target - simulated;
     whiten(at, residual);
-    if (residual.squaredNorm() >= fit.residual.squaredNorm()) return;
+    if (!(residual.squaredNorm() < fit.residual.squaredNorm())) {
+      if (trust <= 1) return;
+      trust /= 4;
+      continue;
+    }
+    if (part_ == Part::load) trust *= 2;
     fit.start = start;
     fit.simulated = std::move(simulated);
     fit.residual = std::move(residual);
   }
 }
 
+WindowFit Problem::fit_from(const Replay& replay, std::size_t at, const VectorXd& target,
+                            const VectorXd& begin) const {
+  constexpr double kStillGains = 0.99;
+  WindowFit fit;
+  fit.start = begin;
+  double before = std::numeric_limits<double>::infinity();
+  const int most = part_ == Part::load ? kLinearisations : 1;
+  for (int round = 0; round < most; ++round) {
+    linearise(replay, at, fit);
+    settle_start(replay, at, target, fit);
+    const double left = fit.residual.squaredNorm();
+    if (!(left < kStillGains * before)) break;
+    before = left;
+  }
+  return fit;
+}
+
+bool Problem::poorly_followed(const VectorXd& target, const VectorXd& simulated) const {
+  const auto rows = target.size() / static_cast<Index>(outputs_.size());
+  for (Index first = 0; first < target.size(); first += rows) {
+    const auto part = target.segment(first, rows);
+    const double moves = (part.array() - part.mean()).matrix().squaredNorm();
+    if (!((part - simulated.segment(first, rows)).squaredNorm() <= kPoorlyFollowed * moves)) return true;
+  }
+  return false;
+}
+
+/// The measured start is a derivative of noise, of an averaging sensor, or of what no model explains: where
+/// the swing that follows from it does not look like the measured one, the best start is looked for from
+/// rest, and from the measured angle without its rate, too. What stands still is one of them: no window is
+/// worse than it.
 void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) const {
-  const Window& window = windows_[at];
-  fit.start = fit.measured_start = measured_start(replay, window);
-  const VectorXd target = measured(window);
-  linearise(replay, at, fit);
-  settle_start(replay, at, target, fit);
+  const VectorXd target = measured(windows_[at]), begin = measured_start(replay, windows_[at]);
+  fit = fit_from(replay, at, target, begin);
+  if (part_ == Part::load && poorly_followed(target, fit.simulated)) {
+    VectorXd without_rate = begin;
+    for (Index i = 1; i < bare_start(); i += 2) without_rate[i] = 0;
+    const VectorXd at_rest = VectorXd::Zero(begin.size());
+    for (const VectorXd& other : {without_rate, at_rest}) {
+      WindowFit found = fit_from(replay, at, target, other);
+      if (found.residual.squaredNorm() < fit.residual.squaredNorm()) fit = std::move(found);
+    }
+  }
+  fit.measured_start = begin;
   linearise(replay, at, fit);
   fit.residual = target - fit.simulated;
   whiten(at, fit.residual);

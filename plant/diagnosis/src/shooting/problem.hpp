@@ -68,6 +68,8 @@ class Problem {
   /// its price
   [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane, const Fits& at, double step,
                                                     double* own = nullptr) const;
+  /// The same windows with plain residuals: starts that make the error in m or rad least.
+  [[nodiscard]] Problem plain() const;
   /// Measured rows of a window, outputs one after the other.
   [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
   /// Sums of squares of measured - simulated by window, not whitened, of one output.
@@ -93,6 +95,11 @@ class Problem {
   void settle_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
                     WindowFit& fit) const;
   void fit_start(const Replay& replay, std::size_t window, WindowFit& fit) const;
+  /// A local optimum of the start, from one beginning.
+  [[nodiscard]] WindowFit fit_from(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
+                                   const Eigen::VectorXd& begin) const;
+  /// Whether a simulation leaves much of the motion of an output.
+  [[nodiscard]] bool poorly_followed(const Eigen::VectorXd& target, const Eigen::VectorXd& simulated) const;
 
   const Runs& runs_;
   Part part_;

@@ -131,9 +131,12 @@ std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& e
       axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
   const Replays replays = replays_of(train_.runs, with(effects));
   std::vector<Shape> shapes;
+  // An axis at rest shows waves of any length in a hair of travel; a term has bounds.
+  const FreeParameter& period = candidate.parameters[2];
   for (const PositionWave& wave : strongest_waves(pieces_of(train_.runs, replays, axis), kWaves))
-    shapes.push_back(
-        {{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}, true});
+    if (wave.period >= period.low && wave.period <= period.high)
+      shapes.push_back(
+          {{candidate.setting({wave.amplitude / gain, wave.phase_rad, wave.period})}, {1.0}, true});
   return shapes;
 }
 

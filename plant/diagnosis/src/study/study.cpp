@@ -62,10 +62,11 @@ void Noise::take_likelier(const Noise& other) {
 
 Study::Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded)
-    : base_{rig.plant, rig.terms},
+    : natural_radps_{diagnosis::natural_radps(rig)},
+      base_{rig.plant, rig.terms},
       candidates_(candidates_for(rig, train)),
-      train_(train, natural_radps(rig)),
-      test_(test, natural_radps(rig)) {
+      train_(train, natural_radps_),
+      test_(test, natural_radps_) {
   std::erase_if(candidates_, [&](const Candidate& candidate) {
     return std::find(excluded.begin(), excluded.end(), candidate.cause) != excluded.end();
   });

@@ -87,6 +87,7 @@ class Study {
 
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
   [[nodiscard]] const Crane& base() const { return base_; }
+  [[nodiscard]] double natural_radps() const { return natural_radps_; }  ///< of the load, rad/s
   [[nodiscard]] Crane with(const Effects& effects) const;
 
   /// Learns noise and disturbance from what the base model with the effects leaves, and evaluates the base
@@ -156,6 +157,7 @@ class Study {
   void evaluate_base();
   [[nodiscard]] Evaluation evaluate(const Body& body, const Effects& effects, const Evaluation& near) const;
 
+  double natural_radps_;
   Crane base_;
   std::vector<Candidate> candidates_;
   Body train_, test_;

@@ -1,7 +1,11 @@
 #include "verdict/judgement.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
 #include <map>
+#include <numbers>
+#include <sstream>
 
 #include "robust.hpp"
 #include "search/compare.hpp"
@@ -17,6 +21,10 @@ constexpr double kWorst = 1.25;
 /// makes it: the right model leaves a few hundredths. One of less than so much [rad] is not asked. Drives are
 /// not: where one sticks and slips, the right model leaves as much.
 constexpr double kNotFollowed = 0.4, kMoves = 0.01;
+/// Disturbance that is credible on a load, rms, as a share of its weight: half a newton on two kilograms, as
+/// wind and hands at a laboratory's crane make it. A model that lacks a larger force lacks more than a
+/// disturbance.
+constexpr double kCredibleForce = 0.03;
 constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
 
@@ -40,6 +48,31 @@ double share_not_followed(const Problem& problem, const Fits& fits, std::size_t 
     count += static_cast<double>(rows);
   }
   return moved > kMoves * kMoves * count ? std::sqrt(sum(problem.squares_left(fits, output)) / moved) : 0;
+}
+
+/// Force on the load that the simulation lacks, rms, as a share of the load's weight: that of a pendulum of
+/// the natural frequency w whose residual is r, F / m g = r'' / w^2 + r. The second difference spans an
+/// eighth of a period, so that counts and noise of the sensor do not make it.
+double lacking_force(const Problem& problem, const Fits& fits, std::size_t output, double natural_radps) {
+  constexpr double kSpan_periods = 1.0 / 8;
+  double squares = 0, count = 0;
+  for (std::size_t w = 0; w < fits.size(); ++w) {
+    const Window& window = problem.windows()[w];
+    const double period_s = problem.runs()[window.run].run.period_s;
+    const auto rows = static_cast<Eigen::Index>(window.rows);
+    const auto span = static_cast<Eigen::Index>(
+        std::lround(kSpan_periods * 2 * std::numbers::pi / natural_radps / period_s));
+    if (span < 1 || rows <= 2 * span) continue;
+    const Eigen::VectorXd left = (problem.measured(window) - fits[w].simulated)
+                                     .segment(static_cast<Eigen::Index>(output) * rows, rows);
+    const double scale = 1 / std::pow(static_cast<double>(span) * period_s * natural_radps, 2);
+    for (Eigen::Index k = span; k + span < rows; ++k) {
+      const double force = scale * (left[k + span] - 2 * left[k] + left[k - span]) + left[k];
+      squares += force * force;
+      ++count;
+    }
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
 class Judgement {
@@ -75,8 +108,8 @@ class Judgement {
                                " than sensor noise and a coloured force leave");
       return true;
     }
-    if (const char* column = not_followed()) {
-      remainder.from.push_back(std::string{"the simulation hardly follows "} + column);
+    if (const std::string lacking = not_followed(); !lacking.empty()) {
+      remainder.from.push_back(lacking);
       return true;
     }
     const std::vector<Pattern> left = what_is_left(study_, all_, losing_, seed_);
@@ -88,13 +121,22 @@ class Judgement {
                        [&](const Pattern& pattern) { return doubtful(pattern, best_.effects); });
   }
 
-  /// Name of a swing that is not simulated at all.
-  [[nodiscard]] const char* not_followed() const {
-    const std::vector<Output>& outputs = study_.load().outputs();
-    for (std::size_t output = 0; output < outputs.size(); ++output)
-      if (share_not_followed(study_.load(), best_.train.load, output) > kNotFollowed)
-        return kOutputNames[outputs[output]];
-    return nullptr;
+  /// A swing that is hardly simulated, for want of a force that no credible disturbance is; empty: none.
+  [[nodiscard]] std::string not_followed() const {
+    if (study_.load().empty()) return "";
+    const Problem plain = study_.load().plain();
+    const Fits fits = plain.fit(replays_of(plain.runs(), study_.with(best_.effects)));
+    const std::vector<Output>& outputs = plain.outputs();
+    for (std::size_t output = 0; output < outputs.size(); ++output) {
+      if (share_not_followed(plain, fits, output) <= kNotFollowed) continue;
+      const double force = lacking_force(plain, fits, output, study_.natural_radps());
+      if (force > kCredibleForce)
+        return (std::ostringstream{} << std::setprecision(2) << "the simulation of "
+                                     << kOutputNames[outputs[output]] << " lacks a force on the load of "
+                                     << 100 * force << " % of its weight, rms")
+            .str();
+    }
+    return "";
   }
 
   /// Who wins among all hypotheses of the best one's size that explain something. One that the held-out data

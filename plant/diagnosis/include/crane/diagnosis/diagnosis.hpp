@@ -46,6 +46,11 @@ struct HeldOut {
   /// What sensors and disturbance alone give: training error of the extended model, m or rad.
   std::map<std::string, double> noise;
   std::map<std::string, double> whole_baseline_rms, whole_extended_rms;  ///< whole runs, open loop
+  /// What a model leaves that holds the first measured value, in windows and over whole runs. A simulation
+  /// that is no better than this says nothing about the motion.
+  std::map<std::string, double> held_value_rms, whole_held_value_rms;
+  /// Share of the measured motion over whole runs that the extended model makes: 0 where it stands still.
+  std::map<std::string, double> whole_extended_motion;
   double gain = 0;  ///< 1 - extended / baseline, noise-weighted
   std::array<double, 2> gain_ci95{0, 0};
 };
@@ -71,8 +76,9 @@ struct Trace {
 
 struct Diagnosis {
   Verdict verdict = Verdict::none;
-  std::string sentence;  ///< the verdict in words
-  std::vector<Cause> causes;
+  std::string sentence;          ///< the verdict in words
+  std::vector<Cause> causes;     ///< proven, or ambiguous
+  std::vector<Cause> attempted;  ///< unknown: what explains most of it; no cause
   std::vector<std::string> ambiguous_with;
   std::optional<NextExperiment> next_experiment;
   HeldOut held_out;
