@@ -1,5 +1,5 @@
 #pragma once
-/// The rig as one experiment runs it, as a file for processes and for whoever wants to run it again.
+/// The rig as one experiment runs it, as a file for the processes of the experiment and for a repetition.
 #include <filesystem>
 
 #include "crane/runtime/rig.hpp"

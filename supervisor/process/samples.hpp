@@ -1,5 +1,5 @@
 #pragma once
-/// Topic samples as the logic wants them, and back.
+/// Conversion between topic samples and the types of the supervisor's logic.
 #include "crane/supervisor/supervisor.hpp"
 #include "crane/topics.hpp"
 

@@ -73,7 +73,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     step(input);
   }
 
-  /// No state comes: the bridge is dead, hung or cut off. Says so, and asks for nothing.
+  /// No state arrives: the bridge is dead, hung or cut off. Steps the state machine without a sample; the
+  /// command repeats the last tick, and the bridge discards it.
   bool on_idle(std::int64_t now_ns) override {
     if (const auto* state = open_leader()) (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
     if (now_ns < silence_ends_ns() || woke_late(now_ns)) return false;

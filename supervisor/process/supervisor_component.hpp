@@ -8,7 +8,7 @@ namespace crane::supervisor {
 
 [[nodiscard]] runtime::ComponentSpec supervisor_spec();
 
-/// What the rig file says, as the logic wants it.
+/// Limits of the supervisor from the rig file.
 [[nodiscard]] Limits limits_of(const runtime::Rig& rig);
 
 }  // namespace crane::supervisor

@@ -64,7 +64,7 @@ TEST(Starts, LeaveNoWindowWorseThanStandingStillWhateverLineIsOnTheSwing) {
 }
 
 TEST(ParallelFor, AnExceptionOfOneLoopDoesNotCutTheLoopsInsideItsOtherIterationsShort) {
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < 5000; ++round) {
     std::atomic<bool> whole{true};
     EXPECT_THROW(parallel_for(8,
                               [&](std::size_t i) {

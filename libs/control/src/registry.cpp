@@ -75,7 +75,9 @@ std::vector<std::string> problems(const Controller& controller, const Design& de
     places += (i == 0 ? "" : ", ") + missing[i];
   if (missing.size() > kNamed) places += " and " + std::to_string(missing.size() - kNamed) + " more";
   return {std::string(controller.name) + ": no rule for " + places +
-          ": delayed_1 with these gains and scales never comes by"};
+          ": the rules are read off runs of delayed_1, and with these gains and scales no run reaches these "
+          "places; "
+          "change fuzzy_swing_rad, fuzzy_swing_rate or the gains of delayed_1"};
 }
 
 const Controller* find_controller(std::string_view name) {

@@ -8,7 +8,8 @@
 
 namespace crane::diagnosis {
 
-/// Squares find the way from afar, where the robust loss has valleys of its own.
+/// Gauss-Newton on squares initialises a fit; the Cauchy loss, which has local minima far away, is minimised
+/// then.
 enum class Loss { squares, robust };
 
 /// Standard deviations squared.

@@ -32,7 +32,7 @@ struct Seen {
   std::array<double, kDrives> applied_v{};       ///< what the converters gave since the tick before
   std::array<bool, kDrives> brake_closed{};
   std::array<bool, kDrives> limit_low{}, limit_high{};
-  std::array<bool, kDrives> unknown{};  ///< the axis has to be homed: its coordinate counts from anywhere
+  std::array<bool, kDrives> unknown{};  ///< the axis has to be homed: its coordinate has no known origin
   std::array<bool, kDrives> mark{};     ///< see mark_active()
   bool second_writer = false;           ///< crane/command has had another writer within the last second
 };

@@ -6,8 +6,8 @@
 namespace crane::diagnosis {
 namespace {
 
-/// m/s or rad/s. Friction makes up its mind below the first; slower than the second from row to row is a
-/// turn or the end of a motion, slower than the third for several rows standstill.
+/// Speeds in m/s or rad/s. Below kSlow the time of stick and slip cannot be predicted. Below kTurning, from
+/// row to row, the axis turns or comes to rest. Below kStill, for several rows, it is at standstill.
 constexpr double kSlow = 0.02, kTurning = 2e-3, kStill = 1e-3;
 /// Half widths, in rows, over which a speed is taken and a standstill lasts.
 constexpr std::size_t kSpeedRows = 3, kStillRows = 5;

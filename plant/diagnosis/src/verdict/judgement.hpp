@@ -18,7 +18,7 @@ struct Judged {
 /// @param why what the remainder goes with
 void doubt(Diagnosis& diagnosis, const std::string& why);
 
-/// @param losing encoders of which jumps were put back: what is left of those is no riddle
+/// @param losing encoders whose jumps were put back: residuals that go with them are explained
 [[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses,
                            const std::vector<LosingEncoder>& losing, std::uint64_t seed);
 

@@ -17,7 +17,7 @@ struct Pattern {
 };
 
 /// Patterns in the residual of the drives and lines in that of the swing, strongest first.
-/// @param losing encoders of which jumps were put back: what is left of those is no riddle
+/// @param losing encoders whose jumps were put back: residuals that go with them are explained
 [[nodiscard]] std::vector<Pattern> what_is_left(const Study& study, const Hypotheses& hypotheses,
                                                 const std::vector<LosingEncoder>& losing, std::uint64_t seed);
 

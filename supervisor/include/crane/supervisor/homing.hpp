@@ -17,9 +17,9 @@ enum class HomingPhase : std::uint8_t {
 };
 
 struct HomingInput {
-  double position = 0;       ///< unit, from anywhere
-  bool mark_active = false;  ///< the mark's switch is closed by the axis
-  bool mark_found = false;   ///< the bridge has seen it twice at the same place
+  double position = 0;       ///< unit; its origin is unknown
+  bool mark_active = false;  ///< the axis is at its homing mark
+  bool mark_found = false;   ///< the bridge has seen the mark twice at the same place
   bool other_switch =
       false;  ///< the limit switch at the end that the mark is not at; both, for a mark of its own
 };

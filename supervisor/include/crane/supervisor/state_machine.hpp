@@ -22,9 +22,10 @@ struct Inputs {
   bool bridge_latched = false;    ///< the bridge holds 0 V and closed brakes by itself
   bool watchdog_dropped = false;  ///< the relay has removed the brake supply
   bool second_writer = false;
-  bool bridge_restarted = false;    ///< another bridge, of which nothing has been tested yet
-  bool place_unclear = false;       ///< with it, the place of some axis that the reset does not confirm
-  std::size_t unclear_axis = 0;     ///< the first of them, < kAxes
+  bool bridge_restarted = false;  ///< another bridge writes crane/state; it is not tested yet
+  bool place_unclear =
+      false;  ///< since that restart: an axis may stand elsewhere, and the reset does not confirm it
+  std::size_t unclear_axis = 0;     ///< the first such axis, < kAxes
   bool load_unclear = false;        ///< the load did not hang still when the bridge started
   bool overrun = false;             ///< too many late ticks in a row
   bool brake_failed = false;        ///< see motion.hpp

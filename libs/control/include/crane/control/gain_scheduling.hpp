@@ -62,17 +62,17 @@ struct ForwardGains {
   double trolley = 0, slew = 0;
 };
 
-/// K of the full-state feedback for the move under way. Whenever the reference of an axis changes it is
-/// chosen anew, as large as full_feedback_gain_pm where K (reference - position) stays within volts_left_v(),
-/// smaller for longer distances; while the reference rests K stays. Tracking and anti-swing each have one:
-/// the same samples in the same order give both the same K, bit for bit. One that has lost the tick of the
-/// change chooses at the next: a crane at rest has not moved by then.
+/// K of the full-state feedback for the move under way. K is recomputed whenever the reference of an axis
+/// changes: it is full_feedback_gain_pm where K (reference - position) stays within volts_left_v(), and
+/// smaller for longer distances. While the reference rests, K is constant. Tracking and anti-swing each hold
+/// a ForwardGain: the same samples in the same order give both the same K, bit for bit. A process that missed
+/// the tick of the change recomputes K at the next tick; a crane at rest has not moved by then.
 class ForwardGain {
  public:
   explicit ForwardGain(const Design& design) noexcept;
   [[nodiscard]] ForwardGains step(const Design& design, const Measurement& measured,
                                   const Reference& reference) noexcept;
-  /// The next reference counts as a new one.
+  /// Treats the next reference as a new one.
   void reset() noexcept;
 
  private:

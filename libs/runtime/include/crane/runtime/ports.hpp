@@ -13,8 +13,9 @@
 namespace crane::runtime {
 
 enum class Clock : std::uint8_t {
-  realtime,  ///< the clock master ticks with CLOCK_MONOTONIC; who is late is left behind
-  lockstep   ///< the plant advances when command k has come; nobody is ever late, and runs repeat bit for bit
+  realtime,  ///< the clock master ticks with CLOCK_MONOTONIC; processes that are late lose the tick
+  lockstep   ///< the plant advances when command k has come; no process is ever late, and runs repeat bit for
+             ///< bit
 };
 
 /// Endpoints of the loop. In real time only what comes from now on counts; in lockstep every tick from the
