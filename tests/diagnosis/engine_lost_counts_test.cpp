@@ -72,6 +72,31 @@ TEST(LostCounts, AreCountedAndPutBackToAFewCounts) {
   }
 }
 
+/// A position sensor of 50 nm that is sampled at 1 kHz shows the roughness of the motion, not its counts; a
+/// coarse one shows its counts.
+TEST(LostCounts, AreNoneWhateverTheResolutionOfTheSensorAndTheNoiseOfTheMotion) {
+  for (const double finer : {1.0, 100.0, 0.01}) {
+    auto rig = rig_of_losses();
+    rig.encoders[kTrolleyPosition].counts_per_unit *= finer;
+    const double counts_per_m = rig.encoders[kTrolleyPosition].counts_per_unit;
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      std::mt19937_64 random(seed);
+      std::normal_distribution<double> gauss(0, 1e-6);
+      std::exponential_distribution<double> tail(1e6);
+      diagnosis::Run run;
+      run.period_s = 0.001;
+      for (int k = 0; k < 12000; ++k) {
+        const double t = run.period_s * k;
+        const double noise = gauss(random) + (random() % 2 == 0 ? 1 : -1) * tail(random);
+        const double position = 0.5 + 0.2 * std::sin(2 * t) + 0.005 * std::sin(23 * t) + noise;
+        run.measured[kTrolleyPosition].push_back(std::round(position * counts_per_m) / counts_per_m);
+        run.command_v.emplace_back();
+      }
+      EXPECT_TRUE(losing_encoders({run}, rig).empty()) << "counts " << finer << " times finer, seed " << seed;
+    }
+  }
+}
+
 TEST(LostCounts, AreNoneInAMotionThatIsMeasuredWhole) {
   EXPECT_TRUE(losing_encoders({counted(swinging_rad)}, rig_of_losses()).empty());
 }

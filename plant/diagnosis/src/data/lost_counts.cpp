@@ -12,6 +12,11 @@ namespace {
 /// A clear jump is so many counts and so many times the changes of speed around it.
 constexpr double kCounts = 12, kClear = 4;
 constexpr std::size_t kFewest = 5;
+/// ... and beyond what motion and sensor make likely: false jumps that are accepted in a run, on average,
+/// where the steps around are noise with the tails of a Laplace distribution.
+constexpr double kFalseJumps = 0.01;
+/// Rows on each side that tell the noise of the steps around a row.
+constexpr std::size_t kNoiseRows = 50;
 /// Of an encoder that is known to lose counts, jumps of this share of the usual one are believed, where the
 /// motion around is rough, too.
 constexpr double kUsualShare = 0.4;
@@ -31,14 +36,35 @@ std::vector<double> steps_of(const std::vector<double>& position) {
   return steps;
 }
 
+/// How far each step lies from the mean of its neighbours; 0 at the ends.
+std::vector<double> deviations_of(const std::vector<double>& steps) {
+  std::vector<double> deviations(steps.size(), 0.0);
+  for (std::size_t k = 1; k + 1 < steps.size(); ++k)
+    deviations[k] = steps[k] - 0.5 * (steps[k - 1] + steps[k + 1]);
+  return deviations;
+}
+
+/// What a deviation has to exceed not to be noise of the rows around: a Laplace distribution whose median
+/// deviation is that of these rows exceeds b ln(1/p) with probability p.
+double beyond_noise(const std::vector<double>& deviations, std::size_t k) {
+  const std::size_t first = k - std::min(k, kNoiseRows),
+                    last = std::min(k + kNoiseRows + 1, deviations.size());
+  std::vector<double> around;
+  for (std::size_t i = first; i < last; ++i) around.push_back(std::abs(deviations[i]));
+  const double b = median(std::move(around)) / std::log(2.0);
+  return b * std::log(static_cast<double>(deviations.size()) / kFalseJumps);
+}
+
 std::vector<Jump> clear_jumps(const std::vector<double>& position, double count) {
   std::vector<Jump> found;
-  const std::vector<double> s = steps_of(position);
+  const std::vector<double> s = steps_of(position), deviations = deviations_of(s);
   for (std::size_t k = 2; k + 2 < s.size(); ++k) {
-    const double size = s[k] - 0.5 * (s[k - 1] + s[k + 1]);
+    const double size = deviations[k];
     const double rough = std::max(
         {std::abs(s[k + 1] - s[k - 1]), std::abs(s[k - 2] - s[k - 1]), std::abs(s[k + 2] - s[k + 1])});
-    if (std::abs(size) > kClear * rough && std::abs(size) > kCounts * count) found.push_back({k + 1, size});
+    if (std::abs(size) > kClear * rough && std::abs(size) > kCounts * count &&
+        std::abs(size) > beyond_noise(deviations, k))
+      found.push_back({k + 1, size});
   }
   return found;
 }
