@@ -20,10 +20,11 @@ std::map<std::string, std::string> vendors_from(const std::vector<std::string>& 
     const auto vendor = equals == std::string::npos ? "" : entry.substr(equals + 1);
     const bool known = std::any_of(specs.begin(), specs.end(),
                                    [&](const runtime::ComponentSpec& spec) { return spec.name == name; });
-    const std::string option = "--dds-for " + entry;
-    if (!known) problems.push_back(option + ": no process is called '" + name + "'");
-    if (vendor != "cyclone" && vendor != "fastdds")
-      problems.push_back(option + ": vendor must be cyclone or fastdds");
+    const auto refuse = [&](const std::string& why) {
+      problems.push_back("--dds-for " + entry + ": " + why);
+    };
+    if (!known) refuse("no process is called '" + name + "'");
+    if (vendor != "cyclone" && vendor != "fastdds") refuse("vendor must be cyclone or fastdds");
     vendors[name] = vendor;
   }
   if (!problems.empty()) throw runtime::ConfigurationError{std::move(problems)};

@@ -11,13 +11,13 @@
 namespace crane::stack {
 
 struct Tick {
-  const msg::State* state;
-  const msg::Reference* reference;
-  const msg::Contribution* tracking;
-  const msg::Contribution* anti_swing;
-  const msg::Demand* demand;
-  const msg::Command* command;
-  const msg::SupervisorStatus* supervisor;
+  const msg::State* state = nullptr;
+  const msg::Reference* reference = nullptr;
+  const msg::Contribution* tracking = nullptr;
+  const msg::Contribution* anti_swing = nullptr;
+  const msg::Demand* demand = nullptr;
+  const msg::Command* command = nullptr;
+  const msg::SupervisorStatus* supervisor = nullptr;
   const msg::Twin* twin = nullptr;  ///< null: no twin runs
 };
 

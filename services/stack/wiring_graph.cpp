@@ -10,7 +10,6 @@ namespace crane::stack {
 namespace {
 
 using runtime::ComponentSpec;
-using runtime::Read;
 using runtime::Write;
 using topics::Description;
 

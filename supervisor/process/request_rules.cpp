@@ -83,7 +83,7 @@ std::string problem_of(const msg::Request& request, const Limits& limits) {
     const auto& axis = limits.axis[i];
     if (!axis.present) return std::string{"this rig has no "} + kAxisNames[i] + " drive";
     if (home) continue;
-    if (const auto problem = target_problem(request, axis, i); !problem.empty()) return problem;
+    if (auto problem = target_problem(request, axis, i); !problem.empty()) return problem;
   }
   if (selected == 0) return "no axis selected";
   if (request.kind == crane_REQUEST_MOVE) return "";

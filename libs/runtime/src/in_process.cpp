@@ -1,5 +1,7 @@
 #include "crane/runtime/in_process.hpp"
 
+#include "crane/runtime/process.hpp"
+
 namespace crane::runtime {
 namespace {
 constexpr std::uint32_t kEpoch = 1;  // as `crane run` gives its processes in lockstep
