@@ -1,6 +1,6 @@
 #pragma once
-/// Who belongs to a stack. The topics each process reads and writes stand in its own header; idl/README.md
-/// draws them.
+/// The components of a stack. Each ComponentSpec declares the topics it reads and writes; `crane graph` and
+/// docs/architecture.md show all of them.
 #include <vector>
 
 #include "crane/runtime/process.hpp"

@@ -110,8 +110,7 @@ std::vector<ComponentSpec> all_components() {
 }
 
 std::string wiring_table(const std::vector<ComponentSpec>& components) {
-  std::string table =
-      "| topic | type | written by | read by | quality of service |\n|---|---|---|---|---|\n";
+  std::string table = "| topic | type | written by | read by | quality of service |\n|---|---|---|---|---|\n";
   for (const auto& topic : topics::kAll) {
     const std::string type{topic.type.substr(topic.type.rfind(':') + 1)};
     table += "| `" + std::string{topic.name} + "` | " + type + " | " +
@@ -138,7 +137,8 @@ std::string component_table(const std::vector<ComponentSpec>& components) {
 
 std::string wiring_mermaid(const std::vector<ComponentSpec>& components) {
   std::string chart =
-      "flowchart LR\n  plant[\"plant or hardware_bridge<br/>(clock master)\"]\n  operator((operator tools))\n";
+      "flowchart LR\n  plant[\"plant or hardware_bridge<br/>(clock master)\"]\n  operator((operator "
+      "tools))\n";
   for (const auto& arrow : arrows_of(components))
     chart += "  " + arrow.from + " -- " + arrow.topic + " --> " + arrow.to + "\n";
   return chart;

@@ -1,6 +1,6 @@
 #pragma once
-/// The wiring of a stack, drawn from what its components declare: as a table and a diagram for the documents, as
-/// dot or JSON for tools.
+/// The wiring of a stack, drawn from what its components declare: as a table and a diagram for the documents,
+/// as dot or JSON for tools.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>

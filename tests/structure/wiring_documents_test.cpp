@@ -1,5 +1,5 @@
-// The documents show the wiring that the components declare. What differs is printed with the command that makes
-// the right text.
+// The documents show the wiring that the components declare. What differs is printed with the command that
+// makes the right text.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -18,7 +18,8 @@ std::string text_of(const std::string& file) {
   return text.str();
 }
 
-/// The text between "<!-- crane graph --format FORMAT -->" and "<!-- end -->", without the fence of a diagram.
+/// The text between "<!-- crane graph --format FORMAT -->" and "<!-- end -->", without the fence of a
+/// diagram.
 std::string generated_part(const std::string& file, const std::string& format) {
   const auto text = text_of(file);
   const auto begin = "<!-- crane graph --format " + format + " -->\n";
