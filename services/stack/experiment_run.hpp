@@ -35,14 +35,17 @@ struct ExperimentResult {
   double real_time_factor = 0;  ///< simulated time over wall time, from the first tick to the last
 };
 
-/// @throws runtime::ConfigurationError for bad files or names (nothing has been started then), RunError,
+/// @throws configuration::ConfigurationError for bad files or names (nothing has been started then),
+/// RunError,
 ///   recording::WriteError, experiment::PictureError
 [[nodiscard]] ExperimentResult run_experiment(const ExperimentOptions& options);
 
 /// A scenario on the rig as it starts it, in this process. @throws RunError
-[[nodiscard]] RunOutcome run_in_process(const runtime::Rig& started, const control::Controller& controller,
+[[nodiscard]] RunOutcome run_in_process(const configuration::Rig& started,
+                                        const control::Controller& controller,
                                         const experiment::Scenario& scenario, TickLog& log,
-                                        Plant plant = Plant::simulated, const runtime::Rig* twin = nullptr);
+                                        Plant plant = Plant::simulated,
+                                        const configuration::Rig* twin = nullptr);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const ExperimentResult& result);
 

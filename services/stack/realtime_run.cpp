@@ -69,7 +69,8 @@ recording::Table run_in_realtime(const RealtimeRunOptions& options, const experi
                                .controller = options.controller};
   if (options.plant == Plant::simulated) launch_options.bus.crane += "_run_" + std::to_string(::getpid());
   ChildProcesses children;
-  if (options.plant == Plant::hardware) launch_rig(children, runtime::load_rig(options.rig), launch_options);
+  if (options.plant == Plant::hardware)
+    launch_rig(children, configuration::load_rig(options.rig), launch_options);
   launch(children, specs, launch_options);
   auto observer = launch_options.bus;
   observer.vendor = "fastdds";  // observers run on the other vendor

@@ -100,7 +100,8 @@ RigMonitor::RigMonitor(const std::string& name) {
   if (!file_) throw BoardError("no emulated rig of this crane runs");
 }
 
-RigServer::RigServer(const runtime::Rig& rig, const std::string& name, bool lockstep, int model) : rig_{rig} {
+RigServer::RigServer(const configuration::Rig& rig, const std::string& name, bool lockstep, int model)
+    : rig_{rig} {
   for (int i = 0; i < 2 && lines_ == nullptr; ++i) {
     file_ = std::make_unique<SharedFile>(name);
     if (!file_->take(Role::rig))

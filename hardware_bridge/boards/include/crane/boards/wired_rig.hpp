@@ -11,7 +11,7 @@ namespace crane::bridge {
 class WiredRig final : public EmulatedRig {
  public:
   /// @throws std::invalid_argument naming every problem of the rig
-  explicit WiredRig(const runtime::Rig& rig);
+  explicit WiredRig(const configuration::Rig& rig);
 
   [[nodiscard]] std::int32_t pulses(std::size_t channel) noexcept override;
   [[nodiscard]] std::uint16_t inputs() noexcept override;
@@ -32,9 +32,9 @@ class WiredRig final : public EmulatedRig {
   [[nodiscard]] const std::array<double, kDrives>& drive_v() const { return outputs_.drive_v; }
 
  private:
-  std::array<runtime::Encoder, kCounters> encoders_;
-  std::array<runtime::Drive, kDrives> drives_;
-  runtime::Wiring wiring_;
+  std::array<configuration::Encoder, kCounters> encoders_;
+  std::array<configuration::Drive, kDrives> drives_;
+  configuration::Wiring wiring_;
   CardState card_;
   simulator::SimulatedBoard crane_;
   std::array<std::int32_t, kCounters> first_counts_;
