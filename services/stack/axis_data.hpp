@@ -6,11 +6,6 @@
 
 namespace crane::stack {
 
-/// "trolley", "slew", "hoist"
-[[nodiscard]] const char* axis_name(std::size_t axis);
-/// "m", "rad"
-[[nodiscard]] const char* axis_unit(std::size_t axis);
-
 /// Rows of a canonical table with time_s in [from_s, to_s]; volts less those that the load takes, (3.37),
 /// (3.38) by the measured swing and the rig's masses.
 /// @param axis  trolley or slew

@@ -4,6 +4,7 @@
 
 #include "crane/control/zero_phase.hpp"
 #include "crane/experiment/curves.hpp"
+#include "crane/plant/coordinates.hpp"
 #include "stack/axis_data.hpp"
 
 namespace crane::stack {
@@ -56,10 +57,10 @@ void draw_friction(const std::filesystem::path& file, const FrictionExperimentRe
   const std::string unit = trolley ? "m" : "rad";
   const auto& estimates = result.estimates;
   const auto rows = measured_friction(data, estimates.midpoint.gain.value);
-  const std::string position = std::string{axis_name(result.axis)} + " [" + unit + "]";
+  const std::string position = std::string{plant::kCoordinates[result.axis].name} + " [" + unit + "]";
   experiment::draw_curves(
       file,
-      result.rig + ", " + axis_name(result.axis) +
+      result.rig + ", " + plant::kCoordinates[result.axis].name +
           ": friction measured and fitted; steps against the linear axis",
       {{"speed [" + unit + "/s]",
         "friction [V]",

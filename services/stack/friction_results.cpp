@@ -1,6 +1,8 @@
 /// What the experiment leaves: estimates by both regressions, the rig file, the figures.
 #include <cmath>
 
+#include "crane/plant/coordinates.hpp"
+
 #include "stack/axis_data.hpp"
 #include "stack/friction_experiment.hpp"
 
@@ -73,9 +75,10 @@ std::string friction_fragment(const std::filesystem::path& rig, std::size_t axis
     return line(key, s.mean_v,
                 "spread " + shortest(std::round(s.spread_v * 1e5) / 1e5) + " of " + std::to_string(s.count));
   };
-  return "# Friction of the " + std::string{axis_name(axis)} +
+  return "# Friction of the " + std::string{plant::kCoordinates[axis].name} +
          " as identified: what the compensation takes off. After +-: one standard error.\nextends = \"" +
-         std::filesystem::absolute(rig).string() + "\"\n\n[controller.friction." + axis_name(axis) + "]\n" +
+         std::filesystem::absolute(rig).string() + "\"\n\n[controller.friction." +
+         plant::kCoordinates[axis].name + "]\n" +
          estimate("viscous_positive_" + per_speed, friction.viscous_positive) +
          estimate("viscous_negative_" + per_speed, friction.viscous_negative) +
          estimate("coulomb_positive_v", friction.coulomb_positive) +
@@ -96,8 +99,8 @@ nlohmann::ordered_json to_json(const FrictionEstimates& estimates) {
 
 nlohmann::ordered_json to_json(const FrictionExperimentResult& result) {
   nlohmann::ordered_json json{{"rig", result.rig},
-                              {"axis", axis_name(result.axis)},
-                              {"unit", axis_unit(result.axis)},
+                              {"axis", plant::kCoordinates[result.axis].name},
+                              {"unit", plant::kCoordinates[result.axis].unit},
                               {"amplitude_share", result.amplitude_share}};
   json.update(to_json(result.estimates));
   json["stiction"] = {{"positive", json_of(result.stiction.positive)},

@@ -6,9 +6,8 @@
 
 namespace crane::stack {
 
-/// Writes a rig file that extends that of `rig` and reads back as `started`: a scenario (scenario.hpp) and
-/// variants (variant.hpp) have been applied to it, nothing else. @throws RunError when it cannot be written
-void write_started_rig(const std::filesystem::path& file, const configuration::Rig& rig,
-                       const configuration::Rig& started);
+/// Writes every field of the rig: processes that read the file run the same rig, bit for bit, whatever a
+/// scenario and variants have changed. @throws RunError when it cannot be written
+void write_started_rig(const std::filesystem::path& file, const configuration::Rig& started);
 
 }  // namespace crane::stack

@@ -1,12 +1,9 @@
 #pragma once
 /// What one motor axis may do, and how its zero is known: one description for the rig file, the supervisor
 /// and the bridge's last line. "unit" is m (trolley, hoist) or rad (slew).
-#include <array>
 #include <cstdint>
 
 namespace crane::control {
-
-inline constexpr std::array<const char*, 3> kAxisNames{"trolley", "slew", "hoist"};
 
 /// How it is known where an axis stands.
 enum class Zero : std::uint8_t {
@@ -31,20 +28,24 @@ struct Homing {
   double volt_limit_v = 5;    ///< most volts for an axis without a zero, > 0
   /// From here the mark is reached by going down: -1, or up: 1.
   [[nodiscard]] double direction() const { return mark == Mark::limit_high ? 1 : -1; }
+
+  bool operator==(const Homing&) const = default;
 };
+
+/// Ranges: drive_limit_fields.hpp.
 
 struct DriveLimits {
   bool present = false;
-  double volt_limit_v = 10;           ///< |V| <=, in (0, 10]
-  double volt_rate_limit_vps = 1000;  ///< V/s, > 0
+  double volt_limit_v = 10;           ///< |V| <=
+  double volt_rate_limit_vps = 1000;  ///< V/s
   double low_limit = 0;               ///< hard limit, unit
-  double high_limit = 0;              ///< hard limit, unit, > low_limit
-  double soft_margin = 0;             ///< operator targets stay this far inside the hard limits, unit, >= 0
-  double max_speed = 0;               ///< overspeed trip, unit/s, > 0
-  double brake_deceleration = 0;      ///< what the closed brake gives at least, unit/s^2, > 0
-  double brake_close_time_s = 0.02;   ///< >= 0
-  double brake_open_time_s = 0.02;    ///< >= 0
-  double standstill_speed = 0.005;    ///< slower than this counts as standing, unit/s, > 0
+  double high_limit = 0;              ///< hard limit, unit
+  double soft_margin = 0;             ///< operator targets stay this far inside the hard limits, unit
+  double max_speed = 0;               ///< overspeed trip, unit/s
+  double brake_deceleration = 0;      ///< what the closed brake gives at least, unit/s^2
+  double brake_close_time_s = 0.02;
+  double brake_open_time_s = 0.02;
+  double standstill_speed = 0.005;  ///< slower than this counts as standing, unit/s, > 0
   double brake_slip = 0.02;  ///< displacement a closed brake may allow beyond the braking distance, unit, > 0
   Zero zero = Zero::start;
   Homing homing{};  ///< where zero is Zero::homing
@@ -53,6 +54,8 @@ struct DriveLimits {
   /// What the counter of an axis that homes is preset to. The end that is farther from the mark: whatever
   /// stands between, what is shown on the way to the mark stays inside the limits.
   [[nodiscard]] double unhomed_position() const { return homing.direction() < 0 ? high_limit : low_limit; }
+
+  bool operator==(const DriveLimits&) const = default;
 };
 
 }  // namespace crane::control

@@ -51,22 +51,26 @@ class Law {
 enum class ReferenceShape { step, bang_coast_bang };
 
 /// Friction estimate of one drive in volts (b/K_m, c/K_m) and the rule that compensates it, (3.1)-(3.5).
+/// Ranges: design_fields.hpp.
 struct DriveFriction {
-  double viscous_positive_vspm = 0;  ///< b+/K_m [V per m/s or rad/s], >= 0
+  double viscous_positive_vspm = 0;  ///< b+/K_m [V per m/s or rad/s]
   double viscous_negative_vspm = 0;  ///< b-/K_m
-  double coulomb_positive_v = 0;     ///< c+/K_m, >= 0
+  double coulomb_positive_v = 0;     ///< c+/K_m
   double coulomb_negative_v = 0;
-  double stiction_positive_v = 0;  ///< f_s+ at standstill, >= 0
+  double stiction_positive_v = 0;  ///< f_s+ at standstill
   double stiction_negative_v = 0;
-  double stiction_slope_per_v = 100;  ///< A of (3.2), > 0
-  double zero_band_mps = 0.005;       ///< d_s of (3.3): |speed| below it counts as standstill, > 0
-  double factor = 0;                  ///< share that is compensated: 0 off, 1 exact, in [0, 1.5]
+  double stiction_slope_per_v = 100;  ///< A of (3.2)
+  double zero_band_mps = 0.005;       ///< d_s of (3.3): |speed| below it counts as standstill
+  double factor = 0;                  ///< share that is compensated: 0 off, 1 exact
 
   /// All problems at once as "name = value: rule"; empty when usable.
   [[nodiscard]] std::vector<std::string> problems() const;
+
+  bool operator==(const DriveFriction&) const = default;
 };
 
 /// Everything a controller is designed from: the rig as the controller believes it to be, and the choices.
+/// Ranges: design_fields.hpp.
 struct Design {
   plant::Parameters crane;                       ///< nominal parameters
   double period_s = 0.01;                        ///< tick
@@ -84,13 +88,15 @@ struct Design {
   double anti_swing_derivative = 8;              ///< K_ds of (3.45)
   double delayed_2_gain = -0.33;                 ///< K_del of (3.50), tower sign
   double delayed_2_delay = 0.31;                 ///< tau_del in periods of the load
-  double fuzzy_swing_rad = 0.17453292519943295;  ///< swing that is PB, phi_max of (3.51), > 0
-  double fuzzy_swing_rate = 1.5;                 ///< swing rate that is PB, rad per load period (3.51), > 0
-  double fuzzy_gain = -90;                       ///< K_V / phi_max of (3.51), tower sign, not 0
-  double fuzzy_point_a = 1.0 / 3;                ///< peak of PS (figure 3.20), > 0
-  double fuzzy_point_b = 2.0 / 3;                ///< peak of PM, in (a, 1)
-  double shortest_cable_length_m = 0.1;          ///< laws take the measured length into this range, > 0 ...
+  double fuzzy_swing_rad = 0.17453292519943295;  ///< swing that is PB, phi_max of (3.51)
+  double fuzzy_swing_rate = 1.5;                 ///< swing rate that is PB, rad per load period (3.51)
+  double fuzzy_gain = -90;                       ///< K_V / phi_max of (3.51), tower sign
+  double fuzzy_point_a = 1.0 / 3;                ///< peak of PS (figure 3.20)
+  double fuzzy_point_b = 2.0 / 3;                ///< peak of PM
+  double shortest_cable_length_m = 0.1;          ///< laws take the measured length into this range ...
   double longest_cable_length_m = 100;           ///< ... which also bounds the memory of the delayed laws
+
+  bool operator==(const Design&) const = default;
 };
 
 /// All problems at once as "name = value: rule", those of the crane and of the friction included; empty when

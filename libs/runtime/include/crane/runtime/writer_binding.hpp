@@ -6,7 +6,7 @@
 /// that does not come from it (another DDS writer, another source or another start-up number in the header)
 /// is foreign: it is not handed out, and the topic is disputed. A process that was started anew takes over
 /// only after the bound writer has been silent for kSilence_ns; whoever moves the crane has stopped long
-/// before (stale_after_ticks), so that a takeover always ends in a state that waits for an operator.
+/// before (stale_after_s), so that a takeover always ends in a state that waits for an operator.
 #include <cstdint>
 #include <optional>
 #include <string>
