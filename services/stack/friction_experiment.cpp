@@ -115,9 +115,7 @@ class Experiment {
     const auto& trolley = rig_.drives[plant::kTrolley];
     if (options_.axis == plant::kSlew && trolley.present)
       start_[plant::kTrolley] = trolley.low_limit + 1.05 * trolley.soft_margin;
-    const bool loaded =
-        rig_.kind == configuration::RigKind::tower || rig_.kind == configuration::RigKind::gantry;
-    if (!loaded) return;
+    if (!rig_.carries_load()) return;
     constexpr double kSwingShare = 0.35;  // of the limit: friction adds harmonics that no reference has
     limits_.swing_rad = kSwingShare * rig_.limits.swing_limit_rad;
     limits_.load = {

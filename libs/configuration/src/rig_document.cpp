@@ -1,6 +1,7 @@
 #include "crane/configuration/rig_document.hpp"
 
 #include "crane/configuration/rig_fields.hpp"
+#include "crane/plant/term.hpp"
 #include "section_reader.hpp"
 
 namespace crane::configuration {
@@ -91,10 +92,37 @@ SectionTable section_table(std::string section, const std::array<Field<Sections>
                                   (rows(tables, Sections{}) + ...)};
 }
 
+const char* acts_on_text(plant::ActsOn acts_on) {
+  constexpr std::array kTexts{"parameters", "command", "drive", "load", "structure", "sensor"};
+  return kTexts.at(static_cast<std::size_t>(acts_on));
+}
+
+/// "`level_v` V, [-10, 10], 0: c / K_m"
+std::string parameter_text(const plant::TermParameter& parameter) {
+  return '`' + std::string{parameter.name} + "` " + std::string{parameter.unit} + ", " +
+         Range::closed(parameter.low, parameter.high).interval() + ", " +
+         shortest_number(parameter.default_value) + ": " + std::string{parameter.meaning};
+}
+
+SectionTable terms_table() {
+  std::string rows = "| name | acts on | axes | parameters: unit, range, default |\n|---|---|---|---|\n";
+  for (const auto& kind : plant::term_kinds()) {
+    std::string axes, parameters;
+    for (const auto& axis : kind.axes)
+      axes += (axes.empty() ? "" : ", ") + (axis.empty() ? std::string{"none"} : std::string{axis});
+    for (const auto& parameter : kind.parameters)
+      parameters += (parameters.empty() ? "" : "; ") + parameter_text(parameter);
+    rows += "| `" + std::string{kind.name} + "` | " + acts_on_text(kind.acts_on) + " | " + axes + " | " +
+            parameters + " |\n";
+  }
+  return {"model.terms", rows};
+}
+
 }  // namespace
 
 std::vector<SectionTable> section_tables() {
-  return {section_table("rig", kRigFields),
+  return {terms_table(),
+          section_table("rig", kRigFields),
           section_table("plant", plant::kParameterFields),
           section_table("drive", kDriveFields, control::kDriveLimitFields),
           section_table("encoder", kEncoderFields, kZeroFields),

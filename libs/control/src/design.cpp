@@ -38,7 +38,7 @@ std::vector<Contradiction> contradictions(const Design& design) {
   std::vector<Contradiction> found;
   const double length_m = design.cable_length_m;
   const auto lengths = fields::Range::closed(design.shortest_cable_length_m, design.longest_cable_length_m);
-  if (std::isfinite(length_m) && !lengths.contains(length_m))
+  if (std::isfinite(length_m) && lengths.low <= lengths.high && !lengths.contains(length_m))
     found.push_back({"cable_length_m", length_m, lengths.rule()});
   if (design.fuzzy_gain == 0) found.push_back({"fuzzy_gain", 0, "must not be 0"});
   if (design.fuzzy_point_b < design.fuzzy_point_a + kLeastDistance)
