@@ -20,7 +20,7 @@ enum class RigKind { tower, gantry, drive_axis, pendulum };
 
 /// Incremental encoder of one coordinate.
 struct Encoder {
-  int channel = 0;  ///< board counter channel, 0..7
+  int channel = 0;  ///< board counter channel
   double counts_per_unit =
       0;         ///< counts per m or rad of the coordinate (quadrature and gear included); 0: no such encoder
   int sign = 1;  ///< +1 or -1: which way it counts
@@ -30,7 +30,7 @@ struct Encoder {
 
 /// One motor axis: wiring, limits, brake.
 struct Drive : control::DriveLimits {
-  int dac_channel = 0;                ///< board analog output, 0..7
+  int dac_channel = 0;                ///< board analog output
   int sign = 1;                       ///< +1 or -1: which way a positive voltage moves it
   double reference_speed = 0;         ///< planner: V_max of (3.43), per second
   double reference_acceleration = 0;  ///< planner: a_max of (3.43), per second squared
@@ -62,12 +62,12 @@ struct DriveLines {
 /// What is connected to which line of the board; counters and analog outputs stand with encoders and drives.
 /// Inputs are contacts to ground, closed when all is well, so that a broken wire reads as trouble.
 struct Wiring {
-  int base_address = 0x200;             ///< servo_to_go: 0x200 + 0x20 n, n = 0..15
+  int base_address = 0x200;             ///< servo_to_go: 0x200 + 0x20 n
   std::string device = "/dev/comedi0";  ///< comedi: device file, and its subdevices; those of an s626
   int counter_subdevice = 5, analog_output_subdevice = 1, input_subdevice = 2, output_subdevice = 3;
-  int estop_input = 0;            ///< 0..15; contact opens with the emergency stop
-  int relay_closed_input = 10;    ///< 0..15; contact closes with the watchdog relay
-  int watchdog_output = 19;       ///< 16..31; has to toggle every tick
+  int estop_input = 0;            ///< contact opens with the emergency stop
+  int relay_closed_input = 10;    ///< contact closes with the watchdog relay
+  int watchdog_output = 19;       ///< has to toggle every tick
   double relay_timeout_s = 0.05;  ///< the watchdog relay drops when its input has not changed for longer
   std::array<DriveLines, plant::kAxes> drives{{{1, 2, 7, 16}, {3, 4, 8, 17}, {5, 6, 9, 18}}};
 

@@ -22,10 +22,10 @@ enum class Mark : std::uint8_t {
 struct Homing {
   Mark mark = Mark::limit_low;
   double position = 0;  ///< where the mark's switch changes, unit
-  double speed = 0;     ///< of the search, and the fastest that an axis without a zero may creep, unit/s, > 0
-  double approach_speed = 0;  ///< of the second approach, which counts, unit/s, in (0, speed]
-  double back_off = 0;        ///< beyond the opening of the switch, unit, > 0
-  double volt_limit_v = 5;    ///< most volts for an axis without a zero, > 0
+  double speed = 0;     ///< of the search, and the fastest that an axis without a zero may creep, unit/s
+  double approach_speed = 0;  ///< of the second approach, which counts, unit/s
+  double back_off = 0;        ///< beyond the opening of the switch, unit
+  double volt_limit_v = 5;    ///< most volts for an axis without a zero
   /// From here the mark is reached by going down: -1, or up: 1.
   [[nodiscard]] double direction() const { return mark == Mark::limit_high ? 1 : -1; }
 

@@ -16,7 +16,7 @@ using PerAxis = std::array<double, kAxes>;
 
 /// Ranges: parameter_fields.hpp.
 struct Parameters {
-  double gravity_mps2 = 9.81;         ///< g, > 0
+  double gravity_mps2 = 9.81;         ///< g
   double trolley_inertia_kg = 22.46;  ///< M, inertia on x'' (trolley, leadscrew, motor) (4.3)
   double trolley_mass_kg = 1.97;      ///< M_j, mass in every rotational and centrifugal term
   double load_mass_kg = 2.0;          ///< m
