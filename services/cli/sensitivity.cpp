@@ -12,7 +12,7 @@ namespace crane::cli {
 namespace {
 
 using control::Design;
-using stack::PlannedRun;
+using experiments::PlannedRun;
 
 constexpr double kSwingDegrees = 180 / std::numbers::pi;
 

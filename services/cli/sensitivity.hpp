@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "stack/comparison_run.hpp"
+#include "experiments/comparison_run.hpp"
 
 namespace crane::cli {
 
@@ -16,7 +16,7 @@ struct Departure {
   std::string quantity;  ///< "cable_length", ...; empty: nothing departs
   std::string unit;      ///< of value
   double value = 0;
-  std::function<void(stack::PlannedRun&)> change;
+  std::function<void(experiments::PlannedRun&)> change;
 };
 
 /// Delay of the Butterworth low-pass of order 2 for slow signals, sqrt(2) / (2 pi cut-off). @pre
@@ -31,7 +31,7 @@ struct Departure {
 ///   swing_filter                   the same filter also on the swing angles, its cut-off
 ///   swing_filter_for_delay         the same, and the delayed law's own delay less that of the filter
 ///   gain                           -50 to 50 % of the forward gain K or of the anti-swing law's own gains
-[[nodiscard]] std::vector<Departure> departures(const stack::PlannedRun& plan);
+[[nodiscard]] std::vector<Departure> departures(const experiments::PlannedRun& plan);
 
 struct DepartedRun {
   std::string quantity, unit;

@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "process/twin_component.hpp"
+#include "crane/twin/component.hpp"
 
 namespace crane::stack {
 

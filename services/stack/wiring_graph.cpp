@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "process/hardware_bridge.hpp"
-#include "process/twin_component.hpp"
+#include "crane/bridge/component.hpp"
+#include "crane/twin/component.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::stack {

@@ -11,14 +11,14 @@
 namespace crane::cli {
 namespace {
 
-stack::PlannedRun plan_with(const std::string& controller) {
+experiments::PlannedRun plan_with(const std::string& controller) {
   const auto rig = runtime::load_rig(stack::find_rig("virginia_tech_tower"));
   return {experiment::load_scenario(stack::find_scenario("maneuver_1"), &rig), rig,
           control::find_controller(controller), ""};
 }
 
 /// The plan as the named departure changes it.
-stack::PlannedRun departed(const std::string& controller, const std::string& quantity, double value) {
+experiments::PlannedRun departed(const std::string& controller, const std::string& quantity, double value) {
   auto plan = plan_with(controller);
   for (const auto& departure : departures(plan))
     if (departure.quantity == quantity && departure.value == value) {

@@ -1,4 +1,4 @@
-#include "stack/started_rig_file.hpp"
+#include "experiments/started_rig_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include "crane/experiment/variant.hpp"
 #include "stack/data_files.hpp"
 
-namespace crane::stack {
+namespace crane::experiments {
 namespace {
 
 class StartedRigFile : public testing::TestWithParam<std::string> {};
@@ -54,4 +54,4 @@ INSTANTIATE_TEST_SUITE_P(Variants, StartedRigFile, testing::ValuesIn(every_varia
 });
 
 }  // namespace
-}  // namespace crane::stack
+}  // namespace crane::experiments

@@ -3,10 +3,10 @@
 
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/scenario.hpp"
+#include "experiments/experiment_run.hpp"
 #include "stack/data_files.hpp"
-#include "stack/experiment_run.hpp"
 
-namespace crane::stack {
+namespace crane::experiments {
 namespace {
 
 constexpr double kMiddle_m = 0.75;
@@ -69,4 +69,4 @@ TEST(FollowRequest, IsRefusedWithoutAPhase) {
 }
 
 }  // namespace
-}  // namespace crane::stack
+}  // namespace crane::experiments

@@ -1,5 +1,5 @@
 /// The guided experiment on the whole stack: the simulated rigs' own friction comes back.
-#include "stack/friction_experiment.hpp"
+#include "identification/friction_experiment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/experiment/scenario.hpp"
-#include "stack/axis_data.hpp"
+#include "identification/axis_data.hpp"
 #include "stack/data_files.hpp"
 
-namespace crane::stack {
+namespace crane::identification {
 namespace {
 
 struct Case {
@@ -114,4 +114,4 @@ TEST(AxisData, RefusesARunWithGaps) {
 }
 
 }  // namespace
-}  // namespace crane::stack
+}  // namespace crane::identification

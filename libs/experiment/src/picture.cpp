@@ -6,11 +6,12 @@
 #include <numbers>
 #include <vector>
 
-#include "gnuplot.hpp"
+#include "crane/plot/gnuplot.hpp"
 
 namespace crane::experiment {
 namespace {
 
+using plot::quoted;
 using recording::shortest;
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
@@ -192,7 +193,7 @@ void draw_maneuver(const std::filesystem::path& file, const Caption& caption, st
                    const Maneuver& maneuver, const Metrics& metrics) {
   const double zero_s = maneuver.first_action_s;
   if (run.empty() || !(run.back().time_s > zero_s))
-    throw PictureError(file.string() + ": the run has nothing to draw");
+    throw plot::PictureError(file.string() + ": the run has nothing to draw");
   const std::vector<Panel> panels = panels_of(maneuver);
   const double height = kTop + kBottom + kPanelHeight * static_cast<double>(panels.size());
   std::string script = data_block(run, zero_s);
@@ -208,7 +209,7 @@ void draw_maneuver(const std::filesystem::path& file, const Caption& caption, st
     script += plot(panels[i], range_of(panels[i], run, zero_s));
     if (i == 0) script += "unset label 1\nunset label 2\n";
   }
-  draw_script(file, kWidth, height, script + "unset multiplot\n");
+  plot::draw_script(file, kWidth, height, script + "unset multiplot\n");
 }
 
 }  // namespace crane::experiment

@@ -64,13 +64,13 @@ void Node::stepped(std::uint64_t tick, std::int64_t sample_time_ns, std::int64_t
 
 void Node::beat(std::int64_t now_ns, crane_NodePhase phase, const JoinCounts& counts,
                 std::uint64_t rejected) {
-  if (now_ns < next_beat_ns_ && phase == report_.phase) return;
-  next_beat_ns_ = now_ns + kBeatPeriod_ns;
-  report_.phase = phase;
   report_.lost_ticks = counts.lost;
   report_.late_samples = counts.late;
   report_.duplicate_samples = counts.duplicate;
   report_.rejected_samples = rejected;
+  if (now_ns < next_beat_ns_ && phase == report_.phase) return;
+  next_beat_ns_ = now_ns + kBeatPeriod_ns;
+  report_.phase = phase;
   report_.step_mean_us =
       steps_ > 0 ? static_cast<double>(step_sum_ns_) / static_cast<double>(steps_) / 1e3 : 0;
   report_.step_max_us = static_cast<double>(step_max_ns_) / 1e3;

@@ -68,10 +68,16 @@ void loop(Component& component, bus::Bus& bus) {
   }
 }
 
+Clock clock_from(const std::string& name) {
+  if (name == "realtime") return Clock::realtime;
+  if (name == "lockstep") return Clock::lockstep;
+  throw ConfigurationError({"--clock " + name + ": must be realtime or lockstep"});
+}
+
 int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto rig = load_rig(options.rig);
   const auto& controller = chosen_controller(options.controller, rig);
-  const auto clock = options.clock == "lockstep" ? Clock::lockstep : Clock::realtime;
+  const auto clock = clock_from(options.clock);
   const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
   bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
   refuse_second_writer(bus, spec.writes);
@@ -110,7 +116,9 @@ void add_bus_options(CLI::App& app, BusOptions& options) {
 bus::Options bus_options(const BusOptions& options, std::string participant, crane_Source source,
                          std::uint32_t epoch) {
   bus::Options result;
-  result.vendor = bus::vendor_from_string(options.vendor).value_or(bus::Vendor::cyclone);
+  const auto vendor = bus::vendor_from_string(options.vendor);
+  if (!vendor) throw ConfigurationError({"--dds " + options.vendor + ": must be cyclone or fastdds"});
+  result.vendor = *vendor;
   result.domain = options.domain;
   result.crane = options.crane;
   result.participant = std::move(participant);

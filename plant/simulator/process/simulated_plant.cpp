@@ -1,4 +1,4 @@
-#include "process/simulated_plant.hpp"
+#include "crane/simulator/component.hpp"
 
 #include "crane/bridge/bridge.hpp"
 #include "crane/simulator/simulated_board.hpp"

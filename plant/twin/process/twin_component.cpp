@@ -1,4 +1,4 @@
-#include "process/twin_component.hpp"
+#include "crane/twin/component.hpp"
 
 #include <algorithm>
 #include <chrono>

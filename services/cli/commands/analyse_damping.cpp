@@ -10,7 +10,7 @@
 #include "cli/commands/analyse.hpp"
 #include "cli/text_table.hpp"
 #include "crane/analysis/damping.hpp"
-#include "crane/experiment/plane_picture.hpp"
+#include "crane/plot/plane.hpp"
 #include "crane/recording/csv.hpp"
 #include "crane/runtime/rig.hpp"
 
@@ -123,27 +123,27 @@ recording::Table table_of(const DampingStudy& study) {
 
 void draw(const std::filesystem::path& file, const DampingOptions& options, const DampingStudy& study) {
   const auto axis = [](std::string_view name, const GainRange& range) {
-    return experiment::PlaneAxis{std::string{name}, range.low, range.high, range.points};
+    return plot::PlaneAxis{std::string{name}, range.low, range.high, range.points};
   };
   const auto values = [&](Measure measure) {
     std::vector<double> result;
     for (const Damping& damping : study.map.values) result.push_back(merit(damping, measure));
     return result;
   };
-  experiment::Plane plane{.x = axis(study.kind->first_name, study.map.first),
-                          .y = axis(study.kind->second_name, study.map.second),
-                          .largest = 0.5,
-                          .contour_step = 0.1,
-                          .marks = {}};
+  plot::Plane plane{.x = axis(study.kind->first_name, study.map.first),
+                    .y = axis(study.kind->second_name, study.map.second),
+                    .largest = 0.5,
+                    .contour_step = 0.1,
+                    .marks = {}};
   for (const auto& point : study.points)
     if (point.name.find("Pade") == std::string::npos)
       plane.marks.push_back({point.name, point.gains.first, point.gains.second});
   const std::string title = std::string{study.kind->name} + ", figure " + std::string{study.kind->figure} +
                             ", K_p = " + recording::shortest(options.tracking) +
                             ": damping ratio; blank where unstable";
-  experiment::draw_plane(file, title, plane,
-                         {{"right-most pair", values(Measure::dominant)},
-                          {"least damped of all pairs", values(Measure::least)}});
+  plot::draw_plane(file, title, plane,
+                   {{"right-most pair", values(Measure::dominant)},
+                    {"least damped of all pairs", values(Measure::least)}});
 }
 
 /// Largest difference where both are stable, and where.

@@ -8,7 +8,7 @@
 #include "cli/commands/analyse.hpp"
 #include "cli/text_table.hpp"
 #include "crane/analysis/gain_curves.hpp"
-#include "crane/experiment/curves.hpp"
+#include "crane/plot/curves.hpp"
 #include "crane/recording/csv.hpp"
 #include "crane/runtime/rig.hpp"
 #include "stack/data_files.hpp"
@@ -70,11 +70,11 @@ recording::Table table_of(const GainFigure& figure) {
 
 void draw(const std::filesystem::path& file, const GainFigure& figure) {
   const auto curve = [&](std::string name, double scale, auto&& value) {
-    experiment::NamedCurve named{scale == 1 ? name : name + "/" + recording::shortest(scale), {}, {}};
+    plot::NamedCurve named{scale == 1 ? name : name + "/" + recording::shortest(scale), {}, {}};
     for (const GainSample& point : figure.curve) named.points.push_back({point.over, value(point) / scale});
     return named;
   };
-  experiment::draw_curves(
+  plot::draw_curves(
       file, "figure " + figure.figure + ": gains with partial state feedback",
       {{figure.x_label,
         "gain",

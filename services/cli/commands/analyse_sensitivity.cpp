@@ -99,7 +99,7 @@ void write_file(const fs::path& file, Write write) {
 
 struct SensitivityPlan {
   std::vector<DepartedRun> runs;  ///< without results
-  std::vector<stack::PlannedRun> plans;
+  std::vector<experiments::PlannedRun> plans;
 };
 
 SensitivityPlan plan_of(const SensitivityOptions& options, const runtime::Rig& rig) {
@@ -107,7 +107,8 @@ SensitivityPlan plan_of(const SensitivityOptions& options, const runtime::Rig& r
   for (const auto& name : options.scenarios) {
     const auto scenario = experiment::load_scenario(stack::find_scenario(name), &rig);
     for (const auto& controller : options.controllers) {
-      const stack::PlannedRun as_designed{scenario, rig, &runtime::chosen_controller(controller, rig), ""};
+      const experiments::PlannedRun as_designed{scenario, rig, &runtime::chosen_controller(controller, rig),
+                                                ""};
       for (const auto& departure : departures(as_designed)) {
         plan.plans.push_back(as_designed);
         departure.change(plan.plans.back());
@@ -120,7 +121,7 @@ SensitivityPlan plan_of(const SensitivityOptions& options, const runtime::Rig& r
 
 void run_all(SensitivityPlan& plan) {
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  auto results = stack::simulate_all(plan.plans, [&](std::size_t done) {
+  auto results = experiments::simulate_all(plan.plans, [&](std::size_t done) {
     if (terminal) std::cerr << '\r' << done << " of " << plan.plans.size() << " runs" << std::flush;
   });
   if (terminal) std::cerr << '\n';

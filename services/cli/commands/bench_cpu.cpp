@@ -11,9 +11,9 @@
 
 #include "cli/commands/bench.hpp"
 #include "cli/text_table.hpp"
+#include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {

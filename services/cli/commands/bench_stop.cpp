@@ -13,9 +13,9 @@
 
 #include "cli/commands/bench.hpp"
 #include "crane/boards/linked_rig.hpp"
+#include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -35,7 +35,7 @@ struct StopTimes {
   double relay_ms = 0, brakes_ms = 0;
 };
 
-void get_to_speed(stack::RealtimeSession& session) {
+void get_to_speed(experiments::RealtimeSession& session) {
   session.arm();
   session.request({.kind = crane_REQUEST_MOVE, .selected = {true, true, false}, .target = {1.0, 1.5, 0}},
                   "move");
@@ -44,7 +44,7 @@ void get_to_speed(stack::RealtimeSession& session) {
            std::abs(session.state()->slew_speed_radps) > 0.5;
   };
   for (int i = 0; !at_speed(); ++i) {
-    if (i > 500) throw stack::SessionError("the crane does not get to speed");
+    if (i > 500) throw experiments::SessionError("the crane does not get to speed");
     session.wait(5ms);
   }
 }
@@ -59,15 +59,16 @@ std::optional<StopTimes> stop_once(stack::LaunchOptions launch, int signal) {
   stack::launch(children, specs, launch);
   bus::Bus bus{runtime::bus_options(launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
-  stack::RealtimeSession session{bus, [] {
-                                   if (runtime::stop_requested()) throw stack::SessionError("interrupted");
-                                 }};
+  experiments::RealtimeSession session{bus, [] {
+                                         if (runtime::stop_requested())
+                                           throw experiments::SessionError("interrupted");
+                                       }};
   const bridge::RigMonitor monitor{bridge::shared_lines_name(launch.bus.crane, launch.bus.domain)};
   const auto& lines = monitor.lines();
   const auto closed_before_ns = lines.brakes_closed_ns.load();
   try {
     get_to_speed(session);
-  } catch (const stack::SessionError& error) {
+  } catch (const experiments::SessionError& error) {
     if (runtime::stop_requested()) throw;
     std::cerr << "once more: " << error.what() << '\n';
     return {};
@@ -75,7 +76,7 @@ std::optional<StopTimes> stop_once(stack::LaunchOptions launch, int signal) {
   const auto signal_ns = runtime::monotonic_ns();
   ::kill(children.pid_of("hardware_bridge").value(), signal);
   for (int i = 0; lines.brakes_closed_ns == closed_before_ns; ++i) {
-    if (i > 200) throw stack::SessionError("the brakes did not close within a second");
+    if (i > 200) throw experiments::SessionError("the brakes did not close within a second");
     ::usleep(5'000);
   }
   if (lines.relay_dropped_ns < signal_ns || lines.brakes_closed_ns < signal_ns) {
@@ -88,13 +89,13 @@ std::optional<StopTimes> stop_once(stack::LaunchOptions launch, int signal) {
   return StopTimes{ms(lines.relay_dropped_ns), ms(lines.brakes_closed_ns)};
 }
 
-/// @throws stack::SessionError when the crane does not come to speed
+/// @throws experiments::SessionError when the crane does not come to speed
 StopTimes stop_at_speed(const stack::LaunchOptions& launch, int signal) {
   constexpr int kAttempts = 5;
   for (int i = 0; i < kAttempts; ++i)
     if (const auto times = stop_once(launch, signal)) return *times;
-  throw stack::SessionError("the crane did not come to speed " + std::to_string(kAttempts) +
-                            " times: let the machine do nothing else");
+  throw experiments::SessionError("the crane did not come to speed " + std::to_string(kAttempts) +
+                                  " times: let the machine do nothing else");
 }
 
 nlohmann::ordered_json least_and_worst(const std::vector<double>& values) {

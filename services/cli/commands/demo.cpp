@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "cli/commands/commands.hpp"
+#include "crane/bridge/component.hpp"
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/picture.hpp"
-#include "process/hardware_bridge.hpp"
+#include "experiments/realtime_session.hpp"
 #include "recorder/recorder.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -32,7 +32,7 @@ struct DemoOptions {
 constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
 
 /// Where the scenario begins, reached by a move like any other.
-void go_to_start(stack::RealtimeSession& session, const experiment::Scenario& scenario) {
+void go_to_start(experiments::RealtimeSession& session, const experiment::Scenario& scenario) {
   const auto& state = *session.state();
   const std::array<double, 3> here{state.trolley_position_m, state.slew_angle_rad, state.cable_length_m};
   constexpr double kThere = 0.005;  // m, rad
@@ -49,9 +49,10 @@ void go_to_start(stack::RealtimeSession& session, const experiment::Scenario& sc
 /// Records while somebody waits.
 using RecorderSlot = std::optional<recorder::Recorder>;
 
-experiment::NamedMetrics run_maneuver(stack::RealtimeSession& session, bus::Bus& bus, RecorderSlot& recorder,
-                                      const runtime::Rig& rig, const std::string& controller,
-                                      experiment::Scenario scenario, const DemoOptions& options) {
+experiment::NamedMetrics run_maneuver(experiments::RealtimeSession& session, bus::Bus& bus,
+                                      RecorderSlot& recorder, const runtime::Rig& rig,
+                                      const std::string& controller, experiment::Scenario scenario,
+                                      const DemoOptions& options) {
   std::cerr << "  " << scenario.name << ": " << scenario.description << '\n';
   go_to_start(session, scenario);
   const fs::path directory{options.out};
@@ -69,10 +70,12 @@ experiment::NamedMetrics run_maneuver(stack::RealtimeSession& session, bus::Bus&
   }
   session.wait(std::chrono::nanoseconds{static_cast<std::int64_t>(options.seconds_per_maneuver * 1e9)});
   if (const auto state = session.status()->state; state != crane_STATE_HOLD && state != crane_STATE_RUN)
-    throw stack::SessionError(scenario.name + " was stopped: " + stack::in_words(*session.status()));
+    throw experiments::SessionError(scenario.name +
+                                    " was stopped: " + experiments::in_words(*session.status()));
   const bool recorded = recorder->close();
   recorder.reset();
-  if (!recorded) throw stack::SessionError("the recording of " + scenario.name + " could not be written");
+  if (!recorded)
+    throw experiments::SessionError("the recording of " + scenario.name + " could not be written");
 
   const auto table = session.table().table(zero_ns);
   recording::write_csv(directory / (scenario.name + ".csv"), table);
@@ -108,10 +111,10 @@ int demo(DemoOptions options) {
   RecorderSlot recorder;
   const auto meanwhile = [&children, &recorder] {
     if (recorder) recorder->poll();
-    if (const auto ended = children.ended()) throw stack::SessionError(stack::describe(*ended));
-    if (runtime::stop_requested()) throw stack::SessionError("interrupted");
+    if (const auto ended = children.ended()) throw experiments::SessionError(stack::describe(*ended));
+    if (runtime::stop_requested()) throw experiments::SessionError("interrupted");
   };
-  stack::RealtimeSession session{bus, meanwhile};
+  experiments::RealtimeSession session{bus, meanwhile};
   std::cerr << "reset, arm\n";
   session.arm();
   std::vector<experiment::NamedMetrics> table;

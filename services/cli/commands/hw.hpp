@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
+#include "crane/bridge/component.hpp"
 #include "crane/bring_up/session.hpp"
 #include "crane/runtime/node.hpp"
-#include "process/hardware_bridge.hpp"
 
 namespace CLI {
 class App;

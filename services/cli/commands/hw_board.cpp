@@ -5,7 +5,8 @@
 #include "cli/commands/hw.hpp"
 #include "crane/boards/emulated_board.hpp"
 #include "crane/boards/linked_rig.hpp"
-#include "crane/boards/wired_rig.hpp"
+#include "crane/emulated_rig/component.hpp"
+#include "crane/emulated_rig/wired_rig.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "stack/data_files.hpp"
 
@@ -53,7 +54,8 @@ std::unique_ptr<bridge::Board> OpenBoard::opened(const BoardOptions& options) {
         rig_, std::make_unique<bridge::LinkedRig>(bridge::shared_lines_name(options.crane, options.domain)));
   if (!options.wired_as.empty())
     return std::make_unique<bridge::EmulatedBoard>(
-        rig_, std::make_unique<bridge::WiredRig>(runtime::load_rig(stack::find_rig(options.wired_as))));
+        rig_, std::make_unique<emulated_rig::WiredRig>(runtime::load_rig(stack::find_rig(options.wired_as))));
+  if (bridge::board_kind_of(rig_).name == "emulated") return emulated_rig::open_board(rig_);
   return bridge::board_kind_of(rig_).make(rig_, bus_.options());
 }
 

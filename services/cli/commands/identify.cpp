@@ -8,9 +8,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/text_table.hpp"
 #include "crane/identification/study.hpp"
-#include "stack/axis_data.hpp"
+#include "identification/axis_data.hpp"
+#include "identification/friction_experiment.hpp"
 #include "stack/data_files.hpp"
-#include "stack/friction_experiment.hpp"
 #include "stack/launch.hpp"
 #include "stack/stack.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 namespace id = identification;
 
 struct IdentifyOptions {
-  stack::FrictionExperimentOptions experiment;
+  identification::FrictionExperimentOptions experiment;
   std::string rig = "virginia_tech_tower", axis, out = "out/identify", from;
   std::string clock = "lockstep", plant = "sim";
   double from_s = 0, to_s = 1e9;
@@ -32,8 +32,8 @@ std::string with_error(const id::Estimate& estimate) {
   return fixed(estimate.value, 4) + " +- " + fixed(estimate.standard_error, 4);
 }
 
-void print_estimates(const stack::FrictionEstimates& estimates, const control::DriveFriction& believed,
-                     double gain) {
+void print_estimates(const identification::FrictionEstimates& estimates,
+                     const control::DriveFriction& believed, double gain) {
   TextTable table{{"over K_m", "b+", "b-", "c+ [V]", "c- [V]", "K_m", "residual [V]"}};
   const auto add = [&table](const char* name, const id::FrictionEstimate& e) {
     table.add({name, with_error(e.viscous_positive), with_error(e.viscous_negative),
@@ -50,7 +50,7 @@ void print_estimates(const stack::FrictionEstimates& estimates, const control::D
   if (!estimates.gain_refusal.empty()) std::cout << estimates.gain_refusal << '\n';
 }
 
-void print_result(const stack::FrictionExperimentResult& result) {
+void print_result(const identification::FrictionExperimentResult& result) {
   const std::string unit = result.axis == plant::kTrolley ? "m" : "rad";
   const auto stiction = [](const id::Stiction& s) {
     return fixed(s.mean_v, 3) + " V, spread " + fixed(s.spread_v, 3) + " V of " + std::to_string(s.count);
@@ -72,11 +72,13 @@ void print_result(const stack::FrictionExperimentResult& result) {
 int estimate_from(const IdentifyOptions& options, const runtime::Rig& rig) {
   const auto& experiment = options.experiment;
   const auto table = recording::read_csv(options.from);
-  const auto run = stack::axis_run_from(table, rig, experiment.axis, options.from_s, options.to_s);
-  const double gain = stack::acting_gain(rig.design, experiment.axis, stack::mean_trolley_position(table));
-  const auto estimates = stack::estimate_both(run, experiment.zero_band, experiment.cutoff_ratio, gain);
+  const auto run = identification::axis_run_from(table, rig, experiment.axis, options.from_s, options.to_s);
+  const double gain =
+      identification::acting_gain(rig.design, experiment.axis, identification::mean_trolley_position(table));
+  const auto estimates =
+      identification::estimate_both(run, experiment.zero_band, experiment.cutoff_ratio, gain);
   if (options.json)
-    std::cout << stack::to_json(estimates).dump(2) << '\n';
+    std::cout << identification::to_json(estimates).dump(2) << '\n';
   else
     print_estimates(estimates, rig.design.friction[experiment.axis], gain);
   return runtime::kExitDone;
@@ -94,9 +96,9 @@ int identify_friction(IdentifyOptions options) {
   const auto rig = runtime::load_rig(experiment.rig);
   if (!options.from.empty()) return estimate_from(options, rig);
   experiment.vendors = stack::vendors_from(options.vendors, stack::stack_with(experiment.plant));
-  const auto result = stack::identify_friction(experiment);
+  const auto result = identification::identify_friction(experiment);
   if (options.json) {
-    std::cout << stack::to_json(result).dump(2) << '\n';
+    std::cout << identification::to_json(result).dump(2) << '\n';
     return runtime::kExitDone;
   }
   print_estimates(result.estimates, rig.design.friction[experiment.axis],

@@ -10,12 +10,12 @@
 
 #include "cli/commands/commands.hpp"
 #include "crane/experiment/variant.hpp"
-#include "process/twin_component.hpp"
-#include "stack/comparison_run.hpp"
+#include "crane/twin/component.hpp"
+#include "experiments/comparison_run.hpp"
+#include "experiments/experiment_run.hpp"
+#include "experiments/realtime_run.hpp"
 #include "stack/data_files.hpp"
-#include "stack/experiment_run.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_run.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -45,7 +45,8 @@ Names every_controller() {
 }
 
 /// The rig of one scenario, and what is to be done with it.
-void add_plans(const std::string& name, const RunOptions& options, std::vector<stack::PlannedRun>& plans) {
+void add_plans(const std::string& name, const RunOptions& options,
+               std::vector<experiments::PlannedRun>& plans) {
   const auto file = stack::find_scenario(name);
   const auto wish = experiment::load_scenario(file);
   const auto rig = runtime::load_rig(stack::find_rig(!options.rig.empty() ? options.rig
@@ -64,8 +65,8 @@ void add_plans(const std::string& name, const RunOptions& options, std::vector<s
   }
 }
 
-std::vector<stack::PlannedRun> plans_of(const RunOptions& options) {
-  std::vector<stack::PlannedRun> plans;
+std::vector<experiments::PlannedRun> plans_of(const RunOptions& options) {
+  std::vector<experiments::PlannedRun> plans;
   if (options.scenarios.empty() && !options.compare)
     throw runtime::ConfigurationError(
         {"scenario: name at least one, or --compare, which runs maneuver_1, maneuver_2 and maneuver_3"});
@@ -76,7 +77,7 @@ std::vector<stack::PlannedRun> plans_of(const RunOptions& options) {
 }
 
 /// Names of what the user or the scenario chose; a run that was left as it is has none.
-std::string directory_name(const RunOptions& options, const stack::PlannedRun& plan) {
+std::string directory_name(const RunOptions& options, const experiments::PlannedRun& plan) {
   const bool chosen = !options.controllers.empty() || !plan.scenario.controllers.empty();
   return plan.scenario.name + (chosen ? "_" + std::string{plan.controller->name} : "") +
          (plan.variant.empty() ? "" : "_" + plan.variant);
@@ -86,8 +87,8 @@ stack::Plant plant_of(const RunOptions& options) {
   return options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
 }
 
-int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
-  stack::ExperimentOptions experiment;
+int run_each(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
+  experiments::ExperimentOptions experiment;
   experiment.plant = plant_of(options);
   experiment.in_process = options.in_process;
   experiment.picture = !options.no_picture;
@@ -107,14 +108,14 @@ int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& pl
     experiment.directory = options.out;
     if (options.twin && options.twin_rig.empty()) experiment.twin = plan.rig.path;
     if (plans.size() > 1) experiment.directory /= directory_name(options, plan);
-    const auto result = stack::run_experiment(experiment);
+    const auto result = experiments::run_experiment(experiment);
     const std::string title = result.scenario + (plan.variant.empty() ? "" : ", " + plan.variant);
     if (!result.outcome.completed)
       std::cerr << title << ", " << result.controller
                 << ": the supervisor stopped the crane: " << result.outcome.stopped_because << '\n';
     completed = completed && result.outcome.completed;
     table.push_back({title, result.controller, result.metrics});
-    json.push_back(stack::to_json(result));
+    json.push_back(experiments::to_json(result));
     if (!options.json)
       std::cerr << title << ", " << result.controller << ": " << static_cast<long>(result.real_time_factor)
                 << " x real time, files in " << experiment.directory.string() << '\n';
@@ -127,7 +128,8 @@ int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& pl
 }
 
 /// A real crane is as it is, and what is measured on it is all that there is.
-void require_possible_in_realtime(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
+void require_possible_in_realtime(const RunOptions& options,
+                                  const std::vector<experiments::PlannedRun>& plans) {
   std::vector<std::string> problems;
   const auto refuse = [&](bool given, const std::string& option) {
     if (given) problems.push_back("--clock = realtime: not with " + option);
@@ -141,7 +143,7 @@ void require_possible_in_realtime(const RunOptions& options, const std::vector<s
   if (!problems.empty()) throw runtime::ConfigurationError(problems);
 }
 
-int run_each_in_realtime(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
+int run_each_in_realtime(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   require_possible_in_realtime(options, plans);
   const auto plant = plant_of(options);
   const auto vendors = stack::vendors_from(options.vendors, stack::stack_with(plant));
@@ -149,12 +151,12 @@ int run_each_in_realtime(const RunOptions& options, const std::vector<stack::Pla
     std::filesystem::path directory{options.out};
     if (plans.size() > 1) directory /= directory_name(options, plan);
     std::filesystem::create_directories(directory);  // before anything moves
-    const auto table = stack::run_in_realtime({.rig = plan.rig.path,
-                                               .controller = std::string{plan.controller->name},
-                                               .plant = plant,
-                                               .bus = options.bus,
-                                               .vendors = vendors},
-                                              plan.scenario);
+    const auto table = experiments::run_in_realtime({.rig = plan.rig.path,
+                                                     .controller = std::string{plan.controller->name},
+                                                     .plant = plant,
+                                                     .bus = options.bus,
+                                                     .vendors = vendors},
+                                                    plan.scenario);
     recording::write_csv(directory / "run.csv", table);
     std::cerr << plan.scenario.name << ", " << plan.controller->name << ": in real time, measured data in "
               << (directory / "run.csv").string() << '\n';
@@ -173,15 +175,15 @@ template <class Write>
 void write_text(const std::filesystem::path& file, const Write& write) {
   std::ofstream out{file, std::ios::binary};
   write(out);
-  if (!out.flush()) throw stack::RunError(file.string() + ": cannot write");
+  if (!out.flush()) throw experiments::RunError(file.string() + ": cannot write");
 }
 
-int compare(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
+int compare(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   const std::filesystem::path directory{options.out};
   std::filesystem::create_directories(directory);
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   spdlog::set_level(spdlog::level::off);  // why a crane was stopped stands in the tables
-  const auto runs = stack::simulate_all(plans, [&](std::size_t done) {
+  const auto runs = experiments::simulate_all(plans, [&](std::size_t done) {
     if (terminal) show_progress(done, plans.size());
   });
   write_text(directory / "comparison.csv",

@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
-#include "process/hardware_bridge.hpp"
-#include "process/supervisor_component.hpp"
-#include "process/twin_component.hpp"
+#include "crane/bridge/component.hpp"
+#include "crane/supervisor/component.hpp"
+#include "crane/twin/component.hpp"
+#include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
 #include "stack/operator_client.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -75,7 +75,7 @@ int up(UpOptions options) {
   if (!options.record.empty()) start_recorder(children, options);
   stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
   if (options.launch.clock == "lockstep")
-    stack::OperatorClient{bus, "crane_up", stack::unique_first_id()}.send(
+    stack::OperatorClient{bus, "crane_up", experiments::unique_first_id()}.send(
         {.kind = crane_REQUEST_ADVANCE, .until_tick = std::numeric_limits<std::uint64_t>::max()});
   std::cout << rig.name << " is up with " << controller.name << " (crane '" << options.launch.bus.crane
             << "', domain " << options.launch.bus.domain << ", " << options.launch.clock << ")\n"

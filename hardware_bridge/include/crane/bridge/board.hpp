@@ -3,6 +3,7 @@
 /// The simulated plant is one board, an encoder/DAC card another; the bridge's loop is the same for both.
 #include <array>
 #include <cstdint>
+#include <stdexcept>
 #include <string_view>
 
 namespace crane::bridge {
@@ -28,13 +29,20 @@ struct Outputs {
   bool watchdog_level = false;  ///< charge pump: has to toggle every tick to keep the brakes supplied
 };
 
+/// A board that is not there, not permitted, in use or defective; what() is one line with the remedy.
+class BoardError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 class Board {
  public:
   virtual ~Board() = default;
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// Latch all counters and inputs at this instant.
+  /// Latches all counters and inputs at this instant. @throws BoardError when the board does not answer
   [[nodiscard]] virtual Inputs read() = 0;
-  /// @return the voltages the converters really give (quantised, clamped)
+  /// @return the voltages that the converters give (quantised, clamped). @throws BoardError when the board
+  /// does not answer
   virtual std::array<double, kDrives> write(const Outputs& outputs) = 0;
   /// 0 V, brakes without supply, watchdog output at rest. Must always be safe to call.
   virtual void make_safe() noexcept = 0;

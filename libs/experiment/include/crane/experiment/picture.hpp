@@ -3,25 +3,18 @@
 /// a common time axis, drawn by gnuplot. Same run, same bytes.
 #include <filesystem>
 #include <span>
-#include <stdexcept>
 #include <string>
 
 #include "crane/experiment/metrics.hpp"
 
 namespace crane::experiment {
 
-/// gnuplot is missing or failed, or a file cannot be written; says what to do.
-class PictureError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 struct Caption {
   std::string rig, controller, scenario;
 };
 
 /// Draws from the first action (time 0 of the picture) to the end of the run, the settling time marked.
-/// @param file ends in .svg or .png; its directory must exist. @throws PictureError
+/// @param file ends in .svg or .png; its directory must exist. @throws plot::PictureError
 void draw_maneuver(const std::filesystem::path& file, const Caption& caption, std::span<const Sample> run,
                    const Maneuver& maneuver, const Metrics& metrics);
 
