@@ -9,7 +9,7 @@ constexpr std::uint32_t bit_of(int line) { return std::uint32_t{1} << static_cas
 
 }  // namespace
 
-RigLines::RigLines(const runtime::Rig& rig) : wiring_{rig.wiring} {
+RigLines::RigLines(const configuration::Rig& rig) : wiring_{rig.wiring} {
   for (std::size_t i = 0; i < kDrives; ++i) present_[i] = rig.drives[i].present;
 }
 
@@ -33,7 +33,7 @@ std::uint32_t RigLines::outputs(const Outputs& outputs) const noexcept {
   return levels;
 }
 
-std::array<std::int32_t, kCounters> start_counts(const runtime::Rig& rig) {
+std::array<std::int32_t, kCounters> start_counts(const configuration::Rig& rig) {
   std::array<double, kCounters> start{rig.start.position[0], rig.start.position[1], rig.start.position[2],
                                       rig.start.swing_radial_rad, rig.start.swing_tangential_rad};
   for (std::size_t i = 0; i < kDrives; ++i)

@@ -13,7 +13,7 @@ namespace {
 /// A card with a lock: two bridges on one card would write past each other.
 class OwnedServoToGo final : public Board {
  public:
-  explicit OwnedServoToGo(const runtime::Rig& rig)
+  explicit OwnedServoToGo(const configuration::Rig& rig)
       : lock_{"/crane_servo_to_go_" + std::to_string(rig.wiring.base_address)}, card_{rig, ports(rig)} {}
 
   [[nodiscard]] std::string_view name() const override { return card_.name(); }
@@ -23,7 +23,7 @@ class OwnedServoToGo final : public Board {
   void advance_to(std::int64_t /*time_ns*/) override {}
 
  private:
-  std::unique_ptr<PortIo> ports(const runtime::Rig& rig) {
+  std::unique_ptr<PortIo> ports(const configuration::Rig& rig) {
     if (!lock_.take(SharedFile::Role::bridge))
       throw BoardError(
           "another hardware bridge uses this board: stop it first, or correct base_address in [wiring]");
@@ -33,16 +33,16 @@ class OwnedServoToGo final : public Board {
   ServoToGo card_;
 };
 
-std::unique_ptr<Board> make_servo_to_go(const runtime::Rig& rig, const bus::Options& /*bus*/) {
+std::unique_ptr<Board> make_servo_to_go(const configuration::Rig& rig, const bus::Options& /*bus*/) {
   return std::make_unique<OwnedServoToGo>(rig);
 }
 
-std::unique_ptr<Board> make_comedi(const runtime::Rig& rig, const bus::Options& /*bus*/) {
+std::unique_ptr<Board> make_comedi(const configuration::Rig& rig, const bus::Options& /*bus*/) {
   return std::make_unique<Comedi>(rig);
 }
 
 /// The crane at the plugs of the emulated card is a process of its own, crane_emulated_rig.
-std::unique_ptr<Board> make_emulated(const runtime::Rig& rig, const bus::Options& bus) {
+std::unique_ptr<Board> make_emulated(const configuration::Rig& rig, const bus::Options& bus) {
   return std::make_unique<EmulatedBoard>(
       rig, std::make_unique<LinkedRig>(shared_lines_name(bus.crane, bus.domain)));
 }
@@ -55,14 +55,14 @@ const std::vector<BoardKind>& board_kinds() {
   return kinds;
 }
 
-const BoardKind& board_kind_of(const runtime::Rig& rig) {
+const BoardKind& board_kind_of(const configuration::Rig& rig) {
   const auto& kinds = board_kinds();
   const auto found = std::find_if(kinds.begin(), kinds.end(),
                                   [&rig](const BoardKind& kind) { return kind.name == rig.board; });
   if (found != kinds.end()) return *found;
   std::string names;
   for (const auto& kind : kinds) names += (names.empty() ? "" : ", ") + std::string{kind.name};
-  throw runtime::ConfigurationError(
+  throw configuration::ConfigurationError(
       {rig.path + ": board = " + rig.board + ": the hardware bridge drives " + names +
        "; choose one of them, or run the simulated plant (crane up --plant sim)"});
 }

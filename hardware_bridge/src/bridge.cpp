@@ -42,7 +42,7 @@ Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
   }
   board_->make_safe();
   if (clock_ == runtime::Clock::lockstep && !board_->simulates_time())
-    throw runtime::ConfigurationError(
+    throw configuration::ConfigurationError(
         {context.rig.path + ": board = " + context.rig.board +
          ": a real rig does not wait for commands; start the stack with --clock realtime"});
 }

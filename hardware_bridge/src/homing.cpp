@@ -5,7 +5,7 @@
 
 namespace crane::bridge {
 
-bool mark_active(const runtime::Drive& drive, const Inputs& inputs, std::size_t axis) noexcept {
+bool mark_active(const configuration::Drive& drive, const Inputs& inputs, std::size_t axis) noexcept {
   if (!drive.homes()) return false;
   switch (drive.homing.mark) {
     case control::Mark::limit_low:
@@ -18,7 +18,7 @@ bool mark_active(const runtime::Drive& drive, const Inputs& inputs, std::size_t 
   return false;
 }
 
-Homing::Homing(const runtime::Rig& rig) {
+Homing::Homing(const configuration::Rig& rig) {
   constexpr double kFaster = 2, kLeastBack = 0.5, kTicks = 2;
   for (std::size_t i = 0; i < kDrives; ++i) {
     const auto& drive = rig.drives[i];

@@ -7,7 +7,7 @@ namespace crane::bridge {
 namespace {
 
 /// Smallest and largest acceleration per volt; the load hangs on a pendulum and takes part or not.
-void set_gains(AxisLine& axis, std::size_t i, const runtime::Rig& rig) {
+void set_gains(AxisLine& axis, std::size_t i, const configuration::Rig& rig) {
   const auto& crane = rig.design.crane;
   const double load_kg = crane.load_mass_kg;
   if (i == plant::kTrolley) {
@@ -25,7 +25,7 @@ void set_gains(AxisLine& axis, std::size_t i, const runtime::Rig& rig) {
 }
 
 /// Volts that the load can hold against a drive when it swings as far as the supervisor allows.
-double load_pull_v(std::size_t i, const runtime::Rig& rig) {
+double load_pull_v(std::size_t i, const configuration::Rig& rig) {
   const auto& crane = rig.design.crane;
   const double force_n = crane.load_mass_kg * crane.gravity_mps2 * std::sin(rig.limits.swing_limit_rad);
   if (i == plant::kTrolley) return force_n / (crane.trolley_inertia_kg * crane.trolley_gain_mps2pv);
@@ -34,7 +34,7 @@ double load_pull_v(std::size_t i, const runtime::Rig& rig) {
   return torque_nm / (crane.jib_inertia_kgm2 * crane.slew_gain_radps2pv);
 }
 
-AxisLine axis_line(const runtime::Rig& rig, std::size_t i) {
+AxisLine axis_line(const configuration::Rig& rig, std::size_t i) {
   const auto& drive = rig.drives[i];
   const auto& friction = rig.design.friction[i];
   AxisLine axis;
@@ -52,7 +52,7 @@ AxisLine axis_line(const runtime::Rig& rig, std::size_t i) {
 
 }  // namespace
 
-LastLineParameters last_line_parameters(const runtime::Rig& rig) {
+LastLineParameters last_line_parameters(const configuration::Rig& rig) {
   LastLineParameters parameters;
   parameters.period_s = rig.period_s;
   parameters.stale_after_ticks = static_cast<std::uint64_t>(rig.limits.stale_after_ticks);

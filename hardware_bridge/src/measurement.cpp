@@ -17,7 +17,7 @@ std::int64_t CountUnwrapper::step(std::int32_t raw_counts) noexcept {
   return counts_ += change;
 }
 
-Coordinate::Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio,
+Coordinate::Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
                        bool filter_position)
     : units_per_count_{encoder.counts_per_unit > 0 ? encoder.sign / encoder.counts_per_unit : 0},
       filter_position_{filter_position},
@@ -58,7 +58,7 @@ namespace {
 
 /// The filter in front of the trolley's differentiator makes its motion oscillate on the rig (section 4.4.1),
 /// so the rig file says per axis whether there is one; swing rates always have it.
-Coordinate coordinate(const runtime::Rig& rig, std::size_t counter) {
+Coordinate coordinate(const configuration::Rig& rig, std::size_t counter) {
   const bool swing = counter >= plant::kAxes;
   const bool filtered = swing || rig.sensing.filter_speed[counter];
   return {rig.encoders[counter], rig.period_s, filtered ? rig.sensing.swing_filter_ratio : 0.0,
@@ -67,7 +67,7 @@ Coordinate coordinate(const runtime::Rig& rig, std::size_t counter) {
 
 }  // namespace
 
-MeasurementPipeline::MeasurementPipeline(const runtime::Rig& rig)
+MeasurementPipeline::MeasurementPipeline(const configuration::Rig& rig)
     : coordinates_{coordinate(rig, 0), coordinate(rig, 1), coordinate(rig, 2), coordinate(rig, 3),
                    coordinate(rig, 4)} {}
 

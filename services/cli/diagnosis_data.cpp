@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 /// Reads files one after the other and keeps what is wrong with each.
 class DataReader {
  public:
-  DataReader(const diagnosis::Mapping& mapping, const runtime::Rig& rig) : mapping_(mapping), rig_(rig) {}
+  DataReader(const diagnosis::Mapping& mapping, const configuration::Rig& rig)
+      : mapping_(mapping), rig_(rig) {}
 
   std::vector<diagnosis::Run> read(const std::vector<std::string>& files) {
     std::vector<diagnosis::Run> runs;
@@ -54,7 +55,7 @@ class DataReader {
   }
 
   const diagnosis::Mapping& mapping_;
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   std::set<fs::path> seen_;
   std::vector<std::string> problems_, notes_;
 };
@@ -78,7 +79,7 @@ recording::Table under_control(recording::Table table) {
 }
 
 DiagnosisData read_diagnosis_data(const std::vector<std::string>& train, const std::vector<std::string>& test,
-                                  const diagnosis::Mapping& mapping, const runtime::Rig& rig) {
+                                  const diagnosis::Mapping& mapping, const configuration::Rig& rig) {
   DataReader reader{mapping, rig};
   DiagnosisData data;
   data.train = reader.read(train);

@@ -21,6 +21,7 @@ struct DiagnosisData {
 /// @throws diagnosis::DataError with the problems of all files
 [[nodiscard]] DiagnosisData read_diagnosis_data(const std::vector<std::string>& train,
                                                 const std::vector<std::string>& test,
-                                                const diagnosis::Mapping& mapping, const runtime::Rig& rig);
+                                                const diagnosis::Mapping& mapping,
+                                                const configuration::Rig& rig);
 
 }  // namespace crane::cli

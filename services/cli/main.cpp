@@ -9,7 +9,7 @@
 #include <iostream>
 
 #include "commands/commands.hpp"
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 namespace {
 
@@ -47,7 +47,7 @@ const CLI::App& deepest_of(const CLI::App& app) {
 int run(const cli::Action& action) {
   try {
     return action();
-  } catch (const runtime::ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     std::cerr << error.what() << '\n';
     return runtime::kExitBadInput;
   } catch (const std::exception& error) {

@@ -5,21 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "crane/configuration/rig.hpp"
 #include "crane/experiment/comparison.hpp"
 #include "crane/experiment/scenario.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::experiments {
 
 struct PlannedRun {
   experiment::Scenario scenario;
-  runtime::Rig rig;                                 ///< as its file says
+  configuration::Rig rig;                           ///< as its file says
   const control::Controller* controller = nullptr;  ///< not null
   std::string variant;                              ///< of experiment/variant.hpp, empty: none
 };
 
 /// One experiment without files. A crane that the supervisor stops, or that cannot be armed, is a result.
-/// @throws runtime::ConfigurationError, and RunError when the user interrupts
+/// @throws configuration::ConfigurationError, and RunError when the user interrupts
 [[nodiscard]] experiment::ComparedRun simulate(const PlannedRun& plan);
 
 /// Called after each run with the number that are done; from one thread at a time.

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& rig_file,
-                            const runtime::Rig& rig, const control::Controller& controller,
+                            const configuration::Rig& rig, const control::Controller& controller,
                             const experiment::Scenario& scenario, TickLog& log) {
   auto specs = stack::stack_with(options.plant);
   stack::LaunchOptions launch_options{.bus = options.bus,
@@ -48,12 +48,12 @@ RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& ri
 }
 
 /// A real crane does not wait for the next command, and does not begin where a scenario says.
-void require_rehearsal(const runtime::Rig& rig) {
+void require_rehearsal(const configuration::Rig& rig) {
   bridge::board_kind_of(rig);
   if (rig.board != "emulated")
-    throw runtime::ConfigurationError({rig.path + ": board = " + rig.board +
-                                       ": lockstep needs board = \"emulated\"; drive a real crane with "
-                                       "`crane up --plant hardware` and `crane move`"});
+    throw configuration::ConfigurationError({rig.path + ": board = " + rig.board +
+                                             ": lockstep needs board = \"emulated\"; drive a real crane with "
+                                             "`crane up --plant hardware` and `crane move`"});
 }
 
 void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
@@ -64,15 +64,15 @@ void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
 
 }  // namespace
 
-RunOutcome run_in_process(const runtime::Rig& rig, const control::Controller& controller,
+RunOutcome run_in_process(const configuration::Rig& rig, const control::Controller& controller,
                           const experiment::Scenario& scenario, TickLog& log, stack::Plant plant,
-                          const runtime::Rig* twin) {
+                          const configuration::Rig* twin) {
   return run_in_process(stack::stack_with(plant), rig, controller, scenario, log, twin);
 }
 
-RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components, const runtime::Rig& rig,
+RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components, const configuration::Rig& rig,
                           const control::Controller& controller, const experiment::Scenario& scenario,
-                          TickLog& log, const runtime::Rig* twin) {
+                          TickLog& log, const configuration::Rig* twin) {
   runtime::InProcessStack stack{components, rig, controller};
   if (twin != nullptr) stack.add(twin::twin_spec(), *twin, controller);
   bus::Bus bus{runtime::memory_options(stack.network(), "crane_run", crane_SOURCE_OPERATOR)};
@@ -94,7 +94,7 @@ nlohmann::ordered_json to_json(const ExperimentResult& result) {
 }
 
 ExperimentResult run_experiment(const ExperimentOptions& options) {
-  const auto rig = runtime::load_rig(options.rig);
+  const auto rig = configuration::load_rig(options.rig);
   if (options.plant == stack::Plant::hardware) require_rehearsal(rig);
   const auto& controller = runtime::chosen_controller(options.controller, rig);
   const auto scenario = experiment::load_scenario(options.scenario, &rig);
@@ -103,8 +103,8 @@ ExperimentResult run_experiment(const ExperimentOptions& options) {
   const auto rig_file = options.directory / "rig.toml";
   write_started_rig(rig_file, rig, started);
 
-  std::optional<runtime::Rig> twin;
-  if (options.twin) twin = runtime::load_rig(*options.twin);
+  std::optional<configuration::Rig> twin;
+  if (options.twin) twin = configuration::load_rig(*options.twin);
 
   TickLog log{options.directory / "recording.mcap"};
   ExperimentResult result;

@@ -36,21 +36,24 @@ struct ExperimentResult {
   double real_time_factor = 0;  ///< simulated time over wall time, from the first tick to the last
 };
 
-/// @throws runtime::ConfigurationError for bad files or names (nothing has been started then), RunError,
+/// @throws configuration::ConfigurationError for bad files or names (nothing has been started then),
+/// RunError,
 ///   recording::WriteError, plot::PictureError
 [[nodiscard]] ExperimentResult run_experiment(const ExperimentOptions& options);
 
 /// A scenario on the rig as it starts it, in this process. @throws RunError
-[[nodiscard]] RunOutcome run_in_process(const runtime::Rig& started, const control::Controller& controller,
+[[nodiscard]] RunOutcome run_in_process(const configuration::Rig& started,
+                                        const control::Controller& controller,
                                         const experiment::Scenario& scenario, TickLog& log,
                                         stack::Plant plant = stack::Plant::simulated,
-                                        const runtime::Rig* twin = nullptr);
+                                        const configuration::Rig* twin = nullptr);
 
 /// The same with components of one's own, in the order of stack_with(). @throws RunError
 [[nodiscard]] RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components,
-                                        const runtime::Rig& started, const control::Controller& controller,
+                                        const configuration::Rig& started,
+                                        const control::Controller& controller,
                                         const experiment::Scenario& scenario, TickLog& log,
-                                        const runtime::Rig* twin = nullptr);
+                                        const configuration::Rig* twin = nullptr);
 [[nodiscard]] nlohmann::ordered_json to_json(const ExperimentResult& result);
 
 }  // namespace crane::experiments

@@ -33,7 +33,7 @@ Collected collect_from(bus::Bus& bus) {
 
 class LockstepRun {
  public:
-  LockstepRun(bus::Bus& bus, const Pump& pump, const runtime::Rig& rig, const Scenario& scenario,
+  LockstepRun(bus::Bus& bus, const Pump& pump, const configuration::Rig& rig, const Scenario& scenario,
               TickLog& log, bool with_twin)
       : pump_{pump},
         rig_{rig},
@@ -200,7 +200,7 @@ class LockstepRun {
   };
 
   const Pump& pump_;
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   const Scenario& scenario_;
   TickLog& log_;
   stack::OperatorClient operator_;
@@ -217,8 +217,8 @@ class LockstepRun {
 
 }  // namespace
 
-RunOutcome run_scenario(bus::Bus& bus, const Pump& pump, const runtime::Rig& rig, const Scenario& scenario,
-                        TickLog& log, bool with_twin) {
+RunOutcome run_scenario(bus::Bus& bus, const Pump& pump, const configuration::Rig& rig,
+                        const Scenario& scenario, TickLog& log, bool with_twin) {
   return LockstepRun{bus, pump, rig, scenario, log, with_twin}.execute();
 }
 

@@ -30,7 +30,7 @@ using Pump = std::function<void()>;
 
 /// @param bus  the operator's own; not in the loop
 /// @param with_twin  a twin runs beside the stack: its samples are collected, too
-[[nodiscard]] RunOutcome run_scenario(bus::Bus& bus, const Pump& pump, const runtime::Rig& rig,
+[[nodiscard]] RunOutcome run_scenario(bus::Bus& bus, const Pump& pump, const configuration::Rig& rig,
                                       const experiment::Scenario& scenario, TickLog& log,
                                       bool with_twin = false);
 

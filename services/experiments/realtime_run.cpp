@@ -71,7 +71,7 @@ recording::Table run_in_realtime(const RealtimeRunOptions& options, const experi
     launch_options.bus.crane += "_run_" + std::to_string(::getpid());
   stack::ChildProcesses children;
   if (options.plant == stack::Plant::hardware)
-    stack::launch_rig(children, runtime::load_rig(options.rig), launch_options);
+    stack::launch_rig(children, configuration::load_rig(options.rig), launch_options);
   stack::launch(children, specs, launch_options);
   auto observer = launch_options.bus;
   observer.vendor = "fastdds";  // observers run on the other vendor

@@ -21,7 +21,7 @@ struct RealtimeRunOptions {
 
 /// Kicks, true loads and swings at the start are a simulation's and left out.
 /// @return the run as a table; time_s counts from the moment the crane holds at the start of the scenario
-/// @throws runtime::ConfigurationError, SessionError, std::runtime_error
+/// @throws configuration::ConfigurationError, SessionError, std::runtime_error
 [[nodiscard]] recording::Table run_in_realtime(const RealtimeRunOptions& options,
                                                const experiment::Scenario& scenario);
 

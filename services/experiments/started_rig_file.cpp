@@ -10,8 +10,8 @@
 namespace crane::experiments {
 namespace {
 
+using configuration::Rig;
 using recording::shortest;
-using runtime::Rig;
 
 struct AxisKeys {
   const char* name;

@@ -39,7 +39,7 @@ const char* axis_name(std::size_t axis) {
 
 const char* axis_unit(std::size_t axis) { return axis == plant::kSlew ? "rad" : "m"; }
 
-identification::AxisRun axis_run_from(const recording::Table& table, const runtime::Rig& rig,
+identification::AxisRun axis_run_from(const recording::Table& table, const configuration::Rig& rig,
                                       std::size_t axis, double from_s, double to_s) {
   const auto& time_s = column(table, "time_s");
   const bool trolley = axis == plant::kTrolley;

@@ -1,8 +1,8 @@
 #pragma once
 /// What a recorded run says about one drive: positions, and the volts that its motor and friction share.
+#include "crane/configuration/rig.hpp"
 #include "crane/identification/friction.hpp"
 #include "crane/recording/csv.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::identification {
 
@@ -17,8 +17,9 @@ namespace crane::identification {
 /// @throws identification::IdentificationError  a column is missing, or the rows are not consecutive ticks
 /// (without a
 ///   column tick: not one period apart)
-[[nodiscard]] identification::AxisRun axis_run_from(const recording::Table& table, const runtime::Rig& rig,
-                                                    std::size_t axis, double from_s, double to_s);
+[[nodiscard]] identification::AxisRun axis_run_from(const recording::Table& table,
+                                                    const configuration::Rig& rig, std::size_t axis,
+                                                    double from_s, double to_s);
 
 /// 0 without a trolley.
 [[nodiscard]] double mean_trolley_position(const recording::Table& table);

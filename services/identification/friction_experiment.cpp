@@ -56,10 +56,10 @@ std::string excitation_text(double at_s, const control::Excitation& excitation) 
 class Experiment {
  public:
   explicit Experiment(const FrictionExperimentOptions& options)
-      : options_{options}, rig_{runtime::load_rig(options.rig)} {
+      : options_{options}, rig_{configuration::load_rig(options.rig)} {
     const auto& drive = rig_.drives[options.axis];
     if (options.axis > plant::kSlew || !drive.present)
-      throw runtime::ConfigurationError(
+      throw configuration::ConfigurationError(
           {rig_.path + ": " + axis_name(options.axis) + ": this rig has no such drive to identify"});
     place();
     measure_loop();
@@ -114,7 +114,8 @@ class Experiment {
     const auto& trolley = rig_.drives[plant::kTrolley];
     if (options_.axis == plant::kSlew && trolley.present)
       start_[plant::kTrolley] = trolley.low_limit + 1.05 * trolley.soft_margin;
-    const bool loaded = rig_.kind == runtime::RigKind::tower || rig_.kind == runtime::RigKind::gantry;
+    const bool loaded =
+        rig_.kind == configuration::RigKind::tower || rig_.kind == configuration::RigKind::gantry;
     if (!loaded) return;
     constexpr double kSwingShare = 0.35;  // of the limit: friction adds harmonics that no reference has
     limits_.swing_rad = kSwingShare * rig_.limits.swing_limit_rad;
@@ -253,7 +254,7 @@ class Experiment {
   }
 
   const FrictionExperimentOptions& options_;
-  runtime::Rig rig_;
+  configuration::Rig rig_;
   id::ExcitationLimits limits_;
   id::LinearLoop loop_;
   plant::PerAxis start_{};

@@ -52,7 +52,7 @@ struct FrictionExperimentResult {
 [[nodiscard]] FrictionEstimates estimate_both(const identification::AxisRun& run, double zero_band,
                                               double cutoff_ratio, double gain);
 
-/// @throws runtime::ConfigurationError, RunError, identification::IdentificationError,
+/// @throws configuration::ConfigurationError, RunError, identification::IdentificationError,
 /// plot::PictureError
 [[nodiscard]] FrictionExperimentResult identify_friction(const FrictionExperimentOptions& options);
 

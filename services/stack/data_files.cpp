@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 #ifndef CRANE_DATA_DIRECTORY
 #error "CRANE_DATA_DIRECTORY is set by the build"
@@ -25,7 +25,8 @@ std::filesystem::path locate(const std::string& what, const std::string& folder,
   std::sort(names.begin(), names.end());
   std::string known;
   for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
-  throw runtime::ConfigurationError({what + " = " + name_or_path + ": must be a file, or one of " + known});
+  throw configuration::ConfigurationError(
+      {what + " = " + name_or_path + ": must be a file, or one of " + known});
 }
 
 }  // namespace

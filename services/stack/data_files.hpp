@@ -5,8 +5,8 @@
 
 namespace crane::stack {
 
-/// A file as given, or the one of that name that comes with the project. @throws runtime::ConfigurationError
-/// listing the names there are
+/// A file as given, or the one of that name that comes with the project. @throws
+/// configuration::ConfigurationError listing the names there are
 [[nodiscard]] std::filesystem::path find_rig(const std::string& name_or_path);
 [[nodiscard]] std::filesystem::path find_scenario(const std::string& name_or_path);
 

@@ -27,7 +27,7 @@ std::map<std::string, std::string> vendors_from(const std::vector<std::string>& 
     if (vendor != "cyclone" && vendor != "fastdds") refuse("vendor must be cyclone or fastdds");
     vendors[name] = vendor;
   }
-  if (!problems.empty()) throw runtime::ConfigurationError{std::move(problems)};
+  if (!problems.empty()) throw configuration::ConfigurationError{std::move(problems)};
   return vendors;
 }
 
@@ -48,7 +48,7 @@ void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>&
   }
 }
 
-void launch_rig(ChildProcesses& children, const runtime::Rig& rig, const LaunchOptions& options) {
+void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const LaunchOptions& options) {
   if (rig.board != "emulated") return;
   // Above the stack: what is hardware elsewhere waits for nobody.
   const int priority = options.priority > 0 ? options.priority + 1 : 0;

@@ -21,8 +21,8 @@ struct LaunchOptions {
   bool verbose = false;
 };
 
-/// "NAME=VENDOR" entries as given to --dds-for. @throws runtime::ConfigurationError for an unknown name or
-/// vendor
+/// "NAME=VENDOR" entries as given to --dds-for. @throws configuration::ConfigurationError for an unknown name
+/// or vendor
 [[nodiscard]] std::map<std::string, std::string> vendors_from(
     const std::vector<std::string>& entries, const std::vector<runtime::ComponentSpec>& specs);
 
@@ -32,7 +32,7 @@ void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>&
 
 /// The process a rig needs besides the stack's: the emulated crane of an emulated board, else nothing.
 /// @throws std::runtime_error when the program is missing
-void launch_rig(ChildProcesses& children, const runtime::Rig& rig, const LaunchOptions& options);
+void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const LaunchOptions& options);
 
 /// The model beside the crane, off the loop: ordinary scheduling, and the observers' vendor unless `vendors`
 /// has "twin".

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "crane/configuration/rig.hpp"
 #include "crane/control/excitation.hpp"
 #include "crane/control/law.hpp"
 #include "crane/control/shaper.hpp"
 #include "crane/control/trajectory.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::services {
 
@@ -21,7 +21,7 @@ struct MoveTarget {
 class Motion {
  public:
   /// @param rig  limits of the reference per drive; must outlive the motion
-  Motion(const runtime::Rig& rig, control::ReferenceShape shape) : rig_{rig}, shape_{shape} {}
+  Motion(const configuration::Rig& rig, control::ReferenceShape shape) : rig_{rig}, shape_{shape} {}
 
   /// Rest at what is measured: the crane is not under control.
   void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
@@ -53,7 +53,7 @@ class Motion {
   [[nodiscard]] control::Shaper shaper() const;
   [[nodiscard]] double time_s(std::uint64_t tick) const noexcept;
 
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   control::ReferenceShape shape_;
   control::Trajectory trajectory_{};
   control::Shaper shaper_;  ///< of trolley and slew; the hoist makes no swing

@@ -2,7 +2,7 @@
 
 namespace crane::supervisor {
 
-Limits limits_of(const runtime::Rig& rig) {
+Limits limits_of(const configuration::Rig& rig) {
   Limits limits;
   for (std::size_t i = 0; i < kAxes; ++i) limits.axis[i] = rig.drives[i];
   limits.period_s = rig.period_s;

@@ -37,7 +37,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
         statuses_{context.ports.output(topics::supervisor)} {
     if (auto found = problems(limits_); !found.empty()) {
       for (auto& problem : found) problem.insert(0, context.rig.path + ": limits: ");
-      throw runtime::ConfigurationError{std::move(found)};
+      throw configuration::ConfigurationError{std::move(found)};
     }
   }
 

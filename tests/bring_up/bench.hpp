@@ -13,7 +13,7 @@
 namespace crane::bring_up::test {
 
 /// deploy/rigs/emulated_servo_to_go.toml
-inline runtime::Rig tower() { return runtime::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml"); }
+inline configuration::Rig tower() { return configuration::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml"); }
 
 /// Lines that are stuck, whatever the card or the rig does; bits as on the connector.
 struct StuckLines {
@@ -23,7 +23,7 @@ struct StuckLines {
 
 class StuckRig final : public bridge::EmulatedRig {
  public:
-  StuckRig(const runtime::Rig& rig, const StuckLines& stuck) : rig_{rig}, stuck_{stuck} {}
+  StuckRig(const configuration::Rig& rig, const StuckLines& stuck) : rig_{rig}, stuck_{stuck} {}
 
   std::int32_t pulses(std::size_t channel) noexcept override { return rig_.pulses(channel); }
   std::uint16_t inputs() noexcept override {  // a closed contact is low
@@ -52,7 +52,8 @@ class StuckRig final : public bridge::EmulatedRig {
 
 class Bench {
  public:
-  Bench(const runtime::Rig& told, const runtime::Rig& wired, const StuckLines& stuck = {}, Clock clock = {}) {
+  Bench(const configuration::Rig& told, const configuration::Rig& wired, const StuckLines& stuck = {},
+        Clock clock = {}) {
     auto rig = std::make_unique<StuckRig>(wired, stuck);
     rig_ = rig.get();
     told_ = told;
@@ -62,7 +63,7 @@ class Bench {
   [[nodiscard]] Session& session() { return *session_; }
   void end_session() { session_.reset(); }
   [[nodiscard]] emulated_rig::WiredRig& rig() { return rig_->wired(); }
-  [[nodiscard]] const runtime::Rig& told() const { return told_; }
+  [[nodiscard]] const configuration::Rig& told() const { return told_; }
   void pass(std::int64_t duration_ns) { rig_->advance_to(rig_->now_ns() + duration_ns); }
   void expect_safe() {
     EXPECT_EQ(rig().drive_v(), (std::array<double, kDrives>{}));
@@ -71,7 +72,7 @@ class Bench {
   }
 
  private:
-  runtime::Rig told_;
+  configuration::Rig told_;
   StuckRig* rig_;
   std::unique_ptr<bridge::EmulatedBoard> board_;
   std::unique_ptr<Session> session_;

@@ -164,7 +164,7 @@ class CalibrationFile : public testing::Test {
 TEST_F(CalibrationFile, IsARigFileWithTheCalibratedValues) {
   const auto calibration = some();
   write(calibration_file(tower(), calibration, file_));
-  const auto rig = runtime::load_rig(file_);
+  const auto rig = configuration::load_rig(file_);
   EXPECT_EQ(rig.name, tower().name);
   for (std::size_t i = 0; i < kDrives; ++i) {
     EXPECT_EQ(rig.drives[i].sign, calibration.drive_sign[i]);
@@ -184,18 +184,19 @@ TEST_F(CalibrationFile, IsNotWrittenOverThatOfAnotherRig) {
   try {
     std::ignore = calibration_file(other, some(), file_);
     FAIL();
-  } catch (const runtime::ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     EXPECT_NE(std::string{error.what()}.find("another rig than the_other_crane"), std::string::npos);
   }
-  EXPECT_THROW(require_own_file(tower(), tower().path), runtime::ConfigurationError);
+  EXPECT_THROW(require_own_file(tower(), tower().path), configuration::ConfigurationError);
   write("these are notes");
-  EXPECT_THROW(require_own_file(tower(), file_), runtime::ConfigurationError);
+  EXPECT_THROW(require_own_file(tower(), file_), configuration::ConfigurationError);
 }
 
 TEST_F(CalibrationFile, RefusesAPlaceOutsideTheLimits) {
   auto calibration = some();
   calibration.position[0] = 3;
-  EXPECT_THROW(std::ignore = calibration_file(tower(), calibration, file_), runtime::ConfigurationError);
+  EXPECT_THROW(std::ignore = calibration_file(tower(), calibration, file_),
+               configuration::ConfigurationError);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Names found_on(Bench& bench) {
 struct Miswiring {
   const char* name;
   Names expected;
-  std::function<void(runtime::Rig&)> wire = [](runtime::Rig&) {};
+  std::function<void(configuration::Rig&)> wire = [](configuration::Rig&) {};
   StuckLines stuck{};
   friend std::ostream& operator<<(std::ostream& out, const Miswiring& wrong) { return out << wrong.name; }
 };
@@ -150,7 +150,7 @@ TEST(Selftest, IsNotConfusedByALoadThatSwingsAlready) {
 }
 
 TEST(Selftest, TestsARigOfASingleAxis) {
-  auto rig = runtime::load_rig(CRANE_RIGS "/drive_axis.toml");
+  auto rig = configuration::load_rig(CRANE_RIGS "/drive_axis.toml");
   rig.board = "emulated";
   Bench right{rig, rig};
   EXPECT_EQ(found_on(right), Names{});

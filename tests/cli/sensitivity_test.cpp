@@ -12,7 +12,7 @@ namespace crane::cli {
 namespace {
 
 experiments::PlannedRun plan_with(const std::string& controller) {
-  const auto rig = runtime::load_rig(stack::find_rig("virginia_tech_tower"));
+  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   return {experiment::load_scenario(stack::find_scenario("maneuver_1"), &rig), rig,
           control::find_controller(controller), ""};
 }

@@ -12,7 +12,7 @@ namespace {
 
 using namespace crane::diagnosis;
 
-Runs measured(const crane::runtime::Rig& rig) {
+Runs measured(const crane::configuration::Rig& rig) {
   const auto mapping = load_mapping(std::string{CRANE_MAPPINGS} + "/uw_pendulum.toml");
   const std::string file = std::string{CRANE_MEASURED} + "/uw_pendulum_id1.csv";
   Runs runs;
@@ -23,7 +23,7 @@ Runs measured(const crane::runtime::Rig& rig) {
 
 /// Of pivot friction: viscous and Coulomb; starts of the windows are projected out on the way.
 void fit_of_pivot_friction(benchmark::State& state) {
-  const auto rig = crane::runtime::load_rig(std::string{CRANE_RIGS} + "/uw_pendulum.toml");
+  const auto rig = crane::configuration::load_rig(std::string{CRANE_RIGS} + "/uw_pendulum.toml");
   const Runs runs = measured(rig), none;
   Study study(rig, runs, none);
   study.learn_disturbance();

@@ -28,7 +28,7 @@ std::string swing_csv() {
   return text;
 }
 
-runtime::Rig pendulum() { return runtime::load_rig(fs::path{CRANE_RIGS} / "pendulum.toml"); }
+configuration::Rig pendulum() { return configuration::load_rig(fs::path{CRANE_RIGS} / "pendulum.toml"); }
 
 std::vector<std::string> problems_of(const std::vector<std::string>& train,
                                      const std::vector<std::string>& test) {

@@ -6,7 +6,7 @@
 
 namespace crane::diagnosis {
 
-[[nodiscard]] inline Runs runs_of(const std::vector<truth::Run>& runs, const runtime::Rig& rig) {
+[[nodiscard]] inline Runs runs_of(const std::vector<truth::Run>& runs, const configuration::Rig& rig) {
   Runs all;
   for (const truth::Run& run : runs)
     for (Run& piece : load_run(recording::parse_csv(truth::csv(run), run.file), rig, run.file).runs)
@@ -17,7 +17,7 @@ namespace crane::diagnosis {
 struct DataOfTruth {
   explicit DataOfTruth(const truth::Case& request) : DataOfTruth(request, truth::generate(request)) {}
 
-  runtime::Rig rig;
+  configuration::Rig rig;
   Runs train, test;
 
  private:

@@ -13,7 +13,9 @@ using recording::Table;
 using testing::AllOf;
 using testing::HasSubstr;
 
-runtime::Rig tower() { return runtime::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml"); }
+configuration::Rig tower() {
+  return configuration::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
+}
 
 /// Four seconds of plausible motion at 100 Hz.
 Table plausible() {

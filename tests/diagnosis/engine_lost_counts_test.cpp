@@ -13,8 +13,8 @@ namespace {
 constexpr double kSample_s = 0.01;
 constexpr int kRows = 3000;
 
-runtime::Rig rig_of_losses() {
-  return runtime::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
+configuration::Rig rig_of_losses() {
+  return configuration::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
 }
 
 /// What the slew's encoder counts of a motion.

@@ -12,14 +12,14 @@ namespace {
 
 using plant::State;
 
-runtime::Rig tower_with(const std::vector<plant::TermSetting>& terms) {
-  runtime::Rig rig = runtime::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
+configuration::Rig tower_with(const std::vector<plant::TermSetting>& terms) {
+  configuration::Rig rig = configuration::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
   rig.terms.insert(rig.terms.end(), terms.begin(), terms.end());
   return rig;
 }
 
 /// What CVODE makes of a lively command: exact positions at every tick.
-Run integrated(const runtime::Rig& rig, double seconds, double liveliness = 1) {
+Run integrated(const configuration::Rig& rig, double seconds, double liveliness = 1) {
   plant::Model model(rig.plant, rig.terms, rig.period_s);
   simulator::Integrator integrator(model);
   Run run;
@@ -47,7 +47,7 @@ Run integrated(const runtime::Rig& rig, double seconds, double liveliness = 1) {
 
 /// Calls visit(replayed less measured) for every row of windows of 2 s from the measured start.
 template <class Visit>
-void visit_errors(const Run& run, const runtime::Rig& rig, Part part, Visit&& visit) {
+void visit_errors(const Run& run, const configuration::Rig& rig, Part part, Visit&& visit) {
   const PreparedRun prepared = prepare(run, rig);
   const Replay replay(prepared, {rig.plant, rig.terms});
   const auto outputs = simulated_outputs(prepared, part);
@@ -68,20 +68,20 @@ void visit_errors(const Run& run, const runtime::Rig& rig, Part part, Visit&& vi
   }
 }
 
-double worst(const Run& run, const runtime::Rig& rig, Part part) {
+double worst(const Run& run, const configuration::Rig& rig, Part part) {
   double most = 0;
   visit_errors(run, rig, part, [&](double error) { most = std::max(most, std::abs(error)); });
   return most;
 }
 
-double rms(const Run& run, const runtime::Rig& rig, Part part) {
+double rms(const Run& run, const configuration::Rig& rig, Part part) {
   double squares = 0, count = 0;
   visit_errors(run, rig, part, [&](double error) { squares += error * error, ++count; });
   return std::sqrt(squares / count);
 }
 
 TEST(FixedStepReplay, AgreesWithCvodeWithoutFriction) {
-  runtime::Rig rig = tower_with({});
+  configuration::Rig rig = tower_with({});
   rig.terms.clear();
   const auto run = integrated(rig, 8, 0.15);        // nothing else keeps this crane on its track
   EXPECT_LT(worst(run, rig, Part::drive), 1.5e-4);  // 2 s of double integration from a difference quotient
@@ -90,15 +90,15 @@ TEST(FixedStepReplay, AgreesWithCvodeWithoutFriction) {
 }
 
 TEST(FixedStepReplay, AgreesWithCvodeThroughReversalsWithStiffFriction) {
-  const runtime::Rig rig = tower_with({});
+  const configuration::Rig rig = tower_with({});
   const auto run = integrated(rig, 8);
   EXPECT_LT(worst(run, rig, Part::drive), 5e-4);
   EXPECT_LT(worst(run, rig, Part::load), 7e-5);
 }
 
 TEST(FixedStepReplay, OfTheLoadSeesAnEffectOnTheLoad) {
-  const runtime::Rig plain = tower_with({});
-  const runtime::Rig dragged = tower_with({{"load_linear_drag", "", {{"coefficient_nspm", 0.5}}}});
+  const configuration::Rig plain = tower_with({});
+  const configuration::Rig dragged = tower_with({{"load_linear_drag", "", {{"coefficient_nspm", 0.5}}}});
   const auto run = integrated(dragged, 8);
   EXPECT_LT(worst(run, dragged, Part::load), 7e-5);
   EXPECT_GT(worst(run, plain, Part::load), 5e-3);
@@ -124,7 +124,7 @@ TEST(FixedStepReplay, SwitchesADelayedCommandInsideARow) {
   const std::uint64_t seed = 6;
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> any(-3, 3);
-  runtime::Rig rig = runtime::load_rig(std::string{CRANE_RIGS} + "/drive_axis.toml");
+  configuration::Rig rig = configuration::load_rig(std::string{CRANE_RIGS} + "/drive_axis.toml");
   rig.terms = {{"command_delay", "trolley", {{"delay_s", kRowsLate * rig.period_s}}}};
   diagnosis::Run run;
   run.period_s = rig.period_s;

@@ -35,7 +35,7 @@ TEST(Paces, TellWhereAnAxisStandsTurnsAndIsSlow) {
 
 /// x'' = K (V + a sin(2 pi x / w + psi)) in small steps, a run with one command.
 TEST(PositionSpectrum, FindsPeriodAmplitudeAndPhaseOfARipple) {
-  runtime::Rig rig = score::rig_file_of("drive_axis");
+  configuration::Rig rig = score::rig_file_of("drive_axis");
   rig.terms.clear();
   constexpr double kAmplitude_v = 0.2, kPeriod_m = 0.04, kPhase = 1.1;
   const double gain = rig.plant.trolley_gain_mps2pv;

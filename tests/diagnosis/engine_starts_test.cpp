@@ -14,11 +14,11 @@ namespace {
 
 constexpr double kRow_s = 0.01;
 
-runtime::Rig pendulum() { return runtime::load_rig(CRANE_RIGS "/pendulum.toml"); }
+configuration::Rig pendulum() { return configuration::load_rig(CRANE_RIGS "/pendulum.toml"); }
 
 /// A free pendulum of the rig by Runge-Kutta, with a line of `line_rad` at `line_hz` on the measured angle.
-Run swing(const runtime::Rig& rig, const std::string& name, double start_rad, double line_rad, double line_hz,
-          double phase_rad) {
+Run swing(const configuration::Rig& rig, const std::string& name, double start_rad, double line_rad,
+          double line_hz, double phase_rad) {
   const double cable_m = rig.start.position[plant::kHoist];
   const double w2 = rig.plant.gravity_mps2 / cable_m;
   Run run;

@@ -21,7 +21,7 @@ constexpr double kViscous_vspm = 0.4;
 /// A drive axis with viscous friction in a random walk of commands. @param extra_v on top, of time, position
 /// and speed
 template <class Extra>
-PreparedRun moved(const runtime::Rig& rig, double duration_s, unsigned seed, Extra&& extra_v) {
+PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned seed, Extra&& extra_v) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   Run run;
@@ -45,8 +45,8 @@ PreparedRun moved(const runtime::Rig& rig, double duration_s, unsigned seed, Ext
   return prepare(std::move(run), rig);
 }
 
-runtime::Rig axis_with_viscous_friction() {
-  runtime::Rig rig = score::rig_file_of("drive_axis");
+configuration::Rig axis_with_viscous_friction() {
+  configuration::Rig rig = score::rig_file_of("drive_axis");
   rig.terms = {{"viscous_friction", "trolley", {{"vspm", kViscous_vspm}}}};
   return rig;
 }
@@ -56,14 +56,14 @@ struct Left {
   std::optional<Unexplained> line, jumps;
 };
 
-Left left_in(const Runs& runs, const runtime::Rig& rig) {
+Left left_in(const Runs& runs, const configuration::Rig& rig) {
   const Pieces pieces = pieces_of(runs, replays_of(runs, {rig.plant, rig.terms}), kTrolleyPosition);
   return {find_unexplained(pieces), find_force_line(pieces, 1), find_jumps(pieces)};
 }
 
 template <class Extra>
 Left left_of(Extra&& extra_v) {
-  const runtime::Rig rig = axis_with_viscous_friction();
+  const configuration::Rig rig = axis_with_viscous_friction();
   return left_in({moved(rig, 30, 1, extra_v), moved(rig, 30, 2, extra_v)}, rig);
 }
 
@@ -72,7 +72,7 @@ double nothing(double, double, double) { return 0; }
 /// What a scale of 7 % leaves to second order would be 2 mm of 40 cm.
 TEST(UnderWay, ErrorsOfTheEncoderAreUndoneAndNeverMakeTheResidualSmaller) {
   constexpr double kScale = 0.93;
-  const runtime::Rig rig = axis_with_viscous_friction();
+  const configuration::Rig rig = axis_with_viscous_friction();
   const Runs as_it_was{moved(rig, 30, 1, nothing)};
   diagnosis::Run shown = as_it_was[0].run;
   for (double& position : shown.measured[kTrolleyPosition]) position *= kScale;
@@ -144,7 +144,7 @@ TEST(Unexplained, BrakeThatGripsNowAndThenMakesTheSpeedJump) {
 }
 
 TEST(Unexplained, EncoderThatLosesCountsMakesThePositionJump) {
-  const runtime::Rig rig = axis_with_viscous_friction();
+  const configuration::Rig rig = axis_with_viscous_friction();
   Runs runs;
   for (const unsigned seed : {1U, 2U}) {
     diagnosis::Run run = moved(rig, 30, seed, nothing).run;
@@ -163,7 +163,7 @@ TEST(Unexplained, EncoderThatLosesCountsMakesThePositionJump) {
 /// Forty bodies of data from fixed seeds: the truth lies inside two standard deviations nearly always, and
 /// not because they are wide.
 TEST(Intervals, HoldTheTruthAndAreNotWide) {
-  runtime::Rig rig = axis_with_viscous_friction();
+  configuration::Rig rig = axis_with_viscous_friction();
   rig.terms.clear();
   constexpr int kBodies = 40;
   int inside = 0;

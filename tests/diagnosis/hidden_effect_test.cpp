@@ -151,7 +151,7 @@ TEST(Diagnosis, RepeatsBitForBit) {
 }
 
 TEST(DataInWhichNothingMoves, AreRefused) {
-  const runtime::Rig rig = rig_file_of("tower");
+  const configuration::Rig rig = rig_file_of("tower");
   diagnosis::Run still;
   still.name = "still.csv";
   still.period_s = 0.01;

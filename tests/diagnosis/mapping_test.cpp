@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const recording::Table& table) {
 std::string problems_of(const std::string& text) {
   try {
     (void)parse_mapping(text, "their.toml");
-  } catch (const runtime::ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     return error.what();
   }
   return "";
@@ -77,7 +77,7 @@ TEST(Mapping, ReportsEveryColumnThatTheDataLack) {
 
 TEST(Mapping, OfTheMeasuredPendulumGivesAnAngleAboutItsRest) {
   const auto mapping = load_mapping(std::filesystem::path{CRANE_MAPPINGS} / "uw_pendulum.toml");
-  const auto rig = runtime::load_rig(std::filesystem::path{CRANE_RIGS} / "uw_pendulum.toml");
+  const auto rig = configuration::load_rig(std::filesystem::path{CRANE_RIGS} / "uw_pendulum.toml");
   for (const std::string name : {"uw_pendulum_id1.csv", "uw_pendulum_vad1.csv"}) {
     const auto table = recording::read_csv(std::filesystem::path{CRANE_MEASURED} / name);
     const auto loaded = load_run(canonical(table, mapping, name), rig, name);

@@ -8,7 +8,7 @@ namespace crane::diagnosis {
 namespace {
 
 Diagnosis diagnosed(const std::string& held_out) {
-  const auto rig = runtime::load_rig(std::filesystem::path{CRANE_RIGS} / "uw_pendulum.toml");
+  const auto rig = configuration::load_rig(std::filesystem::path{CRANE_RIGS} / "uw_pendulum.toml");
   const auto mapping = load_mapping(std::filesystem::path{CRANE_MAPPINGS} / "uw_pendulum.toml");
   const std::string prefix = std::string{CRANE_MEASURED} + "/uw_pendulum_";
   std::vector<std::string> train;

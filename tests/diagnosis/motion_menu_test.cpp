@@ -22,13 +22,13 @@ double span(const std::vector<double>& values) {
 
 class MotionMenu : public testing::TestWithParam<const char*> {
  protected:
-  runtime::Rig rig_ = runtime::load_rig(kRigFiles / (std::string{GetParam()} + ".toml"));
+  configuration::Rig rig_ = configuration::load_rig(kRigFiles / (std::string{GetParam()} + ".toml"));
 };
 
 TEST_P(MotionMenu, KeepsToTravelSpeedAndAccelerationOfTheReference) {
   for (const SafeMotion& motion : motion_menu(rig_))
     for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
-      const runtime::Drive& drive = rig_.drives[axis];
+      const configuration::Drive& drive = rig_.drives[axis];
       if (!drive.present) continue;
       for (double t = 0; t < motion.duration_s; t += 0.01) {
         const auto wanted = motion.reference(axis, t);
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Rigs, MotionMenu,
                          [](const auto& entry) { return std::string{entry.param}; });
 
 TEST(MotionMenu, OfTheDissertationsRigIsWhatTheProjectsScenariosSay) {
-  const auto rig = runtime::load_rig(kRigFiles / "virginia_tech_tower.toml");
+  const auto rig = configuration::load_rig(kRigFiles / "virginia_tech_tower.toml");
   for (const SafeMotion& motion : motion_menu(rig)) {
     std::ifstream file{std::filesystem::path{CRANE_SCENARIOS} / ("experiment_" + motion.name + ".toml")};
     const std::string text{std::istreambuf_iterator<char>(file), {}};

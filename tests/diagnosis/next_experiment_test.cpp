@@ -17,7 +17,7 @@ const Disturbances kDisturbances{{{.noise = 1e-5, .acceleration = 0.04, .correla
 /// A rig and everything that can be wrong with it.
 struct Suspects {
   explicit Suspects(const std::string& name)
-      : rig(runtime::load_rig(std::filesystem::path{CRANE_RIGS} / (name + ".toml"))),
+      : rig(configuration::load_rig(std::filesystem::path{CRANE_RIGS} / (name + ".toml"))),
         candidates(
             candidates_for(rig, {*safe_run(rig, Crane{rig.plant, rig.terms}, motion_menu(rig).front())})) {}
 
@@ -38,7 +38,7 @@ struct Suspects {
     return {&candidate, values};
   }
 
-  runtime::Rig rig;
+  configuration::Rig rig;
   std::vector<Candidate> candidates;
 };
 

@@ -18,8 +18,8 @@ using testing::Not;
 
 constexpr std::size_t kRows = 600;
 
-runtime::Rig rig_of(const std::string& name) {
-  return runtime::load_rig(std::filesystem::path{CRANE_RIGS} / (name + ".toml"));
+configuration::Rig rig_of(const std::string& name) {
+  return configuration::load_rig(std::filesystem::path{CRANE_RIGS} / (name + ".toml"));
 }
 
 /// A gantry whose simulation misses a twentieth of the trolley's motion.
@@ -98,7 +98,7 @@ plant::TermSetting some(const plant::TermKind& kind) {
   return setting;
 }
 
-std::vector<std::array<std::int32_t, bridge::kCounters>> driven(const runtime::Rig& rig) {
+std::vector<std::array<std::int32_t, bridge::kCounters>> driven(const configuration::Rig& rig) {
   simulator::SimulatedRig simulated;
   simulated.parameters = rig.plant;
   simulated.terms = rig.terms;
@@ -119,10 +119,10 @@ std::vector<std::array<std::int32_t, bridge::kCounters>> driven(const runtime::R
 class ExtendedRigTerm : public testing::TestWithParam<std::string> {};
 
 TEST_P(ExtendedRigTerm, LoadsWithItsTermAndRunsInTheSimulatorAsThatTerm) {
-  runtime::Rig rig = rig_of("virginia_tech_tower");
+  configuration::Rig rig = rig_of("virginia_tech_tower");
   Diagnosis diagnosis;
   diagnosis.extension = {some(*plant::find_term(GetParam()))};
-  const auto extended = runtime::parse_rig(extended_rig_text(rig, diagnosis), "/nowhere/extended.toml");
+  const auto extended = configuration::parse_rig(extended_rig_text(rig, diagnosis), "/nowhere/extended.toml");
   ASSERT_EQ(extended.terms.size(), rig.terms.size() + 1);
   EXPECT_EQ(extended.terms.back().name, GetParam());
   EXPECT_EQ(extended.terms.back().axis, diagnosis.extension[0].axis);
@@ -142,7 +142,8 @@ INSTANTIATE_TEST_SUITE_P(All, ExtendedRigTerm, testing::ValuesIn(term_names()),
 
 TEST(ExtendedRig, KeepsTheRigAsItIsWhereNothingWasFound) {
   const auto rig = rig_of("virginia_tech_tower_ideal");
-  const auto extended = runtime::parse_rig(extended_rig_text(rig, Diagnosis{}), "/nowhere/extended.toml");
+  const auto extended =
+      configuration::parse_rig(extended_rig_text(rig, Diagnosis{}), "/nowhere/extended.toml");
   EXPECT_TRUE(extended.terms.empty());
   EXPECT_EQ(extended.start.position, rig.start.position);
 }
@@ -241,7 +242,7 @@ TEST(ReportFiles, AreWrittenAndRemoveAnEarlierProposal) {
        {"report.json", "report.html", "extended.toml", "next_experiment.toml", "overlay_1.svg",
         "residual_trolley_position_m.svg", "residual_swing_radial_rad.svg"})
     EXPECT_TRUE(std::filesystem::is_regular_file(directory / name)) << name;
-  EXPECT_EQ(runtime::load_rig(directory / "extended.toml").terms.size(), 1U);
+  EXPECT_EQ(configuration::load_rig(directory / "extended.toml").terms.size(), 1U);
   example.diagnosis.next_experiment.reset();
   write_report(directory, example.diagnosis, rig, {example.run});
   EXPECT_FALSE(std::filesystem::exists(directory / "next_experiment.toml"));

@@ -18,7 +18,8 @@ fs::path new_directory() {
   return name;
 }
 
-std::vector<Run> runs_in(const fs::path& directory, const std::string& prefix, const runtime::Rig& rig) {
+std::vector<Run> runs_in(const fs::path& directory, const std::string& prefix,
+                         const configuration::Rig& rig) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(directory))
     if (entry.path().extension() == ".csv" && entry.path().filename().string().starts_with(prefix))
@@ -48,7 +49,7 @@ SealedCase::~SealedCase() {
 }
 
 Diagnosis SealedCase::diagnosed(const Request& request) const {
-  const runtime::Rig rig = rig_file_of(rig_);
+  const configuration::Rig rig = rig_file_of(rig_);
   return diagnose(rig, runs_in(directory_, "train_", rig), runs_in(directory_, "test_", rig), request);
 }
 
@@ -66,9 +67,9 @@ std::vector<HiddenEffect> SealedCase::answer() const {
   return hidden;
 }
 
-runtime::Rig rig_file_of(const std::string& truth_rig) {
+configuration::Rig rig_file_of(const std::string& truth_rig) {
   const std::string name = truth_rig == "tower" ? "virginia_tech_tower" : truth_rig;
-  return runtime::load_rig(std::string{CRANE_RIGS} + "/" + name + ".toml");
+  return configuration::load_rig(std::string{CRANE_RIGS} + "/" + name + ".toml");
 }
 
 }  // namespace crane::diagnosis::score

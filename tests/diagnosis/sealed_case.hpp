@@ -38,6 +38,6 @@ class SealedCase {
 };
 
 /// The rig file that describes the truth's rig of that name without its effects.
-[[nodiscard]] runtime::Rig rig_file_of(const std::string& truth_rig);
+[[nodiscard]] configuration::Rig rig_file_of(const std::string& truth_rig);
 
 }  // namespace crane::diagnosis::score

@@ -23,8 +23,8 @@ struct Tested {
 void PrintTo(const Tested& tested, std::ostream* out) { *out << tested.cause << " " << tested.axis; }
 
 /// The tower with smooth friction: viscous only.
-runtime::Rig smooth_tower() {
-  runtime::Rig rig = runtime::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
+configuration::Rig smooth_tower() {
+  configuration::Rig rig = configuration::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
   rig.terms = {{"viscous_friction", "trolley", {{"vspm", 3.0}}},
                {"viscous_friction", "slew", {{"vspm", 0.5}}}};
   return rig;
@@ -51,7 +51,7 @@ const plant::State kStart{.trolley_m = 0.3,
                           .tangential_radps = 0.2};
 
 /// The crane with parameter `which` of a candidate varied.
-Varied varied(const runtime::Rig& rig, const Candidate& candidate, std::vector<double> values,
+Varied varied(const configuration::Rig& rig, const Candidate& candidate, std::vector<double> values,
               std::size_t which) {
   Varied result;
   result.value = values[which];
@@ -73,7 +73,7 @@ double largest(const std::vector<Reported>& values) {
 }
 
 /// What the crane with these terms does, without noise.
-diagnosis::Run measured_on(const runtime::Rig& rig, const std::vector<plant::TermSetting>& terms,
+diagnosis::Run measured_on(const configuration::Rig& rig, const std::vector<plant::TermSetting>& terms,
                            const std::vector<plant::PerAxis>& command) {
   const Varied nothing{[&](double) { return Crane{rig.plant, terms}; }, 0, 1};
   const Sensitivity motion = sensitivity(nothing, Part::whole, command, kPeriod_s, kStart);
@@ -131,7 +131,7 @@ class SlopesOfTheFit : public testing::TestWithParam<Tested> {
     return out;
   }
 
-  const runtime::Rig rig_ = smooth_tower();
+  const configuration::Rig rig_ = smooth_tower();
   const std::vector<plant::PerAxis> command_ = onward_command();
   std::vector<PreparedRun> runs_;
   std::vector<Candidate> candidates_;
@@ -171,7 +171,7 @@ TEST_P(SlopesOfTheFit, AgreeWithCvodes) {
 
 /// The given motion with the sensors' errors undone moves the other part as CVODES has it moved.
 TEST(SensorErrors, AreUndoneBeforeTheSwingPullsAtTheDrives) {
-  const runtime::Rig rig = smooth_tower();
+  const configuration::Rig rig = smooth_tower();
   const std::vector<plant::TermSetting> errors{{"swing_scale", "radial", {{"factor", 1.2}}},
                                                {"swing_offset", "tangential", {{"offset_rad", 0.05}}}};
   std::vector<plant::TermSetting> terms = rig.terms;

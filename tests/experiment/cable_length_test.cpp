@@ -22,7 +22,7 @@ class CableOffNominal : public testing::TestWithParam<std::pair<const char*, dou
 
 TEST_P(CableOffNominal, SwingsWithTheTrueCableWhileTheEncoderShowsTheNominalOne) {
   const auto [variant, true_length_m] = GetParam();
-  const auto rig = runtime::load_rig(stack::find_rig("virginia_tech_tower_ideal"));
+  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower_ideal"));
   const auto scenario = parse_scenario(
       "description = \"a push\"\nduration_s = 15\n[start]\ntrolley_position_m = 0.7\n[[kick]]\nat_s = 0.5\n"
       "radial_degps = 10\n",
@@ -42,10 +42,10 @@ INSTANTIATE_TEST_SUITE_P(Variants, CableOffNominal,
 
 TEST(CableOffset, MustLeaveACable) {
   try {
-    (void)runtime::parse_rig("extends = \"pendulum.toml\"\n[start]\ncable_length_offset_m = -1.0\n",
-                             stack::find_rig("pendulum").parent_path() / "short.toml");
+    (void)configuration::parse_rig("extends = \"pendulum.toml\"\n[start]\ncable_length_offset_m = -1.0\n",
+                                   stack::find_rig("pendulum").parent_path() / "short.toml");
     FAIL() << "a cable of no length";
-  } catch (const runtime::ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     EXPECT_NE(error.problems().at(0).find("cable_length_offset_m = -1"), std::string::npos);
   }
 }

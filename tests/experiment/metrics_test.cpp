@@ -165,7 +165,7 @@ TEST(Metrics, TakesTheManeuverFromTheScenario) {
   Scenario scenario;
   scenario.start[0] = 0.3;
   scenario.moves.push_back({0.5, {1.0, std::nullopt, std::nullopt}});
-  runtime::Rig rig = tower();
+  configuration::Rig rig = tower();
   rig.start.position = {0.25, 0.2, 0.9};
   const Maneuver one = maneuver_of(scenario, rig);
   EXPECT_THAT(one.from, testing::ElementsAre(0.3, 0.2, 0.9));

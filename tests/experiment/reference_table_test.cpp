@@ -39,7 +39,7 @@ class ReferenceTable : public testing::TestWithParam<Row> {};
 
 TEST_P(ReferenceTable, HoldsWithinTenPercent) {
   const Row& row = GetParam();
-  const auto rig = runtime::load_rig(stack::find_rig("virginia_tech_tower"));
+  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   const auto scenario = load_scenario(stack::find_scenario("maneuver_" + std::to_string(row.maneuver)), &rig);
   const auto run =
       experiments::simulate({scenario, rig, control::find_controller(row.controller), row.variant});

@@ -2,14 +2,14 @@
 /// The travel of the dissertation's rig, enough of it for scenarios.
 #include <numbers>
 
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 namespace crane::experiment {
 
-inline runtime::Rig tower() {
-  runtime::Rig rig;
+inline configuration::Rig tower() {
+  configuration::Rig rig;
   rig.name = "virginia_tech_tower";
-  for (runtime::Drive& drive : rig.drives) drive.present = true;
+  for (configuration::Drive& drive : rig.drives) drive.present = true;
   const auto travel = [&rig](std::size_t axis, double low, double high, double margin) {
     rig.drives[axis].low_limit = low;
     rig.drives[axis].high_limit = high;

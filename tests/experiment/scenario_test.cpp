@@ -10,11 +10,11 @@
 namespace crane::experiment {
 namespace {
 
-using runtime::ConfigurationError;
+using configuration::ConfigurationError;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::vector<std::string> problems_of(const std::string& text, const runtime::Rig* rig = nullptr) {
+std::vector<std::string> problems_of(const std::string& text, const configuration::Rig* rig = nullptr) {
   try {
     (void)parse_scenario(text, "s.toml", rig);
   } catch (const ConfigurationError& error) {
@@ -106,7 +106,7 @@ at_s = -1
 }
 
 TEST(Scenario, NamesTheTravelThatAMoveLeaves) {
-  const runtime::Rig rig = tower();
+  const configuration::Rig rig = tower();
   const auto problems = problems_of(R"(description = "too far"
 [start]
 trolley_position_m = 1.9
@@ -130,13 +130,13 @@ slew_angle_deg = 200
 }
 
 TEST(Scenario, AllowsATargetExactlyOnTheMarginInDegrees) {
-  const runtime::Rig rig = tower();
+  const configuration::Rig rig = tower();
   EXPECT_THAT(problems_of("description = \"d\"\n[[move]]\nat_s = 0\nslew_angle_deg = 175\n", &rig),
               testing::IsEmpty());
 }
 
 TEST(Scenario, SaysThatARigHasNoSuchDrive) {
-  runtime::Rig rig = tower();
+  configuration::Rig rig = tower();
   rig.name = "gantry";
   rig.drives[1].present = false;
   EXPECT_THAT(problems_of("description = \"d\"\n[[move]]\nat_s = 0\nslew_angle_deg = 5\n", &rig),
@@ -186,13 +186,13 @@ TEST(Scenario, NamesTheFileThatCannotBeRead) {
 }
 
 TEST(Scenario, StartsTheRigWhereItSaysAndWithItsLoad) {
-  runtime::Rig rig = tower();
+  configuration::Rig rig = tower();
   rig.start.position = {0.25, 0.1, 1};
   Scenario scenario;
   scenario.start[0] = 0.9;
   scenario.swing_radial_rad = 0.2;
   scenario.load_mass_kg = 4;
-  const runtime::Rig started = started_by(rig, scenario);
+  const configuration::Rig started = started_by(rig, scenario);
   EXPECT_THAT(started.start.position, ElementsAre(0.9, 0.1, 1));
   EXPECT_EQ(started.start.swing_radial_rad, 0.2);
   EXPECT_EQ(started.plant.load_mass_kg, 4);
@@ -200,12 +200,13 @@ TEST(Scenario, StartsTheRigWhereItSaysAndWithItsLoad) {
 }
 
 TEST(Scenario, EveryFileOfTheProjectIsValidOnItsRig) {
-  const runtime::Rig dissertation = tower();
+  const configuration::Rig dissertation = tower();
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator{CRANE_SCENARIOS}) {
     const std::string name = load_scenario(entry.path()).rig;
-    const runtime::Rig rig =
-        name.empty() ? dissertation : runtime::load_rig(std::filesystem::path{CRANE_RIGS} / (name + ".toml"));
+    const configuration::Rig rig =
+        name.empty() ? dissertation
+                     : configuration::load_rig(std::filesystem::path{CRANE_RIGS} / (name + ".toml"));
     EXPECT_NO_THROW((void)load_scenario(entry.path(), &rig)) << entry.path();
     ++count;
   }

@@ -13,7 +13,7 @@ class StartedRigFile : public testing::TestWithParam<std::string> {};
 
 /// What processes read must be what the components in one process get.
 TEST_P(StartedRigFile, ReadsBackAsTheRigThatRuns) {
-  const auto rig = runtime::load_rig(find_rig("virginia_tech_tower"));
+  const auto rig = configuration::load_rig(find_rig("virginia_tech_tower"));
   experiment::Scenario scenario;
   scenario.start = {0.7, 0.1, {}};
   scenario.swing_radial_rad = 0.05;
@@ -22,7 +22,7 @@ TEST_P(StartedRigFile, ReadsBackAsTheRigThatRuns) {
   const auto started = experiment::changed_by(experiment::started_by(rig, scenario), GetParam());
   const auto file = std::filesystem::path{testing::TempDir()} / ("started_" + GetParam() + ".toml");
   write_started_rig(file, rig, started);
-  const auto read = runtime::load_rig(file);
+  const auto read = configuration::load_rig(file);
   std::filesystem::remove(file);
   EXPECT_EQ(read.start.position, started.start.position);
   EXPECT_EQ(read.start.cable_length_offset_m, started.start.cable_length_offset_m);

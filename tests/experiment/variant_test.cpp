@@ -10,8 +10,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-runtime::Rig tower_with_friction() {
-  runtime::Rig rig = tower();
+configuration::Rig tower_with_friction() {
+  configuration::Rig rig = tower();
   rig.terms = {{.name = "drive_friction", .axis = "trolley", .parameters = {}}};
   for (auto& friction : rig.design.friction) friction.factor = 1;
   rig.drives[plant::kSlew].reference_speed = 1;
@@ -65,7 +65,7 @@ TEST(Variant, RefusesNamesThereAreNotAndListsThoseThereAre) {
   EXPECT_THAT(variant_problems("ideal+windy+stormy"),
               ElementsAre(HasSubstr("variant \"windy\": must be one of ideal, "), HasSubstr("stormy")));
   EXPECT_EQ(variant_problems("ideal+").size(), 1U);
-  EXPECT_THROW((void)changed_by(tower(), "windy"), runtime::ConfigurationError);
+  EXPECT_THROW((void)changed_by(tower(), "windy"), configuration::ConfigurationError);
   EXPECT_EQ(changed_by(tower(), "").name, tower().name);
 }
 

@@ -21,7 +21,7 @@ struct StillPlug final : Connector {
 };
 
 struct Cycle {
-  runtime::Rig rig = test::emulated_rig();
+  configuration::Rig rig = test::emulated_rig();
   CardState state;
   StillPlug plug;
   ServoToGo board{rig, std::make_unique<EmulatedServoToGo>(std::uint16_t{0x200}, state, plug)};

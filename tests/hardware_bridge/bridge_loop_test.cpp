@@ -46,7 +46,7 @@ class BridgeLoop : public testing::Test {
   }
 
  private:
-  runtime::Rig rig_ = runtime::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml");
+  configuration::Rig rig_ = configuration::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml");
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
   bus::Bus own_{runtime::memory_options(network_, "bridge", crane_SOURCE_BRIDGE)};
   bus::Bus other_{runtime::memory_options(network_, "supervisor", crane_SOURCE_SUPERVISOR)};

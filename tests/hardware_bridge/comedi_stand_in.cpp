@@ -23,7 +23,7 @@ std::string call(const char* what, std::initializer_list<unsigned> numbers) {
 
 }  // namespace
 
-ComediStandIn::ComediStandIn(const runtime::Rig& rig) : rig_{rig} {
+ComediStandIn::ComediStandIn(const configuration::Rig& rig) : rig_{rig} {
   if (there_is != nullptr) throw std::logic_error("one device at a time");
   there_is = this;
 }

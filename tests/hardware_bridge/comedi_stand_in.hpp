@@ -19,7 +19,7 @@ class ComediStandIn {
   static constexpr unsigned kChannels = 16, kLargestCode = 8191, kGoodRange = 1;
 
   /// The one device there is, until it ends.
-  explicit ComediStandIn(const runtime::Rig& rig);
+  explicit ComediStandIn(const configuration::Rig& rig);
   ~ComediStandIn();
   ComediStandIn(const ComediStandIn&) = delete;
   ComediStandIn& operator=(const ComediStandIn&) = delete;

@@ -12,7 +12,7 @@
 namespace crane::bridge::test {
 namespace {
 
-runtime::Rig comedi_rig() {
+configuration::Rig comedi_rig() {
   auto rig = emulated_rig();
   rig.board = "comedi";
   return rig;
@@ -79,7 +79,7 @@ TEST(ComediBoard, ReportsTheVoltsOfTheFirstAndTheLastCode) {
 }
 
 /// The message when it cannot be opened. Whatever was opened is closed again: the stand-in looks.
-std::string refusal(const std::function<void(ComediStandIn&, runtime::Rig&)>& spoil) {
+std::string refusal(const std::function<void(ComediStandIn&, configuration::Rig&)>& spoil) {
   auto rig = comedi_rig();
   ComediStandIn device{rig};
   spoil(device, rig);
@@ -93,7 +93,7 @@ std::string refusal(const std::function<void(ComediStandIn&, runtime::Rig&)>& sp
 
 TEST(ComediBoard, RefusesWithOneLineAndTheRemedy) {
   const auto expect = [](const std::string& part,
-                         const std::function<void(ComediStandIn&, runtime::Rig&)>& spoil) {
+                         const std::function<void(ComediStandIn&, configuration::Rig&)>& spoil) {
     const auto message = refusal(spoil);
     EXPECT_NE(message.find(part), std::string::npos) << message;
     EXPECT_EQ(message.find("comedi device /dev/comedi0: "), 0U) << message;

@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Conformance : public testing::TestWithParam<Kind> {
  protected:
-  void put_on_bench(const runtime::Rig& rig) {
+  void put_on_bench(const configuration::Rig& rig) {
     subject_.reset();  // some boards are there once only
     subject_ = GetParam().make(rig);
   }
@@ -38,7 +38,7 @@ class Conformance : public testing::TestWithParam<Kind> {
     subject_->pass(20'000'000 + 1);  // a brake takes 20 ms to close
     EXPECT_TRUE(subject_->braked());
   }
-  runtime::Rig rig_ = emulated_rig();
+  configuration::Rig rig_ = emulated_rig();
   std::unique_ptr<Subject> subject_;
 };
 
@@ -215,7 +215,7 @@ TEST_P(Conformance, SeesSwitchesBrakesAndTheEmergencyStop) {
 }
 
 TEST_P(Conformance, ShowsAMarkBelowItsPlaceAndCountsAnAxisWithoutAZeroFromTheFarEnd) {
-  auto rig = runtime::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
+  auto rig = configuration::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
   for (const double slew_rad : {0.05, 0.15}) {
     rig.start.position[1] = slew_rad;
     put_on_bench(rig);

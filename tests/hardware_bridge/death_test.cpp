@@ -61,7 +61,7 @@ class Death : public testing::TestWithParam<int> {
     return status;
   }
 
-  runtime::Rig rig_ = emulated_rig();
+  configuration::Rig rig_ = emulated_rig();
   std::string name_;
   RigServer server_;
   pid_t child_;

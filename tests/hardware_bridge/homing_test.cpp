@@ -15,7 +15,7 @@ namespace {
 /// A trolley that is moved by hand before the bridge's eyes.
 class Hand {
  public:
-  explicit Hand(const runtime::Rig& rig, double from_m = 0.5)
+  explicit Hand(const configuration::Rig& rig, double from_m = 0.5)
       : homing{rig}, drive_{rig.drives[0]}, encoder_{rig.encoders[0]}, true_m{from_m}, power_on_m_{from_m} {}
 
   Homing homing;
@@ -23,8 +23,8 @@ class Hand {
   std::optional<std::int64_t> change;
 
  private:
-  runtime::Drive drive_;
-  runtime::Encoder encoder_;
+  configuration::Drive drive_;
+  configuration::Encoder encoder_;
 
  public:
   double true_m;

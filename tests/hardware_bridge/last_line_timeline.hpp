@@ -10,21 +10,22 @@ namespace crane::bridge::test {
 
 inline constexpr double kPeriod_s = 0.01;
 
-inline const runtime::Rig& tower() {
+inline const configuration::Rig& tower() {
   static const auto rig = emulated_rig();
   return rig;
 }
 
 /// The same crane, switched on anywhere: every axis has to be homed.
-inline const runtime::Rig& homing_tower() {
-  static const auto rig = runtime::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
+inline const configuration::Rig& homing_tower() {
+  static const auto rig = configuration::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
   return rig;
 }
 
 /// A trolley, its brakes and its supervisor, tick by tick. Tests spoil one of the public numbers.
 class Timeline {
  public:
-  explicit Timeline(std::span<const Check> checks = last_line_checks(), const runtime::Rig& rig = tower())
+  explicit Timeline(std::span<const Check> checks = last_line_checks(),
+                    const configuration::Rig& rig = tower())
       : line{last_line_parameters(rig), checks}, rig_{rig}, checks_{checks} {
     tick();
   }
@@ -110,7 +111,7 @@ class Timeline {
 
  private:
   double shown_m_ = 0.6;
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   std::span<const Check> checks_;
 };
 

@@ -85,7 +85,7 @@ class Card : public testing::Test {
       if (std::find(ports.begin(), ports.end(), access.port) != ports.end()) found.push_back(access);
     return found;
   }
-  runtime::Rig rig_ = emulated_rig();
+  configuration::Rig rig_ = emulated_rig();
   CardState state_;
   Plug plug_;
   EmulatedServoToGo card_{0x200, state_, plug_};
@@ -288,9 +288,9 @@ TEST_F(Card, ACounterThatDoesNotKeepItsValueIsNamedAndTheCardIsSafe) {
   EXPECT_THAT(plug_.codes, testing::Each(0x1000));
 }
 
-runtime::Rig with_wiring(const std::string& lines) {
-  return runtime::parse_rig("extends = \"emulated_servo_to_go.toml\"\nname = \"x\"\n" + lines,
-                            CRANE_RIGS "/x.toml");
+configuration::Rig with_wiring(const std::string& lines) {
+  return configuration::parse_rig("extends = \"emulated_servo_to_go.toml\"\nname = \"x\"\n" + lines,
+                                  CRANE_RIGS "/x.toml");
 }
 
 TEST(Wiring, ALineUsedTwiceAnAddressBetweenJumpersAndAScaleOfZeroAreRefusedTogether) {
@@ -299,7 +299,7 @@ TEST(Wiring, ALineUsedTwiceAnAddressBetweenJumpersAndAScaleOfZeroAreRefusedToget
         "[wiring]\nestop_input = 7\nbase_address = 0x210\nwatchdog_output = 3\n"
         "[encoder.trolley]\ncounts_per_m = 0\n[encoder.slew]\nchannel = 3\n");
     FAIL() << "accepted";
-  } catch (const runtime::ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("must be used once"), HasSubstr("0x200 + 0x20 n"),
                                     HasSubstr("wiring.watchdog_output = 3: must be an integer in [16, 31]"),
                                     HasSubstr("encoder.trolley.counts_per_m = 0"), HasSubstr("channel = 3")));

@@ -16,7 +16,9 @@ namespace crane::bridge::test {
 inline constexpr std::int64_t kTick_ns = 10'000'000;
 
 /// deploy/rigs/emulated_servo_to_go.toml
-inline runtime::Rig emulated_rig() { return runtime::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml"); }
+inline configuration::Rig emulated_rig() {
+  return configuration::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml");
+}
 
 inline constexpr std::array<double, kDrives> kNothing{};
 
@@ -54,7 +56,7 @@ class Subject {
 
 class SimulatedSubject final : public Subject {
  public:
-  explicit SimulatedSubject(const runtime::Rig& rig) : board_{simulator::simulated_rig_of(rig)} {}
+  explicit SimulatedSubject(const configuration::Rig& rig) : board_{simulator::simulated_rig_of(rig)} {}
   Board& board() override { return board_; }
   simulator::SimulatedBoard& crane() override { return board_; }
   std::array<double, kDrives> amplifier_v() override { return board_.converter_v(); }
@@ -68,7 +70,7 @@ class SimulatedSubject final : public Subject {
 /// The driver on an emulated card.
 class CardSubject final : public Subject {
  public:
-  CardSubject(const runtime::Rig& rig, int model) {
+  CardSubject(const configuration::Rig& rig, int model) {
     auto crane = std::make_unique<WiredRig>(rig);
     crane->card().model = model;
     rig_ = crane.get();
@@ -92,7 +94,8 @@ class CardSubject final : public Subject {
 /// The comedi driver on a stand-in of its library.
 class ComediSubject final : public Subject {
  public:
-  explicit ComediSubject(const runtime::Rig& rig) : device_{rig}, board_{std::make_unique<Comedi>(rig)} {}
+  explicit ComediSubject(const configuration::Rig& rig)
+      : device_{rig}, board_{std::make_unique<Comedi>(rig)} {}
   Board& board() override { return *board_; }
   simulator::SimulatedBoard& crane() override { return device_.rig().crane(); }
   std::array<double, kDrives> amplifier_v() override { return device_.rig().drive_v(); }
@@ -108,7 +111,7 @@ class ComediSubject final : public Subject {
 
 struct Kind {
   const char* name;
-  std::function<std::unique_ptr<Subject>(const runtime::Rig&)> make;
+  std::function<std::unique_ptr<Subject>(const configuration::Rig&)> make;
   friend std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
 };
 

@@ -77,7 +77,7 @@ class TrappedCard : public testing::Test {
   }
   ~TrappedCard() override { ::sigaction(SIGSEGV, &before_, nullptr); }
 
-  runtime::Rig rig_ = emulated_rig();
+  configuration::Rig rig_ = emulated_rig();
   WiredRig crane_{rig_};
   EmulatedServoToGo card_{0x200, crane_.card(), crane_};
   struct sigaction before_ {};

@@ -18,7 +18,9 @@
 namespace crane::homing_test {
 
 /// deploy/rigs/homing_servo_to_go.toml: stands anywhere, every axis has to be homed.
-inline runtime::Rig homing_rig() { return runtime::load_rig(CRANE_RIGS "/homing_servo_to_go.toml"); }
+inline configuration::Rig homing_rig() {
+  return configuration::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
+}
 
 inline constexpr std::array<const char*, 2> kBoards{"simulated", "emulated"};
 
@@ -28,7 +30,8 @@ using Spoil = std::function<void(bridge::Inputs&, const plant::State& truth)>;
 /// A board, and the crane behind it.
 class SpoiltBoard final : public bridge::Board {
  public:
-  SpoiltBoard(const runtime::Rig& told, const runtime::Rig& wired, const std::string& kind, Spoil& spoil)
+  SpoiltBoard(const configuration::Rig& told, const configuration::Rig& wired, const std::string& kind,
+              Spoil& spoil)
       : spoil_{spoil} {
     if (kind == "emulated") {
       auto rig = std::make_unique<emulated_rig::WiredRig>(wired);
@@ -62,8 +65,8 @@ class SpoiltBoard final : public bridge::Board {
 
 class LockstepCrane {
  public:
-  explicit LockstepCrane(const std::string& kind, runtime::Rig told = homing_rig(),
-                         const runtime::Rig& wired = homing_rig())
+  explicit LockstepCrane(const std::string& kind, configuration::Rig told = homing_rig(),
+                         const configuration::Rig& wired = homing_rig())
       : told_{std::move(told)}, wired_{wired}, kind_{kind} {
     making_ = this;  // a specification holds a function without a context
     auto specs = stack::stack_with(stack::Plant::simulated);
@@ -167,7 +170,7 @@ class LockstepCrane {
   }
 
   static inline LockstepCrane* making_ = nullptr;
-  runtime::Rig told_, wired_;
+  configuration::Rig told_, wired_;
   std::string kind_;
   simulator::SimulatedBoard* crane_ = nullptr;
   std::optional<runtime::InProcessStack> stack_;

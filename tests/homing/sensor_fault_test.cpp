@@ -12,7 +12,7 @@ std::ostream& operator<<(std::ostream& out, const FrozenMove& move) {
   return out << control::kAxisNames[move.axis] << " by " << move.distance;
 }
 
-runtime::Rig tower() { return runtime::load_rig(CRANE_RIGS "/virginia_tech_tower.toml"); }
+configuration::Rig tower() { return configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml"); }
 
 class EncoderDies : public testing::TestWithParam<FrozenMove> {};
 

@@ -19,7 +19,7 @@ struct Case {
 };
 
 /// The friction of the simulated plant, from its rig file: b+, b-, c+, c-.
-std::array<double, 4> truth(const runtime::Rig& rig, std::size_t axis) {
+std::array<double, 4> truth(const configuration::Rig& rig, std::size_t axis) {
   for (const auto& term : rig.terms)
     if (term.name == "drive_friction" && term.axis == axis_name(axis))
       return {term.parameters.at("viscous_positive_vspm"), term.parameters.at("viscous_negative_vspm"),
@@ -40,7 +40,7 @@ TEST_P(FrictionExperiment, FindsTheFrictionOfTheSimulatedRig) {
   options.axis = GetParam().axis;
   options.directory = directory / "out";
   options.in_process = true;
-  const auto rig = runtime::load_rig(options.rig);
+  const auto rig = configuration::load_rig(options.rig);
   const auto result = identify_friction(options);
   const auto expected = truth(rig, options.axis);
   const auto midpoint = values(result.estimates.midpoint);
@@ -60,7 +60,7 @@ TEST_P(FrictionExperiment, FindsTheFrictionOfTheSimulatedRig) {
   EXPECT_TRUE(std::filesystem::exists(directory / "out" / "friction.svg"));
   EXPECT_TRUE(std::filesystem::exists(directory / "out" / "friction.json"));
 
-  const auto identified = runtime::load_rig(result.fragment).design.friction[options.axis];
+  const auto identified = configuration::load_rig(result.fragment).design.friction[options.axis];
   EXPECT_NEAR(identified.viscous_positive_vspm, midpoint[0].value, 1e-4);
   EXPECT_NEAR(identified.viscous_negative_vspm, midpoint[1].value, 1e-4);
   EXPECT_NEAR(identified.coulomb_positive_v, midpoint[2].value, 1e-4);
@@ -83,7 +83,7 @@ TEST(FrictionExperiment, RefusesADriveThatTheRigDoesNotHave) {
   options.rig = find_rig("drive_axis");
   options.axis = plant::kSlew;
   options.directory = directory / "out";
-  EXPECT_THROW((void)identify_friction(options), runtime::ConfigurationError);
+  EXPECT_THROW((void)identify_friction(options), configuration::ConfigurationError);
 }
 
 TEST(FrictionExperiment, GivesNoAnswerWhereThereIsNoFriction) {
@@ -104,7 +104,7 @@ TEST(AxisData, RefusesARunWithGaps) {
     table.columns[1].values.push_back(0);
     table.columns[2].values.push_back(0);
   }
-  const auto rig = runtime::load_rig(find_rig("drive_axis"));
+  const auto rig = configuration::load_rig(find_rig("drive_axis"));
   EXPECT_THROW((void)axis_run_from(table, rig, plant::kTrolley, 0, 10), identification::IdentificationError);
   auto ticks = table;
   ticks.columns.push_back({"tick", {}});

@@ -28,10 +28,10 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 std::string problems_of(const std::string& text) {
-  const auto rig = runtime::load_rig(stack::find_rig("virginia_tech_tower"));
+  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   try {
     (void)parse_scenario(text, "x.toml", &rig);
-  } catch (const runtime::ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     return error.what();
   }
   return "";
@@ -55,7 +55,7 @@ TEST(ScenarioExcitation, IsReadAsWritten) {
 }
 
 TEST(ScenarioExcitation, MovesTheManeuver) {
-  const auto rig = runtime::load_rig(stack::find_rig("virginia_tech_tower"));
+  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   const auto maneuver = maneuver_of(parse_scenario(kText, "x.toml", &rig), rig);
   EXPECT_EQ(maneuver.to[plant::kTrolley], 0.75);
   EXPECT_EQ(maneuver.from[plant::kSlew], 0);

@@ -41,7 +41,7 @@ class Inbox : public testing::Test {
   const control::Controller& none_ = *control::find_controller("none");
   Ports ports_{own_, spec_, none_, Clock::realtime};
   Node node_{own_, {"supervisor", ""}};
-  Rig rig_;
+  configuration::Rig rig_;
   RequestInbox inbox_{{ports_, node_, rig_, none_, own_.options(), Clock::realtime}, {crane_REQUEST_STOP}};
 };
 

@@ -78,7 +78,7 @@ class SupervisorInRealTime : public testing::Test {
   bus::Publisher<msg::Demand> demands_ = friction_.publisher(topics::demand);
   bus::Publisher<msg::Reference> references_ = planner_.publisher(topics::reference);
   bus::Subscriber<msg::SupervisorStatus> statuses_ = planner_.subscriber(topics::supervisor);
-  runtime::Rig rig_ = runtime::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  configuration::Rig rig_ = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
   bus::Bus bus_{runtime::memory_options(network_, "crane_supervisor", crane_SOURCE_SUPERVISOR)};
   runtime::HostedComponent hosted_{bus_, supervisor_spec(), rig_, runtime::chosen_controller("", rig_),
                                    runtime::Clock::realtime};

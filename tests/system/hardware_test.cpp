@@ -168,7 +168,7 @@ TEST(BridgeInLockstep, IsRefusedOnABoardThatDoesNotSimulateTime) {
     void make_safe() noexcept override {}
     void advance_to(std::int64_t /*time_ns*/) override {}
   };
-  const auto rig = runtime::load_rig(stack::find_rig(kRig));
+  const auto rig = configuration::load_rig(stack::find_rig(kRig));
   auto spec = bridge::hardware_bridge_spec();
   spec.make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
     return std::make_unique<bridge::Bridge>(context, std::make_unique<Real>());
@@ -179,7 +179,7 @@ TEST(BridgeInLockstep, IsRefusedOnABoardThatDoesNotSimulateTime) {
   try {
     runtime::HostedComponent{bus, spec, rig, none, runtime::Clock::lockstep};
     FAIL() << "accepted";
-  } catch (const runtime::ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     EXPECT_THAT(error.what(), HasSubstr("--clock realtime"));
   }
 }

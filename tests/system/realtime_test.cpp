@@ -45,7 +45,7 @@ TEST(Realtime, AMoveSettlesAsInLockstep) {
   session.arm();
   session.start_table();
   const auto zero_ns = session.state()->header.sample_time_ns;
-  const auto rig = runtime::load_rig(rig_file);
+  const auto rig = configuration::load_rig(rig_file);
   auto scenario = experiment::load_scenario(file, &rig);
   scenario.moves.front().at_s = 0;
   session.request({.kind = crane_REQUEST_MOVE, .selected = {true, false, false}, .target = {1.0, 0, 0}},

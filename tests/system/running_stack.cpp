@@ -56,7 +56,7 @@ RunningStack::RunningStack(std::uint32_t domain, const std::string& rig, stack::
   options_.bus.crane = crane_name();
   options_.rig = stack::find_rig(rig).string();
   if (plant == stack::Plant::hardware)
-    stack::launch_rig(children_, runtime::load_rig(options_.rig), options_);
+    stack::launch_rig(children_, configuration::load_rig(options_.rig), options_);
   stack::launch(children_, specs_, options_);
   bus_.emplace(runtime::bus_options(options_.bus, "system_test", crane_SOURCE_OPERATOR, 0));
   observer_.emplace(*bus_);

@@ -131,7 +131,8 @@ class StrangerTest : public testing::TestWithParam<Attack> {
                        [](const auto& state) { return state.latch_reason == crane_LATCH_SECOND_WRITER; });
   }
   const double kTrolleyUnitPerCount =
-      1 / runtime::load_rig(stack::find_rig("virginia_tech_tower").string()).encoders[0].counts_per_unit;
+      1 /
+      configuration::load_rig(stack::find_rig("virginia_tech_tower").string()).encoders[0].counts_per_unit;
   RunningStack stack_{kDomain, "virginia_tech_tower"};
 };
 

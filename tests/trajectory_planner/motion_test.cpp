@@ -14,7 +14,9 @@ using control::kSlew;
 using control::kTrolley;
 using control::Shaping;
 
-runtime::Rig tower() { return runtime::load_rig(std::string(CRANE_RIGS) + "/virginia_tech_tower.toml"); }
+configuration::Rig tower() {
+  return configuration::load_rig(std::string(CRANE_RIGS) + "/virginia_tech_tower.toml");
+}
 
 control::Measurement at_rest() {
   control::Measurement measured;
@@ -35,7 +37,7 @@ std::uint64_t ticks_until_there(const Motion& motion, const MoveTarget& move) {
   return there;
 }
 
-Motion started(const runtime::Rig& rig, control::ReferenceShape shape, const MoveTarget& move) {
+Motion started(const configuration::Rig& rig, control::ReferenceShape shape, const MoveTarget& move) {
   Motion motion(rig, shape);
   motion.follow(at_rest(), 0);
   motion.start(move, 0);
@@ -43,7 +45,7 @@ Motion started(const runtime::Rig& rig, control::ReferenceShape shape, const Mov
 }
 
 /// Largest change of the trolley's acceleration in one tick, per second.
-double largest_jerk(const Motion& motion, const runtime::Rig& rig) {
+double largest_jerk(const Motion& motion, const configuration::Rig& rig) {
   double largest = 0;
   for (std::uint64_t tick = 1; tick < 1000; ++tick)
     largest = std::max(largest, std::abs(motion.at(tick + 1)[kTrolley].acceleration -

@@ -27,7 +27,7 @@ struct Fault {
   bool unseen = false;  ///< the twin misses the ticks in which it happens
 };
 
-void false_alarms(const Options& options, const runtime::Rig& rig) {
+void false_alarms(const Options& options, const configuration::Rig& rig) {
   constexpr double kRun_s = 1800;
   const auto ticks = static_cast<long>(kRun_s / rig.period_s);
   const int runs = std::max(1, static_cast<int>(std::lround(options.hours * 3600 / kRun_s)));
@@ -59,7 +59,7 @@ void false_alarms(const Options& options, const runtime::Rig& rig) {
             << twin_s / static_cast<double>(runs) / static_cast<double>(ticks) * 1e6 << " us per tick\n";
 }
 
-std::vector<Fault> faults_of(const runtime::Rig& rig) {
+std::vector<Fault> faults_of(const configuration::Rig& rig) {
   std::vector<Fault> faults;
   const auto term = [&](const std::string& cause, const std::string& axis, const std::string& size,
                         const std::string& parameter, double null, double by) {
@@ -112,7 +112,8 @@ struct Outcome {
   std::string said;
 };
 
-Outcome one_run(const Options& options, const runtime::Rig& rig, const Fault& fault, std::uint64_t seed) {
+Outcome one_run(const Options& options, const configuration::Rig& rig, const Fault& fault,
+                std::uint64_t seed) {
   constexpr double kInControl_s = 45, kPatience_s = 60;
   SimulatedMotion motion{rig, seed, options.disturbance};
   twin::Twin twin{rig};
@@ -144,7 +145,7 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
-void delays(const Options& options, const runtime::Rig& rig) {
+void delays(const Options& options, const configuration::Rig& rig) {
   std::cout << "| cause | size | found | alarm median [s] | 90 % [s] | event median [s] | named | named as "
                "second |\n"
                "|---|---|---|---|---|---|---|---|\n";
@@ -182,7 +183,7 @@ int run(int argc, char** argv) {
   app.add_flag("--only-delays", options.only_causes, "faults only");
   app.add_flag("--verbose", options.verbose, "what was said instead");
   CLI11_PARSE(app, argc, argv);
-  const auto rig = runtime::load_rig(options.rig);
+  const auto rig = configuration::load_rig(options.rig);
   std::cout << "seed " << options.seed << ", disturbance " << options.disturbance.drive_v << " V, "
             << options.disturbance.swing_radps2 << " rad/s2\n";
   if (!options.only_causes) false_alarms(options, rig);

@@ -10,12 +10,14 @@
 namespace crane::test {
 namespace {
 
-runtime::Rig rig_of(const std::string& name) { return runtime::load_rig(CRANE_RIGS "/" + name + ".toml"); }
+configuration::Rig rig_of(const std::string& name) {
+  return configuration::load_rig(CRANE_RIGS "/" + name + ".toml");
+}
 
 /// What the first event of a crane that becomes one with `change` names, "" without an event.
 std::string named_cause(const plant::TermSetting& change, std::uint64_t seed) {
   constexpr long kSecond = 100;  // ticks
-  static const runtime::Rig kRig = rig_of("virginia_tech_tower");
+  static const configuration::Rig kRig = rig_of("virginia_tech_tower");
   SimulatedMotion motion{kRig, seed};
   twin::Twin twin{kRig};
   // As long as bench_twin takes: how these seeds go on after it is known.
@@ -43,7 +45,7 @@ TEST_P(Likeness, LessGainIsNoFriction) {
 INSTANTIATE_TEST_SUITE_P(Seed, Likeness, testing::Values(5, 7, 9, 13), testing::PrintToStringParamName());
 
 /// Levels of dry friction that are tried for an axis, V.
-std::vector<double> levels(const runtime::Rig& rig, const std::string& axis) {
+std::vector<double> levels(const configuration::Rig& rig, const std::string& axis) {
   std::vector<double> all;
   for (const twin::Hypothesis& h : twin::hypotheses_for(rig))
     if (h.cause == "coulomb_friction" && h.axis == axis) all.push_back(h.reference);
@@ -55,7 +57,7 @@ TEST(Hypotheses, TakeNoFrictionFromAnAxisThatHasNone) {
 }
 
 TEST(Hypotheses, TakeNotMoreFrictionThanAnAxisHas) {
-  runtime::Rig rig = rig_of("virginia_tech_tower");
+  configuration::Rig rig = rig_of("virginia_tech_tower");
   for (plant::TermSetting& term : rig.terms)
     term.parameters["coulomb_positive_v"] = term.parameters["coulomb_negative_v"] = 0.25;
   EXPECT_EQ(levels(rig, "slew"), (std::vector{0.1, -0.1, 0.2, -0.15, 0.4}));

@@ -7,7 +7,7 @@
 
 #include "../plant/closed_loop.hpp"
 #include "crane/bridge/converter.hpp"
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 #include "crane/simulator/integrator.hpp"
 #include "crane/twin/twin.hpp"
 
@@ -22,7 +22,7 @@ struct Disturbance {
 class SimulatedMotion {
  public:
   /// @param rig file's crane: the plant, until it is changed, and what the controller believes
-  SimulatedMotion(const runtime::Rig& rig, std::uint64_t seed, const Disturbance& disturbance = {})
+  SimulatedMotion(const configuration::Rig& rig, std::uint64_t seed, const Disturbance& disturbance = {})
       : rig_(rig), random_(seed), disturbance_(disturbance) {
     state_.trolley_m = 0.6;
     state_.cable_m = rig.start.position[plant::kHoist];
@@ -106,7 +106,7 @@ class SimulatedMotion {
     integrator_->advance(state_, actuation, rig_.period_s);
   }
 
-  runtime::Rig rig_;
+  configuration::Rig rig_;
   std::mt19937_64 random_;
   Disturbance disturbance_;
   std::unique_ptr<plant::Model> model_;

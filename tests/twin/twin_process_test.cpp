@@ -35,7 +35,7 @@ class TwinProcess : public testing::Test {
   /// Runs the scenario on processes over DDS, the plant `variant` of the twin's rig.
   void run(const std::string& variant, int moves) {
     const auto rig_file = stack::find_rig("virginia_tech_tower");
-    const auto rig = runtime::load_rig(rig_file);
+    const auto rig = configuration::load_rig(rig_file);
     recording::put_contents(directory_ / "moves.toml", scenario_text(moves));
     const auto scenario = experiment::load_scenario(directory_ / "moves.toml", &rig);
     const auto started = experiment::changed_by(experiment::started_by(rig, scenario), variant);

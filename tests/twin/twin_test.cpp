@@ -18,8 +18,8 @@ using twin::Notice;
 using twin::State;
 using twin::Twin;
 
-const runtime::Rig& rig() {
-  static const runtime::Rig kRig = runtime::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+const configuration::Rig& rig() {
+  static const configuration::Rig kRig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
   return kRig;
 }
 
@@ -213,7 +213,7 @@ TEST_F(TwinTest, DoesNotJudgeAnAxisThatABrakeHolds) {
 
 TEST(TwinOfEveryRig, IsQuietWhileTheCraneRests) {
   for (const auto& entry : std::filesystem::directory_iterator{CRANE_RIGS}) {
-    const auto any_rig = runtime::load_rig(entry.path());
+    const auto any_rig = configuration::load_rig(entry.path());
     Twin twin{any_rig};
     twin::Sample sample;
     sample.epoch = 1;

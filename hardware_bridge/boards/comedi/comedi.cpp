@@ -29,7 +29,7 @@ Comedi::Handle::~Handle() {
   if (device != nullptr) ::comedi_close(device);
 }
 
-Comedi::Comedi(const runtime::Rig& rig) : wiring_{rig.wiring}, lines_{rig} {
+Comedi::Comedi(const configuration::Rig& rig) : wiring_{rig.wiring}, lines_{rig} {
   handle_.device = ::comedi_open(wiring_.device.c_str());
   if (handle_.device == nullptr)
     fail(std::string{"cannot be opened: "} + std::strerror(errno) +

@@ -3,14 +3,14 @@
 namespace crane::bridge {
 namespace {
 
-std::unique_ptr<PortIo> ports_of(const runtime::Rig& rig, EmulatedRig& connected) {
+std::unique_ptr<PortIo> ports_of(const configuration::Rig& rig, EmulatedRig& connected) {
   return std::make_unique<EmulatedServoToGo>(static_cast<std::uint16_t>(rig.wiring.base_address),
                                              connected.card(), connected);
 }
 
 }  // namespace
 
-EmulatedBoard::EmulatedBoard(const runtime::Rig& rig, std::unique_ptr<EmulatedRig> connected)
+EmulatedBoard::EmulatedBoard(const configuration::Rig& rig, std::unique_ptr<EmulatedRig> connected)
     : rig_{std::move(connected)}, driver_{rig, ports_of(rig, *rig_)} {}
 
 Inputs EmulatedBoard::read() {

@@ -26,7 +26,7 @@ constexpr std::int32_t sign_extended(std::uint32_t low_24_bits) {
 
 }  // namespace
 
-ServoToGo::ServoToGo(const runtime::Rig& rig, std::unique_ptr<PortIo> ports)
+ServoToGo::ServoToGo(const configuration::Rig& rig, std::unique_ptr<PortIo> ports)
     : ports_{std::move(ports)},
       base_{static_cast<std::uint16_t>(rig.wiring.base_address)},
       lines_{rig},

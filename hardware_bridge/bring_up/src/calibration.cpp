@@ -193,7 +193,7 @@ class Calibrating {
   }
 
   Session& session_;
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   const CalibrationOptions& options_;
   double frequency_radps_;
   Calibration found_;

@@ -8,7 +8,7 @@ namespace crane::bring_up {
 namespace {
 
 namespace fs = std::filesystem;
-using runtime::ConfigurationError;
+using configuration::ConfigurationError;
 
 /// Reads back as the same number, and as a floating one.
 std::string exact(double value) {
@@ -18,7 +18,7 @@ std::string exact(double value) {
   return found.find_first_of(".en") == std::string::npos ? found + ".0" : found;
 }
 
-std::string text_of(const runtime::Rig& rig, const Calibration& calibration) {
+std::string text_of(const configuration::Rig& rig, const Calibration& calibration) {
   constexpr std::array<const char*, kDrives> kStartKeys{"trolley_position_m", "slew_angle_rad",
                                                         "cable_length_m"};
   std::ostringstream out;
@@ -47,14 +47,14 @@ std::string text_of(const runtime::Rig& rig, const Calibration& calibration) {
 
 }  // namespace
 
-void require_own_file(const runtime::Rig& rig, const fs::path& file) {
+void require_own_file(const configuration::Rig& rig, const fs::path& file) {
   if (!fs::exists(file)) return;
   if (fs::equivalent(file, rig.path))
     throw ConfigurationError(
         {file.string() + ": is the rig file itself; write the calibration beside it (--out)"});
   std::string other;
   try {
-    other = runtime::load_rig(file).name;
+    other = configuration::load_rig(file).name;
   } catch (const ConfigurationError&) {
     throw ConfigurationError({file.string() + ": exists and is no rig file; choose another --out"});
   }
@@ -64,10 +64,11 @@ void require_own_file(const runtime::Rig& rig, const fs::path& file) {
                               "; choose another --out, or --rig " + other});
 }
 
-std::string calibration_file(const runtime::Rig& rig, const Calibration& calibration, const fs::path& file) {
+std::string calibration_file(const configuration::Rig& rig, const Calibration& calibration,
+                             const fs::path& file) {
   require_own_file(rig, file);
   auto text = text_of(rig, calibration);
-  std::ignore = runtime::parse_rig(text, file.string());
+  std::ignore = configuration::parse_rig(text, file.string());
   return text;
 }
 

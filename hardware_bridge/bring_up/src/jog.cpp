@@ -94,7 +94,7 @@ class Running {
 
 }  // namespace
 
-std::vector<std::string> problems(const JogPlan& plan, const runtime::Rig& rig) {
+std::vector<std::string> problems(const JogPlan& plan, const configuration::Rig& rig) {
   std::vector<std::string> found;
   char text[120];
   const double limit_v = std::min(kLargestJog_v, rig.drives[plan.axis].volt_limit_v);

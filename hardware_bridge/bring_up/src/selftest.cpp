@@ -201,7 +201,7 @@ class Gathering {
   }
 
   Session& session_;
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   const SelftestOptions& options_;
   double frequency_radps_;
   Evidence evidence_;

@@ -14,7 +14,7 @@ std::string_view coordinate_unit(std::size_t coordinate) {
   return coordinate == plant::kTrolley || coordinate == plant::kHoist ? "m" : "rad";
 }
 
-Session::Session(const runtime::Rig& rig, bridge::Board& board, Clock clock)
+Session::Session(const configuration::Rig& rig, bridge::Board& board, Clock clock)
     : rig_{rig}, board_{board}, clock_{std::move(clock)}, period_ns_{std::llround(rig.period_s * 1e9)} {
   board_.make_safe();
   take(board_.read());

@@ -12,7 +12,7 @@ double SwingFit::at(double time_s, double frequency_radps) const {
   return offset_rad + cosine_rad * std::cos(phase) + sine_rad * std::sin(phase);
 }
 
-double swing_frequency_radps(const runtime::Rig& rig) {
+double swing_frequency_radps(const configuration::Rig& rig) {
   return std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist]);
 }
 

@@ -21,7 +21,7 @@ std::string named(std::size_t coordinate) { return std::string{coordinate_name(c
 /// Collects findings about one rig.
 class Judgement {
  public:
-  Judgement(const runtime::Rig& rig, const Evidence& evidence) : rig_{rig}, evidence_{evidence} {}
+  Judgement(const configuration::Rig& rig, const Evidence& evidence) : rig_{rig}, evidence_{evidence} {}
 
   std::vector<Finding> findings() {
     judge_supply();
@@ -239,7 +239,7 @@ class Judgement {
             " with its brake open; see whether it moves");
   }
 
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   const Evidence& evidence_;
   std::vector<Finding> findings_;
 };
@@ -261,12 +261,12 @@ std::string_view name_of(Fault fault) {
   return kNames.at(static_cast<std::size_t>(fault));
 }
 
-std::size_t swing_of(const runtime::Rig& rig, std::size_t axis) {
+std::size_t swing_of(const configuration::Rig& rig, std::size_t axis) {
   const std::size_t swing = axis == plant::kTrolley ? 3 : axis == plant::kSlew ? 4 : 0;
   return swing != 0 && rig.encoders[swing].counts_per_unit > 0 ? swing : 0;
 }
 
-std::vector<Finding> judge(const runtime::Rig& rig, const Evidence& evidence) {
+std::vector<Finding> judge(const configuration::Rig& rig, const Evidence& evidence) {
   return Judgement{rig, evidence}.findings();
 }
 

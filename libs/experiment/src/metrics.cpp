@@ -144,7 +144,7 @@ std::vector<Sample> samples_from(const recording::Table& table) {
   return samples;
 }
 
-Maneuver maneuver_of(const Scenario& scenario, const runtime::Rig& rig) {
+Maneuver maneuver_of(const Scenario& scenario, const configuration::Rig& rig) {
   Maneuver maneuver;
   maneuver.first_action_s = scenario.first_action_s();
   maneuver.last_action_s = scenario.last_action_s();

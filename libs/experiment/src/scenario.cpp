@@ -5,17 +5,17 @@
 #include <limits>
 #include <numbers>
 
+#include "crane/configuration/extended_file.hpp"
 #include "crane/experiment/variant.hpp"
 #include "crane/recording/csv.hpp"
-#include "crane/runtime/extended_file.hpp"
 
 namespace crane::experiment {
 namespace {
 
+using configuration::Range;
+using configuration::Rig;
+using configuration::TomlTable;
 using recording::shortest;
-using runtime::Range;
-using runtime::Rig;
-using runtime::TomlTable;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr Range kTimes = Range::closed(0, 86'400);
@@ -68,7 +68,7 @@ class PositionReader {
 
  private:
   void check(TomlTable& table, const std::string& key, std::size_t axis, double position) const {
-    const runtime::Drive& drive = rig_->drives[axis];
+    const configuration::Drive& drive = rig_->drives[axis];
     if (!drive.present) {
       // A rig without a drive may still stand anywhere: a pendulum has a cable, but no hoist.
       if (inside_margin_) table.problem(key, rig_->name + " has no " + axis_name(axis) + " drive");
@@ -139,7 +139,7 @@ std::array<control::Sine, 4> read_sines(TomlTable& table, const std::string& amp
 void check_excursion(TomlTable& table, const std::string& key, const Rig& rig,
                      const control::Excitation& reference) {
   constexpr double kRounding = 1e-9;
-  const runtime::Drive& drive = rig.drives[reference.axis];
+  const configuration::Drive& drive = rig.drives[reference.axis];
   if (!drive.present) return table.problem("axis", rig.name + " has no such drive");
   double excursion = 0;
   for (const control::Sine& sine : reference.sines) excursion += std::abs(sine.amplitude);
@@ -212,7 +212,7 @@ double Scenario::last_action_s() const {
 }
 
 Scenario parse_scenario(const std::string& text, const std::string& file, const Rig* rig) {
-  TomlTable root = runtime::with_base(text, file);
+  TomlTable root = configuration::with_base(text, file);
   Scenario scenario;
   scenario.name = std::filesystem::path{file}.stem().string();
   scenario.path = file;
@@ -234,7 +234,7 @@ Scenario parse_scenario(const std::string& text, const std::string& file, const 
 }
 
 Scenario load_scenario(const std::filesystem::path& file, const Rig* rig) {
-  return parse_scenario(runtime::file_text(file), file.string(), rig);
+  return parse_scenario(configuration::file_text(file), file.string(), rig);
 }
 
 Rig started_by(Rig rig, const Scenario& scenario) {

@@ -7,7 +7,7 @@
 namespace crane::experiment {
 namespace {
 
-using runtime::Rig;
+using configuration::Rig;
 
 bool has_friction(const Rig& rig, std::size_t axis) {
   return std::any_of(rig.terms.begin(), rig.terms.end(), [axis](const plant::TermSetting& term) {
@@ -126,7 +126,7 @@ std::vector<std::string> variant_problems(const std::string& names) {
 Rig changed_by(Rig started, const std::string& names) {
   if (names.empty()) return started;
   if (auto problems = variant_problems(names); !problems.empty())
-    throw runtime::ConfigurationError(std::move(problems));
+    throw configuration::ConfigurationError(std::move(problems));
   for (const std::string& name : parts_of(names)) find_variant(name)->change(started);
   return started;
 }

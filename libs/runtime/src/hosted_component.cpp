@@ -2,7 +2,7 @@
 
 namespace crane::runtime {
 
-HostedComponent::HostedComponent(bus::Bus& bus, const ComponentSpec& spec, const Rig& rig,
+HostedComponent::HostedComponent(bus::Bus& bus, const ComponentSpec& spec, const configuration::Rig& rig,
                                  const control::Controller& controller, Clock clock)
     : spec_{spec},
       node_{bus, {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""}},

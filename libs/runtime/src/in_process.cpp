@@ -18,13 +18,14 @@ bus::Options memory_options(std::shared_ptr<bus::MemoryNetwork> network, std::st
   return options;
 }
 
-InProcessStack::InProcessStack(std::span<const ComponentSpec> specs, const Rig& rig,
+InProcessStack::InProcessStack(std::span<const ComponentSpec> specs, const configuration::Rig& rig,
                                const control::Controller& controller)
     : network_{bus::make_memory_network()} {
   for (const auto& spec : specs) add(spec, rig, controller);
 }
 
-void InProcessStack::add(const ComponentSpec& spec, const Rig& rig, const control::Controller& controller) {
+void InProcessStack::add(const ComponentSpec& spec, const configuration::Rig& rig,
+                         const control::Controller& controller) {
   Room room;
   room.bus = std::make_unique<bus::Bus>(memory_options(network_, std::string{spec.program}, spec.source));
   room.hosted = std::make_unique<HostedComponent>(*room.bus, spec, rig, controller, Clock::lockstep);

@@ -75,7 +75,7 @@ Clock clock_from(const std::string& name) {
 }
 
 int run(const ComponentSpec& spec, const LoopOptions& options) {
-  const auto rig = load_rig(options.rig);
+  const auto rig = configuration::load_rig(options.rig);
   const auto& controller = chosen_controller(options.controller, rig);
   const auto clock = clock_from(options.clock);
   const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
@@ -152,18 +152,18 @@ void add_loop_options(CLI::App& app, LoopOptions& options) {
   app.add_flag("--verbose", options.verbose, "log every detail");
 }
 
-const control::Controller& chosen_controller(const std::string& name, const Rig& rig) {
+const control::Controller& chosen_controller(const std::string& name, const configuration::Rig& rig) {
   const auto& wanted = name.empty() ? rig.controller : name;
   if (const auto* controller = control::find_controller(wanted)) {
     auto problems = control::problems(*controller, rig.design);
     for (auto& problem : problems) problem.insert(0, rig.path + ": ");
-    if (!problems.empty()) throw ConfigurationError(std::move(problems));
+    if (!problems.empty()) throw configuration::ConfigurationError(std::move(problems));
     return *controller;
   }
   std::string known;
   for (const auto& controller : control::controllers())
     known += (known.empty() ? "" : ", ") + std::string{controller.name};
-  throw ConfigurationError({"controller = " + wanted + ": must be one of " + known});
+  throw configuration::ConfigurationError({"controller = " + wanted + ": must be one of " + known});
 }
 
 std::uint32_t random_epoch() {
@@ -202,7 +202,7 @@ int run_process(int argc, char** argv, const ComponentSpec& spec) {
     install_stop_signals();
     if (options.parent != 0) die_with(options.parent);
     return run(spec, options);
-  } catch (const ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     std::cerr << error.what() << '\n';
     return kExitBadInput;
   } catch (const std::exception& error) {

@@ -45,7 +45,7 @@ void run_in_realtime(emulated_rig::RigServer& server, double period_s) {
 }
 
 int run(const Options& options) {
-  const auto rig = runtime::load_rig(options.rig);
+  const auto rig = configuration::load_rig(options.rig);
   const bool lockstep = options.clock == "lockstep";
   emulated_rig::RigServer server{rig, bridge::shared_lines_name(options.crane, options.domain), lockstep,
                                  options.model};
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   runtime::install_stop_signals();
   try {
     return run(options);
-  } catch (const runtime::ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     std::cerr << error.what() << '\n';
     return runtime::kExitBadInput;
   } catch (const std::exception& error) {

@@ -6,7 +6,7 @@
 
 namespace crane::emulated_rig {
 
-std::unique_ptr<bridge::Board> open_board(const runtime::Rig& rig) {
+std::unique_ptr<bridge::Board> open_board(const configuration::Rig& rig) {
   return std::make_unique<bridge::EmulatedBoard>(rig, std::make_unique<WiredRig>(rig));
 }
 

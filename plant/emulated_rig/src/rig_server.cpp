@@ -10,7 +10,8 @@ namespace crane::emulated_rig {
 
 using runtime::monotonic_ns;
 
-RigServer::RigServer(const runtime::Rig& rig, const std::string& name, bool lockstep, int model) : rig_{rig} {
+RigServer::RigServer(const configuration::Rig& rig, const std::string& name, bool lockstep, int model)
+    : rig_{rig} {
   for (int i = 0; i < 2 && lines_ == nullptr; ++i) {
     file_ = std::make_unique<bridge::SharedFile>(name);
     if (!file_->take(bridge::SharedFile::Role::rig))

@@ -14,7 +14,7 @@ bool is_on(std::uint16_t levels, int output) {
 
 }  // namespace
 
-WiredRig::WiredRig(const runtime::Rig& rig)
+WiredRig::WiredRig(const configuration::Rig& rig)
     : encoders_{rig.encoders},
       drives_{rig.drives},
       wiring_{rig.wiring},

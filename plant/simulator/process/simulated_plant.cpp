@@ -33,7 +33,7 @@ void lengthen_cable(SimulatedRig& rig, double offset_m) {
 
 }  // namespace
 
-SimulatedRig simulated_rig_of(const runtime::Rig& rig) {
+SimulatedRig simulated_rig_of(const configuration::Rig& rig) {
   constexpr double kStopBeyondSwitch = 0.02;  // m, rad
   SimulatedRig simulated;
   simulated.parameters = rig.plant;
@@ -57,8 +57,8 @@ SimulatedRig simulated_rig_of(const runtime::Rig& rig) {
       simulated.encoders[i] = {.counts_per_unit = rig.encoders[i].counts_per_unit,
                                .sign = rig.encoders[i].sign};
   simulated.watchdog_timeout_s = rig.wiring.relay_timeout_s;
-  simulated.tangential_swing = rig.kind == runtime::RigKind::tower;
-  simulated.radial_swing = rig.kind != runtime::RigKind::drive_axis;
+  simulated.tangential_swing = rig.kind == configuration::RigKind::tower;
+  simulated.radial_swing = rig.kind != configuration::RigKind::drive_axis;
   simulated.start.trolley_m = rig.start.position[plant::kTrolley];
   simulated.start.slew_rad = rig.start.position[plant::kSlew];
   simulated.start.cable_m = rig.start.position[plant::kHoist];

@@ -6,8 +6,8 @@
 namespace crane::twin {
 namespace {
 
-using runtime::Rig;
-using runtime::RigKind;
+using configuration::Rig;
+using configuration::RigKind;
 
 constexpr double kFriction_v = 0.1, kMuchFriction_v = 0.4, kGain = 0.05, kMuchGain = 0.1, kSlip = 0.01,
                  kOffset_rad = 0.01;
@@ -50,7 +50,7 @@ void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::
 }
 
 void add_drive(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis,
-               const runtime::Drive& drive) {
+               const configuration::Drive& drive) {
   const bool slew = axis == "slew";
   const double viscous = kFriction_v / std::max(drive.reference_speed, 1e-3);
   const std::string look =

@@ -16,25 +16,25 @@ constexpr double kFullVoltage_v = 10;
 constexpr double kSmallestSlip_counts = 3;
 constexpr double kQuietDrive = 4;  // bands
 
-double resolution(const runtime::Rig& rig, std::size_t column) {
+double resolution(const configuration::Rig& rig, std::size_t column) {
   const double counts = rig.encoders[kCounterOf[column]].counts_per_unit;
   return counts > 0 ? 1 / counts : 0;
 }
 
 /// One count: what rounding and a model that is right do at least.
-PerColumn floor_of(const runtime::Rig& rig) {
+PerColumn floor_of(const configuration::Rig& rig) {
   PerColumn floor{};
   for (std::size_t i = 0; i < kColumns; ++i) floor[i] = std::max(resolution(rig, i), 1e-7);
   return floor;
 }
 
-double least_jump(const runtime::Rig& rig, std::size_t column) {
+double least_jump(const configuration::Rig& rig, std::size_t column) {
   const PerColumn gain{rig.plant.trolley_gain_mps2pv, rig.plant.slew_gain_radps2pv, 0, 0};
   return kUnexpected * gain[column] * kFullVoltage_v * rig.period_s * rig.period_s +
          kSmallestSlip_counts * resolution(rig, column);
 }
 
-int ticks_in(double duration_s, const runtime::Rig& rig) {
+int ticks_in(double duration_s, const configuration::Rig& rig) {
   return std::max(1, static_cast<int>(std::lround(duration_s / rig.period_s)));
 }
 
@@ -50,7 +50,7 @@ std::string text(const char* format, double value) {
 
 }  // namespace
 
-Twin::Twin(const runtime::Rig& rig, const Design& design)
+Twin::Twin(const configuration::Rig& rig, const Design& design)
     : rig_(rig),
       design_(design),
       judge_(hypotheses_for(rig), design, floor_of(rig), ticks_in(design.block_s, rig)),
@@ -88,10 +88,10 @@ Known Twin::known(const Sample& sample) const {
 
 Mask Twin::free_columns(const Sample& sample) const {
   const auto has = [&](std::size_t column) { return rig_.encoders[kCounterOf[column]].counts_per_unit > 0; };
-  const bool load = rig_.kind != runtime::RigKind::drive_axis && rig_.plant.load_mass_kg > 0;
+  const bool load = rig_.kind != configuration::RigKind::drive_axis && rig_.plant.load_mass_kg > 0;
   return {rig_.drives[0].present && has(0) && !sample.held[0],
           rig_.drives[1].present && has(1) && !sample.held[1], load && has(2),
-          load && has(3) && rig_.kind == runtime::RigKind::tower};
+          load && has(3) && rig_.kind == configuration::RigKind::tower};
 }
 
 bool Twin::usable(const Sample& sample, const Known& now) const {

@@ -10,9 +10,9 @@
 #include "cli/commands/analyse.hpp"
 #include "cli/text_table.hpp"
 #include "crane/analysis/damping.hpp"
+#include "crane/configuration/rig.hpp"
 #include "crane/plot/plane.hpp"
 #include "crane/recording/csv.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::cli {
 namespace {
@@ -55,7 +55,7 @@ GainRange range_of(const std::string& text) {
   constexpr int kMostPoints = 1000;
   if (read != 3 || !std::isfinite(range.low) || !std::isfinite(range.high) || !(range.low < range.high) ||
       range.points < 3 || range.points > kMostPoints)
-    throw runtime::ConfigurationError(
+    throw configuration::ConfigurationError(
         {"--range " + text + ": must be LOW:HIGH:POINTS with LOW < HIGH and 3 to 1000 points"});
   return range;
 }
@@ -75,7 +75,8 @@ DampingStudy study_of(const DampingOptions& options, const AntiSwingKind& kind) 
   const GainRange first = options.ranges.empty() ? kind.first : range_of(options.ranges[0]);
   const GainRange second = options.ranges.empty() ? kind.second : range_of(options.ranges[1]);
   if (kind.law != AntiSwing::pd && second.low < 0)
-    throw runtime::ConfigurationError({"--range " + options.ranges[1] + ": a delay must not be negative"});
+    throw configuration::ConfigurationError(
+        {"--range " + options.ranges[1] + ": a delay must not be negative"});
   const auto exact = damping_function(options, kind.law, 0);
   study.map = damping_map(exact, first, second);
   study.points.push_back({"printed", kind.printed, exact(kind.printed)});
@@ -196,7 +197,7 @@ nlohmann::ordered_json study_json(const DampingOptions& options, const DampingSt
 
 int analyse_damping(const DampingOptions& options) {
   if (!options.ranges.empty() && options.laws.size() != 1)
-    throw runtime::ConfigurationError({"--range: needs exactly one law, whose gains it is for"});
+    throw configuration::ConfigurationError({"--range: needs exactly one law, whose gains it is for"});
   auto json = nlohmann::ordered_json::array();
   if (!options.out.empty()) require_directory(options.out);
   for (const auto& kind : analysis::kAntiSwingKinds) {

@@ -6,7 +6,7 @@
 #include "cli/commands/analyse.hpp"
 #include "cli/text_table.hpp"
 #include "crane/analysis/rule_agreement.hpp"
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::cli {
@@ -41,7 +41,7 @@ nlohmann::ordered_json rules_json(const control::FuzzyRules& rules) {
 }
 
 int analyse_fuzzy(const std::string& rig, bool as_json) {
-  const auto design = runtime::load_rig(stack::find_rig(rig)).design;
+  const auto design = configuration::load_rig(stack::find_rig(rig)).design;
   const auto generated = control::rules_from(control::delayed_1_response(design)).rules;
   const auto agreement = analysis::agreement(generated, control::kPrintedRules);
   if (as_json) {

@@ -8,9 +8,9 @@
 #include "cli/commands/analyse.hpp"
 #include "cli/text_table.hpp"
 #include "crane/analysis/gain_curves.hpp"
+#include "crane/configuration/rig.hpp"
 #include "crane/plot/curves.hpp"
 #include "crane/recording/csv.hpp"
-#include "crane/runtime/rig.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::cli {
@@ -38,7 +38,7 @@ std::vector<GainFigure> figures_of(const GainsOptions& options) {
   plant::Parameters unloaded = analysis::figure_parameters(0), loaded = analysis::figure_parameters(0.5);
   double length_m = 1;
   if (!options.rig.empty()) {
-    const auto rig = runtime::load_rig(stack::find_rig(options.rig));
+    const auto rig = configuration::load_rig(stack::find_rig(options.rig));
     unloaded = loaded = rig.design.crane;
     length_m = rig.design.cable_length_m;
   }

@@ -42,7 +42,7 @@ struct FilteredLoop {
   analysis::Damping shortened;  ///< the law's own delay less that of the filter
 };
 
-std::vector<FilteredLoop> filtered_loops(const runtime::Rig& rig) {
+std::vector<FilteredLoop> filtered_loops(const configuration::Rig& rig) {
   const auto& design = rig.design;
   const double period = 2 * std::numbers::pi * std::sqrt(design.cable_length_m / design.crane.gravity_mps2);
   const analysis::TrackingGains tracking{design.tracking_proportional, design.tracking_derivative};
@@ -102,7 +102,7 @@ struct SensitivityPlan {
   std::vector<experiments::PlannedRun> plans;
 };
 
-SensitivityPlan plan_of(const SensitivityOptions& options, const runtime::Rig& rig) {
+SensitivityPlan plan_of(const SensitivityOptions& options, const configuration::Rig& rig) {
   SensitivityPlan plan;
   for (const auto& name : options.scenarios) {
     const auto scenario = experiment::load_scenario(stack::find_scenario(name), &rig);
@@ -143,7 +143,7 @@ nlohmann::ordered_json runs_json(const std::vector<DepartedRun>& runs) {
 int analyse_sensitivity(const SensitivityOptions& options) {
   runtime::install_stop_signals();
   spdlog::set_level(spdlog::level::off);  // why a crane was stopped stands in the table
-  const auto rig = runtime::load_rig(stack::find_rig(options.rig));
+  const auto rig = configuration::load_rig(stack::find_rig(options.rig));
   auto plan = plan_of(options, rig);
   require_directory(options.out);
   run_all(plan);

@@ -58,7 +58,7 @@ void pass(stack::ChildProcesses& children, double seconds) {
 }
 
 std::vector<CpuShare> measure(const BenchCpuOptions& options) {
-  const auto rig = runtime::load_rig(options.launch.rig);
+  const auto rig = configuration::load_rig(options.launch.rig);
   const bool hardware = options.plant == "hardware";
   const auto specs = hardware ? stack::hardware_stack() : stack::simulated_stack();
   stack::ChildProcesses children;

@@ -55,7 +55,7 @@ std::optional<StopTimes> stop_once(stack::LaunchOptions launch, int signal) {
   launch.bus.crane = "bench_" + std::to_string(::getpid());
   const auto specs = stack::hardware_stack();
   stack::ChildProcesses children;
-  stack::launch_rig(children, runtime::load_rig(launch.rig), launch);
+  stack::launch_rig(children, configuration::load_rig(launch.rig), launch);
   stack::launch(children, specs, launch);
   bus::Bus bus{runtime::bus_options(launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
@@ -107,8 +107,8 @@ nlohmann::ordered_json least_and_worst(const std::vector<double>& values) {
 int bench_stop(BenchStopOptions options) {
   runtime::install_stop_signals();
   options.launch.rig = stack::find_rig(options.rig).string();
-  if (runtime::load_rig(options.launch.rig).board != "emulated")
-    throw runtime::ConfigurationError(
+  if (configuration::load_rig(options.launch.rig).board != "emulated")
+    throw configuration::ConfigurationError(
         {options.launch.rig + ": board: must be \"emulated\" to be stopped like this"});
   auto json = nlohmann::ordered_json::array();
   for (const auto& [name, signal] : {std::pair{"SIGKILL", SIGKILL}, std::pair{"SIGSTOP", SIGSTOP}}) {

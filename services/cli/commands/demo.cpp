@@ -50,7 +50,7 @@ void go_to_start(experiments::RealtimeSession& session, const experiment::Scenar
 using RecorderSlot = std::optional<recorder::Recorder>;
 
 experiment::NamedMetrics run_maneuver(experiments::RealtimeSession& session, bus::Bus& bus,
-                                      RecorderSlot& recorder, const runtime::Rig& rig,
+                                      RecorderSlot& recorder, const configuration::Rig& rig,
                                       const std::string& controller, experiment::Scenario scenario,
                                       const DemoOptions& options) {
   std::cerr << "  " << scenario.name << ": " << scenario.description << '\n';
@@ -90,7 +90,7 @@ experiment::NamedMetrics run_maneuver(experiments::RealtimeSession& session, bus
 int demo(DemoOptions options) {
   runtime::install_stop_signals();
   options.launch.rig = stack::find_rig(options.rig).string();
-  const auto rig = runtime::load_rig(options.launch.rig);
+  const auto rig = configuration::load_rig(options.launch.rig);
   const std::string controller{runtime::chosen_controller(options.launch.controller, rig).name};
   std::vector<experiment::Scenario> scenarios;
   for (const auto* name : kManeuvers)

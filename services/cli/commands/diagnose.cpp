@@ -71,7 +71,7 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
 }
 
 int diagnose_data(const DiagnoseOptions& options) {
-  const auto rig = runtime::load_rig(stack::find_rig(options.rig));
+  const auto rig = configuration::load_rig(stack::find_rig(options.rig));
   diagnosis::Mapping mapping;
   if (!options.mapping.empty()) mapping = diagnosis::load_mapping(options.mapping);
   DiagnosisData data = read_diagnosis_data(options.train, options.test, mapping, rig);

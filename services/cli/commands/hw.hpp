@@ -24,9 +24,9 @@ void add_board_options(CLI::App& command, BoardOptions& options);
 /// The board that a rig file names, without a stack. Only one program at a time has a board.
 class OpenBoard {
  public:
-  /// @throws runtime::ConfigurationError; bridge::BoardError when it is not there or in use
+  /// @throws configuration::ConfigurationError; bridge::BoardError when it is not there or in use
   explicit OpenBoard(const BoardOptions& options);
-  [[nodiscard]] const runtime::Rig& rig() const { return rig_; }
+  [[nodiscard]] const configuration::Rig& rig() const { return rig_; }
   [[nodiscard]] bridge::Board& board() { return *board_; }
   /// Real time, or none where the crane is simulated in here.
   [[nodiscard]] const bring_up::Clock& clock() const { return clock_; }
@@ -34,7 +34,7 @@ class OpenBoard {
  private:
   [[nodiscard]] std::unique_ptr<bridge::Board> opened(const BoardOptions& options);
 
-  runtime::Rig rig_;
+  configuration::Rig rig_;
   bring_up::Clock clock_;
   bus::Bus bus_;
   runtime::Node node_;

@@ -36,13 +36,13 @@ void add_board_options(CLI::App& command, BoardOptions& options) {
 }
 
 OpenBoard::OpenBoard(const BoardOptions& options)
-    : rig_{runtime::load_rig(stack::find_rig(options.rig))},
+    : rig_{configuration::load_rig(stack::find_rig(options.rig))},
       bus_{runtime::memory_options(bus::make_memory_network(), "crane_hw", crane_SOURCE_OPERATOR)},
       node_{bus_, {"crane_hw", ""}} {
   clock_.interrupted = runtime::stop_requested;
   const bool emulated = bridge::board_kind_of(rig_).name == "emulated";
   if (!emulated && !(options.wired_as.empty() && options.crane.empty()))
-    throw runtime::ConfigurationError(
+    throw configuration::ConfigurationError(
         {rig_.path + ": board = " + rig_.board + ": --wired-as and --crane are for the emulated board"});
   if (!emulated || !options.crane.empty()) clock_.wait = sleeping();
   board_ = opened(options);
@@ -54,7 +54,8 @@ std::unique_ptr<bridge::Board> OpenBoard::opened(const BoardOptions& options) {
         rig_, std::make_unique<bridge::LinkedRig>(bridge::shared_lines_name(options.crane, options.domain)));
   if (!options.wired_as.empty())
     return std::make_unique<bridge::EmulatedBoard>(
-        rig_, std::make_unique<emulated_rig::WiredRig>(runtime::load_rig(stack::find_rig(options.wired_as))));
+        rig_,
+        std::make_unique<emulated_rig::WiredRig>(configuration::load_rig(stack::find_rig(options.wired_as))));
   if (bridge::board_kind_of(rig_).name == "emulated") return emulated_rig::open_board(rig_);
   return bridge::board_kind_of(rig_).make(rig_, bus_.options());
 }

@@ -21,7 +21,7 @@ struct LookOptions {
   bool json = false;
 };
 
-Json encoders_of(const runtime::Rig& rig) {
+Json encoders_of(const configuration::Rig& rig) {
   Json found = Json::array();
   for (std::size_t i = 0; i < bridge::kCounters; ++i)
     if (rig.encoders[i].counts_per_unit > 0)
@@ -33,7 +33,7 @@ Json encoders_of(const runtime::Rig& rig) {
   return found;
 }
 
-Json drives_of(const runtime::Rig& rig) {
+Json drives_of(const configuration::Rig& rig) {
   Json found = Json::array();
   for (std::size_t i = 0; i < bridge::kDrives; ++i) {
     if (!rig.drives[i].present) continue;
@@ -49,7 +49,7 @@ Json drives_of(const runtime::Rig& rig) {
   return found;
 }
 
-Json rig_of(const runtime::Rig& rig) {
+Json rig_of(const configuration::Rig& rig) {
   return {{"rig", rig.name},
           {"file", rig.path},
           {"board", rig.board},
@@ -82,7 +82,7 @@ int list(const LookOptions& options) {
   Json found;
   for (const auto& kind : bridge::board_kinds()) found["boards"].push_back(kind.name);
   if (!options.board.rig.empty())
-    found["rig"] = rig_of(runtime::load_rig(stack::find_rig(options.board.rig)));
+    found["rig"] = rig_of(configuration::load_rig(stack::find_rig(options.board.rig)));
   if (options.json) {
     std::cout << found.dump(2) << '\n';
     return runtime::kExitDone;
@@ -94,7 +94,7 @@ int list(const LookOptions& options) {
   return runtime::kExitDone;
 }
 
-Json probed(const runtime::Rig& rig, bridge::Board& board) {
+Json probed(const configuration::Rig& rig, bridge::Board& board) {
   const auto inputs = board.read();
   Json found{{"rig", rig.name}, {"board", board.name()}};
   for (std::size_t i = 0; i < bridge::kCounters; ++i)

@@ -47,7 +47,7 @@ int jog(const HwMoveOptions& options) {
                          .unseen_duration_s = 0.3};
   plan.release[plan.axis] = true;
   if (const auto problems = bring_up::problems(plan, opened.rig()); !problems.empty())
-    throw runtime::ConfigurationError(problems);
+    throw configuration::ConfigurationError(problems);
   bring_up::Session session{opened.rig(), opened.board(), opened.clock()};
   const auto jog = bring_up::run(session, plan);
   session.make_safe();
@@ -100,7 +100,7 @@ std::string answered(std::istream& in, const std::string& question, bool echo) {
 void require_writable(const std::filesystem::path& file) {
   const auto target = std::filesystem::exists(file) ? file : std::filesystem::absolute(file).parent_path();
   if (::access(target.c_str(), W_OK) != 0)
-    throw runtime::ConfigurationError(
+    throw configuration::ConfigurationError(
         {file.string() + ": cannot be written: " + std::strerror(errno) + "; choose another --out"});
 }
 

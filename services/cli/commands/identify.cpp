@@ -69,7 +69,7 @@ void print_result(const identification::FrictionExperimentResult& result) {
 }
 
 /// Estimates from a recorded run, of a rig or a simulation; runs nothing.
-int estimate_from(const IdentifyOptions& options, const runtime::Rig& rig) {
+int estimate_from(const IdentifyOptions& options, const configuration::Rig& rig) {
   const auto& experiment = options.experiment;
   const auto table = recording::read_csv(options.from);
   const auto run = identification::axis_run_from(table, rig, experiment.axis, options.from_s, options.to_s);
@@ -93,7 +93,7 @@ int identify_friction(IdentifyOptions options) {
   experiment.picture = !options.no_picture;
   experiment.realtime = options.clock == "realtime";
   experiment.plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
-  const auto rig = runtime::load_rig(experiment.rig);
+  const auto rig = configuration::load_rig(experiment.rig);
   if (!options.from.empty()) return estimate_from(options, rig);
   experiment.vendors = stack::vendors_from(options.vendors, stack::stack_with(experiment.plant));
   const auto result = identification::identify_friction(experiment);

@@ -49,9 +49,9 @@ void add_plans(const std::string& name, const RunOptions& options,
                std::vector<experiments::PlannedRun>& plans) {
   const auto file = stack::find_scenario(name);
   const auto wish = experiment::load_scenario(file);
-  const auto rig = runtime::load_rig(stack::find_rig(!options.rig.empty() ? options.rig
-                                                     : !wish.rig.empty()  ? wish.rig
-                                                                          : kDefaultRig));
+  const auto rig = configuration::load_rig(stack::find_rig(!options.rig.empty() ? options.rig
+                                                           : !wish.rig.empty()  ? wish.rig
+                                                                                : kDefaultRig));
   const auto scenario = experiment::load_scenario(file, &rig);
   const Names as_it_is{""};
   const auto variants = first_given(options.variants, wish.variants,
@@ -68,7 +68,7 @@ void add_plans(const std::string& name, const RunOptions& options,
 std::vector<experiments::PlannedRun> plans_of(const RunOptions& options) {
   std::vector<experiments::PlannedRun> plans;
   if (options.scenarios.empty() && !options.compare)
-    throw runtime::ConfigurationError(
+    throw configuration::ConfigurationError(
         {"scenario: name at least one, or --compare, which runs maneuver_1, maneuver_2 and maneuver_3"});
   const Names maneuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
   for (const auto& name : options.scenarios.empty() ? maneuvers : options.scenarios)
@@ -140,7 +140,7 @@ void require_possible_in_realtime(const RunOptions& options,
   refuse(options.twin || !options.twin_rig.empty(), "a twin: crane up --twin");
   for (const auto& plan : plans)
     refuse(!plan.variant.empty(), "variant " + plan.variant + " of " + plan.scenario.name);
-  if (!problems.empty()) throw runtime::ConfigurationError(problems);
+  if (!problems.empty()) throw configuration::ConfigurationError(problems);
 }
 
 int run_each_in_realtime(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {

@@ -54,7 +54,7 @@ bool watch(stack::ChildProcesses& children) {
 int up(UpOptions options) {
   runtime::install_stop_signals();
   options.launch.rig = stack::find_rig(options.rig).string();
-  const auto rig = runtime::load_rig(options.launch.rig);
+  const auto rig = configuration::load_rig(options.launch.rig);
   const auto& controller = runtime::chosen_controller(options.launch.controller, rig);
   const auto plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
   if (plant == stack::Plant::hardware) bridge::board_kind_of(rig);
@@ -63,7 +63,7 @@ int up(UpOptions options) {
   if (options.twin || !options.twin_rig.empty()) specs.push_back(twin::twin_spec());
   const auto twin_rig =
       options.twin_rig.empty() ? options.launch.rig : stack::find_rig(options.twin_rig).string();
-  (void)runtime::load_rig(twin_rig);  // its problems before anything is started
+  (void)configuration::load_rig(twin_rig);  // its problems before anything is started
   options.launch.vendors = stack::vendors_from(options.vendors, specs);
 
   bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};

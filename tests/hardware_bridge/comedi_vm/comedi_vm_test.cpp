@@ -59,8 +59,8 @@ constexpr const char* kPortDevice = "/dev/comedi0";  // comedi_parport: 0 data, 
 constexpr unsigned short kPort = 0x378;
 
 /// Everything lent, no axis.
-runtime::Rig lent_rig(const char* device) {
-  runtime::Rig rig;
+configuration::Rig lent_rig(const char* device) {
+  configuration::Rig rig;
   rig.wiring.device = device;
   rig.wiring.counter_subdevice = kLent;
   rig.wiring.analog_output_subdevice = kLent + 1;
@@ -70,7 +70,7 @@ runtime::Rig lent_rig(const char* device) {
 }
 
 /// Three axes on channels 2, 0 and 5 of the kernel's analog outputs.
-runtime::Rig analog_rig() {
+configuration::Rig analog_rig() {
   auto rig = lent_rig(kTestDevice);
   rig.wiring.analog_output_subdevice = 1;
   constexpr int kChannels[] = {2, 0, 5};
@@ -81,7 +81,7 @@ runtime::Rig analog_rig() {
   return rig;
 }
 
-std::string refusal(const runtime::Rig& rig) {
+std::string refusal(const configuration::Rig& rig) {
   try {
     const Comedi board{rig};
   } catch (const BoardError& error) {
@@ -115,7 +115,7 @@ TEST(ComediKernel, RefusesADeviceThatIsNotThere) {
 }
 
 TEST(ComediKernel, RefusesEverySubdeviceThatIsNotOfItsKindByItsKey) {
-  const auto expect = [](int runtime::Wiring::*key, int subdevice, const std::string& name) {
+  const auto expect = [](int configuration::Wiring::*key, int subdevice, const std::string& name) {
     auto rig = lent_rig(kTestDevice);
     rig.wiring.*key = subdevice;
     EXPECT_EQ(refusal(rig), std::string{"comedi device "} + kTestDevice + ": " + name + " = " +
@@ -124,11 +124,11 @@ TEST(ComediKernel, RefusesEverySubdeviceThatIsNotOfItsKindByItsKey) {
                                 "(comedi_board_info lists them)");
   };
   for (const int subdevice : {0, 1, 2}) {  // analog inputs, analog outputs, nothing
-    expect(&runtime::Wiring::counter_subdevice, subdevice, "counter_subdevice");
-    expect(&runtime::Wiring::input_subdevice, subdevice, "input_subdevice");
-    expect(&runtime::Wiring::output_subdevice, subdevice, "output_subdevice");
+    expect(&configuration::Wiring::counter_subdevice, subdevice, "counter_subdevice");
+    expect(&configuration::Wiring::input_subdevice, subdevice, "input_subdevice");
+    expect(&configuration::Wiring::output_subdevice, subdevice, "output_subdevice");
     if (subdevice != 1)
-      expect(&runtime::Wiring::analog_output_subdevice, subdevice, "analog_output_subdevice");
+      expect(&configuration::Wiring::analog_output_subdevice, subdevice, "analog_output_subdevice");
   }
 }
 
@@ -184,7 +184,7 @@ class ParallelPort : public testing::Test {
     ASSERT_EQ(::ioctl(file, COMEDI_DEVCONFIG, &configuration), 0) << std::strerror(errno);
     ::close(file);
   }
-  static runtime::Rig port_rig() {
+  static configuration::Rig port_rig() {
     auto rig = lent_rig(kPortDevice);
     rig.wiring.input_subdevice = 1;
     rig.wiring.output_subdevice = 0;

@@ -67,7 +67,7 @@ class Bridge : public runtime::Component {
   std::uint64_t until_tick_ = 0;       ///< lockstep: runs up to this tick
   std::int64_t start_ns_ = 0;          ///< realtime: when tick 0 was
   std::uint32_t overruns_ = 0;
-  std::array<runtime::Drive, kDrives> drives_;
+  std::array<configuration::Drive, kDrives> drives_;
   std::array<double, kDrives> unit_per_count_{};  ///< and which way the encoder counts
   std::array<double, kDrives> applied_v_{};       ///< what the converters give, positive outward
   Reason reported_ = Reason::none;

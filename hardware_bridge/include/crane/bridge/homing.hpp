@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "crane/bridge/board.hpp"
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 namespace crane::bridge {
 
@@ -22,11 +22,12 @@ struct MarkView {
 };
 
 /// The mark's switch of an axis: a limit switch, or one of its own. @return false where nothing homes
-[[nodiscard]] bool mark_active(const runtime::Drive& drive, const Inputs& inputs, std::size_t axis) noexcept;
+[[nodiscard]] bool mark_active(const configuration::Drive& drive, const Inputs& inputs,
+                               std::size_t axis) noexcept;
 
 class Homing {
  public:
-  explicit Homing(const runtime::Rig& rig);
+  explicit Homing(const configuration::Rig& rig);
 
   /// Once a tick and axis. @return counts to add to its counter, when its position becomes known
   std::optional<std::int64_t> step(std::size_t axis, const MarkView& view) noexcept;

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "crane/bridge/board.hpp"
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 namespace crane::bridge {
 
@@ -81,7 +81,7 @@ struct LastLineParameters {
   double swing_rate_max_radps = 10;  ///< faster is no motion of a load
   std::array<bool, 2> swing_present{};
 };
-[[nodiscard]] LastLineParameters last_line_parameters(const runtime::Rig& rig);
+[[nodiscard]] LastLineParameters last_line_parameters(const configuration::Rig& rig);
 
 /// The last ticks, newest first.
 class History {

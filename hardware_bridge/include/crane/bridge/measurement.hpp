@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "crane/bridge/board.hpp"
+#include "crane/configuration/rig.hpp"
 #include "crane/control/filters.hpp"
 #include "crane/control/law.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::bridge {
 
@@ -34,7 +34,7 @@ class Coordinate {
  public:
   /// @param cut_off_ratio   of the low-pass in front of the differentiator; 0: none
   /// @param filter_position the position passed on is behind the low-pass, too
-  Coordinate(const runtime::Encoder& encoder, double period_s, double cut_off_ratio,
+  Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
              bool filter_position = false);
   void step(std::int32_t raw_counts, const Latched& latched = {}) noexcept;
   /// The same place is `change` counts farther from now on; the axis rests there.
@@ -62,7 +62,7 @@ class Coordinate {
 
 class MeasurementPipeline {
  public:
-  explicit MeasurementPipeline(const runtime::Rig& rig);
+  explicit MeasurementPipeline(const configuration::Rig& rig);
   /// One tick. @return positions, speeds, swing angles and rates in SI units
   control::Measurement step(const std::array<std::int32_t, kCounters>& raw_counts,
                             const Latched& latched = {}) noexcept;

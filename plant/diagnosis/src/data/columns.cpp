@@ -24,7 +24,7 @@ double spread(std::span<const double> values) {
 
 class Checks {
  public:
-  Checks(const recording::Table& table, const runtime::Rig& rig, Findings& findings)
+  Checks(const recording::Table& table, const configuration::Rig& rig, Findings& findings)
       : table_(table), rig_(rig), findings_(findings) {}
 
   Columns run() {
@@ -120,7 +120,7 @@ class Checks {
   void check_slew_unit() {
     const auto* slew = columns_.outputs[kSlewAngle].values;
     if (slew == nullptr) return;
-    const runtime::Drive& drive = rig_.drives[plant::kSlew];
+    const configuration::Drive& drive = rig_.drives[plant::kSlew];
     const double allowed = std::max(std::abs(drive.low_limit), std::abs(drive.high_limit));
     if (largest(*slew) > 4 * std::max(allowed, std::numbers::pi))
       findings_.problem(columns_.outputs[kSlewAngle].name, "reaches " + number(largest(*slew)),
@@ -130,7 +130,7 @@ class Checks {
   void check_travel() {
     const auto* trolley = columns_.outputs[kTrolleyPosition].values;
     if (trolley == nullptr) return;
-    const runtime::Drive& drive = rig_.drives[plant::kTrolley];
+    const configuration::Drive& drive = rig_.drives[plant::kTrolley];
     const double travel = drive.high_limit - drive.low_limit;
     if (spread(*trolley) > 5 * travel)
       findings_.problem(columns_.outputs[kTrolleyPosition].name, "moves over " + number(spread(*trolley)),
@@ -145,14 +145,14 @@ class Checks {
   }
 
   const recording::Table& table_;
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   Findings& findings_;
   Columns columns_;
 };
 
 }  // namespace
 
-Columns checked_columns(const recording::Table& table, const runtime::Rig& rig, Findings& findings) {
+Columns checked_columns(const recording::Table& table, const configuration::Rig& rig, Findings& findings) {
   return Checks(table, rig, findings).run();
 }
 

@@ -35,7 +35,7 @@ struct Findings {
 };
 
 /// Finds the columns that the rig has, and what is wrong with their names, times, units and values.
-[[nodiscard]] Columns checked_columns(const recording::Table& table, const runtime::Rig& rig,
+[[nodiscard]] Columns checked_columns(const recording::Table& table, const configuration::Rig& rig,
                                       Findings& findings);
 
 /// As messages say it.

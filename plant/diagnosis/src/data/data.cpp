@@ -25,7 +25,7 @@ std::string joined(const std::vector<std::string>& lines) {
 /// Cuts checked columns into runs.
 class Cutter {
  public:
-  Cutter(const Columns& columns, const runtime::Rig& rig, Findings& findings)
+  Cutter(const Columns& columns, const configuration::Rig& rig, Findings& findings)
       : columns_(columns), rig_(rig), findings_(findings) {}
 
   std::vector<Run> runs() {
@@ -145,7 +145,7 @@ class Cutter {
   }
 
   const Columns& columns_;
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   Findings& findings_;
   std::size_t resampled_ = 0, dropped_ = 0;
   std::vector<Run> runs_;
@@ -156,7 +156,7 @@ class Cutter {
 DataError::DataError(std::vector<std::string> problems)
     : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
 
-Loaded load_run(const recording::Table& table, const runtime::Rig& rig, const std::string& name) {
+Loaded load_run(const recording::Table& table, const configuration::Rig& rig, const std::string& name) {
   Findings findings{.file = name, .problems = {}, .notes = {}};
   const Columns columns = checked_columns(table, rig, findings);
   if (!findings.problems.empty()) throw DataError(findings.problems);

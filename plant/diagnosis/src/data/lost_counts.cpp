@@ -159,7 +159,7 @@ LosingEncoder measured(const std::vector<Run>& runs, Output axis, double usual) 
 
 }  // namespace
 
-std::vector<LosingEncoder> losing_encoders(const std::vector<Run>& runs, const runtime::Rig& rig) {
+std::vector<LosingEncoder> losing_encoders(const std::vector<Run>& runs, const configuration::Rig& rig) {
   std::vector<LosingEncoder> losing;
   for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
     const double counts_per_unit = rig.encoders[axis].counts_per_unit;

@@ -19,7 +19,7 @@ struct LosingEncoder {
 
 /// Those of which at least five jumps are clear.
 [[nodiscard]] std::vector<LosingEncoder> losing_encoders(const std::vector<Run>& runs,
-                                                         const runtime::Rig& rig);
+                                                         const configuration::Rig& rig);
 
 /// The runs with what those encoders lost put back: a position goes on where it was.
 [[nodiscard]] std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder>& losing);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "crane/configuration/extended_file.hpp"
 #include "crane/diagnosis/data.hpp"
-#include "crane/runtime/extended_file.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
-using runtime::TomlTable;
+using configuration::TomlTable;
 
 std::string canonical_names() {
   std::string names;
@@ -20,10 +20,10 @@ std::string canonical_names() {
 MappedColumn read_column(TomlTable table, const std::string& canonical) {
   MappedColumn mapped{.canonical = canonical, .column = table.text("column")};
   if (table.has("column") && mapped.column.empty()) table.problem("column", "must not be empty");
-  mapped.factor = table.number("factor", runtime::Range::positive(), mapped.factor);
+  mapped.factor = table.number("factor", configuration::Range::positive(), mapped.factor);
   mapped.sign = table.integer("sign", -1, 1, mapped.sign);
   if (mapped.sign == 0) table.problem("sign", "must be 1 or -1");
-  mapped.offset = table.number("offset", runtime::Range::any(), mapped.offset);
+  mapped.offset = table.number("offset", configuration::Range::any(), mapped.offset);
   if (canonical == "time_s" && mapped.sign == -1) table.problem("sign", "time must not run backwards");
   return mapped;
 }
@@ -36,7 +36,7 @@ std::vector<double> converted(std::vector<double> values, const MappedColumn& ma
 }  // namespace
 
 Mapping load_mapping(const std::filesystem::path& file) {
-  return parse_mapping(runtime::file_text(file), file.string());
+  return parse_mapping(configuration::file_text(file), file.string());
 }
 
 Mapping parse_mapping(const std::string& text, const std::string& file) {

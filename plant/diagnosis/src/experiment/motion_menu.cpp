@@ -27,7 +27,7 @@ double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
 class Menu {
  public:
-  explicit Menu(const runtime::Rig& rig)
+  explicit Menu(const configuration::Rig& rig)
       : rig_(rig),
         swing_hz_(std::sqrt(rig.plant.gravity_mps2 / rig.start.position[kHoist]) / (2 * std::numbers::pi)) {
     for (const Axis axis : {kTrolley, kSlew})
@@ -137,7 +137,7 @@ class Menu {
   }
 
   void add_second_cable_length() {
-    const runtime::Drive& hoist = rig_.drives[kHoist];
+    const configuration::Drive& hoist = rig_.drives[kHoist];
     const double low = hoist.low_limit + hoist.soft_margin, high = hoist.high_limit - hoist.soft_margin;
     const double now = rig_.start.position[kHoist];
     const double other = now - low > high - now ? std::max(low, 0.6 * now) : std::min(high, 1.6 * now);
@@ -172,7 +172,7 @@ class Menu {
   }
   /// Largest of a sine that keeps to travel, speed and acceleration.
   [[nodiscard]] double amplitude(Axis axis, double frequency_hz) const {
-    const runtime::Drive& drive = rig_.drives[axis];
+    const configuration::Drive& drive = rig_.drives[axis];
     const double rate = 2 * std::numbers::pi * frequency_hz;
     const double travel = 0.5 * (drive.high_limit - drive.low_limit) - drive.soft_margin;
     const double most =
@@ -180,7 +180,7 @@ class Menu {
     return rounded(kShare * most);
   }
 
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   double swing_hz_;  ///< of the load: motions keep away from it
   std::vector<Axis> axes_;
   std::vector<SafeMotion> all_;
@@ -207,9 +207,9 @@ control::AxisReference SafeMotion::reference(plant::Axis axis, double time_s) co
   return result;
 }
 
-std::vector<SafeMotion> motion_menu(const runtime::Rig& rig) { return Menu{rig}.build(); }
+std::vector<SafeMotion> motion_menu(const configuration::Rig& rig) { return Menu{rig}.build(); }
 
-std::string scenario_text(const SafeMotion& motion, const runtime::Rig& rig) {
+std::string scenario_text(const SafeMotion& motion, const configuration::Rig& rig) {
   using recording::shortest;
   std::ostringstream out;
   out << "# A motion of the menu that tells causes apart (docs/diagnosis.md), inside the limits of "

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "crane/configuration/rig.hpp"
 #include "crane/control/excitation.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::diagnosis {
 
@@ -30,9 +30,9 @@ struct SafeMotion {
 
 /// What the rig can do: sweeps, break-away, two speeds, shaking per drive; a swinging load; a second length
 /// of cable, half a turn and an added mass where there are a hoist, a slew drive and a load.
-[[nodiscard]] std::vector<SafeMotion> motion_menu(const runtime::Rig& rig);
+[[nodiscard]] std::vector<SafeMotion> motion_menu(const configuration::Rig& rig);
 
 /// The motion as a scenario file for `crane run`, controller none: tracking alone.
-[[nodiscard]] std::string scenario_text(const SafeMotion& motion, const runtime::Rig& rig);
+[[nodiscard]] std::string scenario_text(const SafeMotion& motion, const configuration::Rig& rig);
 
 }  // namespace crane::diagnosis

@@ -226,8 +226,9 @@ bool may_show(const SafeMotion& motion, const std::vector<const Candidate*>& cau
 
 /// How far `rival`, refitted, stays from what `truth` gives, in the column that shows it most, in standard
 /// deviations of the noise. Nothing when the motion is not safe for that crane.
-std::optional<double> separation_of(const runtime::Rig& rig, const SafeMotion& motion, const Effects& truth,
-                                    const Effects& rival, const Disturbances& disturbances) {
+std::optional<double> separation_of(const configuration::Rig& rig, const SafeMotion& motion,
+                                    const Effects& truth, const Effects& rival,
+                                    const Disturbances& disturbances) {
   Crane base{rig.plant, rig.terms};
   base.parameters.load_mass_kg = motion.load_mass_kg;
   const auto run = safe_run(rig, with(base, truth), motion);
@@ -248,8 +249,8 @@ std::optional<double> separation_of(const runtime::Rig& rig, const SafeMotion& m
 
 }  // namespace
 
-std::optional<NextExperiment> propose_experiment(const runtime::Rig& rig, const Effects& a, const Effects& b,
-                                                 const Disturbances& disturbances) {
+std::optional<NextExperiment> propose_experiment(const configuration::Rig& rig, const Effects& a,
+                                                 const Effects& b, const Disturbances& disturbances) {
   const std::vector<const Candidate*> causes = differing(a, b);
   if (causes.empty()) return std::nullopt;
   const auto menu = motion_menu(rig);

@@ -18,8 +18,8 @@ using Disturbances = std::array<Disturbance, kOutputs>;
 /// of the two takes the part of the truth once.
 /// @param a,b with their values as fitted to the data there is; what both have need not be told apart
 /// @return nothing when no motion separates them by ten standard deviations of the noise
-[[nodiscard]] std::optional<NextExperiment> propose_experiment(const runtime::Rig& rig, const Effects& a,
-                                                               const Effects& b,
+[[nodiscard]] std::optional<NextExperiment> propose_experiment(const configuration::Rig& rig,
+                                                               const Effects& a, const Effects& b,
                                                                const Disturbances& disturbances);
 
 }  // namespace crane::diagnosis

@@ -22,7 +22,7 @@ double& rate(State& state, Axis axis) { return axis == kTrolley ? state.trolley_
 /// The crane under its loop, tick by tick.
 class FollowedMotion {
  public:
-  FollowedMotion(const runtime::Rig& rig, const Crane& crane, const SafeMotion& motion)
+  FollowedMotion(const configuration::Rig& rig, const Crane& crane, const SafeMotion& motion)
       : rig_(rig), motion_(motion), model_(crane.parameters, crane.terms, rig.period_s) {
     state_.trolley_m = motion.start[kTrolley];
     state_.slew_rad = motion.start[kSlew];
@@ -49,7 +49,7 @@ class FollowedMotion {
 
   [[nodiscard]] bool within_limits() const {
     for (const Axis axis : {kTrolley, kSlew}) {
-      const runtime::Drive& drive = rig_.drives[axis];
+      const configuration::Drive& drive = rig_.drives[axis];
       const double at = plant::position(state_, axis);
       if (drive.present && !(at >= drive.low_limit && at <= drive.high_limit)) return false;
     }
@@ -99,7 +99,7 @@ class FollowedMotion {
     }
   }
 
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   const SafeMotion& motion_;
   plant::Model model_;
   State state_;
@@ -110,7 +110,8 @@ class FollowedMotion {
 
 }  // namespace
 
-std::optional<PreparedRun> safe_run(const runtime::Rig& rig, const Crane& crane, const SafeMotion& motion) {
+std::optional<PreparedRun> safe_run(const configuration::Rig& rig, const Crane& crane,
+                                    const SafeMotion& motion) {
   FollowedMotion followed(rig, crane, motion);
   Run run;
   run.name = motion.name;

@@ -10,7 +10,7 @@ namespace crane::diagnosis {
 /// The crane follows the motion under a simple position loop; the commands of that are replayed, so that
 /// whoever replays them with the same crane meets the same numbers.
 /// @return nothing when the crane leaves the limits of the rig's drives or swing
-[[nodiscard]] std::optional<PreparedRun> safe_run(const runtime::Rig& rig, const Crane& crane,
+[[nodiscard]] std::optional<PreparedRun> safe_run(const configuration::Rig& rig, const Crane& crane,
                                                   const SafeMotion& motion);
 
 }  // namespace crane::diagnosis

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSmoothing_s = 0.03;
 
 /// Standard deviation of a value that is rounded to whole counts. What has no encoder is known to this.
-std::array<double, kOutputs> noise_of_counts(const runtime::Rig& rig) {
+std::array<double, kOutputs> noise_of_counts(const configuration::Rig& rig) {
   constexpr double kLeast = 1e-7;
   constexpr std::array<std::size_t, kOutputs> kEncoders{0, 1, 3, 4};
   std::array<double, kOutputs> noise{};
@@ -41,7 +41,7 @@ int smoothing_half_width(double period_s) {
   return std::max(3, static_cast<int>(std::lround(kSmoothing_s / period_s)));
 }
 
-PreparedRun prepare(Run run, const runtime::Rig& rig) {
+PreparedRun prepare(Run run, const configuration::Rig& rig) {
   PreparedRun prepared;
   for (std::size_t i = 0; i < kOutputs; ++i)
     if (!run.measured[i].empty())

@@ -25,7 +25,7 @@ std::string quoted_toml(const std::string& text) {
 
 }  // namespace
 
-std::string extended_rig_text(const runtime::Rig& rig, const Diagnosis& diagnosis) {
+std::string extended_rig_text(const configuration::Rig& rig, const Diagnosis& diagnosis) {
   std::ostringstream out;
   out << "# " << rig.name << " with what measured data showed it to lack. " << diagnosis.sentence << '\n'
       << "extends = " << quoted_toml(std::filesystem::absolute(rig.path).lexically_normal().string())
@@ -44,8 +44,8 @@ std::string extended_rig_text(const runtime::Rig& rig, const Diagnosis& diagnosi
   return out.str();
 }
 
-void write_report(const std::filesystem::path& directory, const Diagnosis& diagnosis, const runtime::Rig& rig,
-                  const std::vector<Run>& test) {
+void write_report(const std::filesystem::path& directory, const Diagnosis& diagnosis,
+                  const configuration::Rig& rig, const std::vector<Run>& test) {
   write_text(directory / "report.json", to_json(diagnosis).dump(2) + "\n");
   write_text(directory / "extended.toml", extended_rig_text(rig, diagnosis));
   const auto experiment = directory / "next_experiment.toml";

@@ -165,7 +165,7 @@ report::Section held_out_section(const Diagnosis& diagnosis) {
   return section;
 }
 
-report::Section residual_section(const Diagnosis& diagnosis, const runtime::Rig& rig,
+report::Section residual_section(const Diagnosis& diagnosis, const configuration::Rig& rig,
                                  const std::vector<Run>& test) {
   report::Section section{.title = "Residual", .blocks = {}};
   section.blocks.emplace_back(
@@ -246,7 +246,7 @@ std::string without_proposal(Verdict verdict) {
   return "None is needed.";
 }
 
-report::Section next_section(const Diagnosis& diagnosis, const runtime::Rig& rig) {
+report::Section next_section(const Diagnosis& diagnosis, const configuration::Rig& rig) {
   report::Section section{.title = "Next experiment", .blocks = {}};
   if (!diagnosis.next_experiment) {
     section.blocks.emplace_back(report::Paragraph{without_proposal(diagnosis.verdict)});
@@ -275,7 +275,8 @@ std::string summary_of(const Diagnosis& diagnosis, const std::vector<Run>& test)
 
 }  // namespace
 
-report::Page report_page(const Diagnosis& diagnosis, const runtime::Rig& rig, const std::vector<Run>& test) {
+report::Page report_page(const Diagnosis& diagnosis, const configuration::Rig& rig,
+                         const std::vector<Run>& test) {
   report::Page page{
       .title = "Diagnosis of " + rig.name, .summary = summary_of(diagnosis, test), .sections = {}};
   page.sections.push_back(verdict_section(diagnosis));

@@ -40,7 +40,7 @@ std::vector<std::string> runs_of(const std::vector<Trace>& traces) {
 }  // namespace
 
 void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& diagnosis,
-                    const runtime::Rig& rig, const std::vector<Run>& test) {
+                    const configuration::Rig& rig, const std::vector<Run>& test) {
   const bool is_extended = !diagnosis.extension.empty();
   std::size_t number = 0;
   for (const std::string& run : runs_of(diagnosis.traces)) {

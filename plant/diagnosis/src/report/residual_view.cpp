@@ -29,7 +29,7 @@ Eigen::MatrixXd free_motions(bool swing, double swing_radps, Eigen::Index rows, 
 }
 
 std::vector<double> without_start(const Trace& trace, const std::vector<double>& simulated, const Run& run,
-                                  const runtime::Rig& rig) {
+                                  const configuration::Rig& rig) {
   const std::size_t rows = trace.measured.size();
   std::vector<double> left(rows);
   for (std::size_t k = 0; k < rows; ++k) left[k] = kMilli * (trace.measured[k] - simulated[k]);
@@ -107,7 +107,7 @@ std::string short_name(const std::string& run) {
   return (path.parent_path().filename() / path.filename()).string();
 }
 
-std::vector<ResidualView> residual_views(const Diagnosis& diagnosis, const runtime::Rig& rig,
+std::vector<ResidualView> residual_views(const Diagnosis& diagnosis, const configuration::Rig& rig,
                                          const std::vector<Run>& test) {
   std::vector<ResidualView> views;
   for (const Trace& trace : diagnosis.traces) {

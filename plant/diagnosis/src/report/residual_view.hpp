@@ -28,7 +28,8 @@ struct ResidualView {
 
 /// The simulation of a whole run drifts away from what starts it; so the free motion that a wrong start would
 /// give is taken out of every window, straight for a drive and swinging for a load.
-[[nodiscard]] std::vector<ResidualView> residual_views(const Diagnosis& diagnosis, const runtime::Rig& rig,
+[[nodiscard]] std::vector<ResidualView> residual_views(const Diagnosis& diagnosis,
+                                                       const configuration::Rig& rig,
                                                        const std::vector<Run>& test);
 
 }  // namespace crane::diagnosis

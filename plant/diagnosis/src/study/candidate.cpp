@@ -17,7 +17,7 @@ struct KnownFriction {
   double least_coulomb_v = 0, least_viscous = 0;
   bool present = false;
 };
-KnownFriction known_friction(const runtime::Rig& rig, const std::string& axis) {
+KnownFriction known_friction(const configuration::Rig& rig, const std::string& axis) {
   KnownFriction known;
   for (const TermSetting& term : rig.terms) {
     if (term.name != "drive_friction" || term.axis != axis) continue;
@@ -33,7 +33,7 @@ KnownFriction known_friction(const runtime::Rig& rig, const std::string& axis) {
 
 class Builder {
  public:
-  Builder(const runtime::Rig& rig, const std::vector<PreparedRun>& runs) : rig_(rig), runs_(runs) {}
+  Builder(const configuration::Rig& rig, const std::vector<PreparedRun>& runs) : rig_(rig), runs_(runs) {}
 
   std::vector<Candidate> build() {
     const auto measured = [&](Output output) {
@@ -238,7 +238,7 @@ class Builder {
     return std::max(travel_of(runs_, output).width(), 1e-3);
   }
 
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   const std::vector<PreparedRun>& runs_;
   bool radial_ = false, tangential_ = false;
   std::vector<Candidate> all_;
@@ -246,7 +246,7 @@ class Builder {
 
 }  // namespace
 
-std::vector<Candidate> candidates_for(const runtime::Rig& rig, const std::vector<PreparedRun>& runs) {
+std::vector<Candidate> candidates_for(const configuration::Rig& rig, const std::vector<PreparedRun>& runs) {
   return Builder(rig, runs).build();
 }
 

@@ -32,7 +32,7 @@ Evaluation summed(const Study::Body& body, Fits of_drive, Fits of_load, std::vec
   return result;
 }
 
-double natural_radps(const runtime::Rig& rig) {
+double natural_radps(const configuration::Rig& rig) {
   return std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist]);
 }
 
@@ -60,7 +60,7 @@ void Noise::take_likelier(const Noise& other) {
     if (other.load[i].misfit < load[i].misfit) load[i] = other.load[i];
 }
 
-Study::Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
+Study::Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded)
     : natural_radps_{diagnosis::natural_radps(rig)},
       base_{rig.plant, rig.terms},

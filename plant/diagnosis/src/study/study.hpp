@@ -80,9 +80,9 @@ class Study {
  public:
   /// @param train, test outlive the study
   /// @param excluded causes that are no candidates
-  Study(const runtime::Rig& rig, const Runs& train, const Runs& test,
+  Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
         const std::vector<std::string>& excluded = {});
-  Study(const runtime::Rig& rig, const Runs& train, Runs&& test,
+  Study(const configuration::Rig& rig, const Runs& train, Runs&& test,
         const std::vector<std::string>& excluded = {}) = delete;
 
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }

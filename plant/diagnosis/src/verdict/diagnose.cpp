@@ -33,7 +33,7 @@ constexpr double kStandsStill = 0.1;
 /// asked there, where the smallest error of friction integrates into position.
 constexpr double kWorseOverWholeRuns = 1.25;
 
-Runs prepared(std::vector<Run> runs, const runtime::Rig& rig) {
+Runs prepared(std::vector<Run> runs, const configuration::Rig& rig) {
   Runs all;
   for (Run& run : runs) all.push_back(prepare(std::move(run), rig));
   return all;
@@ -54,7 +54,7 @@ std::string called(const std::string& what, const Runs& runs) {
 }
 
 /// What is wrong with runs in which too little happens.
-void add_problems(const std::string& what, const Runs& runs, double least_s, const runtime::Rig& rig,
+void add_problems(const std::string& what, const Runs& runs, double least_s, const configuration::Rig& rig,
                   std::vector<std::string>& problems) {
   constexpr double kLeastRate = 0.01, kLeastWay = 0.005;
   if (total_s(runs) < least_s)
@@ -78,7 +78,7 @@ void add_problems(const std::string& what, const Runs& runs, double least_s, con
 }
 
 /// Whether anything happens in the data.
-void require_excitation(const Runs& train, const Runs& test, const runtime::Rig& rig) {
+void require_excitation(const Runs& train, const Runs& test, const configuration::Rig& rig) {
   constexpr double kLeastTraining_s = 8, kLeastHeldOut_s = 4;
   std::vector<std::string> problems;
   add_problems("training data", train, kLeastTraining_s, rig, problems);
@@ -216,7 +216,7 @@ struct Data {
 
 /// @param study of data in which what `losing` encoders lost is put back
 /// @param as_measured of the data before that; `study` itself where nothing was lost
-Diagnosis diagnosed(const runtime::Rig& rig, Study& study, Study& as_measured,
+Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measured,
                     const std::vector<LosingEncoder>& losing, const Request& request) {
   Hypotheses found = searched(study, request);
   request.progress(0.85, "what is left");
@@ -257,7 +257,7 @@ const char* name_of(Verdict verdict) {
   return std::array{"none", "named", "ambiguous", "parameter", "unknown"}[static_cast<std::size_t>(verdict)];
 }
 
-Diagnosis diagnose(const runtime::Rig& rig, std::vector<Run> train, std::vector<Run> test,
+Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::vector<Run> test,
                    const Request& request) {
   const auto begin = std::chrono::steady_clock::now();
   const Data measured{prepared(train, rig), prepared(test, rig)};

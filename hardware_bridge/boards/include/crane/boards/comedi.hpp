@@ -16,7 +16,7 @@
 #include "crane/boards/port_io.hpp"
 #include "crane/boards/rig_lines.hpp"
 #include "crane/bridge/board.hpp"
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 struct comedi_t_struct;
 
@@ -27,7 +27,7 @@ class Comedi final : public Board {
   /// Locks the subdevices, checks all of them, then makes the board safe, then starts the counters.
   /// @throws BoardError when there is no such device, another program has it, or a subdevice is not what the
   ///   rig file says
-  explicit Comedi(const runtime::Rig& rig);
+  explicit Comedi(const configuration::Rig& rig);
   /// Leaves the board at 0 V, all outputs off.
   ~Comedi() override;
   Comedi(const Comedi&) = delete;
@@ -70,7 +70,7 @@ class Comedi final : public Board {
   [[nodiscard]] double voltage_v(const Converter& converter, unsigned code) const noexcept;
   [[noreturn]] void fail(const std::string& what) const;
 
-  runtime::Wiring wiring_;
+  configuration::Wiring wiring_;
   RigLines lines_;
   Handle handle_;
   std::string name_;

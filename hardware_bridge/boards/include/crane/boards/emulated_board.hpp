@@ -9,7 +9,7 @@ namespace crane::bridge {
 
 class EmulatedBoard final : public Board {
  public:
-  EmulatedBoard(const runtime::Rig& rig, std::unique_ptr<EmulatedRig> connected);
+  EmulatedBoard(const configuration::Rig& rig, std::unique_ptr<EmulatedRig> connected);
 
   [[nodiscard]] std::string_view name() const override { return driver_.name(); }
   [[nodiscard]] Inputs read() override;

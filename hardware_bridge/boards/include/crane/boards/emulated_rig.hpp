@@ -5,7 +5,7 @@
 #include <string>
 
 #include "crane/boards/emulated_servo_to_go.hpp"
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 namespace crane::bridge {
 

@@ -13,7 +13,7 @@
 #include "crane/boards/port_io.hpp"
 #include "crane/boards/rig_lines.hpp"
 #include "crane/bridge/board.hpp"
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 namespace crane::bridge {
 
@@ -22,7 +22,7 @@ class ServoToGo final : public Board {
   /// Recognises the card before it writes anything, then makes it safe, then starts the counters.
   /// @throws BoardError when there is no card at the base address, or a counter does not keep what it is
   /// given
-  ServoToGo(const runtime::Rig& rig, std::unique_ptr<PortIo> ports);
+  ServoToGo(const configuration::Rig& rig, std::unique_ptr<PortIo> ports);
   /// Leaves the card at 0 V, all outputs off.
   ~ServoToGo() override;
   ServoToGo(const ServoToGo&) = delete;

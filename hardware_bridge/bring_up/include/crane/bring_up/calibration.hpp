@@ -35,12 +35,12 @@ struct Calibration {
 [[nodiscard]] Calibration calibrate(Session& session, const CalibrationOptions& options);
 
 /// Rig file at `file` that extends that of `rig`, with the values of the calibration.
-/// @throws runtime::ConfigurationError when it would not be a usable rig, `file` is the calibration of
+/// @throws configuration::ConfigurationError when it would not be a usable rig, `file` is the calibration of
 ///   another rig, no rig file, or the rig file itself
-[[nodiscard]] std::string calibration_file(const runtime::Rig& rig, const Calibration& calibration,
+[[nodiscard]] std::string calibration_file(const configuration::Rig& rig, const Calibration& calibration,
                                            const std::filesystem::path& file);
 /// The same check without a calibration: may `file` be written for `rig`? @throws
-/// runtime::ConfigurationError
-void require_own_file(const runtime::Rig& rig, const std::filesystem::path& file);
+/// configuration::ConfigurationError
+void require_own_file(const configuration::Rig& rig, const std::filesystem::path& file);
 
 }  // namespace crane::bring_up

@@ -22,7 +22,7 @@ struct JogPlan {
 };
 
 /// Problems of the plan, one line each "name = value: rule"; empty when it may run.
-[[nodiscard]] std::vector<std::string> problems(const JogPlan& plan, const runtime::Rig& rig);
+[[nodiscard]] std::vector<std::string> problems(const JogPlan& plan, const configuration::Rig& rig);
 
 struct Jog {
   Record record;                          ///< from the closed brake before to the closed brake after

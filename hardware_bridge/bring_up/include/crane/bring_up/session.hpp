@@ -10,7 +10,7 @@
 
 #include "crane/bridge/board.hpp"
 #include "crane/bridge/measurement.hpp"
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 namespace crane::bring_up {
 
@@ -45,7 +45,7 @@ struct Clock {
 class Session {
  public:
   /// Both outlive the session.
-  Session(const runtime::Rig& rig, bridge::Board& board, Clock clock);
+  Session(const configuration::Rig& rig, bridge::Board& board, Clock clock);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -62,14 +62,14 @@ class Session {
   void wake();
 
   [[nodiscard]] const Sample& sample() const { return sample_; }
-  [[nodiscard]] const runtime::Rig& rig() const { return rig_; }
+  [[nodiscard]] const configuration::Rig& rig() const { return rig_; }
   void make_safe() noexcept { board_.make_safe(); }
 
  private:
   const Sample& tick(const bridge::Outputs& outputs);
   void take(const bridge::Inputs& inputs);
 
-  const runtime::Rig& rig_;
+  const configuration::Rig& rig_;
   bridge::Board& board_;
   Clock clock_;
   std::int64_t period_ns_;

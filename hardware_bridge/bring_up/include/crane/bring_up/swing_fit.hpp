@@ -17,7 +17,7 @@ struct SwingFit {
 };
 
 /// sqrt(g / L) of the rig at its start.
-[[nodiscard]] double swing_frequency_radps(const runtime::Rig& rig);
+[[nodiscard]] double swing_frequency_radps(const configuration::Rig& rig);
 
 /// Least squares over a record that lasts at least half a period.
 /// @param counter  3 radial, 4 tangential

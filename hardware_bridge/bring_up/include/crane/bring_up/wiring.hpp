@@ -86,9 +86,9 @@ struct Finding {
 };
 
 /// The swing that an axis's motion makes: 3 radial for the trolley, 4 tangential for the slew; 0: none.
-[[nodiscard]] std::size_t swing_of(const runtime::Rig& rig, std::size_t axis);
+[[nodiscard]] std::size_t swing_of(const configuration::Rig& rig, std::size_t axis);
 
 /// Everything wrong, in the order of the checks; empty: the wiring is that of the rig file.
-[[nodiscard]] std::vector<Finding> judge(const runtime::Rig& rig, const Evidence& evidence);
+[[nodiscard]] std::vector<Finding> judge(const configuration::Rig& rig, const Evidence& evidence);
 
 }  // namespace crane::bring_up

@@ -12,12 +12,12 @@ namespace crane::bridge {
 /// A board a rig file can name.
 struct BoardKind {
   std::string_view name;
-  std::unique_ptr<Board> (*make)(const runtime::Rig& rig, const bus::Options& bus);
+  std::unique_ptr<Board> (*make)(const configuration::Rig& rig, const bus::Options& bus);
 };
 [[nodiscard]] const std::vector<BoardKind>& board_kinds();
 
-/// @throws runtime::ConfigurationError when no hardware board is named, or none this program can drive
-const BoardKind& board_kind_of(const runtime::Rig& rig);
+/// @throws configuration::ConfigurationError when no hardware board is named, or none this program can drive
+const BoardKind& board_kind_of(const configuration::Rig& rig);
 
 [[nodiscard]] runtime::ComponentSpec hardware_bridge_spec();
 

@@ -37,7 +37,7 @@ struct Maneuver {
   plant::PerAxis to{};        ///< position asked for at the end; axes with to = from are unmoved
 };
 /// @param rig where the axes start that the scenario does not place
-[[nodiscard]] Maneuver maneuver_of(const Scenario& scenario, const runtime::Rig& rig);
+[[nodiscard]] Maneuver maneuver_of(const Scenario& scenario, const configuration::Rig& rig);
 
 /// Share of a move within which an axis counts as arrived.
 inline constexpr double kSettlingShare = 0.02;

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "crane/configuration/rig.hpp"
 #include "crane/control/excitation.hpp"
 #include "crane/plant/parameters.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::experiment {
 
@@ -55,14 +55,15 @@ struct Scenario {
   [[nodiscard]] double end_s() const { return first_action_s() + duration_s; }
 };
 
-/// @throws runtime::ConfigurationError with every problem as "file:line: name = value: rule": unknown keys,
-/// wrong
+/// @throws configuration::ConfigurationError with every problem as "file:line: name = value: rule": unknown
+/// keys, wrong
 ///   types, and with `rig` also targets outside its travel or on axes it does not have
-[[nodiscard]] Scenario load_scenario(const std::filesystem::path& file, const runtime::Rig* rig = nullptr);
+[[nodiscard]] Scenario load_scenario(const std::filesystem::path& file,
+                                     const configuration::Rig* rig = nullptr);
 [[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& file,
-                                      const runtime::Rig* rig = nullptr);
+                                      const configuration::Rig* rig = nullptr);
 
 /// The rig as the scenario starts it: positions, swing and true load.
-[[nodiscard]] runtime::Rig started_by(runtime::Rig rig, const Scenario& scenario);
+[[nodiscard]] configuration::Rig started_by(configuration::Rig rig, const Scenario& scenario);
 
 }  // namespace crane::experiment

@@ -5,14 +5,14 @@
 #include <string_view>
 #include <vector>
 
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 namespace crane::experiment {
 
 struct Variant {
   std::string_view name;
   std::string_view summary;
-  void (*change)(runtime::Rig& started);  ///< of the rig as its scenario starts it
+  void (*change)(configuration::Rig& started);  ///< of the rig as its scenario starts it
 };
 
 /// Those of a comparison first, then those that single figures need.
@@ -23,7 +23,8 @@ struct Variant {
 /// Several variants joined by '+' are applied from left to right: "slow_reference+no_compensation".
 /// @return one line per name that is none, with the names there are
 [[nodiscard]] std::vector<std::string> variant_problems(const std::string& names);
-/// @param names  empty: the rig stays as it is. @throws runtime::ConfigurationError as variant_problems()
-[[nodiscard]] runtime::Rig changed_by(runtime::Rig started, const std::string& names);
+/// @param names  empty: the rig stays as it is. @throws configuration::ConfigurationError as
+/// variant_problems()
+[[nodiscard]] configuration::Rig changed_by(configuration::Rig started, const std::string& names);
 
 }  // namespace crane::experiment

@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "crane/bus/bus.hpp"
+#include "crane/configuration/rig.hpp"
 #include "crane/control/law.hpp"
 #include "crane/runtime/ports.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::runtime {
 
@@ -38,7 +38,7 @@ class Node;
 struct Context {
   Ports& ports;  ///< its endpoints: those that its ComponentSpec declares
   Node& node;
-  const Rig& rig;
+  const configuration::Rig& rig;
   const control::Controller& controller;
   const bus::Options& bus;  ///< domain and crane it runs in
   Clock clock = Clock::lockstep;

@@ -11,7 +11,7 @@ class HostedComponent {
  public:
   /// Builds the component of `spec`. Everything must outlive it.
   /// @throws std::logic_error when its endpoints are not those that `spec` declares
-  HostedComponent(bus::Bus& bus, const ComponentSpec& spec, const Rig& rig,
+  HostedComponent(bus::Bus& bus, const ComponentSpec& spec, const configuration::Rig& rig,
                   const control::Controller& controller, Clock clock);
   [[nodiscard]] Component& component() { return *component_; }
   [[nodiscard]] Node& node() { return node_; }

@@ -13,9 +13,10 @@ namespace crane::runtime {
 class InProcessStack {
  public:
   /// Builds every component of `specs`. `rig` and `controller` must outlive the stack.
-  InProcessStack(std::span<const ComponentSpec> specs, const Rig& rig, const control::Controller& controller);
+  InProcessStack(std::span<const ComponentSpec> specs, const configuration::Rig& rig,
+                 const control::Controller& controller);
   /// One more component, with a rig file of its own. Both must outlive the stack.
-  void add(const ComponentSpec& spec, const Rig& rig, const control::Controller& controller);
+  void add(const ComponentSpec& spec, const configuration::Rig& rig, const control::Controller& controller);
 
   /// The network the components talk over, for an operator's or recorder's own Bus.
   [[nodiscard]] const std::shared_ptr<bus::MemoryNetwork>& network() const { return network_; }

@@ -51,7 +51,8 @@ struct LoopOptions {
 void add_loop_options(CLI::App& app, LoopOptions& options);
 
 /// The controller a loop runs. @throws ConfigurationError when the name does not exist, listing those that do
-[[nodiscard]] const control::Controller& chosen_controller(const std::string& name, const Rig& rig);
+[[nodiscard]] const control::Controller& chosen_controller(const std::string& name,
+                                                           const configuration::Rig& rig);
 
 /// Start-up number of a process: random, never 0. Numbers are compared for equality only, so that no clock
 /// decides which of two processes is believed.

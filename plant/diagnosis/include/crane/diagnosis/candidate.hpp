@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "crane/configuration/rig.hpp"
 #include "crane/diagnosis/replay.hpp"
 #include "crane/plant/term.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::diagnosis {
 
@@ -62,7 +62,7 @@ struct Candidate {
 };
 
 /// Everything that can be wrong with this rig, in the order of the documentation.
-[[nodiscard]] std::vector<Candidate> candidates_for(const runtime::Rig& rig,
+[[nodiscard]] std::vector<Candidate> candidates_for(const configuration::Rig& rig,
                                                     const std::vector<PreparedRun>& runs);
 
 }  // namespace crane::diagnosis

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "crane/configuration/rig.hpp"
 #include "crane/plant/parameters.hpp"
 #include "crane/recording/csv.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::diagnosis {
 
@@ -61,7 +61,7 @@ class DataError : public std::runtime_error {
 /// notes.
 /// @param name of the file, for messages
 /// @throws DataError with all problems of the table
-[[nodiscard]] Loaded load_run(const recording::Table& table, const runtime::Rig& rig,
+[[nodiscard]] Loaded load_run(const recording::Table& table, const configuration::Rig& rig,
                               const std::string& name);
 
 /// By sample.

@@ -101,7 +101,7 @@ struct Request {
 
 /// @param train,test pieces of runs (load_run); whole runs belong to one side
 /// @throws DataError when the data cannot tell: too short, nothing moves
-[[nodiscard]] Diagnosis diagnose(const runtime::Rig& rig, std::vector<Run> train, std::vector<Run> test,
+[[nodiscard]] Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::vector<Run> test,
                                  const Request& request = {});
 
 }  // namespace crane::diagnosis

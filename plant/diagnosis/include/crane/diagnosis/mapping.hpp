@@ -24,7 +24,7 @@ struct MappedColumn {
 };
 using Mapping = std::vector<MappedColumn>;
 
-/// @throws runtime::ConfigurationError with every problem as "file:line: name = value: rule"
+/// @throws configuration::ConfigurationError with every problem as "file:line: name = value: rule"
 [[nodiscard]] Mapping load_mapping(const std::filesystem::path& file);
 [[nodiscard]] Mapping parse_mapping(const std::string& text, const std::string& file);
 

@@ -31,14 +31,14 @@ struct Crane {
 /// A run with what every replay of it needs.
 struct PreparedRun {
   Run run;
-  runtime::RigKind kind = runtime::RigKind::tower;
+  configuration::RigKind kind = configuration::RigKind::tower;
   std::array<Motion, kOutputs> motion;  ///< smoothed; empty without a measurement
   Motion cable;
   /// Along `motion`, in steps without and with coordinates of terms' own; what every replay goes by.
   std::array<std::vector<Measured>, 2> half_way;
   std::array<double, kOutputs> least_noise{};  ///< what counting alone makes, m or rad
 };
-[[nodiscard]] PreparedRun prepare(Run run, const runtime::Rig& rig);
+[[nodiscard]] PreparedRun prepare(Run run, const configuration::Rig& rig);
 
 /// Samples over which positions are smoothed for their rates and accelerations, each way: 30 ms.
 [[nodiscard]] int smoothing_half_width(double period_s);

@@ -17,10 +17,10 @@ namespace crane::diagnosis {
 
 /// A rig file that extends that of `rig` (by its absolute path) with the terms of the diagnosis after its
 /// own.
-[[nodiscard]] std::string extended_rig_text(const runtime::Rig& rig, const Diagnosis& diagnosis);
+[[nodiscard]] std::string extended_rig_text(const configuration::Rig& rig, const Diagnosis& diagnosis);
 
 /// @param test the held-out runs that were given to diagnose()
-[[nodiscard]] report::Page report_page(const Diagnosis& diagnosis, const runtime::Rig& rig,
+[[nodiscard]] report::Page report_page(const Diagnosis& diagnosis, const configuration::Rig& rig,
                                        const std::vector<Run>& test);
 
 /// A file cannot be written; names it.
@@ -32,11 +32,11 @@ class ReportError : public std::runtime_error {
 /// overlay_N.svg, one per held-out run, and residual_COLUMN.svg.
 /// @param directory must exist. @throws plot::PictureError
 void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& diagnosis,
-                    const runtime::Rig& rig, const std::vector<Run>& test);
+                    const configuration::Rig& rig, const std::vector<Run>& test);
 
 /// report.json, report.html, extended.toml and next_experiment.toml.
 /// @param directory must exist. @throws ReportError, report::WriteError
-void write_report(const std::filesystem::path& directory, const Diagnosis& diagnosis, const runtime::Rig& rig,
-                  const std::vector<Run>& test);
+void write_report(const std::filesystem::path& directory, const Diagnosis& diagnosis,
+                  const configuration::Rig& rig, const std::vector<Run>& test);
 
 }  // namespace crane::diagnosis

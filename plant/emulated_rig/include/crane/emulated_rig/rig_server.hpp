@@ -15,7 +15,7 @@ class RigServer {
  public:
   /// @throws bridge::BoardError when another rig has this name; std::invalid_argument naming problems of the
   /// rig
-  RigServer(const runtime::Rig& rig, const std::string& name, bool lockstep, int model);
+  RigServer(const configuration::Rig& rig, const std::string& name, bool lockstep, int model);
   ~RigServer();
   RigServer(const RigServer&) = delete;
   RigServer& operator=(const RigServer&) = delete;

@@ -11,7 +11,7 @@ namespace crane::emulated_rig {
 class WiredRig final : public bridge::EmulatedRig {
  public:
   /// @throws std::invalid_argument naming every problem of the rig
-  explicit WiredRig(const runtime::Rig& rig);
+  explicit WiredRig(const configuration::Rig& rig);
 
   [[nodiscard]] std::int32_t pulses(std::size_t channel) noexcept override;
   [[nodiscard]] std::uint16_t inputs() noexcept override;
@@ -32,9 +32,9 @@ class WiredRig final : public bridge::EmulatedRig {
   [[nodiscard]] const std::array<double, bridge::kDrives>& drive_v() const { return outputs_.drive_v; }
 
  private:
-  std::array<runtime::Encoder, bridge::kCounters> encoders_;
-  std::array<runtime::Drive, bridge::kDrives> drives_;
-  runtime::Wiring wiring_;
+  std::array<configuration::Encoder, bridge::kCounters> encoders_;
+  std::array<configuration::Drive, bridge::kDrives> drives_;
+  configuration::Wiring wiring_;
   bridge::CardState card_;
   simulator::SimulatedBoard crane_;
   std::array<std::int32_t, bridge::kCounters> first_counts_;

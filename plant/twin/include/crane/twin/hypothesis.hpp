@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "crane/configuration/rig.hpp"
 #include "crane/plant/parameters.hpp"
-#include "crane/runtime/rig.hpp"
 #include "crane/twin/columns.hpp"
 
 namespace crane::twin {
@@ -23,6 +23,6 @@ struct Hypothesis {
 
 /// Those that exist on this rig: friction and gain of each drive, slipping position encoders, payload, cable
 /// length, zero of the swing encoders.
-[[nodiscard]] std::vector<Hypothesis> hypotheses_for(const runtime::Rig& rig);
+[[nodiscard]] std::vector<Hypothesis> hypotheses_for(const configuration::Rig& rig);
 
 }  // namespace crane::twin

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 #include "crane/twin/judge.hpp"
 #include "crane/twin/predictor.hpp"
 #include "crane/twin/step_watch.hpp"
@@ -47,7 +47,7 @@ struct Notice {
 class Twin {
  public:
   /// @throws std::invalid_argument when the rig's model cannot be built
-  explicit Twin(const runtime::Rig& rig, const Design& design = {});
+  explicit Twin(const configuration::Rig& rig, const Design& design = {});
 
   const Judgement& step(const Sample& sample);
   [[nodiscard]] const Judgement& judgement() const { return judgement_; }
@@ -67,7 +67,7 @@ class Twin {
   void report();
   void announce();
 
-  runtime::Rig rig_;
+  configuration::Rig rig_;
   Design design_;
   Judge judge_;
   Predictor nominal_;

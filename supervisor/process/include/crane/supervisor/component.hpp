@@ -9,6 +9,6 @@ namespace crane::supervisor {
 [[nodiscard]] runtime::ComponentSpec supervisor_spec();
 
 /// Limits of the supervisor from the rig file.
-[[nodiscard]] Limits limits_of(const runtime::Rig& rig);
+[[nodiscard]] Limits limits_of(const configuration::Rig& rig);
 
 }  // namespace crane::supervisor

@@ -9,6 +9,6 @@ namespace crane::simulator {
 
 /// The rig file as the simulated board wants it. Limit switches sit at the hard limits, end stops a little
 /// beyond.
-[[nodiscard]] SimulatedRig simulated_rig_of(const runtime::Rig& rig);
+[[nodiscard]] SimulatedRig simulated_rig_of(const configuration::Rig& rig);
 
 }  // namespace crane::simulator

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "crane/runtime/toml_reader.hpp"
+#include "crane/configuration/toml_reader.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 
 /// @throws ConfigurationError when the file cannot be read
 [[nodiscard]] std::string file_text(const std::filesystem::path& file);
@@ -14,4 +14,4 @@ namespace crane::runtime {
 /// syntax error or a wrong `extends`
 [[nodiscard]] TomlTable with_base(const std::string& text, const std::filesystem::path& file);
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace crane::runtime {
+namespace crane::configuration {
 
 struct KeyHint {
   std::string rule =
@@ -14,4 +14,4 @@ struct KeyHint {
 
 [[nodiscard]] KeyHint key_hint(std::string_view unknown, const std::set<std::string, std::less<>>& known);
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

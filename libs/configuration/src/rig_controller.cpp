@@ -4,7 +4,7 @@
 
 #include "rig_sections.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 std::vector<std::string> controller_names() {
@@ -128,4 +128,4 @@ void read_controller(TomlTable& root, Rig& rig) {
   check_controller(table, rig);
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

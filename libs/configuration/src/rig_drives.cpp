@@ -2,7 +2,7 @@
 
 #include "rig_sections.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 constexpr double kShortestCable_m = 1e-3;
@@ -113,4 +113,4 @@ void read_drives(TomlTable& root, Rig& rig) {
   if (drives.present()) check_drives_of_kind(drives, rig);
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -1,4 +1,4 @@
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 using testing::ElementsAre;
@@ -390,4 +390,4 @@ TEST(RigFile, EitherLoadsOrNamesALineWhateverHappensToOneLine) {
 }
 
 }  // namespace
-}  // namespace crane::runtime
+}  // namespace crane::configuration

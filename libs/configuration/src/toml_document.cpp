@@ -6,7 +6,7 @@
 
 #include "key_hint.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 std::string written_number(double value) {
@@ -88,4 +88,4 @@ std::vector<std::string> TomlTable::Document::sorted_problems() {
   return lines;
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "crane/runtime/toml_reader.hpp"
+#include "crane/configuration/toml_reader.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 
 /// One table that was opened, present in the file or not.
 struct TomlTable::Place {
@@ -54,4 +54,4 @@ struct TomlTable::Document {
 [[nodiscard]] std::string written(const toml::node& node);
 [[nodiscard]] int line_of(const toml::node& node);
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -1,9 +1,9 @@
 // How a rig file says where the zeros of its encoders are.
 #include <gmock/gmock.h>
 
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 using testing::Contains;
@@ -80,4 +80,4 @@ TEST(RigHoming, WantsALineOfItsOwnForAMark) {
 }
 
 }  // namespace
-}  // namespace crane::runtime
+}  // namespace crane::configuration

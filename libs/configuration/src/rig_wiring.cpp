@@ -1,6 +1,6 @@
 #include "rig_sections.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 constexpr int kLastInput = 15;    // ports A and B
@@ -72,4 +72,4 @@ void read_wiring(TomlTable& root, Rig& rig) {
   }
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -1,12 +1,12 @@
-#include "crane/runtime/extended_file.hpp"
+#include "crane/configuration/extended_file.hpp"
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 /// Without its base nothing else about the file can be judged.
@@ -43,4 +43,4 @@ TomlTable with_base(const std::string& text, const std::filesystem::path& file) 
   return with_base_outside(text, file, {});
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

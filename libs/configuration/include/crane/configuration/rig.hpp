@@ -12,7 +12,7 @@
 #include "crane/control/shaper.hpp"
 #include "crane/plant/parameters.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 
 enum class RigKind { tower, gantry, drive_axis, pendulum };
 
@@ -116,4 +116,4 @@ class ConfigurationError : public std::runtime_error {
 /// Same, from text; `file` is used in messages only. @throws ConfigurationError
 [[nodiscard]] Rig parse_rig(const std::string& text, const std::string& file);
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -3,7 +3,7 @@
 
 #include "rig_sections.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 using control::Mark;
@@ -80,4 +80,4 @@ void read_homing(TomlTable& root, Rig& rig) {
   }
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -1,13 +1,13 @@
-#include "crane/runtime/toml_reader.hpp"
+#include "crane/configuration/toml_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 #include "toml_document.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
@@ -274,4 +274,4 @@ void TomlTable::finish() {
   if (!lines.empty()) throw ConfigurationError(std::move(lines));
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

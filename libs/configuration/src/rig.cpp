@@ -1,9 +1,9 @@
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
-#include "crane/runtime/extended_file.hpp"
+#include "crane/configuration/extended_file.hpp"
 #include "rig_sections.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 RigKind read_kind(TomlTable& root) {
@@ -41,4 +41,4 @@ Rig parse_rig(const std::string& text, const std::string& file) {
   return rig;
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

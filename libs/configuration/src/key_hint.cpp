@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 /// Unit suffixes of keys; what follows the last underscore is a unit only if it is one of these.
@@ -67,4 +67,4 @@ KeyHint key_hint(std::string_view unknown, const std::set<std::string, std::less
   return hint;
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

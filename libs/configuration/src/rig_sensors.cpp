@@ -1,6 +1,6 @@
 #include "rig_sections.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 struct EncoderSection {
@@ -56,4 +56,4 @@ void read_sensing(TomlTable& root, Rig& rig) {
   }
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -1,6 +1,6 @@
 #include "rig_sections.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 
 void read_limits(TomlTable& root, Rig& rig) {
   TomlTable table = root.table("limits");
@@ -41,4 +41,4 @@ void read_start(TomlTable& root, Rig& rig) {
   start.swing_tangential_rad = table.number("swing_tangential_rad", swing, 0);
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

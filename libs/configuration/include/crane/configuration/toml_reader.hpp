@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace crane::runtime {
+namespace crane::configuration {
 
 /// Interval of allowed finite numbers.
 struct Range {
@@ -112,4 +112,4 @@ class TomlTable {
   Place* place_;
 };
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -1,6 +1,6 @@
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 std::string one_a_line(const std::vector<std::string>& problems) {
@@ -14,4 +14,4 @@ std::string one_a_line(const std::vector<std::string>& problems) {
 ConfigurationError::ConfigurationError(std::vector<std::string> problems)
     : std::runtime_error(one_a_line(problems)), problems_(std::move(problems)) {}
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -1,12 +1,12 @@
-#include "crane/runtime/toml_reader.hpp"
+#include "crane/configuration/toml_reader.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "crane/runtime/rig.hpp"
+#include "crane/configuration/rig.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 using testing::ElementsAre;
@@ -166,4 +166,4 @@ TEST(Range, TakesItsEndsAsDeclared) {
 }
 
 }  // namespace
-}  // namespace crane::runtime
+}  // namespace crane::configuration

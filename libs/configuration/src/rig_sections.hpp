@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "crane/runtime/rig.hpp"
-#include "crane/runtime/toml_reader.hpp"
+#include "crane/configuration/rig.hpp"
+#include "crane/configuration/toml_reader.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 
 /// Unit suffixes of one axis' coordinate and its derivatives.
 struct AxisText {
@@ -52,4 +52,4 @@ void read_limits(TomlTable& root, Rig& rig);
 void read_start(TomlTable& root, Rig& rig);
 void read_controller(TomlTable& root, Rig& rig);
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration

@@ -3,7 +3,7 @@
 #include "crane/plant/term.hpp"
 #include "rig_sections.hpp"
 
-namespace crane::runtime {
+namespace crane::configuration {
 namespace {
 
 enum class When { with_load, with_trolley, with_slew, with_hoist, optional };
@@ -101,4 +101,4 @@ void read_terms(TomlTable& root, Rig& rig) {
   }
 }
 
-}  // namespace crane::runtime
+}  // namespace crane::configuration
