@@ -2,6 +2,7 @@
 /// load. The example runs the whole stack on it in lockstep and moves the trolley by 10 cm.
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "crane/bridge/bridge.hpp"
 #include "experiments/experiment_run.hpp"
@@ -26,11 +27,13 @@ class MotorBench final : public bridge::Board {
       const auto& encoder = rig_.encoders[i];
       inputs.raw_counts[i] =
           static_cast<std::int32_t>(std::lround(position_[i] * encoder.counts_per_unit)) * encoder.sign;
-      inputs.brake_closed[i] = !outputs_.brake_release[i];
+      inputs.brake_closed[i] = !released(i);
     }
+    inputs.watchdog_dropped = relay_is_open();
     return inputs;
   }
   std::array<double, bridge::kDrives> write(const bridge::Outputs& outputs) override {
+    if (outputs.watchdog_level != outputs_.watchdog_level) toggled_ns_ = now_ns_;
     outputs_ = outputs;
     return outputs.drive_v;
   }
@@ -40,9 +43,8 @@ class MotorBench final : public bridge::Board {
     const double step_s = static_cast<double>(time_ns - now_ns_) * 1e-9;
     now_ns_ = time_ns;
     for (std::size_t i = 0; i < bridge::kDrives; ++i) {
-      if (!outputs_.brake_release[i]) speed_[i] = 0;
-      const double acceleration =
-          outputs_.brake_release[i] ? kGain[i] * outputs_.drive_v[i] * rig_.drives[i].sign : 0;
+      if (!released(i)) speed_[i] = 0;
+      const double acceleration = released(i) ? kGain[i] * outputs_.drive_v[i] * rig_.drives[i].sign : 0;
       position_[i] += step_s * (speed_[i] + 0.5 * step_s * acceleration);
       speed_[i] += step_s * acceleration;
     }
@@ -50,17 +52,26 @@ class MotorBench final : public bridge::Board {
   [[nodiscard]] bool simulates_time() const override { return true; }
 
  private:
+  [[nodiscard]] bool relay_is_open() const {
+    return !toggled_ns_ || static_cast<double>(now_ns_ - *toggled_ns_) * 1e-9 > rig_.wiring.relay_timeout_s;
+  }
+  [[nodiscard]] bool released(std::size_t drive) const {
+    return outputs_.brake_release[drive] && !relay_is_open();
+  }
+
   static constexpr std::array kGain{0.7, 0.5, 0.7};  // m/s^2 per V, rad/s^2 per V, m/s^2 per V
   configuration::Rig rig_;
   bridge::Outputs outputs_;
   std::array<double, bridge::kDrives> position_{}, speed_{};
   std::int64_t now_ns_ = 0;
+  std::optional<std::int64_t> toggled_ns_;  ///< last change of the watchdog output
 };
 
 }  // namespace
 
 int main() {
-  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
+  auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
+  for (auto& friction : rig.design.friction) friction.factor = 0;  // the bench has none to compensate
   auto components = stack::hardware_stack();
   components.front().make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
     return std::make_unique<bridge::Bridge>(context, std::make_unique<MotorBench>(context.rig));

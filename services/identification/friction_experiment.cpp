@@ -30,7 +30,7 @@ const char* start_key(std::size_t axis) {
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out{file};
   out << text;
-  if (!out.flush()) throw RunError(file.string() + ": cannot write");
+  if (!out.flush()) throw experiments::RunError(file.string() + ": cannot write");
 }
 
 std::string array_of(const control::Excitation& excitation, double control::Sine::*field) {
@@ -161,7 +161,7 @@ class Experiment {
   recording::Table run_part(const std::string& name, const fs::path& rig, const std::string& scenario) {
     write_text(file(name + ".toml"), scenario);
     if (options_.realtime) return run_part_in_realtime(name, rig);
-    ExperimentOptions run;
+    experiments::ExperimentOptions run;
     run.scenario = file(name + ".toml");
     run.rig = rig;
     run.controller = kController;
@@ -171,15 +171,15 @@ class Experiment {
     run.picture = false;
     run.bus = options_.bus;
     run.vendors = options_.vendors;
-    const auto result = run_experiment(run);
+    const auto result = experiments::run_experiment(run);
     if (!result.outcome.completed)
-      throw RunError(name + ": the supervisor stopped the crane: " + result.outcome.stopped_because);
+      throw experiments::RunError(name + ": the supervisor stopped the crane: " + result.outcome.stopped_because);
     return recording::read_csv(file(name) / "run.csv");
   }
 
   recording::Table run_part_in_realtime(const std::string& name, const fs::path& rig) {
     const auto scenario = experiment::load_scenario(file(name + ".toml"), &rig_);
-    const auto table = run_in_realtime({.rig = rig,
+    const auto table = experiments::run_in_realtime({.rig = rig,
                                         .controller = kController,
                                         .plant = options_.plant,
                                         .bus = options_.bus,

@@ -40,7 +40,7 @@ TEST_P(AntiSwingComponent, PublishesWhatItsLawGivesTickByTick) {
 INSTANTIATE_TEST_SUITE_P(Laws, AntiSwingComponent,
                          testing::Values("gain_scheduling_full", "anti_swing_pd", "delayed_1", "delayed_2",
                                          "fuzzy_printed"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& suite) { return suite.param; });
 
 }  // namespace
 }  // namespace crane::services

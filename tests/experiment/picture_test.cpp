@@ -16,6 +16,7 @@ namespace {
 using plot::draw_plane;
 using plot::PictureError;
 using plot::Plane;
+using plot::PlaneMap;
 using testing::HasSubstr;
 
 const Caption kCaption{"virginia_tech_tower", "gain_scheduling_partial", "maneuver_1"};

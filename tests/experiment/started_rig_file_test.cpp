@@ -13,7 +13,7 @@ class StartedRigFile : public testing::TestWithParam<std::string> {};
 
 /// What processes read must be what the components in one process get.
 TEST_P(StartedRigFile, ReadsBackAsTheRigThatRuns) {
-  const auto rig = configuration::load_rig(find_rig("virginia_tech_tower"));
+  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   experiment::Scenario scenario;
   scenario.start = {0.7, 0.1, {}};
   scenario.swing_radial_rad = 0.05;

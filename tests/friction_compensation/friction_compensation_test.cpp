@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "../runtime/component_bench.hpp"
 #include "crane/control/friction_compensation.hpp"
 #include "crane/runtime/convert.hpp"

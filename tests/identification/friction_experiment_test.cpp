@@ -36,7 +36,7 @@ class FrictionExperiment : public testing::TestWithParam<Case> {};
 TEST_P(FrictionExperiment, FindsTheFrictionOfTheSimulatedRig) {
   const recording::TemporaryDirectory directory;
   FrictionExperimentOptions options;
-  options.rig = find_rig(GetParam().rig);
+  options.rig = stack::find_rig(GetParam().rig);
   options.axis = GetParam().axis;
   options.directory = directory / "out";
   options.in_process = true;
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Rigs, FrictionExperiment,
 TEST(FrictionExperiment, RefusesADriveThatTheRigDoesNotHave) {
   const recording::TemporaryDirectory directory;
   FrictionExperimentOptions options;
-  options.rig = find_rig("drive_axis");
+  options.rig = stack::find_rig("drive_axis");
   options.axis = plant::kSlew;
   options.directory = directory / "out";
   EXPECT_THROW((void)identify_friction(options), configuration::ConfigurationError);
@@ -89,7 +89,7 @@ TEST(FrictionExperiment, RefusesADriveThatTheRigDoesNotHave) {
 TEST(FrictionExperiment, GivesNoAnswerWhereThereIsNoFriction) {
   const recording::TemporaryDirectory directory;
   FrictionExperimentOptions options;
-  options.rig = find_rig("virginia_tech_tower_ideal");
+  options.rig = stack::find_rig("virginia_tech_tower_ideal");
   options.directory = directory / "out";
   options.in_process = true;
   EXPECT_THROW((void)identify_friction(options), identification::IdentificationError);
@@ -104,7 +104,7 @@ TEST(AxisData, RefusesARunWithGaps) {
     table.columns[1].values.push_back(0);
     table.columns[2].values.push_back(0);
   }
-  const auto rig = configuration::load_rig(find_rig("drive_axis"));
+  const auto rig = configuration::load_rig(stack::find_rig("drive_axis"));
   EXPECT_THROW((void)axis_run_from(table, rig, plant::kTrolley, 0, 10), identification::IdentificationError);
   auto ticks = table;
   ticks.columns.push_back({"tick", {}});

@@ -7,7 +7,10 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <utility>
+
+#include "crane/runtime/process.hpp"
 
 namespace crane::bridge {
 

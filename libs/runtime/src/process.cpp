@@ -71,7 +71,7 @@ void loop(Component& component, bus::Bus& bus) {
 Clock clock_from(const std::string& name) {
   if (name == "realtime") return Clock::realtime;
   if (name == "lockstep") return Clock::lockstep;
-  throw ConfigurationError({"--clock " + name + ": must be realtime or lockstep"});
+  throw configuration::ConfigurationError({"--clock " + name + ": must be realtime or lockstep"});
 }
 
 int run(const ComponentSpec& spec, const LoopOptions& options) {
@@ -117,7 +117,7 @@ bus::Options bus_options(const BusOptions& options, std::string participant, cra
                          std::uint32_t epoch) {
   bus::Options result;
   const auto vendor = bus::vendor_from_string(options.vendor);
-  if (!vendor) throw ConfigurationError({"--dds " + options.vendor + ": must be cyclone or fastdds"});
+  if (!vendor) throw configuration::ConfigurationError({"--dds " + options.vendor + ": must be cyclone or fastdds"});
   result.vendor = *vendor;
   result.domain = options.domain;
   result.crane = options.crane;
