@@ -27,11 +27,13 @@ bool pin_and_raise(unsigned processor) {
          ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters) == 0;
 }
 
+unsigned processors() { return std::max(1U, std::thread::hardware_concurrency()); }
+
 }  // namespace
 
-TimerWitness::TimerWitness() {
-  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
-  for (unsigned i = 0; i < processors; ++i) threads_.emplace_back([this, i] { watch(i); });
+TimerWitness::TimerWitness() : watching_{static_cast<std::ptrdiff_t>(processors())} {
+  for (unsigned i = 0; i < processors(); ++i) threads_.emplace_back([this, i] { watch(i); });
+  watching_.wait();
 }
 
 TimerWitness::~TimerWitness() {
@@ -44,6 +46,7 @@ TimerWitness::Report TimerWitness::take() { return {pauses_.exchange(0), latest_
 void TimerWitness::watch(unsigned processor) {
   if (!pin_and_raise(processor)) has_priority_ = false;
   auto next_ns = now_ns() + kStep_ns;
+  watching_.count_down();
   while (!stop_) {
     const timespec at{.tv_sec = next_ns / 1'000'000'000, .tv_nsec = next_ns % 1'000'000'000};
     ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);

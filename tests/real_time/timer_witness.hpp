@@ -3,6 +3,7 @@
 /// virtual machine whose host takes a processor away fails a real-time test that no defect fails.
 #include <atomic>
 #include <cstdint>
+#include <latch>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,6 +16,7 @@ inline constexpr std::int64_t kPause_ns = 5'000'000;
 class TimerWitness {
  public:
   /// Starts one thread per processor: pinned, above every priority of a stack where the system permits it.
+  /// Returns when all of them watch.
   TimerWitness();
   ~TimerWitness();
   TimerWitness(const TimerWitness&) = delete;
@@ -32,6 +34,7 @@ class TimerWitness {
  private:
   void watch(unsigned processor);
 
+  std::latch watching_;
   std::atomic<bool> stop_{false}, has_priority_{true};
   std::atomic<int> pauses_{0};
   std::atomic<std::int64_t> latest_ns_{0};
