@@ -176,8 +176,9 @@ TEST_F(StartOfASecond, PlantOnTheSameCraneIsRefused) {
   const auto ended = run_program(stack::program_directory() / "crane_plant",
                                  on_this_crane({"--rig", stack::find_rig("virginia_tech_tower").string()}));
   EXPECT_EQ(ended.exit_code, kFailed);
-  EXPECT_THAT(ended.errors, AllOf(HasSubstr("somebody already writes crane/state of crane '" + crane_name()),
-                                  HasSubstr("stop that stack first, or choose another --crane or --domain")));
+  EXPECT_THAT(ended.errors,
+              AllOf(HasSubstr("another process already writes crane/state of crane '" + crane_name()),
+                    HasSubstr("stop that stack first, or choose another --crane or --domain")));
   EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
   expect_only_the_first(before);
 }

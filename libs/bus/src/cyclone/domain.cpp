@@ -44,7 +44,8 @@ std::string configuration(const Options& options) {
   xml += "<LeaseDuration>10s</LeaseDuration></Discovery><Internal>";
   xml += "<HeartbeatInterval min=\"5ms\" minsched=\"5ms\" max=\"1s\">20ms</HeartbeatInterval>";
   xml += "<NackDelay>1ms</NackDelay><PreEmptiveAckDelay>10ms</PreEmptiveAckDelay>";
-  xml += "<GenerateKeyhash>true</GenerateKeyhash></Internal></Domain>";  // Fast DDS identifies instances by it
+  xml +=
+      "<GenerateKeyhash>true</GenerateKeyhash></Internal></Domain>";  // Fast DDS identifies instances by it
   return xml;
 }
 
