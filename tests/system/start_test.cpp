@@ -85,8 +85,7 @@ TEST_F(Start, AScenarioThatLeavesTheJibIsRefusedBeforeAnythingStarts) {
       file("off.toml", "description = \"too far\"\n[[move]]\nat_s = 0.5\ntrolley_position_m = 2.0\n");
   const auto ended = crane({"run", scenario, "--out", out()});
   EXPECT_EQ(ended.exit_code, kBadInput);
-  EXPECT_THAT(ended.errors,
-              HasSubstr("off.toml:4: move[0].trolley_position_m = 2: must lie in [0.19, 1.31]"));
+  EXPECT_THAT(ended.errors, HasSubstr("off.toml:4: move[0].trolley_position_m = 2: must be in [0.19, 1.31]"));
   EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
 }
 
