@@ -36,8 +36,7 @@ struct Scenario {
   std::string name;         ///< file name without .toml
   std::string description;  ///< one sentence
   std::string path;
-  std::array<std::optional<double>, plant::kAxes>
-      start;  ///< m, rad, m of cable; nothing: start of the rig file
+  std::array<std::optional<double>, plant::kAxes> start;  ///< m, rad, m of cable; nothing: as in the rig file
   double swing_radial_rad = 0, swing_tangential_rad = 0;  ///< at the start
   double duration_s = 20;                                 ///< after the first move, excitation or kick
   std::vector<Move> moves;                                ///< in order of time
@@ -50,8 +49,7 @@ struct Scenario {
   std::vector<std::string> controllers;  ///< empty: the controller of the rig file
   std::vector<std::string> variants;     ///< names of variant.hpp; empty: the rig file as written
 
-  [[nodiscard]] double first_action_s()
-      const;  ///< time of the first move, excitation or kick; 0 without actions
+  [[nodiscard]] double first_action_s() const;  ///< time of the first move, excitation or kick; 0: none
   [[nodiscard]] double last_action_s() const;
   [[nodiscard]] double end_s() const { return first_action_s() + duration_s; }
 };
