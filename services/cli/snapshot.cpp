@@ -87,7 +87,7 @@ void print_axes(std::ostream& out, const msg::State& state) {
 
 void print_twin(std::ostream& out, const msg::Twin& twin) {
   constexpr std::array kStates{"waits for motion without gaps", "is learning how much the residual scatters",
-                               "agrees: the residual is inside its band", "deviates"};
+                               "agrees: the residual is within its band", "deviates"};
   out << "twin  " << kStates.at(static_cast<std::size_t>(twin.state));
   if (twin.state == crane_TWIN_LEARNING)
     out << ", " << fixed(100 * twin.learnt_share, 0) << " % of the motion";
