@@ -93,8 +93,8 @@ TEST_F(Start, ARunInRealTimeRefusesWhatOnlyASimulationCanDo) {
   const auto ended = crane({"run", "maneuver_1", "--clock", "realtime", "--variants", "heavy_load", "--json",
                             "--in-process", "--out", out()});
   EXPECT_EQ(ended.exit_code, kBadInput);
-  for (const char* text :
-       {"not with variant heavy_load of maneuver_1", "not with --json", "not with --in-process"})
+  for (const char* text : {"cannot be combined with variant heavy_load of maneuver_1",
+                           "cannot be combined with --json", "cannot be combined with --in-process"})
     EXPECT_THAT(ended.errors, HasSubstr(text));
   EXPECT_FALSE(std::filesystem::exists(out())) << "nothing has begun";
 }
