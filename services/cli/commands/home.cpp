@@ -137,11 +137,9 @@ void add_home(CLI::App& app, Action& chosen) {
   runtime::add_bus_options(*command, options->bus);
   command->footer(
       "Example: crane reset && crane home && sleep 2 && crane reset && crane arm\n"
-      "The crane must be READY. Only the brake of the axis that is being homed opens. The axis creeps to "
-      "its\n"
-      "limit switch or mark ([homing] in the rig file), backs off, and approaches it again slowly. The "
-      "final\n"
-      "state is LOCKED. A person must stand at the emergency stop.");
+      "The crane must be READY. Only the brake of the axis that is being homed opens. The axis creeps to\n"
+      "its limit switch or mark ([homing] in the rig file), backs off, and approaches it again slowly.\n"
+      "The final state is LOCKED. A person must stand at the emergency stop.");
   command->callback([options, &chosen] { chosen = [options] { return home(*options); }; });
 }
 

@@ -220,18 +220,18 @@ void add_run(CLI::App& app, Action& chosen) {
   auto* command = app.add_subcommand("run", "Run scenarios in lockstep or in real time and evaluate them");
   command->add_option(
       "scenario", options->scenarios,
-      "scenario files or names (maneuver_1, figure_4_10, ...); with --compare default: the three "
+      "scenario files or names (maneuver_1, figure_4_10, ...); default with --compare: the three "
       "maneuvers");
   command->add_option("--controller", options->controllers,
-                      "controller (repeatable); default: the scenario's, else the rig file's, with --compare "
-                      "every controller");
+                      "controller (repeatable); default: that of the scenario, else of the rig file; with "
+                      "--compare every controller");
   command
       ->add_option("--variants", options->variants,
-                   "ways to depart from the rig file, see below; default: the scenario's, else none, with "
+                   "changes of the rig, see below; default: those of the scenario, else none; with "
                    "--compare the first eight")
       ->delimiter(',');
   command->add_option("--rig", options->rig,
-                      std::string{"rig file or name; default: the scenario's, else "} + kDefaultRig);
+                      std::string{"rig file or name; default: that of the scenario, else "} + kDefaultRig);
   command
       ->add_option("--plant", options->plant,
                    "sim: simulated plant; hardware: the bridge on the emulated board of the rig file "
