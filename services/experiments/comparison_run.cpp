@@ -12,7 +12,7 @@
 namespace crane::experiments {
 namespace {
 
-/// Runs plans until there are none left, or one of the crew has failed.
+/// Runs plans until all are done or a thread has failed.
 class Crew {
  public:
   Crew(std::span<const PlannedRun> plans, const Progress& progress)

@@ -1,5 +1,5 @@
 #pragma once
-/// Many experiments in this process, on all cores.
+/// Runs many experiments in this process, on all cores.
 #include <functional>
 #include <span>
 #include <string>
@@ -13,19 +13,21 @@ namespace crane::experiments {
 
 struct PlannedRun {
   experiment::Scenario scenario;
-  configuration::Rig rig;                           ///< as its file says
+  configuration::Rig rig;                           ///< rig file without changes
   const control::Controller* controller = nullptr;  ///< not null
-  std::string variant;                              ///< of experiment/variant.hpp, empty: none
+  std::string variant;                              ///< name of experiment/variant.hpp; empty: none
 };
 
-/// One experiment without files. A crane that the supervisor stops, or that cannot be armed, is a result.
+/// Runs one experiment without files. A stop by the supervisor or a refusal to arm is a result, not an error.
 /// @throws configuration::ConfigurationError, and RunError when the user interrupts
 [[nodiscard]] experiment::ComparedRun simulate(const PlannedRun& plan);
 
-/// Called after each run with the number that are done; from one thread at a time.
+/// Called after each run with the number of finished runs; calls do not overlap.
 using Progress = std::function<void(std::size_t done)>;
 
-/// simulate() of each, in the order of `plans`. @throws as simulate(), after the runs under way have ended
+/// Calls simulate() for each plan. @return results in the order of `plans`. @throws exceptions of simulate(),
+/// after all
+///   started runs have ended
 [[nodiscard]] std::vector<experiment::ComparedRun> simulate_all(std::span<const PlannedRun> plans,
                                                                 const Progress& progress);
 

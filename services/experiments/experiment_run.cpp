@@ -29,8 +29,7 @@ RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& ri
                                       .controller = std::string{controller.name},
                                       .clock = "lockstep",
                                       .epoch = 1};
-  launch_options.bus.crane +=
-      "_run_" + std::to_string(::getpid());  // never meets a crane that is really there
+  launch_options.bus.crane += "_run_" + std::to_string(::getpid());  // differs from the name of a real crane
   stack::ChildProcesses children;
   if (options.plant == stack::Plant::hardware) stack::launch_rig(children, rig, launch_options);
   stack::launch(children, specs, launch_options);
@@ -47,7 +46,8 @@ RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& ri
   return run_scenario(bus, pump, rig, scenario, log, options.twin.has_value());
 }
 
-/// A real crane does not wait for the next command, and does not begin where a scenario says.
+/// Lockstep needs a simulated or emulated crane: a real crane does not wait for commands, and its start is
+/// not that of the scenario.
 void require_rehearsal(const configuration::Rig& rig) {
   bridge::board_kind_of(rig);
   if (rig.board != "emulated")
@@ -76,7 +76,7 @@ RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components, co
   runtime::InProcessStack stack{components, rig, controller};
   if (twin != nullptr) stack.add(twin::twin_spec(), *twin, controller);
   bus::Bus bus{runtime::memory_options(stack.network(), "crane_run", crane_SOURCE_OPERATOR)};
-  // With nothing to do but wait for an answer that never comes, the time-out of the run ends it.
+  // When an answer never arrives, the timeout of the run ends the wait.
   return run_scenario(
       bus, [&stack] { stack.pump(); }, rig, scenario, log, twin != nullptr);
 }

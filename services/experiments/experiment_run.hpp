@@ -1,5 +1,5 @@
 #pragma once
-/// One experiment: a scenario, a rig and a controller, run in lockstep, with everything it leaves behind:
+/// Runs one experiment (scenario, rig, controller) in lockstep and writes its files:
 ///   recording.mcap  every topic of every tick      run.csv       canonical columns and more
 ///   metrics.json    figures of merit               picture.svg   the maneuver
 ///   rig.toml        the rig as it was run
@@ -18,30 +18,29 @@ namespace crane::experiments {
 
 struct ExperimentOptions {
   std::filesystem::path scenario, rig;
-  std::string controller;           ///< empty: the rig's
-  std::string variant{};            ///< of experiment/variant.hpp, empty: none
+  std::string controller;           ///< empty: the controller of the rig file
+  std::string variant{};            ///< name of experiment/variant.hpp; empty: none
   std::filesystem::path directory;  ///< created when missing
   stack::Plant plant = stack::Plant::simulated;
-  bool in_process = false;  ///< one process over the memory bus instead of one per component
+  bool in_process = false;  ///< true: one process with the memory bus; false: one process per component
   bool picture = true;
-  runtime::BusOptions bus;  ///< processes only
+  runtime::BusOptions bus;  ///< used when in_process is false
   std::map<std::string, std::string> vendors;
-  std::optional<std::filesystem::path> twin{};  ///< rig file of a twin that runs beside the stack
+  std::optional<std::filesystem::path> twin{};  ///< rig file of a live twin; nothing: no twin
 };
 
 struct ExperimentResult {
   RunOutcome outcome;
   experiment::Metrics metrics;
   std::string scenario, controller, rig, variant;
-  double real_time_factor = 0;  ///< simulated time over wall time, from the first tick to the last
+  double real_time_factor = 0;  ///< simulated time / wall time, from the first to the last tick
 };
 
-/// @throws configuration::ConfigurationError for bad files or names (nothing has been started then),
-/// RunError,
+/// @throws configuration::ConfigurationError for wrong files or names (before anything is started), RunError,
 ///   recording::WriteError, plot::PictureError
 [[nodiscard]] ExperimentResult run_experiment(const ExperimentOptions& options);
 
-/// A scenario on the rig as it starts it, in this process. @throws RunError
+/// Runs a scenario in this process. @param started  result of experiment::started_by(). @throws RunError
 [[nodiscard]] RunOutcome run_in_process(const configuration::Rig& started,
                                         const control::Controller& controller,
                                         const experiment::Scenario& scenario, TickLog& log,

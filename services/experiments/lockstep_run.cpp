@@ -14,7 +14,7 @@ using experiment::Scenario;
 using Collected = runtime::TickJoin<msg::State, msg::Reference, msg::Contribution, msg::Contribution,
                                     msg::Demand, msg::Command, msg::SupervisorStatus>;
 
-constexpr std::uint64_t kChunk_ticks = 50;  // half of what the loop topics keep for a slow reader
+constexpr std::uint64_t kChunk_ticks = 50;  // less than half the history of the loop topics (128)
 constexpr runtime::JoinPolicy kEveryTick{.in_order = true, .depth = 256};
 constexpr std::int64_t kPatience_ns = 10'000'000'000;
 constexpr double kLongestPreparation_s = 20;
@@ -85,7 +85,7 @@ class LockstepRun {
     }
   }
 
-  /// Takes the ticks that are complete. @return true when there was one
+  /// Takes the complete ticks. @return true when there was at least one
   bool collect() {
     bool any = false;
     while (twin_is_there() && collected_.poll(0) == runtime::JoinResult::complete) {
@@ -135,7 +135,7 @@ class LockstepRun {
         check_verdicts();
       }
     };
-    constexpr double kCausesClear_s = 1.1;  // the supervisor wants them clear for a second before a reset
+    constexpr double kCausesClear_s = 1.1;  // a reset needs causes that have been inactive for a second
     advance_by(ticks(kCausesClear_s));
     reach({crane_STATE_LOCKED});
     request({.kind = crane_REQUEST_RESET}, {crane_SOURCE_SUPERVISOR});
@@ -170,8 +170,8 @@ class LockstepRun {
     }
   }
 
-  /// Sends a request for an exact tick and waits until everybody concerned has it. The first of `sources`
-  /// decides.
+  /// Sends a request for an exact tick and waits until all `sources` have confirmed it. The first of
+  /// `sources` decides about the request.
   void request(stack::Wish wish, std::initializer_list<crane_Source> sources) {
     wish.apply_tick = std::max(wish.apply_tick, frontier_ + 1);
     const auto id = operator_.send(wish);
@@ -181,7 +181,7 @@ class LockstepRun {
     verdicts_.push_back({id, *sources.begin(), wish.apply_tick});
   }
 
-  /// What was decided about the requests whose tick has passed.
+  /// Takes the decisions about the requests whose tick has passed.
   void check_verdicts() {
     for (const auto& expected : verdicts_) {
       if (expected.tick > frontier_) continue;

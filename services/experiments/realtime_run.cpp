@@ -74,7 +74,7 @@ recording::Table run_in_realtime(const RealtimeRunOptions& options, const experi
     stack::launch_rig(children, configuration::load_rig(options.rig), launch_options);
   stack::launch(children, specs, launch_options);
   auto observer = launch_options.bus;
-  observer.vendor = "fastdds";  // observers run on the other vendor
+  observer.vendor = "fastdds";  // the loop runs on Cyclone DDS
   bus::Bus bus{runtime::bus_options(observer, "crane_run", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
   RealtimeSession session{bus, [&children] {

@@ -1,6 +1,6 @@
 #pragma once
-/// A scenario in real time on a stack of processes, for a real crane as for the simulated one: reset, arm, a
-/// move to where the scenario starts, then its moves and excitations at their times.
+/// Runs a scenario in real time with a stack of processes, on a real or simulated crane: reset, arm, a move
+/// to the start of the scenario, then its moves and excitations at their times.
 #include <map>
 #include <string>
 
@@ -19,8 +19,8 @@ struct RealtimeRunOptions {
   std::map<std::string, std::string> vendors;
 };
 
-/// Kicks, true loads and swings at the start are a simulation's and left out.
-/// @return the run as a table; time_s counts from the moment the crane holds at the start of the scenario
+/// Kicks, true loads and swings at the start apply to simulations only and are omitted.
+/// @return the run as a table; time_s is 0 when the crane is in HOLD at the start of the scenario
 /// @throws configuration::ConfigurationError, SessionError, std::runtime_error
 [[nodiscard]] recording::Table run_in_realtime(const RealtimeRunOptions& options,
                                                const experiment::Scenario& scenario);

@@ -31,7 +31,7 @@ RealtimeSession::RealtimeSession(bus::Bus& bus, std::function<void()> meanwhile)
   const bool found =
       until([this] { return operator_.listeners() >= 2 && operator_.answerers() >= 1 && status_; },
             std::chrono::seconds{5});
-  if (!found) throw SessionError("no supervisor answers in this domain");
+  if (!found) throw SessionError("no supervisor found in this domain");
 }
 
 void RealtimeSession::take(std::chrono::nanoseconds timeout) {
@@ -75,8 +75,8 @@ void RealtimeSession::request(const stack::Wish& wish, const std::string& what) 
     throw SessionError(what + " refused: " + refusal);
 }
 
-/// Causes have to be clear, and streams fresh, for a second; a tick lost on a busy machine starts that second
-/// anew.
+/// A reset needs causes that have been inactive for a second. Each lost tick on a loaded computer restarts
+/// this second.
 void RealtimeSession::request_with_patience(const stack::Wish& wish, const std::string& what) {
   constexpr int kTries = 30;
   std::string refusal;

@@ -73,7 +73,7 @@ void write_design(std::ostream& out, const Rig& rig, const Rig& started) {
   if (started.design.full_feedback_gain_pm != rig.design.full_feedback_gain_pm)
     out << "\n[controller]\nfull_feedback_gain_pm = " << shortest(started.design.full_feedback_gain_pm)
         << '\n';
-  // Otherwise the controllers would believe the plant's new load.
+  // The controllers keep the nominal load mass.
   if (started.plant.load_mass_kg != rig.plant.load_mass_kg ||
       started.design.crane.load_mass_kg != rig.design.crane.load_mass_kg)
     out << "\n[controller.believes]\nload_mass_kg = " << shortest(started.design.crane.load_mass_kg) << '\n';
@@ -87,7 +87,7 @@ void write_design(std::ostream& out, const Rig& rig, const Rig& started) {
 
 void write_started_rig(const std::filesystem::path& file, const Rig& rig, const Rig& started) {
   std::ofstream out{file};
-  out << "# " << rig.name << " as one experiment starts it\n"
+  out << "# " << rig.name << " with the changes of one experiment\n"
       << "extends = \"" << std::filesystem::absolute(rig.path).string() << "\"\n";
   write_start(out, started);
   write_plant(out, rig, started);

@@ -1,5 +1,5 @@
 #pragma once
-/// Everything one tick of a lockstep run has written, in a fixed order: into the recording and the table of
+/// Stores all samples of each tick of a lockstep run, in a fixed order, in the recording and in the table of
 /// the run.
 #include <filesystem>
 #include <optional>
@@ -23,11 +23,11 @@ struct Tick {
 
 class TickLog {
  public:
-  /// @param recording  MCAP file; nothing: only the table is kept. @throws recording::WriteError
+  /// @param recording  MCAP file; nothing: table only. @throws recording::WriteError
   explicit TickLog(const std::optional<std::filesystem::path>& recording);
   void add(const Tick& tick);  ///< @throws recording::WriteError
   void close();
-  /// Rows of the ticks from `zero_tick` on; time_s counts from there.
+  /// Rows from tick `zero_tick` on, where time_s is 0.
   [[nodiscard]] recording::Table table(std::uint64_t zero_tick) const;
 
  private:

@@ -17,15 +17,15 @@ const std::vector<double>& column(const recording::Table& table, const char* nam
   return *found;
 }
 
-/// 0 where the rig does not measure it.
+/// 0 when the rig does not measure the column.
 double value_of(const std::vector<double>* values, std::size_t row) {
   return values == nullptr || !std::isfinite((*values)[row]) ? 0 : (*values)[row];
 }
 
-/// The next tick, however late it was latched; without ticks one period later.
+/// The next tick, also when it was latched late; without a column tick the row one period later.
 bool follows(const recording::Table& table, std::size_t last, std::size_t row, double period_s) {
   if (const auto* tick = table.find("tick")) return (*tick)[row] == (*tick)[last] + 1;
-  constexpr double kUneven = 0.1;  // of a period
+  constexpr double kUneven = 0.1;  // largest deviation from one period / period
   const auto& time_s = column(table, "time_s");
   return std::abs(time_s[row] - time_s[last] - period_s) <= kUneven * period_s;
 }

@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 namespace id = identification;
 using recording::shortest;
 
-constexpr const char* kController = "none";  // the tracking PD alone
+constexpr const char* kController = "none";  // tracking PD without anti-swing
 constexpr double kBegin_s = 0.5;
-constexpr double kRest_s = 2;  // after an excitation
+constexpr double kRest_s = 2;  // pause after an excitation
 constexpr double kRamp_vps = 0.4;
 constexpr int kBreakAways = 4;
 constexpr double kStepSpacing_s = 6;
@@ -52,7 +52,7 @@ std::string excitation_text(double at_s, const control::Excitation& excitation) 
   return text;
 }
 
-/// The crane, the axis that is identified, and how its position loop acts.
+/// Runs the experiments for one axis of a rig.
 class Experiment {
  public:
   explicit Experiment(const FrictionExperimentOptions& options)
@@ -100,9 +100,10 @@ class Experiment {
 
   [[nodiscard]] fs::path file(const std::string& name) const { return options_.directory / name; }
 
-  /// The axis in the middle of its travel; the trolley near the tower while the jib turns (section 4.4.2).
+  /// Start positions: the axis in the middle of its travel; for the slew axis, the trolley near the tower
+  /// (section 4.4.2).
   void place() {
-    constexpr double kUsable = 0.95;  // of the travel inside the margins
+    constexpr double kUsable = 0.95;  // used share of the travel inside the margins
     const auto& drive = rig_.drives[options_.axis];
     const double middle = (drive.low_limit + drive.high_limit) / 2;
     const double half = (drive.high_limit - drive.low_limit) / 2 - drive.soft_margin;
@@ -124,7 +125,7 @@ class Experiment {
     if (options_.axis == plant::kSlew) limits_.load.radius_m = start_[plant::kTrolley];
   }
 
-  /// Volts per position and speed error of the tracking PD, which stabilises the axis.
+  /// Gains of the tracking PD in volts per m or rad and per m/s or rad/s.
   void measure_loop() {
     const auto law = control::make_tracking_pd(rig_.design);
     control::Measurement measured;
@@ -157,7 +158,7 @@ class Experiment {
     return text;
   }
 
-  /// Runs one part, and gives its table.
+  /// Runs one part of the experiment. @return its table
   recording::Table run_part(const std::string& name, const fs::path& rig, const std::string& scenario) {
     write_text(file(name + ".toml"), scenario);
     if (options_.realtime) return run_part_in_realtime(name, rig);
@@ -173,18 +174,19 @@ class Experiment {
     run.vendors = options_.vendors;
     const auto result = experiments::run_experiment(run);
     if (!result.outcome.completed)
-      throw experiments::RunError(name + ": the supervisor stopped the crane: " + result.outcome.stopped_because);
+      throw experiments::RunError(name +
+                                  ": the supervisor stopped the crane: " + result.outcome.stopped_because);
     return recording::read_csv(file(name) / "run.csv");
   }
 
   recording::Table run_part_in_realtime(const std::string& name, const fs::path& rig) {
     const auto scenario = experiment::load_scenario(file(name + ".toml"), &rig_);
     const auto table = experiments::run_in_realtime({.rig = rig,
-                                        .controller = kController,
-                                        .plant = options_.plant,
-                                        .bus = options_.bus,
-                                        .vendors = options_.vendors},
-                                       scenario);
+                                                     .controller = kController,
+                                                     .plant = options_.plant,
+                                                     .bus = options_.bus,
+                                                     .vendors = options_.vendors},
+                                                    scenario);
     fs::create_directories(file(name));
     recording::write_csv(file(name) / "run.csv", table);
     return table;
@@ -204,12 +206,12 @@ class Experiment {
   }
 
   id::StictionEstimate run_break_away(const id::FrictionEstimate& friction) {
-    constexpr double kLeast_v = 0.02;  // eight steps of the analog output
+    constexpr double kLeast_v = 0.02;  // smallest identifiable friction: eight steps of the analog output
     const double friction_v = friction.coulomb_positive.value + friction.coulomb_negative.value;
     if (friction_v < kLeast_v)
       throw id::IdentificationError("the Coulomb friction of both directions together is " +
                                     std::to_string(friction_v) +
-                                    " V: there is nothing to break away from, and nothing to compensate");
+                                    " V, too small to identify; the axis needs no compensation");
     const auto excitation =
         id::break_away_sine(options_.axis, limits_, loop_.stiffness_vpu, kRamp_vps, friction_v, kBreakAways);
     const auto table =
@@ -225,7 +227,7 @@ class Experiment {
     return id::estimate_stiction(run, break_away);
   }
 
-  /// As far as the drive reaches with half its voltage, and the load swings through half its limit.
+  /// Length of the step: within half the voltage of the drive and half the swing limit.
   [[nodiscard]] double step_size() const {
     constexpr double kVoltShare = 0.5, kTravelShare = 0.4;
     double step = std::min(kVoltShare * rig_.drives[options_.axis].volt_limit_v / loop_.stiffness_vpu,
@@ -247,7 +249,7 @@ class Experiment {
     Steps steps;
     steps.measured = *table.find(trolley ? "trolley_position_m" : "slew_angle_rad");
     auto reference = *table.find(trolley ? "trolley_reference_m" : "slew_reference_rad");
-    for (std::size_t k = 1; k < reference.size(); ++k)  // a reference that came late in real time
+    for (std::size_t k = 1; k < reference.size(); ++k)  // a missing reference, possible in real time
       if (!std::isfinite(reference[k])) reference[k] = reference[k - 1];
     steps.model = id::linear_response(loop_, reference, steps.measured.front());
     return steps;

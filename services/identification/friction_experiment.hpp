@@ -1,10 +1,14 @@
 #pragma once
-/// The friction of one drive identified by experiments on the whole stack, section 4.4:
+/// Identifies the friction of one drive by experiments with the whole stack. Source: H. M. Omar, Control of
+/// Gantry and Tower Cranes, Virginia Tech, 2003, section 4.4.
 ///   multi_sine/   the axis follows (4.11) or (4.14) without friction compensation: b, c, K_m
-///   break_away/   a slow sine raises the voltage until the axis moves, both ways, several times: stiction
-///   steps/        steps both ways with the new compensation, against the linear axis (3.4): figures 4.7, 4.9
-/// Each directory is a run as `crane run` leaves it. Beside them: its scenario and rig file, friction.json,
-/// friction.svg, and identified.toml, a rig file that extends the one given by the new values.
+///   break_away/   a slow sine raises the voltage until the axis moves, several times in both directions:
+///   stiction
+///   steps/        steps in both directions with the new compensation, compared with the linear axis (3.4):
+///   figures 4.7, 4.9
+/// Each directory contains the files of a run (experiment_run.hpp). The parent directory contains scenarios,
+/// rig files, friction.json, friction.svg, and identified.toml, a rig file that extends the given one by the
+/// new values.
 #include <optional>
 
 #include "crane/identification/break_away.hpp"
@@ -18,37 +22,38 @@ struct FrictionExperimentOptions {
   std::filesystem::path rig;
   std::size_t axis = plant::kTrolley;  ///< or slew
   std::filesystem::path directory;     ///< created when missing
-  double duration_s = 60;              ///< of the multi-sine
+  double duration_s = 60;              ///< duration of the multi-sine
   double zero_band = 0.1;              ///< d_s, m/s or rad/s (section 4.4.1)
-  double cutoff_ratio = 0.1;           ///< omega_c / f_s (end of section 3.1); 0: unfiltered
+  double cutoff_ratio = 0.1;           ///< omega_c / f_s (end of section 3.1); 0: no filter
   bool in_process = false;
-  bool realtime = false;  ///< as on a rig: a CSV file per run, no recording
+  bool realtime = false;  ///< true: real time as on a rig, with a CSV file per run and no recording
   stack::Plant plant = stack::Plant::simulated;
   bool picture = true;
   runtime::BusOptions bus;
   std::map<std::string, std::string> vendors;
 };
 
-/// Both regressions on the same rows, and K_m estimated with the midpoint one.
+/// Estimates of both regressions from the same rows.
 struct FrictionEstimates {
-  identification::FrictionEstimate dissertation, midpoint;         ///< with K_m of the rig
-  std::optional<identification::FrictionEstimate> midpoint_joint;  ///< with K_m estimated
-  std::string gain_refusal;                                        ///< why K_m could not be estimated
+  identification::FrictionEstimate dissertation, midpoint;         ///< with K_m of the rig file
+  std::optional<identification::FrictionEstimate> midpoint_joint;  ///< midpoint regression with estimated K_m
+  std::string gain_refusal;                                        ///< reason when K_m could not be estimated
 };
 
 struct FrictionExperimentResult {
   std::string rig;
   std::size_t axis = plant::kTrolley;
-  double amplitude_share = 1;  ///< of the amplitude of (4.11) or (4.14)
+  double amplitude_share = 1;  ///< amplitude / amplitude of (4.11) or (4.14)
   FrictionEstimates estimates;
   identification::StictionEstimate stiction;
-  identification::Deviation compensated;    ///< steps against the linear axis
-  identification::Deviation uncompensated;  ///< the same steps without compensation
-  double step = 0;                          ///< m or rad
+  identification::Deviation compensated;    ///< deviation of the steps from the linear axis
+  identification::Deviation uncompensated;  ///< deviation of the same steps without compensation
+  double step = 0;                          ///< length of a step, m or rad
   std::filesystem::path fragment;           ///< identified.toml
 };
 
-/// @throws identification::IdentificationError  a run cannot answer, or contradicts the model
+/// @throws identification::IdentificationError when the run does not determine the friction or contradicts
+///   the model
 [[nodiscard]] FrictionEstimates estimate_both(const identification::AxisRun& run, double zero_band,
                                               double cutoff_ratio, double gain);
 
@@ -56,7 +61,7 @@ struct FrictionExperimentResult {
 /// plot::PictureError
 [[nodiscard]] FrictionExperimentResult identify_friction(const FrictionExperimentOptions& options);
 
-/// The rig file that extends `rig` by what was identified; its compensation is on.
+/// @return text of a rig file that extends `rig` by the identified values, with compensation
 [[nodiscard]] std::string friction_fragment(const std::filesystem::path& rig, std::size_t axis,
                                             const identification::FrictionEstimate& friction,
                                             const identification::StictionEstimate& stiction);

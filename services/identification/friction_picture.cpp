@@ -27,7 +27,7 @@ std::vector<CurvePoint> measured_friction(const FrictionPictureData& data, doubl
   return points;
 }
 
-/// The fitted law between the fastest speeds, with its step at standstill.
+/// Curve of the fitted friction over the range of speeds, with the step at standstill.
 std::vector<CurvePoint> fitted(const identification::FrictionEstimate& e,
                                const std::vector<CurvePoint>& rows) {
   double low = 0, high = 0;
@@ -60,7 +60,7 @@ void draw_friction(const std::filesystem::path& file, const FrictionExperimentRe
   plot::draw_curves(
       file,
       result.rig + ", " + axis_name(result.axis) +
-          ": friction measured and fitted; steps against the linear axis",
+          ": measured and fitted friction; steps compared with the linear axis",
       {{"speed [" + unit + "/s]",
         "friction [V]",
         {{"measured", CurveStyle::dots, rows},

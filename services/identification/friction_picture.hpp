@@ -1,5 +1,5 @@
 #pragma once
-/// Measured against model: friction over speed, and the validation steps.
+/// Draws measurement and model: friction over speed, and the validation steps.
 #include <filesystem>
 #include <vector>
 
@@ -8,7 +8,7 @@
 namespace crane::identification {
 
 struct FrictionPictureData {
-  const identification::AxisRun* run;  ///< of the multi-sine
+  const identification::AxisRun* run;  ///< data of the multi-sine
   double cutoff_ratio, period_s;
   const std::vector<double>*compensated, *uncompensated, *model;  ///< positions of the steps
 };

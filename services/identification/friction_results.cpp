@@ -63,7 +63,7 @@ std::string friction_fragment(const std::filesystem::path& rig, std::size_t axis
   const std::string per_speed = axis == plant::kTrolley ? "vspm" : "vsprad";
   const auto line = [](const std::string& key, double value, const std::string& comment) {
     const double rounded =
-        std::max(0.0, std::round(value * 1e4) / 1e4);  // contradictions() has judged the sign
+        std::max(0.0, std::round(value * 1e4) / 1e4);  // contradictions() has checked the sign
     return key + " = " + shortest(rounded) + "  # " + comment + "\n";
   };
   const auto estimate = [&line](const std::string& key, const id::Estimate& e) {
@@ -74,7 +74,7 @@ std::string friction_fragment(const std::filesystem::path& rig, std::size_t axis
                 "spread " + shortest(std::round(s.spread_v * 1e5) / 1e5) + " of " + std::to_string(s.count));
   };
   return "# Friction of the " + std::string{axis_name(axis)} +
-         " as identified: what the compensation takes off. After +-: one standard error.\nextends = \"" +
+         ", identified values for the compensation. After +-: one standard error.\nextends = \"" +
          std::filesystem::absolute(rig).string() + "\"\n\n[controller.friction." + axis_name(axis) + "]\n" +
          estimate("viscous_positive_" + per_speed, friction.viscous_positive) +
          estimate("viscous_negative_" + per_speed, friction.viscous_negative) +

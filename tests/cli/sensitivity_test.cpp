@@ -82,7 +82,7 @@ TEST(SensitivityTable, SaysWhatSettledWhatDidNotAndWhatWasStopped) {
   const std::vector<DepartedRun> runs{{"", "", 0, settled}, {"load_mass", "%", 50, stopped}};
   std::ostringstream markdown, csv;
   write_sensitivity_markdown(markdown, runs);
-  EXPECT_NE(markdown.str().find("| as designed | 3.46 / 0.57 |"), std::string::npos) << markdown.str();
+  EXPECT_NE(markdown.str().find("| nominal | 3.46 / 0.57 |"), std::string::npos) << markdown.str();
   EXPECT_NE(markdown.str().find("| load_mass +50 % | stopped: swing |"), std::string::npos) << markdown.str();
   write_sensitivity_csv(csv, runs);
   EXPECT_NE(csv.str().find("\nmaneuver_1,none,load_mass,%,50,,,,,swing\n"), std::string::npos) << csv.str();

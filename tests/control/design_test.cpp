@@ -50,8 +50,8 @@ TEST(Design, RefusesFrictionThatHoldsADriveAtFullVoltage) {
   design.friction[kSlew].stiction_negative_v = 8;
   design.friction[kSlew].factor = 1.5;
   EXPECT_THAT(problems(design),
-              ElementsAre("friction.slew.stiction_negative_v = 8: times factor must be below "
-                          "the volts of the drive"));
+              ElementsAre("friction.slew.stiction_negative_v = 8: the value times factor must be below "
+                          "the volt limit of the drive"));
   design.friction[kSlew].factor = 1;
   EXPECT_THAT(problems(design), IsEmpty());
 }

@@ -54,8 +54,8 @@ void check_gains(Requirements& rules, const Design& design) {
   rules.above_up_to("hoist_proportional_ps", design.hoist_proportional_ps, 0, 100);
 }
 
-/// A drive that its own friction holds at full voltage moves nothing, and leaves K of the full feedback no
-/// volt.
+/// When the compensated stiction reaches the drive's limit, no voltage is left for the control law
+/// (available_control_v).
 void check_friction(Requirements& rules, const Design& design, std::size_t axis, const std::string& name) {
   const DriveFriction& friction = design.friction[axis];
   for (const auto& problem : friction.problems()) rules.found.push_back("friction." + name + "." + problem);
@@ -65,10 +65,10 @@ void check_friction(Requirements& rules, const Design& design, std::size_t axis,
                                    std::pair{"coulomb_negative_v", friction.coulomb_negative_v}})
     rules.require(!(volts > 0 && friction.factor * volts >= design.volt_limit_v[axis]),
                   ("friction." + name + "." + key).c_str(), volts,
-                  "times factor must be below the volts of the drive");
+                  "the value times factor must be below the volt limit of the drive");
 }
 
-/// Smaller numbers are no crane's, and what is divided by them need not be finite.
+/// The laws divide by these parameters: a smaller value could give a result that is not finite.
 void check_crane(Requirements& rules, const plant::Parameters& crane) {
   constexpr double kSmallest = 1e-6, kLeastGravity_mps2 = 1e-3;
   const auto at_least = [&rules](const char* name, double value, double least) {

@@ -32,9 +32,9 @@ std::vector<std::string> problems(const Controller& controller, const Design& de
     places += (i == 0 ? "" : ", ") + missing[i];
   if (missing.size() > kNamed) places += " and " + std::to_string(missing.size() - kNamed) + " more";
   return {std::string(controller.name) + ": no rule for " + places +
-          ": the rules are read off runs of delayed_1, and with these gains and scales no run reaches these "
-          "places; "
-          "change fuzzy_swing_rad, fuzzy_swing_rate or the gains of delayed_1"};
+          ": the rules are generated from simulations of delayed_1, and no simulation with these gains and "
+          "scales reaches these entries of the table; change fuzzy_swing_rad, fuzzy_swing_rate or the gains "
+          "of delayed_1"};
 }
 
 const Controller* find_controller(std::string_view name) {

@@ -49,8 +49,8 @@ struct Curve {
 struct Panel {
   std::string label;
   std::vector<Curve> curves;
-  double smallest_half_range = 0;  ///< the axis shows at least +- this much around its middle
-  double band = 0;                 ///< a grey band +- this
+  double smallest_half_range = 0;  ///< minimum half height of the y range
+  double band = 0;                 ///< half height of a grey band around 0
 };
 
 double in(double value, double scale) {
@@ -103,7 +103,7 @@ std::string settled_text(const Metrics& metrics) {
   return "settled after " + shortest(std::round(*metrics.settling_time_s * 100) / 100) + " s";
 }
 
-/// Frame, grid, captions and the mark of the settling time, common to all panels.
+/// gnuplot settings of all panels: frame, grid, captions, mark of the settling time.
 std::string settings(const Caption& caption, const Maneuver& maneuver, const Metrics& metrics, double end_s,
                      double height) {
   const auto pixel_y = [height](double from_top) { return shortest(1 - from_top / height); };
@@ -171,7 +171,7 @@ double value_of(const Sample& s, int column) {
   }
 }
 
-/// Range of the panel's curves with room for the key above them.
+/// y range of the panel's curves, with space for the key at the top.
 std::vector<double> range_of(const Panel& panel, std::span<const Sample> run, double zero_s) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Sample& s : run)

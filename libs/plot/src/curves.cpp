@@ -51,9 +51,8 @@ void draw_curves(const std::filesystem::path& file, const std::string& title,
                  const std::vector<CurvePanel>& panels) {
   for (const CurvePanel& panel : panels)
     for (const NamedCurve& curve : panel.curves)
-      if (curve.points.empty())
-        throw PictureError(file.string() + ": " + curve.name + " has nothing to draw");
-  if (panels.empty()) throw PictureError(file.string() + ": there is nothing to draw");
+      if (curve.points.empty()) throw PictureError(file.string() + ": " + curve.name + " has no points");
+  if (panels.empty()) throw PictureError(file.string() + ": there are no panels to draw");
   const double height = kCurvesTop + kCurvesPanelHeight * static_cast<double>(panels.size());
   // Names of columns and controllers have underscores: they are not to become subscripts.
   std::string script = "set termoption noenhanced\nset encoding utf8\n";

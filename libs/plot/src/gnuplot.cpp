@@ -14,7 +14,7 @@
 namespace crane::plot {
 namespace {
 
-/// A script on disk, removed afterwards.
+/// A temporary script file.
 class ScriptFile {
  public:
   explicit ScriptFile(const std::string& text) {
@@ -64,7 +64,7 @@ std::string quoted(const std::string& text) {
 
 namespace {
 
-/// @throws PictureError when gnuplot is missing, or with what it complained about
+/// @throws PictureError when gnuplot is missing, or with the error message of gnuplot
 void run_gnuplot(const std::string& script) {
   const ScriptFile file{script};
   FILE* const pipe = ::popen(("gnuplot " + file.name() + " 2>&1").c_str(), "r");
@@ -73,7 +73,7 @@ void run_gnuplot(const std::string& script) {
   std::array<char, 512> buffer{};
   while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) said += buffer.data();
   const int status = ::pclose(pipe);
-  constexpr int kCommandNotFound = 127;  // of the shell
+  constexpr int kCommandNotFound = 127;  // exit status of the shell
   if (WIFEXITED(status) && WEXITSTATUS(status) == kCommandNotFound)
     throw PictureError("gnuplot is not installed; install it with: apt-get install gnuplot-nox");
   if (status != 0) throw PictureError("gnuplot failed: " + said);

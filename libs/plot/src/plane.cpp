@@ -18,7 +18,7 @@ double place(const PlaneAxis& axis, int index) {
   return axis.low + (axis.high - axis.low) * index / (axis.points - 1);
 }
 
-/// Rows of x, y, value with a blank line between the lines of the grid.
+/// Data block of gnuplot: rows of x, y, value, with a blank line after each line of the grid.
 std::string grid_block(const std::string& name, const Plane& plane, const PlaneMap& map) {
   std::string text = "$" + name + " << END\n";
   std::size_t k = 0;
@@ -37,7 +37,7 @@ std::string plane_settings(const Plane& plane) {
     return "[" + number_text(axis.low - half) + ":" + number_text(axis.high + half) + "]";
   };
   std::string text = "set encoding utf8\nset border 31 lw 0.8 lc rgb '#404040'\nset tics out scale 0.5\n";
-  // Viridis: even steps of lightness, told apart with every kind of colour vision, and in grey.
+  // Viridis: lightness increases uniformly, readable with colour blindness and in grey.
   text += "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n";
   text += "set cbrange [0:" + number_text(plane.largest) +
           "]\nset key below horizontal center noenhanced samplen 1\n";
@@ -69,13 +69,13 @@ std::string map_script(std::size_t index, const Plane& plane, const PlaneMap& ma
 
 void draw_plane(const std::filesystem::path& file, const std::string& title, const Plane& plane,
                 const std::vector<PlaneMap>& maps) {
-  if (maps.empty()) throw PictureError(file.string() + ": there is nothing to draw");
+  if (maps.empty()) throw PictureError(file.string() + ": there are no maps to draw");
   const auto points = static_cast<std::size_t>(plane.x.points) * static_cast<std::size_t>(plane.y.points);
   std::string script = plane_settings(plane) + "set multiplot layout 1," + std::to_string(maps.size()) +
                        " title " + quoted(title) + " noenhanced\n";
   for (std::size_t i = 0; i < maps.size(); ++i) {
     if (maps[i].values.size() != points)
-      throw PictureError(file.string() + ": " + maps[i].title + " has not a value for every point");
+      throw PictureError(file.string() + ": " + maps[i].title + " must have one value per point");
     script += map_script(i, plane, maps[i]);
   }
   draw_script(file, kMapWidth * static_cast<double>(maps.size()), kMapTop + kMapHeight,

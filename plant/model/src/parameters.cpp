@@ -5,7 +5,7 @@
 namespace crane::plant {
 
 std::vector<std::string> Parameters::problems() const {
-  constexpr double kLargest = 1e9;  // keeps infinity out; NaN fails every comparison
+  constexpr double kLargest = 1e9;  // excludes infinity; NaN is outside every range
   std::vector<std::string> found;
   const auto report = [&found](const char* name, double value, const char* rule) {
     std::ostringstream line;

@@ -31,7 +31,7 @@ struct DemoOptions {
 
 constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
 
-/// Where the scenario begins, reached by a move like any other.
+/// Moves to the start of the scenario.
 void go_to_start(experiments::RealtimeSession& session, const experiment::Scenario& scenario) {
   const auto& state = *session.state();
   const std::array<double, 3> here{state.trolley_position_m, state.slew_angle_rad, state.cable_length_m};
@@ -46,7 +46,7 @@ void go_to_start(experiments::RealtimeSession& session, const experiment::Scenar
   if (selected[0] || selected[1] || selected[2]) session.move_to(selected, target, 12s);
 }
 
-/// Records while somebody waits.
+/// Records in a separate thread.
 using RecorderSlot = std::optional<recorder::Recorder>;
 
 experiment::NamedMetrics run_maneuver(experiments::RealtimeSession& session, bus::Bus& bus,
@@ -105,7 +105,7 @@ int demo(DemoOptions options) {
   std::cerr << "starting " << specs.size() << " processes\n";
   stack::launch(children, specs, options.launch);
   auto observer = options.launch.bus;
-  observer.vendor = "fastdds";  // observers run on the other vendor
+  observer.vendor = "fastdds";  // the loop runs on Cyclone DDS
   bus::Bus bus{runtime::bus_options(observer, "crane_demo", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
   RecorderSlot recorder;
@@ -134,15 +134,16 @@ void add_demo(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<DemoOptions>();
   options->launch.bus.crane = "demo";
   auto* command =
-      app.add_subcommand("demo", "Three maneuvers in real time: a table, recordings and pictures");
+      app.add_subcommand("demo", "Run three maneuvers in real time; write a table, recordings and pictures");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command->add_option("--plant", options->plant, "sim, or hardware, the board that the rig file names")
+  command->add_option("--plant", options->plant, "sim: simulated plant; hardware: the board of the rig file")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
-  command->add_option("--controller", options->launch.controller, "controller; default: the rig file's");
+  command->add_option("--controller", options->launch.controller,
+                      "controller; default: the controller of the rig file");
   command->add_option("--out", options->out, "directory for recordings, CSV files and pictures")
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds_per_maneuver, "measured after each move")
+  command->add_option("--seconds", options->seconds_per_maneuver, "time measured after each move, in s")
       ->check(CLI::Range(5.0, 60.0))
       ->capture_default_str();
   runtime::add_bus_options(*command, options->launch.bus);

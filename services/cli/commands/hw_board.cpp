@@ -13,7 +13,7 @@
 namespace crane::cli {
 namespace {
 
-/// Sleeps from tick to tick; what was missed during a question is not caught up with.
+/// Sleeps from tick to tick; ticks that were missed during a question are skipped.
 std::function<void(std::int64_t)> sleeping() {
   return [next_ns = std::int64_t{0}](std::int64_t duration_ns) mutable {
     next_ns = std::max(next_ns, runtime::monotonic_ns() - duration_ns) + duration_ns;
@@ -27,11 +27,11 @@ std::function<void(std::int64_t)> sleeping() {
 void add_board_options(CLI::App& command, BoardOptions& options) {
   command.add_option("--rig", options.rig, "rig file or name: board, channels and lines")->required();
   auto* wired = command.add_option("--wired-as", options.wired_as,
-                                   "board \"emulated\": rig file that the emulated crane is really wired by");
+                                   "board \"emulated\": rig file with the wiring of the emulated crane");
   auto* crane = command.add_option("--crane", options.crane,
-                                   "board \"emulated\": a crane_emulated_rig that runs with this --crane, in "
-                                   "real time; default: a crane in this process");
-  command.add_option("--domain", options.domain, "... and this --domain")->needs(crane);
+                                   "board \"emulated\": --crane of a running crane_emulated_rig (real time); "
+                                   "default: a crane in this process");
+  command.add_option("--domain", options.domain, "--domain of this crane_emulated_rig")->needs(crane);
   crane->excludes(wired);
 }
 
@@ -42,8 +42,8 @@ OpenBoard::OpenBoard(const BoardOptions& options)
   clock_.interrupted = runtime::stop_requested;
   const bool emulated = bridge::board_kind_of(rig_).name == "emulated";
   if (!emulated && !(options.wired_as.empty() && options.crane.empty()))
-    throw configuration::ConfigurationError(
-        {rig_.path + ": board = " + rig_.board + ": --wired-as and --crane are for the emulated board"});
+    throw configuration::ConfigurationError({rig_.path + ": board = " + rig_.board +
+                                             ": --wired-as and --crane apply to the emulated board only"});
   if (!emulated || !options.crane.empty()) clock_.wait = sleeping();
   board_ = opened(options);
 }

@@ -44,7 +44,7 @@ Names every_controller() {
   return names;
 }
 
-/// The rig of one scenario, and what is to be done with it.
+/// The rig of one scenario and its runs.
 void add_plans(const std::string& name, const RunOptions& options,
                std::vector<experiments::PlannedRun>& plans) {
   const auto file = stack::find_scenario(name);
@@ -59,7 +59,7 @@ void add_plans(const std::string& name, const RunOptions& options,
   const auto controllers =
       first_given(options.controllers, wish.controllers, options.compare ? every_controller() : as_it_is);
   for (const auto& variant : variants) {
-    (void)experiment::changed_by(rig, variant);  // refuses what is none before anything runs
+    (void)experiment::changed_by(rig, variant);  // reports unknown variants before the first run
     for (const auto& controller : controllers)
       plans.push_back({scenario, rig, &runtime::chosen_controller(controller, rig), variant});
   }
@@ -69,14 +69,14 @@ std::vector<experiments::PlannedRun> plans_of(const RunOptions& options) {
   std::vector<experiments::PlannedRun> plans;
   if (options.scenarios.empty() && !options.compare)
     throw configuration::ConfigurationError(
-        {"scenario: name at least one, or --compare, which runs maneuver_1, maneuver_2 and maneuver_3"});
+        {"scenario: give at least one, or --compare, which runs maneuver_1, maneuver_2 and maneuver_3"});
   const Names maneuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
   for (const auto& name : options.scenarios.empty() ? maneuvers : options.scenarios)
     add_plans(name, options, plans);
   return plans;
 }
 
-/// Names of what the user or the scenario chose; a run that was left as it is has none.
+/// Names of the choices of user or scenario; empty for defaults.
 std::string directory_name(const RunOptions& options, const experiments::PlannedRun& plan) {
   const bool chosen = !options.controllers.empty() || !plan.scenario.controllers.empty();
   return plan.scenario.name + (chosen ? "_" + std::string{plan.controller->name} : "") +
@@ -127,12 +127,12 @@ int run_each(const RunOptions& options, const std::vector<experiments::PlannedRu
   return completed ? runtime::kExitDone : runtime::kExitFailed;
 }
 
-/// A real crane is as it is, and what is measured on it is all that there is.
+/// In real time, options that need a simulation are refused.
 void require_possible_in_realtime(const RunOptions& options,
                                   const std::vector<experiments::PlannedRun>& plans) {
   std::vector<std::string> problems;
   const auto refuse = [&](bool given, const std::string& option) {
-    if (given) problems.push_back("--clock = realtime: not with " + option);
+    if (given) problems.push_back("--clock = realtime: cannot be combined with " + option);
   };
   refuse(options.compare, "--compare");
   refuse(options.in_process, "--in-process");
@@ -150,7 +150,7 @@ int run_each_in_realtime(const RunOptions& options, const std::vector<experiment
   for (const auto& plan : plans) {
     std::filesystem::path directory{options.out};
     if (plans.size() > 1) directory /= directory_name(options, plan);
-    std::filesystem::create_directories(directory);  // before anything moves
+    std::filesystem::create_directories(directory);  // fails before any motion
     const auto table = experiments::run_in_realtime({.rig = plan.rig.path,
                                                      .controller = std::string{plan.controller->name},
                                                      .plant = plant,
@@ -182,7 +182,7 @@ int compare(const RunOptions& options, const std::vector<experiments::PlannedRun
   const std::filesystem::path directory{options.out};
   std::filesystem::create_directories(directory);
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
-  spdlog::set_level(spdlog::level::off);  // why a crane was stopped stands in the tables
+  spdlog::set_level(spdlog::level::off);  // the tables contain the cause of a stop
   const auto runs = experiments::simulate_all(plans, [&](std::size_t done) {
     if (terminal) show_progress(done, plans.size());
   });
@@ -208,7 +208,7 @@ int run(const RunOptions& options) {
 }
 
 std::string described_variants() {
-  std::string lines = "Variants (join several with +):\n";
+  std::string lines = "Variants (combine several with +):\n";
   for (const auto& variant : experiment::variants())
     lines += "  " + std::string{variant.name} + std::string(20 - variant.name.size(), ' ') +
              std::string{variant.summary} + '\n';
@@ -219,44 +219,44 @@ std::string described_variants() {
 
 void add_run(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<RunOptions>();
-  auto* command = app.add_subcommand("run", "Run scenarios in lockstep and measure them, or in real time");
+  auto* command = app.add_subcommand("run", "Run scenarios in lockstep or in real time and evaluate them");
   command->add_option(
       "scenario", options->scenarios,
-      "scenario files or names (maneuver_1, figure_4_10, ...); with --compare default: the three "
+      "scenario files or names (maneuver_1, figure_4_10, ...); default with --compare: the three "
       "maneuvers");
   command->add_option("--controller", options->controllers,
-                      "controller (repeatable); default: the scenario's, else the rig file's, with --compare "
-                      "every controller");
+                      "controller (repeatable); default: that of the scenario, else of the rig file; with "
+                      "--compare every controller");
   command
       ->add_option("--variants", options->variants,
-                   "ways to depart from the rig file, see below; default: the scenario's, else none, with "
+                   "changes of the rig, see below; default: those of the scenario, else none; with "
                    "--compare the first eight")
       ->delimiter(',');
   command->add_option("--rig", options->rig,
-                      std::string{"rig file or name; default: the scenario's, else "} + kDefaultRig);
+                      std::string{"rig file or name; default: that of the scenario, else "} + kDefaultRig);
   command
       ->add_option("--plant", options->plant,
-                   "sim, the simulated plant, or hardware, the bridge on the emulated board that the rig "
-                   "file names (emulated_servo_to_go); not with --compare")
+                   "sim: simulated plant; hardware: the bridge on the emulated board of the rig file "
+                   "(emulated_servo_to_go); not with --compare")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
   command
       ->add_option("--clock", options->clock,
-                   "lockstep, or realtime: as on a rig, only run.csv is written; kicks and a swing at the "
-                   "start are left out; with --plant hardware also a real board")
+                   "lockstep; or realtime: writes run.csv only, without kicks and initial swing; "
+                   "with --plant hardware also on a real board")
       ->check(CLI::IsMember({"lockstep", "realtime"}))
       ->capture_default_str();
   command->add_option("--out", options->out, "directory for recording, CSV, metrics and picture")
       ->capture_default_str();
   command->add_flag("--compare", options->compare,
-                    "all runs side by side, in this process: comparison.csv, comparison.md, comparison.html");
+                    "compare all runs, in this process: comparison.csv, comparison.md, comparison.html");
   command->add_flag("--in-process", options->in_process, "all components in this process, without DDS");
   command->add_flag("--json", options->json, "print metrics as JSON");
-  command->add_flag("--no-picture", options->no_picture, "do not draw");
+  command->add_flag("--no-picture", options->no_picture, "draw no picture");
   command->add_flag("--twin", options->twin,
-                    "a twin of the rig file, before any variant, beside the stack: crane/twin is recorded; "
+                    "run a live twin with the rig file without variants, and record crane/twin; "
                     "not with --compare");
-  command->add_option("--twin-rig", options->twin_rig, "the same with another rig file or name");
+  command->add_option("--twin-rig", options->twin_rig, "run a live twin with another rig file or name");
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   runtime::add_bus_options(*command, options->bus);

@@ -12,6 +12,7 @@ class AntiSwingPd final : public Law {
   Contribution step(const Measurement& raw, const Reference& /*reference*/) noexcept override {
     const Measurement measured = bounded(raw);
     const Schedule at = schedule(design_, measured);
+    // (3.45) of H. M. Omar, Control of Gantry and Tower Cranes
     const auto pd = [&](double swing_rad, double swing_radps) {
       return design_.anti_swing_proportional * swing_rad +
              at.load_period_s * design_.anti_swing_derivative * swing_radps;

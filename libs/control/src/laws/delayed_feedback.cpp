@@ -9,7 +9,9 @@
 namespace crane::control {
 namespace {
 
-/// Ticks that `delay` periods of the load last on the longest cable.
+// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes (delayed_feedback.hpp).
+
+/// Length of `delay` load periods in ticks, with the longest cable.
 double longest_delay_ticks(const Design& design, double delay) {
   const double longest_period_s =
       2 * std::numbers::pi * std::sqrt(design.longest_cable_length_m / design.crane.gravity_mps2);
@@ -29,7 +31,7 @@ class Delayed1 final : public Law {
     const double delay_ticks = design_.delayed_1_delay * at.load_period_s / design_.period_s;
     radial_.push(measured.swing_radial_rad);
     tangential_.push(measured.swing_tangential_rad);
-    Contribution result;
+    Contribution result;  // (3.47)
     result.drive_v[kTrolley] =
         trolley_volts(design_.crane, at, design_.delayed_1_gain * radial_.at(delay_ticks));
     result.drive_v[kSlew] =
@@ -65,13 +67,13 @@ class Delayed2 final : public Law {
     radial_rate_.push(measured.swing_radial_radps);
     tangential_.push(measured.swing_tangential_rad);
     tangential_rate_.push(measured.swing_tangential_radps);
-    const double metres = at.cable_length_m * design_.delayed_2_gain;
-    const double radians = -metres * at.inverse_position_pm;
-    Contribution result;
-    result.correction[kTrolley] = {metres * radial_.at(delay_ticks), metres * radial_rate_.at(delay_ticks),
-                                   0};
-    result.correction[kSlew] = {radians * tangential_.at(delay_ticks),
-                                radians * tangential_rate_.at(delay_ticks), 0};
+    const double trolley_gain = at.cable_length_m * design_.delayed_2_gain;  // L K_del, m/rad
+    const double slew_gain = -trolley_gain * at.inverse_position_pm;         // -(L/x) K_del, rad/rad
+    Contribution result;                                                     // figure 3.18
+    result.correction[kTrolley] = {trolley_gain * radial_.at(delay_ticks),
+                                   trolley_gain * radial_rate_.at(delay_ticks), 0};
+    result.correction[kSlew] = {slew_gain * tangential_.at(delay_ticks),
+                                slew_gain * tangential_rate_.at(delay_ticks), 0};
     return result;
   }
 

@@ -15,15 +15,17 @@ constexpr Peaks peaks_of(const FuzzyPoints& points) noexcept {
   return {-1, -points.b, -points.a, 0, points.a, points.b, 1};
 }
 
-/// The two labels a scaled value belongs to and its degree in the upper one.
+// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes (fuzzy.hpp).
+
+/// The two labels that a scaled value belongs to. The degrees of membership add up to 1.
 struct Membership {
-  std::size_t lower = 0;  ///< index, label + 3; at most 5, so that lower + 1 exists
-  double upper_degree = 0;
+  std::size_t lower = 0;    ///< index (label + 3) of the lower label, 0 to 5
+  double upper_degree = 0;  ///< degree of membership in label lower + 1, in [0, 1]
 };
 
 Membership membership(const Peaks& peaks, double scaled) noexcept {
   const double held = std::clamp(scaled, -1.0, 1.0);
-  std::size_t lower = 0;  // NaN: a valid index, degree NaN
+  std::size_t lower = 0;  // NaN gives index 0 and degree NaN
   while (lower < kFuzzyLabels - 2 && held >= peaks[lower + 1]) ++lower;
   return {lower, (held - peaks[lower]) / (peaks[lower + 1] - peaks[lower])};
 }
@@ -36,7 +38,7 @@ class Fuzzy final : public Law {
   Contribution step(const Measurement& raw, const Reference& /*reference*/) noexcept override {
     const Measurement measured = bounded(raw);
     const Schedule at = schedule(design_, measured);
-    const auto vbar = [&](double swing_rad, double swing_radps) {
+    const auto vbar = [&](double swing_rad, double swing_radps) {  // (3.51)
       const double y = fuzzy_output(rules_, swing_rad / design_.fuzzy_swing_rad,
                                     at.load_period_s * swing_radps / design_.fuzzy_swing_rate, points_);
       return design_.fuzzy_gain * design_.fuzzy_swing_rad * y;
@@ -90,7 +92,7 @@ GeneratedRules rules_from(const std::vector<FuzzySample>& samples, const FuzzyPo
     for (std::size_t i = 0; i < 2; ++i)
       for (std::size_t j = 0; j < 2; ++j) {
         const double degree = output_degree * (i == 1 ? row_degree : 1 - row_degree) *
-                              (j == 1 ? column_degree : 1 - column_degree);
+                              (j == 1 ? column_degree : 1 - column_degree);  // (3.52)
         if (degree <= result.degrees[row + i][column + j]) continue;
         result.degrees[row + i][column + j] = degree;
         result.rules[row + i][column + j] = label;

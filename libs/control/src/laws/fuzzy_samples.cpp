@@ -1,4 +1,5 @@
-/// The experiments whose response fuzzy_generated maps, in normalised time (load period 1, lengths over L).
+/// Simulated experiments from which fuzzy_generated derives its rules. Units: load periods and cable lengths.
+/// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003.
 #include <cmath>
 #include <numbers>
 
@@ -11,14 +12,14 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kStep = 5e-4;   // integration step
-constexpr int kSampleEvery = 2;  // steps between samples
-constexpr double kDuration = 2;  // load periods
-// Load periods. The dissertation does not say how long its transfers took; of one half to two, this length
-// gives the table nearest to the printed one.
+constexpr double kStep = 5e-4;   // integration step, load periods
+constexpr int kSampleEvery = 2;  // integration steps per sample
+constexpr double kDuration = 2;  // duration of an experiment, load periods
+// Duration of a transfer, load periods. The source does not state it. Of the durations from one half to two,
+// this one gives the table nearest to the printed table.
 constexpr double kTransfer = 0.75;
 
-/// (3.27), (3.28) with tracking (3.40) and delayed_1 (3.47), semi-implicit Euler.
+/// Integrates (3.27), (3.28) with tracking (3.40) and delayed_1 (3.47) by the semi-implicit Euler method.
 void append_response(const Design& design, double swing, double transfer, std::vector<FuzzySample>& samples) {
   constexpr double kA = 4 * pi * pi;  // (3.33) in normalised time
   const AxisProfile profile = timed_profile(0, transfer, kTransfer, kTransfer / 3);
@@ -26,7 +27,7 @@ void append_response(const Design& design, double swing, double transfer, std::v
   DelayLine past(delay_ticks);
   past.reset(swing);
   double position = 0, speed = 0, rate = 0;
-  // A delayed_1 so badly chosen that it overturns the load teaches nothing more from there on.
+  // With unsuitable gains of delayed_1 the load can pass the vertical; later samples are then useless.
   for (int k = 0; k * kStep < kDuration && std::abs(swing) < pi; ++k) {
     past.push(swing);
     const double late = past.at(delay_ticks);

@@ -13,13 +13,15 @@ namespace {
 using std::numbers::pi;
 using std::numbers::sqrt2;
 
-/// w/w0 with which K_phi' vanishes: positive root of (4/pi) r^2 - sqrt(2) (1 - 4/pi^2) r - 4/pi = 0.
+// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes (gain_scheduling.hpp).
+
+/// Ratio w/w0 for which K_phi' = 0: positive root of (4/pi) r^2 - sqrt(2) (1 - 4/pi^2) r - 4/pi = 0.
 double partial_frequency_ratio() noexcept {
   const double linear = sqrt2 * (1 - 4 / (pi * pi));
   return (linear + std::sqrt(linear * linear + 64 / (pi * pi))) * pi / 8;
 }
 
-/// Gains of a tick. Partial feedback has no memory.
+/// Gains of one tick for partial-state feedback, which has no memory.
 class PartialGains {
  public:
   explicit PartialGains(const Design& design) : design_(design) {}
@@ -55,7 +57,7 @@ class Tracking final : public Law {
     const Measurement measured = bounded(raw);
     const Reference reference = bounded(raw_reference);
     const TowerGains gains = gains_.step(measured, reference);
-    const auto volts = [&](plant::Axis axis, const Gains& k) {
+    const auto volts = [&](plant::Axis axis, const Gains& k) {  // (3.26), terms of position and speed
       return k.position *
              (reference[axis].position - measured.position[axis] - k.speed * measured.speed[axis]);
     };
@@ -80,7 +82,7 @@ class AntiSwing final : public Law {
   Contribution step(const Measurement& raw, const Reference& raw_reference) noexcept override {
     const Measurement measured = bounded(raw);
     const auto [trolley, slew] = gains_.step(measured, bounded(raw_reference));
-    Contribution result;
+    Contribution result;  // (3.26), terms of the swing
     result.drive_v[kTrolley] = -trolley.position * (trolley.swing * measured.swing_radial_rad +
                                                     trolley.swing_rate * measured.swing_radial_radps);
     result.drive_v[kSlew] = slew.position * (slew.swing * measured.swing_tangential_rad +
@@ -93,7 +95,8 @@ class AntiSwing final : public Law {
   TickGains gains_;
 };
 
-Gains over_position(Gains gains, const Schedule& at) noexcept {
+/// Swing gains of the slew axis: K_theta = K_phi / x, K_theta' = K_phi' / x.
+Gains with_swing_gains_per_position(Gains gains, const Schedule& at) noexcept {
   gains.swing *= at.inverse_position_pm;
   gains.swing_rate *= at.inverse_position_pm;
   return gains;
@@ -118,48 +121,49 @@ Gains partial_state_gains(const SwingAxis& axis) noexcept {
   const double w0_squared = axis.gravity_mps2 / axis.cable_length_m;
   const double forward_gain = 4 / (pi * pi) * kRatio * kRatio * w0_squared / axis.drive_gain;
   Gains gains = full_state_gains(axis, forward_gain);
-  gains.swing_rate = 0;  // zero by the choice of K but for rounding
+  gains.swing_rate = 0;  // removes the rounding error of K_phi' = 0
   return gains;
 }
 
 Gains full_state_gains(const SwingAxis& axis, double forward_gain) noexcept {
   const double loop = forward_gain * axis.drive_gain;
   const double w0_squared = axis.gravity_mps2 / axis.cable_length_m;
-  const double a = 2 / pi * std::sqrt(w0_squared);
-  const double w = pi / 2 * std::sqrt(loop);
+  const double a = 2 / pi * std::sqrt(w0_squared);  // (3.21)
+  const double w = pi / 2 * std::sqrt(loop);        // (3.25)
   Gains gains;
   gains.position = forward_gain;
-  gains.speed = 2 / a + sqrt2 / w;
-  gains.swing = axis.cable_length_m *
+  gains.speed = 2 / a + sqrt2 / w;     // (3.24)
+  gains.swing = axis.cable_length_m *  // (3.23)
                 ((a * a + 2 * sqrt2 * a * w + w * w - w0_squared * (1 + axis.load_ratio)) / loop - 1);
-  gains.swing_rate = axis.cable_length_m * ((2 * a + sqrt2 * w) / loop - gains.speed);
+  gains.swing_rate = axis.cable_length_m * ((2 * a + sqrt2 * w) / loop - gains.speed);  // (3.22)
   return gains;
 }
 
 TowerGains partial_state_gains(const Design& design, const Schedule& at) noexcept {
   return {partial_state_gains(trolley_axis(design.crane, at.cable_length_m)),
-          over_position(
+          with_swing_gains_per_position(
               partial_state_gains(slew_axis(design.crane, at.cable_length_m, at.trolley_position_m)), at)};
 }
 
 TowerGains full_state_gains(const Design& design, const Schedule& at,
                             const ForwardGains& forward_gains) noexcept {
   return {full_state_gains(trolley_axis(design.crane, at.cable_length_m), forward_gains.trolley),
-          over_position(full_state_gains(slew_axis(design.crane, at.cable_length_m, at.trolley_position_m),
-                                         forward_gains.slew),
-                        at)};
+          with_swing_gains_per_position(
+              full_state_gains(slew_axis(design.crane, at.cable_length_m, at.trolley_position_m),
+                               forward_gains.slew),
+              at)};
 }
 
 double forward_gain_within(double volt_limit_v, double distance, double gain_limit) noexcept {
-  const double reach = std::abs(distance) * gain_limit;
-  return reach > volt_limit_v ? volt_limit_v / std::abs(distance) : gain_limit;
+  const double first_command_v = std::abs(distance) * gain_limit;
+  return first_command_v > volt_limit_v ? volt_limit_v / std::abs(distance) : gain_limit;
 }
 
-double volts_left_v(const Design& design, plant::Axis axis, bool positive) noexcept {
+double available_control_v(const Design& design, plant::Axis axis, bool positive) noexcept {
   const DriveFriction& friction = design.friction[axis];
-  const double held_v = positive ? std::max(friction.stiction_positive_v, friction.coulomb_positive_v)
-                                 : std::max(friction.stiction_negative_v, friction.coulomb_negative_v);
-  return design.volt_limit_v[axis] - friction.factor * held_v;
+  const double friction_v = positive ? std::max(friction.stiction_positive_v, friction.coulomb_positive_v)
+                                     : std::max(friction.stiction_negative_v, friction.coulomb_negative_v);
+  return design.volt_limit_v[axis] - friction.factor * friction_v;
 }
 
 ForwardGain::ForwardGain(const Design& design) noexcept {
@@ -176,8 +180,8 @@ ForwardGains ForwardGain::step(const Design& design, const Measurement& measured
     if (target == target_[axis]) continue;
     const double distance = target - measured.position[axis];
     target_[axis] = target;
-    gain_[axis] =
-        forward_gain_within(volts_left_v(design, axis, distance > 0), distance, design.full_feedback_gain_pm);
+    gain_[axis] = forward_gain_within(available_control_v(design, axis, distance > 0), distance,
+                                      design.full_feedback_gain_pm);
   }
   return {gain_[kTrolley], gain_[kSlew]};
 }

@@ -1,6 +1,5 @@
-/// The laws of section 3.3 with the gains of the largest damping of the least damped pole pair below eight
-/// load frequencies at K_p = 100 (`crane analyse damping`). The gains of the dissertation have the largest
-/// damping of the right-most pair.
+/// Gains that maximise the damping ratio of the least damped pair of poles below eight load frequencies, at
+/// K_p = 100. The gains of the source maximise the damping ratio of the right-most pair (docs/analysis.md).
 #include "crane/control/anti_swing_pd.hpp"
 #include "crane/control/delayed_feedback.hpp"
 

@@ -14,6 +14,7 @@ class TrackingPd final : public Law {
     const Measurement measured = bounded(raw);
     const Reference reference = bounded(raw_reference);
     const Schedule at = schedule(design_, measured);
+    // (3.40) of H. M. Omar, Control of Gantry and Tower Cranes
     const auto pd = [&](plant::Axis axis) {
       return design_.tracking_proportional * (reference[axis].position - measured.position[axis]) +
              at.load_period_s * design_.tracking_derivative * (reference[axis].speed - measured.speed[axis]);
@@ -21,7 +22,7 @@ class TrackingPd final : public Law {
     const double x = at.trolley_position_m;
     const double inertia = 1 + design_.crane.trolley_to_jib_ratio() * x * x;
     Contribution result;
-    result.drive_v = load_force_volts(design_.crane, measured);
+    result.drive_v = load_force_volts(design_.crane, measured);  // second parts of (3.37), (3.38)
     result.drive_v[kTrolley] += trolley_volts(design_.crane, at, pd(kTrolley) / at.cable_length_m);
     result.drive_v[kSlew] +=
         inertia * pd(kSlew) / (design_.crane.slew_gain_radps2pv * at.load_period_s * at.load_period_s);

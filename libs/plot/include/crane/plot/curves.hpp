@@ -1,5 +1,5 @@
 #pragma once
-/// Panels of curves, one below the other, drawn by gnuplot. Same curves, same bytes.
+/// Draws panels of curves, arranged vertically, with gnuplot. Equal curves give equal bytes.
 #include <array>
 #include <filesystem>
 #include <string>
@@ -21,7 +21,7 @@ struct NamedCurve {
 };
 struct CurvePanel {
   std::string x_label, y_label;
-  std::vector<NamedCurve> curves;  ///< at most five: told apart by colour
+  std::vector<NamedCurve> curves;  ///< at most five, the number of colours
 };
 
 /// @param file ends in .svg or .png; its directory must exist. @throws PictureError

@@ -12,11 +12,11 @@ class PictureError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `text` as a gnuplot string that is taken literally.
+/// Converts `text` to a gnuplot string literal without special characters.
 [[nodiscard]] std::string quoted(const std::string& text);
 
-/// Draws `script` into a picture of so many pixels; `file` appears when it is complete.
-/// @param file ends in .svg or .png. @throws PictureError, also when gnuplot is missing or complains
+/// Runs `script` and writes a picture of `width` x `height` pixels. `file` appears when it is complete.
+/// @param file  ends in .svg or .png. @throws PictureError
 void draw_script(const std::filesystem::path& file, double width, double height, const std::string& script);
 
 }  // namespace crane::plot

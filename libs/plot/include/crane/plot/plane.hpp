@@ -1,6 +1,6 @@
 #pragma once
-/// Quantities over a plane of two parameters, side by side as coloured maps with contour lines, drawn by
-/// gnuplot. Same maps, same bytes.
+/// Draws functions of two parameters with gnuplot, as coloured maps with contour lines, side by side. Equal
+/// maps give equal bytes.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,7 +18,7 @@ struct PlaneAxis {
 
 struct PlaneMap {
   std::string title;
-  std::vector<double> values;  ///< x fastest; those below 0 are left blank
+  std::vector<double> values;  ///< one value per point, x varies fastest; negative values are not drawn
 };
 
 struct PlaneMark {
@@ -28,8 +28,8 @@ struct PlaneMark {
 
 struct Plane {
   PlaneAxis x, y;
-  double largest = 1;            ///< of the colour scale, which begins at 0
-  double contour_step = 0.1;     ///< contour lines from 0 on
+  double largest = 1;            ///< upper end of the colour scale, which starts at 0
+  double contour_step = 0.1;     ///< distance between contour lines, which start at 0
   std::vector<PlaneMark> marks;  ///< at most four
 };
 

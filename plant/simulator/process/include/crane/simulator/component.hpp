@@ -1,5 +1,5 @@
 #pragma once
-/// The simulated plant as a process of the stack: the bridge's loop on the simulated board.
+/// The simulated plant as a process of the stack: the loop of the bridge on a simulated board.
 #include "crane/runtime/process.hpp"
 #include "crane/simulator/simulated_rig.hpp"
 
@@ -7,8 +7,8 @@ namespace crane::simulator {
 
 [[nodiscard]] runtime::ComponentSpec simulated_plant_spec();
 
-/// The rig file as the simulated board wants it. Limit switches sit at the hard limits, end stops a little
-/// beyond.
+/// Converts a rig file to the parameters of the simulated board. The limit switches are at the hard limits,
+/// the end stops 0.02 m or 0.02 rad beyond.
 [[nodiscard]] SimulatedRig simulated_rig_of(const configuration::Rig& rig);
 
 }  // namespace crane::simulator
