@@ -49,7 +49,8 @@ function(crane_executable name)
 endfunction()
 
 # crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL | LOOP])
-#   GoogleTest program; each TEST becomes one CTest test. SERIAL: never beside another test (real time, real DDS).
+#   GoogleTest program; each TEST becomes one CTest test. SERIAL: never beside another test (real time, real DDS), and
+#   with the main() of tests/real_time: a failure is final unless a bare timer proves that the computer paused.
 #   The others carry the label "unit", if no other LABELS are given, and are built by the target unit_tests. LOOP: of a room that works while a crane moves; these
 #   carry the label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too.
 add_custom_target(unit_tests)
@@ -57,7 +58,11 @@ add_custom_target(loop_tests)
 function(crane_test name)
   cmake_parse_arguments(ARG "SERIAL;LOOP" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  set(main GTest::gtest_main)
+  if(ARG_SERIAL)
+    set(main crane_real_time_main)
+  endif()
+  target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK} ${main} GTest::gmock GTest::gtest)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # optimising tests costs more time than it saves
   if(ARG_SERIAL)
     set(properties RUN_SERIAL TRUE)
@@ -77,6 +82,9 @@ function(crane_test name)
   endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)
+  endif()
+  if(ARG_SERIAL)
+    math(EXPR ARG_TIMEOUT "3 * ${ARG_TIMEOUT}")  # as often as tests/real_time runs a test
   endif()
   list(APPEND properties TIMEOUT ${ARG_TIMEOUT})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})

@@ -1,4 +1,4 @@
-#include "process/hardware_bridge.hpp"
+#include "crane/bridge/component.hpp"
 
 #include <algorithm>
 
@@ -41,14 +41,10 @@ std::unique_ptr<Board> make_comedi(const configuration::Rig& rig, const bus::Opt
   return std::make_unique<Comedi>(rig);
 }
 
-/// In a stack of processes the rig is one too; in a stack in one process it is here.
+/// The crane at the plugs of the emulated card is a process of its own, crane_emulated_rig.
 std::unique_ptr<Board> make_emulated(const configuration::Rig& rig, const bus::Options& bus) {
-  std::unique_ptr<EmulatedRig> crane;
-  if (bus.vendor == bus::Vendor::memory)
-    crane = std::make_unique<WiredRig>(rig);
-  else
-    crane = std::make_unique<LinkedRig>(shared_lines_name(bus.crane, bus.domain));
-  return std::make_unique<EmulatedBoard>(rig, std::move(crane));
+  return std::make_unique<EmulatedBoard>(
+      rig, std::make_unique<LinkedRig>(shared_lines_name(bus.crane, bus.domain)));
 }
 
 }  // namespace

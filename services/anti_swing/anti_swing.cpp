@@ -6,7 +6,7 @@ namespace crane::services {
 namespace {
 
 using runtime::Context;
-constexpr double kWaitShare = 0.4;  // of a period, for the rest of a tick
+constexpr double kWaitShare = 0.4;  // longest wait for the inputs of a tick / period
 
 class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:
@@ -38,18 +38,19 @@ class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
 }  // namespace
 
 runtime::ComponentSpec anti_swing_spec() {
-  return {.name = "anti_swing",
-          .program = "crane_anti_swing",
-          .summary = "Volts, or a correction of the reference, that damp the load's swing.",
-          .source = crane_SOURCE_ANTI_SWING,
-          .runs_controller = true,
-          .reads = {{&topics::state.description, "swing angles and rates of the load"},
-                    {&topics::reference.description, "acceleration of the support"}},
-          .writes = {{&topics::anti_swing.description,
-                      "volts, or a correction of the reference, that damp the swing"}},
-          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
-            return std::make_unique<AntiSwing>(context);
-          }};
+  return {
+      .name = "anti_swing",
+      .program = "crane_anti_swing",
+      .summary = "Anti-swing law: volts, or a correction of the reference, that damp the swing of the load.",
+      .source = crane_SOURCE_ANTI_SWING,
+      .runs_controller = true,
+      .reads = {{&topics::state.description, "swing angles and rates of the load"},
+                {&topics::reference.description, "acceleration of the support"}},
+      .writes = {{&topics::anti_swing.description,
+                  "volts, or a correction of the reference, that damp the swing"}},
+      .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+        return std::make_unique<AntiSwing>(context);
+      }};
 }
 
 }  // namespace crane::services

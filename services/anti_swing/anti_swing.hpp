@@ -1,6 +1,6 @@
 #pragma once
-/// Anti-swing: what takes the swing out of the load. State and reference in, volts (or a correction of the
-/// reference) out.
+/// The process of the anti-swing law, which damps the swing of the load. Input: state and reference; output:
+/// volts, or a correction of the reference.
 #include "crane/runtime/joined_component.hpp"
 #include "crane/runtime/process.hpp"
 

@@ -59,7 +59,7 @@ void ArrivalStatistics::count(const Arrival& arrival) {
 }
 
 void ArrivalStatistics::skip(std::uint64_t from, std::uint64_t to) {
-  constexpr std::uint64_t kRemembered = 10'000;  // what is further behind will not come any more
+  constexpr std::uint64_t kRemembered = 10'000;  // a tick that is further behind counts as lost
   const auto remembered_from = to - from > kRemembered ? to - kRemembered : from;
   counts_.lost += remembered_from - from;
   for (auto tick = remembered_from; tick < to; ++tick) missing_.insert(missing_.end(), tick);
@@ -79,7 +79,7 @@ ArrivalStatistics::Window ArrivalStatistics::take_window() {
     if (span_ns > 0)
       window.rate_hz = static_cast<double>(window_intervals_) * 1e9 / static_cast<double>(span_ns);
   }
-  window_first_ = window_last_;  // the next window begins where this one ends
+  window_first_ = window_last_;  // the next window begins at the end of this one
   window_intervals_ = window_samples_ = 0;
   jitter_us_.clear();
   return window;

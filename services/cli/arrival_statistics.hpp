@@ -1,6 +1,7 @@
 #pragma once
-/// How regularly the samples of one topic come: rate and losses from the ticks and time stamps of the source,
-/// which a burst on the way does not change; jitter and delay from the times of arrival.
+/// Statistics of the samples of one topic. Rate and losses are computed from ticks and time stamps of the
+/// source, so that bursts in the transport have no influence. Jitter and delay are computed from the arrival
+/// times.
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -10,12 +11,12 @@ namespace crane::cli {
 
 struct Arrival {
   std::uint64_t tick = 0;
-  std::uint32_t epoch = 0;  ///< start-up number of the writer; another one restarts the count of ticks
-  std::int64_t source_time_ns = 0;   ///< when it was sampled, by the source's clock
-  std::int64_t arrival_time_ns = 0;  ///< when it was taken, by this process's monotonic clock
+  std::uint32_t epoch = 0;  ///< start-up number of the writer; a new number restarts the count of ticks
+  std::int64_t source_time_ns = 0;   ///< sample time, clock of the source
+  std::int64_t arrival_time_ns = 0;  ///< arrival time, monotonic clock of this process
 };
 
-/// Nearest-rank percentile of `values` (any order), `share` in [0, 1]; nothing for no values.
+/// Nearest-rank percentile of `values` (any order); nothing without values. @param share  in [0, 1]
 [[nodiscard]] std::optional<double> percentile(std::vector<double> values, double share);
 
 struct Spread {
@@ -25,27 +26,28 @@ struct Spread {
 
 class ArrivalStatistics {
  public:
-  /// @param counts_ticks  every tick is due exactly once, so losses, duplicates and late ones can be told
+  /// @param counts_ticks  true: every tick has one sample, so that lost, duplicate and late samples can be
+  ///   counted
   explicit ArrivalStatistics(bool counts_ticks) : counts_ticks_{counts_ticks} {}
 
   void add(const Arrival& arrival);
 
   struct Counts {
     std::uint64_t samples = 0;
-    std::uint64_t lost = 0;       ///< ticks skipped that have not come since
-    std::uint64_t late = 0;       ///< came after a younger one
-    std::uint64_t duplicate = 0;  ///< tick that had come before
-    std::uint64_t restarts = 0;   ///< a younger writer took over
+    std::uint64_t lost = 0;       ///< ticks without a sample
+    std::uint64_t late = 0;       ///< samples that arrived after a sample of a later tick
+    std::uint64_t duplicate = 0;  ///< second samples of a tick
+    std::uint64_t restarts = 0;   ///< changes of the writer
   };
-  /// Since the beginning.
+  /// Counts since the beginning.
   [[nodiscard]] Counts counts() const;
 
   struct Window {
     std::size_t samples = 0;
-    std::optional<double> rate_hz;    ///< by the source's clock; nothing for fewer than two samples
-    std::optional<Spread> jitter_us;  ///< |interval of arrival - interval at the source| of neighbours
+    std::optional<double> rate_hz;    ///< by the clock of the source; nothing for fewer than two samples
+    std::optional<Spread> jitter_us;  ///< |arrival interval - source interval| of consecutive samples
   };
-  /// Since the last call.
+  /// Statistics since the last call.
   Window take_window();
 
  private:

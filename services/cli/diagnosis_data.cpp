@@ -12,7 +12,7 @@ namespace {
 using diagnosis::DataError;
 namespace fs = std::filesystem;
 
-/// Reads files one after the other and keeps what is wrong with each.
+/// Reads the files and collects the problems of each.
 class DataReader {
  public:
   DataReader(const diagnosis::Mapping& mapping, const configuration::Rig& rig)
@@ -23,14 +23,14 @@ class DataReader {
     for (const std::string& file : files) {
       std::error_code none;
       if (!seen_.insert(fs::weakly_canonical(file, none)).second)
-        problems_.push_back(file + ": is given twice: a run is for training or for the test");
+        problems_.push_back(file + ": is given twice; use each run either for training or for the test");
       try {
         diagnosis::Loaded loaded = load(file);
         notes_.insert(notes_.end(), loaded.notes.begin(), loaded.notes.end());
         std::move(loaded.runs.begin(), loaded.runs.end(), std::back_inserter(runs));
       } catch (const DataError& error) {
         problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
-      } catch (const std::runtime_error& error) {  // of the readers; they name the file or what is in it
+      } catch (const std::runtime_error& error) {  // exceptions of the readers name the file or its content
         const std::string what = error.what();
         problems_.push_back(what.find(file) == std::string::npos ? file + ": " + what : what);
       }

@@ -1,5 +1,5 @@
 #pragma once
-/// Recordings and CSV files as runs for the diagnosis.
+/// Reads recordings and CSV files for the diagnosis.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,10 +14,10 @@ struct DiagnosisData {
   std::vector<std::string> notes;
 };
 
-/// Rows of a table in which the supervisor let the crane move; all of them where it does not say.
+/// Rows in which the supervisor permits motion; all rows when the table has no supervisor_state.
 [[nodiscard]] recording::Table under_control(recording::Table table);
 
-/// Files ending in .mcap are recordings, all others CSV; the mapping is for CSV.
+/// Files ending in .mcap are recordings, all others are CSV files. The mapping applies to CSV files.
 /// @throws diagnosis::DataError with the problems of all files
 [[nodiscard]] DiagnosisData read_diagnosis_data(const std::vector<std::string>& train,
                                                 const std::vector<std::string>& test,

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Types by the IDL text the recording itself carries.
+/// Types according to the IDL text of the recording.
 class Decoder {
  public:
   explicit Decoder(const recording::McapReader& recording) : recording_{recording} {}
@@ -44,14 +44,14 @@ class Decoder {
   std::map<std::uint16_t, recording::Schema> schemas_;
 };
 
-/// The recorded topic meant by "crane/state" or "state".
+/// Finds a recorded topic by "crane/state" or "state".
 const recording::ChannelRecord& channel_of(const recording::McapReader& recording, const std::string& topic) {
   std::string known;
   for (const auto& channel : recording.channels()) {
     if (channel.topic == topic || channel.topic == "crane/" + topic) return channel;
     known += (known.empty() ? "" : ", ") + channel.topic;
   }
-  throw std::runtime_error("the recording has no topic '" + topic + "', only " +
+  throw std::runtime_error("the recording has no topic '" + topic + "'; it has " +
                            (known.empty() ? "none" : known));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Recordings as CSV and as JSON lines, and what is in them.
+/// Exports recordings as CSV and JSON lines, and describes their content.
 #include <filesystem>
 #include <iosfwd>
 #include <nlohmann/json.hpp>
@@ -9,13 +9,13 @@
 
 namespace crane::cli {
 
-/// One topic: log_time_ns, publish_time_ns, then every leaf of its type; text quoted where CSV asks for it,
-/// true 1, false 0. @throws std::runtime_error when the recording has no such topic, or a type that cannot be
-/// decoded
+/// Writes one topic: log_time_ns, publish_time_ns, then every elementary value of its type. Booleans are 1
+/// and 0.
+/// @throws std::runtime_error when the recording has no such topic, or its type cannot be decoded
 void write_topic_csv(std::ostream& out, recording::McapReader& recording, const std::string& topic);
 
-/// One JSON object a line: topic, log_time_ns, publish_time_ns, data. @param topic  empty: all that can be
-/// decoded
+/// Writes one JSON object per line: topic, log_time_ns, publish_time_ns, data.
+/// @param topic  empty: all topics that can be decoded
 void write_json_lines(std::ostream& out, recording::McapReader& recording, const std::string& topic);
 
 /// {"file", "bytes", "indexed", "first_time_ns", "last_time_ns", "duration_s", "messages", "topics": [...],
@@ -23,7 +23,7 @@ void write_json_lines(std::ostream& out, recording::McapReader& recording, const
 [[nodiscard]] nlohmann::ordered_json describe(recording::McapReader& recording,
                                               const std::filesystem::path& file);
 
-/// A cell of a CSV file. (RFC 4180)
+/// A cell of a CSV file (RFC 4180).
 [[nodiscard]] std::string csv_cell(const nlohmann::ordered_json& leaf);
 
 }  // namespace crane::cli

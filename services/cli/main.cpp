@@ -24,21 +24,21 @@ constexpr const char* kFooter = R"(A first session, the stack in one terminal, y
 Exit code: 0 done, 1 it did not work (the reason is on standard error), 2 bad arguments or files.
 `crane COMMAND --help` explains a command.)";
 
-/// In the order of --help.
+/// All commands in the order of --help.
 constexpr std::array kCommands{cli::add_up,       cli::add_demo,    cli::add_run,   cli::add_identify,
                                cli::add_diagnose, cli::add_status,  cli::add_reset, cli::add_home,
                                cli::add_arm,      cli::add_disarm,  cli::add_move,  cli::add_stop,
                                cli::add_estop,    cli::add_topic,   cli::add_graph, cli::add_record,
                                cli::add_log,      cli::add_analyse, cli::add_hw,    cli::add_bench};
 
-/// Standard output belongs to what was asked for.
+/// Logs go to standard error; standard output contains only the result of a command.
 void log_to_standard_error() {
   spdlog::set_default_logger(spdlog::stderr_color_mt("crane"));
   spdlog::set_level(spdlog::level::warn);
   spdlog::set_pattern("%^%l%$: %v");
 }
 
-/// The command named on the command line, however deep: "crane", "crane topic", ...
+/// The innermost command of the command line: "crane", "crane topic", ...
 const CLI::App& deepest_of(const CLI::App& app) {
   const auto named = app.get_subcommands();
   return named.empty() ? app : deepest_of(*named.front());
@@ -59,7 +59,7 @@ int run(const cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is a write error like a full disk, with a message
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit then causes a write error with a message
   CLI::App app{"Control of gantry and tower cranes as separate processes over DDS.", "crane"};
   app.set_version_flag("--version", "crane " CRANE_VERSION);
   app.footer(kFooter);

@@ -28,7 +28,7 @@ bool MoveFollower::over(std::uint64_t id) {
     executed_ = executed_ || (number_ > 0 && reference->move_number == number_);
   while (const auto status = statuses_.take()) {
     if (status->move.request_id != id) {
-      if (accepted_) throw std::runtime_error("move: replaced by a later one");
+      if (accepted_) throw std::runtime_error("move: replaced by a later move");
       continue;  // sent before the move was accepted
     }
     accepted_ = true;
@@ -44,12 +44,14 @@ void MoveFollower::follow(std::uint64_t id, double timeout_s) {
   number_ = 0;
   held_ticks_ = 0;
   if (!wait_until(bus_, timeout_s, [this, id] { return over(id); }))
-    throw std::runtime_error(runtime::stop_requested()
-                                 ? "move: no longer waited for; the crane goes on"
-                                 : "move: not at the target in time; the crane goes on");
+    throw std::runtime_error(
+        runtime::stop_requested()
+            ? "move: waiting was interrupted; the crane continues to move"
+            : "move: the target was not reached before the timeout; the crane continues to move");
   if (!executed_)
     throw std::runtime_error(
-        "move: the trajectory planner did not take it up and the crane stays where it is: move again");
+        "move: the trajectory planner has not executed the move; the crane has not moved; repeat the "
+        "command");
 }
 
 }  // namespace crane::cli

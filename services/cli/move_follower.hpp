@@ -1,31 +1,31 @@
 #pragma once
-/// How a tool that asked for a move knows that it is over.
+/// Waits for the end of a requested move.
 #include "cli/tool_bus.hpp"
 
 namespace crane::cli {
 
-/// Listens from before the request is sent, so that a short move is not missed.
+/// Must be created before the request is sent, so that a short move is not missed.
 class MoveFollower {
  public:
   explicit MoveFollower(bus::Bus& bus);
 
-  /// Waits until the trajectory planner has executed the move and the supervisor holds the crane again.
-  /// @param id  of the accepted request
+  /// Waits until the trajectory planner has executed the move and the supervisor is in HOLD again.
+  /// @param id         id of the accepted request
   /// @param timeout_s  longest wait
-  /// @throws std::runtime_error saying which: the crane stopped, another move replaced this one, the planner
-  /// never took it up, or the time is up
+  /// @throws std::runtime_error with the reason: the crane stopped, another move replaced this one, the
+  ///   planner did not execute the move, or timeout
   void follow(std::uint64_t id, double timeout_s);
 
  private:
-  /// @return the supervisor has held the crane for long enough. @throws std::runtime_error
+  /// @return true when the supervisor has been in HOLD for enough ticks. @throws std::runtime_error
   bool over(std::uint64_t id);
 
   bus::Bus& bus_;
   bus::Subscriber<msg::SupervisorStatus> statuses_;
   bus::Subscriber<msg::Reference> references_;
-  std::uint64_t number_ = 0;  ///< of the move as the supervisor counts it; 0: not accepted yet
-  bool accepted_ = false;     ///< the supervisor says that this is the move
-  bool executed_ = false;     ///< so does the planner
+  std::uint64_t number_ = 0;  ///< AcceptedMove.number; 0: not accepted yet
+  bool accepted_ = false;     ///< true: the supervisor has published this move
+  bool executed_ = false;     ///< true: the planner has published a reference for this move
   int held_ticks_ = 0;
 };
 

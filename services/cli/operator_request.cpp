@@ -8,7 +8,7 @@
 namespace crane::cli {
 namespace {
 
-/// Differs between tools that run at the same time, and between one tool and the next of the same pid.
+/// First request id. It differs between tools that run at the same time, and between tools with the same pid.
 std::uint64_t first_id() {
   constexpr std::uint64_t kPidBits = 22, kPidMask = (1U << kPidBits) - 1;
   const auto now_us = static_cast<std::uint64_t>(runtime::monotonic_ns() / 1000);
@@ -50,16 +50,17 @@ class Conversation {
     });
     if (!answer)
       throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
-                     " s: see whether its ticks advance (crane status)");
+                     " s: check that its ticks advance (crane status)");
     return *answer;
   }
 
  private:
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }
 
-  /// Other processes listen to requests, too; a supervisor is known by its status, the planner by its
-  /// reference. Whoever may answer must have been found in both directions: one that is known makes known
-  /// that it answers before it makes known what it is known by.
+  /// Several processes read crane/request. The supervisor is identified by a sample of crane/supervisor, the
+  /// planner by a sample of crane/reference. The receiver must be matched on crane/request and crane/reply.
+  /// Each process creates its writer of crane/reply before the writer of its identifying topic, so that the
+  /// reply cannot be missed.
   bool found() {
     while (supervisor_.take()) heard_supervisor_ = true;
     while (planner_ && planner_->take()) heard_reference_ = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// One request to the supervisor of a running crane, and its answer.
+/// Sends one request to the supervisor of a running crane and waits for the answer.
 #include <string>
 
 #include "cli/tool_bus.hpp"
@@ -10,28 +10,27 @@ namespace crane::cli {
 struct Answer {
   std::uint64_t id = 0;
   bool accepted = false;
-  std::string reason;  ///< why not
+  std::string reason;  ///< reason of a refusal
 };
 
-/// The supervisor (of a move: or the trajectory planner) is not there or does not answer; says where it was
-/// looked for and what to check.
+/// The supervisor (for a move also the trajectory planner) was not found or does not answer. what() names
+/// domain and crane and the remedy.
 class NoAnswer : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 struct Patience {
-  double find_s = 5;   ///< for those who have to hear it to be found
-  double reply_s = 2;  ///< for its reply
+  double find_s = 5;   ///< longest time for the discovery of the receivers
+  double reply_s = 2;  ///< longest time for the reply
 };
 
-/// Stop and emergency stop are sent as soon as anybody listens and again until answered: they do no harm
-/// twice. A move is sent once the trajectory planner has been found, too: what it has not heard the
-/// supervisor would accept in vain.
+/// Stop and emergency stop are sent as soon as one receiver is found, and are repeated until they are
+/// answered. A move is sent after the trajectory planner has been found, too.
 /// @throws NoAnswer
 [[nodiscard]] Answer ask(bus::Bus& bus, const stack::Wish& wish, const Patience& patience = {});
 
-/// "accepted" on standard output, or the reason on standard error. @return exit code
+/// Prints "accepted" on standard output, or the reason on standard error. @return exit code
 int report(const char* what, const Answer& answer);
 
 }  // namespace crane::cli

@@ -25,7 +25,8 @@ const topics::Description& topic_named(std::string_view name) {
   if (const auto* topic = find_topic(name)) return *topic;
   std::string known;
   for (const auto& topic : topics::kAll) known += (known.empty() ? "" : ", ") + std::string{topic.name};
-  throw CLI::ValidationError("topic", "there is no topic '" + std::string{name} + "', only " + known);
+  throw CLI::ValidationError("topic",
+                             "no topic has the name '" + std::string{name} + "'; the topics are " + known);
 }
 
 nlohmann::ordered_json to_json(const topics::Description& topic, const void* sample) {

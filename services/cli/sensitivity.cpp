@@ -13,7 +13,7 @@ namespace crane::cli {
 namespace {
 
 using control::Design;
-using stack::PlannedRun;
+using experiments::PlannedRun;
 
 constexpr double kSwingDegrees = 180 / std::numbers::pi;
 
@@ -47,7 +47,7 @@ double load_period_s(const PlannedRun& plan) {
   return plant::swing_period_s(plan.rig.design.crane.gravity_mps2, plan.rig.design.cable_length_m);
 }
 
-/// The filter takes over so much of the law's own delay as it has itself.
+/// Reduces the delay of the law by the delay of the filter.
 void filter_swing_in_place_of_delay(PlannedRun& plan, double ratio) {
   filter_swing(plan, ratio);
   const double late = filter_delay_s(ratio, plan.rig.period_s) / load_period_s(plan);
@@ -55,7 +55,7 @@ void filter_swing_in_place_of_delay(PlannedRun& plan, double ratio) {
     plan.rig.design.*delay = std::max(0.0, plan.rig.design.*delay - late);
 }
 
-/// What the user of a controller would turn up; nothing where the crane fixes every gain.
+/// Gains of a controller that a user can choose; empty when the crane determines every gain.
 std::vector<double Design::*> gains_of(std::string_view controller) {
   if (controller == "gain_scheduling_full") return {&Design::full_feedback_gain_pm};
   if (controller == "anti_swing_pd")
@@ -66,7 +66,7 @@ std::vector<double Design::*> gains_of(std::string_view controller) {
   return {};
 }
 
-/// Values as a user says them, each turned into the argument of `change` by `scale` and `offset`.
+/// Departures for the displayed values; the argument of `change` is scale * value + offset.
 struct Sweep {
   std::string quantity, unit;
   std::vector<double> values;
@@ -79,7 +79,7 @@ void append(std::vector<Departure>& all, const Sweep& sweep) {
                    [change = sweep.change, value](PlannedRun& plan) { change(plan, value); }});
 }
 
-/// `change` by a ratio for values in per cent.
+/// Departures by a ratio, for displayed values in per cent.
 std::function<void(PlannedRun&, double)> percent(void (*change)(PlannedRun&, double)) {
   return [change](PlannedRun& plan, double value) { change(plan, 1 + value / 100); };
 }
@@ -94,7 +94,7 @@ const experiment::ComparedRun* find(std::span<const DepartedRun> runs, const Dep
 }
 
 std::string name_of(const DepartedRun& run) {
-  if (run.quantity.empty()) return "as designed";
+  if (run.quantity.empty()) return "nominal";
   return run.quantity + ' ' + (run.unit == "%" && run.value > 0 ? "+" : "") + recording::shortest(run.value) +
          (run.unit.empty() ? "" : ' ' + run.unit);
 }
@@ -164,7 +164,7 @@ void write_sensitivity_csv(std::ostream& out, std::span<const DepartedRun> runs)
 void write_sensitivity_markdown(std::ostream& out, std::span<const DepartedRun> runs) {
   const auto controllers = distinct(runs, &experiment::ComparedRun::controller);
   for (const auto& scenario : distinct(runs, &experiment::ComparedRun::scenario)) {
-    out << "## " << scenario << "\n\nSettling time [s] / residual swing [deg]; - not settled.\n\n|  |";
+    out << "## " << scenario << "\n\nSettling time [s] / residual swing [deg]; -: not settled.\n\n|  |";
     for (const auto& controller : controllers) out << ' ' << controller << " |";
     out << "\n|---|" << [&] {
       std::string rule;

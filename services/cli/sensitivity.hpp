@@ -1,37 +1,39 @@
 #pragma once
-/// Sensitivity: one quantity at a time departs from what the controllers believe or were designed with, and
-/// the same move is made again.
+/// Sensitivity analysis: the same move is repeated while one quantity at a time departs from its nominal
+/// value.
 #include <functional>
 #include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "stack/comparison_run.hpp"
+#include "experiments/comparison_run.hpp"
 
 namespace crane::cli {
 
-/// One departure. It changes scenario and rig before the scenario starts the rig.
+/// One departure. It changes scenario and rig before the start.
 struct Departure {
-  std::string quantity;  ///< "cable_length", ...; empty: nothing departs
-  std::string unit;      ///< of value
+  std::string quantity;  ///< "cable_length", ...; empty: nominal run
+  std::string unit;      ///< unit of `value`
   double value = 0;
-  std::function<void(stack::PlannedRun&)> change;
+  std::function<void(experiments::PlannedRun&)> change;
 };
 
-/// Delay of the Butterworth low-pass of order 2 for slow signals, sqrt(2) / (2 pi cut-off). @pre
-/// cut_off_ratio > 0
+/// Low-frequency delay of the second-order Butterworth filter, sqrt(2) / (2 pi cut-off). @pre cut_off_ratio >
+/// 0
 [[nodiscard]] double filter_delay_s(double cut_off_ratio, double period_s);
 
-/// Those that make sense for the plan's controller, nothing departing first:
-///   cable_length, load_mass        true ones, -50 to 50 % of what is measured or believed
-///   friction_compensation          -20 to 20 % of what is compensated
-///   command_delay                  1 to 3 ticks more than the loop has, trolley and slew
-///   rate_filter                    cut-off over sampling frequency in front of the differentiators, 0: none
-///   swing_filter                   the same filter also on the swing angles, its cut-off
-///   swing_filter_for_delay         the same, and the delayed law's own delay less that of the filter
-///   gain                           -50 to 50 % of the forward gain K or of the anti-swing law's own gains
-[[nodiscard]] std::vector<Departure> departures(const stack::PlannedRun& plan);
+/// Departures that apply to the controller of the plan; the first one is the nominal run:
+///   cable_length, load_mass        true value, -50 to 50 % relative to the nominal value
+///   friction_compensation          -20 to 20 % of the compensated friction
+///   command_delay                  1 to 3 additional ticks, trolley and slew
+///   rate_filter                    cut-off / sampling frequency of the filter before the differentiators; 0:
+///   no filter
+///   swing_filter                   the same filter also on the swing angles
+///   swing_filter_for_delay         swing_filter, and the delay of the delayed law reduced by the delay of
+///   the filter
+///   gain                           -50 to 50 % of the forward gain K or of the gains of the anti-swing law
+[[nodiscard]] std::vector<Departure> departures(const experiments::PlannedRun& plan);
 
 struct DepartedRun {
   std::string quantity, unit;
@@ -39,9 +41,10 @@ struct DepartedRun {
   experiment::ComparedRun run;
 };
 
-/// Figures that a run does not have are empty.
+/// Writes one row per run; missing figures are empty.
 void write_sensitivity_csv(std::ostream& out, std::span<const DepartedRun> runs);
-/// Per scenario a table, departures by controllers: settling time in s / residual swing in degrees.
+/// Writes a table for each scenario; rows are departures, columns are controllers: settling time in s /
+/// residual swing in degrees.
 void write_sensitivity_markdown(std::ostream& out, std::span<const DepartedRun> runs);
 
 }  // namespace crane::cli

@@ -60,7 +60,7 @@ void print_supervisor(std::ostream& out, const msg::SupervisorStatus& status) {
   out << "homing      " << supervisor::name_of(failure) << ": " << supervisor::remedy_for(failure) << '\n';
 }
 
-/// Why the bridge holds the crane, if it does.
+/// Prints the latched reason of the bridge, if any.
 void print_latch(std::ostream& out, const msg::State& state) {
   if (state.latch_reason == crane_LATCH_NONE) return;
   const auto reason = static_cast<bridge::Reason>(state.latch_reason);
@@ -86,8 +86,8 @@ void print_axes(std::ostream& out, const msg::State& state) {
 }
 
 void print_twin(std::ostream& out, const msg::Twin& twin) {
-  constexpr std::array kStates{"waits for motion without gaps", "is learning how much the residual scatters",
-                               "agrees: the residual is inside its band", "deviates"};
+  constexpr std::array kStates{"waits for consecutive ticks", "learns the scatter of the residual",
+                               "agrees: the residual is within its band", "deviates"};
   out << "twin  " << kStates.at(static_cast<std::size_t>(twin.state));
   if (twin.state == crane_TWIN_LEARNING)
     out << ", " << fixed(100 * twin.learnt_share, 0) << " % of the motion";
@@ -149,8 +149,8 @@ void print(std::ostream& out, const Snapshot& snapshot) {
     print_axes(out, *snapshot.state);
   }
   if (snapshot.twin) print_twin(out, *snapshot.twin);
-  if (!snapshot.supervisor) out << "supervisor  not heard: nothing may move the crane\n";
-  if (!snapshot.state) out << "crane/state  not heard: neither the bridge nor the plant publishes\n";
+  if (!snapshot.supervisor) out << "supervisor  no status received: the crane cannot move\n";
+  if (!snapshot.state) out << "crane/state  no sample received: neither bridge nor plant publishes it\n";
 }
 
 }  // namespace crane::cli

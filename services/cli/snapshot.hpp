@@ -1,5 +1,5 @@
 #pragma once
-/// What a running crane says about itself right now.
+/// Present state of a running crane.
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,16 +12,17 @@ struct Snapshot {
   std::map<std::uint32_t, msg::NodeStatus> nodes;  ///< by node number (Source)
   std::optional<msg::SupervisorStatus> supervisor;
   std::optional<msg::State> state;
-  std::optional<msg::Twin> twin;  ///< where one runs
+  std::optional<msg::Twin> twin;  ///< nothing: no twin runs
   [[nodiscard]] bool empty() const { return nodes.empty() && !supervisor && !state; }
 };
 
-/// Listens until every process that was found has said something and a state has come, at most `timeout_s`.
+/// Listens until every discovered process has sent its status and crane/state has arrived, at most
+/// `timeout_s`.
 [[nodiscard]] Snapshot listen(bus::Bus& bus, double timeout_s);
 
 /// {"nodes": [...], "supervisor": {..., "remedy": ...} or null, "state": {...} or null, "twin": likewise}
 [[nodiscard]] nlohmann::ordered_json to_json(const Snapshot& snapshot);
-/// Table of processes, state of the supervisor with cause and remedy, the axes.
+/// Prints the processes, the state of the supervisor with cause and remedy, and the axes.
 void print(std::ostream& out, const Snapshot& snapshot);
 
 }  // namespace crane::cli

@@ -1,5 +1,5 @@
 #pragma once
-/// Aligned columns for a terminal.
+/// Text table with aligned columns, for a terminal.
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -9,9 +9,9 @@ namespace crane::cli {
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> header) { add(std::move(header)); }
-  /// Missing cells stay empty.
+  /// Adds a row; missing cells are empty.
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  /// Cells that begin with a digit or minus sign are set flush right. No trailing blanks.
+  /// Prints the table. Cells that begin with a digit or minus sign are aligned right. No trailing blanks.
   void print(std::ostream& out) const;
 
  private:

@@ -15,13 +15,13 @@ std::string where_and_remedy(const bus::Options& options) {
   for (const auto& interface : options.interfaces) interfaces += (interfaces.empty() ? "" : ", ") + interface;
   return " for crane '" + options.crane + "' in domain " + std::to_string(options.domain) + " on " +
          interfaces +
-         ": either no stack runs there (start one: crane up), or --crane, --domain or --interface differ "
+         ": either no stack runs (start one with crane up), or --crane, --domain or --interface differ "
          "from the "
          "stack's";
 }
 
 bool wait_until(bus::Bus& bus, double timeout_s, const std::function<bool()>& poll) {
-  constexpr std::int64_t kLongest_ns = 20'000'000;  // matches and signals ring no bell
+  constexpr std::int64_t kLongest_ns = 20'000'000;  // matched endpoints and signals do not wake Bus::wait()
   const auto end_ns = runtime::monotonic_ns() + static_cast<std::int64_t>(timeout_s * 1e9);
   while (!runtime::stop_requested()) {
     if (poll()) return true;

@@ -1,5 +1,5 @@
 #pragma once
-/// What all commands that look at or talk to a running crane share.
+/// Shared by all commands that observe or operate a running crane.
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -9,8 +9,7 @@
 
 namespace crane::cli {
 
-/// Options of a tool: as every process's, but Fast DDS by default, so that an observer of the Cyclone loop
-/// crosses vendors.
+/// Default bus options of a tool: Fast DDS, so that ordinary use exercises both vendors together.
 [[nodiscard]] inline runtime::BusOptions tool_bus() {
   runtime::BusOptions options;
   options.vendor = "fastdds";
@@ -21,11 +20,11 @@ namespace crane::cli {
 [[nodiscard]] bus::Bus open_bus(const runtime::BusOptions& options,
                                 crane_Source source = crane_SOURCE_MONITOR);
 
-/// " for crane 'crane' in domain 0 on 127.0.0.1 …: what to check", the end of a sentence "nothing heard".
+/// End of an error message: " for crane 'crane' in domain 0 on 127.0.0.1 …: remedy".
 [[nodiscard]] std::string where_and_remedy(const bus::Options& options);
 
-/// Waits for samples and calls `poll` after each arrival, and at least every 20 ms, until it returns true.
-/// @return false when the time was up or the process was asked to stop
+/// Calls `poll` after each arrival of a sample, and at least every 20 ms, until it returns true.
+/// @return false at the timeout or after a stop signal
 bool wait_until(bus::Bus& bus, double timeout_s, const std::function<bool()>& poll);
 
 }  // namespace crane::cli

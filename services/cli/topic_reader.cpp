@@ -9,7 +9,7 @@
 namespace crane::cli {
 namespace {
 
-/// Filled in by a vendor's thread.
+/// Set by a thread of the DDS vendor.
 class RefusedPolicy {
  public:
   void set(std::string_view policy) {
@@ -31,17 +31,17 @@ std::string why_silent(const bus::Bus& bus, const bus::CdrSubscriber& subscriber
   const std::string name{subscriber.topic().name};
   if (const auto rejected = subscriber.counts().rejected; rejected > 0)
     return name + ": all " + std::to_string(rejected) +
-           " samples had a wrong CRC; do both sides have the same crane.idl?";
+           " samples had a wrong CRC; check that both sides have the same version";
   if (const auto policy = refused.get(); !policy.empty())
-    return name + ": a writer is there, but its quality of service does not match (" + policy +
-           "); do both sides have the same version?";
-  if (subscriber.matched() == 0) return name + ": nobody writes it" + where_and_remedy(bus.options());
+    return name + ": a writer exists, but its quality of service does not match (" + policy +
+           "); check that both sides have the same version";
+  if (subscriber.matched() == 0) return name + ": no writer found" + where_and_remedy(bus.options());
   return name + ": " + std::to_string(subscriber.matched()) + " writers, but no sample: " +
-         (subscriber.topic().every_tick ? "the clock stands still (crane status)"
-                                        : "it is written when something happens");
+         (subscriber.topic().every_tick ? "the clock master makes no ticks (crane status)"
+                                        : "the topic is written only at events");
 }
 
-/// Says once, after a while, why nothing may be coming.
+/// Prints the possible reason once when no sample arrives for a while.
 class Hint {
  public:
   void give(const std::function<std::string()>& reason) {
@@ -65,9 +65,9 @@ void add_topic_options(CLI::App& command, TopicOptions& options) {
           "crane/state, or state")
       ->required()
       ->type_name("TOPIC");
-  command.add_option("--duration", options.duration_s, "end after so many s")->check(CLI::PositiveNumber);
-  command.add_option("--count", options.count, "end after so many samples")->check(CLI::PositiveNumber);
-  command.add_flag("--json", options.json, "one JSON object a line");
+  command.add_option("--duration", options.duration_s, "duration in s")->check(CLI::PositiveNumber);
+  command.add_option("--count", options.count, "number of samples")->check(CLI::PositiveNumber);
+  command.add_flag("--json", options.json, "print one JSON object per line");
   runtime::add_bus_options(command, options.bus);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-/// Reads one topic of any type until there is a reason to stop: what `crane topic echo`, `hz` and `delay`
-/// share.
+/// Reads one topic of any type; shared by `crane topic echo`, `hz` and `delay`.
 #include <functional>
 #include <vector>
 
@@ -11,14 +10,14 @@ namespace crane::cli {
 struct TopicOptions {
   const topics::Description* topic = nullptr;
   double duration_s = 1e9;
-  std::uint64_t count = 0;  ///< samples, 0: no end
+  std::uint64_t count = 0;  ///< number of samples; 0: unlimited
   bool json = false;
   runtime::BusOptions bus = tool_bus();
 };
-/// NAME, --duration, --count, --json and the bus options.
+/// Adds NAME, --duration, --count, --json and the bus options.
 void add_topic_options(CLI::App& command, TopicOptions& options);
 
-/// One sample; valid inside the call.
+/// One sample; valid during the call only.
 struct TopicSample {
   const msg::Header& header;
   const bus::SampleInfo& info;
@@ -26,9 +25,9 @@ struct TopicSample {
   const std::vector<std::uint8_t>& cdr;
 };
 
-/// Calls `visit` for each sample, and `wake` at least every 20 ms. Says on standard error, once, why nothing
-/// may be coming. @return samples rejected for a wrong CRC
-/// @throws std::runtime_error when nothing came until the end, with the reason
+/// Calls `visit` for each sample, and `wake` at least every 20 ms. Without samples it prints possible reasons
+/// once on standard error. @return number of samples rejected for a wrong CRC
+/// @throws std::runtime_error, with the reason, when no sample arrived until the end
 std::uint64_t read_topic(
     bus::Bus& bus, const TopicOptions& options, const std::function<void(const TopicSample&)>& visit,
     const std::function<void()>& wake = [] {});

@@ -27,7 +27,7 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   const bool length = dimension == Dimension::length;
   const std::string quoted = "'" + std::string{text} + "'";
   auto rest = trimmed(text);
-  if (rest.starts_with('+') && !rest.starts_with("+-")) rest.remove_prefix(1);  // from_chars knows no '+'
+  if (rest.starts_with('+') && !rest.starts_with("+-")) rest.remove_prefix(1);  // from_chars rejects '+'
   double number = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (error != std::errc{} || !std::isfinite(number))
@@ -36,8 +36,8 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   const auto unit = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
   for (const auto& known : length ? std::span<const Unit>{kLengths} : std::span<const Unit>{kAngles})
     if (known.name == unit) return number * known.factor;
-  throw UnitError(quoted + ": unit '" + std::string{unit} + "' does not fit " +
-                  (length ? "a length: m (default), cm, mm" : "an angle: rad (default), deg"));
+  throw UnitError(quoted + ": unit '" + std::string{unit} + "' is no unit of " +
+                  (length ? "length: use m (default), cm, mm" : "angle: use rad (default), deg"));
 }
 
 }  // namespace crane::cli

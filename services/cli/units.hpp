@@ -1,5 +1,5 @@
 #pragma once
-/// Lengths and angles as an operator types them: "1.05", "105cm", "90deg".
+/// Parses lengths and angles of the command line: "1.05", "105cm", "90deg".
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -9,13 +9,14 @@ namespace crane::cli {
 
 enum class Dimension : std::uint8_t { length, angle };
 
-/// Not a finite number, or a unit that does not fit; says which units do.
+/// The text is not a finite number, or has a wrong unit. what() lists the permitted units.
 class UnitError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A finite number, then nothing, or m, cm, mm (length), rad, deg (angle); blanks between are allowed.
+/// Parses a finite number without unit or with m, cm, mm (length), rad, deg (angle); blanks before the unit
+/// are permitted.
 /// @return m or rad. @throws UnitError
 [[nodiscard]] double parse_quantity(std::string_view text, Dimension dimension);
 

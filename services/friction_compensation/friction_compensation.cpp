@@ -7,8 +7,8 @@ namespace crane::services {
 namespace {
 
 using runtime::Context;
-constexpr double kWaitShare =
-    0.5;  // of a period, for the rest of a tick: one hop after tracking and anti-swing
+/// Longest wait for the inputs of a tick / period. The inputs of tracking and anti-swing arrive before.
+constexpr double kWaitShare = 0.5;
 
 class FrictionCompensation
     : public runtime::JoinedComponent<msg::State, msg::Contribution, msg::Contribution> {
@@ -44,7 +44,7 @@ runtime::ComponentSpec friction_compensation_spec() {
   return {
       .name = "friction_compensation",
       .program = "crane_friction_compensation",
-      .summary = "Sums the contributions and adds what friction takes away.",
+      .summary = "Adds the contributions of both laws and the estimated friction.",
       .source = crane_SOURCE_FRICTION,
       .runs_controller = false,
       .reads = {{&topics::state.description, "speeds of the axes"},

@@ -1,5 +1,6 @@
 #pragma once
-/// Friction compensation: adds up the contributions and adds what the drives' friction will take away.
+/// The process of the friction compensation: adds the contributions of both laws and the estimated friction
+/// of the drives.
 #include "crane/runtime/joined_component.hpp"
 #include "crane/runtime/process.hpp"
 

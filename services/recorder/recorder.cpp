@@ -46,7 +46,7 @@ Recorder::Recorder(bus::Bus& bus, const Options& options)
     const auto& wanted = options.topics;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), &topic) == wanted.end()) continue;
     bus::EndpointOptions endpoint;
-    endpoint.history = topic.qos == topics::Qos::log;  // events that came before; loop topics are not kept
+    endpoint.history = topic.qos == topics::Qos::log;  // receives earlier events; loop topics have no history
     sources_.push_back(
         {bus.cdr_subscriber(topic, endpoint), channels[i], topic.name == topics::event.description.name});
   }
@@ -96,7 +96,7 @@ void Recorder::announce_failure() {
   if (failure_announced_) return;
   failure_announced_ = true;
   node_.error("recording_failed", "recording stopped: " + thread_->failure().value_or(""),
-              "make room or choose another disk, and start a new recording; this one is readable up to here "
+              "free space or use another disk, and start a new recording; this one is readable up to here "
               "(crane log repair)");
 }
 

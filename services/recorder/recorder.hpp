@@ -1,10 +1,10 @@
 #pragma once
-/// Records topics of a running crane: every sample as it came, its CRC checked, in one MCAP file.
+/// Records topics of a running crane to one MCAP file: every sample with a correct CRC, without change.
 ///
-/// log time      wall clock at arrival; it follows the monotonic clock from the start of the recording on, so
-///               that setting the system's clock does not tear it
-/// publish time  wall clock of the writer
-/// sequence      tick (its lower 32 bits)
+/// log time      wall-clock time of arrival: wall clock at the start of the recording plus monotonic time, so
+/// that a
+///               change of the system clock causes no jump
+/// publish time  wall clock of the writer sequence      tick (its lower 32 bits)
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -17,7 +17,7 @@ namespace crane::recorder {
 struct Options {
   std::filesystem::path file;
   std::vector<const topics::Description*> topics{};  ///< empty: all
-  std::size_t queue_capacity = 16384;                ///< samples; some 20 s of a stack at 100 Hz
+  std::size_t queue_capacity = 16384;                ///< samples; about 20 s of a stack at 100 Hz
 };
 
 class Recorder {
@@ -25,15 +25,17 @@ class Recorder {
   /// Creates the file. @throws recording::WriteError, bus::Error
   Recorder(bus::Bus& bus, const Options& options);
 
-  /// Hands over what has arrived, and reports on crane/node.
-  /// @return false once the file cannot be written any more; crane/event has said why
+  /// Passes arrived samples to the recording thread, and publishes crane/node.
+  /// @return false when the file can no longer be written; crane/event reports the reason
   bool poll();
-  /// Writes what waits and closes the file. @return false when the file could not be completed
+  /// Writes all waiting samples and closes the file. @return false when the file is incomplete
   bool close();
 
   [[nodiscard]] const RecordingThread& thread() const { return *thread_; }
-  [[nodiscard]] std::uint64_t rejected() const;  ///< samples with a wrong CRC: not recorded
-  [[nodiscard]] bool heard_others() const { return heard_others_; }  ///< any sample but its own
+  [[nodiscard]] std::uint64_t rejected() const;  ///< samples with a wrong CRC, which are not recorded
+  [[nodiscard]] bool heard_others() const {
+    return heard_others_;
+  }  ///< true: a sample of another process arrived
 
  private:
   struct Source {

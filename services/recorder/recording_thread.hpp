@@ -1,6 +1,6 @@
 #pragma once
-/// Writes a recording on a thread of its own, behind a bounded queue: a slow disk delays nobody. What does
-/// not fit into the queue is dropped and counted.
+/// Writes a recording in a separate thread with a bounded queue, so that a slow disk does not delay the
+/// caller. Samples that do not fit into the queue are dropped and counted.
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
@@ -21,26 +21,27 @@ struct Entry {
   std::uint32_t sequence = 0;
   std::int64_t log_time_ns = 0, publish_time_ns = 0;
   std::vector<std::uint8_t> data;
-  bool urgent = false;  ///< to be in the file at once: something went wrong
+  bool urgent = false;  ///< true: write to the file at once, for example at a fault
 };
 
 class RecordingThread {
  public:
-  /// @param capacity  entries that may wait, > 0; as many again may be on their way to the disk
+  /// @param capacity  maximum number of waiting entries, > 0; the writer may hold the same number in addition
   RecordingThread(recording::McapWriter writer, std::size_t capacity);
   ~RecordingThread() { close(); }
   RecordingThread(const RecordingThread&) = delete;
   RecordingThread& operator=(const RecordingThread&) = delete;
 
-  /// Never blocks on the disk. @return false: dropped, the queue is full or writing has failed
+  /// Does not block on the disk. @return false when the entry is dropped: the queue is full, or writing has
+  /// failed
   bool put(Entry entry);
-  /// Writes what waits and closes the file. Calling it again does nothing.
+  /// Writes all waiting entries and closes the file. Further calls have no effect.
   void close();
 
-  [[nodiscard]] std::uint64_t written() const { return written_; }  ///< handed to the writer
+  [[nodiscard]] std::uint64_t written() const { return written_; }  ///< entries passed to the writer
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
-  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  ///< in the file
-  /// Why nothing is written any more; nothing while all is well.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  ///< size of the file
+  /// Reason of a write failure; nothing without a failure.
   [[nodiscard]] std::optional<std::string> failure() const;
 
  private:
@@ -55,7 +56,7 @@ class RecordingThread {
   std::optional<std::string> failure_;
   bool closing_ = false;
   std::atomic<std::uint64_t> written_{0}, dropped_{0}, bytes_{0};
-  std::thread thread_;  // last: starts when everything else is there
+  std::thread thread_;  // last member: starts after all other members are constructed
 };
 
 }  // namespace crane::recorder

@@ -24,10 +24,10 @@ std::string describe(int status) {
 
 /// Between fork and exec: only calls that are safe there.
 [[noreturn]] void become(const char* program, char* const* arguments, pid_t parent) {
-  ::setpgid(0, 0);  // a Ctrl-C on the terminal reaches the parent alone, which stops the stack in order
+  ::setpgid(0, 0);  // Ctrl-C then reaches only the parent, which stops the stack in order
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(1);
-  ::dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output belongs to what the user asked the parent for
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output contains only the result of the parent's command
   ::execv(program, arguments);
   ::_exit(127);
 }
@@ -67,7 +67,7 @@ void ChildProcesses::stop(std::chrono::milliseconds patience) noexcept {
   for (const auto& child : children_)
     if (child.running) {
       ::kill(child.pid, SIGTERM);
-      ::kill(child.pid, SIGCONT);  // one that was stopped has to run to end
+      ::kill(child.pid, SIGCONT);  // a stopped process must continue to handle SIGTERM
     }
   const auto give_up = std::chrono::steady_clock::now() + patience;
   for (auto& child : children_) {

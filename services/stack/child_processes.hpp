@@ -1,5 +1,5 @@
 #pragma once
-/// The processes of a stack as children of one command. They die with their parent, whatever happens to it.
+/// The processes of a stack as children of one command. The kernel ends them when their parent ends.
 #include <sys/types.h>
 
 #include <chrono>
@@ -10,7 +10,7 @@
 
 namespace crane::stack {
 
-/// A child that ended by itself.
+/// A child process that has ended by itself.
 struct Ended {
   std::string name;
   std::string how;     ///< "exit code 2", "signal 9 (Killed)"
@@ -26,10 +26,10 @@ class ChildProcesses {
 
   /// Starts `program` from the directory of the running executable. @throws std::runtime_error
   void start(const std::string& name, const std::string& program, const std::vector<std::string>& arguments);
-  /// The first child that has ended since it was started; nothing while all of them run.
+  /// The first child that has ended; nothing while all children run.
   [[nodiscard]] std::optional<Ended> ended();
-  /// SIGTERM to all, SIGKILL to who is still there after `patience`; waits for all. Last started, first
-  /// stopped.
+  /// Sends SIGTERM to all children in the reverse order of their start, and SIGKILL to those that still run
+  /// after `patience`. Waits for all.
   void stop(std::chrono::milliseconds patience = std::chrono::milliseconds{3000}) noexcept;
   [[nodiscard]] std::optional<pid_t> pid_of(const std::string& name) const;
 
@@ -42,7 +42,7 @@ class ChildProcesses {
   std::vector<Child> children_;
 };
 
-/// Directory of the running executable, where its siblings are.
+/// Directory of the running executable and of the other programs.
 [[nodiscard]] std::filesystem::path program_directory();
 
 }  // namespace crane::stack

@@ -1,12 +1,14 @@
 #pragma once
-/// Rig and scenario files by name: "maneuver_1" is deploy/scenarios/maneuver_1.toml of this installation.
+/// Finds rig and scenario files by name: "maneuver_1" is deploy/scenarios/maneuver_1.toml of this
+/// installation.
 #include <filesystem>
 #include <string>
 
 namespace crane::stack {
 
-/// A file as given, or the one of that name that comes with the project. @throws
-/// configuration::ConfigurationError listing the names there are
+/// @return the file itself, or the installed file with this name. @throws configuration::ConfigurationError
+/// with
+///   the list of installed names
 [[nodiscard]] std::filesystem::path find_rig(const std::string& name_or_path);
 [[nodiscard]] std::filesystem::path find_scenario(const std::string& name_or_path);
 

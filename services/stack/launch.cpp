@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "process/twin_component.hpp"
+#include "crane/twin/component.hpp"
 
 namespace crane::stack {
 
@@ -23,7 +23,7 @@ std::map<std::string, std::string> vendors_from(const std::vector<std::string>& 
     const auto refuse = [&](const std::string& why) {
       problems.push_back("--dds-for " + entry + ": " + why);
     };
-    if (!known) refuse("no process is called '" + name + "'");
+    if (!known) refuse("no process has the name '" + name + "'");
     if (vendor != "cyclone" && vendor != "fastdds") refuse("vendor must be cyclone or fastdds");
     vendors[name] = vendor;
   }
@@ -84,7 +84,7 @@ void wait_until_ready(ChildProcesses& children, const std::vector<runtime::Compo
     std::string names;
     for (const auto& name : missing) names += (names.empty() ? "" : ", ") + name;
     throw std::runtime_error("not ready after " + std::to_string(patience.count()) + " ms: " + names +
-                             "; look at their messages above, at --interface and at --domain");
+                             "; check their messages above, --interface and --domain");
   }
 }
 

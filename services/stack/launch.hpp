@@ -1,5 +1,5 @@
 #pragma once
-/// Starts the processes of a stack with the options they share, and waits until all of them are ready.
+/// Starts the processes of a stack with common options, and waits until all are ready.
 #include <map>
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 namespace crane::stack {
 
 struct LaunchOptions {
-  runtime::BusOptions bus;                     ///< vendor: of every process not named in `vendors`
+  runtime::BusOptions bus;  ///< its vendor applies to every process that is not in `vendors`
   std::map<std::string, std::string> vendors;  ///< by component name: "tracking" -> "fastdds"
   std::string rig;
   std::string controller;
@@ -21,8 +21,8 @@ struct LaunchOptions {
   bool verbose = false;
 };
 
-/// "NAME=VENDOR" entries as given to --dds-for. @throws configuration::ConfigurationError for an unknown name
-/// or vendor
+/// Parses the "NAME=VENDOR" arguments of --dds-for. @throws configuration::ConfigurationError for an unknown
+/// name or vendor
 [[nodiscard]] std::map<std::string, std::string> vendors_from(
     const std::vector<std::string>& entries, const std::vector<runtime::ComponentSpec>& specs);
 
@@ -30,21 +30,21 @@ struct LaunchOptions {
 void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
             const LaunchOptions& options);
 
-/// The process a rig needs besides the stack's: the emulated crane of an emulated board, else nothing.
+/// Starts the process of the emulated crane when the rig has an emulated board.
 /// @throws std::runtime_error when the program is missing
 void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const LaunchOptions& options);
 
-/// The model beside the crane, off the loop: ordinary scheduling, and the observers' vendor unless `vendors`
-/// has "twin".
-/// @param rig file of the model. @throws std::runtime_error when the program is missing
+/// Starts the live twin with ordinary scheduling, and with the vendor of the tools unless `vendors` contains
+/// "twin".
+/// @param rig  rig file of the model. @throws std::runtime_error when the program is missing
 void launch_twin(ChildProcesses& children, const std::string& rig, LaunchOptions options);
 
 /// Waits until every component has reported ready on crane/node.
-/// @throws std::runtime_error naming who ended or did not report within `patience`
+/// @throws std::runtime_error with the name of a component that ended, or did not report within `patience`
 void wait_until_ready(ChildProcesses& children, const std::vector<runtime::ComponentSpec>& specs,
                       bus::Bus& bus, std::chrono::milliseconds patience);
 
-/// One line about a child that ended by itself.
+/// One line about a child process that has ended by itself.
 [[nodiscard]] std::string describe(const Ended& ended);
 
 }  // namespace crane::stack

@@ -1,10 +1,10 @@
 #include "stack/stack.hpp"
 
 #include "anti_swing/anti_swing.hpp"
+#include "crane/emulated_rig/component.hpp"
+#include "crane/simulator/component.hpp"
+#include "crane/supervisor/component.hpp"
 #include "friction_compensation/friction_compensation.hpp"
-#include "process/hardware_bridge.hpp"
-#include "process/simulated_plant.hpp"
-#include "process/supervisor_component.hpp"
 #include "tracking/tracking.hpp"
 #include "trajectory_planner/trajectory_planner.hpp"
 
@@ -27,7 +27,9 @@ std::vector<runtime::ComponentSpec> simulated_stack() {
   return stack_behind(simulator::simulated_plant_spec());
 }
 
-std::vector<runtime::ComponentSpec> hardware_stack() { return stack_behind(bridge::hardware_bridge_spec()); }
+std::vector<runtime::ComponentSpec> hardware_stack() {
+  return stack_behind(emulated_rig::hardware_bridge_spec());
+}
 
 std::vector<runtime::ComponentSpec> stack_with(Plant plant) {
   return plant == Plant::hardware ? hardware_stack() : simulated_stack();

@@ -1,6 +1,6 @@
 #pragma once
-/// The components of a stack. Each ComponentSpec declares the topics it reads and writes; `crane graph` and
-/// docs/architecture.md show all of them.
+/// The components of a stack. Each ComponentSpec declares the topics that it reads and writes. `crane graph`
+/// and docs/architecture.md show all of them.
 #include <vector>
 
 #include "crane/runtime/process.hpp"
@@ -9,10 +9,10 @@ namespace crane::stack {
 
 enum class Plant { simulated, hardware };
 
-/// The loop in the order in which one tick passes through it: clock master first.
+/// Components of the control loop in the order of the processing of one tick; the first is the clock master.
 [[nodiscard]] std::vector<runtime::ComponentSpec> stack_with(Plant plant);
 [[nodiscard]] std::vector<runtime::ComponentSpec> simulated_stack();
-/// The bridge in the place of the simulated plant, on the board that the rig file names.
+/// stack_with() with the hardware bridge instead of the simulated plant.
 [[nodiscard]] std::vector<runtime::ComponentSpec> hardware_stack();
 
 }  // namespace crane::stack

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "process/hardware_bridge.hpp"
-#include "process/twin_component.hpp"
+#include "crane/bridge/component.hpp"
+#include "crane/twin/component.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::stack {
@@ -24,7 +24,7 @@ std::string joined(const std::vector<std::string>& parts, const std::string& sep
 
 bool names(const Description* listed, const Description& topic) { return listed->name == topic.name; }
 
-/// Topics that tools and every process write or read without a wiring of their own.
+/// Topics that tools and every process write or read without a declaration in a ComponentSpec.
 bool is_observers_business(const Description& topic) {
   return names(&topics::node.description, topic) || names(&topics::event.description, topic);
 }
@@ -65,7 +65,7 @@ std::string_view name_of(topics::Qos qos) {
   return "";
 }
 
-/// "crane/anti_swing" -> "anti_swing".
+/// Short name of a topic: "crane/anti_swing" -> "anti_swing".
 std::string short_name(const Description& topic) {
   const std::string name{topic.name};
   return name.substr(name.find('/') + 1);

@@ -1,6 +1,6 @@
 #pragma once
-/// The wiring of a stack, drawn from what its components declare: as a table and a diagram for the documents,
-/// as dot or JSON for tools.
+/// The wiring of a stack according to its ComponentSpecs: as tables and a diagram for the documents, as dot
+/// and JSON for tools.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -14,11 +14,11 @@ namespace crane::stack {
 
 /// Markdown: one line per topic with its type, writers, readers and quality of service.
 [[nodiscard]] std::string wiring_table(const std::vector<runtime::ComponentSpec>& components);
-/// Markdown: what each component reads and writes, and what for.
+/// Markdown: the topics that each component reads and writes, with the purpose.
 [[nodiscard]] std::string component_table(const std::vector<runtime::ComponentSpec>& components);
 /// Mermaid flow chart: components are nodes, topics are arrows.
 [[nodiscard]] std::string wiring_mermaid(const std::vector<runtime::ComponentSpec>& components);
-/// Graphviz.
+/// Diagram for Graphviz.
 [[nodiscard]] std::string wiring_dot(const std::vector<runtime::ComponentSpec>& components);
 [[nodiscard]] nlohmann::ordered_json wiring_json(const std::vector<runtime::ComponentSpec>& components);
 

@@ -7,7 +7,7 @@ namespace {
 
 using runtime::Context;
 
-/// The law, its memory, and the sample it fills.
+/// The tracking law, its memory and its output sample.
 class TrackingStep {
  public:
   explicit TrackingStep(const Context& context)
@@ -32,7 +32,7 @@ class TrackingStep {
   bool started_ = false;
 };
 
-constexpr double kWaitShare = 0.4;  // of a period, for the rest of a tick
+constexpr double kWaitShare = 0.4;  // longest wait for the inputs of a tick / period
 
 class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:
@@ -48,7 +48,8 @@ class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
   TrackingStep step_;
 };
 
-/// For controllers whose anti-swing law moves the reference instead of giving volts (figure 3.18).
+/// Tracking for controllers whose anti-swing law corrects the reference instead of adding volts (figure 3.18
+/// of H. M. Omar, Control of Gantry and Tower Cranes).
 class CorrectedTracking : public runtime::JoinedComponent<msg::State, msg::Reference, msg::Contribution> {
  public:
   explicit CorrectedTracking(const Context& context)
@@ -79,7 +80,7 @@ bool corrects_reference(const control::Controller& controller) { return controll
 runtime::ComponentSpec tracking_spec() {
   return {.name = "tracking",
           .program = "crane_tracking",
-          .summary = "Volts that keep trolley, slew and hoist on their reference.",
+          .summary = "Tracking law: volts that make trolley, slew and hoist follow their reference.",
           .source = crane_SOURCE_TRACKING,
           .runs_controller = true,
           .reads = {{&topics::state.description, "positions and speeds of the axes"},

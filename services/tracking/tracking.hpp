@@ -1,5 +1,6 @@
 #pragma once
-/// Tracking: what keeps each axis on its reference. State and reference in, volts out.
+/// The process of the tracking law, which makes each axis follow its reference. Input: state and reference;
+/// output: volts.
 #include <optional>
 
 #include "crane/runtime/joined_component.hpp"
@@ -7,8 +8,8 @@
 
 namespace crane::services {
 
-/// Joins crane/state and crane/reference, and crane/anti_swing for controllers whose anti-swing law corrects
-/// the reference; publishes crane/tracking.
+/// Joins crane/state and crane/reference; also crane/anti_swing for controllers whose anti-swing law corrects
+/// the reference. Publishes crane/tracking.
 [[nodiscard]] runtime::ComponentSpec tracking_spec();
 
 }  // namespace crane::services

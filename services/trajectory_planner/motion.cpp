@@ -42,7 +42,7 @@ control::AxisProfile Motion::planned(std::size_t axis, double start, double targ
   return control::limited_profile(start, target, limits);
 }
 
-/// For the mean of the cable lengths at both ends of the move.
+/// Shaper for the mean of the cable lengths at both ends of the move.
 control::Shaper Motion::shaper() const {
   const auto& design = rig_.design;
   const auto& cable = trajectory_[control::kHoist];
@@ -120,9 +120,9 @@ control::Reference Motion::at(std::uint64_t tick) const noexcept {
 
 bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept {
   if (creeping_) return false;
-  constexpr double kBand = 0.01;     // m, rad
-  constexpr double kSlow = 0.01;     // per second
-  constexpr double kLongest_s = 20;  // friction may hold an axis outside the band for ever
+  constexpr double kBand = 0.01;     // largest distance from the reference, m, rad
+  constexpr double kSlow = 0.01;     // largest speed, m/s, rad/s
+  constexpr double kLongest_s = 20;  // longest wait; friction may hold an axis outside the band
   const double end_s =
       excitation_ ? excitation_->duration_s : control::duration_s(trajectory_) + shaper_.delay_s();
   if (time_s(tick) > end_s + kLongest_s) return true;

@@ -1,5 +1,6 @@
 #pragma once
-/// The planner's memory without the bus: what is being followed and since when.
+/// The reference of the trajectory planner, without the bus: the present profile of each axis and its start
+/// time.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -12,7 +13,7 @@
 
 namespace crane::services {
 
-/// What a move asks for. Axes that are not selected stay where their reference is.
+/// Target of a move. The reference of an axis that is not selected does not change.
 struct MoveTarget {
   std::array<bool, control::kAxes> selected{};
   std::array<double, control::kAxes> target{};  ///< m, rad, m of cable
@@ -23,25 +24,25 @@ class Motion {
   /// @param rig  limits of the reference per drive; must outlive the motion
   Motion(const configuration::Rig& rig, control::ReferenceShape shape) : rig_{rig}, shape_{shape} {}
 
-  /// Rest at what is measured: the crane is not under control.
+  /// Sets the reference to the measured position, while the crane is not under control.
   void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
-  /// Begin a move at `tick` from the present reference.
+  /// Begins a move at `tick` from the present reference.
   void start(const MoveTarget& move, std::uint64_t tick);
-  /// Excite one axis from `tick` on; the others stay where their reference is.
+  /// Excites one axis from `tick` on. The references of the other axes do not change.
   void excite(const control::Excitation& excitation, std::uint64_t tick);
-  /// Come to rest from the measured speed at the reference acceleration.
+  /// Decelerates from the measured speed with the reference acceleration until rest.
   void stop(const control::Measurement& measured, std::uint64_t tick) noexcept;
-  /// Move at constant speeds, per second; 0: stay. A new speed begins where the axis is, so that a mark that
-  /// is seen is not passed by the way that the axis lags behind.
+  /// Moves with constant speeds (m/s, rad/s, m/s of cable); 0: rest. A new speed starts at the measured
+  /// position, so that the axis stops close to a mark when it is detected, without the tracking error.
   void creep(const std::array<double, control::kAxes>& speed, const control::Measurement& measured,
              std::uint64_t tick) noexcept;
   /// Reference at `tick`.
   [[nodiscard]] control::Reference at(std::uint64_t tick) const noexcept;
-  /// The reference has ended and the crane rests on it.
+  /// True when the reference has ended and the crane is at rest at it.
   [[nodiscard]] bool arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept;
 
  private:
-  /// Braking from a speed to rest at constant deceleration; a profile at rest where `speed` is 0.
+  /// Constant deceleration from a speed to rest; with `speed` 0 the axis is at rest.
   struct Braking {
     double start = 0, speed = 0, deceleration = 1;
     [[nodiscard]] control::AxisReference at(double time_s) const noexcept;
@@ -56,9 +57,9 @@ class Motion {
   const configuration::Rig& rig_;
   control::ReferenceShape shape_;
   control::Trajectory trajectory_{};
-  control::Shaper shaper_;  ///< of trolley and slew; the hoist makes no swing
+  control::Shaper shaper_;  ///< for trolley and slew; the hoist causes no swing
   std::array<Braking, control::kAxes> braking_{};
-  std::optional<control::Excitation> excitation_;  ///< takes the place of its axis' profile
+  std::optional<control::Excitation> excitation_;  ///< replaces the profile of its axis
   std::optional<Creeping> creeping_;
   bool is_braking_ = false;
   std::uint64_t start_tick_ = 0;

@@ -12,8 +12,8 @@ namespace crane::services {
 namespace {
 
 using runtime::Context;
-constexpr double kWaitShare =
-    0.8;  // of a period: off the critical path, the reference is needed at the next tick
+/// Longest wait for the inputs of a tick / period. The reference is not needed before the next tick.
+constexpr double kWaitShare = 0.8;
 
 MoveTarget target_of(const msg::AcceptedMove& request) {
   MoveTarget move;
@@ -24,7 +24,7 @@ MoveTarget target_of(const msg::AcceptedMove& request) {
   return move;
 }
 
-/// @pre exactly one axis is selected, as the supervisor has seen to
+/// @pre exactly one axis is selected; the supervisor checks this
 control::Excitation excitation_of(const msg::AcceptedMove& request) {
   control::Excitation excitation;
   while (excitation.axis + 1 < control::kAxes && !request.selected[excitation.axis]) ++excitation.axis;
@@ -45,7 +45,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
         motion_{context.rig, context.controller.reference} {}
 
  protected:
-  /// At the first tick, and after a gap, nobody has published the reference of the tick that waits for it.
+  /// At the first tick and after a gap, the reference of the present tick was not published during the
+  /// previous tick.
   bool on_idle(std::int64_t /*now_ns*/) override {
     const auto* state = open_leader();
     if (state == nullptr || published_ == state->header.tick) return false;
@@ -67,6 +68,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     if (missing_statuses_ >= stale_after_ticks_) supervisor_ = crane_STATE_BOOT;
     const auto measured = runtime::measurement(*state);
     const auto next = tick + 1;
+    // A planner that starts beside an armed crane has no reference yet: it begins where the crane is.
+    if (!published_) motion_.follow(measured, next);
     if (supervisor_ == crane_STATE_STOP_C1) {
       if (!stopping_) motion_.stop(measured, next);
     } else if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) {
@@ -115,8 +118,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   int missing_statuses_ = 0;
   bool stopping_ = false;
   std::uint32_t supervisor_epoch_ = 0;        ///< start-up number of the supervisor that counts the moves
-  std::optional<std::uint64_t> known_moves_;  ///< number of the last move that is executed or out of date
-  std::uint64_t move_number_ = 0;             ///< of the move that the reference executes
+  std::optional<std::uint64_t> known_moves_;  ///< number of the last move that is executed or obsolete
+  std::uint64_t move_number_ = 0;             ///< number of the move that the reference executes
 };
 
 }  // namespace
@@ -125,8 +128,7 @@ runtime::ComponentSpec trajectory_planner_spec() {
   return {
       .name = "trajectory_planner",
       .program = "crane_trajectory_planner",
-      .summary =
-          "Where each axis is to be: steps, accelerate-coast-brake or S-curve moves, shaped if asked for.",
+      .summary = "Trajectory planner: steps, bang-coast-bang or S-curve moves, with optional input shaping.",
       .source = crane_SOURCE_PLANNER,
       .runs_controller = true,
       .reads = {{&topics::state.description, "where the axes are when a move begins"},

@@ -1,13 +1,13 @@
 #pragma once
-/// Trajectory planner: where each axis is to be at the next tick.
+/// The process of the trajectory planner: computes the reference of each axis for the next tick.
 #include "crane/runtime/joined_component.hpp"
 #include "crane/runtime/process.hpp"
 
 namespace crane::services {
 
-/// Joins crane/state and crane/supervisor; publishes crane/reference for the following tick, off the critical
-/// path. While the crane is not held or run by the supervisor the reference is where the crane is, so that
-/// arming never makes a step. A move begins when the supervisor has accepted its request.
+/// Joins crane/state and crane/supervisor; publishes crane/reference for the following tick, outside the
+/// critical path. In all states except HOLD and RUN the reference is the measured position, so that arming
+/// causes no step. A move begins when the supervisor has accepted its request.
 [[nodiscard]] runtime::ComponentSpec trajectory_planner_spec();
 
 }  // namespace crane::services

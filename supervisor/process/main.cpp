@@ -1,5 +1,5 @@
 #include "crane/runtime/process.hpp"
-#include "process/supervisor_component.hpp"
+#include "crane/supervisor/component.hpp"
 
 int main(int argc, char** argv) {
   return crane::runtime::run_process(argc, argv, crane::supervisor::supervisor_spec());

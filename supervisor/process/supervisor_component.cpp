@@ -1,4 +1,4 @@
-#include "process/supervisor_component.hpp"
+#include "crane/supervisor/component.hpp"
 
 #include <algorithm>
 #include <string>

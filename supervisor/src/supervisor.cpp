@@ -170,10 +170,10 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .watchdog_dropped = sample.watchdog_dropped,
       .second_writer = input.second_writer,
       .bridge_restarted = input.bridge_restarted,
-      .place_unclear =
-          unclear<kAxes, .unclear_axis = unclear % kAxes, .load_unclear = memory.restart.load_doubted,
-                  .overrun = limits.overruns_in_row> 0 &&
-          memory.overruns_in_row >= limits.overruns_in_row,
+      .place_unclear = (unclear < kAxes),
+      .unclear_axis = unclear % kAxes,
+      .load_unclear = memory.restart.load_doubted,
+      .overrun = limits.overruns_in_row > 0 && memory.overruns_in_row >= limits.overruns_in_row,
       .brake_failed = brakes_failed,
       .moved_while_arming =
           memory.machine.releasing && moved(limits, memory.release_position, memory.motion.position),

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "crane/boards/emulated_board.hpp"
-#include "crane/boards/wired_rig.hpp"
 #include "crane/bring_up/selftest.hpp"
+#include "crane/emulated_rig/wired_rig.hpp"
 
 namespace crane::bring_up::test {
 
@@ -43,10 +43,10 @@ class StuckRig final : public bridge::EmulatedRig {
   }
   void require_alive() override {}
 
-  [[nodiscard]] bridge::WiredRig& wired() { return rig_; }
+  [[nodiscard]] emulated_rig::WiredRig& wired() { return rig_; }
 
  private:
-  bridge::WiredRig rig_;
+  emulated_rig::WiredRig rig_;
   StuckLines stuck_;
 };
 
@@ -62,7 +62,7 @@ class Bench {
   }
   [[nodiscard]] Session& session() { return *session_; }
   void end_session() { session_.reset(); }
-  [[nodiscard]] bridge::WiredRig& rig() { return rig_->wired(); }
+  [[nodiscard]] emulated_rig::WiredRig& rig() { return rig_->wired(); }
   [[nodiscard]] const configuration::Rig& told() const { return told_; }
   void pass(std::int64_t duration_ns) { rig_->advance_to(rig_->now_ns() + duration_ns); }
   void expect_safe() {

@@ -211,8 +211,8 @@ TEST_F(Observers, MoveThatThePlannerNeverHeardOfIsNotDone) {
   const FakeSupervisor supervisor{crane_, true, Planner::deaf};
   MoveFollower follower{tool_};
   const auto id = ask(tool_, kMove, kPatience).id;
-  EXPECT_THAT([&] { follower.follow(id, 10); }, testing::ThrowsMessage<std::runtime_error>(
-                                                    HasSubstr("the trajectory planner did not take it up")));
+  EXPECT_THAT([&] { follower.follow(id, 10); }, testing::ThrowsMessage<std::runtime_error>(HasSubstr(
+                                                    "the trajectory planner has not executed the move")));
 }
 
 TEST_F(Observers, MoveIsNotSentBeforeThePlannerIsFound) {

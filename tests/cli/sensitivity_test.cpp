@@ -11,14 +11,14 @@
 namespace crane::cli {
 namespace {
 
-stack::PlannedRun plan_with(const std::string& controller) {
+experiments::PlannedRun plan_with(const std::string& controller) {
   const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   return {experiment::load_scenario(stack::find_scenario("maneuver_1"), &rig), rig,
           control::find_controller(controller), ""};
 }
 
 /// The plan as the named departure changes it.
-stack::PlannedRun departed(const std::string& controller, const std::string& quantity, double value) {
+experiments::PlannedRun departed(const std::string& controller, const std::string& quantity, double value) {
   auto plan = plan_with(controller);
   for (const auto& departure : departures(plan))
     if (departure.quantity == quantity && departure.value == value) {
@@ -82,7 +82,7 @@ TEST(SensitivityTable, SaysWhatSettledWhatDidNotAndWhatWasStopped) {
   const std::vector<DepartedRun> runs{{"", "", 0, settled}, {"load_mass", "%", 50, stopped}};
   std::ostringstream markdown, csv;
   write_sensitivity_markdown(markdown, runs);
-  EXPECT_NE(markdown.str().find("| as designed | 3.46 / 0.57 |"), std::string::npos) << markdown.str();
+  EXPECT_NE(markdown.str().find("| nominal | 3.46 / 0.57 |"), std::string::npos) << markdown.str();
   EXPECT_NE(markdown.str().find("| load_mass +50 % | stopped: swing |"), std::string::npos) << markdown.str();
   write_sensitivity_csv(csv, runs);
   EXPECT_NE(csv.str().find("\nmaneuver_1,none,load_mass,%,50,,,,,swing\n"), std::string::npos) << csv.str();

@@ -194,9 +194,9 @@ Design design_with_friction() {
 
 TEST(ForwardGain, LeavesTheFrictionCompensationItsVolts) {
   const Design design = design_with_friction();
-  EXPECT_DOUBLE_EQ(volts_left_v(design, kTrolley, true), 9.0);  // stiction 1.0 above Coulomb 0.9
-  EXPECT_DOUBLE_EQ(volts_left_v(design, kTrolley, false), 8.8);
-  EXPECT_DOUBLE_EQ(volts_left_v(design, kSlew, true), 9.3);
+  EXPECT_DOUBLE_EQ(available_control_v(design, kTrolley, true), 9.0);  // stiction 1.0 above Coulomb 0.9
+  EXPECT_DOUBLE_EQ(available_control_v(design, kTrolley, false), 8.8);
+  EXPECT_DOUBLE_EQ(available_control_v(design, kSlew, true), 9.3);
 }
 
 /// Gain that a reference from rest at `from` to `to` gets.

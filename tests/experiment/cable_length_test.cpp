@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "stack/comparison_run.hpp"
+#include "experiments/comparison_run.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::experiment {
@@ -27,7 +27,7 @@ TEST_P(CableOffNominal, SwingsWithTheTrueCableWhileTheEncoderShowsTheNominalOne)
       "description = \"a push\"\nduration_s = 15\n[start]\ntrolley_position_m = 0.7\n[[kick]]\nat_s = 0.5\n"
       "radial_degps = 10\n",
       "push.toml", &rig);
-  const auto run = stack::simulate({scenario, rig, control::find_controller("none"), variant});
+  const auto run = experiments::simulate({scenario, rig, control::find_controller("none"), variant});
   ASSERT_EQ(run.stopped_because, "");
   // Small swing below a trolley that is held: 1 % for its giving way and the grid of ticks.
   const double expected_s = 2 * std::numbers::pi * std::sqrt(true_length_m / rig.plant.gravity_mps2);

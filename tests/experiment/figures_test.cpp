@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "stack/comparison_run.hpp"
+#include "experiments/comparison_run.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::experiment {
@@ -22,7 +22,7 @@ std::string number_of(const std::string& name) {
   return name.substr(7, 1) + "." + std::to_string(std::stoi(name.substr(9)));
 }
 
-stack::PlannedRun plan_of(const std::string& figure) {
+experiments::PlannedRun plan_of(const std::string& figure) {
   const auto file = stack::find_scenario(figure);
   const Scenario wish = load_scenario(file);
   const auto rig =
@@ -37,7 +37,7 @@ TEST_P(Figure, RunsToItsEndWithItsFirstControllerAndVariant) {
   const auto plan = plan_of(GetParam());
   EXPECT_THAT(plan.scenario.description, testing::StartsWith("Figure " + number_of(GetParam()) + ": "))
       << "a file that extends another has a description of its own";
-  const auto run = stack::simulate(plan);
+  const auto run = experiments::simulate(plan);
   EXPECT_EQ(run.stopped_because, "");
   ASSERT_TRUE(run.metrics);
   EXPECT_NEAR(run.samples.back().time_s, plan.scenario.end_s(), plan.rig.period_s);

@@ -7,12 +7,16 @@
 #include <fstream>
 #include <sstream>
 
-#include "crane/experiment/plane_picture.hpp"
+#include "crane/plot/plane.hpp"
 #include "signals.hpp"
 
 namespace crane::experiment {
 namespace {
 
+using plot::draw_plane;
+using plot::PictureError;
+using plot::Plane;
+using plot::PlaneMap;
 using testing::HasSubstr;
 
 const Caption kCaption{"virginia_tech_tower", "gain_scheduling_partial", "maneuver_1"};

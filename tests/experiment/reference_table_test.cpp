@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "stack/comparison_run.hpp"
+#include "experiments/comparison_run.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::experiment {
@@ -41,7 +41,8 @@ TEST_P(ReferenceTable, HoldsWithinTenPercent) {
   const Row& row = GetParam();
   const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   const auto scenario = load_scenario(stack::find_scenario("maneuver_" + std::to_string(row.maneuver)), &rig);
-  const auto run = stack::simulate({scenario, rig, control::find_controller(row.controller), row.variant});
+  const auto run =
+      experiments::simulate({scenario, rig, control::find_controller(row.controller), row.variant});
   ASSERT_EQ(run.stopped_because, "");
   const Metrics& ours = run.metrics.value();
   ASSERT_TRUE(ours.settling_time_s);

@@ -95,12 +95,13 @@ at_s = -1
   EXPECT_THAT(problems, testing::Contains(HasSubstr("s.toml:1: descripton")));
   EXPECT_THAT(problems, testing::Contains(HasSubstr("s.toml:2: duration_s = 0: must be in (0, 86400]")));
   EXPECT_THAT(problems, testing::Contains(HasSubstr("s.toml:4: start.trolley_position_m = \"here\"")));
-  EXPECT_THAT(problems, testing::Contains(HasSubstr(
-                            "s.toml:5: start.slew_angle_deg = 1: give it or slew_angle_rad, not both")));
+  EXPECT_THAT(problems,
+              testing::Contains(HasSubstr(
+                  "s.toml:5: start.slew_angle_deg = 1: give either this key or slew_angle_rad, not both")));
   EXPECT_THAT(problems,
               testing::Contains(HasSubstr("s.toml:7: start.cable_length_m = 0: must be finite and > 0")));
-  EXPECT_THAT(problems, testing::Contains(HasSubstr("the move names no axis")));
-  EXPECT_THAT(problems, testing::Contains(HasSubstr("at_s = 4: must be later than the move before")));
+  EXPECT_THAT(problems, testing::Contains(HasSubstr("the move has no target")));
+  EXPECT_THAT(problems, testing::Contains(HasSubstr("at_s = 4: must be later than the previous move")));
   EXPECT_THAT(problems, testing::Contains(HasSubstr("at_s = -1: must be in [0, 86400]")));
   EXPECT_THAT(problems, testing::Contains(HasSubstr("the kick has no rate")));
 }
@@ -119,14 +120,14 @@ slew_angle_deg = 200
   EXPECT_THAT(
       problems,
       ElementsAre(
-          testing::AllOf(HasSubstr("s.toml:3: start.trolley_position_m = 1.9: must lie in [0.05, 1.25], "
+          testing::AllOf(HasSubstr("s.toml:3: start.trolley_position_m = 1.9: must be in [0.05, 1.25], "
                                    "the travel of virginia_tech_tower")),
           testing::AllOf(HasSubstr("s.toml:6: "),
-                         HasSubstr("trolley_position_m = 2.4: must lie in "
-                                   "[0.1, 1.2], the travel of virginia_tech_tower less its margin")),
+                         HasSubstr("trolley_position_m = 2.4: must be in "
+                                   "[0.1, 1.2], the travel of virginia_tech_tower minus the soft margin")),
           testing::AllOf(HasSubstr("s.toml:7: "),
-                         HasSubstr("slew_angle_deg = 200: must lie in "
-                                   "[-175, 175], the travel of virginia_tech_tower less its margin"))));
+                         HasSubstr("slew_angle_deg = 200: must be in "
+                                   "[-175, 175], the travel of virginia_tech_tower minus the soft margin"))));
 }
 
 TEST(Scenario, AllowsATargetExactlyOnTheMarginInDegrees) {

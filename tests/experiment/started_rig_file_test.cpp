@@ -1,4 +1,4 @@
-#include "stack/started_rig_file.hpp"
+#include "experiments/started_rig_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,14 +6,14 @@
 #include "crane/experiment/variant.hpp"
 #include "stack/data_files.hpp"
 
-namespace crane::stack {
+namespace crane::experiments {
 namespace {
 
 class StartedRigFile : public testing::TestWithParam<std::string> {};
 
 /// What processes read must be what the components in one process get.
 TEST_P(StartedRigFile, ReadsBackAsTheRigThatRuns) {
-  const auto rig = configuration::load_rig(find_rig("virginia_tech_tower"));
+  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   experiment::Scenario scenario;
   scenario.start = {0.7, 0.1, {}};
   scenario.swing_radial_rad = 0.05;
@@ -41,4 +41,4 @@ INSTANTIATE_TEST_SUITE_P(Variants, StartedRigFile, testing::ValuesIn(every_varia
 });
 
 }  // namespace
-}  // namespace crane::stack
+}  // namespace crane::experiments

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "crane/boards/emulated_board.hpp"
-#include "crane/boards/wired_rig.hpp"
 #include "crane/bridge/bridge.hpp"
+#include "crane/bridge/component.hpp"
+#include "crane/emulated_rig/wired_rig.hpp"
 #include "crane/runtime/in_process.hpp"
-#include "process/hardware_bridge.hpp"
 
 namespace crane::bridge {
 namespace {
@@ -58,7 +58,7 @@ class BridgeLoop : public testing::Test {
   const control::Controller& none_ = *control::find_controller("none");
   runtime::Ports ports_{own_, spec_, none_, runtime::Clock::realtime};
   Bridge bridge_{{ports_, node_, rig_, none_, own_.options(), runtime::Clock::realtime},
-                 std::make_unique<EmulatedBoard>(rig_, std::make_unique<WiredRig>(rig_))};
+                 std::make_unique<EmulatedBoard>(rig_, std::make_unique<emulated_rig::WiredRig>(rig_))};
 };
 
 TEST_F(BridgeLoop, ACommandThatAnswersABridgeBeforeItIsNotListenedTo) {

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "crane/boards/wired_rig.hpp"
+#include "crane/emulated_rig/wired_rig.hpp"
 
 namespace crane::bridge::test {
+
+using emulated_rig::WiredRig;
 
 class ComediStandIn {
  public:

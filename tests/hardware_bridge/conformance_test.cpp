@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "crane/bridge/bridge.hpp"
+#include "crane/bridge/component.hpp"
 #include "crane/bridge/measurement.hpp"
 #include "crane/runtime/in_process.hpp"
-#include "process/hardware_bridge.hpp"
 #include "subject.hpp"
 
 namespace crane::bridge::test {

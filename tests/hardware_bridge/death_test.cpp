@@ -11,9 +11,12 @@
 #include <thread>
 
 #include "crane/boards/linked_rig.hpp"
+#include "crane/emulated_rig/rig_server.hpp"
 #include "subject.hpp"
 
 namespace crane::bridge::test {
+
+using emulated_rig::RigServer;
 namespace {
 
 std::string unique_name(const std::string& part) {

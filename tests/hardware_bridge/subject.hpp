@@ -7,9 +7,9 @@
 #include "comedi_stand_in.hpp"
 #include "crane/boards/comedi.hpp"
 #include "crane/boards/emulated_board.hpp"
-#include "crane/boards/wired_rig.hpp"
+#include "crane/emulated_rig/wired_rig.hpp"
+#include "crane/simulator/component.hpp"
 #include "crane/simulator/simulated_board.hpp"
-#include "process/simulated_plant.hpp"
 
 namespace crane::bridge::test {
 

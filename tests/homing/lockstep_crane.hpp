@@ -7,11 +7,11 @@
 #include <string>
 
 #include "crane/boards/emulated_board.hpp"
-#include "crane/boards/wired_rig.hpp"
 #include "crane/bridge/bridge.hpp"
+#include "crane/emulated_rig/wired_rig.hpp"
 #include "crane/runtime/in_process.hpp"
+#include "crane/simulator/component.hpp"
 #include "crane/supervisor/states.hpp"
-#include "process/simulated_plant.hpp"
 #include "stack/operator_client.hpp"
 #include "stack/stack.hpp"
 
@@ -34,7 +34,7 @@ class SpoiltBoard final : public bridge::Board {
               Spoil& spoil)
       : spoil_{spoil} {
     if (kind == "emulated") {
-      auto rig = std::make_unique<bridge::WiredRig>(wired);
+      auto rig = std::make_unique<emulated_rig::WiredRig>(wired);
       crane_ = &rig->crane();
       board_ = std::make_unique<bridge::EmulatedBoard>(told, std::move(rig));
     } else {

@@ -3,10 +3,10 @@
 
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/scenario.hpp"
+#include "experiments/experiment_run.hpp"
 #include "stack/data_files.hpp"
-#include "stack/experiment_run.hpp"
 
-namespace crane::stack {
+namespace crane::experiments {
 namespace {
 
 constexpr double kMiddle_m = 0.75;
@@ -22,7 +22,7 @@ experiment::Scenario following(double amplitude_m, double frequency_hz, double p
 }
 
 std::vector<experiment::Sample> run(const experiment::Scenario& scenario) {
-  const auto rig = configuration::load_rig(find_rig("virginia_tech_tower"));
+  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   const auto started = experiment::started_by(rig, scenario);
   TickLog log{std::nullopt};
   const auto outcome = run_in_process(started, runtime::chosen_controller("none", rig), scenario, log);
@@ -69,4 +69,4 @@ TEST(FollowRequest, IsRefusedWithoutAPhase) {
 }
 
 }  // namespace
-}  // namespace crane::stack
+}  // namespace crane::experiments

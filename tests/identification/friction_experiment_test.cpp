@@ -1,5 +1,5 @@
 /// The guided experiment on the whole stack: the simulated rigs' own friction comes back.
-#include "stack/friction_experiment.hpp"
+#include "identification/friction_experiment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include "../recording/temporary_directory.hpp"
 #include "crane/experiment/scenario.hpp"
 #include "crane/plant/coordinates.hpp"
-#include "stack/axis_data.hpp"
+#include "identification/axis_data.hpp"
 #include "stack/data_files.hpp"
 
-namespace crane::stack {
+namespace crane::identification {
 namespace {
 
 struct Case {
@@ -37,7 +37,7 @@ class FrictionExperiment : public testing::TestWithParam<Case> {};
 TEST_P(FrictionExperiment, FindsTheFrictionOfTheSimulatedRig) {
   const recording::TemporaryDirectory directory;
   FrictionExperimentOptions options;
-  options.rig = find_rig(GetParam().rig);
+  options.rig = stack::find_rig(GetParam().rig);
   options.axis = GetParam().axis;
   options.directory = directory / "out";
   options.in_process = true;
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Rigs, FrictionExperiment,
 TEST(FrictionExperiment, RefusesADriveThatTheRigDoesNotHave) {
   const recording::TemporaryDirectory directory;
   FrictionExperimentOptions options;
-  options.rig = find_rig("drive_axis");
+  options.rig = stack::find_rig("drive_axis");
   options.axis = plant::kSlew;
   options.directory = directory / "out";
   EXPECT_THROW((void)identify_friction(options), configuration::ConfigurationError);
@@ -91,7 +91,7 @@ TEST(FrictionExperiment, RefusesADriveThatTheRigDoesNotHave) {
 TEST(FrictionExperiment, GivesNoAnswerWhereThereIsNoFriction) {
   const recording::TemporaryDirectory directory;
   FrictionExperimentOptions options;
-  options.rig = find_rig("virginia_tech_tower_ideal");
+  options.rig = stack::find_rig("virginia_tech_tower_ideal");
   options.directory = directory / "out";
   options.in_process = true;
   EXPECT_THROW((void)identify_friction(options), identification::IdentificationError);
@@ -106,7 +106,7 @@ TEST(AxisData, RefusesARunWithGaps) {
     table.columns[1].values.push_back(0);
     table.columns[2].values.push_back(0);
   }
-  const auto rig = configuration::load_rig(find_rig("drive_axis"));
+  const auto rig = configuration::load_rig(stack::find_rig("drive_axis"));
   EXPECT_THROW((void)axis_run_from(table, rig, plant::kTrolley, 0, 10), identification::IdentificationError);
   auto ticks = table;
   ticks.columns.push_back({"tick", {}});
@@ -116,4 +116,4 @@ TEST(AxisData, RefusesARunWithGaps) {
 }
 
 }  // namespace
-}  // namespace crane::stack
+}  // namespace crane::identification

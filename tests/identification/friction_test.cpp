@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
                  run.drive_v.resize(99);
                },
                "only 99 samples"},
-        BadRun{"OfDifferentLengths", [](AxisRun& run) { run.drive_v.pop_back(); }, "differ in number"},
+        BadRun{"OfDifferentLengths", [](AxisRun& run) { run.drive_v.pop_back(); }, "differ in length"},
         BadRun{"NotFinite", [](AxisRun& run) { run.position[700] = std::nan(""); }, "not finite"},
         BadRun{"WithoutVoltage", [](AxisRun& run) { run.drive_v.assign(run.drive_v.size(), 1.5); },
                "voltage is constant"},

@@ -66,11 +66,13 @@ TEST(ScenarioExcitation, ReportsItsProblemsWithTheirLines) {
   EXPECT_EQ(problems_of(kText), "");
   EXPECT_NE(problems_of(replaced(kText, "0.75", "1.2")).find("x.toml:6: excitation"), std::string::npos)
       << problems_of(replaced(kText, "0.75", "1.2"));
-  EXPECT_NE(problems_of(replaced(kText, "[0.3333, 0.25]", "[0.3333]")).find("as many as frequencies_hz"),
-            std::string::npos);
+  EXPECT_NE(
+      problems_of(replaced(kText, "[0.3333, 0.25]", "[0.3333]")).find("as many values as frequencies_hz"),
+      std::string::npos);
   EXPECT_NE(problems_of(replaced(kText, "\"slew\"", "\"jib\"")).find("axis"), std::string::npos);
-  EXPECT_NE(problems_of(replaced(kText, "at_s = 65", "at_s = 0.2")).find("later than the excitation before"),
-            std::string::npos);
+  EXPECT_NE(
+      problems_of(replaced(kText, "at_s = 65", "at_s = 0.2")).find("later than the previous excitation"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -320,12 +320,14 @@ TEST(Terms, ListEveryProblemOfEverySetting) {
       {"drive_friction", "radial", {{"coulomb_positive_v", -1}, {"colour", 3}}},
       {"steady_wind", "", {{"force_n", std::numeric_limits<double>::quiet_NaN()}}},
   };
-  EXPECT_THAT(problems(bad),
-              ElementsAre(HasSubstr("terms[0] phlogiston: no term of that name"),
-                          HasSubstr("terms[1] drive_friction: axis = \"radial\": must be one of \"trolley\""),
-                          HasSubstr("colour = 3: no such parameter; there are viscous_positive_vspm"),
-                          "terms[1] drive_friction: coulomb_positive_v = -1: must be in [0, 10] V",
-                          HasSubstr("terms[2] steady_wind: force_n = nan")));
+  EXPECT_THAT(
+      problems(bad),
+      ElementsAre(
+          HasSubstr("terms[0] phlogiston: no term has this name"),
+          HasSubstr("terms[1] drive_friction: axis = \"radial\": must be one of \"trolley\""),
+          HasSubstr("colour = 3: the term has no such parameter; must be one of viscous_positive_vspm"),
+          "terms[1] drive_friction: coulomb_positive_v = -1: must be in [0, 10] V",
+          HasSubstr("terms[2] steady_wind: force_n = nan")));
   EXPECT_THROW(Model({}, bad), std::invalid_argument);
   EXPECT_THROW((void)make_term(bad[1]), std::invalid_argument);
 }

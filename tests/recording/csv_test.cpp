@@ -96,7 +96,7 @@ TEST(Csv, RefusesTablesThatCannotBeReadBack) {
   EXPECT_THAT(error_of([] {
                 (void)written({{{"a,b", {1}}}});
               }),
-              HasSubstr("must not be empty or hold a comma"));
+              HasSubstr("must not be empty or contain a comma"));
   EXPECT_THAT(error_of([] {
                 (void)written({{{"a", {1}}, {"a", {1}}}});
               }),

@@ -121,7 +121,7 @@ TEST(CorruptedRecording, ReportsTheCrcOfTheDamagedChunkAndReadsTheOthers) {
   EXPECT_EQ(report.messages, 180U);
   EXPECT_THAT(report.problems,
               testing::ElementsAre(HasSubstr("byte " + std::to_string(recording.ends[4]) +
-                                             ": chunk is damaged and left out: CRC is wrong")));
+                                             ": chunk is damaged and skipped: CRC is wrong")));
 }
 
 TEST(CorruptedRecording, IsPassedOverToTheNextChunkWhenTheIndexIsGoneToo) {
@@ -134,7 +134,7 @@ TEST(CorruptedRecording, IsPassedOverToTheNextChunkWhenTheIndexIsGoneToo) {
   bool genuine = false;
   EXPECT_EQ(sequences_in(reader, &genuine).size(), 160U);
   EXPECT_TRUE(genuine);
-  EXPECT_THAT(reader.problems(), testing::Contains(HasSubstr("bytes are damaged and left out")));
+  EXPECT_THAT(reader.problems(), testing::Contains(HasSubstr("bytes are damaged and skipped")));
 }
 
 TEST(CorruptedRecording, ReportsADamagedAttachment) {
@@ -144,7 +144,7 @@ TEST(CorruptedRecording, ReportsADamagedAttachment) {
   bytes[bytes.find("period_s")] = 'q';
   put_contents(directory / "a.mcap", bytes);
   EXPECT_THAT(check(directory / "a.mcap").problems,
-              testing::ElementsAre(HasSubstr("attachment is damaged and left out: CRC is wrong")));
+              testing::ElementsAre(HasSubstr("attachment is damaged and skipped: CRC is wrong")));
 }
 
 TEST(Repair, WritesAWholeRecordingOfWhatCanBeRead) {

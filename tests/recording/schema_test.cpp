@@ -115,7 +115,7 @@ TEST(Schema, RefusesEveryPayloadThatIsCutOrTooLong) {
         << size;
   Payload longer = whole;
   longer.resize(whole.size() + 4);
-  EXPECT_THAT(decode_error(schema, "outer::Shape", longer), HasSubstr("bytes are left over"));
+  EXPECT_THAT(decode_error(schema, "outer::Shape", longer), HasSubstr("bytes remain after the last field"));
 }
 
 TEST(Schema, SaysWhichTypeItDoesNotHave) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "crane/runtime/in_process.hpp"
-#include "process/supervisor_component.hpp"
+#include "crane/supervisor/component.hpp"
 
 namespace crane::supervisor {
 namespace {

@@ -37,7 +37,7 @@ class BridgeRestart : public testing::Test {
     running_.forget();
     running_.start_again("hardware_bridge");
     ASSERT_TRUE(running_.until([this] { return locked_by_restart(); }, 10s))
-        << stack::in_words(observer().statuses().back());
+        << experiments::in_words(observer().statuses().back());
     for (const auto& command : observer().commands())
       for (std::size_t i = 0; i < 3; ++i)
         ASSERT_TRUE(command.drive_v[i] == 0 && !command.brake_release[i]) << "moved by itself";
@@ -47,7 +47,7 @@ class BridgeRestart : public testing::Test {
     try {
       running_.session().request({.kind = crane_REQUEST_RESET, .selected = {confirmed, confirmed, confirmed}},
                                  "reset");
-    } catch (const stack::SessionError& error) {
+    } catch (const experiments::SessionError& error) {
       return error.what();
     }
     return "";

@@ -10,12 +10,12 @@
 #include "../recording/temporary_directory.hpp"
 #include "crane/boards/linked_rig.hpp"
 #include "crane/bridge/bridge.hpp"
+#include "crane/bridge/component.hpp"
 #include "crane/runtime/in_process.hpp"
-#include "process/hardware_bridge.hpp"
+#include "experiments/experiment_run.hpp"
 #include "program_run.hpp"
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
-#include "stack/experiment_run.hpp"
 
 namespace crane::system_test {
 namespace {
@@ -29,8 +29,9 @@ constexpr std::uint32_t kDomain = 64;
 constexpr const char* kRig = "emulated_servo_to_go";
 constexpr std::int64_t kBound_ns = 50'000'000;
 
-stack::ExperimentOptions options_for(const std::string& scenario, const std::filesystem::path& directory) {
-  stack::ExperimentOptions options;
+experiments::ExperimentOptions options_for(const std::string& scenario,
+                                           const std::filesystem::path& directory) {
+  experiments::ExperimentOptions options;
   options.scenario = stack::find_scenario(scenario);
   options.rig = stack::find_rig(kRig);
   options.directory = directory;
@@ -49,10 +50,10 @@ TEST_P(HardwareManeuver, ThroughTheBoardIsTheSameAsOnTheSimulatedPlant) {
   const TemporaryDirectory directory;
   auto options = options_for(GetParam(), directory / "simulated");
   options.in_process = true;
-  const auto simulated = stack::run_experiment(options);
+  const auto simulated = experiments::run_experiment(options);
   options.plant = stack::Plant::hardware;
   options.directory = directory / "hardware";
-  const auto hardware = stack::run_experiment(options);
+  const auto hardware = experiments::run_experiment(options);
   EXPECT_TRUE(hardware.outcome.completed) << hardware.outcome.stopped_because;
   ASSERT_TRUE(hardware.metrics.settling_time_s && simulated.metrics.settling_time_s);
   std::cout << GetParam() << ": settled after " << *hardware.metrics.settling_time_s
@@ -71,10 +72,10 @@ TEST(HardwareLockstep, ARigInAProcessOfItsOwnGivesTheSameBytesAsOneInTheBridge) 
   const TemporaryDirectory directory;
   auto options = options_for("maneuver_1", directory / "processes");
   options.plant = stack::Plant::hardware;
-  EXPECT_TRUE(stack::run_experiment(options).outcome.completed);
+  EXPECT_TRUE(experiments::run_experiment(options).outcome.completed);
   options.in_process = true;
   options.directory = directory / "in_process";
-  EXPECT_TRUE(stack::run_experiment(options).outcome.completed);
+  EXPECT_TRUE(experiments::run_experiment(options).outcome.completed);
   for (const auto* file : {"run.csv", "recording.mcap"})
     EXPECT_TRUE(contents_of(directory / "processes" / file) == contents_of(directory / "in_process" / file))
         << file;

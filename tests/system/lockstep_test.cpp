@@ -5,9 +5,9 @@
 #include <iostream>
 
 #include "../recording/temporary_directory.hpp"
+#include "experiments/experiment_run.hpp"
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
-#include "stack/experiment_run.hpp"
 
 namespace crane::system_test {
 namespace {
@@ -48,7 +48,7 @@ class Lockstep : public testing::Test {
   /// The same scenario again, its files in a directory of that name.
   std::filesystem::path run(const std::string& name) {
     options_.directory = directory_ / name;
-    const auto result = stack::run_experiment(options_);
+    const auto result = experiments::run_experiment(options_);
     EXPECT_TRUE(result.outcome.completed) << result.outcome.stopped_because;
     return options_.directory;
   }
@@ -67,7 +67,7 @@ class Lockstep : public testing::Test {
   }
 
   TemporaryDirectory directory_;
-  stack::ExperimentOptions options_;
+  experiments::ExperimentOptions options_;
 };
 
 TEST_F(Lockstep, ProcessesGiveTheSameBytesTwice) { expect_same_bytes(run("first"), run("second")); }
@@ -107,15 +107,15 @@ class Maneuvers : public testing::TestWithParam<Figures> {};
 TEST_P(Maneuvers, SettleAsDesignedWithoutResidualSwing) {
   const auto& expected = GetParam();
   const TemporaryDirectory directory;
-  const auto result = stack::run_experiment({.scenario = stack::find_scenario(expected.scenario),
-                                             .rig = stack::find_rig(expected.rig),
-                                             .controller = expected.controller,
-                                             .variant = "",
-                                             .directory = directory / "run",
-                                             .in_process = true,
-                                             .picture = false,
-                                             .bus = {},
-                                             .vendors = {}});
+  const auto result = experiments::run_experiment({.scenario = stack::find_scenario(expected.scenario),
+                                                   .rig = stack::find_rig(expected.rig),
+                                                   .controller = expected.controller,
+                                                   .variant = "",
+                                                   .directory = directory / "run",
+                                                   .in_process = true,
+                                                   .picture = false,
+                                                   .bus = {},
+                                                   .vendors = {}});
   ASSERT_TRUE(result.outcome.completed) << result.outcome.stopped_because;
   ASSERT_TRUE(result.metrics.settling_time_s.has_value());
   std::cout << expected << ": settled after " << *result.metrics.settling_time_s << " s, expected "
@@ -149,7 +149,7 @@ class RigOfTheProject : public testing::TestWithParam<const char*> {};
 
 TEST_P(RigOfTheProject, CanBeArmedAndMoved) {
   const TemporaryDirectory directory;
-  stack::ExperimentOptions options;
+  experiments::ExperimentOptions options;
   options.scenario = directory / "trolley.toml";
   put_contents(options.scenario, R"(description = "the trolley alone"
 duration_s = 6
@@ -163,7 +163,7 @@ trolley_position_m = 0.45
   options.directory = directory / "run";
   options.in_process = true;
   options.picture = false;
-  const auto result = stack::run_experiment(options);
+  const auto result = experiments::run_experiment(options);
   EXPECT_TRUE(result.outcome.completed) << result.outcome.stopped_because;
   EXPECT_LT(std::abs(result.metrics.final_error[plant::kTrolley]), 0.1) << "it has not moved";
 }

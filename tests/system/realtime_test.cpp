@@ -5,10 +5,10 @@
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/experiment/metrics.hpp"
+#include "experiments/experiment_run.hpp"
 #include "program_run.hpp"
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
-#include "stack/experiment_run.hpp"
 
 namespace crane::system_test {
 namespace {
@@ -29,15 +29,15 @@ TEST(Realtime, AMoveSettlesAsInLockstep) {
   const auto file = directory / "move.toml";
   recording::put_contents(file, kScenario);
   const auto rig_file = stack::find_rig("virginia_tech_tower");
-  const auto lockstep = stack::run_experiment({.scenario = file,
-                                               .rig = rig_file,
-                                               .controller = "",
-                                               .variant = "",
-                                               .directory = directory / "lockstep",
-                                               .in_process = true,
-                                               .picture = false,
-                                               .bus = {},
-                                               .vendors = {}});
+  const auto lockstep = experiments::run_experiment({.scenario = file,
+                                                     .rig = rig_file,
+                                                     .controller = "",
+                                                     .variant = "",
+                                                     .directory = directory / "lockstep",
+                                                     .in_process = true,
+                                                     .picture = false,
+                                                     .bus = {},
+                                                     .vendors = {}});
   ASSERT_TRUE(lockstep.metrics.settling_time_s.has_value());
 
   RunningStack stack{kDomain, "virginia_tech_tower"};

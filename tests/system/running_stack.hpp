@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/realtime_session.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::system_test {
@@ -50,7 +50,7 @@ class RunningStack {
   /// Starts a stack on Cyclone DDS and waits until it is ready.
   RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant = stack::Plant::simulated);
 
-  [[nodiscard]] stack::RealtimeSession& session() { return *session_; }
+  [[nodiscard]] experiments::RealtimeSession& session() { return *session_; }
   [[nodiscard]] stack::ChildProcesses& children() { return children_; }
   [[nodiscard]] const Observer& observer() const { return *observer_; }
   [[nodiscard]] const runtime::BusOptions& bus_options() const { return options_.bus; }
@@ -70,7 +70,7 @@ class RunningStack {
   stack::ChildProcesses children_;
   std::optional<bus::Bus> bus_;
   std::optional<Observer> observer_;
-  std::optional<stack::RealtimeSession> session_;
+  std::optional<experiments::RealtimeSession> session_;
 };
 
 /// Time of a clock [ns].

@@ -85,8 +85,7 @@ TEST_F(Start, AScenarioThatLeavesTheJibIsRefusedBeforeAnythingStarts) {
       file("off.toml", "description = \"too far\"\n[[move]]\nat_s = 0.5\ntrolley_position_m = 2.0\n");
   const auto ended = crane({"run", scenario, "--out", out()});
   EXPECT_EQ(ended.exit_code, kBadInput);
-  EXPECT_THAT(ended.errors,
-              HasSubstr("off.toml:4: move[0].trolley_position_m = 2: must lie in [0.19, 1.31]"));
+  EXPECT_THAT(ended.errors, HasSubstr("off.toml:4: move[0].trolley_position_m = 2: must be in [0.19, 1.31]"));
   EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
 }
 
@@ -94,8 +93,8 @@ TEST_F(Start, ARunInRealTimeRefusesWhatOnlyASimulationCanDo) {
   const auto ended = crane({"run", "maneuver_1", "--clock", "realtime", "--variants", "heavy_load", "--json",
                             "--in-process", "--out", out()});
   EXPECT_EQ(ended.exit_code, kBadInput);
-  for (const char* text :
-       {"not with variant heavy_load of maneuver_1", "not with --json", "not with --in-process"})
+  for (const char* text : {"cannot be combined with variant heavy_load of maneuver_1",
+                           "cannot be combined with --json", "cannot be combined with --in-process"})
     EXPECT_THAT(ended.errors, HasSubstr(text));
   EXPECT_FALSE(std::filesystem::exists(out())) << "nothing has begun";
 }
@@ -176,8 +175,9 @@ TEST_F(StartOfASecond, PlantOnTheSameCraneIsRefused) {
   const auto ended = run_program(stack::program_directory() / "crane_plant",
                                  on_this_crane({"--rig", stack::find_rig("virginia_tech_tower").string()}));
   EXPECT_EQ(ended.exit_code, kFailed);
-  EXPECT_THAT(ended.errors, AllOf(HasSubstr("somebody already writes crane/state of crane '" + crane_name()),
-                                  HasSubstr("stop that stack first, or choose another --crane or --domain")));
+  EXPECT_THAT(ended.errors,
+              AllOf(HasSubstr("another process already writes crane/state of crane '" + crane_name()),
+                    HasSubstr("stop that stack first, or choose another --crane or --domain")));
   EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
   expect_only_the_first(before);
 }

@@ -6,11 +6,11 @@
 #include "../recording/temporary_directory.hpp"
 #include "crane/experiment/variant.hpp"
 #include "crane/runtime/in_process.hpp"
-#include "process/twin_component.hpp"
+#include "crane/twin/component.hpp"
+#include "experiments/experiment_run.hpp"
+#include "experiments/lockstep_run.hpp"
 #include "stack/data_files.hpp"
-#include "stack/experiment_run.hpp"
 #include "stack/launch.hpp"
-#include "stack/lockstep_run.hpp"
 
 namespace crane::test {
 namespace {
@@ -61,13 +61,13 @@ class TwinProcess : public testing::Test {
     auto events = bus.subscriber(topics::event);
     auto twins = bus.subscriber(topics::twin, runtime::loop_endpoint(runtime::Clock::lockstep));
     stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
-    stack::TickLog log{std::nullopt};
-    const stack::Pump pump = [&] {
+    experiments::TickLog log{std::nullopt};
+    const experiments::Pump pump = [&] {
       bus.wait(std::chrono::milliseconds{5});
       while (const auto event = events.take()) events_.push_back(*event);
       while (const auto twin = twins.take()) twins_.push_back(*twin);
     };
-    const auto outcome = stack::run_scenario(bus, pump, started, scenario, log, true);
+    const auto outcome = experiments::run_scenario(bus, pump, started, scenario, log, true);
     pump();
     EXPECT_TRUE(outcome.completed) << outcome.stopped_because;
     children.stop();
@@ -104,7 +104,7 @@ TEST_F(TwinProcess, SaysNothingAboutTheCraneOfItsRigFile) {
 
 TEST_F(TwinProcess, GivesTheSameRecordingInOneProcessAsInMany) {
   recording::put_contents(directory_ / "moves.toml", scenario_text(1));
-  stack::ExperimentOptions options;
+  experiments::ExperimentOptions options;
   options.scenario = directory_ / "moves.toml";
   options.rig = stack::find_rig("virginia_tech_tower");
   options.twin = options.rig;
@@ -112,10 +112,10 @@ TEST_F(TwinProcess, GivesTheSameRecordingInOneProcessAsInMany) {
   options.bus.domain = kDomain;
   options.in_process = true;
   options.directory = directory_ / "one";
-  (void)stack::run_experiment(options);
+  (void)experiments::run_experiment(options);
   options.in_process = false;
   options.directory = directory_ / "many";
-  (void)stack::run_experiment(options);
+  (void)experiments::run_experiment(options);
   EXPECT_TRUE(contents_of(directory_ / "one" / "recording.mcap") ==
               contents_of(directory_ / "many" / "recording.mcap"));
 }

@@ -7,7 +7,10 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <utility>
+
+#include "crane/runtime/process.hpp"
 
 namespace crane::bridge {
 
@@ -57,6 +60,15 @@ void SharedFile::unlink() noexcept { ::shm_unlink(name_.c_str()); }
 
 std::string shared_lines_name(const std::string& crane, std::uint32_t domain) {
   return "/crane_rig_" + std::to_string(domain) + "_" + crane;
+}
+
+bool wait_for(sem_t& semaphore, std::int64_t duration_ns) {
+  const auto at_ns = runtime::monotonic_ns() + duration_ns;
+  const timespec at{.tv_sec = at_ns / 1'000'000'000, .tv_nsec = at_ns % 1'000'000'000};
+  int result = 0;
+  do result = ::sem_clockwait(&semaphore, CLOCK_MONOTONIC, &at);
+  while (result != 0 && errno == EINTR);  // a signal ends the process in order, not in the middle of a tick
+  return result == 0;
 }
 
 }  // namespace crane::bridge

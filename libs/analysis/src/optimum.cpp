@@ -9,9 +9,10 @@ namespace {
 
 constexpr std::size_t kMostStarts = 4;
 constexpr int kMostRestarts = 20, kIdleRestarts = 3;
-constexpr double kWorthwhile = 1e-6;  // of the damping ratio
+constexpr double kWorthwhile = 1e-6;  // smallest improvement of the damping ratio for a restart
 
-/// The merit as a function of two coordinates that run from 0 to 1 over the ranges; below everything outside.
+/// The merit as a function of two coordinates, scaled to [0, 1] over the ranges. Outside the ranges it is
+/// smaller than any merit.
 class Landscape {
  public:
   Landscape(const LoopDamping& damping, const DampingMap& map, Measure measure)
@@ -36,7 +37,7 @@ struct Vertex {
   double u = 0, v = 0, height = 0;
 };
 
-/// Nelder and Mead's simplex, standard coefficients, from an equilateral start.
+/// Simplex method of Nelder and Mead with standard coefficients, from an equilateral simplex.
 Vertex climb(const Landscape& landscape, const Vertex& from, double size) {
   const auto at = [&](double u, double v) { return Vertex{u, v, landscape.height(u, v)}; };
   std::array<Vertex, 3> s{from, at(from.u + size, from.v + 0.26795 * size),
@@ -65,7 +66,7 @@ Vertex climb(const Landscape& landscape, const Vertex& from, double size) {
                            [](const Vertex& a, const Vertex& b) { return a.height < b.height; });
 }
 
-/// Points of the map that none of their neighbours exceeds, the highest first.
+/// Local maxima of the map, in descending order.
 std::vector<Vertex> local_maxima(const DampingMap& map, Measure measure) {
   std::vector<Vertex> found;
   const auto height = [&](int i, int j) { return merit(map.at(i, j), measure); };

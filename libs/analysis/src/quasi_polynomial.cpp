@@ -86,8 +86,9 @@ double root_bound(const QuasiPolynomial& f, double abscissa) {
   const double late = std::exp(-f.delay * abscissa);
   const double leading = std::abs(f.p.back()) - (f.q.size() == f.p.size() ? late * std::abs(f.q.back()) : 0);
   if (!(leading > 0))
-    throw std::invalid_argument("endless roots right of the abscissa: the equation is neutral");
-  // 2 leading r^n - (all terms) has one positive root: its coefficients change sign once.
+    throw std::invalid_argument(
+        "the equation is neutral and has infinitely many roots right of the abscissa");
+  // 2 |p_n| r^n - (sum of all terms) has one positive root, because its coefficients change sign once.
   const auto outside = [&](double r) {
     const double all = magnitude(f.p, r, 0) + late * magnitude(f.q, r, 0);
     const double top = std::pow(r, static_cast<double>(f.p.size() - 1));

@@ -9,9 +9,9 @@
 namespace crane::analysis {
 namespace {
 
-/// Change of arg f from a to b along the straight line; nothing when it passes a root.
-/// In each step |f(z + h) - f(z)| <= |f'| h + sup |f''| h^2 / 2 < |f(z)|: no root, and less than a quarter
-/// turn.
+/// Change of arg f along the straight line from a to b; nothing when the line passes a root. In each step
+/// |f(z + h) - f(z)| <= |f'| h + sup |f''| h^2 / 2 < |f(z)|, so that the step contains no root and turns arg
+/// f by less than a quarter turn.
 std::optional<double> turn_along(const QuasiPolynomial& f, Complex a, Complex b) {
   const double length = std::abs(b - a);
   const Complex direction = (b - a) / length;
@@ -52,7 +52,7 @@ std::optional<int> roots_inside(const QuasiPolynomial& f, const Box& box) {
 
 int count_roots(const QuasiPolynomial& f, const Box& box) {
   if (const auto count = roots_inside(f, box)) return *count;
-  throw std::domain_error("a root lies on the edge of the box");
+  throw std::domain_error("a root is on the edge of the box");
 }
 
 }  // namespace crane::analysis

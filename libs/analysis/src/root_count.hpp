@@ -5,7 +5,7 @@
 
 namespace crane::analysis {
 
-/// Argument principle; nothing when a root lies on the edge, or too near to tell.
+/// Number of roots by the argument principle; nothing when a root is on or too close to the edge.
 [[nodiscard]] std::optional<int> roots_inside(const QuasiPolynomial& f, const Box& box);
 
 }  // namespace crane::analysis

@@ -11,10 +11,11 @@ namespace crane::analysis {
 namespace {
 
 constexpr int kMostIterations = 40;
-constexpr int kMostTogether = 6;       // roots that are looked for without dividing the box
-constexpr double kSmallest = 1e-4;     // half diagonal over 1 + |s| of a box that is not divided any more
-constexpr double kDifferent = 1e-7;    // over 1 + |s|; nearer ones count as the same
-constexpr double kAsymmetry = 0.4871;  // where boxes are cut: not in the middle, where symmetry puts roots
+constexpr int kMostTogether = 6;     // a box with more roots is divided
+constexpr double kSmallest = 1e-4;   // a box with a smaller half diagonal / (1 + |s|) is not divided
+constexpr double kDifferent = 1e-7;  // roots with a smaller distance / (1 + |s|) count as equal
+// Relative position of a cut. The symmetry of f puts roots in the middle of a box.
+constexpr double kAsymmetry = 0.4871;
 
 double half_diagonal(const Box& box) { return std::hypot(box.right - box.left, box.top - box.bottom) / 2; }
 Complex centre(const Box& box) { return {(box.left + box.right) / 2, (box.bottom + box.top) / 2}; }
@@ -48,7 +49,7 @@ bool is_root(const QuasiPolynomial& f, Complex s) {
   return std::abs(value) <= 1e-9 * (1 + std::abs(s)) * std::abs(slope);
 }
 
-/// `count` different roots inside the box, fewer when they do not show themselves from here.
+/// Up to `count` different roots in the box; fewer when Newton's method does not find them.
 std::vector<Complex> different_roots(const QuasiPolynomial& f, const Box& box, int count) {
   const Complex middle = centre(box);
   const double w = (box.right - box.left) / 4, h = (box.top - box.bottom) / 4;
@@ -77,7 +78,7 @@ Complex multiple_root(const QuasiPolynomial& f, const Box& box, int count) {
   return s;
 }
 
-/// Cuts across the longer side, where no root is in the way.
+/// Divides the box across its longer side, at a position without a root.
 std::pair<std::pair<Box, int>, std::pair<Box, int>> cut(const QuasiPolynomial& f, const Box& box, int count) {
   const bool across = box.right - box.left > box.top - box.bottom;
   for (double share = kAsymmetry; share > 0.1; share *= 0.93) {
@@ -88,7 +89,7 @@ std::pair<std::pair<Box, int>, std::pair<Box, int>> cut(const QuasiPolynomial& f
       one.top = other.bottom = box.bottom + share * (box.top - box.bottom);
     if (const auto first = roots_inside(f, one)) return {{one, *first}, {other, count - *first}};
   }
-  throw std::domain_error("too many roots in the way of dividing a box");
+  throw std::domain_error("the box cannot be divided: every cut passes a root");
 }
 
 void collect(const QuasiPolynomial& f, const Box& box, int count, std::vector<Complex>& roots) {
@@ -109,7 +110,7 @@ void collect(const QuasiPolynomial& f, const Box& box, int count, std::vector<Co
   collect(f, other.first, other.second, roots);
 }
 
-/// Upper half of the mirror image, the right-most first.
+/// Roots in the upper half plane within the region, ordered by decreasing Re s.
 std::vector<Complex> upper_half(const std::vector<Complex>& roots, double left, double right, double top) {
   std::vector<Complex> upper;
   for (Complex s : roots) {
@@ -127,8 +128,8 @@ std::vector<Complex> upper_half(const std::vector<Complex>& roots, double left, 
 std::vector<Complex> roots_in(const QuasiPolynomial& f, double left, double right, double top) {
   if (*f.problem() != '\0') throw std::invalid_argument(f.problem());
   if (!(left < right) || !(top > 0)) throw std::invalid_argument("the region is empty");
-  // A little more than asked for, and some of the lower half so that the real axis is inside; more again when
-  // a root lies on the edge.
+  // The box is larger than the region and includes the real axis. It is enlarged further when a root is on
+  // its edge.
   double margin = 1e-3 * (1 + std::min(right - left, top));
   for (int attempt = 0; attempt < 20; ++attempt, margin *= 1.7) {
     const Box box{left - margin, right + margin, -2.3 * margin, top + margin};
@@ -138,7 +139,7 @@ std::vector<Complex> roots_in(const QuasiPolynomial& f, double left, double righ
     collect(f, box, *count, roots);
     return upper_half(roots, left, right, top);
   }
-  throw std::domain_error("roots lie on every edge tried");
+  throw std::domain_error("every tried box has a root on its edge");
 }
 
 std::vector<Complex> roots_right_of(const QuasiPolynomial& f, double abscissa) {

@@ -5,7 +5,7 @@
 namespace crane::bus {
 
 Quality quality(const topics::Description& topic, const EndpointOptions& endpoint) {
-  constexpr int kMostInstances = 64;  // processes of one crane, with room to spare
+  constexpr int kMostInstances = 64;  // a crane has about 10 processes
   Quality q;
   q.instances = CdrCodec::of(*topic.descriptor).has_key() ? kMostInstances : 1;
   q.writer_history = q.reader_history = endpoint.history;

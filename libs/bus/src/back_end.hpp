@@ -1,5 +1,5 @@
 #pragma once
-/// What the three back ends share: one interface, one translation of quality of service, one doorbell.
+/// Shared by the three back ends: interface, quality of service in numbers, wake-up of Bus::wait().
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -11,7 +11,8 @@
 
 namespace crane::bus {
 
-/// Rung by every reader of a bus when something arrives; remembers a ring nobody waited for.
+/// Wakes Bus::wait(). Every reader of a bus rings when a sample arrives. A ring that no thread waits for is
+/// remembered until the next wait.
 class Doorbell {
  public:
   void ring() {
@@ -35,7 +36,7 @@ class Doorbell {
   bool rung_ = false;
 };
 
-/// Tells an endpoint's owner what happened.
+/// Calls the event handler of an endpoint.
 struct Announcer {
   EventHandler handler;
   std::string_view topic;
@@ -47,21 +48,21 @@ struct Announcer {
   }
 };
 
-/// topics::Qos in numbers. Every writer and reader is RELIABLE and KEEP_LAST. A Fast DDS reader takes the
-/// past of a TRANSIENT_LOCAL Cyclone DDS writer even unasked, so writers whose past may do harm (requests) or
-/// mislead (the loop in real time) do not offer it.
+/// Numbers of topics::Qos. Every writer and reader is RELIABLE and KEEP_LAST. A volatile Fast DDS reader also
+/// receives the history of a TRANSIENT_LOCAL Cyclone DDS writer. Old requests and old samples of a real-time
+/// loop must not be received, so that their writers do not offer TRANSIENT_LOCAL.
 struct Quality {
   int depth = 1;                ///< samples kept per instance
   int instances = 1;            ///< most instances of a keyed topic
   bool writer_history = false;  ///< writer offers TRANSIENT_LOCAL
-  bool reader_history = false;  ///< reader asks for it
+  bool reader_history = false;  ///< reader requests TRANSIENT_LOCAL
 };
 [[nodiscard]] Quality quality(const topics::Description& topic, const EndpointOptions& endpoint);
 
-/// Name of a DDS policy from its number, which both vendors take from the standard.
+/// Name of a DDS policy. Both vendors use the policy numbers of the DDS standard.
 [[nodiscard]] std::string_view policy_name(int id);
 
-/// One participant of one vendor. Endpoints keep it alive.
+/// One participant of one vendor. Its endpoints keep it alive.
 class BackEnd : public std::enable_shared_from_this<BackEnd> {
  public:
   BackEnd() = default;
@@ -77,7 +78,8 @@ std::shared_ptr<BackEnd> make_cyclone(const Options&, std::shared_ptr<Doorbell>)
 std::shared_ptr<BackEnd> make_fastdds(const Options&, std::shared_ptr<Doorbell>);
 std::shared_ptr<BackEnd> make_memory(const Options&, std::shared_ptr<Doorbell>);
 
-/// Checks what no vendor explains well, and resolves host names of peers. @throws Error with all problems
+/// Checks the options, so that the user gets a message with remedy, and resolves the host names of the peers.
+/// @throws Error with all problems
 [[nodiscard]] Options checked(Options options);
 
 }  // namespace crane::bus

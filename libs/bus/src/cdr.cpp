@@ -18,7 +18,7 @@ namespace crane::bus {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
-              "the bus writes the machine's byte order as CDR_LE");
+              "the codec writes CDR_LE in the byte order of the host");
 static_assert(sizeof(bool) == 1);
 
 using Field = CdrCodec::Field;
@@ -63,7 +63,7 @@ const char* construct(dds_stream_typecode code) {
   }
 }
 
-/// Walks the op-codes of a type once and lists its fields.
+/// Reads the op-codes of a type and lists its fields.
 class Compiler {
  public:
   Compiler(const dds_topic_descriptor_t& descriptor, std::vector<Field>& fields)
@@ -191,8 +191,8 @@ void reverse_elements(const Field& field, std::uint8_t* value) {
     std::reverse(value, value + field.size);
 }
 
-/// Reads a bounded string; the rest of the field becomes zero. @return its end in `in`, 0 when it is
-/// malformed
+/// Reads a bounded string and sets the rest of the field to zero. @return offset of its end in `in`; 0 when
+/// it is malformed
 std::uint32_t decode_string(const Field& field, std::span<const std::uint8_t> in, std::uint32_t at,
                             bool big_endian, std::uint8_t* value) {
   if (at + 4 > in.size()) return 0;
@@ -213,7 +213,7 @@ std::uint32_t decode_string(const Field& field, std::span<const std::uint8_t> in
 CdrCodec::CdrCodec(const dds_topic_descriptor_t& descriptor) : sample_bytes_{descriptor.m_size} {
   Compiler{descriptor, fields_}.members(descriptor.m_ops, 0);
   std::uint32_t end = 0;
-  for (const Field& field : fields_) {  // a string may end anywhere: count the worst padding after each
+  for (const Field& field : fields_) {  // strings vary in length: assume the largest padding
     if (field.kind == Kind::string)
       end = align(end, 4) + 4 + field.count + 7;
     else
@@ -223,7 +223,7 @@ CdrCodec::CdrCodec(const dds_topic_descriptor_t& descriptor) : sample_bytes_{des
 }
 
 const CdrCodec& CdrCodec::of(const dds_topic_descriptor_t& descriptor) {
-  // Called for every sample: each thread remembers the few types it uses, without a lock.
+  // Called for every sample. A cache per thread avoids a lock.
   thread_local std::vector<std::pair<const dds_topic_descriptor_t*, const CdrCodec*>> known;
   for (const auto& [key, codec] : known)
     if (key == &descriptor) return *codec;

@@ -5,9 +5,9 @@
 
 namespace crane::bus {
 
-/// With the processor's CRC instruction where it has one.
+/// CRC-32C of `bytes`; uses the CRC instruction of the processor where it exists.
 [[nodiscard]] std::uint32_t crc32c(std::span<const std::uint8_t> bytes);
-/// The same from Boost.CRC, on any processor.
+/// CRC-32C of `bytes`, computed with Boost.CRC on any processor.
 [[nodiscard]] std::uint32_t crc32c_portable(std::span<const std::uint8_t> bytes);
 
 }  // namespace crane::bus

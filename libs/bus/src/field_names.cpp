@@ -14,7 +14,7 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::size_t kHashBytes = 15;           // EK_COMPLETE and 14 bytes of hash
 constexpr std::uint8_t kCompleteHash = 0xf2;     // DDS-XTypes 1.3, EK_COMPLETE
 constexpr std::uint8_t kStructure = 0x51;        // TK_STRUCTURE
-constexpr std::size_t kObjectToNameLength = 12;  // from EK_COMPLETE of a type object without base to its name
+constexpr std::size_t kObjectToNameLength = 12;  // bytes from EK_COMPLETE of a type without base to its name
 
 std::size_t align4(std::size_t at) { return (at + 3) & ~std::size_t{3}; }
 
@@ -25,7 +25,7 @@ std::optional<std::uint32_t> number(Bytes bytes, std::size_t at) {
   return value;
 }
 
-/// The length-prefixed identifier at `at`, if there is one.
+/// @return the length-prefixed identifier at `at`; nothing when there is none
 std::optional<std::string_view> identifier(Bytes bytes, std::size_t at) {
   const auto length = number(bytes, at);
   if (!length || *length < 2 || *length > 256 || at + 4 + *length > bytes.size()) return std::nullopt;
@@ -55,7 +55,7 @@ std::optional<std::size_t> find_by_hash(Bytes map, Bytes hash) {
   return std::nullopt;
 }
 
-/// The bytes of one member of the structure whose type object begins at `object`, and where they are.
+/// Offset and bytes of one member of the structure whose type object begins at `object`.
 struct Member {
   std::size_t begin = 0, end = 0;
 };
@@ -82,13 +82,13 @@ std::string field_name(const dds_topic_descriptor_t& descriptor, std::span<const
   bool named = false;
   auto object = find_by_name(map, descriptor.m_typename);
   for (const std::size_t index : path) {
-    if (!object && named) break;  // inside something that is not a structure
+    if (!object && named) break;  // the member is not a structure
     text += text.empty() ? "" : ".";
     const auto member = object ? find_member(map, *object, index) : std::nullopt;
     object.reset();
     std::optional<std::string_view> name;
-    // A member is its id (4), flags (2), type identifier, name: the name is the first thing that reads as
-    // one.
+    // A member consists of id (4 bytes), flags (2), type identifier and name. The name is the first valid
+    // identifier.
     for (std::size_t at = member ? member->begin + 8 : 0; member && at < member->end && !name; at += 4) {
       name = identifier(map.first(member->end), at);
       if (name) break;

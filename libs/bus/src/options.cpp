@@ -69,7 +69,7 @@ Options checked(Options options) {
   } else {
     if (options.domain > kMaxDomain)
       problems.push_back("domain = " + std::to_string(options.domain) +
-                         ": must be 0..100, because the ports of higher domains belong to other programs");
+                         ": must be 0..100; the ports of higher domains overlap ephemeral ports");
     check_interfaces(options, problems);
     for (auto& peer : options.peers) {
       const std::string address = ipv4_of(peer);

@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t kCrcBytes = sizeof(std::uint32_t);
 
-/// CRC of everything before the final field, then the topic's name. @return false when the sample cannot be
-/// encoded
+/// CRC of all fields before the last one, followed by the name of the topic. @return false when the sample
+/// cannot be encoded
 bool checksum(const topics::Description& topic, const void* sample, std::uint32_t& crc) {
   const CdrCodec& codec = CdrCodec::of(*topic.descriptor);
-  thread_local std::vector<std::uint8_t> buffer;  // keeps its size: no allocation per sample
+  thread_local std::vector<std::uint8_t> buffer;  // reused, to avoid an allocation per sample
   const std::size_t needed = codec.max_encoded_bytes() + topic.name.size();
   if (buffer.size() < needed) buffer.resize(needed);
   const std::size_t bytes = codec.encode(sample, std::span{buffer}.first(codec.max_encoded_bytes()));

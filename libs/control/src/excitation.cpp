@@ -7,7 +7,7 @@
 namespace crane::control {
 namespace {
 
-/// A value with its first two derivatives by time.
+/// A value with its first and second derivative with respect to time.
 struct Jet {
   double value = 0, first = 0, second = 0;
 };

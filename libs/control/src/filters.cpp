@@ -17,16 +17,18 @@ FilterMemory settled(const FilterSection& section, double sample) noexcept {
   return {sample, sample, gain * sample, gain * sample};
 }
 
-FilterSection backward_difference(double sample_rate_hz) noexcept {
+// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes (filters.hpp).
+
+FilterSection backward_difference(double sample_rate_hz) noexcept {  // (4.8)
   return {sample_rate_hz, -sample_rate_hz, 0, 0, 0};
 }
 
-FilterSection al_alaoui_first_order(double sample_rate_hz) noexcept {
+FilterSection al_alaoui_first_order(double sample_rate_hz) noexcept {  // (4.9)
   const double gain = 8 * sample_rate_hz / 7;
   return {gain, -gain, 0, 1.0 / 7, 0};
 }
 
-FilterSection al_alaoui_second_order(double sample_rate_hz) noexcept {
+FilterSection al_alaoui_second_order(double sample_rate_hz) noexcept {  // (4.10)
   const double q = 2 - std::numbers::sqrt3;
   const double gain = 3 * sample_rate_hz / (2 + std::numbers::sqrt3);
   return {gain, 0, -gain, 2 * q, q * q};
@@ -34,7 +36,7 @@ FilterSection al_alaoui_second_order(double sample_rate_hz) noexcept {
 
 FilterSection butterworth_low_pass(double cut_off_ratio) noexcept {
   if (!(cut_off_ratio > 0)) return {};
-  const double w = std::tan(std::numbers::pi * cut_off_ratio);  // prewarped
+  const double w = std::tan(std::numbers::pi * cut_off_ratio);  // prewarped cut-off frequency
   const double norm = 1 / (1 + std::numbers::sqrt2 * w + w * w);
   const double gain = w * w * norm;
   return {gain, 2 * gain, gain, 2 * (w * w - 1) * norm, (1 - std::numbers::sqrt2 * w + w * w) * norm};

@@ -1,67 +1,24 @@
-/// The list of controllers: a new law is its own file and one line here.
+/// The table of controllers, made from laws/registered.def.
 #include <algorithm>
 
-#include "crane/control/anti_swing_pd.hpp"
-#include "crane/control/delayed_feedback.hpp"
 #include "crane/control/fuzzy.hpp"
-#include "crane/control/gain_scheduling.hpp"
 #include "crane/control/law.hpp"
-#include "crane/control/tracking_pd.hpp"
 
 namespace crane::control {
-namespace {
 
-// Gains with the largest damping of the least damped pair below eight load frequencies at K_p = 100, where
-// the plain ones have that of the right-most pair.
-std::unique_ptr<Law> make_anti_swing_pd_optimised(const Design& design) {
-  Design optimised = design;
-  optimised.anti_swing_proportional = -25.66;
-  optimised.anti_swing_derivative = 7.434;
-  return make_anti_swing_pd(optimised);
-}
-
-std::unique_ptr<Law> make_delayed_1_optimised(const Design& design) {
-  Design optimised = design;
-  optimised.delayed_1_gain = -49.38;
-  optimised.delayed_1_delay = 0.1193;
-  return make_delayed_1(optimised);
-}
-
-std::unique_ptr<Law> make_delayed_2_optimised(const Design& design) {
-  Design optimised = design;
-  optimised.delayed_2_gain = -0.423;
-  optimised.delayed_2_delay = 0.179;
-  return make_delayed_2(optimised);
-}
-
-}  // namespace
+#define CRANE_CONTROLLER(name, summary, shape, tracking, anti_swing, corrects) \
+  std::unique_ptr<Law> tracking(const Design& design);                         \
+  std::unique_ptr<Law> anti_swing(const Design& design);
+#include "laws/registered.def"
+#undef CRANE_CONTROLLER
 
 const std::vector<Controller>& controllers() {
-  using enum ReferenceShape;
+#define CRANE_CONTROLLER(name, summary, shape, tracking, anti_swing, corrects) \
+  {name, summary, ReferenceShape::shape, tracking, anti_swing, corrects},
   static const std::vector<Controller> kAll{
-      {"gain_scheduling_partial", "state feedback without swing rates, (3.19)", step, make_partial_tracking,
-       make_partial_anti_swing},
-      {"gain_scheduling_full", "full state feedback, forward gain lowered for long moves, (3.26)", step,
-       make_full_tracking, make_full_anti_swing},
-      {"anti_swing_pd", "tracking PD and swing PD to the drives, (3.45)", bang_coast_bang, make_tracking_pd,
-       make_anti_swing_pd},
-      {"delayed_1", "tracking PD and delayed swing angle to the drives, (3.47)", bang_coast_bang,
-       make_tracking_pd, make_delayed_1},
-      {"delayed_2", "tracking PD, delayed swing angle corrects its reference, (3.50)", bang_coast_bang,
-       make_tracking_pd, make_delayed_2, true},
-      {"fuzzy_printed", "tracking PD and fuzzy swing rules of Table 3.7", bang_coast_bang, make_tracking_pd,
-       make_fuzzy_printed},
-      {"fuzzy_generated", "tracking PD and fuzzy rules generated from delayed_1", bang_coast_bang,
-       make_tracking_pd, make_fuzzy_generated},
-      {"anti_swing_pd_optimised", "anti_swing_pd at its largest least damping", bang_coast_bang,
-       make_tracking_pd, make_anti_swing_pd_optimised},
-      {"delayed_1_optimised", "delayed_1 at its largest least damping", bang_coast_bang, make_tracking_pd,
-       make_delayed_1_optimised},
-      {"delayed_2_optimised", "delayed_2 at its largest least damping", bang_coast_bang, make_tracking_pd,
-       make_delayed_2_optimised, true},
-      {"none", "tracking PD only, swing is left alone", bang_coast_bang, make_tracking_pd,
-       make_no_anti_swing},
+#include "laws/registered.def"
   };
+#undef CRANE_CONTROLLER
   return kAll;
 }
 
@@ -75,9 +32,9 @@ std::vector<std::string> problems(const Controller& controller, const Design& de
     places += (i == 0 ? "" : ", ") + missing[i];
   if (missing.size() > kNamed) places += " and " + std::to_string(missing.size() - kNamed) + " more";
   return {std::string(controller.name) + ": no rule for " + places +
-          ": the rules are read off runs of delayed_1, and with these gains and scales no run reaches these "
-          "places; "
-          "change fuzzy_swing_rad, fuzzy_swing_rate or the gains of delayed_1"};
+          ": the rules are generated from simulations of delayed_1, and no simulation with these gains and "
+          "scales reaches these entries of the table; change fuzzy_swing_rad, fuzzy_swing_rate or the gains "
+          "of delayed_1"};
 }
 
 const Controller* find_controller(std::string_view name) {

@@ -1,5 +1,5 @@
 #pragma once
-/// One form for every complaint about a number from a file: "name = value: rule".
+/// Checks numbers from files. Every problem has the form "name = value: rule".
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -17,7 +17,7 @@ struct Requirements {
     text << name << " = " << value << ": " << rule;
     found.push_back(text.str());
   }
-  /// NaN fails every comparison, so it never passes a range.
+  /// NaN is outside every range.
   void in_range(const char* name, double value, double low, double high) {
     require(value >= low && value <= high, name, value,
             "must be in [" + text_of(low) + ", " + text_of(high) + "]");
@@ -26,7 +26,7 @@ struct Requirements {
     require(value > low && value <= high, name, value,
             "must be in (" + text_of(low) + ", " + text_of(high) + "]");
   }
-  /// @throws std::invalid_argument that names all of them
+  /// @throws std::invalid_argument with all problems
   void throw_if_any() const {
     if (found.empty()) return;
     std::string text;

@@ -8,9 +8,11 @@
 namespace crane::control {
 namespace {
 
-constexpr double kReach = 1e6;  // far beyond any crane, far below the end of double
+// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes (schedule.hpp).
 
-double bounded(double value) noexcept { return std::clamp(value, -kReach, kReach); }
+constexpr double kBound = 1e6;  // larger than any value of a crane; products of such values do not overflow
+
+double bounded(double value) noexcept { return std::clamp(value, -kBound, kBound); }
 
 double square(double value) noexcept { return value * value; }
 
@@ -44,22 +46,23 @@ Schedule schedule(const Design& design, const Measurement& measured) noexcept {
 }
 
 double trolley_volts(const plant::Parameters& crane, const Schedule& at, double vbar_x) noexcept {
-  return at.cable_length_m / (crane.trolley_gain_mps2pv * square(at.load_period_s)) * vbar_x;
+  return at.cable_length_m / (crane.trolley_gain_mps2pv * square(at.load_period_s)) * vbar_x;  // (3.37)
 }
 
 double slew_volts(const plant::Parameters& crane, const Schedule& at, double vbar_y) noexcept {
   const double inertia = 1 + crane.trolley_to_jib_ratio() * square(at.trolley_position_m);
   return -at.cable_length_m * inertia * at.inverse_position_pm /
-         (crane.slew_gain_radps2pv * square(at.load_period_s)) * vbar_y;
+         (crane.slew_gain_radps2pv * square(at.load_period_s)) * vbar_y;  // (3.38)
 }
 
 Volts load_force_volts(const plant::Parameters& crane, const Measurement& measured) noexcept {
   const double g = crane.gravity_mps2;
   Volts result{};
-  result[kTrolley] =
+  result[kTrolley] =  // (3.37)
       crane.load_to_trolley_ratio() * g * measured.swing_radial_rad / crane.trolley_gain_mps2pv;
-  result[kSlew] = -crane.load_to_jib_ratio() * g * measured.position[kTrolley] *
-                  measured.swing_tangential_rad / crane.slew_gain_radps2pv;
+  result[kSlew] =  // (3.38)
+      -crane.load_to_jib_ratio() * g * measured.position[kTrolley] * measured.swing_tangential_rad /
+      crane.slew_gain_radps2pv;
   return result;
 }
 

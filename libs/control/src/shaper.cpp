@@ -5,7 +5,7 @@
 namespace crane::control {
 
 Shaper::Shaper(Shaping shaping, double load_period_s) {
-  constexpr double kTolerated = 0.05;  // V of ei
+  constexpr double kTolerated = 0.05;  // V of the shaper ei
   Requirements rules;
   rules.above_up_to("load_period_s", load_period_s, 0, 1e6);
   rules.throw_if_any();

@@ -8,16 +8,19 @@
 namespace crane::control {
 namespace {
 
-constexpr double kLargest = 1e9, kSmallest = 1e-9;  // beyond any crane, far from the ends of double
+constexpr double kLargest = 1e9, kSmallest = 1e-9;  // ranges of trajectory.hpp; no overflow within them
 
 void require_ends(Requirements& rules, double start, double target) {
   rules.in_range("start", start, -kLargest, kLargest);
   rules.in_range("target", target, -kLargest, kLargest);
 }
 
-/// One ramp and what it leads to, unsigned.
+/// One ramp; all values are positive.
 struct Ramp {
-  double speed, acceleration, ramp_s, jerk_s;
+  double speed;         ///< final speed
+  double acceleration;  ///< largest acceleration
+  double ramp_s;        ///< duration
+  double jerk_s;        ///< duration of constant jerk at either end
 };
 
 Ramp to_full_speed(const AxisLimits& limits) {
@@ -28,13 +31,13 @@ Ramp to_full_speed(const AxisLimits& limits) {
   return {limits.speed, limits.jerk * short_s, 2 * short_s, short_s};
 }
 
-/// Of a move that brakes as soon as it has accelerated.
+/// Ramp of a move that decelerates immediately after the acceleration.
 Ramp of_short_move(const AxisLimits& limits, double distance) {
   const double jerk_s = limits.acceleration / limits.jerk;
   if (distance >= 2 * limits.acceleration * jerk_s * jerk_s) {
     const double root_s = std::sqrt(jerk_s * jerk_s + 4 * distance / limits.acceleration);
-    const double even_s = (root_s - jerk_s) / 2;  // at full acceleration, half of either jerk time included
-    return {limits.acceleration * even_s, limits.acceleration, even_s + jerk_s, jerk_s};
+    const double equivalent_s = (root_s - jerk_s) / 2;  // final speed / full acceleration
+    return {limits.acceleration * equivalent_s, limits.acceleration, equivalent_s + jerk_s, jerk_s};
   }
   const double short_s = std::cbrt(distance / (2 * limits.jerk));
   const double acceleration = limits.jerk * short_s;
@@ -43,8 +46,8 @@ Ramp of_short_move(const AxisLimits& limits, double distance) {
 
 }  // namespace
 
-/// From rest at 0 up to the middle of the move.
-AxisReference AxisProfile::risen(double time_s) const noexcept {
+/// Reference of the first half of the move, relative to `start`.
+AxisReference AxisProfile::first_half(double time_s) const noexcept {
   if (time_s >= ramp_s) return {speed * (time_s - ramp_s / 2), speed, 0};
   if (time_s < jerk_s) {
     const double jerk = acceleration / jerk_s;
@@ -65,10 +68,10 @@ AxisReference AxisProfile::at(double time_s) const noexcept {
   const double remaining_s = duration_s() - time_s;
   if (remaining_s <= 0) return {target, 0, 0};
   if (time_s <= remaining_s) {
-    const AxisReference rise = risen(time_s);
+    const AxisReference rise = first_half(time_s);
     return {start + rise.position, rise.speed, rise.acceleration};
   }
-  const AxisReference rise = risen(remaining_s);  // the second half mirrors the first
+  const AxisReference rise = first_half(remaining_s);  // the second half mirrors the first
   return {target - rise.position, rise.speed, -rise.acceleration};
 }
 

@@ -11,14 +11,15 @@ namespace {
 
 using std::numbers::pi;
 
-/// Samples after which the slowest pole z, ln |z| = -sin(2 pi cutoff_ratio) sin(pi / 2 order) or faster, has
-/// decayed to exp(-12).
+/// Number of samples in which the slowest mode of the filter decays to exp(-12). Its pole z satisfies
+/// ln |z| <= -sin(2 pi cutoff_ratio) sin(pi / (2 order)).
 std::size_t settling_samples(double cutoff_ratio, int order) {
   return static_cast<std::size_t>(
       std::ceil(12 / (std::sin(2 * pi * cutoff_ratio) * std::sin(pi / (2 * order)))));
 }
 
-/// The series between `margin` samples of its odd reflection at either end; margin < size.
+/// The samples, extended at both ends by `margin` samples of their odd reflection. @pre margin <
+/// samples.size()
 std::vector<double> continued(std::span<const double> samples, std::size_t margin) {
   std::vector<double> result;
   result.reserve(samples.size() + 2 * margin);
@@ -32,7 +33,7 @@ std::vector<double> continued(std::span<const double> samples, std::size_t margi
 void run_forwards(const std::vector<FilterSection>& sections, std::vector<double>& series) {
   for (const FilterSection& section : sections) {
     const double first = series.front();
-    FilterMemory memory{first, first, first, first};  // settled: the gain at rest is one
+    FilterMemory memory{first, first, first, first};  // settled: the steady-state gain is one
     for (double& value : series) value = step(section, memory, value);
   }
 }
@@ -45,7 +46,7 @@ std::vector<FilterSection> butterworth_sections(double cutoff_ratio, int order) 
                 "must be in [0.0001, 0.5)");
   rules.in_range("order", order, 1, 12);
   rules.throw_if_any();
-  const double w = std::tan(pi * cutoff_ratio);  // prewarped
+  const double w = std::tan(pi * cutoff_ratio);  // prewarped cut-off frequency
   std::vector<FilterSection> sections;
   for (int pair = 0; pair < order / 2; ++pair) {
     const double damping = 2 * std::sin((2 * pair + 1) * pi / (2 * order));

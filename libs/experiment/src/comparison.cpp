@@ -11,7 +11,7 @@
 namespace crane::experiment {
 namespace {
 
-/// A text cell of a CSV file.
+/// Quotes a text for a CSV cell.
 std::string text_cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string cell = "\"";
@@ -30,13 +30,13 @@ std::string settling_cell(const ComparedRun& run) {
   return run.metrics && run.metrics->settling_time_s ? fixed(*run.metrics->settling_time_s, 2) : "-";
 }
 
-/// A bar inside a cell would end it.
+/// Escapes '|', which would end the cell.
 std::string markdown_cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
   return text;
 }
 
-/// Aligned, so that it also reads on a terminal.
+/// Writes a table with aligned columns, which is also readable on a terminal.
 void write_markdown(std::ostream& out, const TextTable& table) {
   std::vector<std::size_t> widths(table.header.size(), 3);
   const auto widen = [&widths](const std::vector<std::string>& cells) {

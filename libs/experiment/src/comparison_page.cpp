@@ -105,8 +105,8 @@ report::Table table_of(const std::string& title, const TextTable& texts, bool co
 report::Page comparison_page(std::span<const ComparedRun> runs, const std::string& rig) {
   report::Page page{.title = "Comparison of controllers",
                     .summary = "Rig " + rig + ", " + std::to_string(runs.size()) +
-                               " runs. Settled: within 2 % of the move and both swings below 0.5 degrees, to "
-                               "the end of the run.",
+                               " runs. A run has settled when all axes stay within 2 % of the move and both "
+                               "swings stay below 0.5 degrees until its end.",
                     .sections = {}};
   report::Section summary{.title = "Settling time [s]", .blocks = {}};
   const auto scenarios = distinct(runs, &ComparedRun::scenario);

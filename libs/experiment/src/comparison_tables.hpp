@@ -1,5 +1,5 @@
 #pragma once
-/// What the Markdown and the HTML of a comparison have in common.
+/// Tables of a comparison, for Markdown and HTML.
 #include <map>
 #include <string>
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace crane::experiment {
 
-/// "as the rig file says" for no variant.
+/// Title of a variant; "as the rig file says" for an empty name.
 [[nodiscard]] std::string variant_title(const std::string& variant);
-/// The summaries of a variant's parts.
+/// Summaries of the parts of a variant.
 [[nodiscard]] std::string variant_summary(const std::string& variant);
 
 /// Distinct values of a member, in order of appearance.
@@ -24,10 +24,10 @@ struct TextTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
 };
-/// Settling times: controllers down, variants across; "-" where it never settled, "OVERSPEED" where it was
+/// Settling times; rows are controllers, columns are variants. "-": not settled; a cause such as "OVERSPEED":
 /// stopped.
 [[nodiscard]] TextTable settling_table(std::span<const ComparedRun> runs, const std::string& scenario);
-/// One row per run, one column per figure, the last saying why a run was stopped.
+/// One row per run, one column per figure; the last column has the cause of a stop.
 [[nodiscard]] TextTable figures_table(const std::vector<const ComparedRun*>& runs);
 
 }  // namespace crane::experiment

@@ -13,7 +13,7 @@ using plant::kAxes;
 
 bool is_moved(const Maneuver& maneuver, std::size_t axis) { return maneuver.to[axis] != maneuver.from[axis]; }
 
-/// Distance from the target within which an axis counts as arrived; infinite for an unmoved hoist.
+/// Distance from the target within which an axis counts as settled; infinite for an unmoved hoist.
 double tolerance(const Maneuver& maneuver, std::size_t axis) {
   if (is_moved(maneuver, axis)) return kSettlingShare * std::abs(maneuver.to[axis] - maneuver.from[axis]);
   constexpr plant::PerAxis kNominal{kNominalTrolleyMove_m, kNominalSlewMove_rad,
@@ -21,7 +21,7 @@ double tolerance(const Maneuver& maneuver, std::size_t axis) {
   return kSettlingShare * kNominal[axis];
 }
 
-/// Written so that a NaN has not arrived.
+/// A sample with NaN counts as not settled.
 bool has_arrived(const Sample& sample, const Maneuver& maneuver) {
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
     const double limit = tolerance(maneuver, axis);
@@ -97,7 +97,7 @@ void require_usable(std::span<const Sample> run, const Maneuver& maneuver) {
       throw std::invalid_argument("time does not increase after " + recording::shortest(run[i - 1].time_s) +
                                   " s");
   if (run.empty() || !(run.back().time_s >= maneuver.last_action_s))
-    throw std::invalid_argument("the run ends before the maneuver's last action at " +
+    throw std::invalid_argument("the run ends before its last move, excitation or kick at " +
                                 recording::shortest(maneuver.last_action_s) + " s");
 }
 
@@ -105,7 +105,7 @@ nlohmann::ordered_json or_null(const std::optional<double>& value, double scale 
   return value ? nlohmann::ordered_json(*value * scale) : nlohmann::ordered_json(nullptr);
 }
 
-/// What the scenario asks for in order of time; an excitation ends where its sines are about.
+/// Moves of the scenario in order of time; an excitation counts as a move to its mean position.
 std::vector<Move> moves_of(const Scenario& scenario) {
   std::vector<Move> moves = scenario.moves;
   for (const Excitation& excitation : scenario.excitations) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Figures of merit as people read them, for tables of any kind.
+/// Figures of merit as formatted text, for tables.
 #include <array>
 #include <string>
 #include <vector>

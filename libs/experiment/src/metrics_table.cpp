@@ -12,7 +12,7 @@ namespace {
 constexpr double kDeg = 180 / std::numbers::pi;
 using Row = std::vector<std::string>;
 
-/// "14.3 %" of a moved axis, "17.4 cm" or "2.1 deg" of one that should not have moved.
+/// Overshoot of a moved axis, "14.3 %"; deviation of an unmoved axis, "17.4 cm" or "2.1 deg".
 std::string overshoot(const Metrics& metrics, std::size_t axis) {
   if (metrics.overshoot_percent[axis]) return fixed(*metrics.overshoot_percent[axis], 1) + " %";
   const double deviation = metrics.deviation[axis].value_or(0);

@@ -6,11 +6,12 @@
 #include <numbers>
 #include <vector>
 
-#include "gnuplot.hpp"
+#include "crane/plot/gnuplot.hpp"
 
 namespace crane::experiment {
 namespace {
 
+using plot::quoted;
 using recording::shortest;
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
@@ -48,8 +49,8 @@ struct Curve {
 struct Panel {
   std::string label;
   std::vector<Curve> curves;
-  double smallest_half_range = 0;  ///< the axis shows at least +- this much around its middle
-  double band = 0;                 ///< a grey band +- this
+  double smallest_half_range = 0;  ///< minimum half height of the y range
+  double band = 0;                 ///< half height of a grey band around 0
 };
 
 double in(double value, double scale) {
@@ -102,7 +103,7 @@ std::string settled_text(const Metrics& metrics) {
   return "settled after " + shortest(std::round(*metrics.settling_time_s * 100) / 100) + " s";
 }
 
-/// Frame, grid, captions and the mark of the settling time, common to all panels.
+/// gnuplot settings of all panels: frame, grid, captions, mark of the settling time.
 std::string settings(const Caption& caption, const Maneuver& maneuver, const Metrics& metrics, double end_s,
                      double height) {
   const auto pixel_y = [height](double from_top) { return shortest(1 - from_top / height); };
@@ -170,7 +171,7 @@ double value_of(const Sample& s, int column) {
   }
 }
 
-/// Range of the panel's curves with room for the key above them.
+/// y range of the panel's curves, with space for the key at the top.
 std::vector<double> range_of(const Panel& panel, std::span<const Sample> run, double zero_s) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Sample& s : run)
@@ -192,7 +193,7 @@ void draw_maneuver(const std::filesystem::path& file, const Caption& caption, st
                    const Maneuver& maneuver, const Metrics& metrics) {
   const double zero_s = maneuver.first_action_s;
   if (run.empty() || !(run.back().time_s > zero_s))
-    throw PictureError(file.string() + ": the run has nothing to draw");
+    throw plot::PictureError(file.string() + ": the run has nothing to draw");
   const std::vector<Panel> panels = panels_of(maneuver);
   const double height = kTop + kBottom + kPanelHeight * static_cast<double>(panels.size());
   std::string script = data_block(run, zero_s);
@@ -208,7 +209,7 @@ void draw_maneuver(const std::filesystem::path& file, const Caption& caption, st
     script += plot(panels[i], range_of(panels[i], run, zero_s));
     if (i == 0) script += "unset label 1\nunset label 2\n";
   }
-  draw_script(file, kWidth, height, script + "unset multiplot\n");
+  plot::draw_script(file, kWidth, height, script + "unset multiplot\n");
 }
 
 }  // namespace crane::experiment

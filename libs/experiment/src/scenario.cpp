@@ -24,7 +24,7 @@ constexpr Range kLoads = fields::field_of(plant::kParameterFields, "load_mass_kg
 constexpr Range kTimes = Range::closed(0, 86'400);
 using plant::kPositions;
 
-/// An angle or rate that may be given in either unit; both at once is a problem.
+/// An angle or rate with two keys, in rad or in degrees; only one of them may be given.
 struct AngleKey {
   const char* rad;
   const char* deg;
@@ -33,7 +33,8 @@ struct AngleKey {
 std::optional<double> angle(TomlTable& table, const AngleKey& key, const Range& range) {
   const bool in_rad = table.has(key.rad);
   const bool in_deg = table.has(key.deg);
-  if (in_rad && in_deg) table.problem(key.deg, std::string{"give it or "} + key.rad + ", not both");
+  if (in_rad && in_deg)
+    table.problem(key.deg, std::string{"give either this key or "} + key.rad + ", not both");
   if (in_rad) return table.number(key.rad, range);
   if (in_deg)
     return table.number(key.deg, Range::closed(range.low / kRadPerDeg, range.high / kRadPerDeg)) * kRadPerDeg;
@@ -45,10 +46,10 @@ std::optional<double> length(TomlTable& table, const char* key, const Range& ran
   return table.number(key, range);
 }
 
-/// Reads the position of each axis and holds it against the travel of a rig.
+/// Reads the position of each axis and checks it against the travel of a rig.
 class PositionReader {
  public:
-  /// @param inside_margin targets keep the soft margin, a crane at rest need not
+  /// @param inside_margin  true for targets: the soft margin applies; false for start positions
   PositionReader(const Rig* rig, bool inside_margin) : rig_{rig}, inside_margin_{inside_margin} {}
 
   std::array<std::optional<double>, plant::kAxes> read(TomlTable& table) const {
@@ -80,8 +81,8 @@ class PositionReader {
     if (!(position < low - kRounding || position > high + kRounding)) return;
     const double scale = key.ends_with("_deg") ? 1 / kRadPerDeg : 1;
     const auto rounded = [scale](double value) { return shortest(std::round(value * scale * 1e6) / 1e6); };
-    table.problem(key, "must lie in [" + rounded(low) + ", " + rounded(high) + "], the travel of " +
-                           rig_->name + (inside_margin_ ? " less its margin" : ""));
+    table.problem(key, "must be in [" + rounded(low) + ", " + rounded(high) + "], the travel of " +
+                           rig_->name + (inside_margin_ ? " minus the soft margin" : ""));
   }
 
   const Rig* rig_;
@@ -106,9 +107,9 @@ void read_moves(TomlTable& root, const Rig* rig, Scenario& scenario) {
     move.target = PositionReader{rig, true}.read(table);
     if (!(move.target[0] || move.target[1] || move.target[2]))
       table.problem("at_s",
-                    "the move names no axis: give trolley_position_m, slew_angle_deg or cable_length_m");
+                    "the move has no target: give trolley_position_m, slew_angle_deg or cable_length_m");
     if (!scenario.moves.empty() && move.at_s <= scenario.moves.back().at_s)
-      table.problem("at_s", "must be later than the move before");
+      table.problem("at_s", "must be later than the previous move");
     scenario.moves.push_back(move);
   }
 }
@@ -123,8 +124,7 @@ std::array<control::Sine, 4> read_sines(TomlTable& table, const std::string& amp
   if (amplitudes.size() > sines.size())
     table.problem(amplitudes_key, "must be at most " + std::to_string(sines.size()) + " sines");
   else if (frequencies_hz.size() != amplitudes.size() || phases_rad.size() != amplitudes.size())
-    table.problem(amplitudes_key,
-                  "must be as many as frequencies_hz, and as phases_rad where they are given");
+    table.problem(amplitudes_key, "must have as many values as frequencies_hz, and as phases_rad when given");
   else
     for (std::size_t i = 0; i < amplitudes.size(); ++i)
       sines[i] = {amplitudes[i], frequencies_hz[i], phases_rad[i]};
@@ -141,7 +141,7 @@ void check_excursion(TomlTable& table, const std::string& key, const Rig& rig,
   const double low = drive.low_limit + drive.soft_margin, high = drive.high_limit - drive.soft_margin;
   if (reference.about - excursion < low - kRounding || reference.about + excursion > high + kRounding)
     table.problem(key, "with its sines must stay in [" + shortest(low) + ", " + shortest(high) +
-                           "], the travel of " + rig.name + " less its margin");
+                           "], the travel of " + rig.name + " minus the soft margin");
 }
 
 void read_excitations(TomlTable& root, const Rig* rig, Scenario& scenario) {
@@ -160,7 +160,7 @@ void read_excitations(TomlTable& root, const Rig* rig, Scenario& scenario) {
     reference.duration_s = table.number("duration_s", kDurations, 0);
     if (rig != nullptr) check_excursion(table, about_key, *rig, reference);
     if (!scenario.excitations.empty() && excitation.at_s <= scenario.excitations.back().at_s)
-      table.problem("at_s", "must be later than the excitation before");
+      table.problem("at_s", "must be later than the previous excitation");
     scenario.excitations.push_back(excitation);
   }
 }
@@ -175,7 +175,7 @@ void read_kicks(TomlTable& root, Scenario& scenario) {
     if (kick.radial_radps == 0 && kick.tangential_radps == 0)
       table.problem("at_s", "the kick has no rate: give radial_degps or tangential_degps");
     if (!scenario.kicks.empty() && kick.at_s <= scenario.kicks.back().at_s)
-      table.problem("at_s", "must be later than the kick before");
+      table.problem("at_s", "must be later than the previous kick");
     scenario.kicks.push_back(kick);
   }
 }
@@ -184,7 +184,8 @@ void read_defaults(TomlTable& root, Scenario& scenario) {
   scenario.rig = root.text("rig", "");
   scenario.controllers = root.texts("controllers");
   for (const auto& name : scenario.controllers)
-    if (control::find_controller(name) == nullptr) root.problem("controllers", name + " is no controller");
+    if (control::find_controller(name) == nullptr)
+      root.problem("controllers", "no controller has the name " + name);
   scenario.variants = root.texts("variants");
   for (const auto& names : scenario.variants)
     for (const auto& problem : variant_problems(names)) root.problem("variants", problem);

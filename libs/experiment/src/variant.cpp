@@ -16,14 +16,14 @@ bool has_friction(const Rig& rig, std::size_t axis) {
   });
 }
 
-/// On a drive without friction there is nothing to compensate.
+/// Sets the compensated share of every drive with friction.
 void compensate(Rig& rig, double factor) {
   for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
     rig.design.friction[axis].factor = has_friction(rig, axis) ? factor : 0;
 }
 
-/// The true cable over the one that the hoist encoder shows: the encoder was zeroed with other slings below
-/// the hook than those in use. Gains are scheduled on the encoder; the load swings on the true cable.
+/// @param ratio  true / measured cable length, for example with slings of another length than at the zeroing
+///   of the encoder. The gains depend on the measured length, the swing on the true length.
 void stretch_cable(Rig& rig, double ratio) {
   rig.start.cable_length_offset_m = (ratio - 1) * rig.start.position[plant::kHoist];
 }
@@ -33,7 +33,7 @@ void know_cable(Rig& rig) {
   rig.start.cable_length_offset_m = 0;
 }
 
-/// References take `ratio` times as long over the same way.
+/// Stretches the references by `ratio` in time; their path does not change.
 void slow_down(Rig& rig, double ratio) {
   for (auto& drive : rig.drives) {
     drive.reference_speed /= ratio;
@@ -54,32 +54,31 @@ void forward_gain(Rig& rig) {
 
 constexpr std::size_t kDefaultVariants = 8;
 const std::vector<Variant> kVariants{
-    {"ideal", "no friction or other effect in the plant, nothing compensated",
+    {"ideal", "plant without friction and other terms, no compensation",
      [](Rig& rig) {
        rig.terms.clear();
        compensate(rig, 0);
      }},
-    {"exact_compensation", "the friction that the controllers believe in is compensated fully",
+    {"exact_compensation", "100 % of the nominal friction is compensated",
      [](Rig& rig) { compensate(rig, 1); }},
-    {"no_compensation", "no friction is compensated", [](Rig& rig) { compensate(rig, 0); }},
-    {"under_compensation", "80 % of the friction that the controllers believe in is compensated",
+    {"no_compensation", "the friction is not compensated", [](Rig& rig) { compensate(rig, 0); }},
+    {"under_compensation", "80 % of the nominal friction is compensated",
      [](Rig& rig) { compensate(rig, 0.8); }},
-    {"short_cable", "the true cable is 50 % shorter than the hoist encoder says",
+    {"short_cable", "the true cable is 50 % shorter than measured",
      [](Rig& rig) { stretch_cable(rig, 0.5); }},
-    {"long_cable", "the true cable is 50 % longer than the hoist encoder says",
-     [](Rig& rig) { stretch_cable(rig, 1.5); }},
+    {"long_cable", "the true cable is 50 % longer than measured", [](Rig& rig) { stretch_cable(rig, 1.5); }},
     {"light_load", "the true load is 50 % lighter than in the rig file",
      [](Rig& rig) { rig.plant.load_mass_kg *= 0.5; }},
     {"heavy_load", "the true load is 50 % heavier than in the rig file",
      [](Rig& rig) { rig.plant.load_mass_kg *= 1.5; }},
-    {"as_is", "the rig as its file says", [](Rig&) {}},
-    {"known_load", "the controllers believe the true load",
+    {"as_is", "the rig file without changes", [](Rig&) {}},
+    {"known_load", "the controllers use the true load mass",
      [](Rig& rig) { rig.design.crane.load_mass_kg = rig.plant.load_mass_kg; }},
-    {"known_cable", "the hoist encoder shows the true cable", know_cable},
-    {"nominal_cable", "the true cable is the one that the hoist encoder shows",
+    {"known_cable", "the hoist encoder measures the true cable length", know_cable},
+    {"nominal_cable", "the true cable length is the measured one",
      [](Rig& rig) { rig.start.cable_length_offset_m = 0; }},
-    {"unfiltered", "no low-pass in front of the differentiators", remove_filters},
-    {"slow_reference", "references take twice as long, (4.22)", [](Rig& rig) { slow_down(rig, 2); }},
+    {"unfiltered", "no low-pass filter before the differentiators", remove_filters},
+    {"slow_reference", "references take twice the time, (4.22)", [](Rig& rig) { slow_down(rig, 2); }},
     {"full_gain_0.4", "full state feedback with K = 0.4", forward_gain<4>},
     {"full_gain_2", "full state feedback with K = 2", forward_gain<20>},
     {"full_gain_4", "full state feedback with K = 4", forward_gain<40>},

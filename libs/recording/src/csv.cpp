@@ -36,7 +36,7 @@ void require_writable(const Table& table) {
   for (const Table::Column& column : table.columns) {
     if (column.name.empty() || column.name.find_first_of(",\"\n\r") != std::string::npos)
       throw CsvError("column name \"" + column.name +
-                     "\": must not be empty or hold a comma, quote or line end");
+                     "\": must not be empty or contain a comma, quote or line end");
     if (!names.insert(column.name).second) throw CsvError("column " + column.name + " occurs twice");
     if (column.values.size() != table.rows())
       throw CsvError("column " + column.name + " has " + std::to_string(column.values.size()) + " rows, " +
@@ -44,7 +44,7 @@ void require_writable(const Table& table) {
   }
 }
 
-/// One pass over the text, a line at a time.
+/// Parses the text line by line.
 class Parser {
  public:
   Parser(std::string file, const std::vector<std::string>& wanted)
@@ -120,7 +120,7 @@ const std::vector<double>* Table::find(std::string_view name) const {
 }
 
 std::string shortest(double value) {
-  if (std::isnan(value)) return "nan";  // to_chars tells nan from -nan, which is no difference in the data
+  if (std::isnan(value)) return "nan";  // to_chars would write "-nan" for some NaN
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};

@@ -29,7 +29,7 @@ const std::map<std::string, Kind, std::less<>> kPrimitives{{"boolean", Kind::boo
                                                            {"float", Kind::float32},
                                                            {"double", Kind::float64}};
 
-/// Recursive descent over the tokens.
+/// Recursive-descent parser.
 class Parser {
  public:
   Parser(std::string_view text, IdlTypes& types) : tokens_{tokens_of(text)}, types_{types} {}
@@ -176,7 +176,7 @@ class Parser {
     resolve(name, at, field);
   }
 
-  /// A name means the innermost definition around it.
+  /// Finds the definition of a name in the innermost enclosing module.
   void resolve(const std::string& name, int at, Field& field) const {
     for (std::size_t depth = scope_.size() + 1; depth-- > 0;) {
       std::string full;

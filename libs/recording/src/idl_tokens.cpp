@@ -10,7 +10,7 @@ namespace {
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// Length of the blank or comment that `text` begins with, 0 when it begins with neither.
+/// Length of the white space or comment at the start of `text`; 0 when there is none.
 std::size_t blank_length(std::string_view text, int line) {
   if (std::isspace(static_cast<unsigned char>(text.front())) != 0) return 1;
   if (text.starts_with("//")) return std::min(text.find('\n'), text.size());
@@ -20,7 +20,7 @@ std::size_t blank_length(std::string_view text, int line) {
   return end + 2;
 }
 
-/// Length of the token that `text` begins with, 0 when IDL knows no such token.
+/// Length of the token at the start of `text`; 0 when IDL has no such token.
 std::size_t token_length(std::string_view text) {
   if (is_word(text.front())) {
     const auto end = std::find_if_not(text.begin(), text.end(), is_word);

@@ -1,5 +1,5 @@
 #pragma once
-/// Words, numbers and punctuation of an IDL text, comments left out.
+/// Splits an IDL text into tokens: words, numbers and punctuation, without comments.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +11,7 @@ struct Token {
   int line = 1;
 };
 
-/// The last token is the end of the text. @throws SchemaError for a character IDL does not know
+/// The last token is an empty end token. @throws SchemaError for a character that IDL does not have
 [[nodiscard]] std::vector<Token> tokens_of(std::string_view idl_text);
 
 [[noreturn]] void fail_at(int line, const std::string& what);

@@ -1,5 +1,5 @@
 #pragma once
-/// Random access to a file that may be shorter than it should be.
+/// Random access to a file that may be truncated.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -15,7 +15,7 @@ class InputFile {
   InputFile& operator=(const InputFile&) = delete;
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] std::uint64_t size() const { return size_; }  ///< when it was opened
+  [[nodiscard]] std::uint64_t size() const { return size_; }  ///< size at the time of opening, bytes
   /// Bytes [offset, offset + size), fewer at the end of the file. @throws ReadError on an I/O error
   [[nodiscard]] std::string read(std::uint64_t offset, std::uint64_t size) const;
 

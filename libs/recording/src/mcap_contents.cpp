@@ -13,7 +13,7 @@ using mcap::Cursor;
 using mcap::FormatError;
 using mcap::Op;
 
-/// No chunk of any writer is larger; keeps a damaged size from asking for all memory.
+/// Maximum size of a chunk, bytes. A larger value is a damaged size; the limit bounds the allocated memory.
 constexpr std::uint64_t kMaxChunk = 1ULL << 30U;
 
 ChunkPlace read_chunk_index(Cursor content) {
@@ -54,7 +54,7 @@ void add_summary_record(Contents& contents, Op op, std::string_view content) {
   }
 }
 
-/// The summary section, its CRC checked; empty when there is none that can be trusted.
+/// @return the summary section after a check of its CRC; empty when it is missing or damaged
 std::string read_summary(const InputFile& file) {
   constexpr std::uint64_t kTail = mcap::kRecordHead + mcap::kFooterSize + mcap::kMagic.size();
   if (file.size() < mcap::kMagic.size() + kTail) return {};
@@ -91,7 +91,7 @@ std::string unpack(std::string_view packed, std::string_view compression, std::u
   return out;
 }
 
-/// Walks a file; see walk().
+/// Scans a file; see walk().
 class Walker {
  public:
   Walker(const InputFile& file, std::vector<std::string>& problems) : file_{file}, problems_{problems} {}
@@ -111,7 +111,7 @@ class Walker {
   }
 
  private:
-  /// The record that begins at `at`, if a whole one does.
+  /// @return the record at `at`; nothing when there is no complete record
   std::optional<Place> record_at(std::uint64_t at) {
     const std::string head = file_.read(at, mcap::kRecordHead);
     if (head.size() < mcap::kRecordHead) return std::nullopt;
@@ -160,7 +160,7 @@ class Walker {
       }
       contents_.chunks.push_back(chunk);
     } catch (const FormatError& error) {
-      report(place.offset, std::string{"chunk is damaged and left out: "} + error.what());
+      report(place.offset, std::string{"chunk is damaged and skipped: "} + error.what());
     }
   }
 
@@ -174,10 +174,10 @@ class Walker {
     chunk.has_messages = true;
   }
 
-  /// @return where the next chunk begins, or the end of the file
+  /// @return offset of the next chunk, or the end of the file
   std::uint64_t pass_over_damage(std::uint64_t at) {
     constexpr std::uint64_t kBlock = 1U << 20U;
-    constexpr std::string_view kMark{"\x04\0\0\0zstd", 8};  // the compression field of every chunk we write
+    constexpr std::string_view kMark{"\x04\0\0\0zstd", 8};  // compression field of every chunk of McapWriter
     constexpr std::uint64_t kMarkAt = mcap::kRecordHead + 28;
     for (std::uint64_t block = at; block < file_.size(); block += kBlock) {
       const std::string bytes = file_.read(block, kBlock + kMark.size());
@@ -185,7 +185,7 @@ class Walker {
         if (block + i < at + 1 + kMarkAt) continue;
         const std::uint64_t candidate = block + i - kMarkAt;
         if (!record_at(candidate) || op_ != Op::chunk) continue;
-        report(at, std::to_string(candidate - at) + " bytes are damaged and left out");
+        report(at, std::to_string(candidate - at) + " bytes are damaged and skipped");
         return candidate;
       }
     }

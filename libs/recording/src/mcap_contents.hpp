@@ -11,7 +11,7 @@
 
 namespace crane::recording {
 
-/// A record in the file, opcode and length included.
+/// Position of a record in the file, including opcode and length.
 struct Place {
   std::uint64_t offset = 0, length = 0;
 };
@@ -27,13 +27,13 @@ struct Contents {
   std::map<std::uint16_t, ChannelRecord> channels;
   std::vector<ChunkPlace> chunks;
   std::vector<Place> metadata, attachments;
-  std::uint64_t message_count = 0;  ///< as the index says
+  std::uint64_t message_count = 0;  ///< number of messages according to the index
 };
 
 /// @return nothing when index or footer are missing or damaged
 [[nodiscard]] std::optional<Contents> read_index(const InputFile& file);
 
-/// Walks the file record by record, passes over damage. @param problems what was wrong is appended
+/// Scans the file record by record and skips damaged parts. @param problems  found problems are appended
 [[nodiscard]] Contents walk(const InputFile& file, std::vector<std::string>& problems);
 
 /// Unpacked records of a chunk, checked against its CRC. @throws mcap::FormatError saying what is wrong

@@ -20,7 +20,7 @@ namespace crane::recording::mcap {
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 inline constexpr std::size_t kRecordHead = 9;   ///< opcode and length
 inline constexpr std::size_t kFooterSize = 20;  ///< content of the footer record
-/// Longer records than any writer makes: a length beyond it is damage, not data.
+/// Maximum length of a record, bytes. A larger value is a damaged length.
 inline constexpr std::uint64_t kMaxRecord = 1ULL << 32U;
 
 enum class Op : std::uint8_t {
@@ -41,7 +41,7 @@ enum class Op : std::uint8_t {
   data_end = 0x0F
 };
 
-/// CRC-32 of ISO 3309, which MCAP uses throughout.
+/// CRC-32 of ISO 3309, the checksum of MCAP.
 class Crc32 {
  public:
   void add(const void* data, std::size_t size) { crc_.process_bytes(data, size); }
@@ -56,7 +56,7 @@ inline std::uint32_t crc32(const void* data, std::size_t size) {
   return crc.value();
 }
 
-/// Content of a record being written.
+/// Builds the content of a record.
 class Content {
  public:
   template <class T>
@@ -93,13 +93,13 @@ inline std::string record(Op op, std::string_view content) {
   return head.bytes();
 }
 
-/// A record's content ends before one of its fields does.
+/// The content of a record is malformed.
 class FormatError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Bounds-checked reading of a record's content. @throws FormatError
+/// Reads the content of a record with bounds checks. @throws FormatError
 class Cursor {
  public:
   explicit Cursor(std::string_view bytes) : rest_{bytes} {}

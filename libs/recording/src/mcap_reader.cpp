@@ -18,7 +18,7 @@ Bytes as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// A message and the chunk that holds its data.
+/// A message and the chunk that contains its data.
 struct Pending {
   Message message;
   std::uint64_t chunk_offset = 0;
@@ -49,7 +49,7 @@ struct McapReader::State {
   std::vector<SchemaRecord> schemas;
   std::vector<ChannelRecord> channels;
   std::vector<std::string> problems;
-  std::set<std::uint64_t> reported;  // offsets of problems, so that reading twice does not report twice
+  std::set<std::uint64_t> reported;  // offsets of reported problems, to report each problem once
   bool indexed = false;
 
   void open();
@@ -67,7 +67,7 @@ void McapReader::State::open() {
     contents = std::move(*index);
     indexed = true;
   } else {
-    problems.push_back(file.name() + ": has no usable index: it was cut, damaged or not closed");
+    problems.push_back(file.name() + ": has no usable index: the file was truncated, damaged or not closed");
     contents = walk(file, problems);
   }
   schemas = values(contents.schemas);
@@ -86,10 +86,11 @@ const ChannelRecord* McapReader::State::channel(std::uint16_t id) const {
   return found != channels.end() && found->id == id ? &*found : nullptr;
 }
 
-/// Content of a record. @throws FormatError when it is cut
+/// Content of a record. @throws FormatError when the record is truncated
 std::string McapReader::State::content_of(const Place& place) const {
   std::string bytes = file.read(place.offset, place.length);
-  if (bytes.size() != place.length || bytes.size() < mcap::kRecordHead) throw FormatError("record is cut");
+  if (bytes.size() != place.length || bytes.size() < mcap::kRecordHead)
+    throw FormatError("record is truncated");
   return bytes.substr(mcap::kRecordHead);
 }
 
@@ -119,7 +120,7 @@ void McapReader::State::load(const ChunkPlace& chunk, const Selection& selection
     }
   } catch (const FormatError& error) {
     pending.resize(before);
-    report(chunk.place.offset, std::string{"chunk is damaged and left out: "} + error.what());
+    report(chunk.place.offset, std::string{"chunk is damaged and skipped: "} + error.what());
   }
 }
 
@@ -163,7 +164,7 @@ std::vector<MetadataRecord> McapReader::metadata() {
       std::string name{cursor.text()};
       list.push_back({std::move(name), cursor.map()});
     } catch (const FormatError& error) {
-      state_->report(place.offset, std::string{"metadata are damaged and left out: "} + error.what());
+      state_->report(place.offset, std::string{"metadata are damaged and skipped: "} + error.what());
     }
   return list;
 }
@@ -185,7 +186,7 @@ std::vector<AttachmentRecord> McapReader::attachments() {
       if (crc != 0 && crc != mcap::crc32(content.data(), covered)) throw FormatError("CRC is wrong");
       list.push_back(std::move(attachment));
     } catch (const FormatError& error) {
-      state_->report(place.offset, std::string{"attachment is damaged and left out: "} + error.what());
+      state_->report(place.offset, std::string{"attachment is damaged and skipped: "} + error.what());
     }
   return list;
 }
@@ -197,7 +198,7 @@ void McapReader::for_each(const Selection& selection, const std::function<bool(c
       order.push_back(&chunk);
   std::stable_sort(order.begin(), order.end(),
                    [](const ChunkPlace* a, const ChunkPlace* b) { return a->first_ns < b->first_ns; });
-  std::vector<Pending> pending;  // sorted by time; may still be preceded by messages of chunks not loaded
+  std::vector<Pending> pending;  // sorted by time; chunks that are not loaded yet may have earlier messages
   for (std::size_t i = 0; i < order.size(); ++i) {
     state_->load(*order[i], selection, pending);
     std::sort(pending.begin(), pending.end(), earlier);

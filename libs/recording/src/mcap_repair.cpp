@@ -40,7 +40,7 @@ CheckReport repair(const std::filesystem::path& damaged, const std::filesystem::
   McapReader reader{damaged};
   std::error_code ignored;
   if (std::filesystem::equivalent(damaged, repaired, ignored))
-    throw WriteError(repaired.string() + ": is the damaged file itself; name another one");
+    throw WriteError(repaired.string() + ": is the damaged file itself; give another name");
   const std::filesystem::path partial = repaired.string() + ".partial";
   CheckReport report;
   try {

@@ -17,7 +17,7 @@ using mcap::record;
 
 std::string_view view(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-/// First and last log time of what was added.
+/// First and last log time of the added messages.
 struct TimeSpan {
   std::int64_t first = 0, last = 0;
   bool empty = true;
@@ -57,7 +57,7 @@ struct McapWriter::State {
   OutputFile file;
   bool closed = false;
   std::string chunk;    // records of the open chunk
-  TimeSpan chunk_span;  // of the messages in it
+  TimeSpan chunk_span;  // log times of its messages
   std::map<std::uint16_t, Content>
       chunk_index;  // per channel: (log time, offset in the chunk) of each message
   TimeSpan file_span;
@@ -157,7 +157,7 @@ void McapWriter::State::write_summary() {
   const std::uint64_t offsets_at = base + out.size();
   out += offsets;
   const Content footer = Content{}.number(base + summary_at).number(offsets_at);
-  // The CRC covers the summary and the footer up to the CRC itself.
+  // The CRC covers the summary and the footer up to the CRC field.
   Content head;
   head.number(static_cast<std::uint8_t>(Op::footer))
       .number(std::uint64_t{mcap::kFooterSize})

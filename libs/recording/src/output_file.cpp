@@ -38,8 +38,8 @@ void OutputFile::append(std::string_view bytes) {
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) {
       const int reason = errno;
-      // What was written of this part would read as damage. A device cannot be cut; then nothing is lost
-      // either.
+      // Removes the incomplete part, which a reader would report as damage. ftruncate fails for a device; the
+      // error has no consequence.
       (void)::ftruncate(descriptor_, static_cast<off_t>(size_));
       errno = reason;
       fail("cannot write");

@@ -1,5 +1,5 @@
 #pragma once
-/// A file that only grows, and is cut back to its last whole part when the disk is full.
+/// A file to which data are only appended. When the disk is full, an incomplete part is removed.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -9,20 +9,20 @@ namespace crane::recording {
 
 class OutputFile {
  public:
-  /// Creates or truncates. @throws WriteError
+  /// Creates or truncates the file. @throws WriteError
   explicit OutputFile(const std::filesystem::path& file);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Appends all of `bytes` or nothing. @throws WriteError, from then on always
+  /// Appends all of `bytes` or nothing. @throws WriteError; after a failure every further call throws
   void append(std::string_view bytes);
   /// @throws WriteError
   void sync();
   /// @throws WriteError: some file systems report a full disk only here
   void close();
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// @throws WriteError, the first one again, after a failure
+  /// @throws WriteError, with the first failure, when a call has failed
   void require_good() const;
 
  private:

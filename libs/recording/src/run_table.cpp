@@ -12,7 +12,7 @@ using nlohmann::ordered_json;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-/// Builds a table column by column name, one row at a time.
+/// Builds a table row by row; columns are found by name.
 class RowWriter {
  public:
   explicit RowWriter(Table& table) : table_{table} {}

@@ -32,7 +32,8 @@ class Decoder {
   }
 
   void finish() const {
-    if (body_.size() - at_ > 3) fail(std::to_string(body_.size() - at_) + " bytes are left over");
+    if (body_.size() - at_ > 3)
+      fail(std::to_string(body_.size() - at_) + " bytes remain after the last field");
   }
 
  private:
@@ -126,7 +127,7 @@ class Decoder {
     return printable(value);
   }
 
-  /// JSON wants UTF-8; a text cut inside a character gets a replacement mark there.
+  /// JSON requires UTF-8. Invalid bytes, for example of a truncated text, become replacement characters.
   static std::string printable(const std::string& value) {
     const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return (c & 0x80) == 0; });
     if (ascii) return value;

@@ -1,5 +1,5 @@
 #pragma once
-/// Types of an IDL text, ready for decoding.
+/// Types of an IDL text, in the form that the decoder uses.
 #include <cstdint>
 #include <map>
 #include <string>
@@ -37,7 +37,7 @@ struct Field {
   Kind kind = Kind::uint8;
   bool is_array = false;
   std::uint32_t count = 1;       ///< elements of the array
-  std::uint32_t max_length = 0;  ///< string: without the terminator, 0: unbounded
+  std::uint32_t max_length = 0;  ///< string: maximum length without the terminator; 0: unbounded
   bool key = false;
   const Enumeration* enumeration = nullptr;
   const Structure* structure = nullptr;
@@ -51,7 +51,7 @@ struct Structure {
 struct IdlTypes {
   std::map<std::string, Structure, std::less<>> structures;  ///< addresses stay: fields point here
   std::map<std::string, Enumeration, std::less<>> enumerations;
-  std::vector<std::string> order;  ///< of the structures
+  std::vector<std::string> order;  ///< names of the structures in the order of the text
 
   /// @throws SchemaError
   void parse(std::string_view text);

@@ -1,5 +1,5 @@
 #pragma once
-/// Script and style of every page; the definitions are made by CMake from third_party/ and assets/.
+/// Script and style of every page. CMake generates the definitions from third_party/ and assets/.
 
 namespace crane::report::assets {
 

@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Largest power of ten that keeps the rounding below 1e-5 of the range, and the integers exact in a double.
+/// Largest exponent k for which rounding to 10^k is below 1e-5 of the range and all integers are exact in a
+/// double.
 int decimal_exponent(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity(), high = -low, largest = 0;
   for (const double value : values)
@@ -35,7 +36,7 @@ void check(const LinePlot& plot, const Series& series, const std::vector<double>
   if (series.y.size() != x.size())
     refuse(plot, series, std::to_string(series.y.size()) + " y for " + std::to_string(x.size()) + " x");
   if (series.upper.size() != (series.style == Style::band ? x.size() : 0))
-    refuse(plot, series, "a band, and nothing else, has as many upper values as x");
+    refuse(plot, series, "a band must have as many upper values as x; other styles have no upper values");
   if (!std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); }))
     refuse(plot, series, "x is not finite");
   if (series.style != Style::points && !std::is_sorted(x.begin(), x.end()))
@@ -60,7 +61,7 @@ const char* name_of(Style style) {
   return "line";
 }
 
-/// Index of `x` among the distinct columns; appended when it is new.
+/// Index of `x` in `columns`; a new `x` is appended.
 std::size_t column_of(const std::vector<double>& x, std::vector<std::vector<double>>& columns) {
   const auto found = std::find(columns.begin(), columns.end(), x);
   if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
@@ -94,7 +95,7 @@ Json to_json(const LinePlot& plot) {
     const Series& series = plot.series[i];
     const std::vector<double>& x = series.x.empty() ? plot.x : series.x;
     check(plot, series, x);
-    // A cloud of points comes in any order; the drawing library wants its x in order.
+    // Points may have any order; uPlot requires sorted x.
     std::vector<std::size_t> order(x.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&x](std::size_t a, std::size_t b) { return x[a] < x[b]; });

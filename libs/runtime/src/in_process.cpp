@@ -4,7 +4,7 @@
 
 namespace crane::runtime {
 namespace {
-constexpr std::uint32_t kEpoch = 1;  // as `crane run` gives its processes in lockstep
+constexpr std::uint32_t kEpoch = 1;  // the same number as the processes of `crane run` in lockstep
 }
 
 bus::Options memory_options(std::shared_ptr<bus::MemoryNetwork> network, std::string participant,

@@ -64,13 +64,13 @@ void Node::stepped(std::uint64_t tick, std::int64_t sample_time_ns, std::int64_t
 
 void Node::beat(std::int64_t now_ns, crane_NodePhase phase, const JoinCounts& counts,
                 std::uint64_t rejected) {
-  if (now_ns < next_beat_ns_ && phase == report_.phase) return;
-  next_beat_ns_ = now_ns + kBeatPeriod_ns;
-  report_.phase = phase;
   report_.lost_ticks = counts.lost;
   report_.late_samples = counts.late;
   report_.duplicate_samples = counts.duplicate;
   report_.rejected_samples = rejected;
+  if (now_ns < next_beat_ns_ && phase == report_.phase) return;
+  next_beat_ns_ = now_ns + kBeatPeriod_ns;
+  report_.phase = phase;
   report_.step_mean_us =
       steps_ > 0 ? static_cast<double>(step_sum_ns_) / static_cast<double>(steps_) / 1e3 : 0;
   report_.step_max_us = static_cast<double>(step_max_ns_) / 1e3;
@@ -90,17 +90,17 @@ void Node::report_drops(std::int64_t now_ns, const Ports& ports) {
   const bool disputed = ports.disputed(now_ns);
   if (disputed && !told_dispute_)
     error("second_writer", "a second writer on " + ports.dispute(now_ns) + ": its samples are dropped",
-          "find and end the other program, or give one of the two cranes another --crane or --domain, then "
+          "end the other program, or start one of the two cranes with another --crane or --domain, then "
           "`crane reset`");
   told_dispute_ = disputed;
   if (now_ns < next_beat_ns_) return;
   if (ports.rejected() > told_rejected_)
     warning("samples_rejected",
             std::to_string(ports.rejected() - told_rejected_) + " samples had a wrong CRC and were dropped",
-            "look for another version of this program, or for broken traffic, in this domain");
+            "check that all processes of this domain have the same version, and check the network");
   if (ports.refused() > told_refused_)
     error("samples_not_sent", std::to_string(ports.refused() - told_refused_) + " samples could not be sent",
-          "look at the load of this computer and at its network interface");
+          "check the load of this computer and its network interface");
   told_rejected_ = ports.rejected();
   told_refused_ = ports.refused();
 }

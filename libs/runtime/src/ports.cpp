@@ -7,7 +7,7 @@
 namespace crane::runtime {
 namespace {
 
-/// Topics are inline variables of a header: compared by name, which is unique.
+/// Topics are inline variables, which may have several addresses. Their names are unique.
 bool same_topic(const topics::Description& a, const topics::Description& b) { return a.name == b.name; }
 
 std::logic_error wrong_wiring(const ComponentSpec& spec, const topics::Description& topic,
@@ -30,7 +30,7 @@ bool Ports::declared_write(const topics::Description& topic) {
   const auto write = std::ranges::find_if(
       spec_.writes, [&](const Write& declared) { return same_topic(*declared.topic, topic); });
   if (write == spec_.writes.end()) throw wrong_wiring(spec_, topic, "does not declare that it writes");
-  if (!topics::may_write(topic, spec_.source)) throw wrong_wiring(spec_, topic, "is no writer of");
+  if (!topics::may_write(topic, spec_.source)) throw wrong_wiring(spec_, topic, "is no permitted writer of");
   made_.push_back(&topic);
   return write->needs_reader && topic.every_tick;
 }
@@ -52,7 +52,7 @@ bool Ports::connected() const {
 }
 
 void Ports::watch(std::int64_t now_ns) {
-  if (clock_ == Clock::lockstep) return;  // virtual time: silence has no meaning, and nothing is urgent
+  if (clock_ == Clock::lockstep) return;  // in virtual time, a pause of a writer has no meaning
   for (const auto& input : loop_inputs_) input->watch(now_ns);
 }
 

@@ -24,13 +24,13 @@ namespace {
 void sleep_until(std::int64_t time_ns) {
   const timespec at{.tv_sec = time_ns / 1'000'000'000, .tv_nsec = time_ns % 1'000'000'000};
   const int error = ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
-  if (error != 0 && error != EINTR)  // a signal ends the sleep early: poll() sees that nothing is due yet
+  if (error != 0 && error != EINTR)  // a signal may end the sleep early; no tick is due then
     throw std::system_error{error, std::generic_category(), "clock_nanosleep"};
 }
 
-/// Locks the memory and requests real-time scheduling for every thread of this process: a receive thread of
-/// the bus must not wait for the processor longer than the loop does. Logs a warning when the system denies
-/// it. Real-time priority is requested last: start-up work must not preempt running processes.
+/// Locks the memory and requests real-time scheduling for every thread of this process. The receive threads
+/// of the bus need the same priority as the loop. Logs a warning when the system denies the request.
+/// Real-time priority is requested last: start-up work must not preempt running processes.
 void enter_realtime(Node& node, int priority) {
   if (priority <= 0) return;
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
@@ -46,8 +46,8 @@ void enter_realtime(Node& node, int priority) {
   }
 }
 
-/// A terminal that is stopped (Ctrl-S) or a full pipe blocks whoever writes to it. The loop hands its lines
-/// to a thread; when kMostLines wait, the oldest is dropped.
+/// A stopped terminal (Ctrl-S) or a full pipe blocks its writer. Therefore a separate thread writes the log
+/// lines of the loop. When kMostLines lines wait, the oldest is dropped.
 void log_without_waiting() {
   constexpr std::size_t kMostLines = 256;
   spdlog::drop_all();
@@ -56,7 +56,7 @@ void log_without_waiting() {
 }
 
 void loop(Component& component, bus::Bus& bus) {
-  constexpr std::int64_t kLongest_ns = 100'000'000;  // so that a signal is noticed
+  constexpr std::int64_t kLongest_ns = 100'000'000;  // longest reaction time to a stop signal
   while (!stop_requested()) {
     const auto now_ns = monotonic_ns();
     if (component.poll(now_ns)) continue;
@@ -68,10 +68,16 @@ void loop(Component& component, bus::Bus& bus) {
   }
 }
 
+Clock clock_from(const std::string& name) {
+  if (name == "realtime") return Clock::realtime;
+  if (name == "lockstep") return Clock::lockstep;
+  throw configuration::ConfigurationError({"--clock " + name + ": must be realtime or lockstep"});
+}
+
 int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto rig = configuration::load_rig(options.rig);
   const auto& controller = chosen_controller(options.controller, rig);
-  const auto clock = options.clock == "lockstep" ? Clock::lockstep : Clock::realtime;
+  const auto clock = clock_from(options.clock);
   const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
   bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
   refuse_second_writer(bus, spec.writes);
@@ -101,16 +107,19 @@ void add_bus_options(CLI::App& app, BusOptions& options) {
       ->capture_default_str();
   app.add_option(
          "--interface", options.interfaces,
-         "address of the network interface to use (repeatable); 127.0.0.1 keeps everything on this host")
+         "address of a network interface to use (repeatable); with 127.0.0.1 no sample leaves this host")
       ->capture_default_str();
   app.add_option("--peer", options.peers,
-                 "address of a host to look for by unicast (repeatable); turns multicast discovery off");
+                 "address of a host to discover by unicast (repeatable); disables multicast discovery");
 }
 
 bus::Options bus_options(const BusOptions& options, std::string participant, crane_Source source,
                          std::uint32_t epoch) {
   bus::Options result;
-  result.vendor = bus::vendor_from_string(options.vendor).value_or(bus::Vendor::cyclone);
+  const auto vendor = bus::vendor_from_string(options.vendor);
+  if (!vendor)
+    throw configuration::ConfigurationError({"--dds " + options.vendor + ": must be cyclone or fastdds"});
+  result.vendor = *vendor;
   result.domain = options.domain;
   result.crane = options.crane;
   result.participant = std::move(participant);
@@ -132,15 +141,15 @@ std::vector<std::string> arguments(const BusOptions& options) {
 void add_loop_options(CLI::App& app, LoopOptions& options) {
   add_bus_options(app, options.bus);
   app.add_option("--rig", options.rig, "rig file (deploy/rigs/*.toml)")->required();
-  app.add_option("--controller", options.controller, "controller; default: the one named in the rig file");
-  app.add_option("--clock", options.clock, "realtime, or lockstep: the plant waits for every command")
+  app.add_option("--controller", options.controller, "controller; default: the controller of the rig file");
+  app.add_option("--clock", options.clock, "realtime; or lockstep: the plant waits for every command")
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
-  app.add_option("--epoch", options.epoch, "start-up number, written into every header; 0: a random one");
+  app.add_option("--epoch", options.epoch, "start-up number in the header of every sample; 0: random");
   app.add_option("--priority", options.priority, "SCHED_FIFO priority in realtime, 0: ordinary scheduling")
       ->check(CLI::Range(0, 98))
       ->capture_default_str();
-  app.add_option("--parent", options.parent, "process id of the program that started this one: ends with it");
+  app.add_option("--parent", options.parent, "process id; this process ends when that process ends; 0: none");
   app.add_flag("--verbose", options.verbose, "log every detail");
 }
 
@@ -173,7 +182,7 @@ void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes) {
     bus.wait(std::chrono::milliseconds{10});
     for (const auto& probe : probes)
       if (probe.matched() > 0)
-        throw bus::Error("somebody already writes " + std::string{probe.topic().name} + " of crane '" +
+        throw bus::Error("another process already writes " + std::string{probe.topic().name} + " of crane '" +
                          bus.options().crane + "' in domain " + std::to_string(bus.options().domain) +
                          ": stop that stack first, or choose another --crane or --domain");
   }
@@ -200,7 +209,7 @@ int run_process(int argc, char** argv, const ComponentSpec& spec) {
   } catch (const std::exception& error) {
     std::cerr << spec.program << ": " << error.what() << '\n';
     return kExitFailed;
-  } catch (...) {  // unwinds the stack: the bridge leaves its board at 0 V with closed brakes
+  } catch (...) {  // ensures stack unwinding: the bridge then leaves its board at 0 V with closed brakes
     std::cerr << spec.program << ": ended by an exception of an unknown type\n";
     return kExitFailed;
   }

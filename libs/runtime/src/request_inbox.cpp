@@ -20,7 +20,7 @@ bool RequestInbox::receive() {
     if (std::find(kinds_.begin(), kinds_.end(), request->kind) == kinds_.end()) continue;
     any = true;
     if (waiting_.size() >= kMostWaiting) {
-      reply(*request, request->header, false, "too many requests wait for their tick: send fewer at a time");
+      reply(*request, request->header, false, "256 requests wait for their tick: send the request later");
       continue;
     }
     waiting_.push_back(*request);
@@ -32,7 +32,7 @@ bool RequestInbox::receive() {
 void RequestInbox::refuse_too_late(std::uint64_t tick) {
   std::erase_if(waiting_, [&](const msg::Request& request) {
     const bool too_late = request.apply_tick > tick && request.apply_tick - tick > kFarthest_ticks;
-    if (too_late) reply(request, request.header, false, "apply_tick lies more than 1000000 ticks ahead");
+    if (too_late) reply(request, request.header, false, "apply_tick is more than 1000000 ticks ahead");
     return too_late;
   });
 }

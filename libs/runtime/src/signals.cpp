@@ -34,8 +34,7 @@ void die_with(int parent) {
   if (::prctl(PR_SET_PDEATHSIG, SIGTERM) != 0)
     throw std::system_error{errno, std::generic_category(), "prctl(PR_SET_PDEATHSIG)"};
   if (::getppid() != parent)
-    throw std::runtime_error("the program that started this one (process " + std::to_string(parent) +
-                             ") has ended");
+    throw std::runtime_error("the parent process " + std::to_string(parent) + " has ended");
 }
 
 }  // namespace crane::runtime

@@ -36,11 +36,12 @@ WriterBinding::Verdict WriterBinding::judge(const Writer& writer, std::int64_t n
     heard_ns_ = now_ns;
     return Verdict::own;
   }
-  // The bound DDS writer under another name is no new start: a process keeps its source and its epoch.
+  // A process keeps its source and epoch. The bound DDS writer with another source or epoch is no restarted
+  // process.
   const bool renamed = bound_ && bound_->id == writer.id;
   if (!topics::may_write(*topic_, writer.source) || renamed) return refuse(writer, now_ns);
   if (!bound_) {
-    if (matched > 1) return refuse(writer, now_ns);  // no telling which of them is the right one
+    if (matched > 1) return refuse(writer, now_ns);  // the right writer cannot be determined
     bind(writer, now_ns, matched);
     return Verdict::own;
   }
@@ -56,7 +57,7 @@ void WriterBinding::watch(std::int64_t now_ns, int matched) {
 }
 
 std::string WriterBinding::rival() const {
-  if (!rival_) return "a writer that has sent nothing yet";
+  if (!rival_) return "a writer that has sent no sample yet";
   return "a writer that calls itself " + name_of(rival_->source) + ", start-up number " +
          std::to_string(rival_->epoch);
 }

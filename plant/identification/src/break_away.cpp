@@ -10,9 +10,10 @@ namespace {
 
 Stiction stiction_of(const std::vector<double>& volts, const char* direction) {
   if (volts.size() < kFewestBreakAways)
-    throw IdentificationError("only " + std::to_string(volts.size()) + " break-aways in the " + direction +
-                              " direction: " + std::to_string(kFewestBreakAways) +
-                              " are needed; raise the voltage slowly from rest, several times both ways");
+    throw IdentificationError(
+        "only " + std::to_string(volts.size()) + " break-aways in the " + direction +
+        " direction: " + std::to_string(kFewestBreakAways) +
+        " are needed; raise the voltage slowly from rest, several times in both directions");
   const double count = static_cast<double>(volts.size());
   double mean = 0, squares = 0;
   for (const double v : volts) mean += v / count;

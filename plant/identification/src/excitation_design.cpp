@@ -74,13 +74,13 @@ control::Excitation break_away_sine(std::size_t axis, const ExcitationLimits& li
   require_positive("ramp_vps", ramp_vps);
   require_positive("friction_v", friction_v);
   require_positive("repetitions", repetitions);
-  // From one end to the other it raises the voltage by twice what both directions need together.
+  // From one end of the sine to the other the voltage changes by twice the friction of both directions.
   constexpr double kSurplus = 2;
   const double needed = friction_v / stiffness_vpu;
   const double amplitude = std::min(kSurplus * needed / 2, (limits.high - limits.low) / 2);
   if (2 * amplitude < 1.2 * needed)
     throw std::invalid_argument("the travel of " + text(limits.high - limits.low) +
-                                " does not suffice to overcome " + text(friction_v) + " V with " +
+                                " is too short to overcome " + text(friction_v) + " V with " +
                                 text(stiffness_vpu) + " V per m or rad");
   control::Excitation excitation;
   excitation.axis = axis;

@@ -10,12 +10,15 @@
 namespace crane::identification {
 namespace {
 
-constexpr std::size_t kFewestRows = 50;       // per direction
-constexpr double kSmallestSpeedSpread = 0.1;  // of its mean: below, b and c of a direction are one number
+constexpr std::size_t kFewestRows = 50;  // per direction
+// Spread / mean of the speed. Below this value b and c cannot be distinguished.
+constexpr double kSmallestSpeedSpread = 0.1;
 constexpr double kLargestGainError = 0.1;  // relative standard error of K_m: above, the data do not tell it
 constexpr double kContradiction = 3;       // standard errors
 
-/// What stands for a, v and u in the rows k = 2, 3, ...
+// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes (friction.hpp).
+
+/// a, v and u of the rows k = 2, 3, ...
 struct Rows {
   std::vector<double> acceleration, speed, volts;
 };
@@ -74,24 +77,24 @@ void check_directions(const Direction& positive, const Direction& negative, doub
     if (direction.rows < kFewestRows)
       throw IdentificationError("only " + std::to_string(direction.rows) + " samples move in the " + name +
                                 " direction, " + std::to_string(kFewestRows) +
-                                " are needed: its friction cannot be told");
+                                " are needed to estimate its friction");
     if (direction.spread() < kSmallestSpeedSpread)
       throw IdentificationError("the " + name +
                                 " direction has one speed only: viscous and Coulomb friction " +
-                                "cannot be told apart; use several speeds");
+                                "cannot be distinguished; use several speeds");
   };
   check(positive, "positive");
   check(negative, "negative");
 }
 
-/// Least squares over all rows; excluded ones are rows of zeros, so that neighbours stay neighbours.
+/// Least-squares problem with all rows. Excluded rows are zero, so that the order of rows in time is kept.
 struct Problem {
   Eigen::MatrixXd regressors;
   Eigen::VectorXd response;
   Direction positive, negative;
 };
 
-/// Columns b+, b-, c+, c-, and 1/K_m where it is estimated.
+/// Problem (3.14) with the columns b+, b-, c+, c-, and 1/K_m when K_m is estimated.
 Problem problem_of(const Rows& rows, const FrictionOptions& options) {
   const auto count = static_cast<Eigen::Index>(rows.speed.size());
   Problem problem;
@@ -115,8 +118,8 @@ Problem problem_of(const Rows& rows, const FrictionOptions& options) {
 }
 
 /// Delete-one-block jackknife: what the estimates would have been without each twentieth of the run.
-/// Neighbouring rows stay together, so their correlation, whatever its colour, is in the scatter of these
-/// estimates.
+/// Jackknife over blocks of neighbouring rows. The scatter of the block estimates contains the correlation of
+/// the residuals, for noise of any spectrum.
 Eigen::VectorXd standard_errors(const Problem& problem) {
   constexpr Eigen::Index kBlocks = 20;
   const Eigen::Index columns = problem.regressors.cols(), rows = problem.regressors.rows();
@@ -137,7 +140,7 @@ Eigen::VectorXd standard_errors(const Problem& problem) {
 
 Estimate gain_of(double inverse, double standard_error) {
   if (!(inverse > 0) || standard_error > kLargestGainError * inverse)
-    throw IdentificationError("the data do not tell K_m (1/K_m = " + text(inverse) + " +- " +
+    throw IdentificationError("the data do not determine K_m (1/K_m = " + text(inverse) + " +- " +
                               text(standard_error) + "): excite with more acceleration, or give K_m");
   return {1 / inverse, standard_error / (inverse * inverse)};
 }
@@ -148,7 +151,7 @@ FrictionEstimate estimate_friction(const AxisRun& run, const FrictionOptions& op
   check_options(options);
   check_series(run);
   if (std::ranges::max(run.drive_v) == std::ranges::min(run.drive_v))
-    throw IdentificationError("the drive voltage is constant: the axis has to be excited");
+    throw IdentificationError("the drive voltage is constant: excite the axis");
   const Problem problem = problem_of(rows_of(run, options), options);
   check_directions(problem.positive, problem.negative, options.zero_band);
   const Eigen::VectorXd solution = problem.regressors.colPivHouseholderQr().solve(problem.response);

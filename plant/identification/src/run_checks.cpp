@@ -21,7 +21,7 @@ void check_series(const AxisRun& run) {
   require_positive("period_s", run.period_s);
   const std::size_t samples = run.position.size();
   if (run.drive_v.size() != samples || (!run.speed.empty() && run.speed.size() != samples))
-    throw IdentificationError("positions, volts and speeds differ in number");
+    throw IdentificationError("position, drive_v and speed differ in length");
   if (samples < kFewestSamples)
     throw IdentificationError("only " + std::to_string(samples) + " samples: at least " +
                               std::to_string(kFewestSamples) + " are needed");

@@ -49,7 +49,8 @@ class Simulation {
     return p_.gain * (volts(time_s, s) - friction_v);
   }
 
-  [[nodiscard]] State moved(double h) const {  // RK4 in the present direction
+  [[nodiscard]] State moved(
+      double h) const {  // Runge-Kutta step of order 4, friction of the present direction
     const auto at = [&](const State& rate, double part) {
       return State{state_.position + part * h * rate.position, state_.speed + part * h * rate.speed};
     };
@@ -69,7 +70,7 @@ class Simulation {
     return v < -p_.friction.coulomb_negative_v ? -1 : 0;
   }
 
-  /// Largest part of h before `happens(part)`; it happens at h.
+  /// Largest part of h for which `happens(part)` is false. @pre happens(h)
   template <class Event>
   static double before(double h, Event happens) {
     double low = 0, high = h;

@@ -5,17 +5,19 @@
 namespace crane::plant {
 namespace {
 
-/// M(q) without its zero M24.
+// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes (equations.hpp).
+
+/// Elements of M(q). M24 = 0.
 struct Mass {
   double m11, m12, m13, m14, m22, m23, m33, m34, m44;
 };
 
-/// Right-hand sides or solutions, ordered (x, phi, gamma, theta).
+/// A vector with the components (x, phi, gamma, theta).
 struct Column {
   double x, phi, gamma, theta;
 };
 
-/// Everything of the state that the equations use more than once.
+/// Sines, cosines and rates that the equations use more than once.
 struct Angles {
   explicit Angles(const State& s)
       : sf(std::sin(s.radial_rad)),
@@ -25,14 +27,14 @@ struct Angles {
   double sf, cf, st, ct;  // sin and cos of phi, of theta
 };
 
-/// Without a load they are in none of the equations.
+/// Without a load the swing has no influence on the drives; the angles are then 0.
 Angles angles_of(const Parameters& p, const State& s) { return Angles(p.load_mass_kg > 0 ? s : State{}); }
 
 Mass mass(const Parameters& p, const State& s, const Angles& a) {
   const double m = p.load_mass_kg, l = s.cable_m, x = s.trolley_m;
   const double ml = m * l, ml2 = ml * l;
   const double horizontal =
-      1 - a.cf * a.cf * a.ct * a.ct;  // squared horizontal part of the cable's direction
+      1 - a.cf * a.cf * a.ct * a.ct;  // squared horizontal component of the cable's unit vector
   return {.m11 = p.trolley_inertia_kg + m,
           .m12 = -ml * a.cf * a.ct,
           .m13 = -ml * a.st,
@@ -93,8 +95,8 @@ double tangential_bias(const Parameters& p, const State& s, const Angles& a) {
           2 * s.cable_mps * (t - a.sf * g));
 }
 
-/// Solves M q = r for the free coordinates: the swing equations (M24 = 0) are eliminated first, a 2x2 system
-/// stays.
+/// Solves M q = r for the free coordinates. It eliminates the two swing equations, which do not couple (M24 =
+/// 0), and solves the remaining 2x2 system.
 Column solve(const Mass& m, const Column& r, const Locks& locks) {
   const bool radial = !locks.radial && m.m22 > 0;
   const bool tangential = !locks.tangential && m.m44 > 0;
@@ -130,7 +132,7 @@ Accelerations accelerations(const Parameters& p, const State& s, const Forces& f
                             const Locks& locks) noexcept {
   const double hoisting = locks.axis[kHoist] ? locks.acceleration[kHoist] : cable_mps2;
   const Angles angles = angles_of(p, s);
-  Column right{};  // what is locked has no use for its own
+  Column right{};  // the equations of locked coordinates are not used
   if (!locks.axis[kTrolley]) right.x = forces.trolley_n - trolley_bias(p, s, angles, hoisting);
   if (!locks.radial) right.phi = forces.radial_nm - radial_bias(p, s, angles);
   if (!locks.axis[kSlew]) right.gamma = forces.slew_nm - slew_bias(p, s, angles, hoisting);
@@ -166,7 +168,7 @@ DriveResponse drive_response(const Parameters& p, const State& s, const Locks& l
 double cable_tension_n(const Parameters& p, const State& s, const Accelerations& q) noexcept {
   const Angles a{s};
   const double l = s.cable_m, f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
-  // the cable's direction e in the jib frame, across the vertical, and its rate
+  // horizontal components of the cable's unit vector in the jib frame, and their rates
   const double ex = -a.ct * a.sf, ey = a.st;
   const double ex_rate = a.st * a.sf * t - a.ct * a.cf * f, ey_rate = a.ct * t;
   const double turning = q.trolley_mps2 * ex + q.cable_mps2 - l * (f * f * a.ct * a.ct + t * t);
@@ -180,7 +182,7 @@ State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& loc
   const Angles a{s};
   const Mass m = mass(p, s, a);
   const double lost = speed(s, axis);
-  Column impulse{};  // M_fs q'_s for the coordinate that loses its rate
+  Column impulse{};  // M_fs q'_s with s the stopped coordinate
   if (axis == kTrolley) {
     impulse = {.x = 0, .phi = m.m12 * lost, .gamma = m.m13 * lost, .theta = m.m14 * lost};
   } else if (axis == kSlew) {
@@ -246,7 +248,7 @@ GantryAccelerations gantry_accelerations(const Parameters& p, double swing_rad, 
   const double m = p.load_mass_kg, sine = std::sin(swing_rad), cosine = std::cos(swing_rad);
   const double pull = force_n - m * cable_mps2 * sine - 2 * m * cable_mps * swing_radps * cosine +
                       m * cable_m * swing_radps * swing_radps * sine;
-  const double free_swing = -p.gravity_mps2 * sine - 2 * cable_mps * swing_radps;  // L phi'' without x''
+  const double free_swing = -p.gravity_mps2 * sine - 2 * cable_mps * swing_radps;  // L phi'' for x'' = 0
   const double trolley = (pull - m * cosine * free_swing) / (p.trolley_inertia_kg + m * sine * sine);
   return {.trolley_mps2 = trolley, .swing_radps2 = (free_swing - trolley * cosine) / cable_m};
 }

@@ -49,7 +49,7 @@ Model::Model(const Parameters& parameters, const std::vector<TermSetting>& terms
 void Model::add_structure(std::unique_ptr<Term> term) {
   const std::size_t count = term->inner_coordinates();
   if (inner_coordinates_ + count > kMostInner)
-    throw_if_any({"terms: more than " + std::to_string(kMostInner) + " coordinates of their own"});
+    throw_if_any({"terms: more than " + std::to_string(kMostInner) + " inner coordinates in all"});
   term->change_parameters(parameters_);
   const Displacement rest = term->rest_displacement(parameters_);
   rest_displacement_.trolley_m += rest.trolley_m;
@@ -156,7 +156,7 @@ Accelerations Model::accelerations(const State& state, const Actuation& actuatio
   const SwingResponse swing = swing_response(p, seen, pushed.trolley_m, pushed.slew_rad, actuation.locks);
   result.radial_radps2 += swing.radial_radps2;
   result.tangential_radps2 += swing.tangential_radps2;
-  if (structure_terms_.size() > 1) accelerate();  // the swing, which others follow, has changed
+  if (structure_terms_.size() > 1) accelerate();  // other terms depend on the changed swing acceleration
   return result;
 }
 

@@ -28,7 +28,7 @@ std::string listed(const List& entries, Text text) {
 std::vector<std::string> problems(const TermSetting& setting) {
   const TermKind* kind = find_term(setting.name);
   if (kind == nullptr) {
-    return {"no term of that name; there are " +
+    return {"no term has this name; must be one of " +
             listed(term_kinds(), [](const TermKind& k) { return k.name; })};
   }
   std::vector<std::string> found;
@@ -41,7 +41,7 @@ std::vector<std::string> problems(const TermSetting& setting) {
     std::ostringstream line;
     line << name << " = " << value << ": ";
     if (parameter == nullptr) {
-      line << "no such parameter; there are "
+      line << "the term has no such parameter; must be one of "
            << listed(kind->parameters, [](const TermParameter& p) { return p.name; });
     } else if (!(value >= parameter->low && value <= parameter->high)) {
       line << "must be in [" << parameter->low << ", " << parameter->high << "] " << parameter->unit;

@@ -1,5 +1,5 @@
 #include "crane/runtime/process.hpp"
-#include "process/simulated_plant.hpp"
+#include "crane/simulator/component.hpp"
 
 int main(int argc, char** argv) {
   return crane::runtime::run_process(argc, argv, crane::simulator::simulated_plant_spec());

@@ -1,4 +1,4 @@
-#include "process/simulated_plant.hpp"
+#include "crane/simulator/component.hpp"
 
 #include "crane/bridge/bridge.hpp"
 #include "crane/simulator/simulated_board.hpp"
@@ -7,13 +7,14 @@ namespace crane::simulator {
 
 namespace {
 
-/// An axis that is homed stands where nobody knows: its encoder shows the end of the travel that is farther
-/// from the mark.
+/// Sets the encoder of an axis that must be homed: at the start it shows unhomed_position(), not the true
+/// position.
 void forget_zero(SimulatedRig& rig, const control::DriveLimits& drive, plant::Axis axis) {
   rig.encoders[axis].zero = plant::position(rig.start, axis) - drive.unhomed_position();
 }
 
-/// Limit switches at the hard limits, unless the file says where one is that an axis is homed by.
+/// Places the limit switches at the hard limits. A limit switch that serves as homing mark is at the position
+/// of the mark.
 void place_switches(const control::DriveLimits& drive, SimulatedDrive& target) {
   target.low_switch = drive.low_limit;
   target.high_switch = drive.high_limit;
@@ -23,7 +24,7 @@ void place_switches(const control::DriveLimits& drive, SimulatedDrive& target) {
   if (drive.homing.mark == control::Mark::input) target.mark = drive.homing.position;
 }
 
-/// The load hangs lower than the hoist encoder says; what the drum does stays as it was.
+/// Increases the true cable length by `offset_m` without changing the measured length or the drum.
 void lengthen_cable(SimulatedRig& rig, double offset_m) {
   SimulatedDrive& hoist = rig.drives[plant::kHoist];
   for (double* position : {&hoist.low_switch, &hoist.high_switch, &hoist.mark, &hoist.low_stop,
@@ -74,7 +75,8 @@ runtime::ComponentSpec simulated_plant_spec() {
   return {.name = "plant",
           .program = "crane_plant",
           .summary =
-              "The simulated plant: crane, drives, encoders, converters and brakes behind the bridge's loop.",
+              "The simulated plant: the loop of the bridge with simulated crane, drives, encoders, "
+              "converters and brakes.",
           .source = crane_SOURCE_PLANT,
           .runs_controller = false,
           .reads = bridge::bridge_reads(),

@@ -1,5 +1,5 @@
 #pragma once
-/// The electrical side of the brakes: watchdog relay and the coils' delays. Time is an argument [ns].
+/// Electrical model of the brakes: watchdog relay and delays of the coils. Time is an argument [ns].
 #include <cstdint>
 #include <limits>
 
@@ -21,7 +21,7 @@ class WatchdogRelay {
     last_toggle_ns_ = now_ns;
     if (now_ns - toggling_since_ns_ >= permit_ns_) closed_ = true;
   }
-  /// When it will drop if the level stays as it is.
+  /// Time at which the relay opens if the level does not change; kNever_ns when it is open.
   [[nodiscard]] std::int64_t drops_at_ns() const {
     return closed_ ? last_toggle_ns_ + timeout_ns_ + 1 : kNever_ns;
   }

@@ -18,7 +18,7 @@ namespace {
 using plant::Axis;
 using plant::kAxes;
 
-/// Accelerations of all coordinates; those of the structure terms behind the crane's.
+/// Accelerations of all coordinates: first those of the crane, then the inner coordinates.
 using AllCoordinates = std::array<realtype, kCoordinates + plant::kMostInner>;
 constexpr std::size_t kFunctions = 3 * kAxes;  // per axis: standstill, low, high
 
@@ -115,10 +115,10 @@ struct Integrator::Solver {
     return 0;
   }
 
-  /// Forward differences; the step is small against every smoothing speed of the terms.
+  /// Jacobian by forward differences. The step is small compared with every smoothing speed of the terms.
   static int jacobian(realtype /*t*/, N_Vector y, N_Vector dydt, SUNMatrix matrix, void* user,
                       N_Vector /*w1*/, N_Vector /*w2*/, N_Vector /*w3*/) {
-    constexpr double kStep = 1.5e-8;  // sqrt of the machine's relative accuracy
+    constexpr double kStep = 1.5e-8;  // square root of the machine epsilon
     auto& self = *static_cast<Solver*>(user);
     const realtype* here = N_VGetArrayPointer(dydt) + self.half;
     std::array<realtype, 2 * std::tuple_size_v<AllCoordinates>> at{};
@@ -174,7 +174,7 @@ struct Integrator::Solver {
   }
 
   const plant::Model& model;
-  const std::size_t inner, half;  ///< coordinates of structure terms; all coordinates
+  const std::size_t inner, half;  ///< number of inner coordinates; number of all coordinates
   const plant::Actuation* actuation = nullptr;
   const Watch* watch = nullptr;
   long evaluations = 0;

@@ -14,7 +14,7 @@ using plant::kTrolley;
 
 /// Slower than this under a closed brake is standstill: the brake takes it away in less than a microsecond.
 constexpr double kStandstill = 1e-6;
-/// More events than this in one run mean that the state makes no sense any more.
+/// Maximum number of events of one run(). More events indicate an invalid state.
 constexpr int kMostEvents = 1000;
 
 plant::State with_position(const plant::State& state, Axis axis, double value) {
@@ -126,7 +126,7 @@ void Mechanism::meet_stop(Axis axis, Situation& now) {
     return;
   }
   if (plant::speed(state_, axis) * side > 0) stop(axis, now.actuation.locks);
-  if (plant::speed(state_, axis) != 0) return;  // on its way inwards
+  if (plant::speed(state_, axis) != 0) return;  // the axis moves inwards
   plant::InnerAccelerations own{};
   const plant::Accelerations free = model_.accelerations(state_, now.actuation, inner_, own);
   const plant::PerAxis push{free.trolley_mps2, free.slew_radps2, free.cable_mps2};

@@ -1,5 +1,5 @@
 #pragma once
-/// The mechanical side of the rig: equations of motion with brakes and end stops.
+/// Mechanical model of the rig: equations of motion with brakes and end stops.
 #include "crane/simulator/integrator.hpp"
 #include "crane/simulator/simulated_rig.hpp"
 
@@ -7,18 +7,18 @@ namespace crane::simulator {
 
 class Mechanism {
  public:
-  /// @throws std::invalid_argument naming every problem of the rig
+  /// @throws std::invalid_argument with all problems of the rig
   Mechanism(const SimulatedRig& rig, const Tolerances& tolerances);
 
   [[nodiscard]] const plant::State& state() const noexcept { return state_; }
-  /// A tick begins, with these voltages of the board.
+  /// Begins a tick with the given voltages of the board [V].
   void begin_tick(const plant::PerAxis& board_v) noexcept;
-  /// What the sensors report; once a tick.
+  /// Output of the sensors. Call once per tick.
   [[nodiscard]] plant::Measurement measure() noexcept { return model_.measure(state_); }
   void set_brake(plant::Axis axis, bool closed) noexcept { brake_closed_[axis] = closed; }
   void kick(double radial_radps, double tangential_radps) noexcept;
 
-  /// Runs on with constant command and brakes. @throws std::runtime_error when integration fails
+  /// Integrates with constant command and brakes. @throws std::runtime_error when the integration fails
   void run(double seconds);
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
-/// Newton matrix of a mechanical system for CVODE: y = (q, q') with five coordinates, so that
+/// Newton matrix of a mechanical system for CVODE. With y = (q, q') and five coordinates q,
 ///   J = [0 I; A B],  A = d q''/d q,  B = d q''/d q'
-/// and (I - g J) d = r needs one 5x5 factorisation instead of a 10x10 one:
+/// so that (I - g J) d = r needs a 5x5 instead of a 10x10 factorisation:
 ///   (I - g B - g^2 A) d_v = r_v + g A r_p,   d_p = r_p + g d_v
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
@@ -26,7 +26,7 @@ struct MotionMatrix {
 [[nodiscard]] SUNMatrix new_motion_matrix(SUNContext context);
 [[nodiscard]] MotionMatrix& content_of(SUNMatrix matrix);
 
-/// Direct solver for I - g J as CVODE forms it. @return nullptr when out of memory
+/// Direct solver for the matrix I - g J of CVODE. @return nullptr when out of memory
 [[nodiscard]] SUNLinearSolver new_motion_solver(SUNContext context);
 
 }  // namespace crane::simulator

@@ -37,7 +37,7 @@ struct SimulatedBoard::Rig {
         period_ns(std::max<std::int64_t>(1, to_ns(description.period_s))),
         now_ns(start_time_ns) {}
 
-  /// Lets switches, relay and coils act on each other at this instant.
+  /// Updates relay, coils and brakes for the present time.
   void settle() noexcept {
     relay.let_time_pass(now_ns);
     const bool supply = relay.closed() && !(estop_pressed && given.estop_cuts_brakes);
@@ -48,7 +48,7 @@ struct SimulatedBoard::Rig {
     }
   }
 
-  /// Command terms act once a tick: on the command written last before it, or on the old one if none was.
+  /// Command terms act once per tick on the last written command.
   void begin_tick_if_due() noexcept {
     if (!command_is_new && now_ns < tick_ends_ns) return;
     mechanism.begin_tick(converter_v);
@@ -56,7 +56,7 @@ struct SimulatedBoard::Rig {
     tick_ends_ns = now_ns + period_ns;
   }
 
-  /// Sensor terms act once a tick: reading again at the same time gives the same.
+  /// Sensor terms act once per reading time: a second read at the same time gives the same values.
   [[nodiscard]] const plant::Measurement& measured() noexcept {
     if (measured_at_ns != now_ns) measurement = mechanism.measure();
     measured_at_ns = now_ns;

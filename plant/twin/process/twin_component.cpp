@@ -1,4 +1,4 @@
-#include "process/twin_component.hpp"
+#include "crane/twin/component.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -55,7 +55,7 @@ class TwinComponent : public runtime::Component {
 
   [[nodiscard]] std::string_view name() const override { return node_.identity().name; }
   [[nodiscard]] std::string waiting_for() const override { return "the tick after " + std::to_string(tick_); }
-  /// A second without a state is worth a sign of life.
+  /// Publishes the status once a second, also without samples of crane/state.
   [[nodiscard]] std::int64_t wake_at_ns() const override { return beaten_ns_ + kBeat_ns; }
 
   bool poll(std::int64_t now_ns) override {
@@ -106,8 +106,7 @@ class TwinComponent : public runtime::Component {
 runtime::ComponentSpec twin_spec() {
   return {.name = "twin",
           .program = "crane_twin",
-          .summary =
-              "The model beside the crane: predicts what the sensors report and says when it no longer does.",
+          .summary = "The live twin: predicts the sensor values with the model and reports deviations.",
           .source = crane_SOURCE_TWIN,
           .runs_controller = false,
           .reads = {{&topics::state.description, "counts, speeds and the voltage that acts"}},

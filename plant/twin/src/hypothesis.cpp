@@ -18,7 +18,7 @@ Hypothesis hypothesis(const std::string& cause, const std::string& axis, const s
   return {cause, axis, {{cause, axis, {{parameter, null + reference}}}}, {}, reference, false, unit, remedy};
 }
 
-/// Dry friction that the rig file gives this axis in its easier direction, V.
+/// Coulomb friction of the axis in the rig file, minimum of both directions, V.
 double dry_friction_v(const Rig& rig, const std::string& axis) {
   double sum = 0;
   for (const plant::TermSetting& term : rig.terms) {
@@ -31,8 +31,8 @@ double dry_friction_v(const Rig& rig, const std::string& axis) {
   return sum;
 }
 
-/// Dry friction holds or does not: what much of it does is not a multiple of what a little does, and less of
-/// it not the contrary of more.
+/// The effect of Coulomb friction is not proportional to its size, because friction can hold a drive.
+/// Therefore there are several reference sizes of either sign.
 void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis,
                       const std::string& remedy) {
   const double most_lost_v = 0.6 * dry_friction_v(rig, axis);
@@ -54,10 +54,10 @@ void add_drive(std::vector<Hypothesis>& list, const Rig& rig, const std::string&
   const bool slew = axis == "slew";
   const double viscous = kFriction_v / std::max(drive.reference_speed, 1e-3);
   const std::string look =
-      "look at bearings, guides and brake of the " + axis + ", then crane identify friction";
+      "check bearings, guides and brake of the " + axis + ", then run crane identify friction";
   add_dry_friction(list, rig, axis, look);
   list.push_back(hypothesis("viscous_friction", axis, "vspm", 0, viscous, slew ? "V s/rad" : "V s/m", look));
-  // A drive that pulls less also stays longer where friction holds it.
+  // The effect of the gain is not proportional either: a weaker drive is held longer by friction.
   for (const double gain : {kGain, kMuchGain, -kGain, -kMuchGain}) {
     list.push_back(hypothesis("motor_gain", axis, "factor", 1, gain, "1",
                               "check amplifier, supply and motor of the " + axis));
@@ -75,7 +75,7 @@ void add_drive(std::vector<Hypothesis>& list, const Rig& rig, const std::string&
 
 void add_swing_offset(std::vector<Hypothesis>& list, const std::string& axis) {
   list.push_back(hypothesis("swing_offset", axis, "offset_rad", 0, kOffset_rad, "rad",
-                            "let the load hang at rest and take the zero of the swing encoder again"));
+                            "let the load hang at rest and zero the swing encoder again"));
 }
 
 }  // namespace

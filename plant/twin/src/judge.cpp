@@ -7,13 +7,13 @@ namespace crane::twin {
 namespace {
 
 constexpr std::size_t kRemembered_blocks = 120;
-constexpr double kClip = 0.4;         // of the threshold: no single block raises an alarm, three may
-constexpr double kVarianceRatio = 9;  // that the energy test looks for: three times the band
-constexpr double kEnergyFreedom = 4;  // degrees of freedom that a block's coloured residual has at most
-constexpr double kNamedShare = 0.8;  // of the energy: enough to name a cause before the longest doubt is over
+constexpr double kClip = 0.4;         // largest increment / threshold: an alarm needs at least three blocks
+constexpr double kVarianceRatio = 9;  // variance ratio that the energy test detects: three times the band
+constexpr double kEnergyFreedom = 4;  // largest number of degrees of freedom of a block's coloured residual
+constexpr double kNamedShare = 0.8;   // explained share of the energy for naming a cause early
 constexpr std::size_t kFewestToName = 5;
 constexpr int kLongestDoubt_blocks = 16;
-constexpr double kReturn = 7;  // log likelihood ratio, 1000 to 1
+constexpr double kReturn = 7;  // log likelihood ratio that ends a deviation: 1000 to 1
 constexpr int kQuiet_blocks = 8;
 
 double limited(double value, double limit) { return std::clamp(value, -limit, limit); }
@@ -24,9 +24,9 @@ Judge::Judge(std::vector<Hypothesis> hypotheses, const Design& design, const Per
              int block_ticks)
     : hypotheses_(std::move(hypotheses)),
       design_(design),
-      // Within a horizon residuals resemble each other: a block is one observation, not one per tick.
+      // Residuals are correlated within a horizon: a block is one observation, not one per tick.
       inflation_(hypotheses_.size(), block_ticks),
-      // A CUSUM of a log likelihood ratio runs at least e^h blocks to a false alarm.
+      // The mean time to a false alarm of a CUSUM of log likelihood ratios is at least e^threshold blocks.
       threshold_(std::log(design.false_alarm_s / design.block_s *
                           static_cast<double>(2 * hypotheses_.size() + kColumns))),
       up_(hypotheses_.size()),
@@ -54,7 +54,7 @@ void Judge::add(const Block& block) {
   if (learnt_s_ < design_.learn_s) return;
   learn();
   phase_ = Phase::watching;
-  // What was there from the start is not in control: only the scatter was learnt, not the mean.
+  // Only the scatter was learnt, not the mean: a deviation from the start must raise an alarm.
   for (const Block& earlier : learnt_from_) judge(earlier);
   learnt_from_.clear();
 }
@@ -102,13 +102,13 @@ void Judge::begin_deviation() {
 
 void Judge::name_cause() {
   Finding fit = best_fit();
-  if (named_) {  // the cause is settled, its size is refined
+  if (named_) {  // a named cause does not change; its size is updated
     finding_->size = fit.size, finding_->size_std = fit.size_std;
     return;
   }
   if (!recent_.empty() && recent_.back().moving()) ++blocks_of_doubt_;
-  const bool certain =
-      fit.explained >= kNamedShare && fit.lead >= kCertainLead && fitted_blocks().size() >= kFewestToName;
+  const bool certain = fit.explained >= kNamedShare && fit.log_likelihood_ratio >= kCertainLogRatio &&
+                       fitted_blocks().size() >= kFewestToName;
   finding_ = std::move(fit);
   if (!certain && blocks_of_doubt_ < kLongestDoubt_blocks) return;
   named_ = true;

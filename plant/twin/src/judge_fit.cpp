@@ -6,23 +6,23 @@
 namespace crane::twin {
 namespace {
 
-constexpr double kFitFreedom = 3;     // degrees of freedom of a block where causes are compared
-constexpr double kUnexplained = 0.5;  // share of the energy that the best cause has to explain
-constexpr double kOutside = 3;        // mean square of the residual, in the worst that was learnt
+constexpr double kFitFreedom = 3;     // degrees of freedom of a block in the comparison of causes
+constexpr double kUnexplained = 0.5;  // smallest explained share of the energy; below it the cause is unknown
+constexpr double kOutside = 3;        // mean square of the residual / that of the worst learnt block
 
 std::string label(const Hypothesis& h) { return h.axis.empty() ? h.cause : h.cause + " (" + h.axis + ")"; }
 
-constexpr double kNearLow = 0.4, kNearHigh = 1.8;  // references
+constexpr double kNearLow = 0.4, kNearHigh = 1.8;  // range of Hypothesis::only_near, in references
 
 }  // namespace
 
-/// The first block after the onset is left out: what changed did so within it.
+/// Blocks of the deviation without the first one, in which the change occurred.
 std::span<const Block> Judge::fitted_blocks() const {
   const std::size_t count = std::min(onset_blocks_, recent_.size());
   return std::span{recent_}.last(count > 1 ? count - 1 : count);
 }
 
-/// Best first; once a cause has been named, only that one.
+/// Fits of all causes, the best first. After a cause was named, only the fit of this cause.
 std::vector<Judge::Fit> Judge::fits() const {
   std::vector<Fit> list;
   for (std::size_t c = 0; c < hypotheses_.size(); ++c) {
@@ -61,7 +61,8 @@ Finding Judge::best_fit() const {
   return found;
 }
 
-/// @param all energy of the residual, `in_control` what it is without a deviation
+/// @param all         energy of the residual
+/// @param in_control  energy of the residual without a deviation
 void Judge::describe(const std::vector<Fit>& list, double all, double in_control, Finding& found) const {
   const Fit& best = list.front();
   const Hypothesis& h = hypotheses_[best.hypothesis];
@@ -76,12 +77,12 @@ void Judge::describe(const std::vector<Fit>& list, double all, double in_control
     return label(hypotheses_[fit.hypothesis]) != label(h);
   });
   if (rival == list.end()) {
-    found.lead = kCertainLead;
+    found.log_likelihood_ratio = kCertainLogRatio;
     return;
   }
   const auto blocks = static_cast<double>(fitted_blocks().size());
-  found.lead = 0.5 * kFitFreedom * blocks * std::log(left(rival->gain) / left(best.gain));
-  if (found.lead < kCertainLead) found.rival = label(hypotheses_[rival->hypothesis]);
+  found.log_likelihood_ratio = 0.5 * kFitFreedom * blocks * std::log(left(rival->gain) / left(best.gain));
+  if (found.log_likelihood_ratio < kCertainLogRatio) found.rival = label(hypotheses_[rival->hypothesis]);
 }
 
 }  // namespace crane::twin

@@ -6,8 +6,9 @@
 namespace crane::twin {
 namespace {
 
-constexpr double kPasses = 0.5;             // references that raise no alarm
-constexpr double kWrongFromTheStart = 0.5;  // share of the energy that one cause explains
+constexpr double kPasses = 0.5;  // amount without an alarm, in references
+// Explained share of the energy above which a cause is excluded from the scatter.
+constexpr double kWrongFromTheStart = 0.5;
 
 }  // namespace
 
@@ -30,17 +31,17 @@ Judge::Weighed Judge::weighed(std::span<const Block> blocks, std::size_t hypothe
 }
 
 double Judge::excess(const Block& block, std::size_t column) const {
-  double passes = 0;  // what half of a reference size may do
+  double passes = 0;  // largest energy of half a reference size of any cause
   for (const PerColumn& information : block.information)
     passes = std::max(passes, kPasses * kPasses * information[column]);
   return block.energy[column] / (passes + block.ticks * variance_[column]);
 }
 
-/// How large residuals are, without what `hypothesis` does in that amount.
+/// Learns the variance of the residuals after subtracting the effect of `amount` references of `hypothesis`.
 void Judge::learn_variance(const PerColumn& floor, std::size_t hypothesis, double amount) {
   for (std::size_t i = 0; i < kColumns; ++i) {
     variance_[i] = floor[i];
-    // The worst block counts: how large a residual is depends on the motion.
+    // The residual depends on the motion: the variance is that of the worst block.
     for (const Block& block : learnt_from_) {
       const double score = block.score[hypothesis][i], information = block.information[hypothesis][i];
       const double energy = block.energy[i] - 2 * amount * score + amount * amount * information;
@@ -50,7 +51,8 @@ void Judge::learn_variance(const PerColumn& floor, std::size_t hypothesis, doubl
   }
 }
 
-/// What one cause explains was wrong from the start and is no scatter.
+/// When one cause explains most of the learnt residual, it is a deviation from the start and is excluded from
+/// the scatter.
 void Judge::learn() {
   const PerColumn floor = variance_;
   learn_variance(floor, 0, 0);

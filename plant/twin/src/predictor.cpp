@@ -31,7 +31,7 @@ void Predictor::restart(const Known& now, const Mask& simulated) {
   course_->follow({given(now), {now.cable_m, now.cable_mps, 0}});
   for (const auto column : diagnosis::kAllOutputs)
     if (simulated[column]) position_of(course_->state, column) = now.reported[column];
-  // Where the crane is when its sensors report this, to first order in the sensors' errors.
+  // State for the measured sensor values, to first order in the sensor errors.
   const PerColumn seen = columns_of(model_->measure(course_->state));
   for (const auto column : diagnosis::kAllOutputs) {
     if (!simulated[column]) continue;

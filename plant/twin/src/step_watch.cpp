@@ -6,9 +6,10 @@
 namespace crane::twin {
 namespace {
 
-constexpr double kMargin = 3;       // jumps as large as in control are none, three times as large may be
-constexpr double kExplained = 0.9;  // share of the residual's energy that the shape of a step has to explain
-constexpr double kBetter = 0.5;     // than the shape of a force that sets in: half of what is left
+constexpr double kMargin = 3;  // smallest step / largest in-control change
+// Smallest share of the residual's energy that the shape of a step explains.
+constexpr double kExplained = 0.9;
+constexpr double kBetter = 0.5;  // largest unexplained energy / unexplained energy with the shape of a force
 constexpr std::size_t kApart_ticks = 5;
 
 }  // namespace
@@ -58,7 +59,7 @@ std::optional<Step> StepWatch::add(double residual, bool learning) {
 std::optional<Step> StepWatch::classify() const {
   Step best;
   double explained = 0, by_force = 0;
-  for (std::size_t first = kShape_ticks - 1; first + 1 < kHistory; ++first) {  // ticks back to the step
+  for (std::size_t first = kShape_ticks - 1; first + 1 < kHistory; ++first) {  // ticks since the step
     const double before = at(first + 1);
     const auto share_of = [&](const std::array<double, kHistory>& shape, double& size) {
       double energy = 0, product = 0, norm = 0;

@@ -10,19 +10,19 @@ namespace {
 
 using diagnosis::kCoordinateOf;
 
-constexpr double kLargestSwing_rad = 1.4, kShortestCable_m = 0.05;  // beyond, the equations say nothing
-constexpr PerColumn kMoving{0.005, 0.005, 0.02, 0.02};              // m/s, rad/s
-constexpr double kUnexpected = 0.25;  // of what full voltage gives: no model is off by more within a tick
+constexpr double kLargestSwing_rad = 1.4, kShortestCable_m = 0.05;  // range of the equations of motion
+constexpr PerColumn kMoving{0.005, 0.005, 0.02, 0.02};              // speed of a moving axis, m/s, rad/s
+constexpr double kUnexpected = 0.25;  // largest model error of an acceleration / acceleration by full voltage
 constexpr double kFullVoltage_v = 10;
 constexpr double kSmallestSlip_counts = 3;
-constexpr double kQuietDrive = 4;  // bands
+constexpr double kQuietDrive = 4;  // largest residual of a drive that is not disturbed / its band
 
 double resolution(const configuration::Rig& rig, std::size_t column) {
   const double counts = rig.encoders[kCoordinateOf[column]].counts_per_unit;
   return counts > 0 ? 1 / counts : 0;
 }
 
-/// One count: what rounding and a model that is right do at least.
+/// Smallest standard deviation of a residual: one count.
 PerColumn floor_of(const configuration::Rig& rig) {
   PerColumn floor{};
   for (std::size_t i = 0; i < kColumns; ++i) floor[i] = std::max(resolution(rig, i), 1e-7);
@@ -60,7 +60,8 @@ Twin::Twin(const configuration::Rig& rig, const Design& design)
       block_ticks_(ticks_in(design.block_s, rig)),
       block_(judge_.hypotheses().size()) {
   if (judge_.hypotheses().empty())
-    throw std::invalid_argument(rig.path + ": no drive and no load: there is nothing for a twin to judge");
+    throw std::invalid_argument(
+        rig.path + ": the rig has no drive and no load, so that the twin has nothing to predict");
   for (const Hypothesis& hypothesis : judge_.hypotheses()) {
     auto terms = rig.terms;
     terms.insert(terms.end(), hypothesis.terms.begin(), hypothesis.terms.end());
@@ -185,7 +186,7 @@ void Twin::accumulate(const Known& now) {
   if (moving) ++block_.moving_ticks;
 }
 
-/// Who pushes the load leaves the drives alone, apart from what the load does to them.
+/// A push of the load changes the residual of the drives only through the force of the load.
 bool Twin::could_be_push(std::size_t column) const {
   bool drives_quiet = true;
   for (const auto drive : {diagnosis::kTrolleyPosition, diagnosis::kSlewAngle})
@@ -204,11 +205,11 @@ void Twin::watch_steps() {
     finding.axis = coordinate_of(i).axis;
     finding.unit = slip ? coordinate_of(i).unit : "rad/s";
     finding.size = step->size;
-    finding.remedy = slip ? "stop, check the encoder's coupling and cable, and home the axis"
-                          : "nothing: somebody or the wind has pushed the load";
+    finding.remedy = slip ? "stop the crane, check coupling and cable of the encoder, and home the axis"
+                          : "no action needed: a person or the wind has pushed the load";
     finding.column = i;
     judge_.found(finding);
-    // What the step does to the residual is no evidence for anything else.
+    // The residual of a step must not count as evidence for another cause.
     block_ = Block(changed_.size());
     held_.reset();
     to_settle_ = settle_ticks_ / 2;
@@ -239,7 +240,7 @@ void Twin::announce() {
   const auto& finding = judge_.finding();
   if (!announced_ && finding && judge_.named()) {
     announced_ = true;
-    std::string what = std::string{coordinate_of(finding->column).column} + " leaves its band of +-" +
+    std::string what = std::string{coordinate_of(finding->column).column} + " has left its band of +-" +
                        text("%.3g ", judgement_.band[finding->column]) + coordinate_of(finding->column).unit +
                        ": likely " + with_axis(finding->cause, finding->axis);
     if (!finding->unit.empty()) what += text(" %+.3g", finding->size);
@@ -249,7 +250,7 @@ void Twin::announce() {
     notice_ = Notice{true, what, finding->remedy};
   } else if (announced_ && !finding) {
     announced_ = false;
-    notice_ = Notice{false, "the residual is inside its band again", ""};
+    notice_ = Notice{false, "the residual is within its band again", ""};
   }
 }
 

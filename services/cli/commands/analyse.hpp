@@ -14,12 +14,12 @@ void add_analyse_gains(CLI::App& analyse, Action& chosen);
 void add_analyse_fuzzy(CLI::App& analyse, Action& chosen);
 void add_analyse_sensitivity(CLI::App& analyse, Action& chosen);
 
-/// "-2.871 + 5.994j"
+/// Text of a pole: "-2.871 + 5.994j".
 [[nodiscard]] std::string pole_text(analysis::Complex s);
-/// {"re": ..., "im": ...}
+/// JSON of a pole: {"re": ..., "im": ...}.
 [[nodiscard]] nlohmann::ordered_json pole_json(analysis::Complex s);
 
-/// Creates the directory. @throws std::runtime_error when it cannot be
+/// Creates the directory. @throws std::runtime_error on failure
 void require_directory(const std::filesystem::path& directory);
 
 }  // namespace crane::cli

@@ -11,7 +11,7 @@
 #include "cli/text_table.hpp"
 #include "crane/analysis/damping.hpp"
 #include "crane/configuration/rig.hpp"
-#include "crane/experiment/plane_picture.hpp"
+#include "crane/plot/plane.hpp"
 #include "crane/recording/csv.hpp"
 
 namespace crane::cli {
@@ -124,30 +124,30 @@ recording::Table table_of(const DampingStudy& study) {
 
 void draw(const std::filesystem::path& file, const DampingOptions& options, const DampingStudy& study) {
   const auto axis = [](std::string_view name, const GainRange& range) {
-    return experiment::PlaneAxis{std::string{name}, range.low, range.high, range.points};
+    return plot::PlaneAxis{std::string{name}, range.low, range.high, range.points};
   };
   const auto values = [&](Measure measure) {
     std::vector<double> result;
     for (const Damping& damping : study.map.values) result.push_back(merit(damping, measure));
     return result;
   };
-  experiment::Plane plane{.x = axis(study.kind->first_name, study.map.first),
-                          .y = axis(study.kind->second_name, study.map.second),
-                          .largest = 0.5,
-                          .contour_step = 0.1,
-                          .marks = {}};
+  plot::Plane plane{.x = axis(study.kind->first_name, study.map.first),
+                    .y = axis(study.kind->second_name, study.map.second),
+                    .largest = 0.5,
+                    .contour_step = 0.1,
+                    .marks = {}};
   for (const auto& point : study.points)
     if (point.name.find("Pade") == std::string::npos)
       plane.marks.push_back({point.name, point.gains.first, point.gains.second});
   const std::string title = std::string{study.kind->name} + ", figure " + std::string{study.kind->figure} +
                             ", K_p = " + recording::shortest(options.tracking) +
-                            ": damping ratio; blank where unstable";
-  experiment::draw_plane(file, title, plane,
-                         {{"right-most pair", values(Measure::dominant)},
-                          {"least damped of all pairs", values(Measure::least)}});
+                            ": damping ratio; blank: unstable";
+  plot::draw_plane(file, title, plane,
+                   {{"right-most pair", values(Measure::dominant)},
+                    {"least damped of all pairs", values(Measure::least)}});
 }
 
-/// Largest difference where both are stable, and where.
+/// Largest difference of the gain points at which both are stable, and its gains.
 std::string pade_difference(const DampingStudy& study) {
   double worst = 0;
   std::string where;
@@ -164,8 +164,9 @@ std::string pade_difference(const DampingStudy& study) {
 
 void print(const DampingStudy& study) {
   const auto& kind = *study.kind;
-  std::cout << kind.name << ", figure " << kind.figure << "; the source's choice is " << kind.printed_text
-            << " in its signs, where it reads a damping of " << fixed(kind.printed_damping, 2) << '\n';
+  std::cout << kind.name << ", figure " << kind.figure
+            << "; gains of the source (its signs): " << kind.printed_text
+            << ", damping ratio read from the figure: " << fixed(kind.printed_damping, 2) << '\n';
   TextTable table{
       {"", std::string{kind.first_name}, std::string{kind.second_name}, "dominant", "pair", "least", "pair"}};
   for (const auto& point : study.points)
@@ -197,7 +198,7 @@ nlohmann::ordered_json study_json(const DampingOptions& options, const DampingSt
 
 int analyse_damping(const DampingOptions& options) {
   if (!options.ranges.empty() && options.laws.size() != 1)
-    throw configuration::ConfigurationError({"--range: needs exactly one law, whose gains it is for"});
+    throw configuration::ConfigurationError({"--range: needs exactly one law"});
   auto json = nlohmann::ordered_json::array();
   if (!options.out.empty()) require_directory(options.out);
   for (const auto& kind : analysis::kAntiSwingKinds) {
@@ -222,12 +223,14 @@ int analyse_damping(const DampingOptions& options) {
 void add_analyse_damping(CLI::App& analyse, Action& chosen) {
   auto options = std::make_shared<DampingOptions>();
   auto* command = analyse.add_subcommand(
-      "damping", "Damping of tracking PD with a linear anti-swing law over its two gains, exact roots");
+      "damping",
+      "Map the damping of tracking PD with a linear anti-swing law over its two gains (exact roots)");
   std::vector<std::string> names;
   for (const auto& kind : analysis::kAntiSwingKinds) names.emplace_back(kind.name);
   command->add_option("law", options->laws, "pd, delayed_1, delayed_2; default: all")
       ->check(CLI::IsMember(names));
-  command->add_option("--pade", options->pade, "also with the Pade approximation (3.49) of this order")
+  command
+      ->add_option("--pade", options->pade, "also compute with the Pade approximation (3.49) of this order")
       ->check(CLI::Range(1, 60));
   command->add_option("--range", options->ranges, "LOW:HIGH:POINTS of the first and of the second gain")
       ->expected(2)
@@ -235,13 +238,15 @@ void add_analyse_damping(CLI::App& analyse, Action& chosen) {
   command->add_option("--tracking", options->tracking, "K_p of the tracking PD; K_d = 2 sqrt(K_p)")
       ->check(CLI::Range(0.01, 1e4))
       ->capture_default_str();
-  command->add_option("--highest", options->highest, "roots up to so many load frequencies count")
+  command
+      ->add_option("--highest", options->highest,
+                   "largest considered frequency of roots, in load frequencies")
       ->check(CLI::Range(0.1, 100.0))
       ->capture_default_str();
   command->add_option("--out", options->out, "directory for damping_LAW.csv and damping_LAW.svg");
   command->add_flag("--json", options->json, "print the points as JSON");
   command->footer(
-      "Gains are in normalised time and in the sign of the tower (docs/equations.md): K_ps, K_del < 0.\n"
+      "Gains are for normalised time and the tower sign (docs/equations.md): K_ps, K_del < 0.\n"
       "Examples: crane analyse damping --pade 20 --out out/damping\n"
       "          crane analyse damping pd --range=-40:-10:61 4:12:61");
   command->callback([options, &chosen] { chosen = [options] { return analyse_damping(*options); }; });

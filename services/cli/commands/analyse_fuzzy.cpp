@@ -16,7 +16,7 @@ constexpr std::array kLabels{"NB", "NM", "NS", "ZO", "PS", "PM", "PB"};
 
 std::string label_text(control::FuzzyLabel label) { return kLabels.at(static_cast<std::size_t>(label + 3)); }
 
-/// Swing down, swing rate across; `marked` has a star where it differs from `reference`.
+/// Prints a rule table; rows: swing, columns: swing rate. A star marks a difference from `reference`.
 void print_rules(const control::FuzzyRules& marked, const control::FuzzyRules& reference) {
   std::vector<std::string> header{"phi \\ phi'"};
   header.insert(header.end(), kLabels.begin(), kLabels.end());
@@ -55,11 +55,11 @@ int analyse_fuzzy(const std::string& rig, bool as_json) {
   }
   std::cout << "Table 3.7 as printed: label of the output for swing (rows) and swing rate (columns)\n";
   print_rules(control::kPrintedRules, control::kPrintedRules);
-  std::cout
-      << "\nGenerated after Wang and Mendel from the response under delayed_1; * differs from the print\n";
+  std::cout << "\nGenerated after Wang and Mendel from the response of delayed_1; *: differs from the "
+               "printed table\n";
   print_rules(generated, control::kPrintedRules);
-  std::cout << "\nOf " << agreement.rules << " rules " << agreement.exact << " are the same, "
-            << agreement.within_one << " are at most one label apart.\n";
+  std::cout << "\nOf " << agreement.rules << " rules " << agreement.exact << " are equal, "
+            << agreement.within_one << " differ by at most one label.\n";
   return runtime::kExitDone;
 }
 
@@ -71,8 +71,8 @@ void add_analyse_fuzzy(CLI::App& analyse, Action& chosen) {
     bool json = false;
   };
   auto options = std::make_shared<FuzzyOptions>();
-  auto* command = analyse.add_subcommand("fuzzy", "The printed fuzzy rules beside those generated anew");
-  command->add_option("--rig", options->rig, "rig file or name, for the design that is mapped")
+  auto* command = analyse.add_subcommand("fuzzy", "Compare the printed with the generated fuzzy rules");
+  command->add_option("--rig", options->rig, "rig file or name; its design gives the rules")
       ->capture_default_str();
   command->add_flag("--json", options->json, "print as JSON");
   command->footer("Example: crane analyse fuzzy");

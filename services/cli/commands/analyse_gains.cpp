@@ -9,7 +9,7 @@
 #include "cli/text_table.hpp"
 #include "crane/analysis/gain_curves.hpp"
 #include "crane/configuration/rig.hpp"
-#include "crane/experiment/curves.hpp"
+#include "crane/plot/curves.hpp"
 #include "crane/recording/csv.hpp"
 #include "stack/data_files.hpp"
 
@@ -28,7 +28,7 @@ struct GainsOptions {
 struct GainFigure {
   std::string figure, file, over, x_label;
   std::string speed_name, swing_name;
-  double scale = 1;  ///< K and the swing gain are drawn divided by it
+  double scale = 1;  ///< the picture shows K and the swing gain divided by this value
   GainCurve curve;
 };
 
@@ -70,12 +70,12 @@ recording::Table table_of(const GainFigure& figure) {
 
 void draw(const std::filesystem::path& file, const GainFigure& figure) {
   const auto curve = [&](std::string name, double scale, auto&& value) {
-    experiment::NamedCurve named{scale == 1 ? name : name + "/" + recording::shortest(scale), {}, {}};
+    plot::NamedCurve named{scale == 1 ? name : name + "/" + recording::shortest(scale), {}, {}};
     for (const GainSample& point : figure.curve) named.points.push_back({point.over, value(point) / scale});
     return named;
   };
-  experiment::draw_curves(
-      file, "figure " + figure.figure + ": gains with partial state feedback",
+  plot::draw_curves(
+      file, "figure " + figure.figure + ": gains of partial-state feedback",
       {{figure.x_label,
         "gain",
         {curve("K", figure.scale, [](const GainSample& p) { return p.gains.position; }),
@@ -83,7 +83,7 @@ void draw(const std::filesystem::path& file, const GainFigure& figure) {
          curve(figure.swing_name, figure.scale, [](const GainSample& p) { return p.gains.swing; })}}});
 }
 
-/// The point of the curve nearest to `over`.
+/// Point of the curve that is nearest to `over`.
 const GainSample& nearest(const GainFigure& figure, double over) {
   return *std::min_element(figure.curve.begin(), figure.curve.end(),
                            [over](const GainSample& a, const GainSample& b) {
@@ -142,9 +142,9 @@ int analyse_gains(const GainsOptions& options) {
 void add_analyse_gains(CLI::App& analyse, Action& chosen) {
   auto options = std::make_shared<GainsOptions>();
   auto* command = analyse.add_subcommand(
-      "gains", "Gains and poles of gain scheduling over cable length, load and trolley position");
+      "gains", "Compute gains and poles of gain scheduling over cable length, load and trolley position");
   command->add_option("--rig", options->rig,
-                      "rig file or name; default: the numbers of the source's figures");
+                      "rig file or name; default: the parameters of the source's figures");
   command->add_option("--out", options->out, "directory for figure_3_5, 3_6 and 3_10, each .csv and .svg");
   command->add_flag("--json", options->json, "print the curves as JSON");
   command->footer("Example: crane analyse gains --rig virginia_tech_tower --out out/gains");

@@ -34,13 +34,13 @@ struct SensitivityOptions {
   bool json = false;
 };
 
-/// The delayed laws and a filter on the swing angle they feed back, exact roots.
+/// Delayed laws with a filter on the swing angle, exact roots.
 struct FilteredLoop {
   std::string law;
   double ratio = 0;     ///< cut-off over sampling frequency, 0: no filter
-  double delay_ms = 0;  ///< of the filter, at low frequency
+  double delay_ms = 0;  ///< low-frequency delay of the filter
   analysis::Damping as_designed;
-  analysis::Damping shortened;  ///< the law's own delay less that of the filter
+  analysis::Damping shortened;  ///< damping with the delay of the law reduced by that of the filter
 };
 
 std::vector<FilteredLoop> filtered_loops(const configuration::Rig& rig) {
@@ -68,7 +68,7 @@ void write_filter_markdown(std::ostream& out, const std::vector<FilteredLoop>& l
   out << "## Low-pass on the swing angle, exact roots\n\n"
          "Least damping of the linear loop; its filter is a Butterworth low-pass of order 2 on the swing "
          "angle, "
-         "`shortened` has tau less the filter's delay.\n\n"
+         "`shortened`: tau minus the delay of the filter.\n\n"
          "| law | cut-off / sampling frequency | filter delay [ms] | dominant | least | dominant, shortened "
          "| "
          "least, shortened |\n|---|--:|--:|--:|--:|--:|--:|\n";
@@ -100,7 +100,7 @@ void write_file(const fs::path& file, Write write) {
 
 struct SensitivityPlan {
   std::vector<DepartedRun> runs;  ///< without results
-  std::vector<stack::PlannedRun> plans;
+  std::vector<experiments::PlannedRun> plans;
 };
 
 SensitivityPlan plan_of(const SensitivityOptions& options, const configuration::Rig& rig) {
@@ -108,7 +108,8 @@ SensitivityPlan plan_of(const SensitivityOptions& options, const configuration::
   for (const auto& name : options.scenarios) {
     const auto scenario = experiment::load_scenario(stack::find_scenario(name), &rig);
     for (const auto& controller : options.controllers) {
-      const stack::PlannedRun as_designed{scenario, rig, &runtime::chosen_controller(controller, rig), ""};
+      const experiments::PlannedRun as_designed{scenario, rig, &runtime::chosen_controller(controller, rig),
+                                                ""};
       for (const auto& departure : departures(as_designed)) {
         plan.plans.push_back(as_designed);
         departure.change(plan.plans.back());
@@ -121,7 +122,7 @@ SensitivityPlan plan_of(const SensitivityOptions& options, const configuration::
 
 void run_all(SensitivityPlan& plan) {
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  auto results = stack::simulate_all(plan.plans, [&](std::size_t done) {
+  auto results = experiments::simulate_all(plan.plans, [&](std::size_t done) {
     if (terminal) std::cerr << '\r' << done << " of " << plan.plans.size() << " runs" << std::flush;
   });
   if (terminal) std::cerr << '\n';
@@ -142,7 +143,7 @@ nlohmann::ordered_json runs_json(const std::vector<DepartedRun>& runs) {
 
 int analyse_sensitivity(const SensitivityOptions& options) {
   runtime::install_stop_signals();
-  spdlog::set_level(spdlog::level::off);  // why a crane was stopped stands in the table
+  spdlog::set_level(spdlog::level::off);  // the table contains the cause of a stop
   const auto rig = configuration::load_rig(stack::find_rig(options.rig));
   auto plan = plan_of(options, rig);
   require_directory(options.out);
@@ -170,7 +171,7 @@ void add_analyse_sensitivity(CLI::App& analyse, Action& chosen) {
   auto options = std::make_shared<SensitivityOptions>();
   auto* command = analyse.add_subcommand(
       "sensitivity",
-      "Settling time and residual swing against cable, load, friction, delay, filters and gains");
+      "Compute settling time and residual swing over cable, load, friction, delay, filters and gains");
   command->add_option("--scenario", options->scenarios, "scenario file or name (repeatable)")
       ->capture_default_str();
   command->add_option("--controller", options->controllers, "controller (repeatable)")->capture_default_str();
@@ -180,7 +181,7 @@ void add_analyse_sensitivity(CLI::App& analyse, Action& chosen) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "print the runs as JSON");
   command->footer(
-      "Each run departs in one quantity from what the controllers believe or were designed with; about 30 "
+      "Each run changes one quantity relative to the nominal value of the controllers; about 30 "
       "runs\n"
       "for each scenario and controller, in this process, without DDS.\n"
       "Example: crane analyse sensitivity --scenario maneuver_1 maneuver_3 --controller delayed_1");

@@ -14,9 +14,9 @@
 
 #include "cli/commands/bench.hpp"
 #include "cli/commands/commands.hpp"
+#include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -76,7 +76,7 @@ class UdpFloor {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     if (socket < 0 || ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
       throw std::runtime_error("cannot open a UDP socket on the loop-back");
-    constexpr timeval kPatience{.tv_sec = 0, .tv_usec = 100'000};  // a lost datagram must not hang the run
+    constexpr timeval kPatience{.tv_sec = 0, .tv_usec = 100'000};  // limits the wait for a lost datagram
     ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
     return socket;
   }
@@ -109,9 +109,9 @@ class UdpFloor {
   std::thread echo_, ping_;
 };
 
-/// What an observer of state and command sees.
+/// Latencies by an observer of crane/state and crane/command.
 struct Observed {
-  std::vector<std::int64_t> command_ns;  ///< from the latch of tick k to the arrival of command k
+  std::vector<std::int64_t> command_ns;  ///< from the latching of tick k to the arrival of command k
   std::uint64_t ticks = 0, lost_ticks = 0;
 };
 
@@ -120,7 +120,7 @@ Observed observe(stack::ChildProcesses& children, const BenchOptions& options) {
   auto commands = bus.subscriber(topics::command);
   Observed observed;
   std::optional<std::uint64_t> last;
-  const auto begin_ns = runtime::monotonic_ns() + 500'000'000;  // old samples and start-up pass first
+  const auto begin_ns = runtime::monotonic_ns() + 500'000'000;  // after start-up and old samples
   const auto end_ns = begin_ns + static_cast<std::int64_t>(options.seconds * 1e9);
   while (runtime::monotonic_ns() < end_ns && !runtime::stop_requested()) {
     bus.wait(std::chrono::milliseconds{50});
@@ -178,13 +178,13 @@ int bench_loop(BenchOptions options) {
 
 void add_bench(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<BenchOptions>();
-  auto* command =
-      app.add_subcommand("bench", "Measure the stack on this machine, and the diagnosis on hidden effects");
+  auto* command = app.add_subcommand(
+      "bench", "Measure the stack on this computer, and the diagnosis with hidden effects");
   command->require_subcommand(1);
   auto* loop =
-      command->add_subcommand("loop", "Real time: lost ticks and latency, beside raw UDP in the same run");
+      command->add_subcommand("loop", "Measure lost ticks and latency in real time, compared with raw UDP");
   loop->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  loop->add_option("--seconds", options->seconds, "how long")
+  loop->add_option("--seconds", options->seconds, "duration in s")
       ->check(CLI::Range(1.0, 86400.0))
       ->capture_default_str();
   loop->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")

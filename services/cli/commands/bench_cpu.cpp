@@ -11,9 +11,9 @@
 
 #include "cli/commands/bench.hpp"
 #include "cli/text_table.hpp"
+#include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -26,7 +26,7 @@ struct BenchCpuOptions {
   bool json = false;
 };
 
-/// Processor time so far [ns].
+/// Processor time of a thread [ns].
 struct CpuTime {
   std::int64_t loop_ns = 0, others_ns = 0;
 };
@@ -42,7 +42,7 @@ CpuTime cpu_time_of(pid_t pid) {
   return time;
 }
 
-/// Of one process, a tick.
+/// Processor time of one process per tick.
 struct CpuShare {
   std::string process;
   double loop_us = 0, dds_threads_us = 0;
@@ -67,7 +67,7 @@ std::vector<CpuShare> measure(const BenchCpuOptions& options) {
   {
     bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
     stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
-  }  // an observer costs its share
+  }  // ends the observer, which would use processor time
   const auto now_of = [&](const runtime::ComponentSpec& spec) {
     return cpu_time_of(children.pid_of(std::string{spec.name}).value());
   };
@@ -110,18 +110,17 @@ int bench_cpu(BenchCpuOptions options) {
 void add_bench_cpu(CLI::App& bench, Action& chosen) {
   auto options = std::make_shared<BenchCpuOptions>();
   auto* command = bench.add_subcommand(
-      "cpu", "Real time, crane locked: processor time a tick of each process, loop and DDS threads apart");
+      "cpu", "Measure the processor time per tick of each process (loop and DDS threads) in real time");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
   command->add_option("--plant", options->plant, "hardware (the bridge) or sim")
       ->check(CLI::IsMember({"hardware", "sim"}))
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "how long")
+  command->add_option("--seconds", options->seconds, "duration in s")
       ->check(CLI::Range(1.0, 86400.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print as JSON");
   runtime::add_bus_options(*command, options->launch.bus);
-  command->footer(
-      "Example: crane bench cpu --seconds 20\nA machine that is busy with other things shows more.");
+  command->footer("Example: crane bench cpu --seconds 20\nOther load on the computer increases the result.");
   command->callback([options, &chosen] { chosen = [options] { return bench_cpu(*options); }; });
 }
 

@@ -16,7 +16,7 @@ int bench_diagnosis(std::vector<std::string> arguments) {
   const std::filesystem::path program = stack::program_directory() / "bench_diagnosis";
   if (!std::filesystem::exists(program))
     throw std::runtime_error(program.string() +
-                             ": not there: it is built with the tests (deploy/build, CRANE_BUILD_TESTS)");
+                             ": missing; build it with the tests (deploy/build, CRANE_BUILD_TESTS)");
   arguments.insert(arguments.begin(), program.string());
   std::vector<char*> values;
   for (std::string& argument : arguments) values.push_back(argument.data());
@@ -29,9 +29,9 @@ int bench_diagnosis(std::vector<std::string> arguments) {
 
 void add_bench_diagnosis(CLI::App& bench, Action& chosen) {
   auto* command = bench.add_subcommand(
-      "diagnosis", "Score crane diagnose on data with hidden effects: naming, false alarms, gain, intervals");
+      "diagnosis", "Score crane diagnose with hidden effects: naming, false alarms, gain, intervals");
   command->prefix_command();
-  command->set_help_flag();  // --help and every option are the program's own
+  command->set_help_flag();  // the program handles --help and all options
   command->footer("Example: crane bench diagnosis --sets 1200 --results score.jsonl");
   command->callback([command, &chosen] {
     chosen = [arguments = command->remaining()] { return bench_diagnosis(arguments); };

@@ -13,9 +13,9 @@
 
 #include "cli/commands/bench.hpp"
 #include "crane/boards/linked_rig.hpp"
+#include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -30,12 +30,12 @@ struct BenchStopOptions {
   bool json = false;
 };
 
-/// From the last toggle of the watchdog output.
+/// Times since the last toggle of the watchdog output.
 struct StopTimes {
   double relay_ms = 0, brakes_ms = 0;
 };
 
-void get_to_speed(stack::RealtimeSession& session) {
+void get_to_speed(experiments::RealtimeSession& session) {
   session.arm();
   session.request({.kind = crane_REQUEST_MOVE, .selected = {true, true, false}, .target = {1.0, 1.5, 0}},
                   "move");
@@ -44,13 +44,13 @@ void get_to_speed(stack::RealtimeSession& session) {
            std::abs(session.state()->slew_speed_radps) > 0.5;
   };
   for (int i = 0; !at_speed(); ++i) {
-    if (i > 500) throw stack::SessionError("the crane does not get to speed");
+    if (i > 500) throw experiments::SessionError("the crane does not reach its speed");
     session.wait(5ms);
   }
 }
 
-/// A stack, a move of trolley and jib, and at speed the signal. Nothing when the crane has not come to speed,
-/// because a machine that is busy with other things has kept the stack from its ticks.
+/// Starts a stack and a move of trolley and jib, and sends the signal at full speed. Returns nothing when the
+/// crane has not reached its speed, because other load on the computer delayed the stack.
 std::optional<StopTimes> stop_once(stack::LaunchOptions launch, int signal) {
   launch.bus.crane = "bench_" + std::to_string(::getpid());
   const auto specs = stack::hardware_stack();
@@ -59,27 +59,28 @@ std::optional<StopTimes> stop_once(stack::LaunchOptions launch, int signal) {
   stack::launch(children, specs, launch);
   bus::Bus bus{runtime::bus_options(launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
-  stack::RealtimeSession session{bus, [] {
-                                   if (runtime::stop_requested()) throw stack::SessionError("interrupted");
-                                 }};
+  experiments::RealtimeSession session{bus, [] {
+                                         if (runtime::stop_requested())
+                                           throw experiments::SessionError("interrupted");
+                                       }};
   const bridge::RigMonitor monitor{bridge::shared_lines_name(launch.bus.crane, launch.bus.domain)};
   const auto& lines = monitor.lines();
   const auto closed_before_ns = lines.brakes_closed_ns.load();
   try {
     get_to_speed(session);
-  } catch (const stack::SessionError& error) {
+  } catch (const experiments::SessionError& error) {
     if (runtime::stop_requested()) throw;
-    std::cerr << "once more: " << error.what() << '\n';
+    std::cerr << "run repeated: " << error.what() << '\n';
     return {};
   }
   const auto signal_ns = runtime::monotonic_ns();
   ::kill(children.pid_of("hardware_bridge").value(), signal);
   for (int i = 0; lines.brakes_closed_ns == closed_before_ns; ++i) {
-    if (i > 200) throw stack::SessionError("the brakes did not close within a second");
+    if (i > 200) throw experiments::SessionError("the brakes did not close within a second");
     ::usleep(5'000);
   }
   if (lines.relay_dropped_ns < signal_ns || lines.brakes_closed_ns < signal_ns) {
-    std::cerr << "once more: the crane was stopped before the signal\n";
+    std::cerr << "run repeated: the crane was stopped before the signal\n";
     return {};
   }
   const auto ms = [&lines](std::int64_t at_ns) {
@@ -88,13 +89,13 @@ std::optional<StopTimes> stop_once(stack::LaunchOptions launch, int signal) {
   return StopTimes{ms(lines.relay_dropped_ns), ms(lines.brakes_closed_ns)};
 }
 
-/// @throws stack::SessionError when the crane does not come to speed
+/// @throws experiments::SessionError when the crane does not come to speed
 StopTimes stop_at_speed(const stack::LaunchOptions& launch, int signal) {
   constexpr int kAttempts = 5;
   for (int i = 0; i < kAttempts; ++i)
     if (const auto times = stop_once(launch, signal)) return *times;
-  throw stack::SessionError("the crane did not come to speed " + std::to_string(kAttempts) +
-                            " times: let the machine do nothing else");
+  throw experiments::SessionError("the crane did not reach its speed " + std::to_string(kAttempts) +
+                                  " times: end other programs on this computer");
 }
 
 nlohmann::ordered_json least_and_worst(const std::vector<double>& values) {
@@ -108,7 +109,7 @@ int bench_stop(BenchStopOptions options) {
   options.launch.rig = stack::find_rig(options.rig).string();
   if (configuration::load_rig(options.launch.rig).board != "emulated")
     throw configuration::ConfigurationError(
-        {options.launch.rig + ": board: must be \"emulated\" to be stopped like this"});
+        {options.launch.rig + ": board: must be \"emulated\" for this measurement"});
   auto json = nlohmann::ordered_json::array();
   for (const auto& [name, signal] : {std::pair{"SIGKILL", SIGKILL}, std::pair{"SIGSTOP", SIGSTOP}}) {
     std::vector<double> relay_ms, brakes_ms;
@@ -136,16 +137,16 @@ int bench_stop(BenchStopOptions options) {
 
 void add_bench_stop(CLI::App& bench, Action& chosen) {
   auto options = std::make_shared<BenchStopOptions>();
-  auto* command = bench.add_subcommand(
-      "stop",
-      "Real time, emulated board: kill or hang the bridge at full speed, time until the brakes are closed");
+  auto* command = bench.add_subcommand("stop",
+                                       "Kill or stop the bridge at full speed (emulated board, real time); "
+                                       "measure the time until the brakes are closed");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command->add_option("--runs", options->runs, "half of them by SIGKILL, half by SIGSTOP")
+  command->add_option("--runs", options->runs, "number of runs; half with SIGKILL, half with SIGSTOP")
       ->check(CLI::Range(2, 10000))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print as JSON");
   runtime::add_bus_options(*command, options->launch.bus);
-  command->footer("Example: crane bench stop --runs 50     (about six seconds a run)");
+  command->footer("Example: crane bench stop --runs 50     (about six seconds per run)");
   command->callback([options, &chosen] { chosen = [options] { return bench_stop(*options); }; });
 }
 

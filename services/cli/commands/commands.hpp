@@ -1,7 +1,7 @@
 #pragma once
-/// The commands of `crane`, one file and one line each. A command registers its options and, when it is the
-/// one on the command line, puts what there is to do into `chosen`. The action returns the exit code; errors
-/// it throws are reported by main().
+/// The commands of `crane`, one file and one line each. A command registers its options. The command on the
+/// command line stores its action in `chosen`. The action returns the exit code; main() reports its
+/// exceptions.
 #include <functional>
 
 #include "crane/runtime/process.hpp"

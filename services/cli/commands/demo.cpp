@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "cli/commands/commands.hpp"
+#include "crane/bridge/component.hpp"
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/picture.hpp"
-#include "process/hardware_bridge.hpp"
+#include "experiments/realtime_session.hpp"
 #include "recorder/recorder.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -31,8 +31,8 @@ struct DemoOptions {
 
 constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
 
-/// Where the scenario begins, reached by a move like any other.
-void go_to_start(stack::RealtimeSession& session, const experiment::Scenario& scenario) {
+/// Moves to the start of the scenario.
+void go_to_start(experiments::RealtimeSession& session, const experiment::Scenario& scenario) {
   const auto& state = *session.state();
   const std::array<double, 3> here{state.trolley_position_m, state.slew_angle_rad, state.cable_length_m};
   constexpr double kThere = 0.005;  // m, rad
@@ -46,12 +46,13 @@ void go_to_start(stack::RealtimeSession& session, const experiment::Scenario& sc
   if (selected[0] || selected[1] || selected[2]) session.move_to(selected, target, 12s);
 }
 
-/// Records while somebody waits.
+/// Records in a separate thread.
 using RecorderSlot = std::optional<recorder::Recorder>;
 
-experiment::NamedMetrics run_maneuver(stack::RealtimeSession& session, bus::Bus& bus, RecorderSlot& recorder,
-                                      const configuration::Rig& rig, const std::string& controller,
-                                      experiment::Scenario scenario, const DemoOptions& options) {
+experiment::NamedMetrics run_maneuver(experiments::RealtimeSession& session, bus::Bus& bus,
+                                      RecorderSlot& recorder, const configuration::Rig& rig,
+                                      const std::string& controller, experiment::Scenario scenario,
+                                      const DemoOptions& options) {
   std::cerr << "  " << scenario.name << ": " << scenario.description << '\n';
   go_to_start(session, scenario);
   const fs::path directory{options.out};
@@ -69,10 +70,12 @@ experiment::NamedMetrics run_maneuver(stack::RealtimeSession& session, bus::Bus&
   }
   session.wait(std::chrono::nanoseconds{static_cast<std::int64_t>(options.seconds_per_maneuver * 1e9)});
   if (const auto state = session.status()->state; state != crane_STATE_HOLD && state != crane_STATE_RUN)
-    throw stack::SessionError(scenario.name + " was stopped: " + stack::in_words(*session.status()));
+    throw experiments::SessionError(scenario.name +
+                                    " was stopped: " + experiments::in_words(*session.status()));
   const bool recorded = recorder->close();
   recorder.reset();
-  if (!recorded) throw stack::SessionError("the recording of " + scenario.name + " could not be written");
+  if (!recorded)
+    throw experiments::SessionError("the recording of " + scenario.name + " could not be written");
 
   const auto table = session.table().table(zero_ns);
   recording::write_csv(directory / (scenario.name + ".csv"), table);
@@ -102,16 +105,16 @@ int demo(DemoOptions options) {
   std::cerr << "starting " << specs.size() << " processes\n";
   stack::launch(children, specs, options.launch);
   auto observer = options.launch.bus;
-  observer.vendor = "fastdds";  // observers run on the other vendor
+  observer.vendor = "fastdds";  // the loop runs on Cyclone DDS
   bus::Bus bus{runtime::bus_options(observer, "crane_demo", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
   RecorderSlot recorder;
   const auto meanwhile = [&children, &recorder] {
     if (recorder) recorder->poll();
-    if (const auto ended = children.ended()) throw stack::SessionError(stack::describe(*ended));
-    if (runtime::stop_requested()) throw stack::SessionError("interrupted");
+    if (const auto ended = children.ended()) throw experiments::SessionError(stack::describe(*ended));
+    if (runtime::stop_requested()) throw experiments::SessionError("interrupted");
   };
-  stack::RealtimeSession session{bus, meanwhile};
+  experiments::RealtimeSession session{bus, meanwhile};
   std::cerr << "reset, arm\n";
   session.arm();
   std::vector<experiment::NamedMetrics> table;
@@ -131,15 +134,16 @@ void add_demo(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<DemoOptions>();
   options->launch.bus.crane = "demo";
   auto* command =
-      app.add_subcommand("demo", "Three maneuvers in real time: a table, recordings and pictures");
+      app.add_subcommand("demo", "Run three maneuvers in real time; write a table, recordings and pictures");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command->add_option("--plant", options->plant, "sim, or hardware, the board that the rig file names")
+  command->add_option("--plant", options->plant, "sim: simulated plant; hardware: the board of the rig file")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
-  command->add_option("--controller", options->launch.controller, "controller; default: the rig file's");
+  command->add_option("--controller", options->launch.controller,
+                      "controller; default: the controller of the rig file");
   command->add_option("--out", options->out, "directory for recordings, CSV files and pictures")
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds_per_maneuver, "measured after each move")
+  command->add_option("--seconds", options->seconds_per_maneuver, "time measured after each move, in s")
       ->check(CLI::Range(5.0, 60.0))
       ->capture_default_str();
   runtime::add_bus_options(*command, options->launch.bus);

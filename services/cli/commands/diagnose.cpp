@@ -28,7 +28,7 @@ struct DiagnoseOptions {
   bool json = false, no_picture = false;
 };
 
-/// One line on a terminal, rewritten.
+/// Progress in one line of the terminal.
 void show_share(double share, const std::string& what) {
   constexpr std::size_t kBar = 30, kText = 48;
   const auto filled = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * kBar);
@@ -75,7 +75,7 @@ int diagnose_data(const DiagnoseOptions& options) {
   diagnosis::Mapping mapping;
   if (!options.mapping.empty()) mapping = diagnosis::load_mapping(options.mapping);
   DiagnosisData data = read_diagnosis_data(options.train, options.test, mapping, rig);
-  fs::create_directories(options.out);  // before the long work
+  fs::create_directories(options.out);  // fails before the long computation
   diagnosis::Request request;
   request.seed = options.seed;
   request.most_effects = options.effects;
@@ -104,24 +104,25 @@ int diagnose(const DiagnoseOptions& options) {
 
 void add_diagnose(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<DiagnoseOptions>();
-  auto* command = app.add_subcommand("diagnose", "What measured data show the simulation to get wrong");
-  command->add_option("--rig", options->rig, "rig file or name: the simulation that is judged")
-      ->capture_default_str();
-  command->add_option("--train", options->train, "runs to learn from: CSV or MCAP")->required();
-  command->add_option("--test", options->test, "whole runs held out, to prove the gain on: CSV or MCAP")
+  auto* command = app.add_subcommand("diagnose", "Find errors of the simulation from measured data");
+  command->add_option("--rig", options->rig, "rig file or name of the simulation")->capture_default_str();
+  command->add_option("--train", options->train, "runs for training: CSV or MCAP")->required();
+  command->add_option("--test", options->test, "runs for the test of the gain (held out): CSV or MCAP")
       ->required();
   command
       ->add_option("--mapping", options->mapping,
-                   "file that says how another laboratory's CSV columns are meant")
+                   "file that describes the columns of another laboratory's CSV files")
       ->check(CLI::ExistingFile);
   command
       ->add_option("--out", options->out,
                    "directory for report.html, report.json, extended.toml and pictures")
       ->capture_default_str();
-  command->add_option("--effects", options->effects, "most causes at once: fewer are found sooner")
+  command
+      ->add_option("--effects", options->effects,
+                   "largest number of causes; a smaller number takes less time")
       ->check(CLI::Range(1, 3))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "of the resampling")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the resampling")->capture_default_str();
   command->add_flag("--json", options->json, "print report.json");
   command->add_flag("--no-picture", options->no_picture, "do not draw SVG files");
   command->footer(

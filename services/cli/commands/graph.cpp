@@ -23,8 +23,8 @@ int draw(const std::string& format) {
 
 void add_graph(CLI::App& app, Action& chosen) {
   auto format = std::make_shared<std::string>("mermaid");
-  auto* command =
-      app.add_subcommand("graph", "The wiring of a stack: what each process reads and writes, and what for");
+  auto* command = app.add_subcommand(
+      "graph", "Show the wiring of a stack: the topics that each process reads and writes, with the purpose");
   command
       ->add_option("--format", *format,
                    "mermaid or dot: a diagram; topics or components: a table; json: for other programs")

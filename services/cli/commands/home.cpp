@@ -18,13 +18,13 @@ struct HomeOptions {
   runtime::BusOptions bus = tool_bus();
 };
 
-/// The newest of what an operator at the crane looks at.
+/// The newest samples of crane/supervisor and crane/state.
 class Watch {
  public:
   explicit Watch(bus::Bus& bus)
       : bus_{bus}, statuses_{bus.subscriber(topics::supervisor)}, states_{bus.subscriber(topics::state)} {}
 
-  /// @return false when the time was up
+  /// @return false at the timeout
   bool until(double timeout_s,
              const std::function<bool(const msg::SupervisorStatus&, const msg::State&)>& holds) {
     const bool reached = wait_until(bus_, timeout_s, [&] {
@@ -33,7 +33,8 @@ class Watch {
       return status_ && state_ && holds(*status_, *state_);
     });
     if (runtime::stop_requested())
-      throw std::runtime_error("home: no longer waited for; the crane goes on (`crane stop`)");
+      throw std::runtime_error(
+          "home: waiting was interrupted; the crane continues to move (stop it with `crane stop`)");
     return reached;
   }
   [[nodiscard]] const msg::State& state() const { return *state_; }
@@ -76,7 +77,9 @@ void follow(Watch& watch, std::size_t axis, double timeout_s) {
     if (status.cause != crane_CAUSE_HOMED) throw_stopped(status);
     return state.position_known[axis];
   });
-  if (!done) throw std::runtime_error("home: not done in time; the crane goes on (`crane stop`)");
+  if (!done)
+    throw std::runtime_error(
+        "home: not complete before the timeout; the crane continues to move (stop it with `crane stop`)");
 }
 
 /// The stop at the end of the axis before is this command's own: acknowledged when it has been clear for a
@@ -100,7 +103,7 @@ int home(const HomeOptions& options) {
   Watch watch{bus};
   constexpr double kFind_s = 5;
   if (!watch.until(kFind_s, [](const auto&, const auto&) { return true; }))
-    throw NoAnswer("neither supervisor nor crane/state heard" + where_and_remedy(bus.options()));
+    throw NoAnswer("no sample of crane/supervisor or crane/state received" + where_and_remedy(bus.options()));
   const auto axes = axes_to_home(options, watch.state());
   if (axes.empty()) std::cout << "home: the position of every axis is known\n";
   bool first = true;
@@ -121,10 +124,10 @@ int home(const HomeOptions& options) {
 void add_home(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<HomeOptions>();
   auto* command =
-      app.add_subcommand("home", "Let axes creep to their marks, so that their positions are known");
+      app.add_subcommand("home", "Home axes: they creep to their marks, so that their positions are known");
   command
       ->add_option("--axis", options->axes,
-                   "trolley, slew or hoist (repeatable); default: all that are not homed")
+                   "trolley, slew or hoist (repeatable); default: all axes that are not homed")
       ->check(CLI::IsMember(plant::drive_names()));
   command->add_option("--timeout", options->timeout_s, "longest wait for one axis in s")
       ->check(CLI::PositiveNumber)
@@ -132,10 +135,9 @@ void add_home(CLI::App& app, Action& chosen) {
   runtime::add_bus_options(*command, options->bus);
   command->footer(
       "Example: crane reset && crane home && sleep 2 && crane reset && crane arm\n"
-      "The crane must be READY. Only the brake of the axis that is homed opens; it creeps to its limit "
-      "switch or mark\n"
-      "([homing] in the rig file), back, and slowly there again. Ends in LOCKED. Somebody stands at the "
-      "emergency stop.");
+      "The crane must be READY. Only the brake of the axis that is being homed opens. The axis creeps to\n"
+      "its limit switch or mark ([homing] in the rig file), backs off, and approaches it again slowly.\n"
+      "The final state is LOCKED. A person must stand at the emergency stop.");
   command->callback([options, &chosen] { chosen = [options] { return home(*options); }; });
 }
 

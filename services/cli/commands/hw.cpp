@@ -6,10 +6,10 @@
 namespace crane::cli {
 
 void add_hw(CLI::App& app, Action& chosen) {
-  auto* hw = app.add_subcommand("hw", "Bring a rig up: look, jog, calibrate, test its wiring");
+  auto* hw = app.add_subcommand("hw", "Bring up a rig: inspect, jog, calibrate, test the wiring");
   hw->require_subcommand(1);
   hw->footer(
-      "In this order, without a stack, somebody at the emergency stop: probe, selftest, calibrate, selftest "
+      "Order, without a stack and with a person at the emergency stop: probe, selftest, calibrate, selftest "
       "with the\n"
       "calibrated file (docs/hardware.md). Every command leaves the board at 0 V with closed brakes, Ctrl-C "
       "too.\n"

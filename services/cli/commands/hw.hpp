@@ -1,11 +1,11 @@
 #pragma once
-/// What the commands of `crane hw` share: the rig, its board in this process's hands, and time.
+/// Shared by the commands of `crane hw`: rig, board and time, used without a stack.
 #include <memory>
 #include <string>
 
+#include "crane/bridge/component.hpp"
 #include "crane/bring_up/session.hpp"
 #include "crane/runtime/node.hpp"
-#include "process/hardware_bridge.hpp"
 
 namespace CLI {
 class App;
@@ -15,20 +15,21 @@ namespace crane::cli {
 
 struct BoardOptions {
   std::string rig;
-  std::string wired_as;  ///< emulated board: rig file that the emulated crane is wired by; empty: `rig`
-  std::string crane;     ///< emulated board: name of a crane_emulated_rig that runs; empty: one in here
+  std::string wired_as;  ///< emulated board: rig file of the emulated crane's wiring; empty: `rig`
+  std::string
+      crane;  ///< emulated board: name of a running crane_emulated_rig; empty: emulated in this process
   std::uint32_t domain = 0;
 };
 void add_board_options(CLI::App& command, BoardOptions& options);
 
-/// The board that a rig file names, without a stack. Only one program at a time has a board.
+/// Opens the board of a rig file. Only one program at a time can use a board.
 class OpenBoard {
  public:
-  /// @throws configuration::ConfigurationError; bridge::BoardError when it is not there or in use
+  /// @throws configuration::ConfigurationError; bridge::BoardError when the board is missing or in use
   explicit OpenBoard(const BoardOptions& options);
   [[nodiscard]] const configuration::Rig& rig() const { return rig_; }
   [[nodiscard]] bridge::Board& board() { return *board_; }
-  /// Real time, or none where the crane is simulated in here.
+  /// Real time; simulated time for a crane that is emulated in this process.
   [[nodiscard]] const bring_up::Clock& clock() const { return clock_; }
 
  private:

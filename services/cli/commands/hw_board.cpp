@@ -5,14 +5,15 @@
 #include "cli/commands/hw.hpp"
 #include "crane/boards/emulated_board.hpp"
 #include "crane/boards/linked_rig.hpp"
-#include "crane/boards/wired_rig.hpp"
+#include "crane/emulated_rig/component.hpp"
+#include "crane/emulated_rig/wired_rig.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::cli {
 namespace {
 
-/// Sleeps from tick to tick; what was missed during a question is not caught up with.
+/// Sleeps from tick to tick; ticks that were missed during a question are skipped.
 std::function<void(std::int64_t)> sleeping() {
   return [next_ns = std::int64_t{0}](std::int64_t duration_ns) mutable {
     next_ns = std::max(next_ns, runtime::monotonic_ns() - duration_ns) + duration_ns;
@@ -26,11 +27,11 @@ std::function<void(std::int64_t)> sleeping() {
 void add_board_options(CLI::App& command, BoardOptions& options) {
   command.add_option("--rig", options.rig, "rig file or name: board, channels and lines")->required();
   auto* wired = command.add_option("--wired-as", options.wired_as,
-                                   "board \"emulated\": rig file that the emulated crane is really wired by");
+                                   "board \"emulated\": rig file with the wiring of the emulated crane");
   auto* crane = command.add_option("--crane", options.crane,
-                                   "board \"emulated\": a crane_emulated_rig that runs with this --crane, in "
-                                   "real time; default: a crane in this process");
-  command.add_option("--domain", options.domain, "... and this --domain")->needs(crane);
+                                   "board \"emulated\": --crane of a running crane_emulated_rig (real time); "
+                                   "default: a crane in this process");
+  command.add_option("--domain", options.domain, "--domain of this crane_emulated_rig")->needs(crane);
   crane->excludes(wired);
 }
 
@@ -41,8 +42,8 @@ OpenBoard::OpenBoard(const BoardOptions& options)
   clock_.interrupted = runtime::stop_requested;
   const bool emulated = bridge::board_kind_of(rig_).name == "emulated";
   if (!emulated && !(options.wired_as.empty() && options.crane.empty()))
-    throw configuration::ConfigurationError(
-        {rig_.path + ": board = " + rig_.board + ": --wired-as and --crane are for the emulated board"});
+    throw configuration::ConfigurationError({rig_.path + ": board = " + rig_.board +
+                                             ": --wired-as and --crane apply to the emulated board only"});
   if (!emulated || !options.crane.empty()) clock_.wait = sleeping();
   board_ = opened(options);
 }
@@ -53,7 +54,9 @@ std::unique_ptr<bridge::Board> OpenBoard::opened(const BoardOptions& options) {
         rig_, std::make_unique<bridge::LinkedRig>(bridge::shared_lines_name(options.crane, options.domain)));
   if (!options.wired_as.empty())
     return std::make_unique<bridge::EmulatedBoard>(
-        rig_, std::make_unique<bridge::WiredRig>(configuration::load_rig(stack::find_rig(options.wired_as))));
+        rig_,
+        std::make_unique<emulated_rig::WiredRig>(configuration::load_rig(stack::find_rig(options.wired_as))));
+  if (bridge::board_kind_of(rig_).name == "emulated") return emulated_rig::open_board(rig_);
   return bridge::board_kind_of(rig_).make(rig_, bus_.options());
 }
 

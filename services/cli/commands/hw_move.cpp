@@ -83,21 +83,21 @@ int selftest(const HwMoveOptions& options) {
   } else {
     for (const auto& finding : findings)
       std::cout << bring_up::name_of(finding.fault) << ": " << finding.text << '\n';
-    if (findings.empty()) std::cout << opened.rig().name << ": wired as the rig file says\n";
+    if (findings.empty()) std::cout << opened.rig().name << ": the wiring agrees with the rig file\n";
   }
   return findings.empty() ? runtime::kExitDone : runtime::kExitFailed;
 }
 
-/// A line of `in` per question.
+/// Reads one line of `in` per question.
 std::string answered(std::istream& in, const std::string& question, bool echo) {
   std::cout << question << ' ' << std::flush;
   std::string answer;
-  if (!std::getline(in, answer)) throw bring_up::Ended("no answer; nothing written, 0 V, brakes closed");
+  if (!std::getline(in, answer)) throw bring_up::Ended("no answer; no file was written; 0 V, brakes closed");
   if (echo) std::cout << answer << '\n';
   return answer;
 }
 
-/// Before anything moves.
+/// Called before any motion.
 void require_writable(const std::filesystem::path& file) {
   const auto target = std::filesystem::exists(file) ? file : std::filesystem::absolute(file).parent_path();
   if (::access(target.c_str(), W_OK) != 0)
@@ -132,7 +132,7 @@ int calibrate(const HwMoveOptions& options) {
   return runtime::kExitDone;
 }
 
-/// A command and what it fills in; the options live as long as the command.
+/// Adds a command with its options, which live as long as the command.
 struct Added {
   CLI::App& command;
   HwMoveOptions& options;
@@ -148,7 +148,9 @@ Added add(CLI::App& hw, Action& chosen, int (*action)(const HwMoveOptions&), con
 }
 
 void add_largest_volts(CLI::App& command, HwMoveOptions& options) {
-  command.add_option("--volts", options.largest_v, "pushes grow from 1 V to this until something moves")
+  command
+      .add_option("--volts", options.largest_v,
+                  "largest voltage; pushes increase from 1 V until an axis moves")
       ->check(CLI::Range(1.0, bring_up::kLargestJog_v))
       ->capture_default_str();
 }
@@ -156,16 +158,15 @@ void add_largest_volts(CLI::App& command, HwMoveOptions& options) {
 }  // namespace
 
 void add_hw_jog(CLI::App& hw, Action& chosen) {
-  const auto [command, options] = add(hw, chosen, jog, "jog", "One small motion of one drive");
+  const auto [command, options] = add(hw, chosen, jog, "jog", "Make one small motion of one drive");
   command.add_option("--axis", options.axis, "trolley, slew or hoist")
       ->required()
       ->check(CLI::IsMember(plant::drive_names()));
-  command
-      .add_option("--volts", options.drive_v, "of the amplifier, within +-5; positive should move outward")
+  command.add_option("--volts", options.drive_v, "voltage, -5 to 5; positive should move outward")
       ->required();
   command
       .add_option("--distance", options.distance,
-                  "m or rad, up to 0.5, at which the volts end; the brake needs some more")
+                  "distance after which the voltage ends, m or rad, up to 0.5; braking adds to it")
       ->capture_default_str();
   command.footer(
       "Ends after 2 s, at a limit switch, at the emergency stop, or 0.3 s after the start when no counter "
@@ -175,24 +176,24 @@ void add_hw_jog(CLI::App& hw, Action& chosen) {
 
 void add_hw_selftest(CLI::App& hw, Action& chosen) {
   const auto [command, options] =
-      add(hw, chosen, selftest, "selftest", "Push each drive a little and name wrong wiring");
+      add(hw, chosen, selftest, "selftest", "Push each drive a little and report wiring faults");
   add_largest_volts(command, options);
   command.add_flag("--json", options.json, "one JSON object");
   command.footer(
-      "The crane stands where [start] of the rig file says, the load hangs, 10 cm (0.2 rad) around each axis "
-      "are free.\n"
-      "Exit code 1 when anything is wrong, one line each.\n"
+      "Required: the crane is at [start] of the rig file, the load hangs at rest, and each axis has 10 cm\n"
+      "(0.2 rad) of free travel.\n"
+      "Prints one line per fault; the exit code is then 1.\n"
       "Example: crane hw selftest --rig emulated_servo_to_go\n"
       "         crane hw selftest --rig emulated_servo_to_go --wired-as swapped.toml     (docs/hardware.md)");
 }
 
 void add_hw_calibrate(CLI::App& hw, Action& chosen) {
-  const auto [command, options] =
-      add(hw, chosen, calibrate, "calibrate", "Find signs, scales and the crane's place, guided");
+  const auto [command, options] = add(hw, chosen, calibrate, "calibrate",
+                                      "Determine signs, scales and position of the crane, step by step");
   add_largest_volts(command, options);
-  command.add_option("--out", options.out, "rig file to write; extends the one of --rig")
+  command.add_option("--out", options.out, "rig file to write; it extends the one of --rig")
       ->capture_default_str();
-  command.add_option("--answers", options.answers, "file with one answer a line; default: the terminal")
+  command.add_option("--answers", options.answers, "file with one answer per line; default: the terminal")
       ->check(CLI::ExistingFile);
   command.footer(
       "Each axis moves by 10 cm (0.3 rad); three questions each: which way, how far, where it stands now. An "

@@ -8,9 +8,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/text_table.hpp"
 #include "crane/identification/study.hpp"
-#include "stack/axis_data.hpp"
+#include "identification/axis_data.hpp"
+#include "identification/friction_experiment.hpp"
 #include "stack/data_files.hpp"
-#include "stack/friction_experiment.hpp"
 #include "stack/launch.hpp"
 #include "stack/stack.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 namespace id = identification;
 
 struct IdentifyOptions {
-  stack::FrictionExperimentOptions experiment;
+  identification::FrictionExperimentOptions experiment;
   std::string rig = "virginia_tech_tower", axis, out = "out/identify", from;
   std::string clock = "lockstep", plant = "sim";
   double from_s = 0, to_s = 1e9;
@@ -32,8 +32,8 @@ std::string with_error(const id::Estimate& estimate) {
   return fixed(estimate.value, 4) + " +- " + fixed(estimate.standard_error, 4);
 }
 
-void print_estimates(const stack::FrictionEstimates& estimates, const control::DriveFriction& believed,
-                     double gain) {
+void print_estimates(const identification::FrictionEstimates& estimates,
+                     const control::DriveFriction& believed, double gain) {
   TextTable table{{"over K_m", "b+", "b-", "c+ [V]", "c- [V]", "K_m", "residual [V]"}};
   const auto add = [&table](const char* name, const id::FrictionEstimate& e) {
     table.add({name, with_error(e.viscous_positive), with_error(e.viscous_negative),
@@ -50,7 +50,7 @@ void print_estimates(const stack::FrictionEstimates& estimates, const control::D
   if (!estimates.gain_refusal.empty()) std::cout << estimates.gain_refusal << '\n';
 }
 
-void print_result(const stack::FrictionExperimentResult& result) {
+void print_result(const identification::FrictionExperimentResult& result) {
   const std::string unit = result.axis == plant::kTrolley ? "m" : "rad";
   const auto stiction = [](const id::Stiction& s) {
     return fixed(s.mean_v, 3) + " V, spread " + fixed(s.spread_v, 3) + " V of " + std::to_string(s.count);
@@ -60,23 +60,25 @@ void print_result(const stack::FrictionExperimentResult& result) {
   };
   if (result.amplitude_share < 1)
     std::cout << "The multi-sine was reduced to " << fixed(100 * result.amplitude_share, 0)
-              << " % of the dissertation's to keep to the rig's travel, speed and swing.\n";
+              << " % of the dissertation's amplitude because of the limits of travel, speed and swing.\n";
   std::cout << "stiction +       " << stiction(result.stiction.positive) << "\nstiction -       "
             << stiction(result.stiction.negative) << "\nsteps of " << fixed(result.step, 3) << ' ' << unit
-            << " against the linear axis\n  compensated    " << deviation(result.compensated)
+            << " compared with the linear axis\n  compensated    " << deviation(result.compensated)
             << "\n  uncompensated  " << deviation(result.uncompensated)
             << "\nnew values: " << result.fragment.string() << '\n';
 }
 
-/// Estimates from a recorded run, of a rig or a simulation; runs nothing.
+/// Estimates from a recorded run of a rig or a simulation; makes no experiment.
 int estimate_from(const IdentifyOptions& options, const configuration::Rig& rig) {
   const auto& experiment = options.experiment;
   const auto table = recording::read_csv(options.from);
-  const auto run = stack::axis_run_from(table, rig, experiment.axis, options.from_s, options.to_s);
-  const double gain = stack::acting_gain(rig.design, experiment.axis, stack::mean_trolley_position(table));
-  const auto estimates = stack::estimate_both(run, experiment.zero_band, experiment.cutoff_ratio, gain);
+  const auto run = identification::axis_run_from(table, rig, experiment.axis, options.from_s, options.to_s);
+  const double gain =
+      identification::acting_gain(rig.design, experiment.axis, identification::mean_trolley_position(table));
+  const auto estimates =
+      identification::estimate_both(run, experiment.zero_band, experiment.cutoff_ratio, gain);
   if (options.json)
-    std::cout << stack::to_json(estimates).dump(2) << '\n';
+    std::cout << identification::to_json(estimates).dump(2) << '\n';
   else
     print_estimates(estimates, rig.design.friction[experiment.axis], gain);
   return runtime::kExitDone;
@@ -94,9 +96,9 @@ int identify_friction(IdentifyOptions options) {
   const auto rig = configuration::load_rig(experiment.rig);
   if (!options.from.empty()) return estimate_from(options, rig);
   experiment.vendors = stack::vendors_from(options.vendors, stack::stack_with(experiment.plant));
-  const auto result = stack::identify_friction(experiment);
+  const auto result = identification::identify_friction(experiment);
   if (options.json) {
-    std::cout << stack::to_json(result).dump(2) << '\n';
+    std::cout << identification::to_json(result).dump(2) << '\n';
     return runtime::kExitDone;
   }
   print_estimates(result.estimates, rig.design.friction[experiment.axis],
@@ -132,15 +134,17 @@ int print_tables(bool json) {
   }
   table.print(std::cout);
   std::cout
-      << "All over K_m, in volts; exact: 2.8 5.5 1 1.2, without Coulomb friction (3.3) 2.8 5.5 0 0.\n"
-         "* depends on how the source's integrator chattered about standstill; ours does not chatter.\n";
+      << "All values divided by K_m, in volts; exact: 2.8 5.5 1 1.2, without Coulomb friction (3.3) 2.8 5.5 "
+         "0 0.\n"
+         "*: depends on the chattering of the source's integrator at standstill; cannot be reproduced.\n";
   return runtime::kExitDone;
 }
 
 void add_friction(CLI::App& identify, Action& chosen) {
   auto options = std::make_shared<IdentifyOptions>();
   auto& experiment = options->experiment;
-  auto* command = identify.add_subcommand("friction", "Viscous, Coulomb and static friction of one drive");
+  auto* command =
+      identify.add_subcommand("friction", "Identify viscous, Coulomb and static friction of one drive");
   command->add_option("--axis", options->axis, "trolley or slew")
       ->required()
       ->check(CLI::IsMember({"trolley", "slew"}));
@@ -150,39 +154,38 @@ void add_friction(CLI::App& identify, Action& chosen) {
   command->add_option("--seconds", experiment.duration_s, "length of the sum of sines")
       ->check(CLI::Range(20.0, 600.0))
       ->capture_default_str();
-  command->add_option("--zero-band", experiment.zero_band, "d_s in m/s or rad/s: slower rows are left out")
+  command->add_option("--zero-band", experiment.zero_band, "d_s in m/s or rad/s; slower rows are not used")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command
       ->add_option("--cut-off", experiment.cutoff_ratio,
-                   "cut-off of the zero-phase filter over the sampling frequency, 0: no filter")
+                   "cut-off / sampling frequency of the zero-phase filter; 0: no filter")
       ->check(CLI::Range(0.0, 0.49))
       ->capture_default_str();
-  command->add_option("--from", options->from, "CSV file of a recorded run: estimate from it, run nothing")
+  command->add_option("--from", options->from, "CSV file of a recorded run; no experiment is made")
       ->check(CLI::ExistingFile);
   command->add_option("--begin", options->from_s, "with --from: time_s of the first row used");
   command->add_option("--end", options->to_s, "with --from: time_s of the last row used");
   auto* clock =
-      command->add_option("--clock", options->clock, "lockstep, or realtime: as on a rig, five minutes")
+      command->add_option("--clock", options->clock, "lockstep; or realtime: as on a rig, takes five minutes")
           ->check(CLI::IsMember({"lockstep", "realtime"}))
           ->capture_default_str();
   command
-      ->add_option(
-          "--plant", options->plant,
-          "what is moved: sim, or hardware, the board that the rig file names (real ones in realtime)")
+      ->add_option("--plant", options->plant,
+                   "sim: simulated plant; hardware: the board of the rig file (real boards in realtime only)")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
   command->add_flag("--in-process", experiment.in_process, "all components in this process, without DDS")
       ->excludes(clock);
   command->add_flag("--json", options->json, "print the estimates as JSON");
-  command->add_flag("--no-picture", options->no_picture, "do not draw");
+  command->add_flag("--no-picture", options->no_picture, "draw no picture");
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   runtime::add_bus_options(*command, experiment.bus);
   command->footer(
       "Example: crane identify friction --axis trolley --out out/trolley\n"
       "         crane run maneuver_1 --rig out/trolley/identified.toml\n"
-      "docs/identification.md explains the experiment and how to read its results.");
+      "docs/identification.md explains the experiment and its results.");
   command->callback([options, &chosen] { chosen = [options] { return identify_friction(*options); }; });
 }
 
@@ -193,8 +196,7 @@ void add_identify(CLI::App& app, Action& chosen) {
   identify->footer("Example: crane identify friction --axis slew --in-process");
   add_friction(*identify, chosen);
   auto json = std::make_shared<bool>(false);
-  auto* tables =
-      identify->add_subcommand("tables", "Tables 3.1 to 3.5 of the dissertation, printed and recomputed");
+  auto* tables = identify->add_subcommand("tables", "Recompute Tables 3.1 to 3.5 of the dissertation");
   tables->add_flag("--json", *json, "print as JSON");
   tables->footer("Example: crane identify tables");
   tables->callback([json, &chosen] { chosen = [json] { return print_tables(*json); }; });

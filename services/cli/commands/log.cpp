@@ -35,7 +35,7 @@ int info(const LogOptions& options) {
   std::cout << options.file.string() << ": " << found["messages"] << " samples, "
             << fixed(found["bytes"].get<double>() / 1e6, 2) << " MB, "
             << fixed(found["duration_s"].get<double>(), 3) << " s, "
-            << (recording.indexed() ? "closed properly" : "not closed properly (crane log repair)") << '\n';
+            << (recording.indexed() ? "closed in order" : "not closed in order (crane log repair)") << '\n';
   TextTable table{{"topic", "type", "samples"}};
   for (const auto& topic : found["topics"])
     table.add({topic["topic"], topic["type"], topic["messages"].dump()});
@@ -58,7 +58,7 @@ int check(const LogOptions& options) {
               << '\n';
   else
     std::cout << options.file.string() << ": " << found.messages << " samples readable, "
-              << (found.problems.empty() ? "whole" : "damaged (crane log repair)") << '\n';
+              << (found.problems.empty() ? "intact" : "damaged (crane log repair)") << '\n';
   print_problems(found.problems);
   return found.problems.empty() ? runtime::kExitDone : runtime::kExitFailed;
 }
@@ -99,7 +99,7 @@ int export_json(const LogOptions& options) {
   return runtime::kExitDone;
 }
 
-/// A file that is no recording is a bad argument like a rig file with mistakes.
+/// A file that is no recording has the exit code of a wrong argument.
 int run(int (*action)(const LogOptions&), const LogOptions& options) {
   try {
     return action(options);
@@ -126,7 +126,8 @@ void add_export(CLI::App& log, Action& chosen, const Shared& options) {
       "Example: crane log export csv run.mcap --out run.csv\n"
       "Without --topic: canonical columns (time_s, trolley_voltage_v, ...), one row per tick of "
       "crane/state.");
-  auto* json = add(*command, chosen, options, export_json, "json", "One JSON object a line and sample");
+  auto* json =
+      add(*command, chosen, options, export_json, "json", "Write one JSON object per sample and line");
   json->footer("Example: crane log export json run.mcap --topic event");
   for (auto* format : {csv, json}) {
     format->add_option("--topic", options->topic, "only this topic");
@@ -142,11 +143,11 @@ void add_log(CLI::App& app, Action& chosen) {
   auto* described = add(*log, chosen, options, info, "info", "Topics, counts, times, metadata");
   described->add_flag("--json", options->json, "one JSON object");
   described->footer("Example: crane log info run.mcap");
-  auto* checked = add(*log, chosen, options, check, "check", "Read everything and verify every CRC");
+  auto* checked = add(*log, chosen, options, check, "check", "Read the whole file and verify every CRC");
   checked->add_flag("--json", options->json, "one JSON object");
   checked->footer("Example: crane log check run.mcap\nExit code 1 when anything is damaged.");
   auto* repaired =
-      add(*log, chosen, options, repair, "repair", "Save what is readable of a damaged recording");
+      add(*log, chosen, options, repair, "repair", "Copy the readable part of a damaged recording");
   repaired->add_option("--out", options->out, "file to write; default: FILE with .repaired.mcap");
   repaired->footer("Example: crane log repair run.mcap --out saved.mcap");
   add_export(*log, chosen, options);

@@ -49,12 +49,13 @@ void add_axis(CLI::App& command, stack::Wish& wish, std::size_t axis, const std:
 
 void add_move(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<MoveOptions>();
-  auto* command = app.add_subcommand("move", "Move to new targets; axes not named stay where they are");
+  auto* command = app.add_subcommand("move", "Move axes to new targets; the other axes do not move");
   add_axis(*command, options->wish, 0, "--trolley", Dimension::length,
            "trolley position on the jib: 1.05, 105cm");
   add_axis(*command, options->wish, 1, "--slew", Dimension::angle, "slew angle: 1.57, 90deg");
   add_axis(*command, options->wish, 2, "--hoist", Dimension::length, "cable length: 0.8, 80cm");
-  command->add_flag("--wait", options->wait, "return when the crane holds again, or with the reason why not");
+  command->add_flag("--wait", options->wait,
+                    "wait until the crane is in HOLD again, or print the reason of a failure");
   command->add_option("--timeout", options->timeout_s, "longest wait of --wait in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -65,7 +66,7 @@ void add_move(CLI::App& app, Action& chosen) {
   command->callback([options, &chosen] {
     const auto& axes = options->wish.selected;
     if (!axes[0] && !axes[1] && !axes[2])
-      throw CLI::ValidationError("move", "name at least one of --trolley, --slew, --hoist");
+      throw CLI::ValidationError("move", "give at least one of --trolley, --slew, --hoist");
     chosen = [options] { return move(*options); };
   });
 }

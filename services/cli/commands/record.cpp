@@ -32,7 +32,7 @@ std::string summary(const recorder::Recorder& recorder, double elapsed_s) {
   return text;
 }
 
-/// A line that is written over on a terminal, and a hint when nothing comes.
+/// Progress in one line of the terminal, and a hint when no sample arrives.
 class Progress {
  public:
   explicit Progress(const bus::Options& options) : options_{options} {}
@@ -41,7 +41,7 @@ class Progress {
     constexpr double kHintAfter_s = 3;
     if (!hinted_ && !recorder.heard_others() && elapsed_s > kHintAfter_s) {
       hinted_ = true;
-      std::cerr << "crane record: nothing heard yet" << where_and_remedy(options_) << '\n';
+      std::cerr << "crane record: no sample received yet" << where_and_remedy(options_) << '\n';
     }
     if (!terminal_ || elapsed_s < next_s_) return;
     next_s_ = elapsed_s + 0.5;
@@ -88,7 +88,7 @@ void add_record(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<RecordOptions>();
   auto* command = app.add_subcommand("record", "Record topics into an MCAP file until Ctrl-C");
   command->add_option("FILE", options->recorder.file, "file to create")->required();
-  command->add_option("--duration", options->duration_s, "stop after so many s")->check(CLI::PositiveNumber);
+  command->add_option("--duration", options->duration_s, "duration in s")->check(CLI::PositiveNumber);
   command
       ->add_option_function<std::vector<std::string>>(
           "--topic",
@@ -101,7 +101,7 @@ void add_record(CLI::App& app, Action& chosen) {
   runtime::add_bus_options(*command, options->bus);
   command->footer(
       "Example: crane record run.mcap --duration 60\n"
-      "The file is brought up to date every second and at every error, so it is readable whatever happens\n"
+      "The file is written every second and at every error, so that it is readable after a failure\n"
       "(crane log info, crane log repair).");
   command->callback([options, &chosen] {
     check_file(*options);

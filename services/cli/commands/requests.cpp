@@ -21,7 +21,7 @@ void add(CLI::App& app, Action& chosen, const Verb& verb) {
   auto confirmed = std::make_shared<bool>(false);
   if (verb.kind == crane_REQUEST_RESET)
     command->add_flag("--confirm-positions", *confirmed,
-                      "after a new start of the bridge: every axis stands where `crane status` says");
+                      "after a restart of the bridge: confirms the positions that `crane status` shows");
   runtime::add_bus_options(*command, *options);
   command->footer(verb.footer);
   command->callback([options, confirmed, verb, &chosen] {
@@ -37,14 +37,15 @@ void add(CLI::App& app, Action& chosen, const Verb& verb) {
 
 void add_reset(CLI::App& app, Action& chosen) {
   add(app, chosen,
-      {"reset", crane_REQUEST_RESET, "Acknowledge a stop: from LOCKED or a released emergency stop to READY",
+      {"reset", crane_REQUEST_RESET,
+       "Acknowledge a stop: from LOCKED, or from a released emergency stop, to READY",
        "Example: crane reset && crane arm"});
 }
 
 void add_arm(CLI::App& app, Action& chosen) {
   add(app, chosen,
       {"arm", crane_REQUEST_ARM, "Open the brakes under control: from READY to HOLD",
-       "Example: crane arm\nRefused unless the crane is READY; `crane status` says what is in the way."});
+       "Example: crane arm\nThe crane must be READY; `crane status` shows the cause otherwise."});
 }
 
 void add_disarm(CLI::App& app, Action& chosen) {
@@ -61,7 +62,7 @@ void add_stop(CLI::App& app, Action& chosen) {
 void add_estop(CLI::App& app, Action& chosen) {
   add(app, chosen,
       {"estop", crane_REQUEST_ESTOP, "Emergency stop: 0 V and brakes closed at once",
-       "Example: crane estop\nThis travels over the network. It does not replace the emergency-stop "
+       "Example: crane estop\nThe request uses the network. It does not replace the emergency-stop "
        "button."});
 }
 

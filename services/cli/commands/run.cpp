@@ -10,12 +10,12 @@
 
 #include "cli/commands/commands.hpp"
 #include "crane/experiment/variant.hpp"
-#include "process/twin_component.hpp"
-#include "stack/comparison_run.hpp"
+#include "crane/twin/component.hpp"
+#include "experiments/comparison_run.hpp"
+#include "experiments/experiment_run.hpp"
+#include "experiments/realtime_run.hpp"
 #include "stack/data_files.hpp"
-#include "stack/experiment_run.hpp"
 #include "stack/launch.hpp"
-#include "stack/realtime_run.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -44,8 +44,9 @@ Names every_controller() {
   return names;
 }
 
-/// The rig of one scenario, and what is to be done with it.
-void add_plans(const std::string& name, const RunOptions& options, std::vector<stack::PlannedRun>& plans) {
+/// The rig of one scenario and its runs.
+void add_plans(const std::string& name, const RunOptions& options,
+               std::vector<experiments::PlannedRun>& plans) {
   const auto file = stack::find_scenario(name);
   const auto wish = experiment::load_scenario(file);
   const auto rig = configuration::load_rig(stack::find_rig(!options.rig.empty() ? options.rig
@@ -58,25 +59,25 @@ void add_plans(const std::string& name, const RunOptions& options, std::vector<s
   const auto controllers =
       first_given(options.controllers, wish.controllers, options.compare ? every_controller() : as_it_is);
   for (const auto& variant : variants) {
-    (void)experiment::changed_by(rig, variant);  // refuses what is none before anything runs
+    (void)experiment::changed_by(rig, variant);  // reports unknown variants before the first run
     for (const auto& controller : controllers)
       plans.push_back({scenario, rig, &runtime::chosen_controller(controller, rig), variant});
   }
 }
 
-std::vector<stack::PlannedRun> plans_of(const RunOptions& options) {
-  std::vector<stack::PlannedRun> plans;
+std::vector<experiments::PlannedRun> plans_of(const RunOptions& options) {
+  std::vector<experiments::PlannedRun> plans;
   if (options.scenarios.empty() && !options.compare)
     throw configuration::ConfigurationError(
-        {"scenario: name at least one, or --compare, which runs maneuver_1, maneuver_2 and maneuver_3"});
+        {"scenario: give at least one, or --compare, which runs maneuver_1, maneuver_2 and maneuver_3"});
   const Names maneuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
   for (const auto& name : options.scenarios.empty() ? maneuvers : options.scenarios)
     add_plans(name, options, plans);
   return plans;
 }
 
-/// Names of what the user or the scenario chose; a run that was left as it is has none.
-std::string directory_name(const RunOptions& options, const stack::PlannedRun& plan) {
+/// Names of the choices of user or scenario; empty for defaults.
+std::string directory_name(const RunOptions& options, const experiments::PlannedRun& plan) {
   const bool chosen = !options.controllers.empty() || !plan.scenario.controllers.empty();
   return plan.scenario.name + (chosen ? "_" + std::string{plan.controller->name} : "") +
          (plan.variant.empty() ? "" : "_" + plan.variant);
@@ -86,8 +87,8 @@ stack::Plant plant_of(const RunOptions& options) {
   return options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
 }
 
-int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
-  stack::ExperimentOptions experiment;
+int run_each(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
+  experiments::ExperimentOptions experiment;
   experiment.plant = plant_of(options);
   experiment.in_process = options.in_process;
   experiment.picture = !options.no_picture;
@@ -107,14 +108,14 @@ int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& pl
     experiment.directory = options.out;
     if (options.twin && options.twin_rig.empty()) experiment.twin = plan.rig.path;
     if (plans.size() > 1) experiment.directory /= directory_name(options, plan);
-    const auto result = stack::run_experiment(experiment);
+    const auto result = experiments::run_experiment(experiment);
     const std::string title = result.scenario + (plan.variant.empty() ? "" : ", " + plan.variant);
     if (!result.outcome.completed)
       std::cerr << title << ", " << result.controller
                 << ": the supervisor stopped the crane: " << result.outcome.stopped_because << '\n';
     completed = completed && result.outcome.completed;
     table.push_back({title, result.controller, result.metrics});
-    json.push_back(stack::to_json(result));
+    json.push_back(experiments::to_json(result));
     if (!options.json)
       std::cerr << title << ", " << result.controller << ": " << static_cast<long>(result.real_time_factor)
                 << " x real time, files in " << experiment.directory.string() << '\n';
@@ -126,11 +127,12 @@ int run_each(const RunOptions& options, const std::vector<stack::PlannedRun>& pl
   return completed ? runtime::kExitDone : runtime::kExitFailed;
 }
 
-/// A real crane is as it is, and what is measured on it is all that there is.
-void require_possible_in_realtime(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
+/// In real time, options that need a simulation are refused.
+void require_possible_in_realtime(const RunOptions& options,
+                                  const std::vector<experiments::PlannedRun>& plans) {
   std::vector<std::string> problems;
   const auto refuse = [&](bool given, const std::string& option) {
-    if (given) problems.push_back("--clock = realtime: not with " + option);
+    if (given) problems.push_back("--clock = realtime: cannot be combined with " + option);
   };
   refuse(options.compare, "--compare");
   refuse(options.in_process, "--in-process");
@@ -141,20 +143,20 @@ void require_possible_in_realtime(const RunOptions& options, const std::vector<s
   if (!problems.empty()) throw configuration::ConfigurationError(problems);
 }
 
-int run_each_in_realtime(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
+int run_each_in_realtime(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   require_possible_in_realtime(options, plans);
   const auto plant = plant_of(options);
   const auto vendors = stack::vendors_from(options.vendors, stack::stack_with(plant));
   for (const auto& plan : plans) {
     std::filesystem::path directory{options.out};
     if (plans.size() > 1) directory /= directory_name(options, plan);
-    std::filesystem::create_directories(directory);  // before anything moves
-    const auto table = stack::run_in_realtime({.rig = plan.rig.path,
-                                               .controller = std::string{plan.controller->name},
-                                               .plant = plant,
-                                               .bus = options.bus,
-                                               .vendors = vendors},
-                                              plan.scenario);
+    std::filesystem::create_directories(directory);  // fails before any motion
+    const auto table = experiments::run_in_realtime({.rig = plan.rig.path,
+                                                     .controller = std::string{plan.controller->name},
+                                                     .plant = plant,
+                                                     .bus = options.bus,
+                                                     .vendors = vendors},
+                                                    plan.scenario);
     recording::write_csv(directory / "run.csv", table);
     std::cerr << plan.scenario.name << ", " << plan.controller->name << ": in real time, measured data in "
               << (directory / "run.csv").string() << '\n';
@@ -173,15 +175,15 @@ template <class Write>
 void write_text(const std::filesystem::path& file, const Write& write) {
   std::ofstream out{file, std::ios::binary};
   write(out);
-  if (!out.flush()) throw stack::RunError(file.string() + ": cannot write");
+  if (!out.flush()) throw experiments::RunError(file.string() + ": cannot write");
 }
 
-int compare(const RunOptions& options, const std::vector<stack::PlannedRun>& plans) {
+int compare(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   const std::filesystem::path directory{options.out};
   std::filesystem::create_directories(directory);
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
-  spdlog::set_level(spdlog::level::off);  // why a crane was stopped stands in the tables
-  const auto runs = stack::simulate_all(plans, [&](std::size_t done) {
+  spdlog::set_level(spdlog::level::off);  // the tables contain the cause of a stop
+  const auto runs = experiments::simulate_all(plans, [&](std::size_t done) {
     if (terminal) show_progress(done, plans.size());
   });
   write_text(directory / "comparison.csv",
@@ -206,7 +208,7 @@ int run(const RunOptions& options) {
 }
 
 std::string described_variants() {
-  std::string lines = "Variants (join several with +):\n";
+  std::string lines = "Variants (combine several with +):\n";
   for (const auto& variant : experiment::variants())
     lines += "  " + std::string{variant.name} + std::string(20 - variant.name.size(), ' ') +
              std::string{variant.summary} + '\n';
@@ -217,44 +219,44 @@ std::string described_variants() {
 
 void add_run(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<RunOptions>();
-  auto* command = app.add_subcommand("run", "Run scenarios in lockstep and measure them, or in real time");
+  auto* command = app.add_subcommand("run", "Run scenarios in lockstep or in real time and evaluate them");
   command->add_option(
       "scenario", options->scenarios,
-      "scenario files or names (maneuver_1, figure_4_10, ...); with --compare default: the three "
+      "scenario files or names (maneuver_1, figure_4_10, ...); default with --compare: the three "
       "maneuvers");
   command->add_option("--controller", options->controllers,
-                      "controller (repeatable); default: the scenario's, else the rig file's, with --compare "
-                      "every controller");
+                      "controller (repeatable); default: that of the scenario, else of the rig file; with "
+                      "--compare every controller");
   command
       ->add_option("--variants", options->variants,
-                   "ways to depart from the rig file, see below; default: the scenario's, else none, with "
+                   "changes of the rig, see below; default: those of the scenario, else none; with "
                    "--compare the first eight")
       ->delimiter(',');
   command->add_option("--rig", options->rig,
-                      std::string{"rig file or name; default: the scenario's, else "} + kDefaultRig);
+                      std::string{"rig file or name; default: that of the scenario, else "} + kDefaultRig);
   command
       ->add_option("--plant", options->plant,
-                   "sim, the simulated plant, or hardware, the bridge on the emulated board that the rig "
-                   "file names (emulated_servo_to_go); not with --compare")
+                   "sim: simulated plant; hardware: the bridge on the emulated board of the rig file "
+                   "(emulated_servo_to_go); not with --compare")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
   command
       ->add_option("--clock", options->clock,
-                   "lockstep, or realtime: as on a rig, only run.csv is written; kicks and a swing at the "
-                   "start are left out; with --plant hardware also a real board")
+                   "lockstep; or realtime: writes run.csv only, without kicks and initial swing; "
+                   "with --plant hardware also on a real board")
       ->check(CLI::IsMember({"lockstep", "realtime"}))
       ->capture_default_str();
   command->add_option("--out", options->out, "directory for recording, CSV, metrics and picture")
       ->capture_default_str();
   command->add_flag("--compare", options->compare,
-                    "all runs side by side, in this process: comparison.csv, comparison.md, comparison.html");
+                    "compare all runs, in this process: comparison.csv, comparison.md, comparison.html");
   command->add_flag("--in-process", options->in_process, "all components in this process, without DDS");
   command->add_flag("--json", options->json, "print metrics as JSON");
-  command->add_flag("--no-picture", options->no_picture, "do not draw");
+  command->add_flag("--no-picture", options->no_picture, "draw no picture");
   command->add_flag("--twin", options->twin,
-                    "a twin of the rig file, before any variant, beside the stack: crane/twin is recorded; "
+                    "run a live twin with the rig file without variants, and record crane/twin; "
                     "not with --compare");
-  command->add_option("--twin-rig", options->twin_rig, "the same with another rig file or name");
+  command->add_option("--twin-rig", options->twin_rig, "run a live twin with another rig file or name");
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   runtime::add_bus_options(*command, options->bus);

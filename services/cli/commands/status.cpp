@@ -19,7 +19,7 @@ struct StatusOptions {
 int status(const StatusOptions& options) {
   auto bus = open_bus(options.bus);
   const auto snapshot = listen(bus, options.timeout_s);
-  if (snapshot.empty()) throw std::runtime_error("nothing heard" + where_and_remedy(bus.options()));
+  if (snapshot.empty()) throw std::runtime_error("no sample received" + where_and_remedy(bus.options()));
   if (options.json)
     std::cout << to_json(snapshot).dump(2) << '\n';
   else
@@ -33,7 +33,7 @@ void add_status(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<StatusOptions>();
   auto* command = app.add_subcommand("status", "Show the processes, the supervisor's state and the axes");
   command->add_flag("--json", options->json, "one JSON object");
-  command->add_option("--timeout", options->timeout_s, "longest wait in s for somebody to be heard")
+  command->add_option("--timeout", options->timeout_s, "longest wait for a sample in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   runtime::add_bus_options(*command, options->bus);

@@ -38,8 +38,8 @@ void warn_of_other_clock(const std::vector<double>& delays_us) {
   constexpr double kOldest_us = 60e6;
   const auto median_us = percentile(delays_us, 0.5);
   if (median_us && (*median_us < 0 || *median_us > kOldest_us))
-    std::cerr
-        << "these delays mean nothing: the time stamps come from another host's clock or a lockstep run\n";
+    std::cerr << "these delays have no meaning: the time stamps are from the clock of another host or from a "
+                 "lockstep run\n";
 }
 
 int measure(const TopicDelayOptions& options) {
@@ -73,20 +73,19 @@ int measure(const TopicDelayOptions& options) {
 
 void add_topic_delay(CLI::App& topic, Action& chosen) {
   auto options = std::make_shared<TopicDelayOptions>();
-  auto* command =
-      topic.add_subcommand("delay", "Time from the encoders being latched to the sample being here");
+  auto* command = topic.add_subcommand(
+      "delay", "Measure the time from the latching of the encoders to the arrival of the sample");
   add_topic_options(*command, options->topic);
-  command->add_option("--window", options->window_s, "a line every so many s")
+  command->add_option("--window", options->window_s, "interval between two lines in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->footer(
       "Example: crane topic delay command --count 1000\n"
-      "Compares the clock master's CLOCK_MONOTONIC with this host's: meaningful on the same host only.");
+      "Compares CLOCK_MONOTONIC of the clock master with that of this host: valid on the same host only.");
   command->callback([options, &chosen] {
     if (!options->topic.topic->every_tick)
-      throw CLI::ValidationError("NAME",
-                                 std::string{options->topic.topic->name} +
-                                     " is not written every tick: its samples carry no time of their own");
+      throw CLI::ValidationError("NAME", std::string{options->topic.topic->name} +
+                                             " is not written every tick: its samples have no sample time");
     chosen = [options] { return measure(*options); };
   });
 }

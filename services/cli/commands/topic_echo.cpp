@@ -43,7 +43,7 @@ int echo(const TopicEchoOptions& options) {
     options.topic.json ? print_line(sample, leaves, options.field.empty()) : print_block(leaves);
     std::cout << std::flush;
   });
-  if (rejected > 0) std::cerr << rejected << " samples had a wrong CRC and were left out\n";
+  if (rejected > 0) std::cerr << rejected << " samples had a wrong CRC and were dropped\n";
   return runtime::kExitDone;
 }
 
@@ -55,7 +55,7 @@ void check_field(const TopicEchoOptions& options) {
     if (is_below(name, options.field)) return;
     known += (known.empty() ? "" : ", ") + name;
   }
-  throw CLI::ValidationError("--field", "there is no '" + options.field + "' in " +
+  throw CLI::ValidationError("--field", "no field '" + options.field + "' in " +
                                             std::string{options.topic.topic->type} + ", only " + known);
 }
 
@@ -63,10 +63,10 @@ void check_field(const TopicEchoOptions& options) {
 
 void add_topic_echo(CLI::App& topic, Action& chosen) {
   auto options = std::make_shared<TopicEchoOptions>();
-  auto* command = topic.add_subcommand("echo", "Print samples as they come");
+  auto* command = topic.add_subcommand("echo", "Print samples as they arrive");
   add_topic_options(*command, options->topic);
   command->add_option("--field", options->field,
-                      "only this field or what is below it: header.tick, applied_v[0], axis[1]");
+                      "only this field and its parts: header.tick, applied_v[0], axis[1]");
   command->footer("Example: crane topic echo state --field trolley_position_m --count 10");
   command->callback([options, &chosen] {
     check_field(*options);

@@ -79,16 +79,16 @@ int measure(const TopicHzOptions& options) {
 void add_topic_hz(CLI::App& topic, Action& chosen) {
   auto options = std::make_shared<TopicHzOptions>();
   auto* command =
-      topic.add_subcommand("hz", "Rate by the source's ticks and clock; losses; jitter of arrival");
+      topic.add_subcommand("hz", "Measure rate (ticks and clock of the source), losses and arrival jitter");
   add_topic_options(*command, options->topic);
-  command->add_option("--window", options->window_s, "a line every so many s")
+  command->add_option("--window", options->window_s, "interval between two lines in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->footer(
       "Example: crane topic hz command --duration 10\n"
-      "Rate and jitter are those of the window, counts those since the start. Jitter is the difference "
+      "Rate and jitter refer to the window, counts to the time since the start. Jitter is the difference "
       "between the\n"
-      "interval of two arrivals and their interval at the source. Losses can be told only of topics written "
+      "interval of two arrivals and their interval at the source. Losses are known only for topics written "
       "every\n"
       "tick; the rate of the others is by the writer's time stamps.");
   command->callback([options, &chosen] { chosen = [options] { return measure(*options); }; });

@@ -42,7 +42,7 @@ std::vector<Line> observe(bus::Bus& bus, double window_s) {
   });
   for (auto& line : lines) {
     line.window = line.statistics.take_window();
-    // the others come from several processes, and partly from before this one started
+    // the other topics have several writers, and samples from before the start of this process
     if (!line.subscriber.topic().every_tick) line.window.rate_hz.reset();
   }
   return lines;
@@ -79,16 +79,16 @@ int list(const TopicLsOptions& options) {
   options.json ? print_json(lines) : print_table(lines);
   for (const auto& line : lines)
     if (line.subscriber.matched() > 0) return runtime::kExitDone;
-  throw std::runtime_error("nobody writes any topic" + where_and_remedy(bus.options()));
+  throw std::runtime_error("no topic has a writer" + where_and_remedy(bus.options()));
 }
 
 }  // namespace
 
 void add_topic_ls(CLI::App& topic, Action& chosen) {
   auto options = std::make_shared<TopicLsOptions>();
-  auto* command =
-      topic.add_subcommand("ls", "All topics: type, writers now, samples and rate by the source's clock");
-  command->add_option("--window", options->window_s, "how long to listen in s")
+  auto* command = topic.add_subcommand(
+      "ls", "List all topics with type, writers, samples, and rate by the clock of the source");
+  command->add_option("--window", options->window_s, "duration of the measurement in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON array");

@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
-#include "process/hardware_bridge.hpp"
-#include "process/supervisor_component.hpp"
-#include "process/twin_component.hpp"
+#include "crane/bridge/component.hpp"
+#include "crane/supervisor/component.hpp"
+#include "crane/twin/component.hpp"
+#include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
 #include "stack/operator_client.hpp"
-#include "stack/realtime_session.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -36,14 +36,14 @@ void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
   children.start("recorder", "crane", arguments);
 }
 
-/// Waits for Ctrl-C. @return false when a process of the loop ended by itself
+/// Waits for Ctrl-C. @return false when a process of the control loop has ended by itself
 bool watch(stack::ChildProcesses& children) {
   while (!runtime::stop_requested()) {
     if (const auto ended = children.ended()) {
       const bool in_loop = ended->name != "recorder" && ended->name != "twin";
       const std::string without = ended->name == "twin" ? "its twin" : "a recording";
       std::cerr << "crane up: " << stack::describe(*ended)
-                << (in_loop ? "; stopping the others" : "; the crane runs on without " + without) << '\n';
+                << (in_loop ? "; stopping the others" : "; the crane continues without " + without) << '\n';
       if (in_loop) return false;
     }
     ::usleep(50'000);
@@ -63,7 +63,7 @@ int up(UpOptions options) {
   if (options.twin || !options.twin_rig.empty()) specs.push_back(twin::twin_spec());
   const auto twin_rig =
       options.twin_rig.empty() ? options.launch.rig : stack::find_rig(options.twin_rig).string();
-  (void)configuration::load_rig(twin_rig);  // its problems before anything is started
+  (void)configuration::load_rig(twin_rig);  // reports its problems before anything is started
   options.launch.vendors = stack::vendors_from(options.vendors, specs);
 
   bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};
@@ -75,7 +75,7 @@ int up(UpOptions options) {
   if (!options.record.empty()) start_recorder(children, options);
   stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
   if (options.launch.clock == "lockstep")
-    stack::OperatorClient{bus, "crane_up", stack::unique_first_id()}.send(
+    stack::OperatorClient{bus, "crane_up", experiments::unique_first_id()}.send(
         {.kind = crane_REQUEST_ADVANCE, .until_tick = std::numeric_limits<std::uint64_t>::max()});
   std::cout << rig.name << " is up with " << controller.name << " (crane '" << options.launch.bus.crane
             << "', domain " << options.launch.bus.domain << ", " << options.launch.clock << ")\n"
@@ -92,20 +92,19 @@ void add_up(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<UpOptions>();
   auto* command = app.add_subcommand("up", "Run the stack until Ctrl-C");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command
-      ->add_option("--plant", options->plant,
-                   "what is moved: sim, the simulated plant, or hardware, the board that the rig file names")
+  command->add_option("--plant", options->plant, "sim: simulated plant; hardware: the board of the rig file")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
-  command->add_option("--controller", options->launch.controller, "controller; default: the rig file's");
-  command->add_option("--clock", options->launch.clock, "realtime, or lockstep: as fast as the machine can")
+  command->add_option("--controller", options->launch.controller,
+                      "controller; default: the controller of the rig file");
+  command->add_option("--clock", options->launch.clock, "realtime; or lockstep: as fast as possible")
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
   command->add_option("--record", options->record, "record every topic to this MCAP file");
   command->add_flag("--twin", options->twin,
-                    "the model of the rig file beside the crane: crane/twin, and an event when they differ");
+                    "run a live twin with the rig file: publishes crane/twin, and an event at a deviation");
   command->add_option("--twin-rig", options->twin_rig,
-                      "the same with another rig file, an extended.toml of crane diagnose for example");
+                      "run a live twin with another rig file, for example extended.toml of crane diagnose");
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   command->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")

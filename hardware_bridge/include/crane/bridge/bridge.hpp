@@ -1,6 +1,6 @@
 #pragma once
-/// The loop between board and bus, and the stack's clock master. At tick k: latch the encoders, write command
-/// k-1, publish state k. One loop for every board: an encoder/DAC card or the simulated plant.
+/// The loop between board and bus, and the clock master of the stack. At tick k the bridge latches the
+/// encoders, writes command k-1 and publishes state k. The loop is the same for every board.
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,14 +17,14 @@
 
 namespace crane::bridge {
 
-/// Wiring of every component that is a Bridge on some board.
+/// `reads` and `writes` of every component that runs a Bridge.
 [[nodiscard]] std::vector<runtime::Read> bridge_reads();
 [[nodiscard]] std::vector<runtime::Write> bridge_writes();
 
 class Bridge : public runtime::Component {
  public:
   Bridge(const runtime::Context& context, std::unique_ptr<Board> board);
-  /// Leaves the board at 0 V, brakes closed.
+  /// Leaves the board at 0 V with brakes closed.
   ~Bridge() override;
   Bridge(const Bridge&) = delete;
   Bridge& operator=(const Bridge&) = delete;
@@ -63,18 +63,18 @@ class Bridge : public runtime::Component {
   runtime::RequestInbox requests_;
   runtime::JoinCounts counts_;
   std::optional<CommandView> command_;
-  std::optional<std::uint64_t> tick_;  ///< last tick published
-  std::uint64_t until_tick_ = 0;       ///< lockstep: runs up to this tick
-  std::int64_t start_ns_ = 0;          ///< realtime: when tick 0 was
+  std::optional<std::uint64_t> tick_;  ///< last published tick
+  std::uint64_t until_tick_ = 0;       ///< lockstep: last tick that is permitted
+  std::int64_t start_ns_ = 0;          ///< real time: time of tick 0
   std::uint32_t overruns_ = 0;
   std::array<configuration::Drive, kDrives> drives_;
-  std::array<double, kDrives> unit_per_count_{};  ///< and which way the encoder counts
-  std::array<double, kDrives> applied_v_{};       ///< what the converters give, positive outward
+  std::array<double, kDrives> unit_per_count_{};  ///< m or rad per count, with the sign of the encoder
+  std::array<double, kDrives> applied_v_{};       ///< output voltages of the converters, positive outward
   Reason reported_ = Reason::none;
-  bool relay_closed_ = false;      ///< at the last tick
-  bool toggles_ = false;           ///< the watchdog output, since the last tick
-  std::int64_t ticked_ns_ = 0;     ///< when the last tick was
-  std::int64_t last_tick_ns_ = 0;  ///< how long after the one before
+  bool relay_closed_ = false;      ///< state of the relay at the last tick
+  bool toggles_ = false;           ///< true: the watchdog output toggled at the last tick
+  std::int64_t ticked_ns_ = 0;     ///< time of the last tick
+  std::int64_t last_tick_ns_ = 0;  ///< duration between the last two ticks
 };
 
 }  // namespace crane::bridge

@@ -1,8 +1,9 @@
 #pragma once
-/// Where the zeros of the encoders are. An axis with Zero::homing is unknown until its mark has been seen
-/// twice: once in the search, and again, after a way back, at the speed of the approach. What the counter
-/// shows at the second time is set to the mark's position when the brake has closed, so that no position
-/// jumps while a drive is on. Pure; it moves nothing and needs nobody: the supervisor drives the axis.
+/// Determines the zeros of the encoders. The position of an axis with Zero::homing is unknown until its mark
+/// has been detected twice: first in the search, and again at the approach speed after the axis has backed
+/// off. The second detection sets the counter to the position of the mark. The counter is set only after the
+/// brake has closed, so that no position jumps while a drive is active. Pure. Homing only observes the axis;
+/// the supervisor moves it.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -14,14 +15,15 @@ namespace crane::bridge {
 
 /// One axis at one tick.
 struct MarkView {
-  std::int64_t counts = 0;  ///< unwrapped
-  bool active = false;      ///< the mark's switch is closed by the axis
-  bool asked = false;       ///< the command is to home this axis
-  bool free = false;        ///< its brake is open, told and reported
-  bool rests = false;       ///< its closed brake has stopped it
+  std::int64_t counts = 0;  ///< unwrapped counts
+  bool active = false;      ///< true: the axis is at its homing switch or mark
+  bool asked = false;       ///< true: crane/command homes this axis
+  bool free = false;        ///< true: the brake is commanded open and reports open
+  bool rests = false;       ///< true: the closed brake has stopped the axis
 };
 
-/// The mark's switch of an axis: a limit switch, or one of its own. @return false where nothing homes
+/// State of the switch of an axis' homing mark: a limit switch or a separate switch. @return false for an
+/// axis without homing
 [[nodiscard]] bool mark_active(const configuration::Drive& drive, const Inputs& inputs,
                                std::size_t axis) noexcept;
 
@@ -29,26 +31,29 @@ class Homing {
  public:
   explicit Homing(const configuration::Rig& rig);
 
-  /// Once a tick and axis. @return counts to add to its counter, when its position becomes known
+  /// Call once per tick and axis. @return counts to add to the counter at the tick at which the position
+  /// becomes known;
+  ///   otherwise nothing
   std::optional<std::int64_t> step(std::size_t axis, const MarkView& view) noexcept;
+  /// True when the position of the axis is known.
   [[nodiscard]] bool known(std::size_t axis) const { return axes_[axis].known; }
-  /// The second sight of the mark agreed with the first.
+  /// True when the second detection of the mark agrees with the first.
   [[nodiscard]] bool found(std::size_t axis) const { return axes_[axis].found.has_value(); }
-  /// The counter is not to be trusted any more.
+  /// Makes the position unknown, because the counter is no longer valid.
   void forget(std::size_t axis) noexcept;
 
  private:
   struct Axis {
     bool homes = false, known = true;
     double towards = 0;           ///< sign of the change of counts on the way to the mark
-    double mark_counts = 0;       ///< what the counter has to show at the mark
-    double approach_counts = 0;   ///< most counts a tick in the approach
-    double agreement_counts = 0;  ///< that two sights may differ by
-    double back_off_counts = 0;   ///< least way back between them
+    double mark_counts = 0;       ///< counts at the position of the mark
+    double approach_counts = 0;   ///< largest change of counts per tick in the approach
+    double agreement_counts = 0;  ///< largest difference between the two detections
+    double back_off_counts = 0;   ///< smallest distance that the axis must back off between the detections
     bool was_active = false, was_asked = false;
-    bool started = false;  ///< `last_counts` and `was_active` are of the tick before
+    bool started = false;  ///< true: `last_counts` and `was_active` are those of the previous tick
     std::int64_t last_counts = 0;
-    double farthest_counts = 0;  ///< way back from the first sight so far
+    double farthest_counts = 0;  ///< distance that the axis has backed off from the first detection
     std::optional<double> first, found;
   };
   static void look(Axis& axis, const MarkView& view) noexcept;

@@ -1,9 +1,10 @@
 #pragma once
-/// The bridge's own decision what reaches the drives. It needs nobody: whatever the commands are, or when
-/// none come, and whatever the rig does, the answer is safe. Pure; called once a tick.
+/// Last check of every command before it reaches the drives ("last line of defence"). The check works without
+/// any other process: invalid commands, missing commands and unexpected motion of the rig all lead to a safe
+/// output. Pure; called once per tick.
 ///
-/// Every tick all checks are made. The first that fails is latched with its reason: 0 V, brakes without
-/// supply, the watchdog output rests. Reasons are listed, with what each check compares, in docs/hardware.md.
+/// All checks run at every tick. The first failed check is latched as reason: the drives get 0 V, the brakes
+/// lose their supply, and the watchdog output stops toggling. docs/hardware.md describes each check.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -15,29 +16,29 @@
 
 namespace crane::bridge {
 
-/// The part of crane/command that matters here.
+/// The checked part of crane/command.
 struct CommandView {
   std::uint64_t tick = 0;
   std::array<double, kDrives> drive_v{};
   std::array<bool, kDrives> brake_release{};
   bool watchdog_permission = false;
-  std::array<bool, kDrives> homing{};  ///< the axis creeps to its mark
+  std::array<bool, kDrives> homing{};  ///< true: the axis creeps to its homing mark
 };
 
-/// What was measured at the tick that is decided about.
+/// Measurements of one tick.
 struct Seen {
-  std::int64_t time_ns = 0;                      ///< when the counters were latched
+  std::int64_t time_ns = 0;                      ///< time at which the counters were latched
   std::array<std::int64_t, kCounters> counts{};  ///< unwrapped
   std::array<double, kCounters> coordinate{};    ///< m, rad, m of cable, rad, rad
-  std::array<double, kDrives> applied_v{};       ///< what the converters gave since the tick before
+  std::array<double, kDrives> applied_v{};       ///< output voltage of the converters since the previous tick
   std::array<bool, kDrives> brake_closed{};
   std::array<bool, kDrives> limit_low{}, limit_high{};
-  std::array<bool, kDrives> unknown{};  ///< the axis has to be homed: its coordinate has no known origin
+  std::array<bool, kDrives> unknown{};  ///< true: the coordinate has no known origin; the axis must be homed
   std::array<bool, kDrives> mark{};     ///< see mark_active()
-  bool second_writer = false;           ///< crane/command has had another writer within the last second
+  bool second_writer = false;  ///< true: crane/command has had a second writer within the last second
 };
 
-/// The numbers are those of LatchReason in idl/crane.idl.
+/// Meanings and numbers: LatchReason in idl/crane.idl.
 enum class Reason : std::uint8_t {
   none,
   command_stale,
@@ -59,37 +60,38 @@ inline constexpr std::size_t kReasons = 15;
 [[nodiscard]] std::string_view name_of(Reason reason) noexcept;  ///< "encoder_jump"
 [[nodiscard]] std::string_view explanation_of(Reason reason) noexcept;
 [[nodiscard]] std::string_view remedy_for(Reason reason) noexcept;
-/// Whether the counters are not to be trusted from then on, or a brake: no reset helps, a new start does.
-/// Where the axes concerned can be homed, that helps, too.
+/// True when a counter or a brake is no longer trustworthy. Such a latch ends with a restart of the bridge,
+/// or with homing when all affected axes can be homed. A reset does not end it.
 [[nodiscard]] bool is_final(Reason reason) noexcept;
 
-/// One drive axis; unit is m or rad. A limit switch that closes farther inside than the soft margin is a
-/// wrong position.
+/// Parameters of one drive axis; unit is m or rad. A limit switch that closes farther inside the travel than
+/// the soft margin indicates a wrong position.
 struct AxisLine : control::DriveLimits {
-  double certain_motion_v = 5;   ///< more than this moves the axis whatever friction and load do
-  double creeping_motion_v = 2;  ///< the same for an axis that creeps to its mark, where less is at stake
-  double gain_low = 0;           ///< smallest and largest acceleration per volt, or ...
+  double certain_motion_v = 5;   ///< a larger voltage moves the axis against any friction and load, V
+  double creeping_motion_v = 2;  ///< the same while the axis is being homed, V
+  /// Smallest and largest gain: unit/s^2 per volt when lag_s is 0, otherwise unit/s per volt.
+  double gain_low = 0;
   double gain_high = 0;
-  double lag_s = 0;  ///< ... speed per volt of a drive with this time constant
+  double lag_s = 0;  ///< time constant of a speed-controlled drive; 0: the voltage controls the acceleration
 };
 
 struct LastLineParameters {
   double period_s = 0.01;
-  std::uint64_t stale_after_ticks = 5;  ///< command age that stops the crane
+  std::uint64_t stale_after_ticks = 5;  ///< age of the newest command that stops the crane
   std::array<AxisLine, kDrives> axis{};
-  double swing_limit_rad = 1.05;     ///< beyond what the supervisor answers
-  double swing_rate_max_radps = 10;  ///< faster is no motion of a load
+  double swing_limit_rad = 1.05;     ///< larger than the limit of the supervisor, which reacts first
+  double swing_rate_max_radps = 10;  ///< a larger rate cannot be a motion of the load
   std::array<bool, 2> swing_present{};
 };
 [[nodiscard]] LastLineParameters last_line_parameters(const configuration::Rig& rig);
 
-/// The last ticks, newest first.
+/// The last kLength ticks; age 0 is the newest.
 class History {
  public:
   struct Entry {
     std::uint64_t tick = 0;
     Seen seen;
-    std::array<bool, kDrives> free{};  ///< brake open, told and reported
+    std::array<bool, kDrives> free{};  ///< true: the brake is commanded open and reports open
   };
   static constexpr std::size_t kLength = 32;
 
@@ -108,46 +110,47 @@ class History {
   std::size_t newest_ = 0, size_ = 0;
 };
 
-/// Everything a check may look at.
+/// Input of the checks at one tick.
 struct Moment {
   std::uint64_t tick = 0;
-  const CommandView* command = nullptr;  ///< newest; null: none came since start
-  CommandView before;                    ///< last command that was obeyed; after a latch: nothing
-  const History* history = nullptr;      ///< this tick included
-  std::array<std::optional<double>, kDrives>
-      braked_at{};  ///< where an axis came to rest under its closed brake
+  const CommandView* command = nullptr;  ///< newest command; null: no command since the start
+  CommandView before;                    ///< last executed command; default-constructed after a latch
+  const History* history = nullptr;      ///< includes this tick
+  /// Coordinate at which the closed brake stopped the axis; nothing while the axis is not stopped by its
+  /// brake.
+  std::array<std::optional<double>, kDrives> braked_at{};
 };
 
 struct Check {
   Reason reason;
   bool (*fails)(const LastLineParameters&, const Moment&) noexcept;
 };
-/// In the order in which they are made.
+/// All checks in their order.
 [[nodiscard]] std::span<const Check> last_line_checks() noexcept;
-/// The counters that encoder_jump or lost_counts is about; none for any other reason.
+/// Counters that fail encoder_jump or lost_counts; none for any other reason.
 [[nodiscard]] std::array<bool, kCounters> counters_in_doubt(Reason reason,
                                                             const LastLineParameters& parameters,
                                                             const Moment& moment) noexcept;
 
 class LastLine {
  public:
-  /// @param checks  must outlive the line
+  /// @param checks  must outlive this object
   explicit LastLine(const LastLineParameters& parameters, std::span<const Check> checks = last_line_checks())
       : parameters_{parameters}, checks_{checks} {}
 
-  /// @param command  the newest command there is; nothing: none came since start
-  /// @param tick     the tick whose interval begins now; the command of tick-1 is due
+  /// @param command  newest command; nothing: no command since the start
+  /// @param tick     tick that begins now; the command of tick-1 is due
   [[nodiscard]] Outputs decide(const std::optional<CommandView>& command, std::uint64_t tick,
                                const Seen& seen) noexcept;
 
-  /// Latched. It falls when fresh commands first withhold and then grant the watchdog permission, as the
-  /// supervisor does on an operator's reset, unless it is final.
+  /// The latched reason. A latch that is not final ends when new commands first withhold and then grant the
+  /// watchdog permission; the supervisor does this after the operator's reset.
   [[nodiscard]] Reason reason() const { return reason_; }
-  /// Axes whose counter the latched reason has put in doubt.
+  /// Axes whose counter is no longer trustworthy because of the latched reason.
   [[nodiscard]] const std::array<bool, kDrives>& doubted() const { return doubted_; }
-  /// A closed brake has stopped the axis.
+  /// True when the closed brake has stopped the axis.
   [[nodiscard]] bool rests(std::size_t axis) const { return braked_at_[axis].has_value(); }
-  /// The same place has another coordinate from the next tick on.
+  /// Adds `change` to the stored coordinates after the counter of the axis was set.
   void shift(std::size_t axis, double change) noexcept;
 
  private:
@@ -163,12 +166,13 @@ class LastLine {
   Reason reason_ = Reason::none;
   CommandView before_;
   Outputs given_;
-  std::array<std::uint64_t, kDrives> rests_from_tick_{};  ///< a closed brake has stopped its axis by then
+  /// Tick by which the closed brake has stopped its axis.
+  std::array<std::uint64_t, kDrives> rests_from_tick_{};
   std::array<bool, kDrives> told_closed_{};
   std::array<std::optional<double>, kDrives> braked_at_{};
   std::array<bool, kDrives> doubted_{};
   bool final_ = false;
-  bool permission_withheld_ = false;  ///< seen while latched
+  bool permission_withheld_ = false;  ///< true: a command withheld the permission since the latch
 };
 
 }  // namespace crane::bridge

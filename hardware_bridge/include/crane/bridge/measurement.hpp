@@ -1,6 +1,6 @@
 #pragma once
-/// From raw counts to positions, swing angles, speeds and rates (dissertation section 4.3). The same for
-/// every board: nothing here knows whether a plant or a simulation made the counts.
+/// Converts raw counts to positions, swing angles, speeds and rates, for every board.
+/// Source of the filters: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003, section 4.3.
 #include <array>
 #include <cstdint>
 
@@ -11,7 +11,7 @@
 
 namespace crane::bridge {
 
-/// A 24-bit counter continued beyond its range: successive readings differ by less than 2^23 counts.
+/// Extends a 24-bit counter beyond its range. @pre two successive readings differ by less than 2^23 counts
 class CountUnwrapper {
  public:
   [[nodiscard]] std::int64_t step(std::int32_t raw_counts) noexcept;
@@ -21,23 +21,24 @@ class CountUnwrapper {
   bool started_ = false;
 };
 
-/// Where a sample lies on the grid of ticks.
+/// Time of a sample relative to the nominal ticks.
 struct Latched {
-  std::uint64_t ticks = 1;  ///< since the sample before, >= 1
-  double late_s = 0;        ///< after the time of its tick, >= 0
+  std::uint64_t ticks = 1;  ///< ticks since the previous sample, >= 1
+  double late_s = 0;        ///< delay after the nominal time of the tick, >= 0
 };
 
-/// Position and its rate from one encoder. The filters want samples that are a period apart: a sample that
-/// was latched late is moved back to the time of its tick by the present rate, and ticks that were skipped
-/// are filled in between the sample before and this one. The position itself is that of the sample.
+/// Position and rate from one encoder. The filters require samples at the nominal ticks. Therefore the input
+/// of the filters is extrapolated from a late sample to the time of its tick with the present rate, and
+/// skipped ticks are interpolated. position() is the position of the sample itself.
 class Coordinate {
  public:
-  /// @param cut_off_ratio   of the low-pass in front of the differentiator; 0: none
-  /// @param filter_position the position passed on is behind the low-pass, too
+  /// @param cut_off_ratio    cut-off / sampling frequency of the low-pass filter before the differentiator;
+  ///   0: no filter
+  /// @param filter_position  true: position() is low-pass filtered, too
   Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
              bool filter_position = false);
   void step(std::int32_t raw_counts, const Latched& latched = {}) noexcept;
-  /// The same place is `change` counts farther from now on; the axis rests there.
+  /// Adds `change` to the counter. @pre the axis is at rest
   void shift(std::int64_t change) noexcept;
   [[nodiscard]] std::int64_t counts() const { return counts_; }
   [[nodiscard]] double position() const { return position_; }  ///< m or rad
@@ -56,8 +57,8 @@ class Coordinate {
   std::int64_t shift_ = 0;
   std::int64_t counts_ = 0;
   double position_ = 0, rate_ = 0;
-  double smooth_ = 0;   ///< behind the low-pass
-  double gridded_ = 0;  ///< position at the time of the last tick
+  double smooth_ = 0;   ///< output of the low-pass filter
+  double gridded_ = 0;  ///< position at the nominal time of the last tick
 };
 
 class MeasurementPipeline {
@@ -67,7 +68,7 @@ class MeasurementPipeline {
   control::Measurement step(const std::array<std::int32_t, kCounters>& raw_counts,
                             const Latched& latched = {}) noexcept;
   [[nodiscard]] const std::array<Coordinate, kCounters>& coordinates() const { return coordinates_; }
-  /// See Coordinate; acts from the next step on.
+  /// Coordinate::shift(), effective from the next step on.
   void shift(std::size_t counter, std::int64_t change) noexcept { coordinates_[counter].shift(change); }
 
  private:

@@ -33,13 +33,13 @@ QosPointer endpoint_qos(const Quality& quality, bool history, const EndpointOpti
   const bool leased = endpoint.liveliness_lease.count() > 0;
   dds_qset_liveliness(qos.get(), leased ? DDS_LIVELINESS_MANUAL_BY_TOPIC : DDS_LIVELINESS_AUTOMATIC,
                       duration(endpoint.liveliness_lease));
-  dds_qset_writer_data_lifecycle(qos.get(), false);  // an instance stays when its writer leaves
+  dds_qset_writer_data_lifecycle(qos.get(), false);  // the end of a writer does not dispose its instances
   const dds_data_representation_id_t plain_cdr = DDS_DATA_REPRESENTATION_XCDR1;
   dds_qset_data_representation(qos.get(), 1, &plain_cdr);
   return qos;
 }
 
-/// What listeners are given: who to tell, and the bell of the bus.
+/// Argument of the listeners: the event handler of the endpoint and the doorbell of the bus.
 struct Context {
   Announcer announce;
   std::shared_ptr<Doorbell> doorbell;
@@ -87,7 +87,7 @@ void set_reader_listeners(dds_listener_t* listener) {
   });
 }
 
-/// A topic entity and the context of one endpoint; deleted after the endpoint itself.
+/// Topic entity and listener context of one endpoint. They must be deleted after the endpoint.
 class Endpoint {
  public:
   Endpoint(std::shared_ptr<BackEnd> back_end, dds_entity_t participant, const topics::Description& topic,
@@ -152,14 +152,14 @@ class CycloneReader final : public detail::Reader {
   ~CycloneReader() override { dds_delete(reader_); }
 
   bool take(void* sample, SampleInfo& info) override {
-    std::memset(sample, 0, sample_bytes_);  // Cyclone leaves the rest of a string as it was
+    std::memset(sample, 0, sample_bytes_);  // Cyclone DDS does not clear the bytes after the end of a string
     dds_sample_info_t from{};
     void* into[1] = {sample};
     if (dds_take(reader_, into, &from, 1, 1) != 1) return false;
     info = {.source_time_ns = from.source_timestamp,
             .valid = from.valid_data,
             .disposed = from.instance_state == DDS_IST_NOT_ALIVE_DISPOSED};
-    // Cyclone DDS gives every matched writer a handle that is unique in this process.
+    // The handle of a matched writer is unique in this process.
     std::memcpy(info.writer.data(), &from.publication_handle, sizeof from.publication_handle);
     return true;
   }

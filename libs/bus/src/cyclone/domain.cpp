@@ -23,7 +23,7 @@ OpenDomains& open_domains() {
   return domains;
 }
 
-/// Explicit, so that CYCLONEDDS_URI of the environment cannot change what a crane does.
+/// Complete configuration, so that CYCLONEDDS_URI of the environment has no effect.
 std::string configuration(const Options& options) {
   const auto& own = options.interfaces;
   const bool unicast = discovers_by_unicast(options);
@@ -44,7 +44,8 @@ std::string configuration(const Options& options) {
   xml += "<LeaseDuration>10s</LeaseDuration></Discovery><Internal>";
   xml += "<HeartbeatInterval min=\"5ms\" minsched=\"5ms\" max=\"1s\">20ms</HeartbeatInterval>";
   xml += "<NackDelay>1ms</NackDelay><PreEmptiveAckDelay>10ms</PreEmptiveAckDelay>";
-  xml += "<GenerateKeyhash>true</GenerateKeyhash></Internal></Domain>";  // Fast DDS finds instances by it
+  xml +=
+      "<GenerateKeyhash>true</GenerateKeyhash></Internal></Domain>";  // Fast DDS identifies instances by it
   return xml;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Cyclone DDS allows one configured domain per process and number: buses of one process share it.
+/// Cyclone DDS allows one configured domain per process and domain number. The buses of one process share it.
 #include <dds/dds.h>
 
 #include <string>
@@ -11,7 +11,7 @@ namespace crane::bus::cyclone {
 /// @throws Error "Cyclone DDS: `what`: <reason>" when `code` is an error
 dds_entity_t checked_entity(dds_entity_t code, const std::string& what);
 
-/// Keeps a domain open. The first one creates it, the last one deletes it.
+/// Keeps a domain open. The first object creates the domain, the last object deletes it.
 class Domain {
  public:
   /// @throws Error when the domain is open with other interfaces or peers

@@ -46,7 +46,7 @@ void translate(EndpointQos& qos, const Quality& quality, bool history, const End
     qos.liveliness().announcement_period = duration(options.liveliness_lease / 3);
   }
   qos.endpoint().history_memory_policy = fastrtps::rtps::PREALLOCATED_MEMORY_MODE;
-  qos.data_sharing().off();  // shared memory outlives a killed process and delays its restart
+  qos.data_sharing().off();  // the shared memory of a killed process remains and delays its restart
 }
 
 dds::DataWriterQos writer_qos(const Quality& quality, const EndpointOptions& options) {
@@ -164,8 +164,8 @@ class FastReader final : public detail::Reader, private dds::DataReaderListener 
   }
 
  private:
-  /// Fast DDS fills in no sample when an instance's state changes. The key is in the instance's handle: as
-  /// the RTPS key hash, or, when a Cyclone writer disposed the instance, as the key-only payload with its
+  /// Fast DDS writes no sample when the state of an instance changes. The handle of the instance contains the
+  /// key: as RTPS key hash, or, when a Cyclone DDS writer disposed the instance, as key-only payload with its
   /// encapsulation.
   void key_from_handle(const fastrtps::rtps::InstanceHandle_t& handle, void* sample) const {
     constexpr std::array<std::uint8_t, 4> kPlainLittleEndian{0, 1, 0, 0};
@@ -193,7 +193,8 @@ class FastReader final : public detail::Reader, private dds::DataReaderListener 
     announce_(EventKind::deadline_missed);
   }
   void on_liveliness_changed(dds::DataReader*, const dds::LivelinessChangedStatus& status) override {
-    // Fast DDS adds up changes that follow each other quickly, to zero when a writer comes right back.
+    // Fast DDS adds changes in quick succession. The sum is zero when a writer disappears and returns at
+    // once.
     const int before = alive_.exchange(status.alive_count);
     if (status.alive_count == before) return;
     const bool gained = status.alive_count > before;

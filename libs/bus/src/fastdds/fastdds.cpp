@@ -21,7 +21,7 @@ namespace fastrtps = eprosima::fastrtps;
 using fastdds::duration;
 using namespace std::chrono_literals;
 
-/// Two buses of one process talk as two processes would.
+/// Two buses of one process communicate like two processes.
 void switch_intraprocess_delivery_off() {
   static std::once_flag once;
   std::call_once(once, [] {
@@ -78,8 +78,8 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
   return qos;
 }
 
-/// Participant numbers of this process. Left alone, Fast DDS never uses a number twice, and a participant
-/// whose number is above 30 has ports that unicast discovery does not try.
+/// Participant numbers of this process. By default Fast DDS never uses a number twice. The ports of a
+/// participant with a number above 30 are outside the range that unicast discovery contacts.
 class ParticipantNumber {
  public:
   ParticipantNumber() {
@@ -158,7 +158,7 @@ class FastBackEnd final : public BackEnd {
   }
 
   std::shared_ptr<Doorbell> doorbell_;
-  ParticipantNumber number_;  // free again after the participant is gone
+  ParticipantNumber number_;  // released after the participant is deleted
   std::unique_ptr<dds::DomainParticipant, ParticipantDeleter> participant_;
   dds::Publisher* publisher_ = nullptr;
   dds::Subscriber* subscriber_ = nullptr;

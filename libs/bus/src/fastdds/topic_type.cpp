@@ -20,7 +20,7 @@ TopicType::TopicType(const dds_topic_descriptor_t& descriptor) : codec_{CdrCodec
   constexpr std::size_t kPadding = 3;  // RTPS pads a payload to a multiple of four
   m_typeSize = static_cast<std::uint32_t>(codec_.max_encoded_bytes() + kEncapsulationBytes + kPadding);
   m_isGetKeyDefined = codec_.has_key();
-  auto_fill_type_object(false);  // a Cyclone writer never matches a Fast DDS reader that announces one
+  auto_fill_type_object(false);  // a Cyclone DDS writer does not match a Fast DDS reader with a type object
   auto_fill_type_information(false);
 }
 
@@ -41,7 +41,7 @@ bool TopicType::deserialize(rtps::SerializedPayload_t* payload, void* sample) {
   const bool plain = bytes.size() >= kEncapsulationBytes && bytes[0] == 0 && bytes[1] <= kPlainLittleEndian;
   if (plain && codec_.decode(bytes.subspan(kEncapsulationBytes), bytes[1] == kPlainBigEndian, sample))
     return true;
-  std::memset(sample, 0, codec_.sample_bytes());  // the CRC of nothing but zeros is not zero
+  std::memset(sample, 0, codec_.sample_bytes());  // all zeros is a sample with a wrong CRC
   return true;
 }
 
@@ -51,7 +51,7 @@ std::function<std::uint32_t()> TopicType::getSerializedSizeProvider(void*) {
 
 bool TopicType::getKey(void* sample, rtps::InstanceHandle_t* handle, bool force_md5) {
   if (!m_isGetKeyDefined) return false;
-  std::array<std::uint8_t, 16> hash{};  // a key is one number: it fits, and the rest is zero
+  std::array<std::uint8_t, 16> hash{};  // a key is one number, padded with zeros
   const std::size_t bytes = codec_.encode_key(sample, hash);
   if (bytes == 0) return false;
   if (force_md5) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Every topic's type for Fast DDS: the idlc struct, carried by the project's own codec.
+/// Type of a topic for Fast DDS: the struct of idlc, encoded with CdrCodec.
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
 #include "crane/bus/cdr.hpp"
@@ -11,8 +11,8 @@ class TopicType final : public eprosima::fastdds::dds::TopicDataType {
   explicit TopicType(const dds_topic_descriptor_t& descriptor);
 
   bool serialize(void* sample, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
-  /// A payload that is not a sample of this type becomes one whose CRC is wrong: the subscriber rejects and
-  /// counts it, whereas Fast DDS would drop it without a word.
+  /// A payload that is no sample of this type is decoded to a sample with a wrong CRC. The subscriber then
+  /// rejects and counts it. Fast DDS would drop it without a report.
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* sample) override;
   std::function<std::uint32_t()> getSerializedSizeProvider(void* sample) override;
   bool getKey(void* sample, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool force_md5) override;

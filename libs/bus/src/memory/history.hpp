@@ -1,5 +1,5 @@
 #pragma once
-/// What a writer keeps for readers that come later: the last `depth` samples of each instance.
+/// Samples that a writer keeps for late-joining readers: the last `depth` samples of each instance.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -18,7 +18,7 @@ class History {
     if (samples.size() == depth_) samples.pop();
     samples.push(sample, stamp);
   }
-  /// A disposed instance is not told to late joiners.
+  /// Removes a disposed instance: late joiners do not receive it.
   void forget(const void* sample) { instance(sample).samples.clear(); }
 
   template <class Visit>

@@ -24,7 +24,7 @@ bool connects(const Port& a, const Port& b) {
 }
 }  // namespace memory
 
-/// Events found under the lock, told after it: a handler may call back.
+/// Events are collected under the lock and reported after its release, because a handler may call the bus.
 struct MemoryNetwork::News {
   struct Item {
     Announcer announce;
@@ -109,7 +109,8 @@ void MemoryNetwork::remove(ReaderPort& reader) {
 }
 
 void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose) {
-  // An in-process stack has one clock: that of its plant. Its time makes two runs equal bit for bit.
+  // The source time is the time of the plant, the only clock of an in-process stack: two runs are then equal
+  // bit for bit.
   const auto time_ns = static_cast<const msg::Header*>(sample)->sample_time_ns;
   const std::lock_guard lock{mutex_};
   Stamp stamp{++published_, {.source_time_ns = time_ns, .valid = !dispose, .disposed = dispose}};

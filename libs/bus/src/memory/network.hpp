@@ -1,5 +1,5 @@
 #pragma once
-/// The in-process network: who is connected to whom, and the queues between them.
+/// The in-process network: connections between writers and readers, and their queues.
 #include <memory>
 #include <mutex>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace crane::bus::memory {
 
-/// What decides whether a writer and a reader are connected, and how their owners are told.
+/// Topic and quality of service of an endpoint, which decide about its connections, and its event handler.
 struct Port {
   const topics::Description* topic;
   std::string partition;
@@ -21,7 +21,7 @@ struct Port {
 struct ReaderPort;
 struct WriterPort : Port {
   History history;
-  std::uint64_t number = 0;            ///< given by the network: unique in it
+  std::uint64_t number = 0;            ///< assigned by the network, unique in the network
   std::vector<ReaderPort*> readers{};  ///< in order of their creation
 };
 struct ReaderPort : Port {
@@ -35,7 +35,7 @@ struct ReaderPort : Port {
 
 namespace crane::bus {
 
-/// Thread-safe. Endpoints register themselves and outlive nothing: removed before they die.
+/// Thread-safe. Endpoints register themselves at construction and remove themselves at destruction.
 class MemoryNetwork {
  public:
   void add(memory::WriterPort& writer);

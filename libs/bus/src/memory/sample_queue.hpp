@@ -1,6 +1,6 @@
 #pragma once
-/// First in, first out samples of one type. Grows when full and keeps its memory: in a steady state nothing
-/// is allocated.
+/// First-in, first-out queue of samples of one type. It grows when full and keeps its memory, so that the
+/// steady state allocates no memory.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -11,7 +11,7 @@
 namespace crane::bus::memory {
 
 struct Stamp {
-  std::uint64_t order = 0;  ///< of publication in the whole network
+  std::uint64_t order = 0;  ///< serial number of the publication in the network
   SampleInfo info;
 };
 

@@ -2,22 +2,22 @@
 #include <cmath>
 
 #include "crane/diagnosis/report.hpp"
-#include "crane/experiment/curves.hpp"
+#include "crane/plot/curves.hpp"
 #include "report/residual_view.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
-using experiment::CurvePanel;
-using experiment::CurveStyle;
+using plot::CurvePanel;
+using plot::CurveStyle;
 
 // Points of a curve and of a cloud: finer than a screen shows.
 constexpr std::size_t kMostDrawn = 1500, kMostDots = 600;
 
 /// Points that are numbers; a picture needs at least one.
-experiment::NamedCurve curve(const std::string& name, CurveStyle style, const std::vector<double>& x,
-                             const std::vector<double>& y) {
-  experiment::NamedCurve result{name, style, {}};
+plot::NamedCurve curve(const std::string& name, CurveStyle style, const std::vector<double>& x,
+                       const std::vector<double>& y) {
+  plot::NamedCurve result{name, style, {}};
   const std::size_t most = style == CurveStyle::dots ? kMostDots : kMostDrawn;
   const std::size_t every = std::max<std::size_t>(1, (x.size() + most - 1) / most);
   for (std::size_t i = 0; i < x.size(); i += every)
@@ -26,7 +26,7 @@ experiment::NamedCurve curve(const std::string& name, CurveStyle style, const st
 }
 
 void add_panel(std::vector<CurvePanel>& panels, CurvePanel panel) {
-  std::erase_if(panel.curves, [](const experiment::NamedCurve& c) { return c.points.empty(); });
+  std::erase_if(panel.curves, [](const plot::NamedCurve& c) { return c.points.empty(); });
   if (!panel.curves.empty()) panels.push_back(std::move(panel));
 }
 
@@ -55,8 +55,8 @@ void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& dia
       add_panel(panels, std::move(panel));
     }
     if (!panels.empty())
-      experiment::draw_curves(directory / ("overlay_" + std::to_string(++number) + ".svg"), short_name(run),
-                              panels);
+      plot::draw_curves(directory / ("overlay_" + std::to_string(++number) + ".svg"), short_name(run),
+                        panels);
   }
   for (const ResidualView& view : residual_views(diagnosis, rig, test)) {
     std::vector<CurvePanel> panels;
@@ -68,8 +68,8 @@ void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& dia
       add_panel(panels, std::move(panel));
     }
     if (!panels.empty())
-      experiment::draw_curves(directory / ("residual_" + view.column + ".svg"), "Residual of " + view.column,
-                              panels);
+      plot::draw_curves(directory / ("residual_" + view.column + ".svg"), "Residual of " + view.column,
+                        panels);
   }
 }
 

@@ -5,8 +5,8 @@
 namespace crane::plant {
 namespace {
 
-/// One pole. The output is the mean of the exact response over the tick, which gives the drive the same
-/// speed at its end.
+/// First-order lag. The output is the mean of the exact response over the tick: the drive then has the exact
+/// speed at the end of the tick.
 class Pole {
  public:
   explicit Pole(double time_constant_s) : time_constant_s_(time_constant_s) {}
@@ -18,7 +18,7 @@ class Pole {
 
  private:
   double time_constant_s_;
-  double output_v_ = 0;  // at the end of the last tick
+  double output_v_ = 0;  // output at the end of the last tick
 };
 
 class ActuatorLag final : public Term {
@@ -43,7 +43,7 @@ TermKind actuator_lag() {
   return {
       .name = "actuator_lag",
       .equation = "tau V_1' = V_command - V_1, tau_2 V' = V_1 - V",
-      .source = "current loop or filter between converter and motor; a second pole where both are slow",
+      .source = "current loop or filter between converter and motor; tau_2 > 0: two lags in series",
       .acts_on = ActsOn::command,
       .axes = {"trolley", "slew", "hoist"},
       .parameters = {{"time_constant_s", "s", 0, 0, 2, "tau"}, {"second_s", "s", 0, 0, 2, "tau_2"}},

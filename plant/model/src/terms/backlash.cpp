@@ -9,14 +9,15 @@
 namespace crane::plant {
 namespace {
 
-/// Contact of the flanks: a spring with the suspended side's inertia, of 25 Hz in a nut and 15 Hz in the gear
-/// of a jib, never pulling, from which steel comes back with almost half its speed. The damping sets in over
-/// the first part of the depth, so that the force is continuous.
+/// Natural frequency of the contact between the flanks, with the inertia of the suspended side: 25 Hz for the
+/// nut of a trolley, 15 Hz for the gear of a jib. The contact is a damped spring that does not pull; the
+/// coefficient of restitution is almost one half. The damping increases with the depth of contact up to
+/// kSoftShare, so that the force is continuous.
 constexpr double kNut_radps = 2 * std::numbers::pi * 25, kGear_radps = 2 * std::numbers::pi * 15;
 constexpr double kContactDampingRatio = 0.25;
-constexpr double kSoftShare = 0.02;  // of the gap: depth of full damping
-/// Guide friction changes its direction over this speed [m/s or rad/s]: an explicit step of 2.5 ms stays
-/// stable.
+constexpr double kSoftShare = 0.02;  // depth of full damping, as a share of the gap
+/// Speed over which the guide friction changes its direction [m/s or rad/s]. An explicit integrator with
+/// steps of 2.5 ms is stable with this value.
 constexpr double kGuideSmoothing = 0.003;
 
 class Backlash final : public Term {
@@ -30,7 +31,7 @@ class Backlash final : public Term {
 
   void change_parameters(Parameters& crane) const noexcept override { far_.split(crane); }
   [[nodiscard]] std::size_t inner_coordinates() const noexcept override { return gap_ > 0 ? 1 : 0; }
-  /// Friction forgets where in the gap it once was.
+  /// The guide friction damps the motion in the gap: the initial position has no lasting effect.
   [[nodiscard]] bool rings() const noexcept override { return false; }
   void displace(const double* inner, Displacement& sum) const noexcept override {
     if (gap_ > 0) (slew_ ? sum.slew_rad : sum.trolley_m) += inner[0];
@@ -46,11 +47,12 @@ class Backlash final : public Term {
     const double motor = slew_ ? drives.slew_radps2 : drives.trolley_mps2;
     acceleration[0] = far_.acceleration(crane, state, contact(inner[0])) -
                       guide_deceleration_ * smooth_sign(speed, kGuideSmoothing) - motor;
-    // The jib's turning throws a trolley outward, which the motor holds only where a flank touches.
+    // Centrifugal acceleration of the trolley; the motor takes up its force only when a flank touches.
     if (!slew_) acceleration[0] += state.trolley_m * state.slew_radps * state.slew_radps;
   }
-  /// The motor has been struck: what it gained the suspended side lost, which stands at the flank on that
-  /// side. Or it has not been where the flanks met: there they still stand.
+  /// An unexplained change of the motor's speed is an impact of the flanks. The suspended side has lost the
+  /// momentum that the motor has gained, and is at the flank of that side. When the model predicted an impact
+  /// that was not measured, the flanks remain in contact.
   void correct(const Parameters& crane, const State& state, const PerAxis& unexplained, const Inner* before,
                Inner* inner) const noexcept override {
     const double change = unexplained[slew_ ? kSlew : kTrolley];
@@ -58,7 +60,7 @@ class Backlash final : public Term {
     const double side = std::copysign(1.0, change), flank = 0.5 * gap_;
     const bool met = std::max(-side * before[0].position, -side * inner[0].position) > flank;
     inner[0].position = side * (met ? -flank : std::max(side * inner[0].position, flank));
-    const double fastest = gap_ * contact_radps_;  // a lighter side would be thrown to and fro by noise
+    const double fastest = gap_ * contact_radps_;  // limits the effect of measurement noise on a light side
     inner[0].rate = std::clamp(inner[0].rate - far_.passed_on(crane, state, change), -fastest, fastest);
   }
 
@@ -82,20 +84,21 @@ TermKind backlash() {
   return {
       .name = "backlash",
       .equation =
-          "the load hangs at p + b, b'' = (j J k + P - C) / (j J + M_j x2) - a tanh((p' + b')/v_s) + Z - "
+          "suspension point at p + b, b'' = (j J k + P - C) / (j J + M_j x2) - a tanh((p' + b')/v_s) + Z - "
           "p''; "
-          "contact k is 0 for |b| < h/2 and a damped spring of 25 Hz (trolley) or 15 Hz (jib) beyond; "
-          "M_j x2 and C = 2 M_j x x' slew' of a jib only, Z = (x + b) slew'^2 of a trolley only; the motor "
-          "moves "
-          "(1 - j) J and feels -(j J k + P)",
-      .source = "play of nut or gear between motor, which has the encoder, and trolley or jib",
+          "contact k = 0 for |b| < h/2, otherwise a damped spring of 25 Hz (trolley) or 15 Hz (jib); "
+          "M_j x2 and C = 2 M_j x x' slew' for a jib only, Z = (x + b) slew'^2 for a trolley only; inertia "
+          "of "
+          "the motor (1 - j) J, force on the motor -(j J k + P)",
+      .source = "play of nut or gear between the motor, which has the encoder, and trolley or jib",
       .acts_on = ActsOn::structure,
       .axes = {"trolley", "slew"},
-      .parameters = {{"gap", "m or rad", 0, 0, 0.1, "h, free travel from flank to flank"},
-                     {"guide_deceleration", "m/s2 or rad/s2", 1, 0, 2,
-                      "a, what friction takes from the suspended side while no flank touches"},
-                     {"driven_share", "1", 0, 0, 0.9,
-                      "j, share of the axis's inertia J behind the gap, which the load pulls at with P"}},
+      .parameters =
+          {{"gap", "m or rad", 0, 0, 0.1, "h, free travel from flank to flank"},
+           {"guide_deceleration", "m/s2 or rad/s2", 1, 0, 2,
+            "a, deceleration of the suspended side by friction while no flank touches"},
+           {"driven_share", "1", 0, 0, 0.9,
+            "j, share of the axis's inertia J beyond the gap, on which the load acts with force P"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<Backlash>(s); }};
 }
 

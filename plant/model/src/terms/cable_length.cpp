@@ -21,10 +21,10 @@ TermKind cable_length() {
   return {
       .name = "cable_length",
       .equation = "L = L_measured + d",
-      .source = "the load's centre of mass hangs lower or higher than the hoist's zero says",
+      .source = "the distance of the load's centre of mass differs from the zero of the hoist",
       .acts_on = ActsOn::structure,
       .axes = {""},
-      .parameters = {{"delta_m", "m", 0, -10, 10, "d, true length of the pendulum minus what is measured"}},
+      .parameters = {{"delta_m", "m", 0, -10, 10, "d, true minus measured length of the pendulum"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<CableLength>(s); }};
 }
 

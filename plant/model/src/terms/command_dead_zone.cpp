@@ -26,7 +26,7 @@ class CommandDeadZone final : public Term {
 TermKind command_dead_zone() {
   return {.name = "command_dead_zone",
           .equation = "V = sign(V_command) max(0, |V_command| - w)",
-          .source = "an amplifier or converter that gives nothing for small inputs",
+          .source = "an amplifier or converter with no output for small inputs",
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"width_v", "V", 0, 0, 10, "w, to either side of 0 V"}},

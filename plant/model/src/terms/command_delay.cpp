@@ -4,8 +4,8 @@
 namespace crane::plant {
 namespace {
 
-/// Delayed by a fraction of a tick, the old command holds for that fraction: the output is the mean over the
-/// tick, which gives the drive the same speed at its end.
+/// With a delay of a fraction of a tick, the previous command acts for this fraction. The output is the mean
+/// over the tick: the drive then has the exact speed at the end of the tick.
 class CommandDelay final : public Term {
  public:
   explicit CommandDelay(const TermSetting& s)
@@ -26,8 +26,8 @@ class CommandDelay final : public Term {
 
 TermKind command_delay() {
   return {.name = "command_delay",
-          .equation = "V(t) = V_command(t - tau), beyond the one tick of the loop",
-          .source = "bus, converter or amplifier that holds a command back",
+          .equation = "V(t) = V_command(t - tau), in addition to the delay of one tick of the loop",
+          .source = "bus, converter or amplifier that delays a command",
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"delay_s", "s", 0, 0, 0.5, "tau"}},

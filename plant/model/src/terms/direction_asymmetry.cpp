@@ -27,19 +27,19 @@ class DirectionAsymmetry final : public Term {
 }  // namespace
 
 TermKind direction_asymmetry() {
-  return {
-      .name = "direction_asymmetry",
-      .equation = "f = c tanh(|v|/v_s) + b |v|: c and b added to the friction of +v, taken off that of -v",
-      .source = "(3.1): friction of the two directions differs more than the rig file says",
-      .acts_on = ActsOn::drive,
-      .axes = {"trolley", "slew", "hoist"},
-      .parameters = {{"coulomb_v", "V", 0, -10, 10, "c / K_m"},
-                     {"viscous_vspm", "V s/m or V s/rad", 0, -1000, 1000, "b / K_m"},
-                     {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
-                      "v_s, width of the step at v = 0"}},
-      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-        return std::make_unique<DirectionAsymmetry>(s);
-      }};
+  return {.name = "direction_asymmetry",
+          .equation =
+              "f = c tanh(|v|/v_s) + b |v|: adds c and b to the friction for v > 0, subtracts them for v < 0",
+          .source = "(3.1): the difference of friction between the directions is not that of the rig file",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"coulomb_v", "V", 0, -10, 10, "c / K_m"},
+                         {"viscous_vspm", "V s/m or V s/rad", 0, -1000, 1000, "b / K_m"},
+                         {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+                          "v_s, width of the step at v = 0"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<DirectionAsymmetry>(s);
+          }};
 }
 
 }  // namespace crane::plant

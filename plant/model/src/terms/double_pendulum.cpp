@@ -6,8 +6,8 @@
 namespace crane::plant {
 namespace {
 
-/// Inner coordinates are the lower cable's angles against the upper one's, so that the load starts in line
-/// with the cable wherever that starts.
+/// The inner coordinates are the angles of the lower cable relative to the upper cable. Their initial value 0
+/// puts the load in line with the upper cable, for any initial swing.
 class DoublePendulum final : public Term {
  public:
   explicit DoublePendulum(const TermSetting& s)
@@ -48,7 +48,7 @@ class DoublePendulum final : public Term {
   }
 
  private:
-  /// Mass below the hook over mass of the hook.
+  /// Mass below the hook / mass of the hook.
   [[nodiscard]] double ratio() const { return lower_share_ / (1 - lower_share_); }
   double lower_share_, lower_length_m_, hook_raised_m_;
 };
@@ -56,22 +56,22 @@ class DoublePendulum final : public Term {
 }  // namespace
 
 TermKind double_pendulum() {
-  return {
-      .name = "double_pendulum",
-      .equation =
-          "hook (1 - mu) m at L - u, load mu m at l below: l phi_2'' = g (1 + r)(sin(phi) - sin(phi_2)) "
-          "+ rotation of the frame, likewise theta; F = mu m g along the lower cable on the hook; "
-          "r = mu / (1 - mu)",
-      .source = "Newton's law of both masses with the cables' tensions at rest; exact for small angles",
-      .acts_on = ActsOn::structure,
-      .axes = {""},
-      .parameters = {{"lower_share", "1", 0, 0, 0.9, "mu, share of the load mass that hangs below the hook"},
-                     {"lower_length_m", "m", 0.3, 0.02, 10, "l, from the hook to the load"},
-                     {"hook_raised_m", "m", 0, 0, 10,
-                      "u, the hook above the end of the measured length; l where that reaches to the load"}},
-      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-        return std::make_unique<DoublePendulum>(s);
-      }};
+  return {.name = "double_pendulum",
+          .equation =
+              "hook (1 - mu) m at L - u, load mu m at l below: l phi_2'' = g (1 + r)(sin(phi) - sin(phi_2)) "
+              "+ rotation of the frame, likewise theta; F = mu m g along the lower cable on the hook; "
+              "r = mu / (1 - mu)",
+          .source = "Newton's law of both masses with the cables' tensions at rest; exact for small angles",
+          .acts_on = ActsOn::structure,
+          .axes = {""},
+          .parameters =
+              {{"lower_share", "1", 0, 0, 0.9, "mu, share of the load mass that hangs below the hook"},
+               {"lower_length_m", "m", 0.3, 0.02, 10, "l, from the hook to the load"},
+               {"hook_raised_m", "m", 0, 0, 10,
+                "u, height of the hook above the end of the measured length; l when that end is the load"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<DoublePendulum>(s);
+          }};
 }
 
 }  // namespace crane::plant

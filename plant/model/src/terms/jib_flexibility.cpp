@@ -45,13 +45,13 @@ TermKind jib_flexibility() {
   return {
       .name = "jib_flexibility",
       .equation =
-          "the load hangs at gamma + d, d'' = k - gamma'', k = -d/c - 2 z d'/sqrt(c); with j > 0 the spring "
-          "turns j J_o and the trolley, d'' = (j J_o k + P - C) / (j J_o + M_j x2) - gamma'', the motor "
-          "(1 - j) J_o, which feels -(j J_o k + P)",
+          "suspension point at gamma + d, d'' = k - gamma'', k = -d/c - 2 z d'/sqrt(c); for j > 0 the spring "
+          "turns j J_o and the trolley, d'' = (j J_o k + P - C) / (j J_o + M_j x2) - gamma''; inertia of the "
+          "motor (1 - j) J_o, torque on the motor -(j J_o k + P)",
       .source = "first sideways bending mode of the jib; f = 1 / (2 pi sqrt(c)) with the root held",
       .acts_on = ActsOn::structure,
       .axes = {""},
-      .parameters = {{"compliance_s2", "s2", 0, 0, 0.3, "c; stiffer than 12 Hz counts as rigid"},
+      .parameters = {{"compliance_s2", "s2", 0, 0, 0.3, "c; a natural frequency above 12 Hz counts as rigid"},
                      {"damping_ratio", "1", 0.02, 0, 1, "z"},
                      {"jib_share", "1", 0, 0, 0.9, "j, share of the slewing inertia beyond the spring"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {

@@ -18,7 +18,7 @@ class JibTilt final : public Term {
   }
 
  private:
-  double along_, lost_;  // of gravity: towards the tower, and what it pulls less across the jib
+  double along_, lost_;  // shares of gravity: towards the tower, and decrease perpendicular to the jib
 };
 
 }  // namespace
@@ -28,7 +28,7 @@ TermKind jib_tilt() {
           .equation =
               "g = {-g sin(a), 0, -g cos(a)} in the jib frame: F_x = -M_j g sin(a) on the trolley, "
               "m g {-sin(a), 0, 1 - cos(a)} on the load",
-          .source = "a jib that is not level; at rest phi = a against the jib's normal",
+          .source = "a jib that is not level; at rest phi = a relative to the normal of the jib",
           .acts_on = ActsOn::load,
           .axes = {""},
           .parameters = {{"angle_rad", "rad", 0, -0.3, 0.3, "a, positive: the jib's tip is raised"}},

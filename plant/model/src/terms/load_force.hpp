@@ -1,5 +1,5 @@
 #pragma once
-/// A force on the load [N, jib frame] as generalised forces Q = J^T F.
+/// Converts a force F on the load [N, jib frame] to generalised forces Q = J^T F.
 #include "crane/plant/equations.hpp"
 
 namespace crane::plant {

@@ -21,7 +21,7 @@ class LoadLinearDrag final : public Term {
 TermKind load_linear_drag() {
   return {.name = "load_linear_drag",
           .equation = "F = -d r_L'",
-          .source = "viscous drag of the load over ground, r_L' of (2.12)",
+          .source = "viscous drag of the load, r_L' velocity relative to the ground (2.12)",
           .acts_on = ActsOn::load,
           .axes = {""},
           .parameters = {{"coefficient_nspm", "N s/m", 0, 0, 1000, "d"}},

@@ -19,8 +19,8 @@ class MotorGain final : public Term {
 TermKind motor_gain() {
   return {
       .name = "motor_gain",
-      .equation = "V = k V_command; friction forces stay as they are",
-      .source = "an amplifier or motor constant other than the nominal K_m of (2.10)",
+      .equation = "V = k V_command; friction forces do not change",
+      .source = "the constant of amplifier or motor differs from the nominal K_m of (2.10)",
       .acts_on = ActsOn::command,
       .axes = {"trolley", "slew", "hoist"},
       .parameters = {{"factor", "1", 1, 0, 5, "k"}},

@@ -19,7 +19,7 @@ TermKind payload_mass() {
   return {
       .name = "payload_mass",
       .equation = "m = m_rig_file + d",
-      .source = "another load hangs there than the rig file says",
+      .source = "the load mass differs from that of the rig file",
       .acts_on = ActsOn::parameters,
       .axes = {""},
       .parameters = {{"delta_kg", "kg", 0, -1000, 1000, "d; the sum must not be negative"}},

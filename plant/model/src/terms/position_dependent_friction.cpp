@@ -37,8 +37,8 @@ TermKind position_dependent_friction() {
       .acts_on = ActsOn::drive,
       .axes = {"trolley", "slew", "hoist"},
       .parameters = {{"amplitude_v", "V", 0, 0, 10, "a, friction added at the tight spots"},
-                     {"wavelength", "m or rad", 1, 1e-3, 100, "w, distance of tight spots"},
-                     {"tight_at", "m or rad", 0, -100, 100, "p_0, position of one of them"},
+                     {"wavelength", "m or rad", 1, 1e-3, 100, "w, distance between tight spots"},
+                     {"tight_at", "m or rad", 0, -100, 100, "p_0, position of one tight spot"},
                      {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
                       "v_s, width of the step at v = 0"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {

@@ -26,25 +26,26 @@ class PositionDrift final : public Term {
 
   bool slew_;
   double rate_, jump_;
-  std::optional<double> last_;  // true position one tick ago
+  std::optional<double> last_;  // true position at the last tick
   double travelled_ = 0;
 };
 
 }  // namespace
 
 TermKind position_drift() {
-  return {.name = "position_drift",
-          .equation =
-              "p_measured = p + r s, s the distance travelled since the start, both ways counted; rounded "
-              "towards 0 to whole jumps j where j > 0",
-          .source = "a friction wheel that slips or an encoder that loses counts while moving",
-          .acts_on = ActsOn::sensor,
-          .axes = {"trolley", "slew"},
-          .parameters = {{"rate", "m/m or rad/rad", 0, -0.5, 0.5, "r"},
-                         {"jump", "m or rad", 0, 0, 1, "j, what is lost at a time; 0: smoothly"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-            return std::make_unique<PositionDrift>(s);
-          }};
+  return {
+      .name = "position_drift",
+      .equation =
+          "p_measured = p + r s, s the path length since the start; r s is rounded towards 0 to multiples "
+          "of j when j > 0",
+      .source = "a friction wheel that slips or an encoder that loses counts while moving",
+      .acts_on = ActsOn::sensor,
+      .axes = {"trolley", "slew"},
+      .parameters = {{"rate", "m/m or rad/rad", 0, -0.5, 0.5, "r"},
+                     {"jump", "m or rad", 0, 0, 1, "j, size of one loss; 0: continuous loss"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<PositionDrift>(s);
+      }};
 }
 
 }  // namespace crane::plant

@@ -9,11 +9,11 @@ namespace crane::plant {
 
 class SampleHistory {
  public:
-  /// Half a second at 1 kHz; what is older is taken as old as this.
+  /// 0.5 s at 1 kHz. A longer delay is limited to this length.
   static constexpr std::size_t kLength = 512;
   static constexpr double kMostTicks = kLength - 2;
 
-  /// As if the signal had always been `value`.
+  /// Sets all samples to `value`.
   void fill(double value) { samples_.fill(value); }
   void push(double value) {
     newest_ = (newest_ + 1) % kLength;
@@ -22,7 +22,7 @@ class SampleHistory {
   [[nodiscard]] double before(std::size_t ticks) const {
     return samples_[(newest_ + kLength - ticks) % kLength];
   }
-  /// Between two samples on the straight line. @pre ticks >= 0
+  /// Value of the signal `ticks` ago, interpolated linearly. @pre ticks >= 0
   [[nodiscard]] double before(double ticks) const {
     const double most = std::min(ticks, kMostTicks), whole = std::floor(most), share = most - whole;
     const auto back = static_cast<std::size_t>(whole);

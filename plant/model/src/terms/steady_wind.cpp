@@ -12,7 +12,7 @@ class SteadyWind final : public Term {
       : force_n_(s.parameters.at("force_n")), direction_rad_(s.parameters.at("direction_rad")) {}
 
   void add_force(const Parameters& /*crane*/, const State& state, Forces& sum) const noexcept override {
-    const double angle_rad = direction_rad_ - state.slew_rad;  // the jib turns under the wind
+    const double angle_rad = direction_rad_ - state.slew_rad;  // relative to the jib
     add_load_force(state, force_n_ * Eigen::Vector3d{std::cos(angle_rad), std::sin(angle_rad), 0}, sum);
   }
 
@@ -31,7 +31,7 @@ TermKind steady_wind() {
       .axes = {""},
       .parameters = {{"force_n", "N", 0, 0, 1000, "F_w"},
                      {"direction_rad", "rad", 0, -7, 7,
-                      "a, towards which it blows; 0 along the jib at gamma = 0"}},
+                      "a, direction of the force; 0: along the jib at gamma = 0"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SteadyWind>(s); }};
 }
 

@@ -34,7 +34,7 @@ TermKind stribeck_friction() {
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"excess_v", "V", 0, 0, 10, "a, excess over Coulomb friction at low speed"},
                          {"decay_speed", "m/s or rad/s", 0.05, 1e-3, 10,
-                          "v_d, speed at which it has decayed to 37 %"},
+                          "v_d, speed at which the excess has decayed to 37 %"},
                          {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
                           "v_s, width of the step at v = 0"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {

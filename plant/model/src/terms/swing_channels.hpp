@@ -1,5 +1,5 @@
 #pragma once
-/// Which of the two swing angles a sensor term changes: "radial", "tangential", or both for an empty axis.
+/// The swing angles that a sensor term changes: "radial", "tangential", or both when the axis is empty.
 #include <string_view>
 
 #include "crane/plant/term.hpp"

@@ -30,8 +30,8 @@ class SwingDelay final : public Term {
 TermKind swing_delay() {
   return {
       .name = "swing_delay",
-      .equation = "phi_measured(t) = phi(t - tau), on the straight line between two ticks",
-      .source = "a swing sensor that reports late: camera, radio link, serial converter",
+      .equation = "phi_measured(t) = phi(t - tau), interpolated linearly between ticks",
+      .source = "delay of a swing sensor: camera, radio link, serial converter",
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential", ""},
       .parameters = {{"delay_s", "s", 0, 0, 0.5, "tau"}},

@@ -5,7 +5,7 @@
 namespace crane::plant {
 namespace {
 
-/// Mean over the last `ticks` of the straight lines through the samples.
+/// Mean of the linearly interpolated signal over the last `ticks` ticks.
 double mean_of_polygon(const SampleHistory& past, double ticks) {
   const double whole = std::floor(ticks), share = ticks - whole;
   const auto last = static_cast<std::size_t>(whole);
@@ -39,15 +39,19 @@ class SwingMovingAverage final : public Term {
 }  // namespace
 
 TermKind swing_moving_average() {
-  return {.name = "swing_moving_average",
-          .equation = "phi_measured(t) = 1/w integral of phi from t - w to t, phi straight between two ticks",
-          .source = "a swing sensor that averages; n equal samples are about w = (n - 1) ticks",
-          .acts_on = ActsOn::sensor,
-          .axes = {"radial", "tangential", ""},
-          .parameters = {{"window_s", "s", 0, 0, 0.5, "w"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-            return std::make_unique<SwingMovingAverage>(s);
-          }};
+  return {
+      .name = "swing_moving_average",
+      .equation =
+          "phi_measured(t) = 1/w integral of phi from t - w to t, phi interpolated linearly between ticks",
+      .source =
+          "a swing sensor with a moving average; n samples with equal weights correspond to w = (n - 1) "
+          "ticks",
+      .acts_on = ActsOn::sensor,
+      .axes = {"radial", "tangential", ""},
+      .parameters = {{"window_s", "s", 0, 0, 0.5, "w"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<SwingMovingAverage>(s);
+      }};
 }
 
 }  // namespace crane::plant

@@ -33,7 +33,7 @@ class SwingPivotFriction final : public Term {
 TermKind swing_pivot_friction() {
   return {.name = "swing_pivot_friction",
           .equation = "Q = -(b w + c tanh(w/w_s)), w = phi' or theta'",
-          .source = "bearings of the cable's upper joint, which carry the swing encoders",
+          .source = "bearings of the cable's upper joint, at the swing encoders",
           .acts_on = ActsOn::load,
           .axes = {"radial", "tangential", ""},
           .parameters = {{"viscous_nmsprad", "N m s/rad", 0, 0, 100, "b"},

@@ -26,17 +26,18 @@ class TorqueRipple final : public Term {
 }  // namespace
 
 TermKind torque_ripple() {
-  return {.name = "torque_ripple",
-          .equation = "f = -a sin(2 pi p / w + psi): the drive gets V + a sin(2 pi p / w + psi)",
-          .source = "cogging of the motor or an eccentric gear: depends on position, not on direction",
-          .acts_on = ActsOn::drive,
-          .axes = {"trolley", "slew", "hoist"},
-          .parameters = {{"amplitude_v", "V", 0, -10, 10, "a"},
-                         {"phase_rad", "rad", 0, -7, 7, "psi"},
-                         {"period", "m or rad", 0.1, 1e-3, 100, "w, distance from crest to crest"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-            return std::make_unique<TorqueRipple>(s);
-          }};
+  return {
+      .name = "torque_ripple",
+      .equation = "f = -a sin(2 pi p / w + psi): the drive gets V + a sin(2 pi p / w + psi)",
+      .source = "cogging of the motor or an eccentric gear; depends on the position, not on the direction",
+      .acts_on = ActsOn::drive,
+      .axes = {"trolley", "slew", "hoist"},
+      .parameters = {{"amplitude_v", "V", 0, -10, 10, "a"},
+                     {"phase_rad", "rad", 0, -7, 7, "psi"},
+                     {"period", "m or rad", 0.1, 1e-3, 100, "w, distance between two maxima"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<TorqueRipple>(s);
+      }};
 }
 
 }  // namespace crane::plant

@@ -2,15 +2,10 @@
 /// x86 port input and output as a seam: the real instructions, or a card that is emulated.
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
+
+#include "crane/bridge/board.hpp"
 
 namespace crane::bridge {
-
-/// A board that is not there, not permitted, in use or defective; what() is one line with the remedy.
-class BoardError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 class PortIo {
  public:

@@ -79,6 +79,9 @@ class SharedFile {
   std::size_t mapped_ = 0;
 };
 
+/// Waits for the semaphore, through signals. @return false when `duration_ns` of CLOCK_MONOTONIC have passed
+[[nodiscard]] bool wait_for(sem_t& semaphore, std::int64_t duration_ns);
+
 /// Name of the lines of one crane's emulated rig.
 [[nodiscard]] std::string shared_lines_name(const std::string& crane, std::uint32_t domain);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Small guarded motions of one drive: relay on, brake open, volts, 0 V, brake closed, relay off.
+/// Small supervised motions of one drive: relay on, brake open, voltage, 0 V, brake closed, relay off.
 #include <array>
 #include <functional>
 
@@ -12,28 +12,28 @@ inline constexpr double kLongestJog = 0.5;  ///< m or rad
 
 struct JogPlan {
   std::size_t axis = 0;
-  double drive_v = 0;                   ///< positive: outward, by the rig file's sign
-  double distance = 0.05;               ///< m or rad of any drive's counter: ends the push
-  double duration_s = 1;                ///< ends the push, too
-  double unseen_duration_s = 0.12;      ///< ends a push that no counter of a drive follows
-  std::array<bool, kDrives> release{};  ///< brakes to open; the axis's own in a plain jog
-  /// Looked at every tick of the push; true ends it.
+  double drive_v = 0;                   ///< V; positive: outward, according to the sign in the rig file
+  double distance = 0.05;               ///< the push ends when any drive has moved this far, m or rad
+  double duration_s = 1;                ///< longest duration of the push
+  double unseen_duration_s = 0.12;      ///< longest duration of a push while no counter of a drive changes
+  std::array<bool, kDrives> release{};  ///< brakes to open; normally that of the axis
+  /// Called at every tick of the push; true ends the push.
   std::function<bool(const Sample&)> enough = [](const Sample&) { return false; };
 };
 
-/// Problems of the plan, one line each "name = value: rule"; empty when it may run.
+/// @return problems of the plan as "name = value: rule"; empty when there are none
 [[nodiscard]] std::vector<std::string> problems(const JogPlan& plan, const configuration::Rig& rig);
 
 struct Jog {
-  Record record;                          ///< from the closed brake before to the closed brake after
-  std::array<double, kCounters> moved{};  ///< between its ends, m or rad
-  double drift = 0;                       ///< of the axis, at 0 V with open brake
-  std::array<bool, kDrives> opened{};     ///< brakes whose contacts opened
-  bool closed_again = true;               ///< the axis's brake, within its closing time and two ticks
-  bool limit = false;                     ///< a limit switch ended it
+  Record record;  ///< from the closed brake before the push to the closed brake after it
+  std::array<double, kCounters> moved{};  ///< motion between the ends of the record, m or rad
+  double drift = 0;                       ///< motion of the axis at 0 V with open brake, m or rad
+  std::array<bool, kDrives> opened{};     ///< brakes whose contacts reported open
+  bool closed_again = true;               ///< true: the brake closed within its closing time and two ticks
+  bool limit = false;                     ///< true: a limit switch ended the push
 };
 
-/// The plan has no problems. @throws Ended; the board is safe then
+/// Executes a plan. @pre problems(plan, rig).empty(). @throws Ended; the board is then safe
 [[nodiscard]] Jog run(Session& session, const JogPlan& plan);
 
 }  // namespace crane::bring_up

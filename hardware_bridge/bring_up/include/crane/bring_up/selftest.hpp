@@ -1,7 +1,7 @@
 #pragma once
-/// The rig is pushed a little, drive by drive, and watched: evidence for judge() of wiring.hpp.
-/// The crane stands at [start] of the rig file, the load hangs nearly still, and there are 10 cm (0.2 rad) of
-/// room around each axis.
+/// Pushes each drive a little and records the reaction of the rig as evidence for judge() of wiring.hpp.
+/// Required: the crane is at [start] of the rig file, the load hangs nearly at rest, and each axis has 10 cm
+/// (0.2 rad) of free travel in both directions.
 #include <functional>
 #include <string>
 
@@ -10,12 +10,14 @@
 namespace crane::bring_up {
 
 struct SelftestOptions {
-  double largest_v = 4;  ///< pushes grow from 1 V to this until something moves, (0, kLargestJog_v]
+  /// The voltage of the pushes increases from 1 V up to this value until an axis moves; in (0,
+  /// kLargestJog_v].
+  double largest_v = 4;
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 
-/// Leaves the board at 0 V, brakes closed. Stops before moving anything when the emergency stop is pressed,
-/// or the watchdog relay does not do its work. @throws Ended
+/// Leaves the board at 0 V with closed brakes. Ends before any motion when the emergency stop is pressed or
+/// the watchdog relay does not work. @throws Ended
 [[nodiscard]] Evidence gather(Session& session, const SelftestOptions& options);
 
 }  // namespace crane::bring_up

@@ -1,6 +1,6 @@
 #pragma once
-/// A board in the hands of somebody who brings a rig up: tick by tick, without the stack. Whatever ends a
-/// session (its end, an exception, Ctrl-C), the board is at 0 V with closed brakes then.
+/// Direct access to a board for the bring-up of a rig: tick by tick, without the stack. At the end of a
+/// session, also by an exception or Ctrl-C, the board is at 0 V with closed brakes.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -17,48 +17,50 @@ namespace crane::bring_up {
 using bridge::kCounters;
 using bridge::kDrives;
 
-/// "trolley", "slew", "hoist", "swing_radial", "swing_tangential": drives have the first three.
+/// "trolley", "slew", "hoist", "swing_radial", "swing_tangential". The first three have drives.
 [[nodiscard]] std::string_view coordinate_name(std::size_t coordinate);
 [[nodiscard]] std::string_view coordinate_unit(std::size_t coordinate);  ///< "m" or "rad"
 
-/// What the board showed at the end of a tick.
+/// Inputs of the board at the end of a tick.
 struct Sample {
   double time_s = 0;
   std::array<std::int64_t, kCounters> counts{};  ///< unwrapped
-  std::array<double, kCounters> coordinate{};    ///< m or rad, as the rig file has signs and scales
+  std::array<double, kCounters> coordinate{};    ///< m or rad, with signs and scales of the rig file
   bridge::Inputs inputs{};
 };
 using Record = std::vector<Sample>;
 
-/// The session has been ended by somebody: Ctrl-C or the emergency stop.
+/// A person has ended the session with Ctrl-C or the emergency stop.
 class Ended : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Time outside of the board.
+/// Waiting and interruption.
 struct Clock {
-  std::function<void(std::int64_t duration_ns)> wait = [](std::int64_t) {};  ///< nothing for simulated time
+  std::function<void(std::int64_t duration_ns)> wait = [](std::int64_t) {
+  };  ///< default for simulated time: no wait
   std::function<bool()> interrupted = [] { return false; };
 };
 
 class Session {
  public:
-  /// Both outlive the session.
+  /// `rig` and `board` must outlive the session.
   Session(const configuration::Rig& rig, bridge::Board& board, Clock clock);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// One tick at 0 V with closed brakes and a watchdog output at rest. @throws Ended
+  /// One tick at 0 V with closed brakes and without toggling the watchdog output. @throws Ended
   const Sample& rest();
-  /// One tick with the watchdog output toggling. `drive_v` are volts with the drive's sign of the rig file
-  /// taken into account: positive should move outward. @throws Ended
+  /// One tick that toggles the watchdog output. @param drive_v  V; the sign of the drive in the rig file is
+  /// applied, so
+  ///   that positive should move outward. @throws Ended
   const Sample& awake(const std::array<double, kDrives>& drive_v, const std::array<bool, kDrives>& release);
 
-  /// Ticks of `rest` that last at least `duration_s`.
+  /// Calls rest() for at least `duration_s`.
   Record watch(double duration_s);
-  /// Toggles for long enough that the watchdog relay closes, brakes closed.
+  /// Toggles the watchdog output until the relay closes; brakes closed.
   void wake();
 
   [[nodiscard]] const Sample& sample() const { return sample_; }

@@ -1,6 +1,6 @@
 #pragma once
-/// What a swing encoder tells while trolley and jib stand still: the load is a pendulum of known frequency,
-/// so that angle(t) = offset + cosine cos(wt) + sine sin(wt), w = sqrt(g / L). Pure functions.
+/// Fits the swing while trolley and jib are at rest. The load is a pendulum of known frequency:
+/// angle(t) = offset + cosine cos(wt) + sine sin(wt), w = sqrt(g / L). Pure functions.
 #include <cstddef>
 #include <span>
 
@@ -9,27 +9,28 @@
 namespace crane::bring_up {
 
 struct SwingFit {
-  double offset_rad = 0;  ///< where the load would come to rest
+  double offset_rad = 0;  ///< angle of the load at rest
   double cosine_rad = 0, sine_rad = 0;
 
   [[nodiscard]] double amplitude_rad() const;
   [[nodiscard]] double at(double time_s, double frequency_radps) const;
 };
 
-/// sqrt(g / L) of the rig at its start.
+/// sqrt(g / L) with the cable length at the start of the rig.
 [[nodiscard]] double swing_frequency_radps(const configuration::Rig& rig);
 
-/// Least squares over a record that lasts at least half a period.
+/// Least-squares fit. @pre the record has at least half a period
 /// @param counter  3 radial, 4 tangential
 [[nodiscard]] SwingFit fit_swing(std::span<const Sample> record, std::size_t counter, double frequency_radps);
 
-/// The swing that a motion of the load's suspension leaves: the load stays behind by the displacement of each
-/// tick and swings freely from then on; displacements far below the cable's length.
-/// @param lever_m_per_unit  displacement of the suspension in the swing's positive sense per unit of the axis
+/// Swing after a motion of the suspension point, which is short compared with the cable. In each tick the
+/// load stays behind by the displacement, and then swings freely.
+/// @param lever_m_per_unit  displacement of the suspension point in the positive direction of the swing, per
+///   unit of the axis
 [[nodiscard]] SwingFit expected_swing(std::span<const Sample> motion, std::size_t axis,
                                       double lever_m_per_unit, double cable_m, double frequency_radps);
 
-/// How much of `expected` has been added between `before` and `after`: 1 all, -1 the opposite, 0 nothing.
+/// Share of `expected` in the change from `before` to `after`: 1: all, 0: nothing, -1: the opposite.
 [[nodiscard]] double share_of(const SwingFit& expected, const SwingFit& before, const SwingFit& after);
 
 }  // namespace crane::bring_up

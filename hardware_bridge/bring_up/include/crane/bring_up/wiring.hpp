@@ -1,10 +1,10 @@
 #pragma once
-/// Which wire is wrong, judged from what small pushes of each drive did. Pure functions of measurements.
+/// Finds wiring faults from the reaction of the rig to small pushes of each drive. Pure functions.
 ///
-/// With one brake open only one axis can move, so a counter that moves with it is its encoder. The load tells
-/// the true direction: it stays behind when its suspension moves. So of drive, axis encoder and swing encoder
-/// the one that disagrees with the other two is wired the wrong way round; of several explanations the one
-/// with the fewest faults is named.
+/// With one open brake only one axis can move, so that the counter that changes is the encoder of this axis.
+/// The load shows the true direction, because it stays behind when its suspension point moves. Of drive, axis
+/// encoder and swing encoder, the one that contradicts the other two has the wrong sign. Of several
+/// explanations, the one with the fewest faults is reported.
 #include <array>
 #include <string>
 #include <string_view>
@@ -14,43 +14,46 @@
 
 namespace crane::bring_up {
 
-/// Motion below is none: play and the last counts. m or rad.
+/// Smaller motion counts as standstill (play, last counts), m or rad.
 inline constexpr double kStandstill = 1e-3;
-/// Swing below is none, a dozen counts of the tower's encoders. rad
+/// Smaller swing counts as no swing: about 15 counts of the encoders of the Virginia Tech rig, rad.
 inline constexpr double kNoSwing_rad = 4e-3;
 inline constexpr std::size_t kSwings = 2;
 
-/// One axis, pushed.
+/// Evidence from the pushes of one axis.
 struct AxisEvidence {
-  bool limit_open = false;                   ///< a limit switch was open before: the axis has not been moved
-  bool closed_at_rest = true;                ///< brake contact with brake line and relay off
-  bool closed_in_use = true;                 ///< ... with the relay closed, brake line off
-  bool held = true;                          ///< pushed against the closed brake it stayed within kStandstill
-  double slipped = 0;                        ///< how far it came, m or rad
-  bool opened = true;                        ///< brake contact opened with the brake line on
-  std::array<bool, kDrives> other_opened{};  ///< contacts of other brakes that opened with it
-  bool closed_again = true;                  ///< within its closing time and two ticks
-  bool pushed = false;                       ///< with its brake open, volts that should move it outward
-  double push_v = 0;                         ///< largest
+  bool limit_open = false;     ///< true: a limit switch was open before, so that the axis was not moved
+  bool closed_at_rest = true;  ///< true: the brake contact reported closed with brake line and relay off
+  /// True: the brake contact reported closed with closed relay and brake line off.
+  bool closed_in_use = true;
+  bool held = true;    ///< true: the closed brake held the axis within kStandstill against a push
+  double slipped = 0;  ///< motion against the closed brake, m or rad
+  bool opened = true;  ///< true: the brake contact opened with the brake line on
+  std::array<bool, kDrives> other_opened{};  ///< contacts of other brakes that opened with this brake
+  bool closed_again = true;                  ///< true: the brake closed within its closing time and two ticks
+  bool pushed = false;                       ///< true: the axis was pushed outward with open brake
+  double push_v = 0;                         ///< largest voltage of the push
   double drift = 0;                          ///< motion with open brake at 0 V, m or rad
-  std::array<double, kDrives> moved{};       ///< by each axis's counter, m or rad
-  std::array<double, kSwings> shifted_rad{};  ///< by each swing counter for good: where it came to rest
-  std::array<double, kSwings> swung_rad{};    ///< swing that has been added
-  /// Swing its suspension's motion should have added, for the encoder as it counts; and the share seen
-  /// (share_of).
+  std::array<double, kDrives> moved{};       ///< motion by the counter of each axis, m or rad
+  std::array<double, kSwings> shifted_rad{};  ///< permanent change of each swing counter (angle at rest)
+  std::array<double, kSwings> swung_rad{};    ///< added swing
+  /// Swing that the motion of the suspension point should have added, with the sign of the encoder; and its
+  /// measured share (share_of).
   double expected_rad = 0;
   double share = 0;
-  /// Afterwards, brakes closed: swing that a drive's counter shows, read as one of the swing encoder's.
+  /// After the push, with closed brakes: swing in the counter of a drive, with the scale of the swing
+  /// encoder.
   std::array<double, kDrives> counter_swings_rad{};
-  std::array<double, kDrives> moved_unlocked{};  ///< as `moved`, with all brakes open that seemed not to open
+  /// `moved` with all brakes open whose contact did not report open.
+  std::array<double, kDrives> moved_unlocked{};
 };
 
 struct Evidence {
   bool estop_pressed = false;
   bool relay_closed_at_rest = false;
-  bool relay_closed = true;   ///< while the watchdog output toggled
-  bool relay_dropped = true;  ///< within its time after the last change
-  double relay_limit_s = 0;   ///< that time
+  bool relay_closed = true;   ///< true: the relay closed while the watchdog output toggled
+  bool relay_dropped = true;  ///< true: the relay opened within relay_limit_s after the last change
+  double relay_limit_s = 0;   ///< longest permitted time between last change and open relay
   std::array<AxisEvidence, kDrives> axis;
 };
 
@@ -82,13 +85,14 @@ enum class Fault {
 struct Finding {
   Fault fault{};
   std::string subject;  ///< "trolley", "trolley, slew", "relay"
-  std::string text;     ///< one line: what is wrong, what to do
+  std::string text;     ///< one line with the fault and the remedy
 };
 
-/// The swing that an axis's motion makes: 3 radial for the trolley, 4 tangential for the slew; 0: none.
+/// Counter of the swing that a motion of the axis causes: 3 (radial) for the trolley, 4 (tangential) for the
+/// slew axis; 0: none.
 [[nodiscard]] std::size_t swing_of(const configuration::Rig& rig, std::size_t axis);
 
-/// Everything wrong, in the order of the checks; empty: the wiring is that of the rig file.
+/// @return all faults in the order of the checks; empty when the wiring agrees with the rig file
 [[nodiscard]] std::vector<Finding> judge(const configuration::Rig& rig, const Evidence& evidence);
 
 }  // namespace crane::bring_up

@@ -1,5 +1,7 @@
 #pragma once
-/// Closed loops of tracking PD and linear anti-swing laws in normalised time (load period 1), tower sign:
+/// Characteristic equations of tracking PD with a linear anti-swing law. The unit of time is the load period.
+/// Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003; signs and errata:
+/// docs/equations.md.
 ///   pd        (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - s^2 (K_ps + K_ds s) = 0                  (3.39), (3.45)
 ///   delayed_1 (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - s^2 K_del exp(-tau s) = 0                (3.47), (3.48)
 ///   delayed_2 (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - s^2 K_del (K_d s + K_p) exp(-tau s) = 0  (3.50)
@@ -12,12 +14,12 @@ namespace crane::analysis {
 
 enum class AntiSwing { pd, delayed_1, delayed_2 };
 
-/// The two numbers of a law: K_ps, K_ds or K_del, tau.
+/// The two parameters of a law: K_ps, K_ds or K_del, tau.
 struct GainPoint {
   double first = 0, second = 0;
 };
 
-/// From `low` to `high` in `points` >= 2 equal steps, ends included.
+/// `points` >= 2 equally spaced values from `low` to `high`, including both.
 struct GainRange {
   double low = 0, high = 1;
   int points = 2;
@@ -28,11 +30,11 @@ struct AntiSwingKind {
   AntiSwing law;
   std::string_view name;
   std::string_view first_name, second_name;
-  std::string_view figure;  ///< of the source
-  GainPoint printed;        ///< the source's choice, in the tower sign
-  std::string_view printed_text;
-  double printed_damping;  ///< what the source reads off its figure there
-  GainRange first, second;
+  std::string_view figure;        ///< number of the figure in the source
+  GainPoint printed;              ///< gains of the source, with the tower sign
+  std::string_view printed_text;  ///< gains as printed
+  double printed_damping;         ///< damping ratio that the source reads from its figure
+  GainRange first, second;        ///< ranges of the figure
 };
 
 inline constexpr std::array<AntiSwingKind, 3> kAntiSwingKinds{{
@@ -59,27 +61,27 @@ inline constexpr std::array<AntiSwingKind, 3> kAntiSwingKinds{{
      {0.02, 0.5, 61}},
 }};
 
-/// @return nullptr when there is none of that name
+/// @return nullptr when no law has this name
 [[nodiscard]] const AntiSwingKind* find_anti_swing(std::string_view name) noexcept;
 
-/// (3.42): critically damped.
+/// K_p and K_d of (3.41); the defaults satisfy (3.42), critical damping.
 struct TrackingGains {
   double proportional = 100, derivative = 20;
 };
 
-/// Low-pass on the swing angle, Butterworth of order 2 in continuous time; 0: none.
-/// Normalised: 2 pi T times the cut-off in Hz. Its delay at low frequency is sqrt(2) / cut_off.
+/// Second-order Butterworth low-pass filter on the swing angle, in continuous time. cut_off = 2 pi T f_c with
+/// f_c the cut-off frequency in Hz; 0: no filter. The delay at low frequency is sqrt(2) / cut_off.
 struct SwingFilter {
   double cut_off = 0;
 };
 
-/// @pre gains.second >= 0 for the delayed laws
+/// @return characteristic function of the closed loop. @pre gains.second >= 0 for the delayed laws
 [[nodiscard]] QuasiPolynomial characteristic(AntiSwing law, const GainPoint& gains,
                                              const TrackingGains& tracking = {},
                                              const SwingFilter& filter = {});
 
-/// delayed_2 on a drive that follows its reference at once, s^2 + 4 pi^2 - K_del s^2 exp(-tau s) = 0: a
-/// neutral equation.
+/// Characteristic function of delayed_2 with ideal tracking: s^2 + 4 pi^2 - K_del s^2 exp(-tau s), a neutral
+/// equation.
 [[nodiscard]] QuasiPolynomial perfectly_tracked_delayed_2(const GainPoint& gains);
 
 }  // namespace crane::analysis

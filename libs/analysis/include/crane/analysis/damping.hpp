@@ -1,6 +1,6 @@
 #pragma once
-/// Damping ratios of a loop, -Re s / |s|, their map over the plane of two gains (figures 3.16, 3.17, 3.19)
-/// and the gains where they are largest.
+/// Damping ratios of a loop, -Re s / |s|, their maps over two gains (figures 3.16, 3.17, 3.19 of H. M. Omar,
+/// Control of Gantry and Tower Cranes), and the gains of maximum damping.
 #include <functional>
 #include <span>
 
@@ -8,30 +8,31 @@
 
 namespace crane::analysis {
 
-/// A delay brings endless chains of roots whose damping ratio tends to zero as they grow, though they decay
-/// ever faster. What is said about "all" roots here is therefore about those with Im s at most eight load
-/// frequencies, unless another limit is given.
+/// A loop with delay has infinite chains of roots. With growing |s| their damping ratio tends to zero,
+/// although they decay faster and faster. Therefore "all roots" means the roots with Im s up to this limit:
+/// eight load frequencies.
 inline constexpr double kHighest = 50.26548245743669;  // 16 pi
 
 struct Damping {
-  double dominant = 1;  ///< of the right-most complex pair, the source's measure; 1 when there is none
-  double least = 1;     ///< of all roots, real ones counting 1 or -1
+  /// Damping ratio of the right-most complex pair, the measure of the source; 1 without a complex pair.
+  double dominant = 1;
+  double least = 1;  ///< minimum damping ratio of all roots; a real root counts as 1 (stable) or -1
   Complex dominant_root{}, least_root{};
   double right_most = 0;  ///< largest Re s of all roots; the loop is stable when it is negative
 };
 
-/// Of roots with Im s >= 0, at least one.
+/// Damping of the given roots. @pre at least one root; Im s >= 0 for all roots
 [[nodiscard]] Damping damping_of(std::span<const Complex> roots, double highest = kHighest);
-/// Of the exact roots.
+/// Damping of the exact roots of f.
 [[nodiscard]] Damping damping_of(const QuasiPolynomial& f, double highest = kHighest);
-/// Of the roots with (3.49) in the place of the delay.
+/// Damping of the roots with the Pade approximation (3.49) of the delay.
 [[nodiscard]] Damping pade_damping_of(const QuasiPolynomial& f, int order, double highest = kHighest);
 
 using LoopDamping = std::function<Damping(const GainPoint&)>;
 
 struct DampingMap {
   GainRange first, second;
-  std::vector<Damping> values;  ///< first fastest
+  std::vector<Damping> values;  ///< the first gain varies fastest
   [[nodiscard]] const Damping& at(int i, int j) const {
     return values[static_cast<std::size_t>(j) * static_cast<std::size_t>(first.points) +
                   static_cast<std::size_t>(i)];
@@ -41,15 +42,16 @@ struct DampingMap {
                                      const GainRange& second);
 
 enum class Measure { dominant, least };
-/// What is made large; the least damping where the loop is not stable.
+/// Objective of the optimisation: the chosen measure for a stable loop, otherwise the minimum damping ratio.
 [[nodiscard]] double merit(const Damping& damping, Measure measure) noexcept;
 
 struct Optimum {
   GainPoint gains;
   Damping damping;
 };
-/// Largest merit inside the map's ranges: from the map's best local maxima by Nelder and Mead's simplex,
-/// begun anew where it stopped until that no longer helps. Numerical, not proven global.
+/// Gains with the largest merit within the ranges of the map. The simplex method of Nelder and Mead starts
+/// from the best local maxima of the map, and restarts from its result until the improvement is negligible.
+/// The result is a local maximum; there is no proof that it is the global one.
 [[nodiscard]] Optimum optimum(const LoopDamping& damping, const DampingMap& map, Measure measure);
 
 }  // namespace crane::analysis

@@ -1,5 +1,5 @@
 #pragma once
-/// How far two fuzzy rule tables agree.
+/// Compares two fuzzy rule tables.
 #include <cstddef>
 #include <cstdlib>
 
@@ -8,9 +8,9 @@
 namespace crane::analysis {
 
 struct RuleAgreement {
-  int rules = 0;
-  int exact = 0;
-  int within_one = 0;  ///< labels equal or neighbours
+  int rules = 0;       ///< number of rules
+  int exact = 0;       ///< number of rules with equal labels
+  int within_one = 0;  ///< number of rules with equal or neighbouring labels
 };
 
 [[nodiscard]] inline RuleAgreement agreement(const control::FuzzyRules& a,

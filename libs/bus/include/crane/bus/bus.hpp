@@ -1,6 +1,6 @@
 #pragma once
-/// One facade over Cyclone DDS, Fast DDS and an in-process network. The sample type is the C struct idlc
-/// makes; vendor headers occur only in src/cyclone and src/fastdds.
+/// Publishers and subscribers over Cyclone DDS, Fast DDS or an in-process network. The sample type of a topic
+/// is the C struct that idlc generates. Vendor headers are included in src/cyclone and src/fastdds only.
 ///
 ///   bus::Bus bus{options};
 ///   auto states = bus.subscriber(topics::state);
@@ -11,8 +11,8 @@
 ///       if (!commands.publish(answer(*sample))) ++refused;
 ///   }
 ///
-/// Every sample carries a Header and a CRC-32C: publish() writes source, epoch and CRC, take() hands out
-/// only samples whose CRC is right and counts the others.
+/// Every sample carries a Header and a CRC-32C. publish() writes source, epoch and CRC. take() returns only
+/// samples with a correct CRC, and counts the rejected ones.
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -34,80 +34,81 @@ enum class Vendor : std::uint8_t { cyclone, fastdds, memory };
 /// @return nothing when `name` is not "cyclone", "fastdds" or "memory"
 [[nodiscard]] std::optional<Vendor> vendor_from_string(std::string_view name);
 
-/// Could not join the domain, create an entity or use a type; says what and what to do.
+/// The bus cannot join the domain, create an entity or use a type. what() names the cause and the remedy.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-class MemoryNetwork;  ///< the "wire" of in-process stacks; every Bus of one stack shares one
+class MemoryNetwork;  ///< connects the buses of an in-process stack; all buses of one stack share one network
 
 struct Options {
   Vendor vendor = Vendor::cyclone;
   std::uint32_t domain = 0;                          ///< 0..100
   std::string crane = "crane";                       ///< DDS partition: separates cranes in one domain
-  std::string participant = "node";                  ///< name shown by DDS tools
-  crane_Source source = crane_SOURCE_NONE;           ///< written into every header
-  std::uint32_t epoch = 0;                           ///< written into every header
+  std::string participant = "node";                  ///< name that DDS tools show
+  crane_Source source = crane_SOURCE_NONE;           ///< Header.source of every published sample
+  std::uint32_t epoch = 0;                           ///< Header.epoch of every published sample
   std::vector<std::string> interfaces{"127.0.0.1"};  ///< addresses to bind to
   std::vector<std::string> peers{};          ///< not empty: unicast discovery of these hosts, no multicast
-  std::shared_ptr<MemoryNetwork> network{};  ///< memory only
+  std::shared_ptr<MemoryNetwork> network{};  ///< Vendor::memory only
 };
 
 enum class EventKind : std::uint8_t {
-  matched,
-  unmatched,
-  deadline_missed,
-  liveliness_lost,
-  liveliness_gained,
-  incompatible_qos,
-  sample_lost
+  matched,            ///< a counterpart (reader or writer) was discovered
+  unmatched,          ///< a counterpart ended or is no longer reachable
+  deadline_missed,    ///< no sample within EndpointOptions::deadline
+  liveliness_lost,    ///< a writer has not asserted its liveliness within its lease
+  liveliness_gained,  ///< a writer is alive again
+  incompatible_qos,   ///< a counterpart was found, and its quality of service does not match
+  sample_lost         ///< the middleware lost a sample
 };
 [[nodiscard]] std::string_view to_string(EventKind kind);
 
 struct Event {
   EventKind kind;
   std::string_view topic;
-  int current = 0;  ///< matched, unmatched: counterparts now; sample_lost: total
-  /// incompatible_qos: name of the policy. Cyclone DDS tells of endpoints of other cranes too.
+  int current = 0;  ///< matched, unmatched: number of counterparts; sample_lost: total number of lost samples
+  /// incompatible_qos: name of the policy. Cyclone DDS also reports endpoints of other partitions (cranes).
   std::string_view policy;
 };
-/// Called on a vendor thread: hand over and return.
+/// Runs on a vendor thread, and must not block.
 using EventHandler = std::function<void(const Event&)>;
 
-/// What one endpoint wants beyond its topic's own quality of service.
+/// Quality of service of one endpoint beyond that of its topic.
 struct EndpointOptions {
-  /// Publisher: keeps what it publishes for readers that come later (loop, script; log and status topics
-  /// always do). Subscriber: also takes what was published before it came, from publishers that kept it
-  /// (status topics always).
+  /// Publisher: keeps its samples for late-joining readers (loop and script topics; publishers of log and
+  /// status topics always do). Subscriber: also receives samples that were published before it joined, from
+  /// publishers that kept them (subscribers of status topics always do).
   bool history = false;
-  /// Event when no sample came for so long; 0: never. A reader matches only writers that offer as short a
-  /// deadline and lease. The memory back end has no clock and tells neither.
+  /// EventKind::deadline_missed when no sample arrives for this time; 0: no deadline. A reader matches only
+  /// writers that offer a deadline and a lease at least as short. The memory back end has no clock and
+  /// reports neither.
   std::chrono::nanoseconds deadline{0};
-  /// Manual by topic: publishing asserts it; 0: automatic and infinite.
+  /// Liveliness "manual by topic": publishing asserts it; 0: automatic, with an infinite lease.
   std::chrono::nanoseconds liveliness_lease{0};
   EventHandler on_event{};
 };
 
-/// Who wrote a sample, as the middleware tells it: equal for all samples of one writer, different for any two
-/// writers. Valid within this process. A header can be copied by anybody; this cannot be chosen by its sender
-/// as long as the sender uses a DDS implementation.
+/// Identifies the DDS writer of a sample: equal for all samples of one writer, different for any two writers.
+/// Valid within this process. The middleware assigns it, so that a sender with a DDS implementation cannot
+/// choose it. A Header, in contrast, can be copied by any sender.
 using WriterId = std::array<std::uint8_t, 16>;
 
 struct SampleInfo {
-  std::int64_t source_time_ns = 0;  ///< writer's clock; memory: the header's sample_time_ns
-  bool valid = false;               ///< false: only the instance's state changed
-  bool disposed = false;
+  std::int64_t source_time_ns = 0;  ///< clock of the writer; memory: Header.sample_time_ns
+  bool valid = false;               ///< false: the sample has no data, only the state of its instance changed
+  bool disposed = false;            ///< true: the writer disposed the instance
   WriterId writer{};
 };
 
-/// Counted since creation.
+/// Counts since the creation of the reader.
 struct ReaderCounts {
-  std::uint64_t taken = 0;
-  std::uint64_t rejected = 0;  ///< wrong CRC: never handed out
+  std::uint64_t taken = 0;     ///< intact samples that take() returned
+  std::uint64_t rejected = 0;  ///< samples dropped for a wrong CRC
 };
 
-/// Type-erased back end; implemented once per vendor.
+/// Type-erased back end. Each vendor implements Writer and Reader.
 namespace detail {
 class Writer {
  public:
@@ -120,12 +121,12 @@ class Writer {
 class Reader {
  public:
   virtual ~Reader() = default;
-  /// Copies the oldest sample not yet taken. @return false when there is none
+  /// Copies the oldest sample that was not yet taken. @return false when there is none
   virtual bool take(void* sample, SampleInfo& info) = 0;
   [[nodiscard]] virtual int matched() const = 0;
 };
-/// Adds source, epoch and CRC in place. The CRC covers the topic's name, too: a sample carried over to
-/// another topic of the same type is not intact.
+/// Writes source, epoch and CRC into `sample`. The CRC covers the name of the topic, so that a sample that is
+/// forwarded to another topic of the same type has a wrong CRC.
 void seal(const topics::Description& topic, void* sample, crane_Source source, std::uint32_t epoch);
 [[nodiscard]] bool intact(const topics::Description& topic, const void* sample);
 }  // namespace detail
@@ -139,14 +140,14 @@ class Publisher {
             std::uint32_t epoch)
       : topic_{&topic}, writer_{std::move(writer)}, source_{source}, epoch_{epoch} {}
 
-  /// Fills in source, epoch and CRC of `sample` and sends it. @return false when the vendor refused
+  /// Sets source, epoch and CRC of `sample` and sends it. @return false when the middleware did not send it
   [[nodiscard]] bool publish(T sample) {
     detail::seal(*topic_, &sample, source_, epoch_);
     return writer_->write(&sample);
   }
   [[nodiscard]] bool dispose(const T& sample) { return writer_->dispose(&sample); }
   [[nodiscard]] bool assert_liveliness() { return writer_->assert_liveliness(); }
-  /// Readers matched now.
+  /// Number of matched readers.
   [[nodiscard]] int matched() const { return writer_->matched(); }
 
  private:
@@ -162,8 +163,8 @@ class Subscriber {
   Subscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader)
       : topic_{&topic}, reader_{std::move(reader)} {}
 
-  /// The oldest intact sample not yet taken; nothing when there is none. Samples without data (an instance
-  /// was disposed) are passed over unless `info` is given, then `info->valid` is false.
+  /// @return the oldest intact sample that was not yet taken; nothing when there is none. A sample without
+  ///   data (its instance was disposed) is returned only when `info` is given; `info->valid` is then false
   std::optional<T> take(SampleInfo* info = nullptr) {
     T sample{};
     SampleInfo local;
@@ -179,7 +180,7 @@ class Subscriber {
     }
     return std::nullopt;
   }
-  /// Writers matched now.
+  /// Number of matched writers.
   [[nodiscard]] int matched() const { return reader_->matched(); }
   [[nodiscard]] const ReaderCounts& counts() const { return counts_; }
 
@@ -189,12 +190,12 @@ class Subscriber {
   ReaderCounts counts_;
 };
 
-/// A reader of any topic, for tools: hands out plain-CDR bytes (little endian, with the 4-byte encapsulation
-/// header), as recordings store them.
+/// Reader of any topic, for tools. It returns plain-CDR bytes (little endian, with the 4-byte encapsulation
+/// header), in the form in which recordings store them.
 class CdrSubscriber {
  public:
   CdrSubscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader);
-  /// @return header of the next intact sample, its bytes in `cdr`; nothing when there is none
+  /// Writes the bytes of the next intact sample to `cdr`. @return its header; nothing when there is no sample
   std::optional<msg::Header> take(std::vector<std::uint8_t>& cdr, SampleInfo* info = nullptr);
   [[nodiscard]] int matched() const { return reader_->matched(); }
   [[nodiscard]] const ReaderCounts& counts() const { return counts_; }
@@ -207,8 +208,8 @@ class CdrSubscriber {
   std::vector<std::uint8_t> sample_;
 };
 
-/// One participant in one domain. Threads: publish, take and wait belong to one thread, events come on
-/// others. Publishers and subscribers keep the participant alive: they may outlive their Bus.
+/// One DDS participant in one domain. One thread calls publish, take and wait; event handlers run on other
+/// threads. Publishers and subscribers keep the participant alive, and may outlive their Bus.
 class Bus {
  public:
   explicit Bus(Options options);  ///< @throws Error
@@ -228,8 +229,8 @@ class Bus {
   [[nodiscard]] CdrSubscriber cdr_subscriber(const topics::Description& topic,
                                              const EndpointOptions& endpoint = {});
 
-  /// Sleeps until a sample has arrived on any subscriber of this bus since the last call, or the time is up.
-  /// @return true when something arrived (or had arrived before the call)
+  /// Sleeps until a sample arrives at any subscriber of this bus, or until the timeout. Returns at once when
+  /// a sample has arrived since the last call. @return true when a sample has arrived since the last call
   bool wait(std::chrono::nanoseconds timeout);
 
   [[nodiscard]] const Options& options() const;
@@ -241,7 +242,7 @@ class Bus {
   std::unique_ptr<State> state_;
 };
 
-/// A new, empty in-process network.
+/// @return an in-process network without endpoints
 [[nodiscard]] std::shared_ptr<MemoryNetwork> make_memory_network();
 
 }  // namespace crane::bus

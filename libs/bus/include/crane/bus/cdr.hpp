@@ -1,6 +1,7 @@
 #pragma once
-/// Plain CDR (XCDR1, little endian) of a topic's C struct, driven by the op-codes idlc 0.10 puts in its
-/// descriptor. One codec for Fast DDS, recordings, the CRC and the tools.
+/// Encodes and decodes the C struct of a topic as plain CDR (XCDR1, little endian). The codec reads the
+/// op-codes that idlc 0.10 writes to the topic descriptor. Fast DDS, the recordings, the CRC and the tools
+/// use this codec.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,43 +10,46 @@
 
 namespace crane::bus {
 
-/// Layout of one type, compiled once at start-up.
+/// Layout of one message type.
 class CdrCodec {
  public:
-  /// One primitive, enum or string, or an array of one of the first two. Nested structs are flattened.
+  /// One primitive, enum or string, or an array of primitives or enums. Nested structs are flattened.
   struct Field {
     enum class Kind : std::uint8_t { number, floating, boolean, enumeration, string };
-    std::uint32_t offset = 0;    ///< in the C struct
-    std::uint32_t size = 0;      ///< of one element; string: 1
-    std::uint32_t count = 1;     ///< elements; string: capacity with the final NUL
-    std::uint32_t enum_max = 0;  ///< enumeration: largest value
+    std::uint32_t offset = 0;    ///< bytes from the start of the C struct
+    std::uint32_t size = 0;      ///< bytes of one element; string: 1
+    std::uint32_t count = 1;     ///< number of elements; string: capacity with the final NUL
+    std::uint32_t enum_max = 0;  ///< enumeration: largest valid value
     Kind kind = Kind::number;
     bool key = false;
     bool operator==(const Field&) const = default;
   };
 
-  /// @throws Error naming type and field when the type uses a construct other than primitives, enums, bounded
-  ///   strings, arrays of these, and nested @final structs, or a @key that is not one top-level primitive
+  /// @throws Error, with the names of type and field, when the type uses a construct other than primitives,
+  ///   enums, bounded strings, arrays of these and nested @final structs, or a @key that is not one top-level
+  ///   primitive
   explicit CdrCodec(const dds_topic_descriptor_t& descriptor);
 
-  /// The codec of a topic's type; compiled at the first call, then shared. Thread-safe.
+  /// @return the shared codec of a type. The first call creates it. Thread-safe
   static const CdrCodec& of(const dds_topic_descriptor_t& descriptor);
 
   [[nodiscard]] std::size_t max_encoded_bytes() const;  ///< without the encapsulation header
   [[nodiscard]] std::size_t sample_bytes() const;       ///< sizeof the C struct
   [[nodiscard]] bool has_key() const;
   [[nodiscard]] const std::vector<Field>& fields() const { return fields_; }  ///< in order of encoding
-  /// Begins with crane::Header and ends with a uint32 that can hold the CRC.
+  /// @return true when the type begins with crane::Header and ends with a uint32 for the CRC
   [[nodiscard]] bool is_sealable() const;
 
-  /// @return bytes written (without encapsulation header), 0 when `out` is too small or a string unterminated
+  /// @return bytes written (without encapsulation header); 0 when `out` is too small or a string is not
+  ///   terminated
   [[nodiscard]] std::size_t encode(const void* sample, std::span<std::uint8_t> out) const;
-  /// Bounds-checked; validates booleans, enums and strings. @return false: `sample` must not be used
+  /// Checks the length of `in`, and the values of booleans, enums and strings. @return false when `in` is not
+  /// a valid sample; `sample` must then not be used
   [[nodiscard]] bool decode(std::span<const std::uint8_t> in, bool big_endian, void* sample) const;
   /// Big-endian CDR of the key fields, for the RTPS key hash. @return bytes written
   [[nodiscard]] std::size_t encode_key(const void* sample, std::span<std::uint8_t> out) const;
-  /// Reverse of encode_key() in either byte order; fields that are not keys stay as they are. @return false
-  /// when `in` is too short
+  /// Decodes the key fields in either byte order; the other fields keep their values. @return false when `in`
+  /// is too short
   [[nodiscard]] bool decode_key(std::span<const std::uint8_t> in, bool big_endian, void* sample) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// A signal's recent past, sampled once per tick, read back at any delay in ticks.
+/// Stores the last samples of a signal, one per tick, and returns the signal delayed by any number of ticks.
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -8,11 +8,11 @@ namespace crane::control {
 
 class DelayLine {
  public:
-  /// Memory for delays up to `longest_ticks`, >= 0; allocated here and never again.
+  /// @param longest_ticks  largest delay, >= 0. The constructor allocates all memory.
   explicit DelayLine(double longest_ticks)
       : longest_ticks_(longest_ticks), samples_(static_cast<std::size_t>(longest_ticks) + 2) {}
 
-  /// The past becomes constant.
+  /// Sets all stored samples to `value`.
   void reset(double value) noexcept { std::fill(samples_.begin(), samples_.end(), value); }
 
   void push(double sample) noexcept {
@@ -20,8 +20,8 @@ class DelayLine {
     samples_[newest_] = sample;
   }
 
-  /// Linear between samples; 0 is the newest one. Delays outside [0, longest_ticks] read its end, NaN the
-  /// newest.
+  /// @param delay_ticks  0: the newest sample; limited to [0, longest_ticks]; NaN counts as 0
+  /// @return value of the signal, interpolated linearly between samples
   [[nodiscard]] double at(double delay_ticks) const noexcept {
     const double delay = std::max(0.0, std::min(delay_ticks, longest_ticks_));
     const auto whole = static_cast<std::size_t>(delay);

@@ -1,6 +1,6 @@
 #pragma once
-/// A reference that excites one axis, for identification: a sum of sines about a position, as in (4.11),
-/// (4.14).
+/// A reference that excites one axis for identification: a position plus a sum of sines, (4.11), (4.14).
+/// Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003.
 #include <array>
 #include <cstddef>
 
@@ -16,12 +16,13 @@ struct Sine {
 
 struct Excitation {
   std::size_t axis = kTrolley;
-  double about = 0;  ///< m, rad, m of cable
-  std::array<Sine, 4> sines{};
-  double duration_s = 0;  ///< >= 0
+  double about = 0;             ///< mean position: m, rad, m of cable
+  std::array<Sine, 4> sines{};  ///< amplitude 0: unused
+  double duration_s = 0;        ///< >= 0
 
-  /// Begins and ends at rest at `about`: the sum fades in and out over kFade_s each, or half the duration.
-  /// A duration of 0, or no sines, is a step to `about`. No allocation.
+  /// The reference starts and ends at rest at `about`. The sines fade in and out over kFade_s each, at most
+  /// over half the duration. With duration 0 or without sines the reference is a step to `about`. No
+  /// allocation.
   [[nodiscard]] AxisReference at(double time_s) const noexcept;
 
   static constexpr double kFade_s = 3;

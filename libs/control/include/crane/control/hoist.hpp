@@ -1,10 +1,11 @@
 #pragma once
-/// Cable position loop that every tracking shares; the hoist drive is speed-controlled.
+/// Position loop of the cable. Every tracking law uses it. The hoist drive is speed-controlled.
 #include "crane/control/law.hpp"
 
 namespace crane::control {
 
-/// V = (K_h (L_ref - L) + L_ref') / hoist_gain. @pre finite input, design without problems
+/// @return V = (k_h (L_ref - L) + L_ref') / K_h with k_h = hoist_proportional_ps, K_h = hoist_gain_mpspv
+/// @pre finite input, problems(design).empty()
 [[nodiscard]] inline double hoist_volts(const Design& design, const Measurement& measured,
                                         const Reference& reference) noexcept {
   const AxisReference& cable = reference[kHoist];

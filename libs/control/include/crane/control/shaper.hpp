@@ -1,13 +1,14 @@
 #pragma once
-/// Input shapers: a reference convolved with two or three impulses that sum up to one, so that the swings
-/// they excite cancel. They work on a reference that the axis follows as it stands (tracking alone); a law
-/// that damps the swing by feedback changes the frequency they are made for.
-///   zv   1/2, 1/2                      at 0, T/2       no swing left at the load's own frequency
-///   zvd  1/4, 1/2, 1/4                 at 0, T/2, T    and none for small errors of the frequency
-///   ei   (1+V)/4, (1-V)/2, (1+V)/4     at 0, T/2, T    V = 5 % left there, at most 5 % over +-20 %
-/// for a load without damping (Singer and Seering 1990; Singhose, Seering and Singer 1994). Off the frequency
-/// they are made for, r = f T, they leave |cos(pi r/2)|, cos^2(pi r/2) and |(1+V)/2 cos(pi r) + (1-V)/2| of
-/// the swing that the unshaped reference makes.
+/// Input shapers convolve a reference with two or three impulses, whose swings cancel each other. The shares
+/// of the impulses add up to one. Shapers suit controllers without swing feedback (`none`): swing feedback
+/// changes the frequency of the swing. Sources: Singer and Seering 1990; Singhose, Seering and Singer 1994.
+/// With T the load period, r = f T the ratio of actual to assumed frequency and V = 0.05, for an undamped
+/// load:
+///   name  shares                        times        residual swing / swing of the unshaped reference
+///   zv    1/2, 1/2                      0, T/2       |cos(pi r/2)|
+///   zvd   1/4, 1/2, 1/4                 0, T/2, T    cos^2(pi r/2)
+///   ei    (1+V)/4, (1-V)/2, (1+V)/4     0, T/2, T    |(1+V)/2 cos(pi r) + (1-V)/2|, at most V for r within
+///   +-20 %
 #include <array>
 #include <cstddef>
 
@@ -19,10 +20,10 @@ enum class Shaping { none, zv, zvd, ei };
 
 struct Impulse {
   double time_s = 0;  ///< >= 0
-  double share = 1;   ///< of the move; all shares sum up to one
+  double share = 1;   ///< share of the move, in (0, 1]; all shares add up to one
 };
 
-/// Impulses in the order of their time, the first at 0; passes its input when made by default.
+/// Impulses in the order of time; the first is at 0. A default-constructed Shaper returns its input.
 class Shaper {
  public:
   Shaper() = default;
@@ -30,16 +31,16 @@ class Shaper {
   /// @throws std::invalid_argument for another period
   Shaper(Shaping shaping, double load_period_s);
 
-  /// What shaping adds to the length of a move.
+  /// Time that the shaper adds to the duration of a move.
   [[nodiscard]] double delay_s() const noexcept { return impulses_[count_ - 1].time_s; }
 
-  /// The shaped profile at `time_s`. No allocation; rests where the profile rests, delay_s() later.
+  /// The shaped profile at `time_s`. It ends delay_s() after the profile, at the same position. No
+  /// allocation.
   /// @tparam Profile  anything with `AxisReference at(double time_s)`
   template <typename Profile>
   [[nodiscard]] AxisReference at(const Profile& profile, double time_s) const noexcept {
     const AxisReference first = profile.at(time_s);
-    AxisReference sum =
-        first;  // the shares sum up to one, so that what is equal stays as it is to the last bit
+    AxisReference sum = first;  // adding differences keeps a constant profile exact to the last bit
     for (std::size_t i = 1; i < count_; ++i) {
       const AxisReference late = profile.at(time_s - impulses_[i].time_s);
       sum.position += impulses_[i].share * (late.position - first.position);

@@ -1,6 +1,7 @@
 #pragma once
-/// Low-pass without delay for work on recordings, section 3.1.2: a Butterworth filter run forwards and then
-/// backwards. Not for the loop: it knows the future.
+/// Low-pass filter without phase shift, for recorded data: a Butterworth filter runs forwards and then
+/// backwards over the samples. It needs future samples and cannot be used in the control loop. Source: H. M.
+/// Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003, section 3.1.2.
 #include <span>
 #include <vector>
 
@@ -8,21 +9,20 @@
 
 namespace crane::control {
 
-/// Butterworth low-pass of any order as second-order sections, the last of first order where `order` is odd;
-/// bilinear, together exactly -3 dB at cutoff_ratio * f_s. Run one after another.
+/// Sections of a Butterworth low-pass filter, to be applied in series. For an odd `order` the last section
+/// has first order. The series has -3 dB at cutoff_ratio * f_s (bilinear transform with prewarping).
 /// @throws std::invalid_argument unless cutoff_ratio in [1e-4, 0.5) and order in 1..12
 [[nodiscard]] std::vector<FilterSection> butterworth_sections(double cutoff_ratio, int order);
 
-/// The series without what is faster than the cut-off, at its old place in time: gain 1/(1 + W^(2 order))
-/// with W = tan(pi f/f_s) / tan(pi cutoff_ratio), so one half at the cut-off; phase zero at every frequency.
-/// Both passes begin settled and run over the ends continued by their odd reflection, 2 x_0 - x_k, so that a
-/// constant and a straight line pass unchanged.
-/// @param samples       equally spaced; none or one come back as they are
-/// @param cutoff_ratio  cut-off over sampling frequency, in [1e-4, 0.5)
-/// @param order         of one pass, 1..12; the dissertation uses 5
-/// @return as many values as `samples`
-/// @throws std::invalid_argument when cutoff_ratio or order are outside their range; a sample that is not
-/// finite spoils its series
+/// Filters `samples` in both directions. The gain is 1/(1 + W^(2 order)) with W = tan(pi f/f_s) / tan(pi
+/// cutoff_ratio), one half at the cut-off frequency; the phase is zero at every frequency. Both passes start
+/// settled. The filter extends the samples at both ends by their odd reflection, 2 x_0 - x_k, so that a
+/// constant and a straight line do not change.
+/// @param samples       equally spaced in time and finite; fewer than two samples are returned unchanged
+/// @param cutoff_ratio  cut-off frequency / sampling frequency, in [1e-4, 0.5)
+/// @param order         order of one pass, 1..12; the source uses 5
+/// @return as many values as `samples`; a sample that is not finite makes all values non-finite
+/// @throws std::invalid_argument when cutoff_ratio or order is outside its range
 [[nodiscard]] std::vector<double> zero_phase_butterworth(std::span<const double> samples, double cutoff_ratio,
                                                          int order = 5);
 

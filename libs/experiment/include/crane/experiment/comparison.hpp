@@ -1,5 +1,6 @@
 #pragma once
-/// Many runs side by side: every controller on every scenario in every variant. Same runs, same bytes.
+/// Comparison of many runs: every controller with every scenario and every variant. Equal runs give equal
+/// bytes.
 #include <iosfwd>
 #include <optional>
 #include <span>
@@ -12,28 +13,29 @@
 namespace crane::experiment {
 
 struct ComparedRun {
-  std::string scenario, variant, controller;  ///< variant as in variant.hpp; empty: the rig as it is
+  std::string scenario, variant,
+      controller;  ///< variant: name of variant.hpp; empty: the rig file as written
   std::string scenario_description;
-  std::string
-      stopped_because;  ///< why the supervisor stopped the crane, or why it did not begin; empty: completed
+  /// Cause with which the supervisor stopped the crane or refused to start; empty: the run is complete.
+  std::string stopped_because;
   std::optional<Metrics> metrics;  ///< nothing when the run ended before its last move or kick
-  std::vector<Sample> samples;     ///< up to where the run ended
+  std::vector<Sample> samples;     ///< all samples up to the end of the run
 };
 
-/// Text columns scenario, variant, controller, stopped_because; then the keys of to_json(Metrics). Figures
-/// that a run does not have are empty.
+/// Writes CSV with the text columns scenario, variant, controller, stopped_because, followed by the keys of
+/// to_json(Metrics). Missing figures are empty cells.
 void write_comparison_csv(std::ostream& out, std::span<const ComparedRun> runs);
 
-/// The same as an array of objects, absent figures null.
+/// The same data as an array of objects; missing figures are null.
 [[nodiscard]] nlohmann::ordered_json comparison_json(std::span<const ComparedRun> runs);
 
-/// Per scenario a table of settling times, controllers by variants.
+/// Writes for each scenario a table of settling times; rows are controllers, columns are variants.
 void write_comparison_summary(std::ostream& out, std::span<const ComparedRun> runs);
-/// That, then the figures of every run.
+/// Writes the summary and the figures of every run.
 void write_comparison_markdown(std::ostream& out, std::span<const ComparedRun> runs);
 
-/// The tables of the Markdown file, and per scenario and variant the overlaid positions, swings and volts of
-/// all controllers. Every second tick is drawn.
+/// Page with the tables of the Markdown file, and for each scenario and variant plots of positions, swings
+/// and volts of all controllers. The plots show every second tick.
 [[nodiscard]] report::Page comparison_page(std::span<const ComparedRun> runs, const std::string& rig);
 
 }  // namespace crane::experiment

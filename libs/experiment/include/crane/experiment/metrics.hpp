@@ -1,5 +1,6 @@
 #pragma once
-/// Figures of merit of one maneuver: settling time, overshoot, swing, volts. Pure functions.
+/// Computes figures of merit of one maneuver: settling time, overshoot, swing, volts. Pure functions. Source
+/// of moves and limits: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003, section 4.5.1.
 #include <array>
 #include <cstdint>
 #include <iosfwd>
@@ -15,63 +16,64 @@
 
 namespace crane::experiment {
 
-/// One tick of a run. Time counts from the moment the crane holds, as in the scenario.
+/// One tick of a run. Time 0 is the start of the state HOLD, as in the scenario.
 struct Sample {
   double time_s = 0;
   std::uint64_t tick = 0;
   plant::PerAxis position{};   ///< m, rad, m of cable
   plant::PerAxis reference{};  ///< NaN when none was published
   double swing_radial_rad = 0, swing_tangential_rad = 0;
-  plant::PerAxis drive_v{};  ///< applied from this tick on
+  plant::PerAxis drive_v{};  ///< voltage that acts from this tick on
 };
 
-/// Rows of recording::RunTable; columns the table lacks stay 0, a missing `tick` counts the rows.
-/// @throws std::invalid_argument without time_s
+/// Converts the rows of recording::RunTable. Missing columns give 0; a missing column `tick` gives the row
+/// number.
+/// @throws std::invalid_argument without the column time_s
 [[nodiscard]] std::vector<Sample> samples_from(const recording::Table& table);
 
-/// What the run was asked to do.
+/// Moves of a run. An "action" is a move, an excitation or a kick.
 struct Maneuver {
-  double first_action_s = 0;  ///< figures are taken from here on
-  double last_action_s = 0;   ///< settling time, overshoot are taken from here on
-  plant::PerAxis from{};      ///< position asked for before the last move
-  plant::PerAxis to{};        ///< position asked for at the end; axes with to = from are unmoved
+  double first_action_s = 0;  ///< start of the evaluation
+  double last_action_s = 0;   ///< start of the evaluation of settling time and overshoot
+  plant::PerAxis from{};      ///< target position before the last move
+  plant::PerAxis to{};        ///< final target position; an axis with to = from is unmoved
 };
-/// @param rig where the axes start that the scenario does not place
+/// @param rig  gives the start position of each axis for which the scenario has none
 [[nodiscard]] Maneuver maneuver_of(const Scenario& scenario, const configuration::Rig& rig);
 
-/// Share of a move within which an axis counts as arrived.
+/// A moved axis has settled when |position - target| stays within this share of its move.
 inline constexpr double kSettlingShare = 0.02;
-/// Moves of the dissertation (4.5.1); an unmoved trolley or slew axis must stay within the share of these.
+/// Moves of section 4.5.1. An unmoved trolley or slew axis has settled within kSettlingShare of these.
 inline constexpr double kNominalTrolleyMove_m = 0.75;
 inline constexpr double kNominalSlewMove_rad = 1.5707963267948966;
-/// Both swing angles must stay below it: 0.5 degrees.
+/// Limit for both swing angles: 0.5 degrees.
 inline constexpr double kSettlingSwing_rad = 0.008726646259971648;
-/// Arrived means at least so long before the end of the run: half a period of a 1 m cable, so that a swinging
-/// load does not pass for settled because the run ends as it crosses the middle.
+/// A run has settled only when it has been settled for this time at its end. The value is half a period of a
+/// 1 m cable, so that a swinging load that passes the middle at the end of the run does not count as settled.
 inline constexpr double kSettlingHold_s = 1;
-/// The residual swing is taken over so much time at the end.
+/// Time at the end of the run over which the residual swing is computed.
 inline constexpr double kResidualWindow_s = 4;
 
 struct Metrics {
-  /// From the last action until every axis and both swings have arrived for good; nothing when they never do.
-  /// Hoist counts only when moved.
+  /// Time from the last action until all axes and both swings have settled; nothing when they do not settle.
+  /// An unmoved hoist is not considered.
   std::optional<double> settling_time_s;
-  /// Per axis: % of the move beyond its target; nothing when unmoved.
+  /// Overshoot of each moved axis, in % of its move; nothing for an unmoved axis.
   std::array<std::optional<double>, plant::kAxes> overshoot_percent;
-  /// Per axis: largest |position - target| when unmoved (m, rad, m of cable); nothing when moved.
+  /// Largest |position - target| of each unmoved axis (m, rad, m of cable); nothing for a moved axis.
   std::array<std::optional<double>, plant::kAxes> deviation;
   plant::PerAxis final_error{};  ///< last position - target: m, rad, m of cable
   double largest_swing_radial_rad = 0, largest_swing_tangential_rad = 0;
-  double residual_swing_rad = 0;  ///< largest of both angles in the last kResidualWindow_s
-  plant::PerAxis largest_v{};
-  plant::PerAxis effort_v2s{};   ///< integral of V^2, the voltage held from sample to sample
-  std::uint64_t lost_ticks = 0;  ///< numbers missing between the first tick and the last
+  double residual_swing_rad = 0;  ///< largest angle of both swings in the last kResidualWindow_s
+  plant::PerAxis largest_v{};     ///< largest |V|
+  plant::PerAxis effort_v2s{};    ///< integral of V^2 over time; the voltage is constant between samples
+  std::uint64_t lost_ticks = 0;   ///< number of missing ticks between the first and the last tick
 };
 
 /// @throws std::invalid_argument when no sample is at or after first_action_s, or time does not increase
 [[nodiscard]] Metrics evaluate(std::span<const Sample> run, const Maneuver& maneuver);
 
-/// Angles in degrees (…_deg), absent figures null.
+/// Figures as JSON: angles in degrees (…_deg), missing figures null.
 [[nodiscard]] nlohmann::ordered_json to_json(const Metrics& metrics);
 
 /// One line of a comparison.
@@ -80,8 +82,8 @@ struct NamedMetrics {
   Metrics metrics;
 };
 enum class TableStyle { text, markdown };
-/// One row per run: settling time, overshoot or deviation of trolley and slew, largest swings, residual
-/// swing, largest volts.
+/// Prints one row per run: settling time, overshoot or deviation of trolley and slew, largest swings,
+/// residual swing, largest volts, lost ticks.
 void print_table(std::ostream& out, std::span<const NamedMetrics> runs, TableStyle style = TableStyle::text);
 
 }  // namespace crane::experiment

@@ -1,27 +1,20 @@
 #pragma once
-/// A picture of one maneuver: positions with their references, both swing angles and the drive voltages over
-/// a common time axis, drawn by gnuplot. Same run, same bytes.
+/// Draws one maneuver with gnuplot: positions and references, both swing angles and drive voltages over a
+/// common time axis. Equal runs give equal bytes.
 #include <filesystem>
 #include <span>
-#include <stdexcept>
 #include <string>
 
 #include "crane/experiment/metrics.hpp"
 
 namespace crane::experiment {
 
-/// gnuplot is missing or failed, or a file cannot be written; says what to do.
-class PictureError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 struct Caption {
   std::string rig, controller, scenario;
 };
 
-/// Draws from the first action (time 0 of the picture) to the end of the run, the settling time marked.
-/// @param file ends in .svg or .png; its directory must exist. @throws PictureError
+/// Draws the run from the first action (time 0 of the picture) to its end, and marks the settling time.
+/// @param file ends in .svg or .png; its directory must exist. @throws plot::PictureError
 void draw_maneuver(const std::filesystem::path& file, const Caption& caption, std::span<const Sample> run,
                    const Maneuver& maneuver, const Metrics& metrics);
 

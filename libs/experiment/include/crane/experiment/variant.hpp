@@ -1,6 +1,6 @@
 #pragma once
-/// Variants: ways in which a crane departs from what its rig file says, to compare controllers under them.
-/// Those of cable and load change the true crane only; what the controllers measure and believe stays.
+/// Variants are changes of a rig for the comparison of controllers. Variants of cable and load change the
+/// simulated crane only, not the measurements and parameters of the controllers.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,19 +12,20 @@ namespace crane::experiment {
 struct Variant {
   std::string_view name;
   std::string_view summary;
-  void (*change)(configuration::Rig& started);  ///< of the rig as its scenario starts it
+  void (*change)(configuration::Rig& started);  ///< changes the result of started_by()
 };
 
-/// Those of a comparison first, then those that single figures need.
+/// All variants: first those of a comparison, then those of single figures.
 [[nodiscard]] const std::vector<Variant>& variants();
-/// What a comparison runs when nobody says otherwise.
+/// Variants of a comparison without the option --variant.
 [[nodiscard]] std::vector<std::string> default_variants();
 
-/// Several variants joined by '+' are applied from left to right: "slow_reference+no_compensation".
-/// @return one line per name that is none, with the names there are
+/// @param names  one or several names joined by '+', applied from left to right:
+///   "slow_reference+no_compensation"
+/// @return one line per unknown name, with the list of known names
 [[nodiscard]] std::vector<std::string> variant_problems(const std::string& names);
-/// @param names  empty: the rig stays as it is. @throws configuration::ConfigurationError as
-/// variant_problems()
+/// @param names  as in variant_problems(); empty: no change. @throws configuration::ConfigurationError for an
+///   unknown name
 [[nodiscard]] configuration::Rig changed_by(configuration::Rig started, const std::string& names);
 
 }  // namespace crane::experiment

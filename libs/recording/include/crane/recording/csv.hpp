@@ -1,8 +1,9 @@
 #pragma once
-/// Measured data as CSV: comma, one header line, one number per cell. Canonical columns, any subset a rig
-/// has, `time_s` first, uniform or not; row k holds the measurement at t_k and the command applied from t_k
-/// on. Further columns follow the canonical ones. Numbers are the shortest text that reads back as the same
-/// double, so the same data give the same bytes. An empty cell and `nan` are NaN.
+/// Reads and writes measured data as CSV: separator comma, one header line, one number per cell. A file has
+/// any subset of the canonical columns, with `time_s` first, and then other columns. The sampling may be
+/// non-uniform. Row k has the measurement at t_k and the voltage that acts from t_k on. Numbers are written
+/// as the shortest text that reads back as the same double, so that equal data give equal bytes. An empty
+/// cell and `nan` are NaN.
 #include <array>
 #include <cstddef>
 #include <filesystem>
@@ -27,11 +28,11 @@ struct Table {
   std::vector<Column> columns;
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
-  /// @return nullptr when there is none of that name
+  /// @return nullptr when no column has this name
   [[nodiscard]] const std::vector<double>* find(std::string_view name) const;
 };
 
-/// "file:line: what is wrong", or file and reason.
+/// what() has the form "file:line: problem" or "file: problem".
 class CsvError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -40,14 +41,15 @@ class CsvError : public std::runtime_error {
 /// Shortest text that reads back as `value`: "0.01", "1e-07", "nan".
 [[nodiscard]] std::string shortest(double value);
 
-/// @throws CsvError when columns differ in length, a name is empty, repeated or holds a comma, or writing
-/// fails
+/// @throws CsvError when columns differ in length, when a name is empty, occurs twice or contains a comma, or
+///   when writing fails
 void write_csv(std::ostream& out, const Table& table);
 void write_csv(const std::filesystem::path& file, const Table& table);
 
-/// Blank lines and lines beginning with '#' are passed over; the first other line is the header.
-/// @param wanted columns to keep, in this order; empty: all. A wanted column the file lacks is left out.
-/// @throws CsvError naming file and line
+/// Ignores blank lines and lines that begin with '#'. The first other line is the header.
+/// @param wanted  columns to return, in this order; empty: all. A wanted column that the file lacks is
+///   omitted
+/// @throws CsvError with file and line
 [[nodiscard]] Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& wanted = {});
 [[nodiscard]] Table parse_csv(std::string_view text, const std::string& file,
                               const std::vector<std::string>& wanted = {});

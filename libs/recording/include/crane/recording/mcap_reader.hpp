@@ -1,6 +1,6 @@
 #pragma once
-/// Reads MCAP recordings in log order, checks every CRC, and gets out of a cut or damaged file what can be
-/// trusted: all intact chunks. What is lost is said in problems(), never skipped silently.
+/// Reads MCAP recordings in the order of log time and checks every CRC. From a truncated or damaged file the
+/// reader returns all intact chunks, and problems() lists the losses.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace crane::recording {
 
-/// The file cannot be opened, or is no MCAP file at all; names file and reason.
+/// The file cannot be opened, or is not an MCAP file. what() names file and reason.
 class ReadError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -39,7 +39,7 @@ struct AttachmentRecord {
   std::vector<std::uint8_t> data;
 };
 
-/// One message; `channel` and `data` are valid inside the callback.
+/// One message. `channel` and `data` are valid during the callback only.
 struct Message {
   const ChannelRecord* channel = nullptr;
   std::uint32_t sequence = 0;
@@ -55,7 +55,7 @@ struct Selection {
 
 class McapReader {
  public:
-  /// Reads the index; without a usable one, walks the file. @throws ReadError
+  /// Reads the index. Without an intact index it scans the whole file. @throws ReadError
   explicit McapReader(const std::filesystem::path& file);
   ~McapReader();
   McapReader(McapReader&&) noexcept;
@@ -66,15 +66,16 @@ class McapReader {
   [[nodiscard]] const SchemaRecord* find_schema(std::uint16_t id) const;  ///< nullptr: none
   [[nodiscard]] std::vector<MetadataRecord> metadata();                   ///< in file order
   [[nodiscard]] std::vector<AttachmentRecord> attachments();
-  [[nodiscard]] bool indexed() const;  ///< closed properly: index and footer are there and intact
-  [[nodiscard]] std::int64_t first_time_ns() const;  ///< log times of the chunks, 0 when there are none
-  [[nodiscard]] std::int64_t last_time_ns() const;
+  [[nodiscard]] bool indexed()
+      const;  ///< true: the file was closed in order, with an intact index and footer
+  [[nodiscard]] std::int64_t first_time_ns() const;  ///< first log time of all chunks; 0 without chunks
+  [[nodiscard]] std::int64_t last_time_ns() const;   ///< last log time of all chunks; 0 without chunks
 
-  /// Calls `visit` for each selected message by log time (equal times: in file order) until it returns false.
-  /// Damaged chunks are left out and named in problems().
+  /// Calls `visit` for each selected message in the order of log time (equal times: in file order), until
+  /// `visit` returns false. Damaged chunks are skipped and reported in problems().
   void for_each(const Selection& selection, const std::function<bool(const Message&)>& visit);
 
-  /// What was found wrong so far, one line each with file and byte position; grows while reading.
+  /// Problems found so far, one line each, with file and byte position. Reading may add problems.
   [[nodiscard]] const std::vector<std::string>& problems() const;
 
  private:
@@ -83,15 +84,16 @@ class McapReader {
 };
 
 struct CheckReport {
-  std::uint64_t messages = 0;         ///< readable
-  std::vector<std::string> problems;  ///< empty: the file is whole
+  std::uint64_t messages = 0;         ///< number of readable messages
+  std::vector<std::string> problems;  ///< empty: the file is intact
 };
 
 /// Reads the whole file. @throws ReadError
 [[nodiscard]] CheckReport check(const std::filesystem::path& file);
 
-/// Writes everything readable of `damaged` as a good file `repaired`, which appears only when complete.
-/// @return what was copied and what is lost. @throws ReadError, WriteError
+/// Copies everything readable from `damaged` to a new file `repaired`. The new file appears only when it is
+/// complete.
+/// @return number of copied messages, and the losses. @throws ReadError, WriteError
 CheckReport repair(const std::filesystem::path& damaged, const std::filesystem::path& repaired);
 
 }  // namespace crane::recording

@@ -1,7 +1,7 @@
 #pragma once
-/// Writes recordings in MCAP (mcap.dev/spec): chunked, zstd-compressed, indexed, every part under a CRC-32.
-/// The file only grows, so whatever was flushed stays readable if the process or the machine dies; see
-/// mcap_reader.hpp for reading and repairing. Same calls, same bytes. One thread.
+/// Writes recordings in MCAP (mcap.dev/spec) with chunks, zstd compression, an index and a CRC-32 for every
+/// part. The writer only appends to the file, so that all flushed data remain readable when the process or
+/// the computer fails (mcap_reader.hpp reads and repairs). Equal calls give equal bytes. Not thread-safe.
 ///
 ///   McapWriter writer{"run.mcap"};
 ///   const TopicChannels channels = add_topic_channels(writer);
@@ -25,51 +25,53 @@ namespace crane::recording {
 using Metadata = std::map<std::string, std::string>;
 using Bytes = std::span<const std::uint8_t>;
 
-/// The file could not be created or grown: "run.mcap: cannot write: No space left on device". What was
-/// flushed before remains readable; the writer takes nothing more and repeats the error.
+/// The file cannot be created or extended: "run.mcap: cannot write: No space left on device". Data that were
+/// flushed before remain readable. The writer accepts no more data; every further call throws the same error.
 class WriteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 struct WriterOptions {
-  std::size_t chunk_bytes = 1U << 20U;             ///< a chunk is closed at this size, > 0
-  std::int64_t flush_interval_ns = 1'000'000'000;  ///< or when its messages span this much log time
+  std::size_t chunk_bytes = 1U << 20U;             ///< size at which a chunk is closed, bytes, > 0
+  std::int64_t flush_interval_ns = 1'000'000'000;  ///< log time after which a chunk is closed
   int compression_level = 1;                       ///< zstd, 1..19
-  bool sync = false;  ///< fdatasync after each chunk: survives a power cut, not only a crash
+  bool sync = false;  ///< true: fdatasync after each chunk, so that flushed data also survive a power failure
 };
 
 class McapWriter {
  public:
   /// Creates or truncates `file`. @throws WriteError
   explicit McapWriter(const std::filesystem::path& file, const WriterOptions& options = {});
-  /// Closes; an error that close() would have thrown is lost, so call close().
+  /// Closes the file and ignores errors. Call close() first to receive them.
   ~McapWriter();
   McapWriter(McapWriter&&) noexcept;
   McapWriter& operator=(McapWriter&&) noexcept;
 
-  /// @param encoding "omgidl", "jsonschema", ... @return id, 1, 2, ... in order of the calls
+  /// Adds a schema. @param encoding  "omgidl", "jsonschema", ... @return its id: 1, 2, ... in the order of
+  /// the calls
   std::uint16_t schema(std::string_view name, std::string_view encoding, std::string_view text);
-  /// @param schema id from schema(), 0: none. @param message_encoding "cdr", "json", ... @return id, 0, 1,
-  /// ...
+  /// Adds a channel. @return its id: 0, 1, ... in the order of the calls
+  /// @param schema            id from schema(); 0: none
+  /// @param message_encoding  "cdr", "json", ...
   /// @throws std::invalid_argument for an unknown schema
   std::uint16_t channel(std::uint16_t schema, std::string_view topic, std::string_view message_encoding,
                         const Metadata& metadata = {});
-  /// Appends to the current chunk. @param data for "cdr": with the 4-byte encapsulation header
+  /// Appends a message to the current chunk. @param data  for "cdr": with the 4-byte encapsulation header
   /// @throws WriteError, std::invalid_argument for an unknown channel
   void message(std::uint16_t channel, std::uint32_t sequence, std::int64_t log_time_ns,
                std::int64_t publish_time_ns, Bytes data);
-  /// Both close the current chunk first. @throws WriteError
+  /// Append a metadata record or an attachment. Both close the current chunk first. @throws WriteError
   void metadata(std::string_view name, const Metadata& entries);
   void attachment(std::string_view name, std::string_view media_type, std::int64_t time_ns, Bytes data);
 
-  /// Closes the chunk and hands it to the operating system: at a fault, at a trigger. @throws WriteError
+  /// Closes the current chunk and writes it to the file, for example at a fault. @throws WriteError
   void flush();
-  /// Writes index and footer. Calling it again does nothing. @throws WriteError
+  /// Writes index and footer. Further calls have no effect. @throws WriteError
   void close();
 
   [[nodiscard]] std::uint64_t message_count() const;
-  [[nodiscard]] std::uint64_t bytes_written() const;  ///< in the file; the open chunk is not in it yet
+  [[nodiscard]] std::uint64_t bytes_written() const;  ///< size of the file, without the current chunk
 
  private:
   struct State;
@@ -78,7 +80,7 @@ class McapWriter {
 
 /// Channel ids in the order of topics::kAll.
 using TopicChannels = std::array<std::uint16_t, topics::kAll.size()>;
-/// Declares one CDR channel per topic with crane.idl as its schema.
+/// Adds one CDR channel per topic. The schema of all channels is the text of crane.idl.
 TopicChannels add_topic_channels(McapWriter& writer);
 
 }  // namespace crane::recording

@@ -1,5 +1,5 @@
 #pragma once
-/// A run as one table: samples of several topics joined by tick, one row per crane/state.
+/// Converts a run to a table: one row per crane/state, with the samples of other topics of the same tick.
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace crane::recording {
 
-/// Takes samples in any order. Columns: the canonical ones, then tick, hoist_voltage_v, per axis
-/// trolley_/slew_/hoist_ …_reference_m|rad, …_control_v, …_friction_v, and supervisor_state (number of
-/// SupervisorState in crane.idl). Where a topic had no sample of that tick, its cells are NaN.
+/// Accepts samples in any order. Columns: the canonical columns; tick; hoist_voltage_v; for each axis
+/// trolley_/slew_/hoist_ …_reference_m|rad, …_control_v, …_friction_v; supervisor_state (number of the
+/// SupervisorState in crane.idl). The cells of a topic without a sample for the tick are NaN.
 class RunTable {
  public:
   void add(const msg::State& sample) { rows_[sample.header.tick].state = sample; }
@@ -20,8 +20,8 @@ class RunTable {
   void add(const msg::Demand& sample) { rows_[sample.header.tick].demand = sample; }
   void add(const msg::SupervisorStatus& sample) { rows_[sample.header.tick].supervisor = sample; }
 
-  /// time_s counts from the first crane/state, or from `zero_time_ns`. Ticks without a crane/state have no
-  /// row.
+  /// time_s is the time since the first crane/state, or since `zero_time_ns`. A tick without crane/state has
+  /// no row.
   [[nodiscard]] Table table() const;
   [[nodiscard]] Table table(std::int64_t zero_time_ns) const;
 
@@ -35,7 +35,7 @@ class RunTable {
   std::map<std::uint64_t, Row> rows_;
 };
 
-/// The run in a recording. @throws DecodeError, SchemaError when its crane topics cannot be read
+/// Table of a recorded run. @throws DecodeError, SchemaError when the crane topics cannot be decoded
 [[nodiscard]] Table run_table(McapReader& recording);
 
 }  // namespace crane::recording

@@ -1,7 +1,7 @@
 #pragma once
-/// Self-contained pages: one HTML file with text, tables, pictures and interactive plots. Nothing is loaded
-/// from a network: the plotting library (uPlot) and the data are inside. Same page, same bytes. Every text is
-/// escaped; only Picture::svg goes in as it is.
+/// Self-contained report pages: one HTML file with text, tables, pictures and interactive plots. The file
+/// contains the plotting library (uPlot) and the data, and loads nothing from a network. Equal pages give
+/// equal bytes. Every text is escaped, except Picture::svg.
 ///
 ///   Page page{.title = "Maneuver 1", .summary = "Two controllers.", .sections = {}};
 ///   page.sections.push_back({.title = "Swing", .blocks = {
@@ -23,7 +23,7 @@ struct Paragraph {
   std::string text;
 };
 
-/// The answer in one sentence, in a coloured box.
+/// The result in one sentence, in a coloured box.
 struct Verdict {
   std::string text;
   Tone tone = Tone::neutral;
@@ -33,43 +33,43 @@ struct Cell {
   std::string text;
   Tone tone = Tone::neutral;
 };
-/// "0.271 [0.265, 0.277]": a value with its interval, `digits` decimals. NaN gives "-".
+/// A value with its interval, "0.271 [0.265, 0.277]", with `digits` decimals. NaN gives "-".
 [[nodiscard]] Cell with_interval(double value, double low, double high, int digits,
                                  Tone tone = Tone::neutral);
-/// "0.271", `digits` decimals. NaN gives "-".
+/// A value, "0.271", with `digits` decimals. NaN gives "-".
 [[nodiscard]] Cell number(double value, int digits, Tone tone = Tone::neutral);
 
 struct Table {
   std::string title;                    ///< may be empty
   std::vector<std::string> header;      ///< one text per column, units in brackets: "settle [s]"
-  std::vector<std::vector<Cell>> rows;  ///< cells that begin like a number are set flush right; as many as
-                                        ///< the header has, or fewer
+  std::vector<std::vector<Cell>> rows;  ///< at most as many cells as the header; numbers are aligned right
 };
 
 enum class Style { line, points, band };
 
-/// One curve, cloud of points or band of a plot. NaN and infinite values leave a gap.
+/// One line, set of points or band of a plot. NaN and infinite values leave a gap.
 struct Series {
   std::string name;
-  std::vector<double> x;  ///< empty: the plot's. Points in any order; line and band must not decrease
-  std::vector<double> y;  ///< as many as x; of a band the lower edge
+  std::vector<double>
+      x;  ///< empty: x of the plot. Must not decrease for a line or band; any order for points
+  std::vector<double> y;  ///< as many as x; for a band the lower edge
   Style style = Style::line;
   std::vector<double> upper;  ///< band only: the upper edge, as many as y
-  int color = -1;             ///< of the palette, taken modulo its size; -1: the position in the plot
+  int color = -1;             ///< index in the palette, modulo its size; -1: index of the series in the plot
   bool dashed = false;        ///< lines only
-  bool shown = true;          ///< at first; the legend switches it
+  bool shown = true;          ///< initially visible; the legend toggles the series
 };
 
-/// Curves over a common axis: the legend switches them, dragging zooms, a double click shows everything
-/// again. A scatter plot is one whose series are points.
+/// Series over a common x axis. The legend toggles series, dragging zooms, a double click resets the zoom. A
+/// scatter plot has series with Style::points.
 struct LinePlot {
   std::string title, x_label, y_label;
-  std::vector<double> x;  ///< of every series without its own
+  std::vector<double> x;  ///< x of every series with an empty x
   std::vector<Series> series;
-  std::string group;  ///< plots of the same non-empty group share cursor, zoom and switched series (by name)
+  std::string group;  ///< plots of one non-empty group share cursor, zoom and visible series (by name)
 };
 
-/// An inline SVG, from `<svg` on; goes into the page unescaped.
+/// An inline SVG; the text must begin with `<svg` and is not escaped.
 struct Picture {
   std::string title;
   std::string svg;
@@ -80,7 +80,7 @@ using Block = std::variant<Paragraph, Verdict, Table, LinePlot, Picture>;
 struct Section {
   std::string title;
   std::vector<Block> blocks;
-  bool folded = false;  ///< only the title is visible until it is clicked
+  bool folded = false;  ///< true: the content is hidden until the reader clicks the title
 };
 
 struct Page {
@@ -89,16 +89,17 @@ struct Page {
   std::vector<Section> sections;
 };
 
-/// The whole file. @throws std::invalid_argument naming plot and series whose x, y and upper do not fit
-/// together, whose x decreases or is not finite, and pictures that are no SVG
+/// @return the HTML text of the page. @throws std::invalid_argument, with the names of plot and series, when
+///   x, y and upper differ in length, when x decreases or is not finite, or when a picture is no SVG
 [[nodiscard]] std::string to_html(const Page& page);
 
-/// The file cannot be written; names it.
+/// The file cannot be written. what() names the file.
 class WriteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-/// @param file  its directory must exist. @throws WriteError, and as to_html()
+/// Writes the page. @param file  its directory must exist. @throws WriteError, and the exceptions of
+/// to_html()
 void write_html(const std::filesystem::path& file, const Page& page);
 
 }  // namespace crane::report

@@ -1,8 +1,8 @@
 #pragma once
-/// A component is one room of the control loop: named inputs and outputs, its memory, one step per tick.
-/// Two hosts run it unchanged: a process of its own over DDS (process.hpp), or all components of a stack in
-/// one process over the memory bus (in_process.hpp). A component never blocks, sleeps or reads a clock; time
-/// comes in as an argument.
+/// A component is one part of the control loop, for example the tracking law. It has named inputs and
+/// outputs, internal state, and one step per tick. Two hosts run the same component: a separate process over
+/// DDS (process.hpp), or one process that runs all components of a stack over the memory bus
+/// (in_process.hpp). A component never blocks, sleeps or reads a clock. Time is an argument.
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -22,25 +22,26 @@ class Component {
  public:
   virtual ~Component() = default;
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// Handles what has arrived. @return true when something was done: call again before waiting
+  /// Handles the samples that have arrived. @return true when it did some work; the host then calls poll()
+  /// again before it waits
   virtual bool poll(std::int64_t now_ns) = 0;
-  /// When poll() is due even if nothing arrives; kNever: only samples matter.
+  /// Time of the next poll() that is due without a new sample; kNever: only new samples need a poll().
   [[nodiscard]] virtual std::int64_t wake_at_ns() const { return kNever; }
-  /// True for a clock master: its host sleeps until wake_at_ns() and is not woken by samples.
+  /// True for a clock master: its host sleeps until wake_at_ns(), and samples do not wake the host.
   [[nodiscard]] virtual bool paced() const { return false; }
-  /// What it is waiting for, for the message when a lockstep run stands still.
+  /// Names the missing inputs, for the message when a lockstep run makes no progress.
   [[nodiscard]] virtual std::string waiting_for() const = 0;
 };
 
 class Node;
 
-/// What a component is built from. Everything outlives the component.
+/// Arguments of a component's constructor. All referenced objects outlive the component.
 struct Context {
-  Ports& ports;  ///< its endpoints: those that its ComponentSpec declares
+  Ports& ports;  ///< creates the endpoints that the ComponentSpec of the component declares
   Node& node;
   const configuration::Rig& rig;
   const control::Controller& controller;
-  const bus::Options& bus;  ///< domain and crane it runs in
+  const bus::Options& bus;  ///< domain and crane (partition) of the component
   Clock clock = Clock::lockstep;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Topic samples as the control laws see them, and back.
+/// Converts topic samples to the inputs of the control laws, and outputs of the laws to topic samples.
 #include "crane/control/law.hpp"
 #include "crane/topics.hpp"
 
@@ -34,7 +34,8 @@ inline void assign(double (&field)[control::kAxes], const std::array<double, con
   return {field[0], field[1], field[2]};
 }
 
-/// Header of a sample that answers `cause`: same tick, same sample time.
+/// Header of a sample that is computed from `cause`: same tick and sample time. publish() sets source and
+/// epoch.
 [[nodiscard]] inline msg::Header answer_to(const msg::Header& cause) {
   return {
       .tick = cause.tick, .sample_time_ns = cause.sample_time_ns, .source = crane_SOURCE_NONE, .epoch = 0};

@@ -1,5 +1,5 @@
 #pragma once
-/// A component with its node and its ports, as both hosts build it.
+/// A component with its node and its ports. Both hosts use it.
 #include <memory>
 
 #include "crane/runtime/component.hpp"
@@ -9,8 +9,8 @@ namespace crane::runtime {
 
 class HostedComponent {
  public:
-  /// Builds the component of `spec`. Everything must outlive it.
-  /// @throws std::logic_error when its endpoints are not those that `spec` declares
+  /// Builds the component of `spec`. `bus`, `rig` and `controller` must outlive it.
+  /// @throws std::logic_error when the endpoints of the component differ from those that `spec` declares
   HostedComponent(bus::Bus& bus, const ComponentSpec& spec, const configuration::Rig& rig,
                   const control::Controller& controller, Clock clock);
   [[nodiscard]] Component& component() { return *component_; }

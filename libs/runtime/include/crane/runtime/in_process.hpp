@@ -1,6 +1,6 @@
 #pragma once
-/// A whole stack in one process over the memory bus: for tests, campaigns and Monte Carlo. Lockstep only;
-/// gives the same recording as the stack of processes, bit for bit.
+/// A whole stack in one process over the memory bus, for tests and for large numbers of runs. Lockstep only.
+/// The recording is bit for bit the recording of a stack of processes.
 #include <memory>
 #include <span>
 #include <string>
@@ -15,14 +15,14 @@ class InProcessStack {
   /// Builds every component of `specs`. `rig` and `controller` must outlive the stack.
   InProcessStack(std::span<const ComponentSpec> specs, const configuration::Rig& rig,
                  const control::Controller& controller);
-  /// One more component, with a rig file of its own. Both must outlive the stack.
+  /// Adds a component that uses another rig file. `rig` and `controller` must outlive the stack.
   void add(const ComponentSpec& spec, const configuration::Rig& rig, const control::Controller& controller);
 
-  /// The network the components talk over, for an operator's or recorder's own Bus.
+  /// The network of the components, for the Bus of an operator or a recorder.
   [[nodiscard]] const std::shared_ptr<bus::MemoryNetwork>& network() const { return network_; }
-  /// Lets every component do what it can until all of them wait. @return true when anybody did something
+  /// Polls all components until every component waits. @return true when a component did some work
   bool pump();
-  /// One line per component: what it waits for.
+  /// One line per component with its missing inputs.
   [[nodiscard]] std::string waiting_for() const;
   [[nodiscard]] Component& component(std::size_t index) { return rooms_.at(index).hosted->component(); }
 
@@ -35,7 +35,7 @@ class InProcessStack {
   std::vector<Room> rooms_;
 };
 
-/// Options of a Bus on `network`.
+/// Options for a Bus on `network`.
 [[nodiscard]] bus::Options memory_options(std::shared_ptr<bus::MemoryNetwork> network,
                                           std::string participant, crane_Source source);
 

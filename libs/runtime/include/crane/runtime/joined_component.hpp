@@ -1,5 +1,5 @@
 #pragma once
-/// The ordinary component: joins the samples of one tick, steps once, publishes.
+/// Base class of most components: it joins the samples of one tick and calls one step per tick.
 #include <chrono>
 #include <string>
 
@@ -9,7 +9,9 @@
 
 namespace crane::runtime {
 
-/// How long a realtime component waits for the rest of a tick, as a share of the period.
+/// @param share_of_period  real time: the component waits this share of the period for the other inputs of a
+///   tick
+/// @param depth            ticks that an input may be ahead of the slowest input
 [[nodiscard]] inline JoinPolicy join_policy(const Context& context, double share_of_period,
                                             std::size_t depth = 8) {
   const auto period_ns = static_cast<std::int64_t>(context.rig.period_s * 1e9);
@@ -47,27 +49,30 @@ class JoinedComponent : public Component {
   }
 
  protected:
-  /// @param wait_share  how long the rest of a tick is waited for in real time, as a share of the period
-  /// @param inputs      the topics that are joined; the first one leads
+  /// @param wait_share  real time: share of the period that the component waits for the other inputs of a
+  ///   tick
+  /// @param inputs      the joined topics; the first one is the leader, which opens the tick
   JoinedComponent(const Context& context, double wait_share, const topics::Topic<Inputs>&... inputs)
       : node_{context.node},
         ports_{context.ports},
         join_{join_policy(context, wait_share), context.ports.loop_input(inputs)...} {}
 
-  /// Steps tick `tick`. A pointer is null only when the tick is incomplete and steps_incomplete_ticks().
+  /// One step. A pointer is null only when its sample is missing and steps_incomplete_ticks() is true.
   virtual void on_tick(std::uint64_t tick, const Inputs*... samples) = 0;
   [[nodiscard]] virtual bool steps_incomplete_ticks() const { return false; }
   virtual void handle_requests(std::int64_t /*now_ns*/) {}
-  /// No tick to step. @return true when something was done
+  /// Called when no tick is complete. @return true when it did some work
   virtual bool on_idle(std::int64_t /*now_ns*/) { return false; }
 
-  /// The leader's sample of the tick that is waiting for its other inputs; null when none is.
+  /// Sample of the leading topic for the open tick, which waits for its other inputs; null when no tick is
+  /// open.
   [[nodiscard]] const auto* open_leader() const {
     return join_.open_tick() ? join_.template get<0>() : nullptr;
   }
   [[nodiscard]] const JoinCounts& counts() const { return join_.counts(); }
-  /// A topic that this component reads had a second writer when the step of this tick began.
+  /// True when a topic that this component reads had a second writer at the start of this step.
   [[nodiscard]] bool disputed() const { return disputed_; }
+  /// Number of times that a new writer of the leading topic has taken over.
   [[nodiscard]] std::uint64_t restarts() const { return join_.restarts(); }
   [[nodiscard]] const Ports& ports() const { return ports_; }
   Node& node() { return node_; }

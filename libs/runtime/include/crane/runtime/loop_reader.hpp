@@ -1,5 +1,5 @@
 #pragma once
-/// A subscriber of a loop topic that hands out the samples of one writer only.
+/// A subscriber of a loop topic that returns the samples of one writer only.
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace crane::runtime {
 
-/// What all loop readers have in common, whatever their type; for the checks of a process.
+/// Type-independent part of a LoopReader, for the checks of a process.
 class LoopInput {
  public:
   explicit LoopInput(const topics::Description& topic) : binding_{topic} {}
@@ -18,7 +18,7 @@ class LoopInput {
   [[nodiscard]] const WriterBinding& binding() const { return binding_; }
   [[nodiscard]] virtual int matched() const = 0;
   [[nodiscard]] virtual std::uint64_t rejected() const = 0;  ///< samples with a wrong CRC
-  /// Notices a second writer that is matched and silent. Call once per tick.
+  /// Detects a second writer that is matched and has sent no sample. Call once per tick.
   void watch(std::int64_t now_ns) { binding_.watch(now_ns, matched()); }
 
  protected:
@@ -28,8 +28,9 @@ class LoopInput {
 template <class T>
 class LoopReader final : public LoopInput {
  public:
-  /// Samples taken in one call of a component's poll(), at most: two full histories of a writer. A flood
-  /// keeps nobody busy for ever; what is left waits for the next poll.
+  /// Maximum number of samples per poll() of a component: twice the history of a writer (128). The limit
+  /// bounds the time of a poll() when a sender floods the topic. The remaining samples wait for the next
+  /// poll().
   static constexpr std::size_t kMostPerPoll = 256;
 
   LoopReader(const topics::Topic<T>& topic, bus::Subscriber<T> subscriber)
@@ -37,9 +38,10 @@ class LoopReader final : public LoopInput {
 
   struct Taken {
     T sample;
-    bool taken_over;  ///< the first sample of a new writer: forget what the old one said
+    bool taken_over;  ///< true: first sample of a new writer; samples of the old writer must be discarded
   };
-  /// The next sample of the bound writer. @param budget  samples this poll may still take; counted down
+  /// @param budget  number of samples that this poll() may still take; each taken sample decrements it
+  /// @return the next sample of the bound writer; nothing when there is none or the budget is used up
   std::optional<Taken> take(std::int64_t now_ns, std::size_t& budget) {
     bus::SampleInfo info;
     while (budget > 0) {
@@ -61,7 +63,7 @@ class LoopReader final : public LoopInput {
   bus::Subscriber<T> subscriber_;
 };
 
-/// A reader off the wiring, for tools and tests.
+/// A reader for tools and tests, which have no ComponentSpec.
 template <class T>
 [[nodiscard]] std::shared_ptr<LoopReader<T>> loop_reader(bus::Bus& bus, const topics::Topic<T>& topic,
                                                          const bus::EndpointOptions& endpoint = {}) {

@@ -1,6 +1,5 @@
 #pragma once
-/// What every process tells the others about itself: its health on crane/node, what happened on crane/event
-/// (and on the console, through spdlog).
+/// Reports of a process: its health on crane/node, its events on crane/event and on the console (spdlog).
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -13,24 +12,24 @@ namespace crane::runtime {
 
 struct NodeIdentity {
   std::string name;        ///< "tracking"
-  std::string controller;  ///< name of the controller, empty where none applies
+  std::string controller;  ///< name of the controller; empty: the process runs no controller
 };
 
 class Node {
  public:
   Node(bus::Bus& bus, NodeIdentity identity);
 
-  /// One event: console and crane/event. `code` is a stable lower_snake name.
+  /// Reports one event on the console and on crane/event. @param code  lower_snake name, stable for scripts
   void info(std::string_view code, std::string_view what);
   void warning(std::string_view code, std::string_view what, std::string_view remedy);
   void error(std::string_view code, std::string_view what, std::string_view remedy);
 
-  /// Time spent in one step, and the tick it belonged to.
+  /// Records the tick and the execution time of one step.
   void stepped(std::uint64_t tick, std::int64_t sample_time_ns, std::int64_t step_ns);
-  /// Publishes the status when a second has passed or the phase has changed. Reports once what `ports` has
-  /// begun to drop: samples of a second writer, samples with a wrong CRC, samples that could not be sent.
+  /// Publishes the status once a second and on every change of phase. Reports an event when `ports` begins to
+  /// drop samples: samples of a second writer, samples with a wrong CRC, samples that could not be sent.
   void beat(std::int64_t now_ns, const Ports& ports, const JoinCounts& counts);
-  /// The same for a process without a wiring of its own (recorder). @param rejected  samples with a wrong CRC
+  /// Publishes the status of a process without ports (recorder). @param rejected  samples with a wrong CRC
   void beat(std::int64_t now_ns, crane_NodePhase phase, const JoinCounts& counts, std::uint64_t rejected);
   /// Publishes the last status with PHASE_STOPPING.
   void stopping();
@@ -53,7 +52,7 @@ class Node {
   bool told_dispute_ = false;
 };
 
-/// Copies into a bounded IDL string; cuts what does not fit.
+/// Copies `text` into a bounded IDL string of N - 1 characters and truncates longer text.
 template <std::size_t N>
 void assign(char (&field)[N], std::string_view text) {
   const auto n = text.copy(field, N - 1);

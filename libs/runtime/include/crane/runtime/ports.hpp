@@ -1,5 +1,5 @@
 #pragma once
-/// The endpoints of one component: those its ComponentSpec declares, and no others.
+/// Creates the endpoints of one component. Only endpoints that the ComponentSpec declares are permitted.
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,20 +13,19 @@
 namespace crane::runtime {
 
 enum class Clock : std::uint8_t {
-  realtime,  ///< the clock master ticks with CLOCK_MONOTONIC; processes that are late lose the tick
-  lockstep   ///< the plant advances when command k has come; no process is ever late, and runs repeat bit for
-             ///< bit
+  realtime,  ///< the clock master follows CLOCK_MONOTONIC; a late process loses the tick
+  lockstep   ///< the plant starts tick k+1 after command k; no process is late, and runs repeat bit for bit
 };
 
-/// Endpoints of the loop. In real time only what comes from now on counts; in lockstep every tick from the
-/// first, also for a process that joins a moment later.
+/// Endpoint options of loop topics. In lockstep a process that joins late must receive every tick from the
+/// first one; in real time it must receive new samples only.
 [[nodiscard]] inline bus::EndpointOptions loop_endpoint(Clock clock) {
   bus::EndpointOptions endpoint;
   endpoint.history = clock == Clock::lockstep;
   return endpoint;
 }
 
-/// One output. A sample that the vendor refuses is counted and reported by the process (node.hpp).
+/// One output. Node reports the number of samples that the middleware did not send (node.hpp).
 template <class T>
 class Output {
  public:
@@ -43,11 +42,11 @@ class Output {
 
 class Ports {
  public:
-  /// Everything must outlive the ports.
+  /// All arguments must outlive the ports.
   Ports(bus::Bus& bus, const ComponentSpec& spec, const control::Controller& controller, Clock clock)
       : bus_{bus}, spec_{spec}, controller_{controller}, clock_{clock} {}
 
-  /// A loop topic: samples of one writer. @throws std::logic_error when the spec does not declare it
+  /// Reader of a loop topic. @throws std::logic_error when the spec does not declare the topic in `reads`
   template <class T>
   [[nodiscard]] std::shared_ptr<LoopReader<T>> loop_input(const topics::Topic<T>& topic) {
     declared_read(topic.description);
@@ -55,13 +54,15 @@ class Ports {
     loop_inputs_.push_back(reader);
     return reader;
   }
-  /// Any other topic. @throws std::logic_error when the spec does not declare it
+  /// Reader of any other topic. @throws std::logic_error when the spec does not declare the topic in `reads`
   template <class T>
   [[nodiscard]] bus::Subscriber<T> input(const topics::Topic<T>& topic) {
     declared_read(topic.description);
     return bus_.subscriber(topic);
   }
-  /// @throws std::logic_error when the spec does not declare it, or the spec's source may not write it
+  /// Writer of a topic. @throws std::logic_error when the spec does not declare the topic in `writes`, or
+  /// when the
+  ///   source of the spec may not write the topic
   template <class T>
   [[nodiscard]] Output<T> output(const topics::Topic<T>& topic) {
     const bool awaited = declared_write(topic.description);
@@ -71,20 +72,21 @@ class Ports {
     return {std::move(publisher), refused_};
   }
 
-  /// @throws std::logic_error naming what the spec declares and the component has not made
+  /// @throws std::logic_error with the name of an endpoint that the spec declares and the component has not
+  ///   created
   void require_complete() const;
-  /// Every loop input has a writer, every output that needs one a reader.
+  /// @return true when every loop input has a writer and every output that needs a reader has one
   [[nodiscard]] bool connected() const;
-  /// Looks for second writers that are silent. Call once per tick.
+  /// Detects second writers that are matched and have sent no sample. Call once per tick.
   void watch(std::int64_t now_ns);
-  /// A topic this component reads has had a second writer within the last second.
+  /// @return true when a topic that this component reads has had a second writer within the last second
   [[nodiscard]] bool disputed(std::int64_t now_ns) const;
-  /// "crane/command: a writer that calls itself supervisor, start-up number 4711"; empty while nothing is
-  /// disputed.
+  /// @return for example "crane/command: a writer that calls itself supervisor, start-up number 4711"; empty
+  ///   when no topic has a second writer
   [[nodiscard]] std::string dispute(std::int64_t now_ns) const;
-  [[nodiscard]] std::uint64_t foreign() const;                       ///< samples of other writers, dropped
-  [[nodiscard]] std::uint64_t rejected() const;                      ///< samples with a wrong CRC, dropped
-  [[nodiscard]] std::uint64_t refused() const { return *refused_; }  ///< samples the vendor did not send
+  [[nodiscard]] std::uint64_t foreign() const;                       ///< dropped: samples of a second writer
+  [[nodiscard]] std::uint64_t rejected() const;                      ///< dropped: samples with a wrong CRC
+  [[nodiscard]] std::uint64_t refused() const { return *refused_; }  ///< samples that were not sent
 
  private:
   void declared_read(const topics::Description& topic);
@@ -95,7 +97,7 @@ class Ports {
   const control::Controller& controller_;
   Clock clock_;
   std::vector<std::shared_ptr<LoopInput>> loop_inputs_;
-  std::vector<std::function<int()>> readers_;  ///< of outputs that need one
+  std::vector<std::function<int()>> readers_;  ///< number of readers of each output that needs a reader
   std::shared_ptr<std::uint64_t> refused_ = std::make_shared<std::uint64_t>(0);
   std::vector<const topics::Description*> made_;
 };

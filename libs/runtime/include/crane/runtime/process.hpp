@@ -1,5 +1,5 @@
 #pragma once
-/// A component in a process of its own: command line, rig file, bus, signals, the loop.
+/// Runs one component in a process: command line, rig file, bus, signals, loop.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -20,10 +20,10 @@ class App;
 namespace crane::runtime {
 
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitFailed = 1;    ///< it did not work; the reason is on standard error
-inline constexpr int kExitBadInput = 2;  ///< arguments or files
+inline constexpr int kExitFailed = 1;    ///< failure at run time; standard error states the reason
+inline constexpr int kExitBadInput = 2;  ///< wrong arguments or files
 
-/// Options every process of a stack and every tool has.
+/// Options of every process of a stack and of every tool.
 struct BusOptions {
   std::string vendor = "cyclone";
   std::uint32_t domain = 0;
@@ -34,36 +34,37 @@ struct BusOptions {
 void add_bus_options(CLI::App& app, BusOptions& options);
 [[nodiscard]] bus::Options bus_options(const BusOptions& options, std::string participant,
                                        crane_Source source, std::uint32_t epoch);
-/// The same options as command-line arguments, for a child process.
+/// Converts options to command-line arguments for a child process.
 [[nodiscard]] std::vector<std::string> arguments(const BusOptions& options);
 
-/// Options of a process in the loop.
+/// Options of a process of the control loop.
 struct LoopOptions {
   BusOptions bus;
-  std::string rig;
-  std::string controller;  ///< empty: the rig file's
+  std::string rig;         ///< path of the rig file
+  std::string controller;  ///< empty: the controller of the rig file
   std::string clock = "realtime";
-  std::uint32_t epoch = 0;  ///< 0: a random start-up number
-  int priority = 50;        ///< SCHED_FIFO priority in realtime, 0: ordinary scheduling
-  int parent = 0;           ///< process id; not 0: this process ends with that one
+  std::uint32_t epoch = 0;  ///< start-up number; 0: a random number
+  int priority = 50;        ///< SCHED_FIFO priority in realtime, 0 to 98; 0: ordinary scheduling
+  int parent = 0;           ///< process id of the parent; this process ends when the parent ends; 0: none
   bool verbose = false;
 };
 void add_loop_options(CLI::App& app, LoopOptions& options);
 
-/// The controller a loop runs. @throws ConfigurationError when the name does not exist, listing those that do
+/// @param name  empty: the controller of the rig file
+/// @throws ConfigurationError with the list of controllers when the name does not exist
 [[nodiscard]] const control::Controller& chosen_controller(const std::string& name,
                                                            const configuration::Rig& rig);
 
-/// Start-up number of a process: random, never 0. Numbers are compared for equality only, so that no clock
-/// decides which of two processes is believed.
+/// Start-up number of a process: random, never 0. Start-up numbers are compared for equality only, so that
+/// the clocks of the hosts have no influence.
 [[nodiscard]] std::uint32_t random_epoch();
 
-/// How long a process looks for another writer before it writes. Discovery across vendors may take longer;
-/// the readers look for a second writer at every tick (writer_binding.hpp).
+/// Time for which a process searches for another writer before it writes. Discovery across vendors can take
+/// longer; therefore the readers also check for a second writer at every tick (writer_binding.hpp).
 inline constexpr std::chrono::milliseconds kSoleWriterLook{400};
 
-/// Looks for other writers of the loop topics among `writes` for kSoleWriterLook. @throws bus::Error with the
-/// remedy when there is one
+/// Searches for other writers of the loop topics in `writes` for kSoleWriterLook. @throws bus::Error with the
+/// remedy when another writer exists
 void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes);
 
 /// main() of every process of the stack. @return exit code

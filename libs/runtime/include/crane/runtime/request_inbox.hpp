@@ -1,6 +1,6 @@
 #pragma once
-/// Requests of operators and tools as one process sees them: kept until they are due, answered on
-/// crane/reply.
+/// Receives the requests of operators and tools for one process, keeps them until they are due, and answers
+/// them on crane/reply.
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -13,21 +13,21 @@ namespace crane::runtime {
 
 class RequestInbox {
  public:
-  /// Requests that may wait for their tick. A move, its kicks and its stop are a handful; a flood must not
-  /// fill the memory.
+  /// Maximum number of requests that wait for their tick. A scripted run schedules fewer than ten; the limit
+  /// bounds the memory when a sender floods the topic.
   static constexpr std::size_t kMostWaiting = 256;
-  /// Requests for a later tick than this many from now are refused: 2.8 hours at 100 Hz.
+  /// Requests that are due later than this are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
 
-  /// @param kinds what this process acts on; everything else is ignored
+  /// @param kinds  kinds of request that this process executes; it ignores all others
   RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds);
 
-  /// Takes what has arrived, 64 requests at most; confirms requests for a later tick with the reason
-  /// "scheduled", and refuses those that find no room.
-  /// @return true when something arrived
+  /// Takes up to 64 requests from the bus. Answers a request for a later tick with the reason "scheduled",
+  /// and refuses a request when kMostWaiting requests wait already.
+  /// @return true when a request arrived
   bool receive();
-  /// The next request due on `tick`, in the order of arrival; nothing when there is none. Refuses requests
-  /// that are due later than kFarthest_ticks after `tick`.
+  /// @return the next request that is due at `tick`, in the order of arrival; nothing when there is none.
+  ///   Refuses requests that are due later than kFarthest_ticks after `tick`
   [[nodiscard]] std::optional<msg::Request> take_due(std::uint64_t tick);
   void reply(const msg::Request& request, const msg::Header& header, bool accepted, std::string_view reason);
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Brings together the samples of exactly one tick from several topics. The first input leads: its sample k
-/// opens tick k. Realtime: the newest tick is worked on, for at most a bounded time; what does not come
-/// together is counted lost. Lockstep: every tick in order, however long it takes.
+/// Combines the samples of one tick from several topics. The first input is the leader: its sample k opens
+/// tick k. Real time: the newest tick is open, for a bounded time; a tick that is still incomplete then is
+/// counted as lost. Lockstep: every tick is open in order, without a time limit.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -15,29 +15,30 @@
 namespace crane::runtime {
 
 struct JoinPolicy {
-  bool in_order = true;        ///< lockstep
-  std::int64_t bound_ns = 0;   ///< realtime: how long the rest of a tick is waited for after its leader came
-  std::size_t depth = 8;       ///< ticks an input may run ahead of the slowest
-  std::int64_t period_ns = 0;  ///< realtime: the leader's ticks come no faster; 0: any tick is believed
+  bool in_order = true;        ///< true: lockstep; false: real time
+  std::int64_t bound_ns = 0;   ///< real time: maximum wait for the other inputs after the leader's sample
+  std::size_t depth = 8;       ///< ticks that an input may be ahead of the slowest input
+  std::int64_t period_ns = 0;  ///< real time: period of the ticks, for the check of tick numbers; 0: no check
 };
 
-/// Counted since creation.
+/// Counts since creation.
 struct JoinCounts {
-  std::uint64_t completed = 0;
-  std::uint64_t lost = 0;       ///< ticks that never came together, or whose leader never came
-  std::uint64_t late = 0;       ///< samples of a tick already left behind
-  std::uint64_t duplicate = 0;  ///< second sample of the same tick
+  std::uint64_t completed = 0;  ///< ticks with all inputs
+  std::uint64_t lost = 0;       ///< ticks with a missing input or a missing leader
+  std::uint64_t late = 0;       ///< samples of a tick that is finished already
+  std::uint64_t duplicate = 0;  ///< second samples of one tick
   std::uint64_t ahead = 0;      ///< samples of a tick that cannot have begun yet
 };
 
-/// Samples of one topic, kept by tick until they are used.
+/// Buffer for the samples of one topic, by tick.
 template <class T>
 class TickInput {
  public:
   TickInput(std::shared_ptr<LoopReader<T>> reader, const JoinPolicy& policy)
       : reader_{std::move(reader)}, policy_{policy}, ring_(policy.depth) {}
 
-  /// Takes what has arrived. @return true when a new writer took over and the past is void
+  /// Takes the samples that have arrived. @return true when a new writer took over; its samples then replace
+  /// all others
   bool drain(std::uint64_t first_useful_tick, std::int64_t now_ns, JoinCounts& counts) {
     bool restarted = false;
     std::size_t budget = LoopReader<T>::kMostPerPoll;
@@ -80,8 +81,9 @@ class TickInput {
       newest_ns_ = now_ns;
     }
   }
-  /// A tick number that time cannot have reached would make every later sample look late. Twice the rate and
-  /// a history more are believed: clocks of two hosts differ, and samples queue up.
+  /// A wrong tick number far ahead would make all following samples late. The limit is twice the nominal
+  /// number of ticks since the newest sample (clocks of two hosts differ) plus one history (samples queue
+  /// up).
   [[nodiscard]] bool is_ahead(std::uint64_t tick, std::int64_t now_ns) const {
     constexpr std::uint64_t kQueued_ticks = 128;
     if (policy_.period_ns <= 0 || !newest_ || tick <= *newest_) return false;
@@ -97,9 +99,9 @@ class TickInput {
 };
 
 enum class JoinResult : std::uint8_t {
-  waiting,    ///< nothing to do yet
-  complete,   ///< every input of tick() is there
-  incomplete  ///< the bound passed: get() is null for what is missing
+  waiting,    ///< no tick is open, or the open tick waits for inputs
+  complete,   ///< every input of tick() has arrived
+  incomplete  ///< the bound has passed; get() is null for missing inputs
 };
 
 template <class... T>
@@ -116,25 +118,26 @@ class TickJoin {
     return finish(JoinResult::incomplete);
   }
 
-  /// The tick of the last result, and its samples: valid until the next poll.
+  /// Tick of the last result; valid until the next poll().
   [[nodiscard]] std::uint64_t tick() const { return tick_; }
+  /// Sample of input I for tick(); null when it is missing. Valid until the next poll().
   template <std::size_t I>
   [[nodiscard]] auto get() const {
     return std::get<I>(inputs_).find(tick_);
   }
-  /// The tick being waited for, once its leader has come.
+  /// The open tick: its leader has arrived, other inputs are missing.
   [[nodiscard]] std::optional<std::uint64_t> open_tick() const {
     return opened_ ? std::optional{tick_} : std::nullopt;
   }
-  /// When poll() is due to notice a tick that does not come together.
+  /// Time at which poll() must be called to finish the open tick without its missing inputs.
   [[nodiscard]] std::optional<std::int64_t> due_ns() const {
     if (policy_.in_order || !opened_) return std::nullopt;
     return due_ns_;
   }
   [[nodiscard]] const JoinCounts& counts() const { return counts_; }
-  /// How often a new writer of the leading topic has taken over.
+  /// Number of times that a new writer of the leading topic has taken over.
   [[nodiscard]] std::uint64_t restarts() const { return restarts_; }
-  /// Bit i: input i of the open tick has not come; bit 0 also when no tick is open.
+  /// Bit i is set when input i of the open tick is missing; bit 0 is also set when no tick is open.
   [[nodiscard]] std::uint32_t missing() const { return missing(std::index_sequence_for<T...>{}); }
   [[nodiscard]] std::uint64_t next_tick() const { return opened_ ? tick_ : first_useful_; }
 
@@ -147,7 +150,7 @@ class TickJoin {
     }
     std::apply([&](auto&, auto&... others) { (others.drain(first_useful_, now_ns, counts_), ...); }, inputs_);
   }
-  /// Decides which tick is worked on. @return false when there is none
+  /// Opens the next tick. @return false when no tick can be opened
   bool open(std::int64_t now_ns) {
     const auto candidate = policy_.in_order ? next_in_order() : std::get<0>(inputs_).newest();
     if (!candidate || (started_ && *candidate < first_useful_)) return false;
@@ -159,8 +162,8 @@ class TickJoin {
     has_respite_ = false;
     return true;
   }
-  /// A process that did not get the processor in time may not have been handed what has arrived meanwhile:
-  /// grants half the bound again, once per tick.
+  /// A process that was scheduled late may not have received samples that arrived in the meantime. Once per
+  /// tick this function then extends the wait by half the bound.
   bool woke_late(std::int64_t now_ns) {
     if (has_respite_ || now_ns < due_ns_ + policy_.bound_ns / 2) return false;
     due_ns_ = now_ns + policy_.bound_ns / 2;
@@ -188,8 +191,8 @@ class TickJoin {
   JoinCounts counts_;
   std::uint64_t restarts_ = 0;
   std::uint64_t tick_ = 0;
-  std::uint64_t first_useful_ = 0;  ///< ticks before it are left behind
-  std::int64_t due_ns_ = 0;         ///< until then the rest of the open tick is waited for
+  std::uint64_t first_useful_ = 0;  ///< all earlier ticks are finished
+  std::int64_t due_ns_ = 0;         ///< end of the wait for the other inputs of the open tick
   bool has_respite_ = false;
   bool started_ = false, opened_ = false;
 };

@@ -1,7 +1,7 @@
 #pragma once
-/// The wiring of a stack as data: every component declares the topics it reads and writes, and what for. The
-/// host gives a component exactly these endpoints (ports.hpp). The start-up check, the check for a second
-/// writer, `crane graph` and the tables in the documents are made from the same declarations.
+/// The wiring of a stack as data: every component declares the topics that it reads and writes, with the
+/// purpose of each. The host permits only these endpoints (ports.hpp). The start-up check, the check for a
+/// second writer, `crane graph` and the tables in the documents use the same declarations.
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -18,7 +18,7 @@ struct Context;
 struct Read {
   const topics::Description* topic;
   std::string_view purpose;
-  /// Controllers that need this input; null: all of them.
+  /// True for the controllers that need this input; null: all controllers need it.
   bool (*needed_by)(const control::Controller&) = nullptr;
 };
 
@@ -26,19 +26,19 @@ struct Read {
 struct Write {
   const topics::Description* topic;
   std::string_view purpose;
-  /// The component reports ready only when somebody reads this output.
+  /// True: the component reports PHASE_READY only when this output has a reader.
   bool needs_reader = true;
 };
 
-/// What a process of the stack is. One of these per component.
+/// Description of one component. `crane up` starts one process per ComponentSpec.
 struct ComponentSpec {
   std::string_view name;     ///< "tracking"
   std::string_view program;  ///< "crane_tracking"
   std::string_view summary;
-  crane_Source source;   ///< written into the header of every sample
-  bool runs_controller;  ///< its law depends on --controller
+  crane_Source source;   ///< Header.source of every sample of the component
+  bool runs_controller;  ///< true: the component depends on --controller
   std::vector<Read> reads;
-  std::vector<Write> writes;  ///< besides crane/node and crane/event, which every component writes
+  std::vector<Write> writes;  ///< without crane/node and crane/event, which every component writes
   std::unique_ptr<Component> (*make)(const Context&);
 };
 

@@ -1,12 +1,11 @@
 #pragma once
-/// Whose samples of a loop topic count: exactly one writer's. Pure; time and the number of matched writers
-/// come in as arguments.
+/// Binds a reader of a loop topic to one writer. Pure; time and the number of matched writers are arguments.
 ///
-/// The first writer whose kind may write the topic is bound, if it is the only one. From then on every sample
-/// that does not come from it (another DDS writer, another source or another start-up number in the header)
-/// is foreign: it is not handed out, and the topic is disputed. A process that was started anew takes over
-/// only after the bound writer has been silent for kSilence_ns; whoever moves the crane has stopped long
-/// before (stale_after_s), so that a takeover always ends in a state that waits for an operator.
+/// The first writer whose kind of process may write the topic is bound, provided that it is the only writer.
+/// A sample from another DDS writer, or with another source or start-up number in its header, is foreign: the
+/// reader drops it, and the topic is disputed. A restarted process takes over after the bound writer has sent
+/// nothing for kSilence_ns. Supervisor and bridge stop the crane earlier (stale_after_s), so that the
+/// crane waits for an operator when another writer takes over.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,31 +24,32 @@ struct Writer {
 
 class WriterBinding {
  public:
-  /// A writer that has been silent for so long is dead, hung or cut off: four times the largest age of a
-  /// command that the bridge accepts at 100 Hz.
+  /// A writer that has sent nothing for this time has ended, hangs or is disconnected. The value is four
+  /// times the maximum age of a command that the bridge accepts at 100 Hz.
   static constexpr std::int64_t kSilence_ns = 200'000'000;
-  /// How long a dispute lasts after its last sign: the supervisor wants its causes clear for as long.
+  /// A topic remains disputed for this time after the last detection. The supervisor requires that its causes
+  /// are inactive for the same time.
   static constexpr std::int64_t kDispute_ns = 1'000'000'000;
 
   explicit WriterBinding(const topics::Description& topic) : topic_{&topic} {}
 
   enum class Verdict : std::uint8_t {
-    own,         ///< of the bound writer
-    taken_over,  ///< of a new bound writer: what the old one said is void
-    foreign      ///< of anybody else: to be dropped
+    own,         ///< the sample is from the bound writer
+    taken_over,  ///< the sample is from a new bound writer; samples of the old writer must be discarded
+    foreign      ///< the sample is from another writer and must be dropped
   };
-  /// Judges the origin of a sample that is taken at `now_ns`. @param matched  writers matched now
+  /// Judges the origin of a sample that is taken at `now_ns`. @param matched  number of matched writers
   [[nodiscard]] Verdict judge(const Writer& writer, std::int64_t now_ns, int matched);
-  /// Notices a second writer that says nothing yet. Call once per tick.
+  /// Detects a second writer that is matched and has sent no sample. Call once per tick.
   void watch(std::int64_t now_ns, int matched);
 
-  /// More than one writer was noticed within the last kDispute_ns.
+  /// @return true when a second writer was detected within the last kDispute_ns
   [[nodiscard]] bool disputed(std::int64_t now_ns) const {
     return disputed_ns_ && now_ns - *disputed_ns_ < kDispute_ns;
   }
-  [[nodiscard]] std::uint64_t foreign() const { return foreign_; }  ///< samples dropped so far
+  [[nodiscard]] std::uint64_t foreign() const { return foreign_; }  ///< number of dropped samples
   [[nodiscard]] bool bound() const { return bound_.has_value(); }
-  /// Who disputes the topic, for a message: "a writer that calls itself supervisor, start-up number 4711".
+  /// The second writer, for messages: "a writer that calls itself supervisor, start-up number 4711".
   [[nodiscard]] std::string rival() const;
   [[nodiscard]] const topics::Description& topic() const { return *topic_; }
 
@@ -60,9 +60,9 @@ class WriterBinding {
 
   const topics::Description* topic_;
   std::optional<Writer> bound_, rival_;
-  std::int64_t heard_ns_ = 0;  ///< when the bound writer's last sample was taken
+  std::int64_t heard_ns_ = 0;  ///< time of the last sample of the bound writer
   std::optional<std::int64_t> disputed_ns_;
-  int departed_ = 0;  ///< matched writers that a takeover has left behind and DDS has not yet given up
+  int departed_ = 0;  ///< replaced writers that DDS still counts as matched
   std::uint64_t foreign_ = 0;
 };
 

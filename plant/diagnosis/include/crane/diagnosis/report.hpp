@@ -30,7 +30,7 @@ class ReportError : public std::runtime_error {
 };
 
 /// overlay_N.svg, one per held-out run, and residual_COLUMN.svg.
-/// @param directory must exist. @throws experiment::PictureError
+/// @param directory must exist. @throws plot::PictureError
 void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& diagnosis,
                     const configuration::Rig& rig, const std::vector<Run>& test);
 

@@ -1,29 +1,30 @@
 #pragma once
-/// Stiction: the control action at which the motor starts to move (section 3.1, (4.13), (4.15)). The axis
-/// rests while its voltage is raised slowly, until it moves; both ways, several times.
+/// Estimates the stiction: the voltage at which a resting axis starts to move (break-away). The experiment
+/// raises the voltage slowly from rest until the axis moves, several times in both directions. Source: H. M.
+/// Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003, section 3.1, (4.13), (4.15).
 #include "crane/identification/friction.hpp"
 
 namespace crane::identification {
 
 struct BreakAwayOptions {
-  double start_speed = 0.002;  ///< m/s or rad/s that count as motion, > 0
-  double rest_s = 0.2;         ///< slower than that for so long before, > 0
-  double window_s = 0.05;      ///< the speed is a difference of positions so far apart, > 0
+  double start_speed = 0.002;  ///< speed above which the axis counts as moving, m/s or rad/s, > 0
+  double rest_s = 0.2;         ///< minimum time at rest before a break-away, > 0
+  double window_s = 0.05;      ///< distance in time of the two positions that give the speed, > 0
 };
 
 struct BreakAway {
   double time_s = 0;
-  double drive_v = 0;  ///< V in the middle of the window, signed
+  double drive_v = 0;  ///< voltage in the middle of the window, V, signed
 };
 
-/// Every start out of rest in the direction of its voltage, in order of time. The speed threshold costs
-/// b start_speed, the window half its length times the slope of the ramp.
+/// All break-aways in the direction of the voltage, in order of time. The bias of drive_v is b start_speed by
+/// the speed threshold (b: viscous friction), and half the window times the slope of the voltage.
 /// @throws IdentificationError as estimate_friction does for the series, @throws std::invalid_argument
 [[nodiscard]] std::vector<BreakAway> break_aways(const AxisRun& run, const BreakAwayOptions& options);
 
 struct Stiction {
-  double mean_v = 0;    ///< magnitude
-  double spread_v = 0;  ///< standard deviation of single break-aways
+  double mean_v = 0;    ///< mean of |drive_v|
+  double spread_v = 0;  ///< standard deviation of single break-aways, V
   std::size_t count = 0;
 };
 struct StictionEstimate {
@@ -31,7 +32,7 @@ struct StictionEstimate {
 };
 inline constexpr std::size_t kFewestBreakAways = 2;
 
-/// @throws IdentificationError  fewer than kFewestBreakAways in a direction
+/// @throws IdentificationError when a direction has fewer than kFewestBreakAways
 [[nodiscard]] StictionEstimate estimate_stiction(const AxisRun& run, const BreakAwayOptions& options);
 
 }  // namespace crane::identification

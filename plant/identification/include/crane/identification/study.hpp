@@ -1,7 +1,8 @@
 #pragma once
-/// Tables 3.1 to 3.5: the regression of section 3.1 on the test problem, for several zero-velocity bands and
-/// cut-off frequencies. The source leaves open how it simulated; this is the reading that agrees best: 100
-/// Hz, 60 s, continuous PD, x and u filtered, v from the model.
+/// Recomputes Tables 3.1 to 3.5: the regression of section 3.1 for the test problem, with several
+/// zero-velocity bands and cut-off frequencies. Source: H. M. Omar, Control of Gantry and Tower Cranes,
+/// Virginia Tech, 2003. The source does not state all settings of its simulation. These settings agree best
+/// with its tables: 100 Hz, 60 s, continuous PD, x and u filtered, v from the model.
 #include <array>
 #include <string>
 #include <vector>
@@ -10,24 +11,25 @@
 
 namespace crane::identification {
 
-/// b+, b-, c+, c- over K_m.
+/// b+, b-, c+, c-, divided by K_m.
 using Coefficients = std::array<double, 4>;
 
 struct StudyRow {
   std::string table;     ///< "3.1"
-  std::string variable;  ///< "d_s", m/s, or "omega_c", Hz
-  double value = 0;
+  std::string variable;  ///< "d_s" or "omega_c"
+  double value = 0;      ///< d_s in m/s, or omega_c in Hz
   Coefficients printed{};
   Coefficients recomputed{};
-  Coefficients midpoint{};  ///< the unbiased form on the same axis with a held voltage
-  /// The source's number depends on how its integrator chattered about v = 0, which cannot be repeated.
+  Coefficients midpoint{};  ///< midpoint regression on the same axis with a sampled and held voltage
+  /// True: the printed number depends on the chattering of the source's integrator about v = 0 and cannot be
+  /// reproduced.
   bool printed_chatters = false;
 };
 
 /// All rows in the order of the source.
 [[nodiscard]] std::vector<StudyRow> recompute_tables();
 
-/// The truth of a table's rows.
+/// True coefficients of the test problem for a row.
 [[nodiscard]] Coefficients exact(const StudyRow& row);
 
 }  // namespace crane::identification

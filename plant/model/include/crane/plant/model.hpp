@@ -1,8 +1,9 @@
 #pragma once
-/// The crane with its drives and terms: volts in, accelerations out.
+/// Model of the crane with its drives and terms; input: volts, output: accelerations.
+/// Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003.
 ///   F_x = M K_mx (V_x - f_x),  T_gamma = J_o K_mgamma (V_gamma - f_gamma)      (2.10), (2.26), (2.27), (3.4)
 ///   L'' = (K_h (V_h - f_h) - L') / tau_h                                       speed-controlled hoist
-/// with f the friction in volts that the drive terms add up to.
+/// f is the friction in volts, the sum over the drive terms.
 #include <memory>
 #include <vector>
 
@@ -13,70 +14,73 @@
 
 namespace crane::plant {
 
-/// Accelerations of a term's own coordinates, in the order of Model's inner coordinates.
+/// Inner coordinates of all structure terms of a model, and their accelerations; the first
+/// Model::inner_coordinates() elements are used.
 using InnerState = std::array<Inner, kMostInner>;
 using InnerAccelerations = std::array<double, kMostInner>;
 
-/// What acts on the crane besides its own motion; constant between two events of the rig.
+/// Inputs of the model; constant between two events of the rig.
 struct Actuation {
-  PerAxis drive_v{};  ///< amplifier output, after the command terms [V]
-  /// Braking effort on a moving axis: N, N m, and for the hoist m/s2 that replace its drive's acceleration.
+  PerAxis drive_v{};  ///< output of the amplifiers, after the command terms [V]
+  /// Braking force on a moving axis: N, N m; for the hoist m/s2, which replaces the acceleration of its
+  /// drive.
   PerAxis brake_effort{};
   Locks locks;
-  std::array<bool, kMostInner> led{};  ///< own coordinates of terms whose accelerations are given
+  std::array<bool, kMostInner> led{};  ///< true: the acceleration of this inner coordinate is prescribed
 };
 
 class Model {
  public:
-  /// @param period_s tick: how long a command is held, > 0
-  /// @throws std::invalid_argument naming every problem of the parameters and of the terms
+  /// @param period_s  sampling period, during which a command is constant, > 0
+  /// @throws std::invalid_argument with all problems of the parameters and of the terms
   explicit Model(const Parameters& parameters, const std::vector<TermSetting>& terms = {},
                  double period_s = 0.01);
 
-  /// Those of the rig file, changed by the parameter terms.
+  /// Parameters of the rig file, changed by the parameter terms.
   [[nodiscard]] const Parameters& parameters() const noexcept { return parameters_; }
 
-  /// What the amplifiers really give for a command; once a tick, because command terms may remember.
+  /// Output of the amplifiers for a command [V]. Call once per tick: command terms may have a memory.
   [[nodiscard]] PerAxis drive_voltage(const PerAxis& command_v) noexcept;
 
-  /// Friction in volts that the drive terms add up to.
+  /// Friction of the drives, the sum over the drive terms [V].
   [[nodiscard]] PerAxis friction_v(const State& state) const noexcept;
   [[nodiscard]] double friction_v(const State& state, Axis axis) const noexcept;
 
-  /// What a volt of friction takes from the accelerations of trolley and slew: [accelerated][rubbing axis].
+  /// Decrease of the accelerations of trolley and slew per volt of friction: [accelerated axis][axis with
+  /// friction].
   [[nodiscard]] std::array<PerAxis, kAxes> friction_response(const State& state, const Locks& locks,
                                                              const InnerState& inner) const noexcept;
 
-  /// Number of coordinates the structure terms have of their own, at most kMostInner.
+  /// Number of inner coordinates of all structure terms, at most kMostInner.
   [[nodiscard]] std::size_t inner_coordinates() const noexcept { return inner_coordinates_; }
-  /// Those of them that ring on by themselves (Term::rings), by index.
+  /// Indices of the inner coordinates that oscillate freely (Term::rings).
   [[nodiscard]] std::vector<std::size_t> ringing_coordinates() const;
 
-  /// @param inner own coordinates of the structure terms; the first inner_coordinates() count
-  /// @param inner_accelerations filled likewise
+  /// @param inner                inner coordinates; the first inner_coordinates() elements are used
+  /// @param inner_accelerations  output; the first inner_coordinates() elements are set
   /// @pre as plant::accelerations
   [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation,
                                             const InnerState& inner,
                                             InnerAccelerations& inner_accelerations) const noexcept;
-  /// The same with friction given [V] instead of that of the drive terms.
+  /// Accelerations with the given friction [V] instead of the friction of the drive terms.
   [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation,
                                             const PerAxis& friction_v, const InnerState& inner,
                                             InnerAccelerations& inner_accelerations) const noexcept;
-  /// For a model without inner coordinates, or with them at rest.
+  /// Accelerations of a model without inner coordinates, or with inner coordinates at rest at 0.
   [[nodiscard]] Accelerations accelerations(const State& state, const Actuation& actuation) const noexcept;
 
-  /// Terms' own coordinates along a measured motion, by what the model has not made of the motors' speed from
-  /// one sample to the next (Term::correct).
+  /// Corrects the inner coordinates along a measured motion (Term::correct).
+  /// @param unexplained  measured minus modelled change of each motor's speed between two samples, m/s, rad/s
   void correct(const State& state, const PerAxis& unexplained, const InnerState& before,
                InnerState& inner) const noexcept;
 
-  /// What the sensors report; once a tick, because sensor terms may remember.
+  /// Output of the sensors. Call once per tick: sensor terms may have a memory.
   [[nodiscard]] Measurement measure(const State& state) noexcept;
 
  private:
   struct Structure {
     std::unique_ptr<Term> term;
-    std::size_t first = 0;  ///< index of its first inner coordinate
+    std::size_t first = 0;  ///< index of the first inner coordinate of the term
   };
   void add_structure(std::unique_ptr<Term> term);
   [[nodiscard]] State displaced(const State& state, const InnerState& inner) const noexcept;

@@ -1,7 +1,8 @@
 #pragma once
-/// Physical parameters of a tower crane, gantry, single drive axis or free pendulum (facts in
-/// docs/equations.md). The leadscrew makes the inertia felt by the trolley drive and the mass that moves
-/// along the jib two numbers.
+/// Physical parameters of a tower crane, gantry, single drive axis or free pendulum. The values and their
+/// sources are in docs/equations.md. Because of the leadscrew, the inertia that the trolley drive accelerates
+/// (M) differs from the mass that moves along the jib (M_j). Equation numbers: H. M. Omar, Control of Gantry
+/// and Tower Cranes, Virginia Tech, 2003.
 #include <array>
 #include <cstddef>
 #include <map>
@@ -17,7 +18,7 @@ using PerAxis = std::array<double, kAxes>;
 /// Ranges: parameter_fields.hpp.
 struct Parameters {
   double gravity_mps2 = 9.81;         ///< g
-  double trolley_inertia_kg = 22.46;  ///< M, inertia on x'' (trolley, leadscrew, motor) (4.3)
+  double trolley_inertia_kg = 22.46;  ///< M, factor of x'' (trolley, leadscrew, motor) (4.3)
   double trolley_mass_kg = 1.97;      ///< M_j, mass in every rotational and centrifugal term
   double load_mass_kg = 2.0;          ///< m
   double jib_inertia_kgm2 = 7.2;      ///< J_o = J_eq n^2
@@ -26,22 +27,25 @@ struct Parameters {
   double hoist_gain_mpspv = 0.05;     ///< steady cable speed per volt (speed-controlled drive)
   double hoist_lag_s = 0.1;           ///< time constant of the hoist drive
 
-  /// Shares of M_j that the slew's motor turns and that pull at the trolley's motor when the jib turns: 0
-  /// where a term puts a gap or a spring between. Not in a rig file.
-  double slewed_share = 1, thrown_share = 1;
+  /// Share of M_j that the slew motor accelerates; 0 when a structure term separates the motor from the jib.
+  /// Set by terms, not by rig files.
+  double slewed_share = 1;
+  /// Share of M_j whose centrifugal force acts on the trolley motor; 0 when a structure term separates the
+  /// motor from the trolley. Set by terms, not by rig files.
+  double thrown_share = 1;
 
-  /// m_t = m / M, m_r = m / J_o, M_r = M_j / J_o of (2.25) with the two trolley masses kept apart.
+  /// Ratios (2.25), with M and M_j for the two trolley masses: m_t = m / M, m_r = m / J_o, M_r = M_j / J_o.
   [[nodiscard]] double load_to_trolley_ratio() const { return load_mass_kg / trolley_inertia_kg; }
   [[nodiscard]] double load_to_jib_ratio() const { return load_mass_kg / jib_inertia_kgm2; }
   [[nodiscard]] double trolley_to_jib_ratio() const { return trolley_mass_kg / jib_inertia_kgm2; }
 
-  /// All problems at once as "name = value: rule"; empty when usable.
+  /// @return all problems as "name = value: rule"; empty when there are none
   [[nodiscard]] std::vector<std::string> problems() const;
 
   bool operator==(const Parameters&) const = default;
 };
 
-/// One entry of the rig file's [[model.terms]]: an effect the bare equations do not have.
+/// One entry [[model.terms]] of a rig file: an effect that is not part of the basic equations of motion.
 struct TermSetting {
   std::string name;                          ///< "drive_friction", "load_linear_drag", ...
   std::string axis;                          ///< "trolley", "slew", "hoist", "radial", "tangential" or empty

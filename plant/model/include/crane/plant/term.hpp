@@ -1,7 +1,7 @@
 #pragma once
-/// Terms: effects the bare equations do not have, each with a name, parameters and a place where it acts. A
-/// rig file switches them on; simulator and diagnosis share the list. A term is one file in src/terms and one
-/// line in src/terms/registered.def.
+/// Terms: effects that are not part of the basic equations of motion, for example friction or wind. Each term
+/// has a name, parameters and a place where it acts. Rig files activate terms. Simulator and diagnosis use
+/// the same list. A term consists of one file in src/terms and one line in src/terms/registered.def.
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,25 +13,26 @@
 
 namespace crane::plant {
 
-/// A coordinate of a term's own, second order, at rest at zero when the rig starts.
+/// Inner coordinate of a structure term, for example the deflection of the jib: second order, initially at
+/// rest at 0.
 struct Inner {
-  double position = 0;
-  double rate = 0;
+  double position = 0;  ///< m or rad
+  double rate = 0;      ///< m/s or rad/s
 };
-/// All terms of a model together have at most so many.
+/// Maximum number of inner coordinates of a model.
 inline constexpr std::size_t kMostInner = 8;
 
-/// Where the load hangs from, against what the drives' encoders see.
+/// Position of the suspension point of the load minus the positions at the encoders of the drives.
 struct Displacement {
   double trolley_m = 0, slew_rad = 0, cable_m = 0;
 };
 
-/// What the sensors report.
+/// Output of the sensors.
 struct Measurement {
   double trolley_m = 0, slew_rad = 0, cable_m = 0, radial_rad = 0, tangential_rad = 0;
 };
 
-/// One effect. A kind overrides the functions that belong to its `acts_on`.
+/// One effect. A derived class overrides the functions of its `acts_on`.
 class Term {
  public:
   Term() = default;
@@ -39,85 +40,96 @@ class Term {
   Term& operator=(const Term&) = delete;
   virtual ~Term() = default;
 
-  /// Parameter and structure terms, once: the crane is another than the rig file says.
+  /// Parameter and structure terms, once at the start: changes the parameters of the rig file.
   virtual void change_parameters(Parameters& /*crane*/) const noexcept {}
-  /// Command terms, once a tick and in the order of the rig file: turns the amplifier's input into its output
-  /// [V], held for `period_s`. May remember earlier ticks.
+  /// Command terms, once per tick in the order of the rig file: converts the input of the amplifier to its
+  /// output [V], which is constant for `period_s`. May depend on earlier ticks.
   virtual void change_command(PerAxis& /*drive_v*/, double /*period_s*/) noexcept {}
-  /// Drive terms: adds the friction the drive meets, in volts of its amplifier (F / K_m); positive opposes
-  /// +speed.
+  /// Drive terms: adds friction, in volts of the amplifier (F / K_m). A positive value opposes a positive
+  /// speed.
   virtual void add_friction(const State& /*state*/, PerAxis& /*friction_v*/) const noexcept {}
-  /// Load terms: adds generalised forces.
+  /// Load terms: adds generalised forces of the load.
   virtual void add_force(const Parameters& /*crane*/, const State& /*state*/,
                          Forces& /*sum*/) const noexcept {}
 
-  /// Structure terms may have coordinates of their own, none when the parameters make them rigid; `inner` and
-  /// `acceleration` below are theirs.
+  /// Structure terms: number of inner coordinates; 0 when the parameters make the structure rigid. The
+  /// arguments `inner` and `acceleration` below point to the inner coordinates of this term.
   [[nodiscard]] virtual std::size_t inner_coordinates() const noexcept { return 0; }
-  /// They ring on by themselves: what drives them does not tell where they are.
+  /// True when the inner coordinates oscillate freely, so that the inputs do not determine their state.
   [[nodiscard]] virtual bool rings() const noexcept { return inner_coordinates() > 0; }
-  /// Displacement that is always there; of the position only.
+  /// Constant displacement; it adds to positions, not to rates.
   [[nodiscard]] virtual Displacement rest_displacement(const Parameters& /*crane*/) const noexcept {
     return {};
   }
-  /// Adds the displacement, for positions, rates and accelerations alike: linear in `inner`.
+  /// Adds the displacement. It is linear in `inner`, so that the same function serves positions, rates and
+  /// accelerations.
   virtual void displace(const double* /*inner*/, Displacement& /*sum*/) const noexcept {}
-  /// Adds generalised forces that depend on the own coordinates.
+  /// Adds generalised forces that depend on the inner coordinates.
   virtual void add_inner_force(const Parameters& /*crane*/, const State& /*state*/, const Inner* /*inner*/,
                                Forces& /*sum*/) const noexcept {}
-  /// Accelerations of the own coordinates, given those of the drives and the swing. Called again when a
-  /// displacement of any term has changed the swing's.
+  /// Computes the accelerations of the inner coordinates from those of the drives and the swing. The model
+  /// calls this function again when the displacement of a term has changed the acceleration of the swing.
   virtual void accelerate(const Parameters& /*crane*/, const State& /*state*/,
                           const Accelerations& /*drives*/, const Inner* /*inner*/,
                           double* /*acceleration*/) const noexcept {}
 
-  /// From one sample of a measured motion to the next a motor's speed has changed by so much more than the
-  /// model makes of it [m/s, rad/s]: what that says about where the own coordinates are now.
-  /// @param before where they were at the first of the samples
+  /// Corrects the inner coordinates between two samples of a measured motion.
+  /// @param unexplained  measured minus modelled change of each motor's speed between the samples [m/s,
+  ///   rad/s]
+  /// @param before       inner coordinates at the first sample
+  /// @param inner        inner coordinates at the second sample
   virtual void correct(const Parameters& /*crane*/, const State& /*state*/, const PerAxis& /*unexplained*/,
                        const Inner* /*before*/, Inner* /*inner*/) const noexcept {}
 
-  /// Sensor terms, once a tick: turns what is into what is reported. May remember earlier ticks.
+  /// Sensor terms, once per tick: converts true values to sensor values. May depend on earlier ticks.
   virtual void change_measurement(Measurement& /*measured*/, double /*period_s*/) noexcept {}
 };
 
-enum class ActsOn { parameters, command, drive, load, structure, sensor };
+/// Place where a term acts.
+enum class ActsOn {
+  parameters,  ///< parameters of the rig file
+  command,     ///< voltage between command and motor
+  drive,       ///< friction of a drive
+  load,        ///< force on the load
+  structure,   ///< position of the suspension point
+  sensor       ///< measured values
+};
 
-/// One number of a term. The default of all of them together has no effect.
+/// One parameter of a term. A term whose parameters all have their defaults has no effect.
 struct TermParameter {
   std::string_view name;
   std::string_view unit;
   double default_value = 0;
-  double low = 0;  ///< allowed range, both ends included
+  double low = 0;  ///< permitted range [low, high]
   double high = 0;
   std::string_view meaning;
 };
 
-/// What may be written in a rig file.
+/// Description of a term for rig files and documents.
 struct TermKind {
   std::string_view name;
   std::string_view equation;
   std::string_view source;
   ActsOn acts_on = ActsOn::drive;
-  std::vector<std::string_view> axes;  ///< allowed TermSetting::axis; "" stands for an empty one
+  std::vector<std::string_view> axes;  ///< permitted values of TermSetting::axis; "": the term needs no axis
   std::vector<TermParameter> parameters;
-  /// @pre the setting has no problems and names every parameter
+  /// @pre the setting has no problems and contains every parameter
   std::unique_ptr<Term> (*make)(const TermSetting& setting) = nullptr;
 };
 
 /// All terms, in the order of the documentation.
 [[nodiscard]] const std::vector<TermKind>& term_kinds();
-/// @return nullptr when there is none of that name
+/// @return nullptr when no term has this name
 [[nodiscard]] const TermKind* find_term(std::string_view name);
 
-/// All problems at once as "terms[2] drive_friction: name = value: rule"; empty when usable.
+/// @return all problems as "terms[2] drive_friction: name = value: rule"; empty when there are none
 [[nodiscard]] std::vector<std::string> problems(const std::vector<TermSetting>& settings);
 
-/// @return the term, parameters left out taking their defaults
-/// @throws std::invalid_argument naming every problem of the setting
+/// @return the term; missing parameters have their defaults
+/// @throws std::invalid_argument with all problems of the setting
 [[nodiscard]] std::unique_ptr<Term> make_term(const TermSetting& setting);
 
-/// "trolley", "slew", "hoist" to the axis. @pre it is one of them
+/// @return the axis of a name. @pre name is "trolley", "slew" or "hoist"
 [[nodiscard]] Axis drive_axis(std::string_view name) noexcept;
 
 }  // namespace crane::plant

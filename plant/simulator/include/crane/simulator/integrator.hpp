@@ -1,11 +1,11 @@
 #pragma once
-/// Integration of plant::Model over one span of constant command, SUNDIALS CVODE (BDF, variable order and
+/// Integrates plant::Model over a span with constant command, with SUNDIALS CVODE (BDF, variable order and
 /// step).
 ///
-/// Every span starts afresh at order 1: the command jumps there, so the history of the last span describes
-/// another right-hand side. The result depends on the arguments only, not on earlier calls: same input, same
-/// bits. Friction is smooth (tanh of speed over the terms' smoothing speed), which makes the equations stiff
-/// near standstill and never discontinuous inside a span.
+/// Every span starts with order 1, because the command changes in steps and the history of the previous span
+/// belongs to another right-hand side. The result depends on the arguments only, not on earlier calls; equal
+/// arguments give equal bits. The friction is a smooth function of the speed (tanh), so that the equations
+/// are stiff near standstill and continuous within a span.
 #include <array>
 #include <limits>
 #include <memory>
@@ -15,19 +15,21 @@
 
 namespace crane::simulator {
 
-/// Local error per step: |error| <= relative |y| + absolute for positions in m or rad and speeds per second.
-/// With the defaults a 10 s maneuver with friction is right to 1e-5 in every coordinate and speed, measured
-/// against a fixed-step Runge-Kutta of 20 us; a tenth of the tolerances gives 1e-6.
+/// Local error per step: |error| <= relative |y| + absolute; positions in m or rad, speeds per second. With
+/// the defaults, the error of every coordinate and speed in a 10 s maneuver with friction is below 1e-5,
+/// compared with a Runge-Kutta method with a fixed step of 20 us. With a tenth of the tolerances it is below
+/// 1e-6.
 struct Tolerances {
   double relative = 1e-8;
   double absolute = 1e-8;
 };
 
-/// Where integration has to stop early.
+/// Events that end the integration early.
 struct Watch {
-  std::array<bool, plant::kAxes> standstill{};                            ///< when the axis's speed crosses 0
-  plant::PerAxis low = filled(-std::numeric_limits<double>::infinity());  ///< when the position falls to this
-  plant::PerAxis high = filled(std::numeric_limits<double>::infinity());  ///< when the position rises to this
+  std::array<bool, plant::kAxes> standstill{};  ///< true: event when the speed of the axis crosses 0
+  /// Event when the position of the axis falls to `low` or rises to `high`.
+  plant::PerAxis low = filled(-std::numeric_limits<double>::infinity());
+  plant::PerAxis high = filled(std::numeric_limits<double>::infinity());
 
   [[nodiscard]] bool active() const;
 
@@ -42,28 +44,28 @@ struct Event {
 };
 
 struct Advance {
-  double elapsed_s = 0;        ///< the whole span, or the time of the event
-  std::optional<Event> event;  ///< the first one
+  double elapsed_s = 0;        ///< integrated time: the whole span, or the time of the event
+  std::optional<Event> event;  ///< the first event; nothing: no event
 };
 
 class Integrator {
  public:
-  /// The model has to outlive the integrator. @throws std::runtime_error when CVODE cannot be set up
+  /// `model` must outlive the integrator. @throws std::runtime_error when CVODE cannot be initialised
   explicit Integrator(const plant::Model& model, const Tolerances& tolerances = {});
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
   ~Integrator();
 
-  /// Moves `state` and the structure terms' own coordinates on by `span_s` or to the first event.
+  /// Advances `state` and the inner coordinates by `span_s`, or up to the first event.
   /// @pre span_s > 0; locked coordinates have rate 0
-  /// @throws std::runtime_error when the step size collapses (theta at 90 degrees, cable length 0)
+  /// @throws std::runtime_error when the step size becomes too small (theta at 90 degrees, cable length 0)
   Advance advance(plant::State& state, plant::InnerState& inner, const plant::Actuation& actuation,
                   double span_s, const Watch& watch = {});
-  /// The same for a model without coordinates of structure terms, or with them starting at rest.
+  /// Advances a model without inner coordinates, or with inner coordinates that start at rest at 0.
   Advance advance(plant::State& state, const plant::Actuation& actuation, double span_s,
                   const Watch& watch = {});
 
-  /// Evaluations of the equations of motion since construction, those for the Jacobian included.
+  /// Number of evaluations of the equations of motion since construction, including those for the Jacobian.
   [[nodiscard]] long evaluations() const noexcept;
 
  private:

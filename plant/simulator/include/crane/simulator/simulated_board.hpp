@@ -1,24 +1,26 @@
 #pragma once
-/// A rig that exists in memory only, behind the interface of a real board: encoders, converters, brakes,
-/// switches and the watchdog relay around the equations of motion.
+/// A simulated rig that implements the interface of a board: equations of motion with encoders, converters,
+/// brakes, switches and watchdog relay.
 ///
-/// Encoders: raw counts are absolute, nearest integer of sign * coordinate * counts_per_unit with coordinate
-///   0 at the rig's zero (tower axis, slew zero, no cable, hanging load), wrapped to 24 bits and
-///   sign-extended. The coordinate is what the model's sensor terms make of it, once for each time that is
-///   read.
-/// Converters: see crane/bridge/converter.hpp.
-/// Drives: the board's voltage times the drive's sign, then the model's command terms, once a tick.
-/// Brakes: closed without supply. Supply = brake_release and relay closed and (e-stop released or not wired
-/// in).
-///   After the closing time a brake is dry friction of `brake_deceleration` until standstill, then the axis
-///   is locked exactly, whatever pulls at it, until the brake has opened.
-/// Watchdog relay: open at start. It closes when the watchdog output has changed at least every
-///   `watchdog_timeout_s` for `watchdog_permit_s`, drops when it has not changed for longer than
-///   `watchdog_timeout_s` of rig time, and then stays dropped until it may close again by the same rule.
-/// End stops: the axis is stopped dead; it leaves when its acceleration points inwards (looked at every 10 ms
-/// or
-///   less).
-/// Deterministic: the same calls give the same bits.
+/// Encoders: the raw count is the nearest integer of sign * coordinate * counts_per_unit, wrapped to 24 bits
+/// and
+///   sign-extended. The coordinates are 0 at the zero of the rig (trolley at the tower axis, slew angle 0,
+///   cable length
+///   0, load hanging at rest). The sensor terms of the model act once per reading time.
+/// Converters: see crane/bridge/converter.hpp. Drives: the voltage of the board, multiplied by the sign of
+/// the drive; then the command terms, once per tick. Brakes: a brake without supply closes. It is supplied
+/// when brake_release is set, the relay is closed, and the
+///   emergency stop is released (or not wired to the brakes). After the closing time the brake decelerates
+///   the axis by
+///   `brake_deceleration` until standstill. Then the axis is locked, independent of all forces, until the
+///   brake opens.
+/// Watchdog relay: initially open. It closes when the watchdog output has toggled for `watchdog_permit_s`
+/// with at most
+///   `watchdog_timeout_s` between two changes. It opens when the output has not changed for
+///   `watchdog_timeout_s`.
+/// End stops: an axis that reaches an end stop stops at once (inelastic impact). It leaves the stop when its
+///   acceleration points inwards; this is checked at least every 10 ms.
+/// Deterministic: equal calls give equal bits.
 #include <memory>
 
 #include "crane/bridge/board.hpp"
@@ -28,13 +30,13 @@
 
 namespace crane::simulator {
 
-/// Low 24 bits, sign-extended.
+/// @return the low 24 bits, sign-extended
 [[nodiscard]] std::int32_t wrap_24_bit(std::int64_t counts) noexcept;
 
 class SimulatedBoard final : public bridge::Board {
  public:
-  /// The rig rests at its start with brakes closed and relay open; its clock shows `start_time_ns`.
-  /// @throws std::invalid_argument naming every problem of the rig
+  /// Initial state: at rest at `rig.start`, brakes closed, relay open, time `start_time_ns`.
+  /// @throws std::invalid_argument with all problems of the rig
   explicit SimulatedBoard(const SimulatedRig& rig, std::int64_t start_time_ns = 0,
                           const Tolerances& tolerances = {});
   ~SimulatedBoard() override;
@@ -43,19 +45,19 @@ class SimulatedBoard final : public bridge::Board {
   [[nodiscard]] bridge::Inputs read() override;
   std::array<double, bridge::kDrives> write(const bridge::Outputs& outputs) override;
   void make_safe() noexcept override;
-  /// Integrates to `time_ns`; nothing happens when that is not later than now().
-  /// @throws std::runtime_error when integration fails; the rig then stays where it was
+  /// Integrates up to `time_ns`; no effect when `time_ns` <= now_ns().
+  /// @throws std::runtime_error when the integration fails; the state of the rig does not change then
   void advance_to(std::int64_t time_ns) override;
   [[nodiscard]] bool simulates_time() const override { return true; }
-  /// Ways the cable cannot swing are left out. @return true
+  /// Adds swing rates; a direction without swing is ignored. @return true
   bool kick(double radial_radps, double tangential_radps) override;
 
-  /// The emergency stop button.
+  /// Presses or releases the emergency stop.
   void press_estop(bool pressed) noexcept;
 
-  /// Volts that the converters give.
+  /// Output voltages of the converters [V].
   [[nodiscard]] const std::array<double, bridge::kDrives>& converter_v() const noexcept;
-  /// What no sensor knows; for tests and pictures.
+  /// True state without sensor errors, for tests and pictures.
   [[nodiscard]] const plant::State& truth() const noexcept;
   [[nodiscard]] std::int64_t now_ns() const noexcept;
 

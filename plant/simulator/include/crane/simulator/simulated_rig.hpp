@@ -1,5 +1,6 @@
 #pragma once
-/// What the simulated board is told about its rig. The defaults are the dissertation's tower crane.
+/// Parameters of the simulated board. The defaults are those of the tower crane in H. M. Omar, Control of
+/// Gantry and Tower Cranes, Virginia Tech, 2003, chapter 4.
 #include <array>
 #include <limits>
 #include <numbers>
@@ -15,23 +16,24 @@ namespace crane::simulator {
 /// Incremental encoder of one coordinate: raw = nearest integer of sign * (coordinate - zero) *
 /// counts_per_unit.
 struct SimulatedEncoder {
-  double counts_per_unit = 1;  ///< counts per m or rad of the coordinate (quadrature and gear included), > 0
-  int sign = 1;                ///< +1 or -1: which way it counts
-  double zero = 0;             ///< coordinate at which it shows 0, m or rad
+  double counts_per_unit = 1;  ///< counts per m or rad, including quadrature and gear, > 0
+  int sign = 1;                ///< +1 or -1: direction of counting
+  double zero = 0;             ///< coordinate of count 0, m or rad
 };
 
 struct SimulatedDrive {
-  bool present = true;               ///< an absent drive never moves
-  int sign = 1;                      ///< +1 or -1: which way a positive voltage moves the axis
-  double brake_deceleration = 5;     ///< m/s2 or rad/s2 that the closed brake gives alone, > 0
-  double brake_close_time_s = 0.02;  ///< from loss of supply to full effort, in [0, 10]
-  double brake_open_time_s = 0.02;   ///< from supply to no effort, in [0, 10]
-  double low_switch = -std::numeric_limits<double>::infinity();  ///< limit_low while the position is <= this
-  double high_switch = std::numeric_limits<double>::infinity();  ///< limit_high while the position is >= this
-  double mark =
-      -std::numeric_limits<double>::infinity();  ///< the axis' own mark shows while the position is <= this
-  double low_stop = -std::numeric_limits<double>::infinity();  ///< end stop: the axis is stopped dead here
-  double high_stop = std::numeric_limits<double>::infinity();
+  bool present = true;               ///< false: the axis never moves
+  int sign = 1;                      ///< +1 or -1: direction of motion for a positive voltage
+  double brake_deceleration = 5;     ///< deceleration by the closed brake alone, m/s2 or rad/s2, > 0
+  double brake_close_time_s = 0.02;  ///< time from loss of supply to full braking force, in [0, 10]
+  double brake_open_time_s = 0.02;   ///< time from supply to zero braking force, in [0, 10]
+  /// limit_low is set while position <= low_switch, limit_high while position >= high_switch, and the
+  /// separate mark is active while position <= mark; m or rad.
+  double low_switch = -std::numeric_limits<double>::infinity();
+  double high_switch = std::numeric_limits<double>::infinity();
+  double mark = -std::numeric_limits<double>::infinity();
+  double low_stop = -std::numeric_limits<double>::infinity();  ///< position of the low end stop, m or rad
+  double high_stop = std::numeric_limits<double>::infinity();  ///< position of the high end stop, m or rad
 };
 
 struct SimulatedRig {
@@ -45,16 +47,15 @@ struct SimulatedRig {
                                                             {2000 * 4 / 0.05},
                                                             {6000 * 4 / kTurn},
                                                             {6000 * 4 / kTurn}}};
-  bool radial_swing = true;      ///< false: the cable cannot swing that way
+  bool radial_swing = true;      ///< false: no radial swing
   bool tangential_swing = true;  ///< false for a gantry
   plant::State start{.trolley_m = 0.25};
-  double period_s = 0.01;            ///< tick, in which command and sensor terms act once, > 0
-  bool estop_cuts_brakes = true;     ///< the wired emergency stop interrupts the brake supply
-  double watchdog_timeout_s = 0.05;  ///< the relay drops when the level has not changed for longer than this
-  double watchdog_permit_s =
-      0.05;  ///< a dropped relay closes again after toggling for this long without a gap
+  double period_s = 0.01;            ///< sampling period; command and sensor terms act once per period, > 0
+  bool estop_cuts_brakes = true;     ///< true: the wired emergency stop interrupts the brake supply
+  double watchdog_timeout_s = 0.05;  ///< the relay opens when the level has not changed for longer than this
+  double watchdog_permit_s = 0.05;   ///< an open relay closes after uninterrupted toggling for this time
 
-  /// All problems at once as "name = value: rule", terms included; empty when usable.
+  /// @return all problems as "name = value: rule", including those of the terms; empty when there are none
   [[nodiscard]] std::vector<std::string> problems() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// What the twin compares, column by column: trolley [m], slew, radial and tangential swing [rad].
+/// Columns (sensor values) that the twin predicts: trolley [m], slew, radial and tangential swing [rad].
 #include <array>
 #include <cstddef>
 

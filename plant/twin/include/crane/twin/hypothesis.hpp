@@ -1,6 +1,6 @@
 #pragma once
-/// Causes the twin can name: most are a term of plant/model with a reference size. Half of the reference size
-/// is what the twin lets pass without an event.
+/// Causes that the twin can name. Most causes are a term of plant/model with a reference size. A deviation
+/// below half of the reference size raises no event.
 #include <string>
 #include <vector>
 
@@ -12,16 +12,16 @@ namespace crane::twin {
 
 struct Hypothesis {
   std::string cause;                      ///< name of the term
-  std::string axis;                       ///< as the term has it
-  std::vector<plant::TermSetting> terms;  ///< the reference size of it
-  PerColumn slip{};                       ///< of a slipping encoder, which is no matter of the model
-  double reference = 0;                   ///< that size, in `unit`, not 0
-  bool only_near = false;                 ///< says nothing about sizes far from the reference
+  std::string axis;                       ///< axis of the term; may be empty
+  std::vector<plant::TermSetting> terms;  ///< the term with the reference size; empty for a slipping encoder
+  PerColumn slip{};        ///< reference size of a slipping encoder, which is not part of the model
+  double reference = 0;    ///< reference size in `unit`, not 0
+  bool only_near = false;  ///< true: valid only for sizes near the reference (not linear)
   std::string unit;
   std::string remedy;
 };
 
-/// Those that exist on this rig: friction and gain of each drive, slipping position encoders, payload, cable
+/// Causes that apply to a rig: friction and gain of each drive, slipping position encoders, payload, cable
 /// length, zero of the swing encoders.
 [[nodiscard]] std::vector<Hypothesis> hypotheses_for(const configuration::Rig& rig);
 

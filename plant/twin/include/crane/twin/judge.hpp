@@ -1,6 +1,6 @@
 #pragma once
-/// Whether the residual is still that of the model, and if not, which cause fits best. docs/twin.md has the
-/// equations.
+/// Tests whether the residual is still in control, and finds the cause that explains a deviation best.
+/// docs/twin.md has the equations.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,18 +13,18 @@
 namespace crane::twin {
 
 struct Design {
-  double horizon_s = 0.3;       ///< memory of a prediction, > 0
-  double block_s = 0.5;         ///< evidence is added up block by block, > 0
-  double settle_s = 2;          ///< after a restart nothing is judged for so long
-  double learn_s = 20;          ///< of motion in control, from which the scatter is learnt
-  double false_alarm_s = 36e3;  ///< of judged time between two false alarms, all tests together
+  double horizon_s = 0.3;       ///< time constant of the predictor, > 0
+  double block_s = 0.5;         ///< length of a block; each block is one observation, > 0
+  double settle_s = 2;          ///< time without judgement after a restart
+  double learn_s = 20;          ///< duration of in-control motion from which the scatter is learnt
+  double false_alarm_s = 36e3;  ///< mean judged time between false alarms of all tests together
 };
 
-/// Sums over the ticks of one block. Amounts count in references: 1 is the reference size of a hypothesis.
+/// Sums over the ticks of one block. The unit of all amounts is the reference size of a hypothesis.
 struct Block {
   explicit Block(std::size_t hypotheses) : score(hypotheses), information(hypotheses) {}
   int ticks = 0, moving_ticks = 0;
-  PerColumn energy{};                  ///< sum of e^2
+  PerColumn energy{};                  ///< sum of e^2, e the residual
   std::vector<PerColumn> score;        ///< sum of phi e, phi the change of the prediction by the reference
   std::vector<PerColumn> information;  ///< sum of phi^2
   [[nodiscard]] bool moving() const { return 5 * moving_ticks >= ticks; }
@@ -34,38 +34,42 @@ struct Block {
 struct Finding {
   std::string cause, axis, unit, remedy;
   double size = 0, size_std = 0;
-  std::string rival;  ///< another cause that fits nearly as well, with its axis; empty: none
-  std::optional<std::size_t> hypothesis;  ///< its index; nothing: unknown, or a step
-  std::size_t column = 0;                 ///< in which the residual stands out most
-  double explained = 0;                   ///< share of the residual's energy
-  double lead = 0;                        ///< log likelihood ratio to the rival
+  std::string rival;                      ///< another cause (with axis) that cannot be excluded; empty: none
+  std::optional<std::size_t> hypothesis;  ///< index of the hypothesis; nothing: unknown, or a step
+  std::size_t column = 0;                 ///< column with the largest normalised residual
+  double explained = 0;                   ///< share of the residual's energy that the cause explains
+  double log_likelihood_ratio = 0;        ///< relative to the next best cause
 };
 
-enum class Phase : std::uint8_t { learning, watching, deviates };
+enum class Phase : std::uint8_t {
+  learning,  ///< learns the in-control scatter; ends after Design::learn_s of motion
+  watching,  ///< tests the residual; ends with an alarm
+  deviates   ///< names the cause; ends when the residual is in control again
+};
 
 class Judge {
  public:
   /// @pre hypotheses.size() > 0
-  /// @param floor smallest standard deviation a residual can have: the sensors' resolution
+  /// @param floor  smallest standard deviation of a residual: the resolution of the sensors
   Judge(std::vector<Hypothesis> hypotheses, const Design& design, const PerColumn& floor, int block_ticks);
 
   void add(const Block& block);
-  /// A step that no hypothesis describes: encoder slipped, load pushed. It counts as the deviation until it
-  /// has not come again for a while.
+  /// Reports a step that no hypothesis describes: encoder slipped, load pushed. The step is the deviation
+  /// until the residual has been in control for kQuiet_blocks blocks.
   void found(const Finding& step);
 
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] double learnt_share() const;
-  /// Of the strongest test; 1 raises the alarm.
+  /// Statistic of the strongest test, divided by its threshold; 1 raises the alarm.
   [[nodiscard]] double evidence() const;
   [[nodiscard]] const PerColumn& band() const { return band_; }  ///< 0 until learnt
-  /// The cause, from the alarm on; it may still change until `named()`.
+  /// The most likely cause after an alarm. It may change until named() is true.
   [[nodiscard]] const std::optional<Finding>& finding() const { return finding_; }
   [[nodiscard]] bool named() const { return named_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
 
  private:
-  /// One-sided CUSUM; it remembers since when it has been above zero.
+  /// One-sided CUSUM with the number of blocks since it was last zero.
   struct Cusum {
     double value = 0;
     std::size_t blocks = 0;
@@ -80,9 +84,9 @@ class Judge {
   };
   struct Fit {
     std::size_t hypothesis = 0;
-    double gain = 0, amount = 0, information = 0;  ///< gain: energy that it explains
+    double gain = 0, amount = 0, information = 0;  ///< gain: explained energy; amount: in references
   };
-  static constexpr double kCertainLead = 5;  ///< log likelihood ratio that separates two causes: 150 to 1
+  static constexpr double kCertainLogRatio = 5;  ///< log likelihood ratio that separates two causes: 150 to 1
 
   void learn();
   void learn_variance(const PerColumn& floor, std::size_t hypothesis, double amount);
@@ -103,7 +107,7 @@ class Judge {
   std::vector<Hypothesis> hypotheses_;
   Design design_;
   PerColumn variance_{}, band_{};
-  std::vector<double> inflation_;  ///< of the scores' variance over that of white residuals
+  std::vector<double> inflation_;  ///< variance of the scores / their variance for white residuals
   double threshold_;
   std::vector<Block> learnt_from_;
   double learnt_s_ = 0;
@@ -114,7 +118,7 @@ class Judge {
   std::optional<Finding> finding_;
   std::optional<std::size_t> named_hypothesis_;
   bool named_ = false, is_step_ = false;
-  std::size_t onset_blocks_ = 0;  ///< blocks that the deviation has lasted
+  std::size_t onset_blocks_ = 0;  ///< duration of the deviation, blocks
   int blocks_of_doubt_ = 0, quiet_blocks_ = 0;
   double return_evidence_ = 0;
 };

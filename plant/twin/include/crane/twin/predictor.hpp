@@ -1,9 +1,10 @@
 #pragma once
-/// One model beside the crane: tick k from tick k-1 and the volts that acted between, then drawn towards what
-/// was measured with the memory of a horizon T. With rho = exp(-h / T) and e = reported - predicted
-///   position += (1 - rho^2) e,   rate += (1 - rho)^2 / h e,
-/// two equal poles at rho: what is wrong with an acceleration by a shows as e -> a T^2 and is forgotten after
-/// some T, so that errors do not accumulate.
+/// Predicts tick k from tick k-1 and the voltages between them, and corrects the state with the measurement
+/// (observer with the time constant T, the horizon). With rho = exp(-h / T), h the period and e = measured -
+/// predicted:
+///   position += (1 - rho^2) e,   rate += (1 - rho)^2 / h e
+/// Both poles of the error are rho. A constant error a of the acceleration gives e -> a T^2. Errors decay
+/// with T and do not accumulate.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,7 +15,7 @@
 
 namespace crane::twin {
 
-/// What is known about one tick without the model.
+/// Measured values of one tick.
 struct Known {
   PerColumn reported{}, rate{};
   double cable_m = 1, cable_mps = 0;
@@ -22,13 +23,14 @@ struct Known {
 
 class Predictor {
  public:
-  /// @param slip what an encoder reports too much per distance travelled, both ways counted
-  /// @throws std::invalid_argument for terms that do not fit together
+  /// @param slip  error of an encoder per path length, m/m or rad/rad
+  /// @throws std::invalid_argument when the model rejects the terms
   Predictor(const plant::Parameters& parameters, const std::vector<plant::TermSetting>& terms,
             double period_s, double horizon_s, const PerColumn& slip = {});
-  /// Begins anew where the crane is. @param simulated columns that are predicted; the others stand still
+  /// Restarts at the measured state. @param simulated  columns that are predicted; the other columns are held
   void restart(const Known& now, const Mask& simulated);
-  /// What the sensors report one tick after the last restart or predict, `applied_v` acting in between.
+  /// Predicts the sensor values one tick after the last restart() or predict(). `applied_v` acts during this
+  /// tick.
   /// @pre restart() was called
   const PerColumn& predict(const plant::PerAxis& applied_v, const Known& now);
   void correct(const PerColumn& reported);

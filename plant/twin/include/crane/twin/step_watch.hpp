@@ -1,7 +1,8 @@
 #pragma once
-/// A single event in the residual of one column: the encoder has jumped (a step of what is reported), or the
-/// load was pushed (a step of its rate). Both fade within the horizon of the predictor; which one it was is
-/// decided by their shapes over the next ticks. A force that sets in is neither: the judge's matter.
+/// Detects a step in the residual of one column: a jump of the encoder (step of the measured value), or a
+/// push of the load (step of its rate). The residual of both decays within the horizon of the predictor. The
+/// shape over the next ticks decides between them. The onset of a constant force is not reported; Judge
+/// detects it.
 #include <array>
 #include <optional>
 
@@ -10,17 +11,17 @@ namespace crane::twin {
 enum class StepKind { slip, push };
 struct Step {
   StepKind kind = StepKind::slip;
-  double size = 0;  ///< m or rad; push: per second
+  double size = 0;  ///< slip: m or rad; push: rad/s
 };
 
 class StepWatch {
  public:
-  /// @param least_jump no smaller jump is one: what resolution and an unexpected acceleration can do in a
-  /// tick
+  /// @param least_jump  smallest jump: larger than the effect of resolution and unexpected acceleration in
+  ///   one tick
   StepWatch(double period_s, double horizon_s, double least_jump);
-  /// Forgets the ticks so far, not what was learnt.
+  /// Discards the stored residuals and keeps the learnt limits.
   void restart();
-  /// One residual. @return a step, some ticks after it happened; nothing while `learning`
+  /// Adds one residual. @return a step, kShape_ticks after it happened; nothing while `learning`
   std::optional<Step> add(double residual, bool learning);
 
  private:
@@ -32,7 +33,7 @@ class StepWatch {
   std::array<double, kHistory> slip_shape_{}, push_shape_{}, force_shape_{};  ///< residual after a step of 1
   std::array<double, kHistory> history_{};
   std::size_t newest_ = 0, filled_ = 0;
-  double largest_1_ = 0, largest_5_ = 0;  ///< jumps over one and five ticks in control
+  double largest_1_ = 0, largest_5_ = 0;  ///< largest in-control changes over one and five ticks
   std::size_t until_decision_ = 0;
 };
 

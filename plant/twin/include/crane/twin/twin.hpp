@@ -1,7 +1,6 @@
 #pragma once
-/// The live twin: the model of a rig file beside the crane, fed with the same volts, tick by tick. It
-/// predicts what the sensors report, keeps the residual, and says when the residual is no longer that of the
-/// model, and what is likely the cause. Pure: samples in, judgement out; no clock, bus or files.
+/// The live twin: a model of the crane with the same input voltages, tick by tick. It predicts the sensor
+/// values, tests the residual, and reports a deviation with its likely cause. Pure: no clock, bus or files.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,13 +16,13 @@ namespace crane::twin {
 /// One tick of the rig.
 struct Sample {
   std::uint64_t tick = 0;
-  std::uint32_t epoch = 0;               ///< of the writer
+  std::uint32_t epoch = 0;               ///< start-up number of the writer
   std::array<std::int64_t, 5> counts{};  ///< trolley, slew, hoist, radial, tangential swing; unwrapped
-  PerColumn rate{};                      ///< filtered; to begin with only
+  PerColumn rate{};                      ///< filtered rates, for the initial state of a prediction
   double cable_mps = 0;
-  plant::PerAxis applied_v{};             ///< acts from this tick on
-  bool homed = true;                      ///< positions are known
-  std::array<bool, plant::kAxes> held{};  ///< by a closed brake or a pressed limit switch
+  plant::PerAxis applied_v{};             ///< voltage that acts from this tick on
+  bool homed = true;                      ///< true: all positions are known
+  std::array<bool, plant::kAxes> held{};  ///< true: a closed brake or an end of travel holds the axis
 };
 
 enum class State : std::uint8_t { waiting, learning, watching, deviates };
@@ -38,7 +37,7 @@ struct Judgement {
   std::uint64_t judged_ticks = 0, gaps = 0;
 };
 
-/// Once per deviation, and once when it is over.
+/// Message for crane/event: one per deviation, and one when the deviation ends.
 struct Notice {
   bool deviates = false;
   std::string what, remedy;
@@ -46,12 +45,12 @@ struct Notice {
 
 class Twin {
  public:
-  /// @throws std::invalid_argument when the rig's model cannot be built
+  /// @throws std::invalid_argument when the model rejects the rig
   explicit Twin(const configuration::Rig& rig, const Design& design = {});
 
   const Judgement& step(const Sample& sample);
   [[nodiscard]] const Judgement& judgement() const { return judgement_; }
-  /// What there is to say since the last call.
+  /// @return the notice since the last call; nothing when there is none
   [[nodiscard]] std::optional<Notice> take_notice();
 
  private:
@@ -71,14 +70,14 @@ class Twin {
   Design design_;
   Judge judge_;
   Predictor nominal_;
-  std::vector<Predictor> changed_;  ///< one per hypothesis, its reference size in the model
+  std::vector<Predictor> changed_;  ///< one model per hypothesis, with its reference size
   std::vector<StepWatch> steps_;
   std::optional<Sample> last_;
   Mask simulated_{};
   int settle_ticks_, block_ticks_;
   int to_settle_ = 0;
   Block block_;
-  std::optional<Block> held_;  ///< complete, but a step that began in it may still be recognised
+  std::optional<Block> held_;  ///< complete block; a step in its last ticks may still be detected
   Judgement judgement_;
   bool announced_ = false;
   std::optional<Notice> notice_;

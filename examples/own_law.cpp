@@ -1,0 +1,47 @@
+/// A control law of one's own, without touching the project: state feedback from eight gains, run in lockstep
+/// on the simulated tower crane beside the law that the rig file names.
+#include <cstdio>
+
+#include "crane/control/state_feedback.hpp"
+#include "crane/control/tracking_pd.hpp"
+#include "experiments/experiment_run.hpp"
+#include "stack/data_files.hpp"
+
+namespace {
+
+using namespace crane;
+
+/// Position, speed, swing, swing rate: (3.22) to (3.26) with K = 4 at a cable of 1 m and a trolley at 1 m.
+constexpr control::StateFeedbackGains kGains{.trolley = {4, 5.28, 15.0, -0.15},
+                                             .slew = {4, 5.92, -15.7, -3.24}};
+
+std::unique_ptr<control::Law> make_own_tracking(const control::Design& design) {
+  return control::make_state_feedback_tracking(design, kGains);
+}
+std::unique_ptr<control::Law> make_own_anti_swing(const control::Design& design) {
+  return control::make_state_feedback_anti_swing(design, kGains);
+}
+
+const control::Controller kOwnLaw{"own_law", "state feedback with constant gains",
+                                  control::ReferenceShape::step, make_own_tracking, make_own_anti_swing};
+
+void report(const control::Controller& controller) {
+  const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
+  const auto scenario = experiment::load_scenario(stack::find_scenario("maneuver_1"), &rig);
+  const auto started = experiment::started_by(rig, scenario);
+  experiments::TickLog log{std::nullopt};  // no recording, only the table
+  const auto outcome = experiments::run_in_process(started, controller, scenario, log);
+  const auto metrics = experiment::evaluate(experiment::samples_from(log.table(outcome.hold_tick)),
+                                            experiment::maneuver_of(scenario, started));
+  const double settled_s = metrics.settling_time_s.value_or(-1);
+  std::printf("%-24s settled after %.2f s, largest swing %.1f deg\n", std::string{controller.name}.c_str(),
+              settled_s, metrics.largest_swing_radial_rad * 57.2957795);
+}
+
+}  // namespace
+
+int main() {
+  report(*control::find_controller("gain_scheduling_partial"));
+  report(kOwnLaw);
+  return 0;
+}

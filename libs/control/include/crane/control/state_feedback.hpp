@@ -1,0 +1,32 @@
+#pragma once
+/// State feedback with constant gains, for a law that somebody has designed elsewhere (LQR, pole placement):
+///
+///   V = k_p (r - q) - k_v q' - k_s s - k_r s'
+///
+/// q is trolley position or slew angle, s the swing angle in its plane (phi, theta; signs of
+/// docs/equations.md). Tracking gives the part of q and moves the hoist, anti-swing gives the part of s. The
+/// gains are not scheduled: they suit one cable length and, for the slew axis, one trolley position.
+#include <memory>
+
+#include "crane/control/law.hpp"
+
+namespace crane::control {
+
+/// Any finite number is allowed; stability is the designer's to check (`crane analyse`).
+struct StateFeedbackAxis {
+  double position = 0;    ///< k_p [V/m, V/rad]
+  double speed = 0;       ///< k_v [V s/m, V s/rad]
+  double swing = 0;       ///< k_s [V/rad]
+  double swing_rate = 0;  ///< k_r [V s/rad]
+};
+
+struct StateFeedbackGains {
+  StateFeedbackAxis trolley, slew;
+};
+
+[[nodiscard]] std::unique_ptr<Law> make_state_feedback_tracking(const Design& design,
+                                                                const StateFeedbackGains& gains);
+[[nodiscard]] std::unique_ptr<Law> make_state_feedback_anti_swing(const Design& design,
+                                                                  const StateFeedbackGains& gains);
+
+}  // namespace crane::control

@@ -1,0 +1,17 @@
+#pragma once
+/// The hardware bridge with its emulated crane in the same process, for stacks in one process.
+#include <memory>
+
+#include "crane/boards/emulated_board.hpp"
+#include "crane/runtime/process.hpp"
+
+namespace crane::emulated_rig {
+
+/// An emulated card with a simulated crane at its plugs, both in this process.
+/// @throws std::invalid_argument naming every problem of the rig
+[[nodiscard]] std::unique_ptr<bridge::Board> open_board(const configuration::Rig& rig);
+
+/// bridge::hardware_bridge_spec(), but on the memory bus an emulated board gets its crane from open_board().
+[[nodiscard]] runtime::ComponentSpec hardware_bridge_spec();
+
+}  // namespace crane::emulated_rig

@@ -1,0 +1,46 @@
+#pragma once
+/// The rig's end of the shared lines, in the process crane_emulated_rig. The card's end is
+/// crane/boards/linked_rig.hpp.
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "crane/boards/shared_lines.hpp"
+#include "crane/emulated_rig/wired_rig.hpp"
+
+namespace crane::emulated_rig {
+
+/// The simulated crane, and those of its signals that are on the lines.
+class RigServer {
+ public:
+  /// @throws bridge::BoardError when another rig has this name; std::invalid_argument naming problems of the
+  /// rig
+  RigServer(const configuration::Rig& rig, const std::string& name, bool lockstep, int model);
+  ~RigServer();
+  RigServer(const RigServer&) = delete;
+  RigServer& operator=(const RigServer&) = delete;
+
+  /// Lockstep: waits up to 50 ms for an advance request and serves it.
+  void serve_advance();
+  /// Real time: the crane runs on to `time_ns`, with each change of the output lines at its moment, then sees
+  /// what is on the lines now.
+  void run_to(std::int64_t time_ns);
+  [[nodiscard]] const bridge::SharedLines& lines() const { return *lines_; }
+  [[nodiscard]] WiredRig& rig() { return rig_; }
+
+ private:
+  const bridge::OutputChange* next_output_change();
+  void take_lines();
+  void take_converters();
+  void put_lines();
+  void note_brakes(std::int64_t now_ns);
+
+  std::unique_ptr<bridge::SharedFile> file_;
+  bridge::SharedLines* lines_ = nullptr;
+  WiredRig rig_;
+  std::uint32_t seen_changes_ = 0, seen_kicks_ = 0;
+  std::uint64_t seen_output_changes_ = 0;
+  bool relay_was_closed_ = false, brakes_were_closed_ = true;
+};
+
+}  // namespace crane::emulated_rig

@@ -1,0 +1,95 @@
+/// crane_emulated_rig: a crane with an emulated Servo-to-Go card, in a process of its own. It runs on when
+/// the bridge dies or hangs; its watchdog relay then closes the brakes.
+#include <sched.h>
+#include <sys/mman.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <iostream>
+
+#include "crane/emulated_rig/rig_server.hpp"
+#include "crane/runtime/process.hpp"
+
+namespace {
+
+using namespace crane;
+
+struct Options {
+  std::string rig, crane = "crane", clock = "realtime";
+  std::uint32_t domain = 0;
+  int model = 1, priority = 60;
+};
+
+void enter_realtime(int priority) {
+  if (priority <= 0) return;
+  const sched_param parameters{.sched_priority = priority};
+  if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0 && ::sched_setscheduler(0, SCHED_FIFO, &parameters) == 0)
+    return;
+  std::cerr << "crane_emulated_rig: no realtime scheduling: " << std::strerror(errno)
+            << "; its relay may react late under load\n";
+}
+
+/// Steps much shorter than a tick: a toggle must not be gone before it is seen.
+void run_in_realtime(emulated_rig::RigServer& server, double period_s) {
+  const auto step_ns = std::min<std::int64_t>(1'000'000, std::llround(period_s / 4 * 1e9));
+  const auto begin_ns = runtime::monotonic_ns();
+  for (auto next_ns = begin_ns; !runtime::stop_requested(); next_ns += step_ns) {
+    const timespec at{.tv_sec = next_ns / 1'000'000'000, .tv_nsec = next_ns % 1'000'000'000};
+    ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+    server.run_to(runtime::monotonic_ns() - begin_ns);
+  }
+}
+
+int run(const Options& options) {
+  const auto rig = configuration::load_rig(options.rig);
+  const bool lockstep = options.clock == "lockstep";
+  emulated_rig::RigServer server{rig, bridge::shared_lines_name(options.crane, options.domain), lockstep,
+                                 options.model};
+  if (lockstep) {
+    while (!runtime::stop_requested()) server.serve_advance();
+    return runtime::kExitDone;
+  }
+  enter_realtime(options.priority);
+  run_in_realtime(server, rig.period_s);
+  return runtime::kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "A crane with an emulated Servo-to-Go card, for the hardware bridge of the same crane and domain.",
+      "crane_emulated_rig"};
+  Options options;
+  app.add_option("--rig", options.rig, "rig file: what the crane is and how it is wired")->required();
+  app.add_option("--crane", options.crane, "name of the crane")->capture_default_str();
+  app.add_option("--domain", options.domain, "DDS domain of the bridge")->capture_default_str();
+  app.add_option("--clock", options.clock, "realtime, or lockstep: time runs when the bridge says so")
+      ->check(CLI::IsMember({"realtime", "lockstep"}))
+      ->capture_default_str();
+  app.add_option("--model", options.model, "of the Servo-to-Go card")
+      ->check(CLI::Range(1, 2))
+      ->capture_default_str();
+  app.add_option("--priority", options.priority, "SCHED_FIFO priority in realtime, 0: ordinary scheduling")
+      ->check(CLI::Range(0, 98))
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? runtime::kExitDone : runtime::kExitBadInput;
+  }
+  runtime::install_stop_signals();
+  try {
+    return run(options);
+  } catch (const configuration::ConfigurationError& error) {
+    std::cerr << error.what() << '\n';
+    return runtime::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "crane_emulated_rig: " << error.what() << '\n';
+    return runtime::kExitFailed;
+  }
+}

@@ -1,0 +1,138 @@
+#include "experiments/experiment_run.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+
+#include "crane/bridge/component.hpp"
+#include "crane/experiment/picture.hpp"
+#include "crane/experiment/variant.hpp"
+#include "crane/runtime/in_process.hpp"
+#include "crane/twin/component.hpp"
+#include "experiments/started_rig_file.hpp"
+#include "stack/child_processes.hpp"
+#include "stack/launch.hpp"
+#include "stack/stack.hpp"
+
+namespace crane::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& rig_file,
+                            const configuration::Rig& rig, const control::Controller& controller,
+                            const experiment::Scenario& scenario, TickLog& log) {
+  auto specs = stack::stack_with(options.plant);
+  stack::LaunchOptions launch_options{.bus = options.bus,
+                                      .vendors = options.vendors,
+                                      .rig = rig_file.string(),
+                                      .controller = std::string{controller.name},
+                                      .clock = "lockstep",
+                                      .epoch = 1};
+  launch_options.bus.crane += "_run_" + std::to_string(::getpid());  // differs from the name of a real crane
+  stack::ChildProcesses children;
+  if (options.plant == stack::Plant::hardware) stack::launch_rig(children, rig, launch_options);
+  stack::launch(children, specs, launch_options);
+  if (options.twin) {
+    stack::launch_twin(children, options.twin->string(), launch_options);
+    specs.push_back(twin::twin_spec());
+  }
+  bus::Bus bus{runtime::bus_options(launch_options.bus, "crane_run", crane_SOURCE_OPERATOR, 1)};
+  stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
+  const Pump pump = [&] {
+    bus.wait(std::chrono::milliseconds{20});
+    if (const auto ended = children.ended()) throw RunError(stack::describe(*ended));
+  };
+  return run_scenario(bus, pump, rig, scenario, log, options.twin.has_value());
+}
+
+/// Lockstep needs a simulated or emulated crane: a real crane does not wait for commands, and its start is
+/// not that of the scenario.
+void require_rehearsal(const configuration::Rig& rig) {
+  bridge::board_kind_of(rig);
+  if (rig.board != "emulated")
+    throw configuration::ConfigurationError({rig.path + ": board = " + rig.board +
+                                             ": lockstep needs board = \"emulated\"; drive a real crane with "
+                                             "`crane up --plant hardware` and `crane move`"});
+}
+
+void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
+  std::ofstream out{file};
+  out << json.dump(2) << '\n';
+  if (!out.flush()) throw RunError(file.string() + ": cannot write");
+}
+
+}  // namespace
+
+RunOutcome run_in_process(const configuration::Rig& rig, const control::Controller& controller,
+                          const experiment::Scenario& scenario, TickLog& log, stack::Plant plant,
+                          const configuration::Rig* twin) {
+  return run_in_process(stack::stack_with(plant), rig, controller, scenario, log, twin);
+}
+
+RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components, const configuration::Rig& rig,
+                          const control::Controller& controller, const experiment::Scenario& scenario,
+                          TickLog& log, const configuration::Rig* twin) {
+  runtime::InProcessStack stack{components, rig, controller};
+  if (twin != nullptr) stack.add(twin::twin_spec(), *twin, controller);
+  bus::Bus bus{runtime::memory_options(stack.network(), "crane_run", crane_SOURCE_OPERATOR)};
+  // When an answer never arrives, the timeout of the run ends the wait.
+  return run_scenario(
+      bus, [&stack] { stack.pump(); }, rig, scenario, log, twin != nullptr);
+}
+
+nlohmann::ordered_json to_json(const ExperimentResult& result) {
+  nlohmann::ordered_json json{{"scenario", result.scenario},
+                              {"controller", result.controller},
+                              {"rig", result.rig},
+                              {"variant", result.variant},
+                              {"completed", result.outcome.completed}};
+  if (!result.outcome.completed) json["stopped_because"] = result.outcome.stopped_because;
+  json.update(experiment::to_json(result.metrics));
+  json["real_time_factor"] = result.real_time_factor;
+  return json;
+}
+
+ExperimentResult run_experiment(const ExperimentOptions& options) {
+  const auto rig = configuration::load_rig(options.rig);
+  if (options.plant == stack::Plant::hardware) require_rehearsal(rig);
+  const auto& controller = runtime::chosen_controller(options.controller, rig);
+  const auto scenario = experiment::load_scenario(options.scenario, &rig);
+  const auto started = experiment::changed_by(experiment::started_by(rig, scenario), options.variant);
+  fs::create_directories(options.directory);
+  const auto rig_file = options.directory / "rig.toml";
+  write_started_rig(rig_file, started);
+
+  std::optional<configuration::Rig> twin;
+  if (options.twin) twin = configuration::load_rig(*options.twin);
+
+  TickLog log{options.directory / "recording.mcap"};
+  ExperimentResult result;
+  result.scenario = scenario.name;
+  result.controller = controller.name;
+  result.rig = rig.name;
+  result.variant = options.variant;
+  result.outcome =
+      options.in_process
+          ? run_in_process(started, controller, scenario, log, options.plant, twin ? &*twin : nullptr)
+          : run_in_processes(options, rig_file, started, controller, scenario, log);
+  log.close();
+  result.real_time_factor =
+      static_cast<double>(result.outcome.last_tick) * rig.period_s / result.outcome.wall_s;
+
+  const auto table = log.table(result.outcome.hold_tick);
+  recording::write_csv(options.directory / "run.csv", table);
+  const auto samples = experiment::samples_from(table);
+  const auto maneuver = experiment::maneuver_of(scenario, started);
+  if (!result.outcome.completed && (samples.empty() || samples.back().time_s < maneuver.last_action_s))
+    throw RunError("the supervisor stopped the crane before its last move or kick: " +
+                   result.outcome.stopped_because);
+  result.metrics = experiment::evaluate(samples, maneuver);
+  write_json(options.directory / "metrics.json", to_json(result));
+  if (options.picture)
+    experiment::draw_maneuver(options.directory / "picture.svg", {rig.name, result.controller, scenario.name},
+                              samples, maneuver, result.metrics);
+  return result;
+}
+
+}  // namespace crane::experiments

@@ -1,0 +1,225 @@
+#include "experiments/lockstep_run.hpp"
+
+#include <algorithm>
+
+#include <cmath>
+
+#include "crane/runtime/process.hpp"
+#include "crane/supervisor/states.hpp"
+
+namespace crane::experiments {
+namespace {
+
+using experiment::Scenario;
+using Collected = runtime::TickJoin<msg::State, msg::Reference, msg::Contribution, msg::Contribution,
+                                    msg::Demand, msg::Command, msg::SupervisorStatus>;
+
+constexpr std::uint64_t kChunk_ticks = 50;  // less than half the history of the loop topics (128)
+constexpr runtime::JoinPolicy kEveryTick{.in_order = true, .depth = 256};
+constexpr std::int64_t kPatience_ns = 10'000'000'000;
+constexpr double kLongestPreparation_s = 20;
+
+Collected collect_from(bus::Bus& bus) {
+  const auto input = runtime::loop_endpoint(runtime::Clock::lockstep);
+  return Collected{kEveryTick,
+                   runtime::loop_reader(bus, topics::state, input),
+                   runtime::loop_reader(bus, topics::reference, input),
+                   runtime::loop_reader(bus, topics::tracking, input),
+                   runtime::loop_reader(bus, topics::anti_swing, input),
+                   runtime::loop_reader(bus, topics::demand, input),
+                   runtime::loop_reader(bus, topics::command, input),
+                   runtime::loop_reader(bus, topics::supervisor, input)};
+}
+
+class LockstepRun {
+ public:
+  LockstepRun(bus::Bus& bus, const Pump& pump, const configuration::Rig& rig, const Scenario& scenario,
+              TickLog& log, bool with_twin)
+      : pump_{pump},
+        rig_{rig},
+        scenario_{scenario},
+        log_{log},
+        operator_{bus, "crane_run", 1},
+        collected_{collect_from(bus)} {
+    if (with_twin)
+      twins_.emplace(
+          runtime::loop_reader(bus, topics::twin, runtime::loop_endpoint(runtime::Clock::lockstep)),
+          kEveryTick);
+  }
+
+  RunOutcome execute() {
+    until([this] { return operator_.listeners() >= kListeners && operator_.answerers() >= kListeners; },
+          "the processes of the stack to listen");
+    const auto begin_ns = runtime::monotonic_ns();
+    prepare();
+    outcome_.hold_tick = frontier_ + 1;
+    schedule_actions();
+    const auto end = outcome_.hold_tick + ticks(scenario_.end_s());
+    while (frontier_ < end && !stopped()) advance_to(std::min(frontier_ + kChunk_ticks, end));
+    check_verdicts();
+    outcome_.completed = !stopped();
+    if (stopped()) outcome_.stopped_because = supervisor::name_of(static_cast<supervisor::Cause>(cause_));
+    outcome_.last_tick = frontier_;
+    outcome_.wall_s = static_cast<double>(runtime::monotonic_ns() - begin_ns) * 1e-9;
+    return outcome_;
+  }
+
+ private:
+  static constexpr int kListeners = 2;  // plant, supervisor
+
+  [[nodiscard]] std::uint64_t ticks(double time_s) const {
+    return static_cast<std::uint64_t>(std::llround(time_s / rig_.period_s));
+  }
+  [[nodiscard]] bool stopped() const { return state_ >= crane_STATE_STOP_C1; }
+
+  template <class Condition>
+  void until(Condition condition, const std::string& what) {
+    auto give_up_ns = runtime::monotonic_ns() + kPatience_ns;
+    while (!condition()) {
+      pump_();
+      if (collect()) give_up_ns = runtime::monotonic_ns() + kPatience_ns;
+      operator_.receive();
+      if (runtime::monotonic_ns() > give_up_ns)
+        throw RunError("waited " + std::to_string(kPatience_ns / 1'000'000'000) + " s for " + what);
+      if (runtime::stop_requested()) throw RunError("interrupted");
+    }
+  }
+
+  /// Takes the complete ticks. @return true when there was at least one
+  bool collect() {
+    bool any = false;
+    while (twin_is_there() && collected_.poll(0) == runtime::JoinResult::complete) {
+      const Tick tick{collected_.get<0>(), collected_.get<1>(),
+                      collected_.get<2>(), collected_.get<3>(),
+                      collected_.get<4>(), collected_.get<5>(),
+                      collected_.get<6>(), twins_ ? twins_->find(collected_.tick()) : nullptr};
+      log_.add(tick);
+      collected_tick_ = collected_.tick();
+      clock_master_ = tick.state->header.source;
+      if (!stopped()) cause_ = tick.supervisor->cause;
+      if (!stopped()) state_ = tick.supervisor->state;
+      any = true;
+    }
+    return any;
+  }
+
+  /// The twin answers after the loop: a tick is complete when it has.
+  bool twin_is_there() {
+    if (!twins_) return true;
+    runtime::JoinCounts ignored;
+    (void)twins_->drain(collected_.next_tick(), 0, ignored);
+    return twins_->find(collected_.next_tick()) != nullptr;
+  }
+
+  void advance_to(std::uint64_t tick) {
+    operator_.send({.kind = crane_REQUEST_ADVANCE, .until_tick = tick});
+    frontier_ = tick;
+    until([this, tick] { return collected_tick_ == tick; }, "tick " + std::to_string(tick));
+  }
+
+  void advance_by(std::uint64_t ticks) {
+    for (const auto end = frontier_ + ticks; frontier_ < end;)
+      advance_to(std::min(frontier_ + kChunk_ticks, end));
+  }
+
+  /// From power-on to brakes open: self-test, reset, arm.
+  void prepare() {
+    const auto longest = ticks(kLongestPreparation_s);
+    const auto reach = [&](std::initializer_list<crane_SupervisorState> wanted) {
+      while (std::find(wanted.begin(), wanted.end(), state_) == wanted.end()) {
+        if (frontier_ > longest)
+          throw RunError(std::string{"the supervisor stays in "} +
+                         supervisor::name_of(static_cast<supervisor::State>(state_)) + " because of " +
+                         supervisor::name_of(static_cast<supervisor::Cause>(cause_)));
+        advance_to(frontier_ + kChunk_ticks);
+        check_verdicts();
+      }
+    };
+    constexpr double kCausesClear_s = 1.1;  // a reset needs causes that have been inactive for a second
+    advance_by(ticks(kCausesClear_s));
+    reach({crane_STATE_LOCKED});
+    request({.kind = crane_REQUEST_RESET}, {crane_SOURCE_SUPERVISOR});
+    advance_by(ticks(kCausesClear_s));
+    reach({crane_STATE_READY});
+    request({.kind = crane_REQUEST_ARM}, {crane_SOURCE_SUPERVISOR});
+    // A load that wind or a tilted jib keeps off its rest is damped at once: the crane is active without a
+    // move.
+    reach({crane_STATE_HOLD, crane_STATE_RUN});
+    check_verdicts();
+  }
+
+  void schedule_actions() {
+    for (const auto& move : scenario_.moves) {
+      stack::Wish wish{.kind = crane_REQUEST_MOVE};
+      wish.apply_tick = outcome_.hold_tick + ticks(move.at_s);
+      for (std::size_t i = 0; i < wish.target.size(); ++i) {
+        wish.selected[i] = move.target[i].has_value();
+        wish.target[i] = move.target[i].value_or(0);
+      }
+      request(wish, {crane_SOURCE_SUPERVISOR});
+    }
+    for (const auto& excitation : scenario_.excitations) {
+      stack::Wish wish = stack::wish_of(excitation.reference);
+      wish.apply_tick = outcome_.hold_tick + ticks(excitation.at_s);
+      request(wish, {crane_SOURCE_SUPERVISOR});
+    }
+    for (const auto& kick : scenario_.kicks) {
+      stack::Wish wish{.kind = crane_REQUEST_KICK, .target = {kick.radial_radps, kick.tangential_radps, 0}};
+      wish.apply_tick = outcome_.hold_tick + ticks(kick.at_s);
+      request(wish, {clock_master_});
+    }
+  }
+
+  /// Sends a request for an exact tick and waits until all `sources` have confirmed it. The first of
+  /// `sources` decides about the request.
+  void request(stack::Wish wish, std::initializer_list<crane_Source> sources) {
+    wish.apply_tick = std::max(wish.apply_tick, frontier_ + 1);
+    const auto id = operator_.send(wish);
+    for (const auto source : sources)
+      until([&] { return operator_.take_reply(id, source, true).has_value(); },
+            "a confirmation of a request");
+    verdicts_.push_back({id, *sources.begin(), wish.apply_tick});
+  }
+
+  /// Takes the decisions about the requests whose tick has passed.
+  void check_verdicts() {
+    for (const auto& expected : verdicts_) {
+      if (expected.tick > frontier_) continue;
+      std::optional<msg::Reply> reply;
+      until([&] { return (reply = operator_.take_reply(expected.id, expected.source)).has_value(); },
+            "the answer to a request");
+      if (!reply->accepted && !stopped()) throw RunError(std::string{"refused: "} + reply->reason);
+    }
+    std::erase_if(verdicts_, [this](const Verdict& expected) { return expected.tick <= frontier_; });
+  }
+
+  struct Verdict {
+    std::uint64_t id;
+    crane_Source source;
+    std::uint64_t tick;
+  };
+
+  const Pump& pump_;
+  const configuration::Rig& rig_;
+  const Scenario& scenario_;
+  TickLog& log_;
+  stack::OperatorClient operator_;
+  Collected collected_;
+  std::optional<runtime::TickInput<msg::Twin>> twins_;
+  RunOutcome outcome_;
+  std::vector<Verdict> verdicts_;
+  std::optional<std::uint64_t> collected_tick_;
+  std::uint64_t frontier_ = 0;
+  crane_Source clock_master_ = crane_SOURCE_PLANT;  ///< or the bridge: who pushes the load
+  crane_SupervisorState state_ = crane_STATE_BOOT;
+  crane_Cause cause_ = crane_CAUSE_NONE;
+};
+
+}  // namespace
+
+RunOutcome run_scenario(bus::Bus& bus, const Pump& pump, const configuration::Rig& rig,
+                        const Scenario& scenario, TickLog& log, bool with_twin) {
+  return LockstepRun{bus, pump, rig, scenario, log, with_twin}.execute();
+}
+
+}  // namespace crane::experiments

@@ -1,0 +1,101 @@
+#include "experiments/realtime_run.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/realtime_session.hpp"
+#include "stack/launch.hpp"
+
+namespace crane::experiments {
+namespace {
+
+using std::chrono::nanoseconds;
+using namespace std::chrono_literals;
+
+struct Action {
+  double at_s;
+  stack::Wish wish;
+};
+
+std::vector<Action> actions_of(const experiment::Scenario& scenario) {
+  std::vector<Action> actions;
+  for (const auto& move : scenario.moves) {
+    stack::Wish wish{.kind = crane_REQUEST_MOVE};
+    for (std::size_t i = 0; i < wish.target.size(); ++i) {
+      wish.selected[i] = move.target[i].has_value();
+      wish.target[i] = move.target[i].value_or(0);
+    }
+    actions.push_back({move.at_s, wish});
+  }
+  for (const auto& excitation : scenario.excitations)
+    actions.push_back({excitation.at_s, stack::wish_of(excitation.reference)});
+  std::ranges::stable_sort(actions, {}, &Action::at_s);
+  return actions;
+}
+
+/// For an axis that friction holds away from its target, and again for a load that swings on: together less
+/// than the idle time after which HOLD locks.
+constexpr auto kPatience = 30s;
+
+void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& scenario) {
+  stack::Wish wish;
+  bool any = false;
+  for (std::size_t i = 0; i < wish.target.size(); ++i) {
+    if (!scenario.start[i]) continue;
+    any = wish.selected[i] = true;
+    wish.target[i] = *scenario.start[i];
+  }
+  if (any) session.move_to(wish.selected, wish.target, kPatience);
+}
+
+void wait_until(RealtimeSession& session, std::int64_t time_ns) {
+  const auto left_ns = time_ns - session.state()->header.sample_time_ns;
+  if (left_ns > 0) session.wait(nanoseconds{left_ns});
+  if (session.status()->state >= crane_STATE_STOP_C1)
+    throw SessionError("the supervisor stopped the crane: " + in_words(*session.status()));
+}
+
+std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s * 1e9)); }
+
+}  // namespace
+
+recording::Table run_in_realtime(const RealtimeRunOptions& options, const experiment::Scenario& scenario) {
+  const auto specs = stack::stack_with(options.plant);
+  stack::LaunchOptions launch_options{.bus = options.bus,
+                                      .vendors = options.vendors,
+                                      .rig = options.rig.string(),
+                                      .controller = options.controller};
+  if (options.plant == stack::Plant::simulated)
+    launch_options.bus.crane += "_run_" + std::to_string(::getpid());
+  stack::ChildProcesses children;
+  if (options.plant == stack::Plant::hardware)
+    stack::launch_rig(children, configuration::load_rig(options.rig), launch_options);
+  stack::launch(children, specs, launch_options);
+  auto observer = launch_options.bus;
+  observer.vendor = "fastdds";  // the loop runs on Cyclone DDS
+  bus::Bus bus{runtime::bus_options(observer, "crane_run", crane_SOURCE_OPERATOR, 0)};
+  stack::wait_until_ready(children, specs, bus, 15s);
+  RealtimeSession session{bus, [&children] {
+                            if (const auto ended = children.ended())
+                              throw SessionError(stack::describe(*ended));
+                            if (runtime::stop_requested()) throw SessionError("interrupted");
+                          }};
+  session.arm();
+  go_to_scenario_start(session, scenario);
+  session.start_table();
+  const auto zero_ns = session.state()->header.sample_time_ns;
+  for (const Action& action : actions_of(scenario)) {
+    wait_until(session, zero_ns + ns(action.at_s));
+    session.request(action.wish, action.wish.kind == crane_REQUEST_MOVE ? "move" : "follow");
+  }
+  wait_until(session, zero_ns + ns(scenario.end_s()));
+  const auto table = session.table().table(zero_ns);
+  session.request({.kind = crane_REQUEST_DISARM}, "disarm");
+  session.wait(300ms);
+  children.stop();
+  return table;
+}
+
+}  // namespace crane::experiments

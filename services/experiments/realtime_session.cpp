@@ -1,0 +1,126 @@
+#include "experiments/realtime_session.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+
+#include "crane/runtime/process.hpp"
+#include "crane/supervisor/states.hpp"
+
+namespace crane::experiments {
+
+std::string in_words(const msg::SupervisorStatus& status) {
+  const auto cause = static_cast<supervisor::Cause>(status.cause);
+  return std::string{supervisor::name_of(static_cast<supervisor::State>(status.state))} + " because of " +
+         supervisor::name_of(cause) + "; " + supervisor::remedy_for(cause);
+}
+
+std::uint64_t unique_first_id() {
+  return (static_cast<std::uint64_t>(runtime::monotonic_ns()) << 16U) +
+         (static_cast<std::uint64_t>(::getpid()) & 0xFFFFU);
+}
+
+RealtimeSession::RealtimeSession(bus::Bus& bus, std::function<void()> meanwhile)
+    : bus_{bus},
+      meanwhile_{std::move(meanwhile)},
+      operator_{bus, "session", unique_first_id()},
+      states_{bus.subscriber(topics::state)},
+      references_{bus.subscriber(topics::reference)},
+      demands_{bus.subscriber(topics::demand)},
+      statuses_{bus.subscriber(topics::supervisor)} {
+  const bool found =
+      until([this] { return operator_.listeners() >= 2 && operator_.answerers() >= 1 && status_; },
+            std::chrono::seconds{5});
+  if (!found) throw SessionError("no supervisor found in this domain");
+}
+
+void RealtimeSession::take(std::chrono::nanoseconds timeout) {
+  bus_.wait(timeout);
+  while (const auto sample = states_.take()) table_.add(*(state_ = sample));
+  while (const auto sample = references_.take()) table_.add(*sample);
+  while (const auto sample = demands_.take()) table_.add(*sample);
+  while (const auto sample = statuses_.take()) table_.add(*(status_ = sample));
+  operator_.receive();
+  if (runtime::monotonic_ns() < next_meanwhile_ns_) return;
+  next_meanwhile_ns_ = runtime::monotonic_ns() + 20'000'000;
+  meanwhile_();
+}
+
+template <class Condition>
+bool RealtimeSession::until(Condition condition, std::chrono::nanoseconds patience) {
+  const auto give_up_ns = runtime::monotonic_ns() + patience.count();
+  while (!condition()) {
+    const auto left_ns = give_up_ns - runtime::monotonic_ns();
+    if (left_ns <= 0) return false;
+    take(std::chrono::nanoseconds{std::min<std::int64_t>(left_ns, 20'000'000)});
+  }
+  return true;
+}
+
+void RealtimeSession::wait(std::chrono::nanoseconds duration) {
+  until([] { return false; }, duration);
+}
+
+std::string RealtimeSession::refusal_of(const stack::Wish& wish, const std::string& what) {
+  const auto id = operator_.send(wish);
+  std::optional<msg::Reply> reply;
+  if (!until([&] { return (reply = operator_.take_reply(id, crane_SOURCE_SUPERVISOR)).has_value(); },
+             std::chrono::seconds{2}))
+    throw SessionError(what + ": the supervisor does not answer");
+  return reply->accepted ? "" : reply->reason;
+}
+
+void RealtimeSession::request(const stack::Wish& wish, const std::string& what) {
+  if (const auto refusal = refusal_of(wish, what); !refusal.empty())
+    throw SessionError(what + " refused: " + refusal);
+}
+
+/// A reset needs causes that have been inactive for a second. Each lost tick on a loaded computer restarts
+/// this second.
+void RealtimeSession::request_with_patience(const stack::Wish& wish, const std::string& what) {
+  constexpr int kTries = 30;
+  std::string refusal;
+  for (int i = 0; i < kTries; ++i) {
+    refusal = refusal_of(wish, what);
+    if (refusal.empty()) return;
+    wait(std::chrono::milliseconds{300});
+  }
+  throw SessionError(what + " refused: " + refusal);
+}
+
+void RealtimeSession::wait_for(crane_SupervisorState wanted, std::chrono::milliseconds patience) {
+  const bool reached =
+      until([&] { return status_ && (status_->state == wanted || status_->state >= crane_STATE_STOP_C1); },
+            patience);
+  if (reached && status_->state == wanted) return;
+  throw SessionError(std::string{"waiting for "} +
+                     supervisor::name_of(static_cast<supervisor::State>(wanted)) + ": the supervisor is in " +
+                     in_words(*status_));
+}
+
+void RealtimeSession::arm() {
+  wait_for(crane_STATE_LOCKED, std::chrono::seconds{5});
+  request_with_patience({.kind = crane_REQUEST_RESET}, "reset");
+  wait_for(crane_STATE_READY, std::chrono::seconds{3});
+  request_with_patience({.kind = crane_REQUEST_ARM}, "arm");
+  wait_for(crane_STATE_HOLD, std::chrono::seconds{5});
+}
+
+void RealtimeSession::move_to(const std::array<bool, 3>& selected, const std::array<double, 3>& target,
+                              std::chrono::milliseconds patience) {
+  request({.kind = crane_REQUEST_MOVE, .selected = selected, .target = target}, "move");
+  wait_for(crane_STATE_RUN, std::chrono::seconds{1});
+  wait_for(crane_STATE_HOLD, patience);
+  constexpr double kStill_rad = 0.2 * M_PI / 180;
+  constexpr double kStill_radps = 0.01;
+  until(
+      [&] {
+        return std::abs(state_->swing_radial_rad) < kStill_rad &&
+               std::abs(state_->swing_tangential_rad) < kStill_rad &&
+               std::abs(state_->swing_radial_radps) < kStill_radps &&
+               std::abs(state_->swing_tangential_radps) < kStill_radps;
+      },
+      patience);
+}
+
+}  // namespace crane::experiments

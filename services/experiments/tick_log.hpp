@@ -1,0 +1,43 @@
+#pragma once
+/// Stores all samples of each tick of a lockstep run, in a fixed order, in the recording and in the table of
+/// the run.
+#include <filesystem>
+#include <optional>
+
+#include "crane/recording/mcap_writer.hpp"
+#include "crane/recording/run_table.hpp"
+#include "crane/runtime/tick_join.hpp"
+
+namespace crane::experiments {
+
+struct Tick {
+  const msg::State* state = nullptr;
+  const msg::Reference* reference = nullptr;
+  const msg::Contribution* tracking = nullptr;
+  const msg::Contribution* anti_swing = nullptr;
+  const msg::Demand* demand = nullptr;
+  const msg::Command* command = nullptr;
+  const msg::SupervisorStatus* supervisor = nullptr;
+  const msg::Twin* twin = nullptr;  ///< null: no twin runs
+};
+
+class TickLog {
+ public:
+  /// @param recording  MCAP file; nothing: table only. @throws recording::WriteError
+  explicit TickLog(const std::optional<std::filesystem::path>& recording);
+  void add(const Tick& tick);  ///< @throws recording::WriteError
+  void close();
+  /// Rows from tick `zero_tick` on, where time_s is 0.
+  [[nodiscard]] recording::Table table(std::uint64_t zero_tick) const;
+
+ private:
+  template <class T>
+  void write(const topics::Topic<T>& topic, const T& sample, std::int64_t time_ns, std::uint64_t tick);
+  std::optional<recording::McapWriter> writer_;
+  recording::TopicChannels channels_{};
+  recording::RunTable rows_;
+  std::vector<std::uint8_t> bytes_;
+  std::int64_t period_ns_ = 0, last_time_ns_ = 0;
+};
+
+}  // namespace crane::experiments

@@ -1,0 +1,271 @@
+#include "identification/friction_experiment.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include "crane/control/tracking_pd.hpp"
+#include "crane/identification/excitation_design.hpp"
+#include "crane/plant/coordinates.hpp"
+#include "experiments/realtime_run.hpp"
+#include "identification/axis_data.hpp"
+#include "identification/friction_picture.hpp"
+
+namespace crane::identification {
+namespace {
+
+namespace fs = std::filesystem;
+namespace id = identification;
+using recording::shortest;
+
+constexpr const char* kController = "none";  // tracking PD without anti-swing
+constexpr double kBegin_s = 0.5;
+constexpr double kRest_s = 2;  // pause after an excitation
+constexpr double kRamp_vps = 0.4;
+constexpr int kBreakAways = 4;
+constexpr double kStepSpacing_s = 6;
+
+const char* start_key(std::size_t axis) {
+  return axis == plant::kTrolley ? "trolley_position_m" : "slew_angle_rad";
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out{file};
+  out << text;
+  if (!out.flush()) throw experiments::RunError(file.string() + ": cannot write");
+}
+
+std::string array_of(const control::Excitation& excitation, double control::Sine::*field) {
+  std::string text;
+  for (const control::Sine& sine : excitation.sines)
+    if (sine.amplitude != 0) text += (text.empty() ? "" : ", ") + shortest(sine.*field);
+  return "[" + text + "]";
+}
+
+std::string excitation_text(double at_s, const control::Excitation& excitation) {
+  const std::string unit = plant::kCoordinates[excitation.axis].unit;
+  std::string text = "\n[[excitation]]\nat_s = " + shortest(at_s) + "\naxis = \"" +
+                     plant::kCoordinates[excitation.axis].name + "\"\nabout_" + unit + " = " +
+                     shortest(excitation.about) + "\n";
+  if (excitation.duration_s > 0)
+    text += "amplitudes_" + unit + " = " + array_of(excitation, &control::Sine::amplitude) +
+            "\nfrequencies_hz = " + array_of(excitation, &control::Sine::frequency_hz) +
+            "\nduration_s = " + shortest(excitation.duration_s) + "\n";
+  return text;
+}
+
+/// Runs the experiments for one axis of a rig.
+class Experiment {
+ public:
+  explicit Experiment(const FrictionExperimentOptions& options)
+      : options_{options}, rig_{configuration::load_rig(options.rig)} {
+    const auto& drive = rig_.drives[options.axis];
+    if (options.axis > plant::kSlew || !drive.present)
+      throw configuration::ConfigurationError({rig_.path + ": " + plant::kCoordinates[options.axis].name +
+                                               ": this rig has no such drive to identify"});
+    place();
+    measure_loop();
+    fs::create_directories(options.directory);
+    write_text(file("uncompensated.toml"), uncompensated());
+  }
+
+  FrictionExperimentResult run() {
+    FrictionExperimentResult result;
+    result.rig = rig_.name;
+    result.axis = options_.axis;
+    const id::AxisRun multi_sine = run_multi_sine(result);
+    result.estimates = estimate_both(multi_sine, options_.zero_band, options_.cutoff_ratio, gain_);
+    result.stiction = run_break_away(result.estimates.midpoint);
+    result.fragment = file("identified.toml");
+    write_text(result.fragment,
+               friction_fragment(rig_.path, options_.axis, result.estimates.midpoint, result.stiction));
+    const Steps compensated = run_steps("steps", result.fragment, result);
+    const Steps uncompensated = run_steps("steps_uncompensated", file("uncompensated.toml"), result);
+    result.compensated = id::deviation(compensated.measured, compensated.model);
+    result.uncompensated = id::deviation(uncompensated.measured, uncompensated.model);
+    write_text(file("friction.json"), to_json(result).dump(2) + "\n");
+    if (options_.picture)
+      draw_friction(file("friction.svg"), result,
+                    {.run = &multi_sine,
+                     .cutoff_ratio = options_.cutoff_ratio,
+                     .period_s = rig_.period_s,
+                     .compensated = &compensated.measured,
+                     .uncompensated = &uncompensated.measured,
+                     .model = &compensated.model});
+    return result;
+  }
+
+ private:
+  struct Steps {
+    std::vector<double> measured, model;
+  };
+
+  [[nodiscard]] fs::path file(const std::string& name) const { return options_.directory / name; }
+
+  /// Start positions: the axis in the middle of its travel; for the slew axis, the trolley near the tower
+  /// (section 4.4.2).
+  void place() {
+    constexpr double kUsable = 0.95;  // used share of the travel inside the margins
+    const auto& drive = rig_.drives[options_.axis];
+    const double middle = (drive.low_limit + drive.high_limit) / 2;
+    const double half = (drive.high_limit - drive.low_limit) / 2 - drive.soft_margin;
+    limits_.low = middle - kUsable * half;
+    limits_.high = middle + kUsable * half;
+    limits_.speed = kUsable * drive.max_speed;
+    start_ = rig_.start.position;
+    start_[options_.axis] = middle;
+    const auto& trolley = rig_.drives[plant::kTrolley];
+    if (options_.axis == plant::kSlew && trolley.present)
+      start_[plant::kTrolley] = trolley.low_limit + 1.05 * trolley.soft_margin;
+    if (!rig_.carries_load()) return;
+    constexpr double kSwingShare = 0.35;  // of the limit: friction adds harmonics that no reference has
+    limits_.swing_rad = kSwingShare * rig_.limits.swing_limit_rad;
+    limits_.load = {
+        .cable_m = start_[plant::kHoist], .gravity_mps2 = rig_.design.crane.gravity_mps2, .radius_m = {}};
+    if (options_.axis == plant::kSlew) limits_.load.radius_m = start_[plant::kTrolley];
+  }
+
+  /// Gains of the tracking PD in volts per m or rad and per m/s or rad/s.
+  void measure_loop() {
+    const auto law = control::make_tracking_pd(rig_.design);
+    control::Measurement measured;
+    control::Reference reference;
+    for (std::size_t i = 0; i < plant::kAxes; ++i) reference[i].position = measured.position[i] = start_[i];
+    constexpr double kSmall = 1e-3;
+    reference[options_.axis].position += kSmall;
+    loop_.stiffness_vpu = law->step(measured, reference).drive_v[options_.axis] / kSmall;
+    reference[options_.axis].position -= kSmall;
+    measured.speed[options_.axis] = -kSmall;
+    loop_.damping_vspu = law->step(measured, reference).drive_v[options_.axis] / kSmall;
+    loop_.period_s = rig_.period_s;
+    if (rig_.sensing.filter_speed[options_.axis]) loop_.cutoff_ratio = rig_.sensing.swing_filter_ratio;
+  }
+
+  [[nodiscard]] std::string uncompensated() const {
+    std::string text = "# " + rig_.name + " without friction compensation\nextends = \"" +
+                       fs::absolute(rig_.path).string() + "\"\n";
+    for (std::size_t i = 0; i < plant::kAxes; ++i)
+      if (rig_.drives[i].present && rig_.design.friction[i].factor > 0)
+        text += std::string{"\n[controller.friction."} + plant::kCoordinates[i].name + "]\nfactor = 0.0\n";
+    return text;
+  }
+
+  [[nodiscard]] std::string scenario_text(const std::string& description, double duration_s) const {
+    std::string text = "# Made by crane identify for " + rig_.name + ".\ndescription = \"" + description +
+                       "\"\nduration_s = " + shortest(duration_s) + "\n\n[start]\n";
+    for (const std::size_t i : {plant::kTrolley, plant::kSlew})
+      if (rig_.drives[i].present) text += std::string{start_key(i)} + " = " + shortest(start_[i]) + "\n";
+    return text;
+  }
+
+  /// Runs one part of the experiment. @return its table
+  recording::Table run_part(const std::string& name, const fs::path& rig, const std::string& scenario) {
+    write_text(file(name + ".toml"), scenario);
+    if (options_.realtime) return run_part_in_realtime(name, rig);
+    experiments::ExperimentOptions run;
+    run.scenario = file(name + ".toml");
+    run.rig = rig;
+    run.controller = kController;
+    run.directory = file(name);
+    run.plant = options_.plant;
+    run.in_process = options_.in_process;
+    run.picture = false;
+    run.bus = options_.bus;
+    run.vendors = options_.vendors;
+    const auto result = experiments::run_experiment(run);
+    if (!result.outcome.completed)
+      throw experiments::RunError(name +
+                                  ": the supervisor stopped the crane: " + result.outcome.stopped_because);
+    return recording::read_csv(file(name) / "run.csv");
+  }
+
+  recording::Table run_part_in_realtime(const std::string& name, const fs::path& rig) {
+    const auto scenario = experiment::load_scenario(file(name + ".toml"), &rig_);
+    const auto table = experiments::run_in_realtime({.rig = rig,
+                                                     .controller = kController,
+                                                     .plant = options_.plant,
+                                                     .bus = options_.bus,
+                                                     .vendors = options_.vendors},
+                                                    scenario);
+    fs::create_directories(file(name));
+    recording::write_csv(file(name) / "run.csv", table);
+    return table;
+  }
+
+  id::AxisRun run_multi_sine(FrictionExperimentResult& result) {
+    const double amplitude =
+        options_.axis == plant::kTrolley ? id::kTrolleyAmplitude_m : id::kSlewAmplitude_rad;
+    const auto excitation = id::multi_sine(options_.axis, amplitude, limits_, options_.duration_s);
+    result.amplitude_share = excitation.sines[0].amplitude / (-0.4 * amplitude);
+    const auto table =
+        run_part("multi_sine", file("uncompensated.toml"),
+                 scenario_text("sum of sines for the friction of one axis", options_.duration_s + kRest_s) +
+                     excitation_text(kBegin_s, excitation));
+    gain_ = loop_.gain = acting_gain(rig_.design, options_.axis, mean_trolley_position(table));
+    return axis_run_from(table, rig_, options_.axis, kBegin_s, kBegin_s + options_.duration_s);
+  }
+
+  id::StictionEstimate run_break_away(const id::FrictionEstimate& friction) {
+    constexpr double kLeast_v = 0.02;  // smallest identifiable friction: eight steps of the analog output
+    const double friction_v = friction.coulomb_positive.value + friction.coulomb_negative.value;
+    if (friction_v < kLeast_v)
+      throw id::IdentificationError("the Coulomb friction of both directions together is " +
+                                    std::to_string(friction_v) +
+                                    " V, too small to identify; the axis needs no compensation");
+    const auto excitation =
+        id::break_away_sine(options_.axis, limits_, loop_.stiffness_vpu, kRamp_vps, friction_v, kBreakAways);
+    const auto table =
+        run_part("break_away", file("uncompensated.toml"),
+                 scenario_text("slow voltage ramps until the axis moves", excitation.duration_s + kRest_s) +
+                     excitation_text(kBegin_s, excitation));
+    const auto run = axis_run_from(table, rig_, options_.axis, kBegin_s, kBegin_s + excitation.duration_s);
+    id::BreakAwayOptions break_away;
+    constexpr double kCounts = 3;  // per window: a slower motion is not told from a step of the encoder
+    break_away.start_speed =
+        std::max(break_away.start_speed,
+                 kCounts / (rig_.encoders[options_.axis].counts_per_unit * break_away.window_s));
+    return id::estimate_stiction(run, break_away);
+  }
+
+  /// Length of the step: within half the voltage of the drive and half the swing limit.
+  [[nodiscard]] double step_size() const {
+    constexpr double kVoltShare = 0.5, kTravelShare = 0.4;
+    double step = std::min(kVoltShare * rig_.drives[options_.axis].volt_limit_v / loop_.stiffness_vpu,
+                           kTravelShare * (limits_.high - limits_.low));
+    const double reach_m = std::abs(limits_.load.radius_m.value_or(1)) / limits_.load.cable_m;
+    if (limits_.load.cable_m > 0) step = std::min(step, limits_.swing_rad / reach_m / 2);
+    return step;
+  }
+
+  Steps run_steps(const std::string& name, const fs::path& rig, FrictionExperimentResult& result) {
+    result.step = step_size();
+    control::Excitation up{.axis = options_.axis, .about = start_[options_.axis] + result.step};
+    control::Excitation down{.axis = options_.axis, .about = start_[options_.axis]};
+    const auto table =
+        run_part(name, rig,
+                 scenario_text("a step each way, " + name, 2 * kStepSpacing_s) +
+                     excitation_text(kBegin_s, up) + excitation_text(kBegin_s + kStepSpacing_s, down));
+    const bool trolley = options_.axis == plant::kTrolley;
+    Steps steps;
+    steps.measured = *table.find(trolley ? "trolley_position_m" : "slew_angle_rad");
+    auto reference = *table.find(trolley ? "trolley_reference_m" : "slew_reference_rad");
+    for (std::size_t k = 1; k < reference.size(); ++k)  // a missing reference, possible in real time
+      if (!std::isfinite(reference[k])) reference[k] = reference[k - 1];
+    steps.model = id::linear_response(loop_, reference, steps.measured.front());
+    return steps;
+  }
+
+  const FrictionExperimentOptions& options_;
+  configuration::Rig rig_;
+  id::ExcitationLimits limits_;
+  id::LinearLoop loop_;
+  plant::PerAxis start_{};
+  double gain_ = 0;
+};
+
+}  // namespace
+
+FrictionExperimentResult identify_friction(const FrictionExperimentOptions& options) {
+  return Experiment{options}.run();
+}
+
+}  // namespace crane::identification

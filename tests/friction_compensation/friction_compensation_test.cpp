@@ -1,0 +1,68 @@
+/// Friction compensation as a component: sums the contributions of one tick and adds the friction.
+#include "friction_compensation/friction_compensation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../runtime/component_bench.hpp"
+#include "crane/control/friction_compensation.hpp"
+#include "crane/runtime/convert.hpp"
+
+namespace crane::services {
+namespace {
+
+using runtime::test::ComponentBench;
+using runtime::test::state_at;
+
+msg::Contribution contribution(double trolley_v, double slew_v) {
+  msg::Contribution sample{};
+  sample.header = runtime::test::tick(1);
+  sample.drive_v[control::kTrolley] = trolley_v;
+  sample.drive_v[control::kSlew] = slew_v;
+  return sample;
+}
+
+class FrictionComponent : public testing::Test {
+ protected:
+  [[nodiscard]] msg::Demand demand(const msg::State& state, const msg::Contribution& tracking,
+                                   const msg::Contribution& anti_swing) {
+    bench_.publish(topics::state, crane_SOURCE_PLANT, state);
+    bench_.publish(topics::tracking, crane_SOURCE_TRACKING, tracking);
+    bench_.publish(topics::anti_swing, crane_SOURCE_ANTI_SWING, anti_swing);
+    bench_.step();
+    const auto sample = output_.take();
+    if (!sample) throw std::runtime_error{"no demand"};
+    return *sample;
+  }
+  ComponentBench bench_{friction_compensation_spec(), runtime::test::tower()};
+  bus::Subscriber<msg::Demand> output_ = bench_.listen(topics::demand);
+};
+
+TEST_F(FrictionComponent, SumsTheContributionsAndAddsTheFrictionOfTheDirection) {
+  auto state = state_at(1);
+  state.trolley_speed_mps = 0.2;
+  state.slew_speed_radps = -0.3;
+  const auto sample = demand(state, contribution(1.5, -2), contribution(0.25, 0.5));
+  const auto& friction = bench_.rig().design.friction;
+  EXPECT_EQ(sample.control_v[0], 1.75);
+  EXPECT_EQ(sample.control_v[1], -1.5);
+  EXPECT_EQ(sample.friction_v[0], control::friction_compensation_v(friction[0], 1.75, 0.2));
+  EXPECT_EQ(sample.friction_v[1], control::friction_compensation_v(friction[1], -1.5, -0.3));
+  EXPECT_GT(sample.friction_v[0], 0);
+  EXPECT_LT(sample.friction_v[1], 0);
+  EXPECT_EQ(sample.total_v[0], sample.control_v[0] + sample.friction_v[0]);
+}
+
+TEST_F(FrictionComponent, PassesOnThatAProcessBeforeItHeardASecondWriter) {
+  auto tracking = contribution(1, 1);
+  tracking.second_writer = true;
+  EXPECT_TRUE(demand(state_at(1), tracking, contribution(0, 0)).second_writer);
+}
+
+TEST_F(FrictionComponent, KeepsVoltsThatAreNotFiniteSoThatTheGateRejectsThem) {
+  EXPECT_TRUE(std::isnan(demand(state_at(1), contribution(std::nan(""), 0), contribution(0, 0)).total_v[0]));
+}
+
+}  // namespace
+}  // namespace crane::services

@@ -1,0 +1,44 @@
+#pragma once
+/// A bare timer on every processor beside a real-time test. It says whether the computer itself paused: a
+/// virtual machine whose host takes a processor away fails a real-time test that no defect fails.
+#include <atomic>
+#include <cstdint>
+#include <latch>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace crane::real_time_test {
+
+/// A bare timer that wakes this late proves a pause: a tick that begins half a period late is an overrun.
+inline constexpr std::int64_t kPause_ns = 5'000'000;
+
+class TimerWitness {
+ public:
+  /// Starts one thread per processor: pinned, above every priority of a stack where the system permits it.
+  /// Returns when all of them watch.
+  TimerWitness();
+  ~TimerWitness();
+  TimerWitness(const TimerWitness&) = delete;
+  TimerWitness& operator=(const TimerWitness&) = delete;
+
+  /// Wake-ups later than kPause_ns since the last call, and the latest wake-up of all.
+  struct Report {
+    int pauses = 0;
+    std::int64_t latest_ns = 0;
+  };
+  [[nodiscard]] Report take();
+  /// False when the system denied real-time priority: then a busy processor looks like a pause.
+  [[nodiscard]] bool has_priority() const { return has_priority_; }
+
+ private:
+  void watch(unsigned processor);
+
+  std::latch watching_;
+  std::atomic<bool> stop_{false}, has_priority_{true};
+  std::atomic<int> pauses_{0};
+  std::atomic<std::int64_t> latest_ns_{0};
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace crane::real_time_test

@@ -1,0 +1,85 @@
+/// The planner as a component: executes the move that the supervisor accepted, and nothing else.
+#include <gtest/gtest.h>
+
+#include "../runtime/component_bench.hpp"
+#include "trajectory_planner/trajectory_planner.hpp"
+
+namespace crane::services {
+namespace {
+
+using runtime::test::ComponentBench;
+using runtime::test::state_at;
+
+class PlannerComponent : public testing::Test {
+ protected:
+  /// One tick in `state_` with `move_` as the last accepted move. @return the reference of the next tick
+  [[nodiscard]] msg::Reference tick() {
+    ++tick_;
+    msg::SupervisorStatus status{};
+    status.header = runtime::test::tick(tick_);
+    status.state = state_;
+    status.move = move_;
+    bench_.publish(topics::state, crane_SOURCE_PLANT, state_at(tick_));
+    bench_.publish(topics::supervisor, crane_SOURCE_SUPERVISOR, status);
+    bench_.step();
+    std::optional<msg::Reference> newest;
+    while (const auto sample = output_.take()) newest = sample;
+    if (!newest) throw std::runtime_error{"no reference"};
+    return *newest;
+  }
+  void accept(std::uint64_t number, double trolley_m) {
+    move_ = {};
+    move_.number = number;
+    move_.kind = crane_REQUEST_MOVE;
+    move_.selected[0] = true;
+    move_.target[0] = trolley_m;
+  }
+  ComponentBench bench_{trajectory_planner_spec(), runtime::test::tower(), "gain_scheduling_partial"};
+  bus::Subscriber<msg::Reference> output_ = bench_.listen(topics::reference);
+  crane_SupervisorState state_ = crane_STATE_HOLD;
+  msg::AcceptedMove move_{};
+  std::uint64_t tick_ = 0;
+};
+
+TEST_F(PlannerComponent, PublishesTheReferenceOfTheNextTick) {
+  EXPECT_EQ(tick().header.tick, 2u);
+  EXPECT_EQ(tick().header.tick, 3u);
+}
+
+TEST_F(PlannerComponent, BeginsWhereTheCraneIsBesideACraneThatIsArmed) {
+  const auto first = tick();
+  EXPECT_EQ(first.axis[0].position, 0.5);
+  EXPECT_EQ(first.axis[1].position, 0.2);
+  EXPECT_EQ(first.axis[2].position, 1);
+}
+
+TEST_F(PlannerComponent, ExecutesANewMoveOnce) {
+  (void)tick();
+  accept(1, 0.9);
+  const auto moving = tick();
+  EXPECT_EQ(moving.axis[0].position, 0.9);
+  EXPECT_EQ(moving.move_number, 1u);
+  EXPECT_TRUE(moving.moving);
+  state_ = crane_STATE_LOCKED;
+  EXPECT_EQ(tick().axis[0].position, 0.5) << "the reference of a locked crane is where the crane is";
+  state_ = crane_STATE_HOLD;
+  EXPECT_EQ(tick().axis[0].position, 0.5) << "an old move is not executed again";
+}
+
+TEST_F(PlannerComponent, LeavesAMoveAloneThatWasAcceptedBeforeItListened) {
+  accept(5, 0.9);
+  EXPECT_EQ(tick().axis[0].position, 0.5);
+  EXPECT_EQ(tick().axis[0].position, 0.5);
+}
+
+TEST_F(PlannerComponent, StopsWhereTheCraneIsInAControlledStop) {
+  (void)tick();
+  accept(1, 0.9);
+  (void)tick();
+  state_ = crane_STATE_STOP_C1;
+  const auto stopped = tick();
+  EXPECT_NEAR(stopped.axis[0].position, 0.5, 1e-9) << "the crane of this test stands still";
+}
+
+}  // namespace
+}  // namespace crane::services
