@@ -1,5 +1,6 @@
 /// What the experiment leaves: estimates by both regressions, the rig file, the figures.
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "identification/axis_data.hpp"
 #include "identification/friction_experiment.hpp"
