@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "crane/plant/coordinates.hpp"
 #include "crane/runtime/convert.hpp"
 
 namespace crane::bridge {
@@ -165,7 +166,7 @@ void Bridge::look_for_marks(const Seen& seen) {
     if (!change) continue;
     measurement_.shift(i, *change);
     last_line_.shift(i, static_cast<double>(*change) * unit_per_count_[i]);
-    node_.info("homed", std::string{"the position of the "} + control::kAxisNames[i] + " axis is known");
+    node_.info("homed", std::string{"the position of the "} + plant::kCoordinates[i].name + " axis is known");
   }
 }
 

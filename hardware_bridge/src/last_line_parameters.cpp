@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "crane/bridge/last_line.hpp"
+#include "crane/plant/pendulum.hpp"
 
 namespace crane::bridge {
 namespace {
@@ -55,7 +56,7 @@ AxisLine axis_line(const configuration::Rig& rig, std::size_t i) {
 LastLineParameters last_line_parameters(const configuration::Rig& rig) {
   LastLineParameters parameters;
   parameters.period_s = rig.period_s;
-  parameters.stale_after_ticks = static_cast<std::uint64_t>(rig.limits.stale_after_ticks);
+  parameters.stale_after_ticks = static_cast<std::uint64_t>(rig.ticks_in(rig.limits.stale_after_s));
   for (std::size_t i = 0; i < kDrives; ++i) parameters.axis[i] = axis_line(rig, i);
   constexpr double kBeyondTheSupervisor = 1.5, kLargest_rad = 1.55;
   parameters.swing_limit_rad = std::min(kBeyondTheSupervisor * rig.limits.swing_limit_rad, kLargest_rad);
@@ -63,9 +64,9 @@ LastLineParameters last_line_parameters(const configuration::Rig& rig) {
   const double cable_m = rig.drives[plant::kHoist].present ? rig.drives[plant::kHoist].low_limit
                                                            : rig.start.position[plant::kHoist];
   parameters.swing_rate_max_radps =
-      2 * parameters.swing_limit_rad * std::sqrt(rig.design.crane.gravity_mps2 / cable_m);
+      2 * parameters.swing_limit_rad * plant::swing_radps(rig.design.crane.gravity_mps2, cable_m);
   for (std::size_t i = 0; i < parameters.swing_present.size(); ++i)
-    parameters.swing_present[i] = rig.encoders[kDrives + i].counts_per_unit > 0;
+    parameters.swing_present[i] = rig.measures(kDrives + i);
   return parameters;
 }
 

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "cli/text_table.hpp"
+#include "crane/plant/pendulum.hpp"
 #include "crane/recording/csv.hpp"
 
 namespace crane::cli {
@@ -43,8 +44,7 @@ void filter_swing(PlannedRun& plan, double ratio) {
 }
 
 double load_period_s(const PlannedRun& plan) {
-  return 2 * std::numbers::pi *
-         std::sqrt(plan.rig.design.cable_length_m / plan.rig.design.crane.gravity_mps2);
+  return plant::swing_period_s(plan.rig.design.crane.gravity_mps2, plan.rig.design.cable_length_m);
 }
 
 /// Reduces the delay of the law by the delay of the filter.
@@ -126,8 +126,7 @@ double filter_delay_s(double cut_off_ratio, double period_s) {
 std::vector<Departure> departures(const PlannedRun& plan) {
   std::vector<Departure> all{{"", "", 0, [](PlannedRun&) {}}};
   append(all, {"cable_length", "%", {-50, -25, 25, 50}, percent(change_cable)});
-  if (plan.rig.plant.load_mass_kg > 0)
-    append(all, {"load_mass", "%", {-50, -25, 25, 50}, percent(change_load)});
+  if (plan.rig.has_load()) append(all, {"load_mass", "%", {-50, -25, 25, 50}, percent(change_load)});
   append(all, {"friction_compensation", "%", {-20, -10, 10, 20}, percent(change_compensation)});
   append(all, {"command_delay", "ticks", {1, 2, 3}, delay_commands});
   append(all, {"rate_filter", "", {0, 0.02, 0.1, 0.2}, filter_rates});

@@ -102,7 +102,7 @@ ExperimentResult run_experiment(const ExperimentOptions& options) {
   const auto started = experiment::changed_by(experiment::started_by(rig, scenario), options.variant);
   fs::create_directories(options.directory);
   const auto rig_file = options.directory / "rig.toml";
-  write_started_rig(rig_file, rig, started);
+  write_started_rig(rig_file, started);
 
   std::optional<configuration::Rig> twin;
   if (options.twin) twin = configuration::load_rig(*options.twin);

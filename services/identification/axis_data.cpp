@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "crane/control/schedule.hpp"
+#include "crane/plant/coordinates.hpp"
 
 namespace crane::identification {
 namespace {
@@ -32,22 +33,14 @@ bool follows(const recording::Table& table, std::size_t last, std::size_t row, d
 
 }  // namespace
 
-const char* axis_name(std::size_t axis) {
-  constexpr std::array kNames{"trolley", "slew", "hoist"};
-  return kNames.at(axis);
-}
-
-const char* axis_unit(std::size_t axis) { return axis == plant::kSlew ? "rad" : "m"; }
-
 identification::AxisRun axis_run_from(const recording::Table& table, const configuration::Rig& rig,
                                       std::size_t axis, double from_s, double to_s) {
   const auto& time_s = column(table, "time_s");
-  const bool trolley = axis == plant::kTrolley;
-  const auto& position = column(table, trolley ? "trolley_position_m" : "slew_angle_rad");
-  const auto& drive_v = column(table, trolley ? "trolley_voltage_v" : "slew_voltage_v");
-  const auto* trolley_m = table.find("trolley_position_m");
-  const auto* radial_rad = table.find("swing_radial_rad");
-  const auto* tangential_rad = table.find("swing_tangential_rad");
+  const auto& position = column(table, plant::kCoordinates[axis].column);
+  const auto& drive_v = column(table, plant::kCoordinates[axis].command_v);
+  const auto* trolley_m = table.find(plant::kCoordinates[plant::kTrolley].column);
+  const auto* radial_rad = table.find(plant::kCoordinates[plant::kSwingRadial].column);
+  const auto* tangential_rad = table.find(plant::kCoordinates[plant::kSwingTangential].column);
   identification::AxisRun run;
   run.period_s = rig.period_s;
   std::optional<std::size_t> last;

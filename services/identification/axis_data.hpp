@@ -6,11 +6,6 @@
 
 namespace crane::identification {
 
-/// "trolley", "slew", "hoist"
-[[nodiscard]] const char* axis_name(std::size_t axis);
-/// "m", "rad"
-[[nodiscard]] const char* axis_unit(std::size_t axis);
-
 /// Rows of a canonical table with time_s in [from_s, to_s]. The voltages exclude those for the force of the
 /// load, second parts of (3.37), (3.38) of H. M. Omar, Control of Gantry and Tower Cranes, computed from the
 /// measured swing and the masses of the rig.

@@ -6,6 +6,7 @@
 
 #include "crane/control/tracking_pd.hpp"
 #include "crane/identification/excitation_design.hpp"
+#include "crane/plant/coordinates.hpp"
 #include "experiments/realtime_run.hpp"
 #include "identification/axis_data.hpp"
 #include "identification/friction_picture.hpp"
@@ -42,10 +43,10 @@ std::string array_of(const control::Excitation& excitation, double control::Sine
 }
 
 std::string excitation_text(double at_s, const control::Excitation& excitation) {
-  const std::string unit = axis_unit(excitation.axis);
+  const std::string unit = plant::kCoordinates[excitation.axis].unit;
   std::string text = "\n[[excitation]]\nat_s = " + shortest(at_s) + "\naxis = \"" +
-                     axis_name(excitation.axis) + "\"\nabout_" + unit + " = " + shortest(excitation.about) +
-                     "\n";
+                     plant::kCoordinates[excitation.axis].name + "\"\nabout_" + unit + " = " +
+                     shortest(excitation.about) + "\n";
   if (excitation.duration_s > 0)
     text += "amplitudes_" + unit + " = " + array_of(excitation, &control::Sine::amplitude) +
             "\nfrequencies_hz = " + array_of(excitation, &control::Sine::frequency_hz) +
@@ -60,8 +61,8 @@ class Experiment {
       : options_{options}, rig_{configuration::load_rig(options.rig)} {
     const auto& drive = rig_.drives[options.axis];
     if (options.axis > plant::kSlew || !drive.present)
-      throw configuration::ConfigurationError(
-          {rig_.path + ": " + axis_name(options.axis) + ": this rig has no such drive to identify"});
+      throw configuration::ConfigurationError({rig_.path + ": " + plant::kCoordinates[options.axis].name +
+                                               ": this rig has no such drive to identify"});
     place();
     measure_loop();
     fs::create_directories(options.directory);
@@ -116,9 +117,7 @@ class Experiment {
     const auto& trolley = rig_.drives[plant::kTrolley];
     if (options_.axis == plant::kSlew && trolley.present)
       start_[plant::kTrolley] = trolley.low_limit + 1.05 * trolley.soft_margin;
-    const bool loaded =
-        rig_.kind == configuration::RigKind::tower || rig_.kind == configuration::RigKind::gantry;
-    if (!loaded) return;
+    if (!rig_.carries_load()) return;
     constexpr double kSwingShare = 0.35;  // of the limit: friction adds harmonics that no reference has
     limits_.swing_rad = kSwingShare * rig_.limits.swing_limit_rad;
     limits_.load = {
@@ -147,7 +146,7 @@ class Experiment {
                        fs::absolute(rig_.path).string() + "\"\n";
     for (std::size_t i = 0; i < plant::kAxes; ++i)
       if (rig_.drives[i].present && rig_.design.friction[i].factor > 0)
-        text += std::string{"\n[controller.friction."} + axis_name(i) + "]\nfactor = 0.0\n";
+        text += std::string{"\n[controller.friction."} + plant::kCoordinates[i].name + "]\nfactor = 0.0\n";
     return text;
   }
 

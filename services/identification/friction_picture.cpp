@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "crane/control/zero_phase.hpp"
+#include "crane/plant/coordinates.hpp"
 #include "crane/plot/curves.hpp"
 #include "identification/axis_data.hpp"
 
@@ -56,10 +57,10 @@ void draw_friction(const std::filesystem::path& file, const FrictionExperimentRe
   const std::string unit = trolley ? "m" : "rad";
   const auto& estimates = result.estimates;
   const auto rows = measured_friction(data, estimates.midpoint.gain.value);
-  const std::string position = std::string{axis_name(result.axis)} + " [" + unit + "]";
+  const std::string position = std::string{plant::kCoordinates[result.axis].name} + " [" + unit + "]";
   plot::draw_curves(
       file,
-      result.rig + ", " + axis_name(result.axis) +
+      result.rig + ", " + plant::kCoordinates[result.axis].name +
           ": measured and fitted friction; steps compared with the linear axis",
       {{"speed [" + unit + "/s]",
         "friction [V]",

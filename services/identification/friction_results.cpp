@@ -2,6 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "crane/plant/coordinates.hpp"
+
 #include "identification/axis_data.hpp"
 #include "identification/friction_experiment.hpp"
 
@@ -74,9 +76,10 @@ std::string friction_fragment(const std::filesystem::path& rig, std::size_t axis
     return line(key, s.mean_v,
                 "spread " + shortest(std::round(s.spread_v * 1e5) / 1e5) + " of " + std::to_string(s.count));
   };
-  return "# Friction of the " + std::string{axis_name(axis)} +
+  return "# Friction of the " + std::string{plant::kCoordinates[axis].name} +
          ", identified values for the compensation. After +-: one standard error.\nextends = \"" +
-         std::filesystem::absolute(rig).string() + "\"\n\n[controller.friction." + axis_name(axis) + "]\n" +
+         std::filesystem::absolute(rig).string() + "\"\n\n[controller.friction." +
+         plant::kCoordinates[axis].name + "]\n" +
          estimate("viscous_positive_" + per_speed, friction.viscous_positive) +
          estimate("viscous_negative_" + per_speed, friction.viscous_negative) +
          estimate("coulomb_positive_v", friction.coulomb_positive) +
@@ -97,8 +100,8 @@ nlohmann::ordered_json to_json(const FrictionEstimates& estimates) {
 
 nlohmann::ordered_json to_json(const FrictionExperimentResult& result) {
   nlohmann::ordered_json json{{"rig", result.rig},
-                              {"axis", axis_name(result.axis)},
-                              {"unit", axis_unit(result.axis)},
+                              {"axis", plant::kCoordinates[result.axis].name},
+                              {"unit", plant::kCoordinates[result.axis].unit},
                               {"amplitude_share", result.amplitude_share}};
   json.update(to_json(result.estimates));
   json["stiction"] = {{"positive", json_of(result.stiction.positive)},

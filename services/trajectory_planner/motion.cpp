@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "crane/plant/pendulum.hpp"
 
 namespace crane::services {
 
@@ -47,7 +48,7 @@ control::Shaper Motion::shaper() const {
   const auto& cable = trajectory_[control::kHoist];
   const double length_m = std::clamp((cable.start + cable.target) / 2, design.shortest_cable_length_m,
                                      design.longest_cable_length_m);
-  return {rig_.planning.shaping, 2 * std::numbers::pi * std::sqrt(length_m / design.crane.gravity_mps2)};
+  return {rig_.planning.shaping, plant::swing_period_s(design.crane.gravity_mps2, length_m)};
 }
 
 void Motion::start(const MoveTarget& move, std::uint64_t tick) {

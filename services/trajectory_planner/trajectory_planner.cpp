@@ -41,7 +41,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   explicit TrajectoryPlanner(const Context& context)
       : JoinedComponent{context, kWaitShare, topics::state, topics::supervisor},
         output_{context.ports.output(topics::reference)},
-        stale_after_ticks_{context.rig.limits.stale_after_ticks},
+        stale_after_ticks_{context.rig.ticks_in(context.rig.limits.stale_after_s)},
         motion_{context.rig, context.controller.reference} {}
 
  protected:

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "crane/plant/coordinates.hpp"
+
 namespace crane::supervisor {
 namespace {
-
-using control::kAxisNames;
 
 constexpr double kLongestFollow_s = 3600;
 
@@ -29,11 +29,11 @@ std::string target_problem(const msg::Request& request, const AxisLimits& axis, 
   const auto excursion = excursion_of(request);
   for (const double target : {request.target[i] - excursion.distance, request.target[i] + excursion.distance})
     if (!target_allowed(axis, target))
-      return std::string{kAxisNames[i]} + " target " + std::to_string(target) + " must lie in [" +
-             std::to_string(axis.low_limit + axis.soft_margin) + ", " +
+      return std::string{plant::kCoordinates[i].name} + " target " + std::to_string(target) +
+             " must lie in [" + std::to_string(axis.low_limit + axis.soft_margin) + ", " +
              std::to_string(axis.high_limit - axis.soft_margin) + "]";
   if (excursion.speed <= axis.max_speed) return "";
-  return std::string{kAxisNames[i]} + " speed " + std::to_string(excursion.speed) +
+  return std::string{plant::kCoordinates[i].name} + " speed " + std::to_string(excursion.speed) +
          " of the sines must be at most " + std::to_string(axis.max_speed);
 }
 
@@ -81,7 +81,7 @@ std::string problem_of(const msg::Request& request, const Limits& limits) {
     if (!request.selected[i]) continue;
     ++selected;
     const auto& axis = limits.axis[i];
-    if (!axis.present) return std::string{"this rig has no "} + kAxisNames[i] + " drive";
+    if (!axis.present) return std::string{"this rig has no "} + plant::kCoordinates[i].name + " drive";
     if (home) continue;
     if (auto problem = target_problem(request, axis, i); !problem.empty()) return problem;
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "crane/plant/coordinates.hpp"
 #include "crane/runtime/convert.hpp"
 #include "crane/runtime/joined_component.hpp"
 #include "crane/runtime/request_inbox.hpp"
@@ -179,7 +180,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
 
   void announce_failure(const TickOutput& output) {
-    const std::string axis = control::kAxisNames[memory_.homing_axis];
+    const std::string axis = plant::kCoordinates[memory_.homing_axis].name;
     node().error("homing_failed", "homing the " + axis + " axis: " + name_of(output.homing_failure),
                  remedy_for(output.homing_failure));
   }

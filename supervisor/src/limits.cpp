@@ -2,21 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+
+#include "crane/control/drive_limit_fields.hpp"
+#include "crane/plant/coordinates.hpp"
 
 namespace crane::supervisor {
 namespace {
-
-using control::kAxisNames;
 
 class Problems {
  public:
   /// `ok` has to be false for NaN.
   void require(bool ok, const std::string& name, double value, const std::string& rule) {
-    if (ok) return;
-    std::ostringstream line;
-    line << name << " = " << value << ": " << rule;
-    found_.push_back(line.str());
+    if (!ok) found_.push_back(fields::complaint(name, value, rule));
+  }
+  void in_range(const std::string& name, double value, const fields::Range& range) {
+    require(range.contains(value), name, value, range.rule());
+  }
+  template <class Section, std::size_t N>
+  void check(const Section& section, const std::array<fields::Field<Section>, N>& table,
+             const std::string& prefix) {
+    fields::check(section, table, prefix, found_);
   }
   void positive(const std::string& name, double value) {
     require(value > 0 && std::isfinite(value), name, value, "must be > 0");
@@ -36,37 +41,27 @@ void check_homing(const std::string& prefix, const AxisLimits& axis, Problems& p
   const auto& homing = axis.homing;
   problems.require(homing.position >= axis.low_limit && homing.position <= axis.high_limit,
                    prefix + "position", homing.position, "must lie between the hard limits");
-  problems.positive(prefix + "approach_speed", homing.approach_speed);
+  problems.check(homing, control::kHomingFields, prefix);
   problems.require(homing.speed >= homing.approach_speed && homing.speed <= axis.max_speed, prefix + "speed",
                    homing.speed, "must be at least approach_speed and at most max_speed");
-  problems.positive(prefix + "back_off", homing.back_off);
-  problems.require(homing.volt_limit_v > 0 && homing.volt_limit_v <= axis.volt_limit_v,
-                   prefix + "volt_limit_v", homing.volt_limit_v, "must be in (0, volt_limit_v]");
+  problems.require(homing.volt_limit_v <= axis.volt_limit_v, prefix + "volt_limit_v", homing.volt_limit_v,
+                   "must be at most volt_limit_v of the drive");
 }
 
 void check_axis(const std::string& prefix, const AxisLimits& axis, Problems& problems) {
-  problems.require(axis.volt_limit_v > 0 && axis.volt_limit_v <= 10, prefix + "volt_limit_v",
-                   axis.volt_limit_v, "must be in (0, 10]");
-  problems.positive(prefix + "volt_rate_limit_vps", axis.volt_rate_limit_vps);
-  problems.require(std::isfinite(axis.low_limit), prefix + "low_limit", axis.low_limit, "must be finite");
-  problems.require(axis.high_limit > axis.low_limit && std::isfinite(axis.high_limit), prefix + "high_limit",
-                   axis.high_limit, "must be finite and above low_limit");
-  problems.at_least(prefix + "soft_margin", axis.soft_margin, 0);
+  problems.check(axis, control::kDriveLimitFields, prefix);
+  problems.require(axis.high_limit > axis.low_limit, prefix + "high_limit", axis.high_limit,
+                   "must be above low_limit");
   problems.require(2 * axis.soft_margin < axis.high_limit - axis.low_limit, prefix + "soft_margin",
                    axis.soft_margin, "must leave room between the hard limits");
-  problems.positive(prefix + "max_speed", axis.max_speed);
-  problems.positive(prefix + "brake_deceleration", axis.brake_deceleration);
-  problems.at_least(prefix + "brake_close_time_s", axis.brake_close_time_s, 0);
-  problems.at_least(prefix + "brake_open_time_s", axis.brake_open_time_s, 0);
   problems.positive(prefix + "standstill_speed", axis.standstill_speed);
   problems.positive(prefix + "brake_slip", axis.brake_slip);
   if (axis.homes()) check_homing(prefix + "homing.", axis, problems);
 }
 
 void check_common(const Limits& limits, Problems& problems) {
-  problems.positive("period_s", limits.period_s);
-  problems.require(limits.swing_limit_rad > 0 && limits.swing_limit_rad < 1.57, "swing_limit_rad",
-                   limits.swing_limit_rad, "must be in (0, 1.57)");
+  problems.in_range("period_s", limits.period_s, plant::kPeriods);
+  problems.in_range("swing_limit_rad", limits.swing_limit_rad, control::kSwingLimits);
   problems.at_least("swing_runaway_ratio", limits.swing_runaway_ratio, 1);
   problems.at_least("state_stale_after_ticks", limits.state_stale_after_ticks, 1);
   problems.at_least("demand_stale_after_ticks", limits.demand_stale_after_ticks, 1);
@@ -83,7 +78,7 @@ void check_common(const Limits& limits, Problems& problems) {
   problems.positive("arm_volt_limit_v", limits.arm_volt_limit_v);
   problems.positive("brake_test_time_s", limits.brake_test_time_s);
   problems.positive("brake_report_time_s", limits.brake_report_time_s);
-  problems.positive("idle_lock_s", limits.idle_lock_s);
+  problems.in_range("idle_lock_s", limits.idle_lock_s, control::kIdleTimes);
   problems.at_least("creeping_ratio", limits.creeping_ratio, 1);
   problems.require(std::ranges::any_of(limits.axis, &AxisLimits::present), "axis", 0,
                    "at least one must be present");
@@ -94,7 +89,7 @@ void check_margins(const Limits& limits, Problems& problems) {
   for (std::size_t i = 0; i < kAxes; ++i) {
     const AxisLimits& axis = limits.axis[i];
     if (!axis.present) continue;
-    const std::string prefix = std::string{kAxisNames[i]} + ".";
+    const std::string prefix = std::string{plant::kCoordinates[i].name} + ".";
     const double distance = stopping_distance(limits, i, axis.max_speed);
     problems.require(axis.soft_margin >= distance, prefix + "soft_margin", axis.soft_margin,
                      "must be >= " + std::to_string(distance) +
@@ -139,7 +134,8 @@ std::vector<std::string> problems(const Limits& limits) {
   Problems found;
   check_common(limits, found);
   for (std::size_t i = 0; i < kAxes; ++i) {
-    if (limits.axis[i].present) check_axis(std::string{kAxisNames[i]} + ".", limits.axis[i], found);
+    if (limits.axis[i].present)
+      check_axis(std::string{plant::kCoordinates[i].name} + ".", limits.axis[i], found);
   }
   if (found.empty()) check_margins(limits, found);
   return found.take();

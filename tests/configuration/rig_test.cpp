@@ -296,7 +296,7 @@ INSTANTIATE_TEST_SUITE_P(
         Corruption{"fuzzy_swing", "[controller]", "fuzzy_swing_rad = 0.17453292519943295",
                    "fuzzy_swing_rad = 0", "must be in (0, 3.2]"},
         Corruption{"delay_2", "[controller]", "delayed_2_delay = 0.31", "delayed_2_delay = 2.5",
-                   "must be in (0, 2]"},
+                   "must be in [0, 2]"},
         Corruption{"anti_swing", "[controller]", "anti_swing_derivative = 8.0", "anti_swing_derivative = 1e6",
                    "must be in [-100000, 100000]"},
         Corruption{"shaper", "[controller]", "shaper = \"none\"", "shaper = \"zvdd\"",

@@ -117,7 +117,7 @@ Design extreme_design(std::mt19937& random) {
     return values.begin()[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(random)];
   };
   Design design;
-  design.period_s = pick({0.01, 1});
+  design.period_s = pick({0.01, 0.1});
   design.shortest_cable_length_m = pick({1e-3, 0.5});
   design.cable_length_m = design.longest_cable_length_m = pick({0.5, 1000});
   design.full_feedback_gain_pm = pick({1e-6, 4, 1000});
@@ -132,10 +132,11 @@ Design extreme_design(std::mt19937& random) {
   design.fuzzy_gain = pick({-1e5, 1e-9, 1e5});
   design.fuzzy_point_a = pick({0.01, 0.5});
   design.fuzzy_point_b = pick({0.51, 0.99});
-  design.volt_limit_v.fill(pick({1e-3, 1000}));
+  design.volt_limit_v.fill(pick({1e-3, 10}));
   design.crane.gravity_mps2 = pick({1e-3, 100});
   design.crane.load_mass_kg = pick({0, 1e6});
-  design.crane.trolley_inertia_kg = design.crane.jib_inertia_kgm2 = pick({1e-6, 1e8});
+  design.crane.trolley_inertia_kg = pick({1e-6, 1e6});
+  design.crane.jib_inertia_kgm2 = pick({1e-6, 1e8});
   design.crane.hoist_gain_mpspv = pick({1e-6, 1000});
   design.crane.trolley_gain_mps2pv = design.crane.slew_gain_radps2pv = pick({1e-6, 1000});
   return design;

@@ -21,24 +21,11 @@ TEST_P(StartedRigFile, ReadsBackAsTheRigThatRuns) {
   scenario.cable_length_offset_m = 0.2;
   const auto started = experiment::changed_by(experiment::started_by(rig, scenario), GetParam());
   const auto file = std::filesystem::path{testing::TempDir()} / ("started_" + GetParam() + ".toml");
-  write_started_rig(file, rig, started);
-  const auto read = configuration::load_rig(file);
+  write_started_rig(file, started);
+  auto read = configuration::load_rig(file);
   std::filesystem::remove(file);
-  EXPECT_EQ(read.start.position, started.start.position);
-  EXPECT_EQ(read.start.cable_length_offset_m, started.start.cable_length_offset_m);
-  EXPECT_EQ(read.start.swing_radial_rad, started.start.swing_radial_rad);
-  EXPECT_EQ(read.plant.load_mass_kg, started.plant.load_mass_kg);
-  EXPECT_EQ(read.terms.size(), started.terms.size());
-  EXPECT_EQ(read.sensing.swing_filter_ratio, started.sensing.swing_filter_ratio);
-  EXPECT_EQ(read.sensing.filter_speed, started.sensing.filter_speed);
-  EXPECT_EQ(read.design.crane.load_mass_kg, started.design.crane.load_mass_kg);
-  EXPECT_EQ(read.design.full_feedback_gain_pm, started.design.full_feedback_gain_pm);
-  for (std::size_t i = 0; i < plant::kAxes; ++i) {
-    EXPECT_EQ(read.design.friction[i].factor, started.design.friction[i].factor);
-    EXPECT_EQ(read.drives[i].reference_speed, started.drives[i].reference_speed);
-    EXPECT_EQ(read.drives[i].reference_acceleration, started.drives[i].reference_acceleration);
-    EXPECT_EQ(read.drives[i].reference_jerk, started.drives[i].reference_jerk);
-  }
+  read.path = started.path;
+  EXPECT_TRUE(read == started) << configuration::to_toml(read) << configuration::to_toml(started);
 }
 
 std::vector<std::string> every_variant() {

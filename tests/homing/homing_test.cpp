@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "crane/plant/coordinates.hpp"
+
 #include "lockstep_crane.hpp"
 
 namespace crane::homing_test {
@@ -41,7 +43,7 @@ TEST_P(HomingOn, FindsEveryZeroCreepingAndMovesOnlyThen) {
     const double half_a_tick = homing.approach_speed * rig.period_s / 2;
     EXPECT_NEAR(crane.shown(axis), crane.truth(axis), half_a_tick + 2 / rig.encoders[axis].counts_per_unit)
         << axis;
-    RecordProperty(control::kAxisNames[axis], std::to_string(crane.shown(axis) - crane.truth(axis)));
+    RecordProperty(plant::kCoordinates[axis].name, std::to_string(crane.shown(axis) - crane.truth(axis)));
     for (std::size_t other = 0; other < 3; ++other) {
       if (other == axis) continue;
       EXPECT_NEAR(crane.truth(other), before[other], 1e-9) << "moved while " << axis << " was homed";

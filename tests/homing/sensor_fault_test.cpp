@@ -1,6 +1,8 @@
 // An encoder that dies in a move, in closed loop: the axis is stopped far from the end of its travel.
 #include "lockstep_crane.hpp"
 
+#include "crane/plant/coordinates.hpp"
+
 namespace crane::homing_test {
 namespace {
 
@@ -9,7 +11,7 @@ struct FrozenMove {
   double distance;  ///< m or rad
 };
 std::ostream& operator<<(std::ostream& out, const FrozenMove& move) {
-  return out << control::kAxisNames[move.axis] << " by " << move.distance;
+  return out << plant::kCoordinates[move.axis].name << " by " << move.distance;
 }
 
 configuration::Rig tower() { return configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml"); }
@@ -45,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(InAMove, EncoderDies,
                          testing::Values(FrozenMove{plant::kTrolley, 0.75}, FrozenMove{plant::kTrolley, 0.5},
                                          FrozenMove{plant::kTrolley, 1.0}, FrozenMove{plant::kSlew, 1.57}),
                          [](const auto& test) {
-                           return std::string{control::kAxisNames[test.param.axis]} + "_" +
+                           return std::string{plant::kCoordinates[test.param.axis].name} + "_" +
                                   std::to_string(std::lround(100 * test.param.distance));
                          });
 

@@ -8,6 +8,7 @@
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/experiment/scenario.hpp"
+#include "crane/plant/coordinates.hpp"
 #include "identification/axis_data.hpp"
 #include "stack/data_files.hpp"
 
@@ -22,7 +23,7 @@ struct Case {
 /// The friction of the simulated plant, from its rig file: b+, b-, c+, c-.
 std::array<double, 4> truth(const configuration::Rig& rig, std::size_t axis) {
   for (const auto& term : rig.terms)
-    if (term.name == "drive_friction" && term.axis == axis_name(axis))
+    if (term.name == "drive_friction" && term.axis == plant::kCoordinates[axis].name)
       return {term.parameters.at("viscous_positive_vspm"), term.parameters.at("viscous_negative_vspm"),
               term.parameters.at("coulomb_positive_v"), term.parameters.at("coulomb_negative_v")};
   throw std::runtime_error("the rig has no friction there");
@@ -75,7 +76,8 @@ INSTANTIATE_TEST_SUITE_P(Rigs, FrictionExperiment,
                                          Case{"virginia_tech_tower", plant::kSlew},
                                          Case{"drive_axis", plant::kTrolley}),
                          [](const auto& test) {
-                           return std::string{test.param.rig} + "_" + axis_name(test.param.axis);
+                           return std::string{test.param.rig} + "_" +
+                                  plant::kCoordinates[test.param.axis].name;
                          });
 
 TEST(FrictionExperiment, RefusesADriveThatTheRigDoesNotHave) {

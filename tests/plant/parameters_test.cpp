@@ -20,8 +20,8 @@ TEST(Parameters, ReportEveryProblemAtOnceWithNameValueAndRule) {
   p.load_mass_kg = -1;
   p.hoist_lag_s = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(p.problems(),
-              ElementsAre("gravity_mps2 = 0: must be in (0, 1e9)", "load_mass_kg = -1: must be in [0, 1e9)",
-                          HasSubstr("hoist_lag_s = nan")));
+              ElementsAre("gravity_mps2 = 0: must be in [0.001, 100]",
+                          "load_mass_kg = -1: must be in [0, 1e+06]", HasSubstr("hoist_lag_s = nan")));
   EXPECT_THROW(Model{p}, std::invalid_argument);
 }
 

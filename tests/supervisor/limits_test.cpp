@@ -43,8 +43,9 @@ TEST(SupervisorLimits, ReportEveryProblemAtOnceWithNameValueAndRule) {
   limits.c1_ramp_time_s = 0.5;
   EXPECT_THAT(problems(limits),
               ElementsAre("c1_ramp_time_s = 0.5: must be in [0, 0.02]",
-                          "trolley.volt_limit_v = 12: must be in (0, 10]", HasSubstr("slew.high_limit = -5"),
-                          HasSubstr("slew.soft_margin"), "slew.max_speed = nan: must be > 0"));
+                          "trolley.volt_limit_v = 12: must be in (0, 10]",
+                          "slew.max_speed = nan: must be finite and > 0", HasSubstr("slew.high_limit = -5"),
+                          HasSubstr("slew.soft_margin")));
 }
 
 TEST(SupervisorLimits, NeedAtLeastOneAxisAndIgnoreAbsentOnes) {

@@ -71,9 +71,7 @@ class Calibrating {
     }
   }
 
-  [[nodiscard]] bool has_swing(std::size_t counter) const {
-    return rig_.encoders[counter].counts_per_unit > 0;
-  }
+  [[nodiscard]] bool has_swing(std::size_t counter) const { return rig_.measures(counter); }
 
   /// One period of the load at rest.
   std::array<SwingFit, kSwings> swings() {

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "crane/bring_up/calibration.hpp"
+#include "crane/plant/coordinates.hpp"
 
 namespace crane::bring_up {
 namespace {
@@ -19,8 +20,6 @@ std::string exact(double value) {
 }
 
 std::string text_of(const configuration::Rig& rig, const Calibration& calibration) {
-  constexpr std::array<const char*, kDrives> kStartKeys{"trolley_position_m", "slew_angle_rad",
-                                                        "cable_length_m"};
   std::ostringstream out;
   out << "# Calibration of " << rig.name << ", written by crane hw calibrate.\n"
       << "extends = \"" << fs::absolute(rig.path).lexically_normal().string() << "\"\n"
@@ -39,9 +38,10 @@ std::string text_of(const configuration::Rig& rig, const Calibration& calibratio
   out << "\n[start]  # where the crane stood then, load at rest; encoders are incremental\n";
   for (std::size_t i = 0; i < kDrives; ++i)
     if (rig.drives[i].present)
-      out << kStartKeys[i] << " = " << exact(calibration.position[i]) << "  # " << coordinate_unit(i) << '\n';
+      out << plant::kCoordinates[i].column << " = " << exact(calibration.position[i]) << "  # "
+          << coordinate_unit(i) << '\n';
   for (std::size_t i = kDrives; i < kCounters; ++i)
-    if (rig.encoders[i].counts_per_unit > 0) out << coordinate_name(i) << "_rad = 0.0  # rad\n";
+    if (rig.measures(i)) out << coordinate_name(i) << "_rad = 0.0  # rad\n";
   return out.str();
 }
 

@@ -2,17 +2,13 @@
 
 #include <cmath>
 
+#include "crane/plant/coordinates.hpp"
+
 namespace crane::bring_up {
 
-std::string_view coordinate_name(std::size_t coordinate) {
-  constexpr std::array<std::string_view, kCounters> kNames{"trolley", "slew", "hoist", "swing_radial",
-                                                           "swing_tangential"};
-  return kNames.at(coordinate);
-}
+std::string_view coordinate_name(std::size_t coordinate) { return plant::kCoordinates.at(coordinate).name; }
 
-std::string_view coordinate_unit(std::size_t coordinate) {
-  return coordinate == plant::kTrolley || coordinate == plant::kHoist ? "m" : "rad";
-}
+std::string_view coordinate_unit(std::size_t coordinate) { return plant::kCoordinates.at(coordinate).unit; }
 
 Session::Session(const configuration::Rig& rig, bridge::Board& board, Clock clock)
     : rig_{rig}, board_{board}, clock_{std::move(clock)}, period_ns_{std::llround(rig.period_s * 1e9)} {

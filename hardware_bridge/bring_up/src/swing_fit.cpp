@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "crane/plant/pendulum.hpp"
+
 namespace crane::bring_up {
 
 double SwingFit::amplitude_rad() const { return std::hypot(cosine_rad, sine_rad); }
@@ -13,7 +15,7 @@ double SwingFit::at(double time_s, double frequency_radps) const {
 }
 
 double swing_frequency_radps(const configuration::Rig& rig) {
-  return std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist]);
+  return plant::swing_radps(rig.plant.gravity_mps2, rig.start.position[plant::kHoist]);
 }
 
 SwingFit fit_swing(std::span<const Sample> record, std::size_t counter, double frequency_radps) {

@@ -177,8 +177,8 @@ class Judgement {
   void judge_missing_swing(std::size_t i, std::size_t swing) {
     const auto& axis = evidence_.axis[i];
     const std::size_t other = kDrives + kSwings - 1 - (swing - kDrives);
-    const bool other_swings = rig_.encoders[other].counts_per_unit > 0 &&
-                              axis.swung_rad[other - kDrives] > kClearShare * std::abs(axis.expected_rad);
+    const bool other_swings =
+        rig_.measures(other) && axis.swung_rad[other - kDrives] > kClearShare * std::abs(axis.expected_rad);
     if (other_swings) return add_swapped_encoders(swing, other);
     add(Fault::swing_dead, named(swing),
         "the encoder of " + named(swing) + " does not see the load swing after a motion of the " + named(i) +
@@ -263,7 +263,7 @@ std::string_view name_of(Fault fault) {
 
 std::size_t swing_of(const configuration::Rig& rig, std::size_t axis) {
   const std::size_t swing = axis == plant::kTrolley ? 3 : axis == plant::kSlew ? 4 : 0;
-  return swing != 0 && rig.encoders[swing].counts_per_unit > 0 ? swing : 0;
+  return swing != 0 && rig.measures(swing) ? swing : 0;
 }
 
 std::vector<Finding> judge(const configuration::Rig& rig, const Evidence& evidence) {

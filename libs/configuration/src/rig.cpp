@@ -1,20 +1,17 @@
 #include "crane/configuration/rig.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "crane/configuration/extended_file.hpp"
 #include "rig_sections.hpp"
 
 namespace crane::configuration {
-namespace {
 
-RigKind read_kind(TomlTable& root) {
-  const std::string kind = root.choice("kind", {"tower", "gantry", "drive_axis", "pendulum"});
-  if (kind == "gantry") return RigKind::gantry;
-  if (kind == "drive_axis") return RigKind::drive_axis;
-  if (kind == "pendulum") return RigKind::pendulum;
-  return RigKind::tower;
+int Rig::ticks_in(double time_s) const {
+  constexpr double kRounding = 1e-9;
+  return std::max(1, static_cast<int>(std::floor(time_s / period_s + kRounding)));
 }
-
-}  // namespace
 
 Rig load_rig(const std::filesystem::path& file) { return parse_rig(file_text(file), file.string()); }
 
@@ -22,11 +19,8 @@ Rig parse_rig(const std::string& text, const std::string& file) {
   TomlTable root = with_base(text, file);
   Rig rig;
   rig.path = file;
-  rig.name = root.text("name");
+  read_section(root, kRigFields, rig, &rig);
   if (root.has("name") && rig.name.empty()) root.problem("name", "must not be empty");
-  rig.kind = read_kind(root);
-  rig.period_s = root.number("period_s", Range::closed(1e-5, 0.1), rig.period_s);
-  rig.board = root.choice("board", {"simulated", "servo_to_go", "comedi", "emulated"}, rig.board);
   read_drives(root, rig);
   read_encoders(root, rig);
   read_wiring(root, rig);

@@ -1,12 +1,10 @@
 #include <algorithm>
+#include <cmath>
 
 #include "rig_sections.hpp"
 
 namespace crane::configuration {
 namespace {
-
-constexpr double kShortestCable_m = 1e-3;
-constexpr double kHighestLimit = 1000;  // m or rad: no crane of this project is longer
 
 /// Travel of a reference that reaches the soft limit at the planner's speed and is then stopped by the brake:
 /// v (t_detect + t_react + t_brake) + v^2 / (2 a), with one tick each to detect and to react.
@@ -15,59 +13,37 @@ double stopping_travel(const Drive& drive, double period_s) {
   return speed * (2 * period_s + drive.brake_close_time_s) + speed * speed / (2 * drive.brake_deceleration);
 }
 
-void check_drive(TomlTable& table, const AxisText& axis, const Drive& drive, double period_s) {
-  const std::string margin_key = with_unit("soft_margin", axis.unit);
+void check_drive(TomlTable& table, const plant::Coordinate& axis, const Drive& drive, double period_s) {
+  const auto limit = [&axis](std::string_view key) { return key_in(control::kDriveLimitFields, key, axis); };
+  // A cable has a length: its limits are positive.
+  if (&axis == &plant::kCoordinates[plant::kHoist])
+    check_range(table, limit("low_limit"), drive.low_limit, plant::kCableLengths);
   if (drive.low_limit >= drive.high_limit) {
-    table.problem(with_unit("low_limit", axis.unit), "must be below " + with_unit("high_limit", axis.unit));
+    table.problem(limit("low_limit"), "must be below " + limit("high_limit"));
   } else if (2 * drive.soft_margin >= drive.high_limit - drive.low_limit) {
-    table.problem(margin_key, "must leave room between the limits");
+    table.problem(limit("soft_margin"), "must leave room between the limits");
   }
   const double travel = stopping_travel(drive, period_s);
   if (drive.reference_speed > drive.max_speed) {
-    table.problem(with_unit("reference_speed", axis.speed),
-                  "must not exceed " + with_unit("max_speed", axis.speed));
+    table.problem(key_in(kDriveFields, "reference_speed", axis), "must not exceed " + limit("max_speed"));
   } else if (drive.soft_margin < travel) {
-    table.problem(margin_key, "must be at least " + std::to_string(travel) +
-                                  ": v (t_detect + t_react + t_brake) + v^2/2a at the reference speed");
+    table.problem(limit("soft_margin"),
+                  "must be at least " + std::to_string(travel) +
+                      ": v (t_detect + t_react + t_brake) + v^2/2a at the reference speed");
   }
 }
 
-void read_limits_of(TomlTable& table, const AxisText& axis, Drive& drive) {
-  // A cable has a length: its limits are positive.
-  const Range limit = axis.name == "hoist" ? Range::closed(kShortestCable_m, kHighestLimit)
-                                           : Range::closed(-kHighestLimit, kHighestLimit);
-  drive.low_limit = table.number(with_unit("low_limit", axis.unit), limit);
-  drive.high_limit = table.number(with_unit("high_limit", axis.unit), limit);
-  drive.soft_margin = table.number(with_unit("soft_margin", axis.unit), Range::not_negative());
-  drive.max_speed = table.number(with_unit("max_speed", axis.speed), Range::positive());
-}
-
-Drive read_drive(TomlTable& table, const AxisText& axis, double period_s) {
+Drive read_drive(TomlTable& table, const plant::Coordinate& axis, const Rig& rig) {
   Drive drive;
   drive.present = true;
-  drive.dac_channel = table.integer("dac_channel", 0, kLastChannel);
-  drive.sign = read_sign(table);
-  drive.volt_limit_v = table.number("volt_limit_v", Range::above(0, 10), drive.volt_limit_v);
-  drive.volt_rate_limit_vps =
-      table.number("volt_rate_limit_vps", Range::positive(), drive.volt_rate_limit_vps);
-  read_limits_of(table, axis, drive);
-  drive.brake_deceleration =
-      table.number(with_unit("brake_deceleration", axis.acceleration), Range::positive());
-  const Range brake_time = Range::closed(0, 1);
-  drive.brake_close_time_s = table.number("brake_close_time_s", brake_time, drive.brake_close_time_s);
-  drive.brake_open_time_s = table.number("brake_open_time_s", brake_time, drive.brake_open_time_s);
-  const Range planned = Range::closed(1e-6, 1e6);  // what a trajectory can be planned with
-  if (axis.unit == "rad") {
+  if (std::string_view{axis.unit} == "rad") {
     drive.brake_slip = 0.05;
     drive.standstill_speed = 0.01;
   }
-  drive.reference_speed = table.number(with_unit("reference_speed", axis.speed), planned);
-  drive.reference_acceleration =
-      table.number(with_unit("reference_acceleration", axis.acceleration), planned);
-  // A ramp rises to full acceleration within a tenth of a second unless the file says otherwise.
-  drive.reference_jerk =
-      table.number(with_unit("reference_jerk", axis.jerk), planned, 10 * drive.reference_acceleration);
-  check_drive(table, axis, drive, period_s);
+  read_section(table, kDriveFields, drive, &rig, axis.unit);
+  read_section(table, control::kDriveLimitFields, drive, &rig, axis.unit);
+  check_sign(table, drive.sign);
+  check_drive(table, axis, drive, rig.period_s);
   return drive;
 }
 
@@ -87,10 +63,12 @@ void check_drives_of_kind(TomlTable& table, const Rig& rig) {
 
 }  // namespace
 
-int read_sign(TomlTable& table) {
-  const int sign = table.integer("sign", -1, 1, 1);
+void check_sign(TomlTable& table, int sign) {
   if (sign == 0) table.problem("sign", "must be 1 or -1");
-  return sign;
+}
+
+void check_range(TomlTable& table, std::string_view key, double value, const Range& range) {
+  if (!std::isnan(value) && !range.contains(value)) table.problem(key, range.rule());
 }
 
 void check_unique(TomlTable& table, std::string_view key, int channel, std::vector<int>& taken) {
@@ -105,9 +83,9 @@ void read_drives(TomlTable& root, Rig& rig) {
   TomlTable drives = rig.kind == RigKind::pendulum ? root.table("drive") : root.required_table("drive");
   std::vector<int> taken;
   for (std::size_t i = 0; i < plant::kAxes; ++i) {
-    TomlTable table = drives.table(kAxisTexts[i].name);
+    TomlTable table = drives.table(plant::kCoordinates[i].name);
     if (!table.present()) continue;
-    rig.drives[i] = read_drive(table, kAxisTexts[i], rig.period_s);
+    rig.drives[i] = read_drive(table, plant::kCoordinates[i], rig);
     check_unique(table, "dac_channel", rig.drives[i].dac_channel, taken);
   }
   if (drives.present()) check_drives_of_kind(drives, rig);

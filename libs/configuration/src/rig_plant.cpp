@@ -6,44 +6,6 @@
 namespace crane::configuration {
 namespace {
 
-enum class When { with_load, with_trolley, with_slew, with_hoist, optional };
-
-struct PlantKey {
-  std::string_view key;
-  double plant::Parameters::*field;
-  Range range;
-  When needed;
-};
-
-using P = plant::Parameters;
-const std::array<PlantKey, 9> kPlantKeys{{
-    {"gravity_mps2", &P::gravity_mps2, Range::closed(1e-3, 100), When::optional},
-    {"trolley_inertia_kg", &P::trolley_inertia_kg, Range::closed(1e-6, 1e6), When::with_trolley},
-    {"trolley_mass_kg", &P::trolley_mass_kg, Range::closed(0, 1e6), When::with_trolley},
-    {"load_mass_kg", &P::load_mass_kg, Range::closed(0, 1e6), When::with_load},
-    {"jib_inertia_kgm2", &P::jib_inertia_kgm2, Range::closed(1e-6, 1e8), When::with_slew},
-    {"trolley_gain_mps2pv", &P::trolley_gain_mps2pv, Range::closed(1e-6, 1e3), When::with_trolley},
-    {"slew_gain_radps2pv", &P::slew_gain_radps2pv, Range::closed(1e-6, 1e3), When::with_slew},
-    {"hoist_gain_mpspv", &P::hoist_gain_mpspv, Range::closed(1e-6, 1e3), When::with_hoist},
-    {"hoist_lag_s", &P::hoist_lag_s, Range::above(0, 10), When::with_hoist},
-}};
-
-bool applies(When when, const Rig& rig) {
-  switch (when) {
-    case When::with_load:
-      return rig.kind != RigKind::drive_axis;
-    case When::with_trolley:
-      return rig.drives[plant::kTrolley].present;
-    case When::with_slew:
-      return rig.drives[plant::kSlew].present;
-    case When::with_hoist:
-      return rig.drives[plant::kHoist].present;
-    case When::optional:
-      return false;
-  }
-  return false;
-}
-
 std::vector<std::string> term_names() {
   std::vector<std::string> names;
   for (const auto& kind : plant::term_kinds()) names.emplace_back(kind.name);
@@ -56,7 +18,7 @@ void read_term(TomlTable& table, const plant::TermKind& kind, const Rig& rig, pl
   const bool needs_axis = std::find(axes.begin(), axes.end(), "") == axes.end();
   term.axis = needs_axis ? table.choice("axis", axes) : table.choice("axis", axes, "");
   for (std::size_t i = 0; i < plant::kAxes; ++i) {
-    if (term.axis == kAxisTexts[i].name && !rig.drives[i].present) {
+    if (term.axis == plant::kCoordinates[i].axis && !rig.drives[i].present) {
       table.problem("axis", "this rig has no such drive");
     }
   }
@@ -71,19 +33,10 @@ void read_term(TomlTable& table, const plant::TermKind& kind, const Rig& rig, pl
 
 void read_plant(TomlTable& root, Rig& rig) {
   TomlTable table = root.required_table("plant");
-  if (rig.kind == RigKind::drive_axis) rig.plant.load_mass_kg = 0;
-  for (const auto& [key, field, range, needed] : kPlantKeys) {
-    double& value = rig.plant.*field;
-    value = applies(needed, rig) ? table.number(key, range) : table.number(key, range, value);
-  }
-  if (rig.kind == RigKind::drive_axis && rig.plant.load_mass_kg > 0) {
+  if (!rig.carries_load()) rig.plant.load_mass_kg = 0;
+  read_section(table, plant::kParameterFields, rig.plant, &rig);
+  if (!rig.carries_load() && rig.plant.load_mass_kg > 0) {
     table.problem("load_mass_kg", "must be 0: a drive_axis carries no load");
-  }
-}
-
-void override_plant(TomlTable& table, plant::Parameters& parameters) {
-  for (const auto& [key, field, range, needed] : kPlantKeys) {
-    parameters.*field = table.number(key, range, parameters.*field);
   }
 }
 

@@ -1,24 +1,13 @@
 #include "toml_document.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "key_hint.hpp"
+#include "section_reader.hpp"
 
 namespace crane::configuration {
-namespace {
-
-std::string written_number(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
-
-}  // namespace
-
 std::string written(const toml::node& node) {
-  if (const auto* value = node.as_floating_point()) return written_number(value->get());
+  if (const auto* value = node.as_floating_point()) return shortest_number(value->get());
   if (const auto* value = node.as_integer()) return std::to_string(value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
   if (const auto* value = node.as_string()) {

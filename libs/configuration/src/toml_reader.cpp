@@ -1,8 +1,7 @@
 #include "crane/configuration/toml_reader.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
+#include <limits>
 
 #include "crane/configuration/rig.hpp"
 #include "toml_document.hpp"
@@ -12,12 +11,6 @@ namespace {
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNoInteger = std::numeric_limits<int>::min();
-
-std::string shown(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 /// Nodes are moved, never copied: only a move keeps the file and line a node came from.
 void move_lacking(toml::table& base, toml::table& into) {
@@ -38,27 +31,6 @@ std::string listed(const std::vector<std::string>& choices) {
 }
 
 }  // namespace
-
-bool Range::contains(double value) const {
-  if (!std::isfinite(value)) return false;
-  // Negated so that a bound that is NaN, having been reported itself, allows everything.
-  const bool too_low = low_included ? value < low : value <= low;
-  const bool too_high = high_included ? value > high : value >= high;
-  return !too_low && !too_high;
-}
-
-std::string Range::rule() const {
-  const bool bounded_below = low > -kInfinity;
-  const bool bounded_above = high < kInfinity;
-  if (bounded_below && bounded_above) {
-    return std::string("must be in ") + (low_included ? '[' : '(') + shown(low) + ", " + shown(high) +
-           (high_included ? ']' : ')');
-  }
-  if (bounded_below) return (low_included ? "must be finite and >= " : "must be finite and > ") + shown(low);
-  if (bounded_above)
-    return (high_included ? "must be finite and <= " : "must be finite and < ") + shown(high);
-  return "must be finite";
-}
 
 TomlTable::TomlTable(const std::string& text, const std::string& file)
     : document_(std::make_shared<Document>()), place_(nullptr) {

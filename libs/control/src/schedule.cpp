@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "crane/plant/pendulum.hpp"
 
 namespace crane::control {
 namespace {
@@ -40,7 +41,7 @@ Schedule schedule(const Design& design, const Measurement& measured) noexcept {
   at.trolley_position_m = bounded(measured.position[kTrolley]);
   at.inverse_position_pm = at.trolley_position_m /
                            std::max(square(at.trolley_position_m), square(design.minimum_trolley_position_m));
-  at.load_period_s = 2 * std::numbers::pi * std::sqrt(at.cable_length_m / design.crane.gravity_mps2);
+  at.load_period_s = plant::swing_period_s(design.crane.gravity_mps2, at.cable_length_m);
   return at;
 }
 

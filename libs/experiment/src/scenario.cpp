@@ -7,6 +7,8 @@
 
 #include "crane/configuration/extended_file.hpp"
 #include "crane/experiment/variant.hpp"
+#include "crane/plant/coordinates.hpp"
+#include "crane/plant/parameter_fields.hpp"
 #include "crane/recording/csv.hpp"
 
 namespace crane::experiment {
@@ -18,9 +20,9 @@ using configuration::TomlTable;
 using recording::shortest;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180;
+constexpr Range kLoads = fields::field_of(plant::kParameterFields, "load_mass_kg").range;
 constexpr Range kTimes = Range::closed(0, 86'400);
-/// Range of positions when no rig is given; larger than the travel of any rig.
-constexpr Range kPositions = Range::closed(-1000, 1000);
+using plant::kPositions;
 
 /// An angle or rate with two keys, in rad or in degrees; only one of them may be given.
 struct AngleKey {
@@ -42,11 +44,6 @@ std::optional<double> angle(TomlTable& table, const AngleKey& key, const Range& 
 std::optional<double> length(TomlTable& table, const char* key, const Range& range) {
   if (!table.has(key)) return std::nullopt;
   return table.number(key, range);
-}
-
-const char* axis_name(std::size_t axis) {
-  constexpr std::array kNames{"trolley", "slew", "hoist"};
-  return kNames.at(axis);
 }
 
 /// Reads the position of each axis and checks it against the travel of a rig.
@@ -72,7 +69,8 @@ class PositionReader {
     const configuration::Drive& drive = rig_->drives[axis];
     if (!drive.present) {
       // A rig without a drive may still stand anywhere: a pendulum has a cable, but no hoist.
-      if (inside_margin_) table.problem(key, rig_->name + " has no " + axis_name(axis) + " drive");
+      if (inside_margin_)
+        table.problem(key, rig_->name + " has no " + plant::kCoordinates[axis].name + " drive");
       return;
     }
     const double margin = inside_margin_ ? drive.soft_margin : 0;
@@ -92,14 +90,14 @@ class PositionReader {
 };
 
 void read_start(TomlTable& root, const Rig* rig, Scenario& scenario) {
-  constexpr Range kSwings = Range::open(-std::numbers::pi / 2, std::numbers::pi / 2);
   TomlTable start = root.table("start");
   scenario.start = PositionReader{rig, false}.read(start);
-  if (scenario.start[plant::kHoist] && !(*scenario.start[plant::kHoist] > 0))
-    start.problem("cable_length_m", Range::positive().rule());
-  scenario.swing_radial_rad = angle(start, {"swing_radial_rad", "swing_radial_deg"}, kSwings).value_or(0);
+  if (scenario.start[plant::kHoist] && !plant::kCableLengths.contains(*scenario.start[plant::kHoist]))
+    start.problem("cable_length_m", plant::kCableLengths.rule());
+  scenario.swing_radial_rad =
+      angle(start, {"swing_radial_rad", "swing_radial_deg"}, plant::kSwings).value_or(0);
   scenario.swing_tangential_rad =
-      angle(start, {"swing_tangential_rad", "swing_tangential_deg"}, kSwings).value_or(0);
+      angle(start, {"swing_tangential_rad", "swing_tangential_deg"}, plant::kSwings).value_or(0);
 }
 
 void read_moves(TomlTable& root, const Rig* rig, Scenario& scenario) {
@@ -115,9 +113,6 @@ void read_moves(TomlTable& root, const Rig* rig, Scenario& scenario) {
     scenario.moves.push_back(move);
   }
 }
-
-/// Units of an axis in the keys of an excitation.
-constexpr const char* unit_of(std::size_t axis) { return axis == plant::kSlew ? "rad" : "m"; }
 
 std::array<control::Sine, 4> read_sines(TomlTable& table, const std::string& amplitudes_key) {
   constexpr Range kFrequencies = Range::closed(0, 1000);
@@ -154,12 +149,14 @@ void read_excitations(TomlTable& root, const Rig* rig, Scenario& scenario) {
   for (TomlTable& table : root.tables("excitation")) {
     Excitation excitation;
     excitation.at_s = table.number("at_s", kTimes);
-    const std::string axis = table.choice("axis", {"trolley", "slew", "hoist"});
+    const std::string axis = table.choice("axis", plant::drive_names());
     control::Excitation& reference = excitation.reference;
-    while (reference.axis + 1 < plant::kAxes && axis != axis_name(reference.axis)) ++reference.axis;
-    const std::string about_key = std::string{"about_"} + unit_of(reference.axis);
+    while (reference.axis + 1 < plant::kAxes && axis != plant::kCoordinates[reference.axis].name)
+      ++reference.axis;
+    const std::string about_key = std::string{"about_"} + plant::kCoordinates[reference.axis].unit;
     reference.about = table.number(about_key, kPositions);
-    reference.sines = read_sines(table, std::string{"amplitudes_"} + unit_of(reference.axis));
+    reference.sines =
+        read_sines(table, std::string{"amplitudes_"} + plant::kCoordinates[reference.axis].unit);
     reference.duration_s = table.number("duration_s", kDurations, 0);
     if (rig != nullptr) check_excursion(table, about_key, *rig, reference);
     if (!scenario.excitations.empty() && excitation.at_s <= scenario.excitations.back().at_s)
@@ -219,7 +216,7 @@ Scenario parse_scenario(const std::string& text, const std::string& file, const 
   scenario.path = file;
   scenario.description = root.text("description");
   scenario.duration_s = root.number("duration_s", Range::above(0, kTimes.high), scenario.duration_s);
-  if (root.has("load_mass_kg")) scenario.load_mass_kg = root.number("load_mass_kg", Range::closed(0, 1e6));
+  if (root.has("load_mass_kg")) scenario.load_mass_kg = root.number("load_mass_kg", kLoads);
   scenario.cable_length_offset_m =
       root.number("cable_length_offset_m", kPositions, scenario.cable_length_offset_m);
   read_defaults(root, scenario);

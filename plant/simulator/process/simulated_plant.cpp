@@ -54,12 +54,12 @@ SimulatedRig simulated_rig_of(const configuration::Rig& rig) {
     target.high_stop = drive.high_limit + kStopBeyondSwitch;
   }
   for (std::size_t i = 0; i < bridge::kCounters; ++i)
-    if (rig.encoders[i].counts_per_unit > 0)
+    if (rig.measures(i))
       simulated.encoders[i] = {.counts_per_unit = rig.encoders[i].counts_per_unit,
                                .sign = rig.encoders[i].sign};
   simulated.watchdog_timeout_s = rig.wiring.relay_timeout_s;
   simulated.tangential_swing = rig.kind == configuration::RigKind::tower;
-  simulated.radial_swing = rig.kind != configuration::RigKind::drive_axis;
+  simulated.radial_swing = rig.carries_load();
   simulated.start.trolley_m = rig.start.position[plant::kTrolley];
   simulated.start.slew_rad = rig.start.position[plant::kSlew];
   simulated.start.cable_m = rig.start.position[plant::kHoist];

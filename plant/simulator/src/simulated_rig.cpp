@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "crane/plant/coordinates.hpp"
+#include "crane/plant/parameter_fields.hpp"
 #include "crane/plant/term.hpp"
 
 namespace crane::simulator {
@@ -46,17 +48,15 @@ void check_drive(const SimulatedDrive& drive, const std::string& name, double st
 }  // namespace
 
 std::vector<std::string> SimulatedRig::problems() const {
-  static constexpr std::array kDriveNames{"trolley", "slew", "hoist"};
-  static constexpr std::array kEncoderNames{"trolley", "slew", "hoist", "radial", "tangential"};
   Report report;
   report.lines = parameters.problems();
   for (const std::string& problem : plant::problems(terms)) report.lines.push_back(problem);
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const double at = plant::position(start, static_cast<plant::Axis>(i));
-    check_drive(drives[i], std::string{"drives."} + kDriveNames[i], at, report);
+    check_drive(drives[i], std::string{"drives."} + plant::kCoordinates[i].axis, at, report);
   }
   for (std::size_t i = 0; i < encoders.size(); ++i) {
-    const std::string name = std::string{"encoders."} + kEncoderNames[i];
+    const std::string name = std::string{"encoders."} + plant::kCoordinates[i].axis;
     report.positive(name + ".counts_per_unit", encoders[i].counts_per_unit);
     report.sign(name + ".sign", encoders[i].sign);
   }
@@ -65,7 +65,7 @@ std::vector<std::string> SimulatedRig::problems() const {
   }
   report.require(start.cable_m > 0, "start.cable_m", start.cable_m, "must be positive");
   const auto swing = [&](const char* name, double angle) {
-    report.require(std::abs(angle) < std::numbers::pi / 2, name, angle, "must be in (-pi/2, pi/2)");
+    report.require(plant::kSwings.contains(angle), name, angle, plant::kSwings.rule());
   };
   swing("start.radial_rad", start.radial_rad);
   swing("start.tangential_rad", start.tangential_rad);

@@ -86,7 +86,7 @@ std::vector<Hypothesis> hypotheses_for(const Rig& rig) {
   const auto& slew = rig.drives[plant::kSlew];
   if (trolley.present) add_drive(list, rig, "trolley", trolley);
   if (slew.present) add_drive(list, rig, "slew", slew);
-  if (rig.kind == RigKind::drive_axis || rig.plant.load_mass_kg <= 0) return list;
+  if (!rig.has_load()) return list;
   if (trolley.present || slew.present)
     list.push_back(hypothesis("payload_mass", "", "delta_kg", 0, kPayloadShare * rig.plant.load_mass_kg, "kg",
                               "weigh the load and correct load_mass_kg in the rig file"));

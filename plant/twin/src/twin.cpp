@@ -8,7 +8,8 @@
 namespace crane::twin {
 namespace {
 
-constexpr std::array<std::size_t, kColumns> kCounterOf{0, 1, 3, 4};
+using diagnosis::kCoordinateOf;
+
 constexpr double kLargestSwing_rad = 1.4, kShortestCable_m = 0.05;  // range of the equations of motion
 constexpr PerColumn kMoving{0.005, 0.005, 0.02, 0.02};              // speed of a moving axis, m/s, rad/s
 constexpr double kUnexpected = 0.25;  // largest model error of an acceleration / acceleration by full voltage
@@ -17,7 +18,7 @@ constexpr double kSmallestSlip_counts = 3;
 constexpr double kQuietDrive = 4;  // largest residual of a drive that is not disturbed / its band
 
 double resolution(const configuration::Rig& rig, std::size_t column) {
-  const double counts = rig.encoders[kCounterOf[column]].counts_per_unit;
+  const double counts = rig.encoders[kCoordinateOf[column]].counts_per_unit;
   return counts > 0 ? 1 / counts : 0;
 }
 
@@ -78,9 +79,9 @@ Known Twin::known(const Sample& sample) const {
                : 0.0;
   };
   Known now;
-  for (std::size_t i = 0; i < kColumns; ++i) now.reported[i] = coordinate(kCounterOf[i]);
+  for (std::size_t i = 0; i < kColumns; ++i) now.reported[i] = coordinate(kCoordinateOf[i]);
   now.rate = sample.rate;
-  const bool measured = rig_.encoders[plant::kHoist].counts_per_unit > 0;
+  const bool measured = rig_.measures(plant::kHoist);
   now.cable_m = (measured ? coordinate(plant::kHoist) : rig_.start.position[plant::kHoist]) +
                 rig_.start.cable_length_offset_m;
   now.cable_mps = measured ? sample.cable_mps : 0;
@@ -88,8 +89,8 @@ Known Twin::known(const Sample& sample) const {
 }
 
 Mask Twin::free_columns(const Sample& sample) const {
-  const auto has = [&](std::size_t column) { return rig_.encoders[kCounterOf[column]].counts_per_unit > 0; };
-  const bool load = rig_.kind != configuration::RigKind::drive_axis && rig_.plant.load_mass_kg > 0;
+  const auto has = [&](std::size_t column) { return rig_.measures(kCoordinateOf[column]); };
+  const bool load = rig_.has_load();
   return {rig_.drives[0].present && has(0) && !sample.held[0],
           rig_.drives[1].present && has(1) && !sample.held[1], load && has(2),
           load && has(3) && rig_.kind == configuration::RigKind::tower};
@@ -201,8 +202,8 @@ void Twin::watch_steps() {
     Finding finding;
     const bool slip = step->kind == StepKind::slip;
     finding.cause = slip ? "encoder_slip" : "load_pushed";
-    finding.axis = kAxisNames[i];
-    finding.unit = slip ? kUnits[i] : "rad/s";
+    finding.axis = coordinate_of(i).axis;
+    finding.unit = slip ? coordinate_of(i).unit : "rad/s";
     finding.size = step->size;
     finding.remedy = slip ? "stop the crane, check coupling and cable of the encoder, and home the axis"
                           : "no action needed: a person or the wind has pushed the load";
@@ -239,8 +240,8 @@ void Twin::announce() {
   const auto& finding = judge_.finding();
   if (!announced_ && finding && judge_.named()) {
     announced_ = true;
-    std::string what = std::string{kColumnNames[finding->column]} + " has left its band of +-" +
-                       text("%.3g ", judgement_.band[finding->column]) + kUnits[finding->column] +
+    std::string what = std::string{coordinate_of(finding->column).column} + " has left its band of +-" +
+                       text("%.3g ", judgement_.band[finding->column]) + coordinate_of(finding->column).unit +
                        ": likely " + with_axis(finding->cause, finding->axis);
     if (!finding->unit.empty()) what += text(" %+.3g", finding->size);
     if (finding->size_std > 0) what += text(" +- %.1g", finding->size_std);

@@ -13,6 +13,7 @@
 #include "cli/sensitivity.hpp"
 #include "cli/text_table.hpp"
 #include "crane/analysis/damping.hpp"
+#include "crane/plant/pendulum.hpp"
 #include "crane/runtime/process.hpp"
 #include "stack/data_files.hpp"
 
@@ -44,7 +45,7 @@ struct FilteredLoop {
 
 std::vector<FilteredLoop> filtered_loops(const configuration::Rig& rig) {
   const auto& design = rig.design;
-  const double period = 2 * std::numbers::pi * std::sqrt(design.cable_length_m / design.crane.gravity_mps2);
+  const double period = plant::swing_period_s(design.crane.gravity_mps2, design.cable_length_m);
   const analysis::TrackingGains tracking{design.tracking_proportional, design.tracking_derivative};
   const std::pair<std::string_view, analysis::GainPoint> laws[] = {
       {"delayed_1", {design.delayed_1_gain, design.delayed_1_delay}},

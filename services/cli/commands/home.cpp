@@ -6,13 +6,11 @@
 
 #include "cli/operator_request.hpp"
 #include "commands.hpp"
-#include "crane/control/drive_limits.hpp"
+#include "crane/plant/coordinates.hpp"
 #include "crane/supervisor/states.hpp"
 
 namespace crane::cli {
 namespace {
-
-using control::kAxisNames;
 
 struct HomeOptions {
   std::vector<std::string> axes;
@@ -53,7 +51,7 @@ class Watch {
 std::vector<std::size_t> axes_to_home(const HomeOptions& options, const msg::State& state) {
   std::vector<std::size_t> axes;
   for (const std::size_t axis : {2U, 0U, 1U}) {
-    const bool named = std::ranges::find(options.axes, kAxisNames[axis]) != options.axes.end();
+    const bool named = std::ranges::find(options.axes, plant::kCoordinates[axis].name) != options.axes.end();
     if (options.axes.empty() ? !state.position_known[axis] : named) axes.push_back(axis);
   }
   return axes;
@@ -116,7 +114,7 @@ int home(const HomeOptions& options) {
     wish.selected[axis] = true;
     if (const auto answer = ask(bus, wish); !answer.accepted) return report("home", answer);
     follow(watch, axis, options.timeout_s);
-    std::cout << "home: " << kAxisNames[axis] << " done" << std::endl;
+    std::cout << "home: " << plant::kCoordinates[axis].name << " done" << std::endl;
   }
   return runtime::kExitDone;
 }
@@ -130,7 +128,7 @@ void add_home(CLI::App& app, Action& chosen) {
   command
       ->add_option("--axis", options->axes,
                    "trolley, slew or hoist (repeatable); default: all axes that are not homed")
-      ->check(CLI::IsMember({"trolley", "slew", "hoist"}));
+      ->check(CLI::IsMember(plant::drive_names()));
   command->add_option("--timeout", options->timeout_s, "longest wait for one axis in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -24,7 +24,7 @@ struct LookOptions {
 Json encoders_of(const configuration::Rig& rig) {
   Json found = Json::array();
   for (std::size_t i = 0; i < bridge::kCounters; ++i)
-    if (rig.encoders[i].counts_per_unit > 0)
+    if (rig.measures(i))
       found.push_back({{"name", coordinate_name(i)},
                        {"counter", rig.encoders[i].channel},
                        {"sign", rig.encoders[i].sign},

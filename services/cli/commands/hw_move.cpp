@@ -15,6 +15,7 @@
 #include "crane/bring_up/calibration.hpp"
 #include "crane/bring_up/jog.hpp"
 #include "crane/bring_up/selftest.hpp"
+#include "crane/plant/coordinates.hpp"
 
 namespace crane::cli {
 namespace {
@@ -53,7 +54,7 @@ int jog(const HwMoveOptions& options) {
   session.make_safe();
   TextTable table{{"coordinate", "moved", "unit", "counts"}};
   for (std::size_t i = 0; i < bridge::kCounters; ++i)
-    if (opened.rig().encoders[i].counts_per_unit > 0)
+    if (opened.rig().measures(i))
       table.add({std::string{coordinate_name(i)}, fixed(jog.moved[i], 4), std::string{coordinate_unit(i)},
                  std::to_string(jog.record.back().counts[i] - jog.record.front().counts[i])});
   table.print(std::cout);
@@ -160,7 +161,7 @@ void add_hw_jog(CLI::App& hw, Action& chosen) {
   const auto [command, options] = add(hw, chosen, jog, "jog", "Make one small motion of one drive");
   command.add_option("--axis", options.axis, "trolley, slew or hoist")
       ->required()
-      ->check(CLI::IsMember({"trolley", "slew", "hoist"}));
+      ->check(CLI::IsMember(plant::drive_names()));
   command.add_option("--volts", options.drive_v, "voltage, -5 to 5; positive should move outward")
       ->required();
   command

@@ -1,10 +1,10 @@
 #include "crane/control/delayed_feedback.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "crane/control/delay_line.hpp"
 #include "crane/control/schedule.hpp"
+#include "crane/plant/pendulum.hpp"
 
 namespace crane::control {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// Length of `delay` load periods in ticks, with the longest cable.
 double longest_delay_ticks(const Design& design, double delay) {
   const double longest_period_s =
-      2 * std::numbers::pi * std::sqrt(design.longest_cable_length_m / design.crane.gravity_mps2);
+      plant::swing_period_s(design.crane.gravity_mps2, design.longest_cable_length_m);
   return delay * longest_period_s / design.period_s;
 }
 

@@ -40,7 +40,7 @@ class Checks {
   void find_columns() {
     const std::array<bool, kOutputs> expected{
         rig_.drives[plant::kTrolley].present, rig_.drives[plant::kSlew].present,
-        rig_.encoders[3].counts_per_unit > 0, rig_.encoders[4].counts_per_unit > 0};
+        rig_.measures(plant::kSwingRadial), rig_.measures(plant::kSwingTangential)};
     bool any = false;
     for (std::size_t i = 0; i < kOutputs; ++i) {
       columns_.outputs[i] = {kOutputNames[i], table_.find(kOutputNames[i])};

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "crane/plant/coordinates.hpp"
+#include "crane/plant/pendulum.hpp"
 #include "crane/recording/csv.hpp"
 
 namespace crane::diagnosis {
@@ -29,7 +31,8 @@ class Menu {
  public:
   explicit Menu(const configuration::Rig& rig)
       : rig_(rig),
-        swing_hz_(std::sqrt(rig.plant.gravity_mps2 / rig.start.position[kHoist]) / (2 * std::numbers::pi)) {
+        swing_hz_(plant::swing_radps(rig.plant.gravity_mps2, rig.start.position[kHoist]) /
+                  (2 * std::numbers::pi)) {
     for (const Axis axis : {kTrolley, kSlew})
       if (rig.drives[axis].present) axes_.push_back(axis);
   }
@@ -41,10 +44,10 @@ class Menu {
       add_two_speeds(axis);
       add_shaking(axis);
     }
-    if (rig_.plant.load_mass_kg > 0) add_swinging_load();
+    if (rig_.has_load()) add_swinging_load();
     if (rig_.drives[kHoist].present && !axes_.empty()) add_second_cable_length();
     if (rig_.drives[kSlew].present) add_half_turn();
-    if (rig_.plant.load_mass_kg > 0 && !axes_.empty()) add_added_mass();
+    if (rig_.has_load() && !axes_.empty()) add_added_mass();
     return std::move(all_);
   }
 
@@ -130,8 +133,8 @@ class Menu {
     SafeMotion motion =
         begun("load_swinging", "Pull the load aside, let it go and let it swing; drives stand still.");
     const double swing = rounded(kShareOfLimit * rig_.limits.swing_limit_rad);
-    if (rig_.encoders[3].counts_per_unit > 0) motion.swing_radial_rad = swing;
-    if (rig_.encoders[4].counts_per_unit > 0) motion.swing_tangential_rad = swing;
+    if (rig_.measures(plant::kSwingRadial)) motion.swing_radial_rad = swing;
+    if (rig_.measures(plant::kSwingTangential)) motion.swing_tangential_rad = swing;
     motion.duration_s = kLength_s;
     add(std::move(motion));
   }

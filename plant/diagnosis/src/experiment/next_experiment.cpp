@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/plant/pendulum.hpp"
+
 #include "experiment/motion_menu.hpp"
 #include "experiment/safe_run.hpp"
 #include "noise/paces.hpp"
@@ -63,7 +65,7 @@ class Comparison {
         const Passage passage =
             part == Part::drive
                 ? Passage{period_s, 0, paces_of(run.run.measured[output], period_s, first, kept)}
-                : Passage{period_s, std::sqrt(gravity_mps2 / run.run.cable_m[first]), Paces(kept)};
+                : Passage{period_s, plant::swing_radps(gravity_mps2, run.run.cable_m[first]), Paces(kept)};
         whiteners_.emplace_back(disturbances[output], passage);
       }
   }

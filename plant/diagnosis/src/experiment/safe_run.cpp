@@ -30,8 +30,8 @@ class FollowedMotion {
     state_.radial_rad = motion.swing_radial_rad;
     state_.tangential_rad = motion.swing_tangential_rad;
     actuation_.locks.axis = {!rig.drives[kTrolley].present, !rig.drives[kSlew].present, true};
-    actuation_.locks.radial = rig.encoders[3].counts_per_unit == 0;
-    actuation_.locks.tangential = rig.encoders[4].counts_per_unit == 0;
+    actuation_.locks.radial = !rig.measures(plant::kSwingRadial);
+    actuation_.locks.tangential = !rig.measures(plant::kSwingTangential);
   }
 
   [[nodiscard]] const State& state() const { return state_; }
@@ -123,8 +123,8 @@ std::optional<PreparedRun> safe_run(const configuration::Rig& rig, const Crane& 
   }
   run.cable_m.assign(rows, motion.start[kHoist]);
   const std::array<bool, kOutputs> has{rig.drives[kTrolley].present, rig.drives[kSlew].present,
-                                       rig.encoders[3].counts_per_unit > 0,
-                                       rig.encoders[4].counts_per_unit > 0};
+                                       rig.measures(plant::kSwingRadial),
+                                       rig.measures(plant::kSwingTangential)};
   for (std::size_t i = 0; i < kOutputs; ++i)
     if (has[i]) run.measured[i].assign(rows, 0.0);
   PreparedRun prepared = prepare(run, rig);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "crane/diagnosis/replay.hpp"
+#include "crane/plant/pendulum.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -39,7 +40,7 @@ std::vector<double> without_start(const Trace& trace, const std::vector<double>&
     const std::size_t first = w * rows / count, last = (w + 1) * rows / count;
     const auto size = static_cast<Eigen::Index>(last - first);
     if (size < 3) continue;
-    const double swing_radps = std::sqrt(rig.plant.gravity_mps2 / run.cable_m[first]);
+    const double swing_radps = plant::swing_radps(rig.plant.gravity_mps2, run.cable_m[first]);
     const auto motions = free_motions(is_swing(trace.column), swing_radps, size, run.period_s);
     Eigen::Map<Eigen::VectorXd> window(left.data() + first, size);
     window -= motions * motions.colPivHouseholderQr().solve(window).eval();

@@ -39,7 +39,7 @@ class Builder {
     const auto measured = [&](Output output) {
       return std::any_of(runs_.begin(), runs_.end(), [&](const PreparedRun& r) { return r.run.has(output); });
     };
-    const bool load = rig_.plant.load_mass_kg > 0;
+    const bool load = rig_.has_load();
     if (measured(kTrolleyPosition)) add_axis("trolley", kTrolleyPosition, 1.0);
     if (measured(kSlewAngle)) add_axis("slew", kSlewAngle, 2.0);
     radial_ = load && measured(kRadialSwing), tangential_ = load && measured(kTangentialSwing);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/plant/pendulum.hpp"
+
 #include "study/blocks.hpp"
 
 namespace crane::diagnosis {
@@ -33,7 +35,7 @@ Evaluation summed(const Study::Body& body, Fits of_drive, Fits of_load, std::vec
 }
 
 double natural_radps(const configuration::Rig& rig) {
-  return std::sqrt(rig.plant.gravity_mps2 / rig.start.position[plant::kHoist]);
+  return plant::swing_radps(rig.plant.gravity_mps2, rig.start.position[plant::kHoist]);
 }
 
 Fits fit_of(const Problem& problem, const Replays& crane) {

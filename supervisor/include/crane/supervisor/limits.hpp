@@ -14,8 +14,8 @@ using AxisLimits = control::DriveLimits;
 
 struct Limits {
   std::array<AxisLimits, kAxes> axis{};
-  double period_s = 0.01;             ///< tick, > 0
-  double swing_limit_rad = 0.7;       ///< controlled stop above it, in (0, pi/2)
+  double period_s = 0.01;             ///< tick
+  double swing_limit_rad = 0.7;       ///< controlled stop above it
   double swing_runaway_ratio = 1.25;  ///< ramped stop above this multiple of it, >= 1
   int state_stale_after_ticks = 3;    ///< missing states in a row that stop the crane, >= 1
   int demand_stale_after_ticks = 3;   ///< ticks in a row without a usable demand that stop the crane, >= 1

@@ -6,34 +6,16 @@
 ///   auto drive = root.required_table("trolley");
 ///   const double limit_v = drive.number("volt_limit_v", Range::above(0, 10), 10.0);
 ///   root.finish();  // throws "tower.toml:12: trolley.volt_limit_v = 12: must be in (0, 10]"
-#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "crane/fields/range.hpp"
+
 namespace crane::configuration {
 
-/// Interval of allowed finite numbers.
-struct Range {
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double low = -kInfinity;
-  double high = kInfinity;
-  bool low_included = true;
-  bool high_included = true;
-
-  static constexpr Range any() { return {}; }
-  static constexpr Range positive() { return {0, kInfinity, false, true}; }
-  static constexpr Range not_negative() { return {0, kInfinity, true, true}; }
-  static constexpr Range closed(double low, double high) { return {low, high, true, true}; }  ///< [low, high]
-  static constexpr Range above(double low, double high) { return {low, high, false, true}; }  ///< (low, high]
-  static constexpr Range open(double low, double high) { return {low, high, false, false}; }  ///< (low, high)
-
-  /// False for NaN and infinities.
-  [[nodiscard]] bool contains(double value) const;
-  /// "must be > 0", "must be in (0, 10]", ...
-  [[nodiscard]] std::string rule() const;
-};
+using fields::Range;
 
 /// One table of a TOML document; a cheap handle, copies speak of the same table. A table that the file does
 /// not have is absent: its getters give their defaults, and required keys in it are not missed.

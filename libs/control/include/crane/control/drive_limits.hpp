@@ -1,12 +1,9 @@
 #pragma once
 /// Limits and homing of one motor axis. Rig file, supervisor and bridge use this description.
 /// "unit" is m (trolley, hoist) or rad (slew).
-#include <array>
 #include <cstdint>
 
 namespace crane::control {
-
-inline constexpr std::array<const char*, 3> kAxisNames{"trolley", "slew", "hoist"};
 
 /// Origin of the position of an axis.
 enum class Zero : std::uint8_t {
@@ -24,30 +21,34 @@ enum class Mark : std::uint8_t {
 
 struct Homing {
   Mark mark = Mark::limit_low;
-  double position = 0;  ///< position at which the switch of the mark changes, unit
-  double speed = 0;     ///< search speed, also the largest speed while the position is unknown, unit/s, > 0
-  double approach_speed = 0;  ///< speed of the second approach, which sets the position, in (0, speed]
+  double position = 0;        ///< position at which the switch of the mark changes, unit
+  double speed = 0;           ///< search speed, also the largest speed while the position is unknown, unit/s
+  double approach_speed = 0;  ///< speed of the second approach, which sets the position
   /// Distance that the axis backs off after the switch has opened, unit, > 0. Also the tolerance for the
   /// position of the mark in later passes.
   double back_off = 0;
-  double volt_limit_v = 5;  ///< largest voltage while the position is unknown, V, > 0
+  double volt_limit_v = 5;  ///< largest voltage while the position is unknown, V
   /// Direction of motion towards the mark: -1 down, 1 up.
   [[nodiscard]] double direction() const { return mark == Mark::limit_high ? 1 : -1; }
+
+  bool operator==(const Homing&) const = default;
 };
+
+/// Ranges: drive_limit_fields.hpp.
 
 struct DriveLimits {
   bool present = false;               ///< false: the rig has no such axis
-  double volt_limit_v = 10;           ///< largest |V|, V, in (0, 10]
-  double volt_rate_limit_vps = 1000;  ///< largest change of the voltage, V/s, > 0
+  double volt_limit_v = 10;           ///< largest |V|, V
+  double volt_rate_limit_vps = 1000;  ///< largest change of the voltage, V/s
   double low_limit = 0;               ///< hard limit, unit
   double high_limit = 0;              ///< hard limit, unit, > low_limit
-  double soft_margin = 0;             ///< minimum distance of a target from the hard limits, unit, >= 0
-  double max_speed = 0;               ///< an axis above this speed is stopped, unit/s, > 0
-  double brake_deceleration = 0;      ///< smallest deceleration by the closed brake, unit/s^2, > 0
-  double brake_close_time_s = 0.02;   ///< time from the loss of supply to the closed brake, s, >= 0
-  double brake_open_time_s = 0.02;    ///< time from the supply to the open brake, s, >= 0
-  double standstill_speed = 0.005;    ///< an axis below this speed counts as standing, unit/s, > 0
-  double brake_slip = 0.02;  ///< permitted motion with a closed brake after the braking distance, unit, > 0
+  double soft_margin = 0;             ///< minimum distance of a target from the hard limits, unit
+  double max_speed = 0;               ///< an axis above this speed is stopped, unit/s
+  double brake_deceleration = 0;      ///< smallest deceleration by the closed brake, unit/s^2
+  double brake_close_time_s = 0.02;   ///< time from the loss of supply to the closed brake, s
+  double brake_open_time_s = 0.02;    ///< time from the supply to the open brake, s
+  double standstill_speed = 0.005;    ///< an axis below this speed counts as standing, unit/s
+  double brake_slip = 0.02;  ///< permitted motion with a closed brake after the braking distance, unit
   Zero zero = Zero::start;
   Homing homing{};  ///< used when zero is Zero::homing
 
@@ -55,6 +56,8 @@ struct DriveLimits {
   /// Initial position of an axis with unknown position: the limit that is farther from the mark. The
   /// displayed position then stays inside the limits until the axis reaches the mark, from any start.
   [[nodiscard]] double unhomed_position() const { return homing.direction() < 0 ? high_limit : low_limit; }
+
+  bool operator==(const DriveLimits&) const = default;
 };
 
 }  // namespace crane::control

@@ -61,22 +61,26 @@ enum class ReferenceShape {
 };
 
 /// Friction estimate of one drive in volts (b/K_m, c/K_m) for the compensation (3.1)-(3.5).
+/// Ranges: design_fields.hpp.
 struct DriveFriction {
-  double viscous_positive_vspm = 0;   ///< b+/K_m, V per m/s or V per rad/s, >= 0
-  double viscous_negative_vspm = 0;   ///< b-/K_m, same unit, >= 0
-  double coulomb_positive_v = 0;      ///< c+/K_m, V, >= 0
-  double coulomb_negative_v = 0;      ///< c-/K_m, V, >= 0
-  double stiction_positive_v = 0;     ///< f_s+ at standstill, V, >= 0
-  double stiction_negative_v = 0;     ///< f_s- at standstill, V, >= 0
-  double stiction_slope_per_v = 100;  ///< A of (3.2), 1/V, > 0
-  double zero_band_mps = 0.005;  ///< d_s of (3.3), m/s or rad/s: a smaller |speed| counts as standstill, > 0
-  double factor = 0;             ///< compensated share of the friction, in [0, 1.5]; 0: off, 1: all
+  double viscous_positive_vspm = 0;   ///< b+/K_m, V per m/s or V per rad/s
+  double viscous_negative_vspm = 0;   ///< b-/K_m, same unit
+  double coulomb_positive_v = 0;      ///< c+/K_m, V
+  double coulomb_negative_v = 0;      ///< c-/K_m, V
+  double stiction_positive_v = 0;     ///< f_s+ at standstill, V
+  double stiction_negative_v = 0;     ///< f_s- at standstill, V
+  double stiction_slope_per_v = 100;  ///< A of (3.2), 1/V
+  double zero_band_mps = 0.005;       ///< d_s of (3.3), m/s or rad/s: a smaller |speed| counts as standstill
+  double factor = 0;                  ///< compensated share of the friction; 0: off, 1: all
 
   /// @return all problems as "name = value: rule"; empty when there are none
   [[nodiscard]] std::vector<std::string> problems() const;
+
+  bool operator==(const DriveFriction&) const = default;
 };
 
 /// Nominal crane and parameters of all controllers. "Normalised" gains use the load period T as unit of time.
+/// Ranges: design_fields.hpp.
 struct Design {
   plant::Parameters crane;         ///< nominal parameters
   double period_s = 0.01;          ///< sampling period
@@ -95,13 +99,15 @@ struct Design {
   double anti_swing_derivative = 8;              ///< K_ds of (3.45), normalised
   double delayed_2_gain = -0.33;                 ///< K_del of (3.50)
   double delayed_2_delay = 0.31;                 ///< tau_del, load periods
-  double fuzzy_swing_rad = 0.17453292519943295;  ///< phi_max of (3.51): swing with full membership in PB, > 0
-  double fuzzy_swing_rate = 1.5;         ///< rate with full membership in PB (3.51), rad per load period, > 0
-  double fuzzy_gain = -90;               ///< K_V / phi_max of (3.51), not 0
-  double fuzzy_point_a = 1.0 / 3;        ///< peak of PS (figure 3.20), > 0
-  double fuzzy_point_b = 2.0 / 3;        ///< peak of PM, in (a, 1)
-  double shortest_cable_length_m = 0.1;  ///< lower limit for the measured length in the laws, > 0
+  double fuzzy_swing_rad = 0.17453292519943295;  ///< phi_max of (3.51): swing with full membership in PB
+  double fuzzy_swing_rate = 1.5;         ///< rate with full membership in PB (3.51), rad per load period
+  double fuzzy_gain = -90;               ///< K_V / phi_max of (3.51)
+  double fuzzy_point_a = 1.0 / 3;        ///< peak of PS (figure 3.20)
+  double fuzzy_point_b = 2.0 / 3;        ///< peak of PM
+  double shortest_cable_length_m = 0.1;  ///< lower limit for the measured length in the laws
   double longest_cable_length_m = 100;   ///< upper limit; determines the memory of the delayed laws
+
+  bool operator==(const Design&) const = default;
 };
 
 /// @return all problems as "name = value: rule", including those of crane and friction; empty when there are

@@ -4,7 +4,7 @@
 /// The first writer whose kind of process may write the topic is bound, provided that it is the only writer.
 /// A sample from another DDS writer, or with another source or start-up number in its header, is foreign: the
 /// reader drops it, and the topic is disputed. A restarted process takes over after the bound writer has sent
-/// nothing for kSilence_ns. Supervisor and bridge stop the crane earlier (stale_after_ticks), so that the
+/// nothing for kSilence_ns. Supervisor and bridge stop the crane earlier (stale_after_s), so that the
 /// crane waits for an operator when another writer takes over.
 #include <cstdint>
 #include <optional>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "crane/configuration/rig.hpp"
-#include "crane/plant/parameters.hpp"
+#include "crane/plant/coordinates.hpp"
 #include "crane/recording/csv.hpp"
 
 namespace crane::diagnosis {
@@ -16,13 +16,19 @@ namespace crane::diagnosis {
 /// What sensors report and a simulation has to reproduce.
 enum Output : std::size_t { kTrolleyPosition = 0, kSlewAngle = 1, kRadialSwing = 2, kTangentialSwing = 3 };
 inline constexpr std::size_t kOutputs = 4;
+/// Coordinate of each output.
+inline constexpr std::array<std::size_t, kOutputs> kCoordinateOf{
+    plant::kTrolley, plant::kSlew, plant::kSwingRadial, plant::kSwingTangential};
 /// Canonical column names, in the order of Output.
-inline constexpr std::array<const char*, kOutputs> kOutputNames{"trolley_position_m", "slew_angle_rad",
-                                                                "swing_radial_rad", "swing_tangential_rad"};
+inline constexpr auto kOutputNames = [] {
+  std::array<const char*, kOutputs> names{};
+  for (std::size_t i = 0; i < kOutputs; ++i) names[i] = plant::kCoordinates[kCoordinateOf[i]].column;
+  return names;
+}();
 
 /// Of the drive, or the direction of the swing.
 [[nodiscard]] constexpr const char* axis_of(Output output) {
-  return std::array{"trolley", "slew", "radial", "tangential"}[output];
+  return plant::kCoordinates[kCoordinateOf[output]].axis;
 }
 
 /// A piece of a run without gaps. Row k: measurement at t_k, command applied from t_k on.

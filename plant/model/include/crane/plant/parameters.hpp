@@ -15,16 +15,17 @@ enum Axis : std::size_t { kTrolley = 0, kSlew = 1, kHoist = 2 };
 inline constexpr std::size_t kAxes = 3;
 using PerAxis = std::array<double, kAxes>;
 
+/// Ranges: parameter_fields.hpp.
 struct Parameters {
-  double gravity_mps2 = 9.81;         ///< g, > 0
-  double trolley_inertia_kg = 22.46;  ///< M, factor of x'' (trolley, leadscrew, motor), > 0 (4.3)
-  double trolley_mass_kg = 1.97;      ///< M_j, mass in every rotational and centrifugal term, >= 0
-  double load_mass_kg = 2.0;          ///< m, >= 0
-  double jib_inertia_kgm2 = 7.2;      ///< J_o = J_eq n^2, > 0
-  double trolley_gain_mps2pv = 2.0;   ///< K_mx: x'' = K_mx V without load and friction, > 0 (4.4)
-  double slew_gain_radps2pv = 1.14;   ///< K_mgamma: gamma'' = K_mgamma V at x = 0 without friction, > 0 (4.5)
-  double hoist_gain_mpspv = 0.05;     ///< steady cable speed per volt (speed-controlled drive), > 0
-  double hoist_lag_s = 0.1;           ///< time constant of the hoist drive, > 0
+  double gravity_mps2 = 9.81;         ///< g
+  double trolley_inertia_kg = 22.46;  ///< M, factor of x'' (trolley, leadscrew, motor) (4.3)
+  double trolley_mass_kg = 1.97;      ///< M_j, mass in every rotational and centrifugal term
+  double load_mass_kg = 2.0;          ///< m
+  double jib_inertia_kgm2 = 7.2;      ///< J_o = J_eq n^2
+  double trolley_gain_mps2pv = 2.0;   ///< K_mx: x'' = K_mx V without load and friction (4.4)
+  double slew_gain_radps2pv = 1.14;   ///< K_mgamma: gamma'' = K_mgamma V at x = 0 without friction (4.5)
+  double hoist_gain_mpspv = 0.05;     ///< steady cable speed per volt (speed-controlled drive)
+  double hoist_lag_s = 0.1;           ///< time constant of the hoist drive
 
   /// Share of M_j that the slew motor accelerates; 0 when a structure term separates the motor from the jib.
   /// Set by terms, not by rig files.
@@ -40,6 +41,8 @@ struct Parameters {
 
   /// @return all problems as "name = value: rule"; empty when there are none
   [[nodiscard]] std::vector<std::string> problems() const;
+
+  bool operator==(const Parameters&) const = default;
 };
 
 /// One entry [[model.terms]] of a rig file: an effect that is not part of the basic equations of motion.
@@ -47,6 +50,8 @@ struct TermSetting {
   std::string name;                          ///< "drive_friction", "load_linear_drag", ...
   std::string axis;                          ///< "trolley", "slew", "hoist", "radial", "tangential" or empty
   std::map<std::string, double> parameters;  ///< by name with unit, e.g. "coulomb_positive_v"
+
+  bool operator==(const TermSetting&) const = default;
 };
 
 }  // namespace crane::plant

@@ -10,8 +10,8 @@ namespace crane::twin {
 inline constexpr std::size_t kColumns = diagnosis::kOutputs;
 using PerColumn = std::array<double, kColumns>;
 using Mask = std::array<bool, kColumns>;
-inline constexpr auto& kColumnNames = diagnosis::kOutputNames;
-inline constexpr std::array<const char*, kColumns> kAxisNames{"trolley", "slew", "radial", "tangential"};
-inline constexpr std::array<const char*, kColumns> kUnits{"m", "rad", "rad", "rad"};
+[[nodiscard]] constexpr const plant::Coordinate& coordinate_of(std::size_t column) {
+  return plant::kCoordinates.at(diagnosis::kCoordinateOf.at(column));
+}
 
 }  // namespace crane::twin

@@ -1,0 +1,339 @@
+#pragma once
+/// The sections of a rig file as tables of fields. Those of [plant] stand in plant/parameter_fields.hpp,
+/// those of [controller] in control/design_fields.hpp, and what the supervisor checks, too, in
+/// control/drive_limit_fields.hpp.
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crane/configuration/rig.hpp"
+#include "crane/control/design_fields.hpp"
+#include "crane/control/drive_limit_fields.hpp"
+#include "crane/plant/coordinates.hpp"
+#include "crane/plant/parameter_fields.hpp"
+
+namespace crane::configuration {
+
+using fields::AxisSet;
+using fields::Choice;
+using fields::Element;
+using fields::Field;
+using fields::Presence;
+using fields::Quantity;
+using fields::Range;
+
+inline constexpr Range kChannels = Range::closed(0, 7);     ///< boards have 8 counters and 8 analog outputs
+inline constexpr Range kInputs = Range::closed(0, 15);      ///< ports A and B
+inline constexpr Range kOutputs = Range::closed(16, 31);    ///< ports C and D
+inline constexpr Range kSubdevices = Range::closed(0, 63);  ///< of a comedi board
+/// What a trajectory can be planned with: its times stay finite, and longer than nothing.
+inline constexpr Range kPlanned = Range::closed(1e-6, 1e6);
+
+[[nodiscard]] std::vector<std::string> board_names();
+[[nodiscard]] std::vector<std::string> controller_names();
+/// @pre the name is one of the names
+[[nodiscard]] std::size_t place_of(const std::string& name, const std::vector<std::string>& names);
+
+inline constexpr std::array<Field<Rig>, 4> kRigFields{{
+    {.key = "name", .member = &Rig::name, .meaning = "not empty", .presence = Presence::required},
+    {.key = "kind",
+     .member = Choice<Rig>{[] {
+                             return std::vector<std::string>{"tower", "gantry", "drive_axis", "pendulum"};
+                           },
+                           [](const Rig& rig) { return static_cast<std::size_t>(rig.kind); },
+                           [](Rig& rig, std::size_t i) { rig.kind = static_cast<RigKind>(i); }},
+     .meaning = "see below",
+     .presence = Presence::required},
+    {.key = "period_s", .member = &Rig::period_s, .range = plant::kPeriods, .unit = "s", .meaning = "tick"},
+    {.key = "board",
+     .member = Choice<Rig>{board_names, [](const Rig& rig) { return place_of(rig.board, board_names()); },
+                           [](Rig& rig, std::size_t i) { rig.board = board_names()[i]; }},
+     .meaning = "the hardware board ([`hardware.md`](hardware.md)); a simulated plant does not ask for it"},
+}};
+
+inline constexpr std::array<Field<Drive>, 5> kDriveFields{{
+    {.key = "dac_channel",
+     .member = &Drive::dac_channel,
+     .range = kChannels,
+     .meaning = "analog output, each once",
+     .presence = Presence::required},
+    {.key = "sign",
+     .member = &Drive::sign,
+     .range = Range::closed(-1, 1),
+     .meaning =
+         "1 or -1: which way a positive voltage moves it; the bridge takes it into account, so that all "
+         "topics are positive outward"},
+    {.key = "reference_speed",
+     .member = &Drive::reference_speed,
+     .range = kPlanned,
+     .meaning = "V_max of planned moves (3.43), at most `max_speed`",
+     .presence = Presence::required,
+     .quantity = Quantity::speed},
+    {.key = "reference_acceleration",
+     .member = &Drive::reference_acceleration,
+     .range = kPlanned,
+     .meaning = "a_max of planned moves (3.43)",
+     .presence = Presence::required,
+     .quantity = Quantity::acceleration},
+    // A ramp rises to full acceleration within a tenth of a second unless the file says otherwise.
+    {.key = "reference_jerk",
+     .member = &Drive::reference_jerk,
+     .range = kPlanned,
+     .meaning = "largest jerk of planned moves with `trajectory = \"s_curve\"`",
+     .quantity = Quantity::jerk,
+     .default_text = "10/s times `reference_acceleration`",
+     .derived = [](const Drive& drive) { return 10 * drive.reference_acceleration; }},
+}};
+
+inline constexpr std::array<Field<Encoder>, 3> kEncoderFields{{
+    {.key = "channel",
+     .member = &Encoder::channel,
+     .range = kChannels,
+     .meaning = "counter of the board, each once",
+     .presence = Presence::required},
+    {.key = "counts_per",
+     .member = &Encoder::counts_per_unit,
+     .range = Range::above(0, 1e9),
+     .unit = "counts",
+     .meaning = "lines, quadrature and gear included",
+     .presence = Presence::required,
+     .quantity = Quantity::position},
+    {.key = "sign",
+     .member = &Encoder::sign,
+     .range = Range::closed(-1, 1),
+     .meaning = "1 or -1: which way it counts"},
+}};
+
+/// Only of the encoder of a drive.
+inline constexpr std::array<Field<Drive>, 1> kZeroFields{{
+    {.key = "zero",
+     .member = Choice<Drive>{[] {
+                               return std::vector<std::string>{"start", "absolute", "homing"};
+                             },
+                             [](const Drive& drive) { return static_cast<std::size_t>(drive.zero); },
+                             [](Drive& drive, std::size_t i) { drive.zero = static_cast<control::Zero>(i); }},
+     .meaning =
+         "how it is known where the axis stands: it was put where `[start]` says before the bridge "
+         "started; the encoder shows it (boards with incremental counters refuse this); it has to creep "
+         "to its mark first"},
+}};
+
+inline constexpr std::array<Field<control::Homing>, 1> kMarkFields{{
+    {.key = "mark",
+     .member = Choice<control::Homing>{
+         [] {
+           return std::vector<std::string>{"limit_low", "limit_high", "input"};
+         },
+         [](const control::Homing& homing) { return static_cast<std::size_t>(homing.mark); },
+         [](control::Homing& homing, std::size_t i) { homing.mark = static_cast<control::Mark>(i); }},
+     .meaning = "limit switch, or the contact `mark_input` of `[wiring.NAME]`, closed wherever the axis is "
+                "below its position",
+     .presence = Presence::required},
+}};
+
+inline constexpr std::array<Field<Wiring>, 10> kWiringFields{{
+    {.key = "base_address",
+     .member = &Wiring::base_address,
+     .range = Range::closed(0x200, 0x3E0),
+     .meaning = "0x200 + 0x20 n: jumpers of a Servo-to-Go card",
+     .default_text = "0x200"},
+    {.key = "device", .member = &Wiring::device, .meaning = "device file of a comedi board"},
+    {.key = "counter_subdevice",
+     .member = &Wiring::counter_subdevice,
+     .range = kSubdevices,
+     .meaning = "subdevice of a comedi board, each once; the default is that of an s626"},
+    {.key = "analog_output_subdevice",
+     .member = &Wiring::analog_output_subdevice,
+     .range = kSubdevices,
+     .meaning = "the same"},
+    {.key = "input_subdevice",
+     .member = &Wiring::input_subdevice,
+     .range = kSubdevices,
+     .meaning = "the same"},
+    {.key = "output_subdevice",
+     .member = &Wiring::output_subdevice,
+     .range = kSubdevices,
+     .meaning = "the same"},
+    {.key = "estop_input",
+     .member = &Wiring::estop_input,
+     .range = kInputs,
+     .meaning = "contact that opens with the emergency stop"},
+    {.key = "relay_closed_input",
+     .member = &Wiring::relay_closed_input,
+     .range = kInputs,
+     .meaning = "contact that closes with the watchdog relay"},
+    {.key = "watchdog_output",
+     .member = &Wiring::watchdog_output,
+     .range = kOutputs,
+     .meaning = "changes every tick while all is well"},
+    {.key = "relay_timeout_s",
+     .member = &Wiring::relay_timeout_s,
+     .range = Range::above(0, 1),
+     .unit = "s",
+     .meaning = "the relay drops when its input has not changed for longer"},
+}};
+
+inline constexpr std::array<Field<DriveLines>, 5> kDriveLineFields{{
+    {.key = "limit_low_input",
+     .member = &DriveLines::limit_low_input,
+     .range = kInputs,
+     .meaning = "contact that opens at the low limit",
+     .default_text = "1; 3; 5"},
+    {.key = "limit_high_input",
+     .member = &DriveLines::limit_high_input,
+     .range = kInputs,
+     .meaning = "contact that opens at the high limit",
+     .default_text = "2; 4; 6"},
+    {.key = "brake_closed_input",
+     .member = &DriveLines::brake_closed_input,
+     .range = kInputs,
+     .meaning = "contact that closes with the brake",
+     .default_text = "7; 8; 9"},
+    {.key = "brake_release_output",
+     .member = &DriveLines::brake_release_output,
+     .range = kOutputs,
+     .meaning = "on: 24 V to the brake, if the relay is closed",
+     .default_text = "16; 17; 18"},
+    {.key = "mark_input",
+     .member = &DriveLines::mark_input,
+     .range = Range::closed(-1, kInputs.high),
+     .meaning = "contact that closes below the axis' mark; -1: not wired"},
+}};
+
+inline constexpr std::array<Field<Sensing>, 3> kSensingFields{{
+    {.key = "swing_filter_ratio",
+     .member = &Sensing::swing_filter_ratio,
+     .range = {0, 0.5, true, false},
+     .meaning = "cut-off / sampling frequency of the Butterworth filter; 0: none"},
+    {.key = "filter_speed",
+     .member = AxisSet<Sensing>{&Sensing::filter_speed},
+     .meaning = "axes whose position is filtered before it is differentiated",
+     .default_text = "`[\"slew\"]`"},
+    {.key = "filter_swing_angle",
+     .member = &Sensing::filter_swing_angle,
+     .meaning =
+         "the swing angles themselves are passed on filtered, too (`docs/analysis.md`: what it costs)"},
+}};
+
+inline constexpr std::array<Field<Limits>, 4> kLimitFields{{
+    {.key = "swing_limit_rad",
+     .member = &Limits::swing_limit_rad,
+     .range = control::kSwingLimits,
+     .unit = "rad",
+     .meaning = "either swing angle beyond it trips"},
+    {.key = "stale_after_s",
+     .member = &Limits::stale_after_s,
+     .range = control::kSilences,
+     .unit = "s",
+     .meaning = "age of the command at which the bridge stops the crane, in whole ticks, at least one"},
+    {.key = "demand_stale_after_s",
+     .member = &Limits::demand_stale_after_s,
+     .range = control::kSilences,
+     .unit = "s",
+     .meaning =
+         "time without a demand after which the supervisor stops the crane, in whole ticks, at least one"},
+    {.key = "idle_lock_s",
+     .member = &Limits::idle_lock_s,
+     .range = control::kIdleTimes,
+     .unit = "s",
+     .meaning = "HOLD without a move for so long locks the crane"},
+}};
+
+inline constexpr std::array<Field<Start>, 6> kStartFields{{
+    {.key = plant::kCoordinates[plant::kTrolley].column,
+     .member = Element<Start>{&Start::position, plant::kTrolley},
+     .range = plant::kPositions,
+     .unit = "m",
+     .meaning = "inside the limits of the drive",
+     .default_text = "0.25, without a trolley drive 0"},
+    {.key = plant::kCoordinates[plant::kSlew].column,
+     .member = Element<Start>{&Start::position, plant::kSlew},
+     .range = plant::kPositions,
+     .unit = "rad",
+     .meaning = "inside the limits of the drive"},
+    {.key = plant::kCoordinates[plant::kHoist].column,
+     .member = Element<Start>{&Start::position, plant::kHoist},
+     .range = plant::kCableLengths,
+     .unit = "m",
+     .meaning = "inside the limits of the drive"},
+    {.key = "cable_length_offset_m",
+     .member = &Start::cable_length_offset_m,
+     .range = plant::kPositions,
+     .unit = "m",
+     .meaning = "the true cable is longer by this than the hoist encoder says; above -`cable_length_m`"},
+    {.key = "swing_radial_rad",
+     .member = &Start::swing_radial_rad,
+     .range = plant::kSwings,
+     .unit = "rad",
+     .meaning = "positive: load towards the tower"},
+    {.key = "swing_tangential_rad",
+     .member = &Start::swing_tangential_rad,
+     .range = plant::kSwings,
+     .unit = "rad",
+     .meaning = "positive: load ahead in the direction of positive slew"},
+}};
+
+inline constexpr std::array<Field<Rig>, 1> kControllerFields{{
+    {.key = "name",
+     .member = Choice<Rig>{controller_names,
+                           [](const Rig& rig) { return place_of(rig.controller, controller_names()); },
+                           [](Rig& rig, std::size_t i) { rig.controller = controller_names()[i]; }},
+     .meaning = "([`equations.md`](equations.md))",
+     .default_text = "`gain_scheduling_partial`; `none` for drive_axis and pendulum"},
+}};
+
+inline constexpr std::array<Field<Planning>, 2> kPlanningFields{{
+    {.key = "trajectory",
+     .member = Choice<Planning>{[] {
+                                  return std::vector<std::string>{"bang_coast_bang", "s_curve"};
+                                },
+                                [](const Planning& planning) -> std::size_t { return planning.limits_jerk; },
+                                [](Planning& planning, std::size_t i) { planning.limits_jerk = i == 1; }},
+     .meaning = "how moves are planned; `s_curve` limits the jerk"},
+    {.key = "shaper",
+     .member = Choice<Planning>{
+         [] {
+           return std::vector<std::string>{"none", "zv", "zvd", "ei"};
+         },
+         [](const Planning& planning) { return static_cast<std::size_t>(planning.shaping); },
+         [](Planning& planning, std::size_t i) { planning.shaping = static_cast<control::Shaping>(i); }},
+     .meaning = "impulses that the planned references of trolley and slew are convolved with"},
+}};
+
+/// Calls visit(path, fields, section, unit) for every section that the rig has, with "" as path of the root
+/// and the unit of the coordinate that a section is about. Sections with two tables of fields come twice.
+/// @tparam AnyRig  Rig or const Rig
+template <class AnyRig, class Visit>
+void for_each_section(AnyRig& rig, Visit&& visit) {
+  visit(std::string{}, kRigFields, rig, "");
+  visit(std::string{"plant"}, plant::kParameterFields, rig.plant, "");
+  for (std::size_t i = 0; i < plant::kCoordinateCount; ++i) {
+    const plant::Coordinate& coordinate = plant::kCoordinates[i];
+    const std::string encoder = std::string{"encoder."} + coordinate.name;
+    if (rig.measures(i)) visit(encoder, kEncoderFields, rig.encoders[i], coordinate.unit);
+    if (i >= plant::kAxes || !rig.drives[i].present) continue;
+    auto& drive = rig.drives[i];
+    const auto of_drive = [&coordinate](const char* section) {
+      return std::string{section} + coordinate.name;
+    };
+    visit(encoder, kZeroFields, drive, coordinate.unit);
+    visit(of_drive("drive."), kDriveFields, drive, coordinate.unit);
+    visit(of_drive("drive."), control::kDriveLimitFields, drive, coordinate.unit);
+    if (drive.homes()) visit(of_drive("homing."), kMarkFields, drive.homing, coordinate.unit);
+    if (drive.homes()) visit(of_drive("homing."), control::kHomingFields, drive.homing, coordinate.unit);
+    visit(of_drive("wiring."), kDriveLineFields, rig.wiring.drives[i], coordinate.unit);
+    visit(of_drive("controller.friction."), control::kFrictionFields, rig.design.friction[i],
+          coordinate.unit);
+  }
+  visit(std::string{"wiring"}, kWiringFields, rig.wiring, "");
+  visit(std::string{"sensing"}, kSensingFields, rig.sensing, "");
+  visit(std::string{"limits"}, kLimitFields, rig.limits, "");
+  visit(std::string{"start"}, kStartFields, rig.start, "");
+  visit(std::string{"controller"}, kControllerFields, rig, "");
+  visit(std::string{"controller"}, kPlanningFields, rig.planning, "");
+  visit(std::string{"controller"}, control::kDesignFields, rig.design, "");
+  visit(std::string{"controller.believes"}, plant::kParameterFields, rig.design.crane, "");
+}
+
+}  // namespace crane::configuration

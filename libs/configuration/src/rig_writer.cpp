@@ -1,0 +1,97 @@
+#include <toml++/toml.h>
+#include <algorithm>
+#include <sstream>
+
+#include "section_reader.hpp"
+
+namespace crane::configuration {
+namespace {
+
+/// A number with its fraction or exponent, so that TOML reads no integer, of which it has 64 bits.
+std::string toml_of(double value) {
+  const auto text = shortest_number(value);
+  return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+}
+std::string toml_of(int value) { return std::to_string(value); }
+std::string toml_of(bool value) { return value ? "true" : "false"; }
+std::string toml_of(const std::string& value) {
+  std::ostringstream quoted;
+  quoted << toml::value<std::string>{value};
+  return quoted.str();
+}
+
+/// Writes one field.
+template <class Section>
+struct FieldWriter {
+  std::string& text;
+  const Section& section;
+  std::string key;
+
+  void line(const std::string& value) const { text += key + " = " + value + '\n'; }
+
+  template <class Value>
+  void operator()(Value Section::*member) const {
+    line(toml_of(section.*member));
+  }
+  void operator()(const Element<Section>& element) const {
+    line(toml_of((section.*element.array)[element.index]));
+  }
+  void operator()(const AxisSet<Section>& set) const {
+    std::string names;
+    for (std::size_t i = 0; i < plant::kAxes; ++i)
+      if ((section.*set.member)[i])
+        names += (names.empty() ? "" : ", ") + toml_of(std::string{plant::kCoordinates[i].name});
+    line('[' + names + ']');
+  }
+  void operator()(const Choice<Section>& choice) const {
+    line(toml_of(choice.names().at(choice.get(section))));
+  }
+};
+
+/// Text of each table, in the order in which they are opened.
+class Tables {
+ public:
+  std::string& at(const std::string& path) {
+    const auto found = std::find_if(tables_.begin(), tables_.end(),
+                                    [&path](const auto& table) { return table.first == path; });
+    if (found != tables_.end()) return found->second;
+    return tables_.emplace_back(path, path.empty() ? "" : "\n[" + path + "]\n").second;
+  }
+  [[nodiscard]] std::string text() const {
+    std::string all;
+    for (const auto& [path, text] : tables_) all += text;
+    return all;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> tables_;
+};
+
+template <class Section, std::size_t N>
+void write_section(std::string& text, const std::array<Field<Section>, N>& fields,
+                   const std::type_identity_t<Section>& section, std::string_view unit) {
+  for (const Field<Section>& field : fields)
+    std::visit(FieldWriter<Section>{text, section, key_of(field, unit)}, field.member);
+}
+
+std::string terms_text(const std::vector<plant::TermSetting>& terms) {
+  std::string text;
+  for (const auto& term : terms) {
+    text += "\n[[model.terms]]\nname = " + toml_of(term.name) + '\n';
+    if (!term.axis.empty()) text += "axis = " + toml_of(term.axis) + '\n';
+    for (const auto& [name, value] : term.parameters) text += name + " = " + toml_of(value) + '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_toml(const Rig& rig) {
+  Tables tables;
+  for_each_section(
+      rig, [&tables](const std::string& path, const auto& fields, const auto& section,
+                     std::string_view unit) { write_section(tables.at(path), fields, section, unit); });
+  return tables.text() + terms_text(rig.terms);
+}
+
+}  // namespace crane::configuration

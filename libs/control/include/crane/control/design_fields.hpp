@@ -1,0 +1,171 @@
+#pragma once
+/// Fields of [controller] and [controller.friction.NAME] of a rig file. Gains are those of the dissertation
+/// (H. M. Omar, Control of Gantry and Tower Cranes), in the tower's sign.
+#include <string>
+#include <vector>
+
+#include "crane/control/drive_limit_fields.hpp"
+#include "crane/control/law.hpp"
+#include "crane/plant/parameter_fields.hpp"
+
+namespace crane::control {
+
+/// Gains of normalised time. The printed ones lie within 100; beyond 1e5 a swing of one encoder count
+/// commands full voltage.
+inline constexpr fields::Range kGains = fields::Range::closed(-1e5, 1e5);
+/// In periods of the load; the damping of delayed feedback repeats with the period, so two periods show all
+/// of it.
+inline constexpr fields::Range kDelays = fields::Range::closed(0, 2);
+/// Friction in volts; what a drive can overcome is checked against its volts.
+inline constexpr fields::Range kFrictionVolts = fields::Range::closed(0, 1000);
+
+/// (3.42): critically damped.
+[[nodiscard]] double critical_derivative(const Design& design);
+
+inline constexpr std::array<fields::Field<Design>, 17> kDesignFields{{
+    {.key = "cable_length_m",
+     .member = &Design::cable_length_m,
+     .range = plant::kCableLengths,
+     .unit = "m",
+     .meaning = "nominal length, inside the limits of the hoist; without a hoist the start's length",
+     .default_text = "that of `[start]`"},
+    {.key = "full_feedback_gain_pm",
+     .member = &Design::full_feedback_gain_pm,
+     .range = fields::Range::above(0, 1000),
+     .unit = "V/m, V/rad",
+     .meaning = "largest K of (3.26); less for moves that are too long for the drive's volts"},
+    {.key = "tracking_proportional",
+     .member = &Design::tracking_proportional,
+     .range = fields::Range::above(0, 1e5),
+     .meaning = "K_p (3.41), normalised time"},
+    {.key = "tracking_derivative",
+     .member = &Design::tracking_derivative,
+     .range = fields::Range::closed(0, 1e5),
+     .meaning = "K_d",
+     .default_text = "2 √K_p (3.42)",
+     .derived = critical_derivative},
+    {.key = "delayed_1_gain", .member = &Design::delayed_1_gain, .range = kGains, .meaning = "K_del (3.47)"},
+    {.key = "delayed_1_delay",
+     .member = &Design::delayed_1_delay,
+     .range = kDelays,
+     .unit = "periods of the load",
+     .meaning = "τ_del (3.47)"},
+    {.key = "delayed_2_gain",
+     .member = &Design::delayed_2_gain,
+     .range = fields::Range::closed(-1e3, 1e3),
+     .meaning = "K_del (3.50)"},
+    {.key = "delayed_2_delay",
+     .member = &Design::delayed_2_delay,
+     .range = kDelays,
+     .unit = "periods of the load",
+     .meaning = "τ_del (3.50)"},
+    {.key = "anti_swing_proportional",
+     .member = &Design::anti_swing_proportional,
+     .range = kGains,
+     .meaning = "K_ps (3.45), normalised time"},
+    {.key = "anti_swing_derivative",
+     .member = &Design::anti_swing_derivative,
+     .range = kGains,
+     .meaning = "K_ds (3.45)"},
+    {.key = "fuzzy_gain",
+     .member = &Design::fuzzy_gain,
+     .range = kGains,
+     .meaning = "K_V / φ_max (3.51), not 0"},
+    {.key = "fuzzy_swing_rad",
+     .member = &Design::fuzzy_swing_rad,
+     .range = fields::Range::above(0, 3.2),
+     .unit = "rad",
+     .meaning = "φ_max (3.51): the swing that is PB",
+     .default_text = "10°"},
+    {.key = "fuzzy_swing_rate",
+     .member = &Design::fuzzy_swing_rate,
+     .range = fields::Range::above(0, 1e3),
+     .unit = "rad per period of the load",
+     .meaning = "the swing rate that is PB (3.51)"},
+    {.key = "fuzzy_point_a",
+     .member = &Design::fuzzy_point_a,
+     .range = fields::Range::closed(0.01, 0.98),
+     .meaning = "peak of PS (figure 3.20)",
+     .default_text = "1/3"},
+    {.key = "fuzzy_point_b",
+     .member = &Design::fuzzy_point_b,
+     .range = fields::Range::closed(0.02, 0.99),
+     .meaning = "peak of PM (figure 3.20), at least `fuzzy_point_a` + 0.01",
+     .default_text = "2/3"},
+    {.key = "hoist_proportional_ps",
+     .member = &Design::hoist_proportional_ps,
+     .range = fields::Range::above(0, 100),
+     .unit = "1/s",
+     .meaning = "cable position loop"},
+    {.key = "minimum_trolley_position_m",
+     .member = &Design::minimum_trolley_position_m,
+     .range = fields::Range::closed(1e-3, 100),
+     .unit = "m",
+     .meaning = "guard of the 1/x gains of the slew axis"},
+}};
+
+inline constexpr std::array<fields::Field<DriveFriction>, 9> kFrictionFields{{
+    {.key = "viscous_positive",
+     .member = &DriveFriction::viscous_positive_vspm,
+     .range = kFrictionVolts,
+     .meaning = "b / K_m",
+     .quantity = fields::Quantity::volts_per_speed},
+    {.key = "viscous_negative",
+     .member = &DriveFriction::viscous_negative_vspm,
+     .range = kFrictionVolts,
+     .meaning = "b / K_m",
+     .quantity = fields::Quantity::volts_per_speed},
+    {.key = "coulomb_positive_v",
+     .member = &DriveFriction::coulomb_positive_v,
+     .range = kFrictionVolts,
+     .unit = "V",
+     .meaning = "c / K_m, times `factor` below `volt_limit_v`"},
+    {.key = "coulomb_negative_v",
+     .member = &DriveFriction::coulomb_negative_v,
+     .range = kFrictionVolts,
+     .unit = "V",
+     .meaning = "c / K_m, times `factor` below `volt_limit_v`"},
+    {.key = "stiction_positive_v",
+     .member = &DriveFriction::stiction_positive_v,
+     .range = kFrictionVolts,
+     .unit = "V",
+     .meaning = "f_s / K_m at standstill, times `factor` below `volt_limit_v`",
+     .default_text = "the Coulomb friction",
+     .derived = [](const DriveFriction& friction) { return friction.coulomb_positive_v; }},
+    {.key = "stiction_negative_v",
+     .member = &DriveFriction::stiction_negative_v,
+     .range = kFrictionVolts,
+     .unit = "V",
+     .meaning = "f_s / K_m at standstill, times `factor` below `volt_limit_v`",
+     .default_text = "the Coulomb friction",
+     .derived = [](const DriveFriction& friction) { return friction.coulomb_negative_v; }},
+    {.key = "stiction_slope_per_v",
+     .member = &DriveFriction::stiction_slope_per_v,
+     .range = fields::Range::above(0, 1e6),
+     .unit = "1/V",
+     .meaning = "A of (3.2)"},
+    // One m/s or rad/s is the top speed of a fast drive: a wider band would compensate standstill for ever.
+    {.key = "zero_band",
+     .member = &DriveFriction::zero_band_mps,
+     .range = fields::Range::above(0, 1),
+     .meaning = "d_s of (3.3): slower counts as standstill",
+     .quantity = fields::Quantity::speed},
+    {.key = "factor",
+     .member = &DriveFriction::factor,
+     .range = fields::Range::closed(0, 1.5),
+     .meaning = "share that is compensated: 0 off, 1 exact",
+     .default_text = "1"},
+}};
+
+/// A rule between several fields that does not hold. Fields outside their range break no such rule.
+struct Contradiction {
+  std::string_view key;
+  double value;
+  std::string rule;
+};
+[[nodiscard]] std::vector<Contradiction> contradictions(const Design& design);
+/// A drive that its own friction holds at full voltage moves nothing, and leaves K of the full feedback no
+/// volt.
+[[nodiscard]] std::vector<Contradiction> contradictions(const DriveFriction& friction, double volt_limit_v);
+
+}  // namespace crane::control

@@ -1,0 +1,39 @@
+#pragma once
+/// The coordinates of a crane, in the order of Axis, encoders and board counters: the one table of their
+/// names and units.
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "crane/plant/parameters.hpp"
+
+namespace crane::plant {
+
+/// After the drives' own coordinates (Axis).
+inline constexpr std::size_t kSwingRadial = 3, kSwingTangential = 4;
+inline constexpr std::size_t kCoordinateCount = 5;
+
+struct Coordinate {
+  const char* name;       ///< its section of a rig file: [encoder.NAME]
+  const char* axis;       ///< where a term acts (TermSetting::axis)
+  const char* unit;       ///< "m" or "rad"
+  const char* column;     ///< canonical column of a table; key in [start] of a rig file
+  const char* command_v;  ///< canonical column of the command; nullptr without a drive
+};
+inline constexpr std::array<Coordinate, kCoordinateCount> kCoordinates{{
+    {"trolley", "trolley", "m", "trolley_position_m", "trolley_voltage_v"},
+    {"slew", "slew", "rad", "slew_angle_rad", "slew_voltage_v"},
+    {"hoist", "hoist", "m", "cable_length_m", "hoist_voltage_v"},
+    {"swing_radial", "radial", "rad", "swing_radial_rad", nullptr},
+    {"swing_tangential", "tangential", "rad", "swing_tangential_rad", nullptr},
+}};
+
+/// "trolley", "slew", "hoist"
+[[nodiscard]] inline std::vector<std::string> drive_names() {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < kAxes; ++i) names.emplace_back(kCoordinates[i].name);
+  return names;
+}
+
+}  // namespace crane::plant
