@@ -2,6 +2,7 @@
 ///   example_read_recording run.mcap crane/state
 #include <cstdio>
 #include <exception>
+#include <nlohmann/json.hpp>
 
 #include "crane/recording/mcap_reader.hpp"
 #include "crane/recording/schema.hpp"

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "crane/bridge/component.hpp"
 #include "crane/experiment/picture.hpp"

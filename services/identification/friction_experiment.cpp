@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "crane/control/tracking_pd.hpp"
 #include "crane/identification/excitation_design.hpp"

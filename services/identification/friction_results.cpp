@@ -1,7 +1,9 @@
 /// What the experiment leaves: estimates by both regressions, the rig file, the figures.
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "crane/plant/coordinates.hpp"
+
 #include "identification/axis_data.hpp"
 #include "identification/friction_experiment.hpp"
 

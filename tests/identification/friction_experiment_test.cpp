@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/experiment/scenario.hpp"

@@ -1,4 +1,4 @@
-#include "crane/plant/equations.hpp"
+#include "crane/plant/matrices.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "crane/plant/equations.hpp"
+#include "crane/plant/matrices.hpp"
 
 namespace crane::test {
 

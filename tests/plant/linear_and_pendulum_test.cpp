@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "closed_loop.hpp"
-#include "crane/plant/equations.hpp"
+#include "crane/plant/matrices.hpp"
 #include "crane/plant/model.hpp"
 #include "lagrange_oracle.hpp"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "crane/bus/cdr.hpp"
 #include "crane/recording/schema.hpp"

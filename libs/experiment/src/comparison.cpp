@@ -1,6 +1,7 @@
 #include "crane/experiment/comparison.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <ostream>
 #include <utility>
 

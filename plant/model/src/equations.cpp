@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "crane/plant/matrices.hpp"
+
 namespace crane::plant {
 namespace {
 

@@ -12,7 +12,7 @@ namespace {
 
 class Report {
  public:
-  void require(bool ok, const std::string& name, double value, const char* rule) {
+  void require(bool ok, const std::string& name, double value, const std::string& rule) {
     if (ok) return;
     std::ostringstream line;
     line << name << " = " << value << ": " << rule;

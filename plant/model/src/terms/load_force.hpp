@@ -1,6 +1,6 @@
 #pragma once
 /// Converts a force F on the load [N, jib frame] to generalised forces Q = J^T F.
-#include "crane/plant/equations.hpp"
+#include "crane/plant/matrices.hpp"
 
 namespace crane::plant {
 

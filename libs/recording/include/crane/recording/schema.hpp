@@ -4,7 +4,7 @@
 /// arrays, bounded and unbounded strings, primitives, comments.
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <stdexcept>
 #include <string>

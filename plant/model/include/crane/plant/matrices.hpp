@@ -1,0 +1,32 @@
+#pragma once
+/// Matrices of the equations of motion (equations.hpp), for terms, linear designs and tests.
+#include <Eigen/Core>
+
+#include "crane/plant/equations.hpp"
+
+namespace crane::plant {
+
+/// Mass matrix M(q), symmetric; rows and columns (x, phi, gamma, theta).
+[[nodiscard]] Eigen::Matrix4d mass_matrix(const Parameters& parameters, const State& state) noexcept;
+
+/// Jacobian J = d r_L' / d q' of the load's velocity, in the jib frame; columns (x, phi, gamma, theta). A
+/// force F on the load has the generalised forces J^T F.
+[[nodiscard]] Eigen::Matrix<double, 3, 4> load_jacobian(const State& state) noexcept;
+
+/// Velocity of the load relative to the ground, including the cable speed, in the jib frame [m/s], (2.12).
+[[nodiscard]] Eigen::Vector3d load_velocity_mps(const State& state) noexcept;
+
+/// Linear model of one drive with its swing: d(state)/dt = a state + b volts, with the state (x, phi, x',
+/// phi') or (gamma, theta, gamma', theta').
+struct LinearModel {
+  Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d b = Eigen::Vector4d::Zero();
+};
+/// Trolley and radial swing, (2.28), (2.29).
+[[nodiscard]] LinearModel linear_translation(const Parameters& parameters, double cable_m) noexcept;
+/// Slew axis and tangential swing at a fixed trolley position, (2.30), (2.31), with M_r = M_j / J_o, m_r = m
+/// / J_o.
+[[nodiscard]] LinearModel linear_rotation(const Parameters& parameters, double trolley_m,
+                                          double cable_m) noexcept;
+
+}  // namespace crane::plant
