@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "crane/plant/coordinates.hpp"
-
 #include "identification/axis_data.hpp"
 #include "identification/friction_experiment.hpp"
 

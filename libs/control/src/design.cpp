@@ -53,7 +53,7 @@ std::vector<Contradiction> contradictions(const DriveFriction& friction, double 
                                     std::pair{"coulomb_positive_v", friction.coulomb_positive_v},
                                     std::pair{"coulomb_negative_v", friction.coulomb_negative_v}})
     if (held_v > 0 && friction.factor * held_v >= volt_limit_v)
-      found.push_back({key, held_v, "times factor must be below the volt_limit_v of the drive"});
+      found.push_back({key, held_v, "the value times factor must be below the volt_limit_v of the drive"});
   return found;
 }
 

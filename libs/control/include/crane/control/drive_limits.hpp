@@ -24,7 +24,7 @@ struct Homing {
   double position = 0;        ///< position at which the switch of the mark changes, unit
   double speed = 0;           ///< search speed, also the largest speed while the position is unknown, unit/s
   double approach_speed = 0;  ///< speed of the second approach, which sets the position
-  /// Distance that the axis backs off after the switch has opened, unit, > 0. Also the tolerance for the
+  /// Distance that the axis backs off after the switch has opened, unit. Also the tolerance for the
   /// position of the mark in later passes.
   double back_off = 0;
   double volt_limit_v = 5;  ///< largest voltage while the position is unknown, V
@@ -35,13 +35,12 @@ struct Homing {
 };
 
 /// Ranges: drive_limit_fields.hpp.
-
 struct DriveLimits {
   bool present = false;               ///< false: the rig has no such axis
   double volt_limit_v = 10;           ///< largest |V|, V
   double volt_rate_limit_vps = 1000;  ///< largest change of the voltage, V/s
   double low_limit = 0;               ///< hard limit, unit
-  double high_limit = 0;              ///< hard limit, unit, > low_limit
+  double high_limit = 0;              ///< hard limit, unit
   double soft_margin = 0;             ///< minimum distance of a target from the hard limits, unit
   double max_speed = 0;               ///< an axis above this speed is stopped, unit/s
   double brake_deceleration = 0;      ///< smallest deceleration by the closed brake, unit/s^2
