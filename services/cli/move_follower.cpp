@@ -7,8 +7,8 @@
 namespace crane::cli {
 namespace {
 
-constexpr int kSettledTicks =
-    50;  // consecutive ticks in HOLD; single ticks of HOLD can occur between ticks of RUN
+// Consecutive ticks in HOLD at the end of a move. Single ticks of HOLD can occur between ticks of RUN.
+constexpr int kSettledTicks = 50;
 
 [[noreturn]] void throw_stopped(const msg::SupervisorStatus& status) {
   const auto cause = static_cast<supervisor::Cause>(status.cause);

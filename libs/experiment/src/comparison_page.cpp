@@ -12,8 +12,8 @@ namespace {
 using Value = std::function<double(const Sample&)>;
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-constexpr std::size_t kDrawEvery =
-    2;  // ticks; finer than the resolution of a screen, halves the size of the page
+// Ticks between drawn points. Finer than the resolution of a screen; halves the size of the page.
+constexpr std::size_t kDrawEvery = 2;
 constexpr int kReferenceColor = 8;  // grey
 
 struct PlotKind {
