@@ -1,6 +1,6 @@
 #pragma once
-/// The two ends of the shared lines: the card's side in the bridge's process, the rig's side in
-/// crane_emulated_rig.
+/// The two ends of the shared lines: the side of the card in the process of the bridge, and the side of the
+/// rig in crane_emulated_rig.
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,11 +10,10 @@
 
 namespace crane::bridge {
 
-/// The card's side.
+/// The side of the card.
 class LinkedRig final : public EmulatedRig {
  public:
-  /// Waits up to 5 s for the rig to be there. @throws BoardError when it is not, or another bridge has the
-  /// card
+  /// Waits up to 5 s for the rig. @throws BoardError when the rig is missing or another bridge uses the card
   explicit LinkedRig(const std::string& name);
 
   [[nodiscard]] std::int32_t pulses(std::size_t channel) noexcept override;
@@ -32,7 +31,7 @@ class LinkedRig final : public EmulatedRig {
   SharedLines* lines_ = nullptr;
 };
 
-/// Somebody who looks at the lines of a rig that runs, and touches nothing.
+/// Observes the lines of a running rig without changing them.
 class RigMonitor {
  public:
   /// @throws BoardError when no rig of this name runs
@@ -44,10 +43,10 @@ class RigMonitor {
   SharedLines* lines_ = nullptr;
 };
 
-/// The rig's side: the crane, and what of it is on the lines.
+/// The side of the rig: simulates the crane and drives its lines.
 class RigServer {
  public:
-  /// @throws BoardError when another rig has this name; std::invalid_argument naming problems of the rig
+  /// @throws BoardError when another rig has this name; std::invalid_argument with all problems of the rig
   RigServer(const runtime::Rig& rig, const std::string& name, bool lockstep, int model);
   ~RigServer();
   RigServer(const RigServer&) = delete;
@@ -55,8 +54,8 @@ class RigServer {
 
   /// Lockstep: waits up to 50 ms for an advance request and serves it.
   void serve_advance();
-  /// Real time: the crane runs on to `time_ns`, with each change of the output lines at its moment, then sees
-  /// what is on the lines now.
+  /// Real time: advances the crane up to `time_ns`, applies each change of the output lines at its time, and
+  /// then the present levels.
   void run_to(std::int64_t time_ns);
   [[nodiscard]] const SharedLines& lines() const { return *lines_; }
   [[nodiscard]] WiredRig& rig() { return rig_; }
