@@ -2,8 +2,7 @@
 /// Driver of the Servo-to-Go ISA card, models 1 and 2 (docs/hardware.md has registers and wiring).
 ///
 /// Counters: all counters in use are latched within a few port accesses before the first byte is read. They
-/// are
-///   preset at the start (start_counts()).
+///   are preset at the start (start_counts()).
 /// Converters: see crane/bridge/converter.hpp. Inputs: active low (contacts closed in normal operation).
 /// Outputs: on is high.
 #include <array>
