@@ -1,4 +1,4 @@
-/// What the experiment leaves: estimates by both regressions, the rig file, the figures.
+/// Results of the experiment: estimates of both regressions, rig file, figures.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
