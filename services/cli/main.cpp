@@ -1,5 +1,5 @@
-/// The `crane` command: finds the command on the command line, runs it, and turns errors into one line and an
-/// exit code (0 done, 1 it did not work, 2 bad arguments or files).
+/// The `crane` command: runs the command of the command line, and reports errors as one line and an exit code
+/// (0 done, 1 failure, 2 wrong arguments or files).
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 

@@ -7,7 +7,8 @@
 namespace crane::cli {
 namespace {
 
-constexpr int kSettledTicks = 50;  // in HOLD, one after the other: a single one may lie between two in RUN
+// Consecutive ticks in HOLD at the end of a move. Single ticks of HOLD can occur between ticks of RUN.
+constexpr int kSettledTicks = 50;
 
 [[noreturn]] void throw_stopped(const msg::SupervisorStatus& status) {
   const auto cause = static_cast<supervisor::Cause>(status.cause);

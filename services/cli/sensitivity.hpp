@@ -27,11 +27,9 @@ struct Departure {
 ///   cable_length, load_mass        true value, -50 to 50 % relative to the nominal value
 ///   friction_compensation          -20 to 20 % of the compensated friction
 ///   command_delay                  1 to 3 additional ticks, trolley and slew
-///   rate_filter                    cut-off / sampling frequency of the filter before the differentiators; 0:
-///   no filter
+///   rate_filter                    cut-off / sampling frequency before the differentiators; 0: no filter
 ///   swing_filter                   the same filter also on the swing angles
-///   swing_filter_for_delay         swing_filter, and the delay of the delayed law reduced by the delay of
-///   the filter
+///   swing_filter_for_delay         swing_filter, with the delay of the law reduced by that of the filter
 ///   gain                           -50 to 50 % of the forward gain K or of the gains of the anti-swing law
 [[nodiscard]] std::vector<Departure> departures(const experiments::PlannedRun& plan);
 

@@ -102,7 +102,8 @@ void print_twin(std::ostream& out, const msg::Twin& twin) {
 }  // namespace
 
 Snapshot listen(bus::Bus& bus, double timeout_s) {
-  constexpr std::int64_t kQuiet_ns = 300'000'000;  // nobody new for so long: all have been found
+  // Discovery is complete after this time without a new process.
+  constexpr std::int64_t kQuiet_ns = 300'000'000;
   auto nodes = bus.subscriber(topics::node);
   auto supervisors = bus.subscriber(topics::supervisor);
   auto states = bus.subscriber(topics::state);

@@ -26,8 +26,7 @@ struct PlannedRun {
 using Progress = std::function<void(std::size_t done)>;
 
 /// Calls simulate() for each plan. @return results in the order of `plans`. @throws exceptions of simulate(),
-/// after all
-///   started runs have ended
+///   after all started runs have ended
 [[nodiscard]] std::vector<experiment::ComparedRun> simulate_all(std::span<const PlannedRun> plans,
                                                                 const Progress& progress);
 

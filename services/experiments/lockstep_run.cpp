@@ -103,7 +103,7 @@ class LockstepRun {
     return any;
   }
 
-  /// The twin answers after the loop: a tick is complete when it has.
+  /// The twin publishes after the loop; a tick is complete only with the sample of the twin.
   bool twin_is_there() {
     if (!twins_) return true;
     runtime::JoinCounts ignored;
@@ -122,10 +122,10 @@ class LockstepRun {
       advance_to(std::min(frontier_ + kChunk_ticks, end));
   }
 
-  /// From power-on to brakes open: self-test, reset, arm.
+  /// Waits for the self-test, resets and arms, so that the brakes open.
   void prepare() {
     const auto longest = ticks(kLongestPreparation_s);
-    const auto reach = [&](std::initializer_list<crane_SupervisorState> wanted) {
+    const auto wait_for_state = [&](std::initializer_list<crane_SupervisorState> wanted) {
       while (std::find(wanted.begin(), wanted.end(), state_) == wanted.end()) {
         if (frontier_ > longest)
           throw RunError(std::string{"the supervisor stays in "} +
@@ -137,14 +137,13 @@ class LockstepRun {
     };
     constexpr double kCausesClear_s = 1.1;  // a reset needs causes that have been inactive for a second
     advance_by(ticks(kCausesClear_s));
-    reach({crane_STATE_LOCKED});
+    wait_for_state({crane_STATE_LOCKED});
     request({.kind = crane_REQUEST_RESET}, {crane_SOURCE_SUPERVISOR});
     advance_by(ticks(kCausesClear_s));
-    reach({crane_STATE_READY});
+    wait_for_state({crane_STATE_READY});
     request({.kind = crane_REQUEST_ARM}, {crane_SOURCE_SUPERVISOR});
-    // A load that wind or a tilted jib keeps off its rest is damped at once: the crane is active without a
-    // move.
-    reach({crane_STATE_HOLD, crane_STATE_RUN});
+    // With wind or a tilted jib the anti-swing law acts at once; the state can then be RUN without a move.
+    wait_for_state({crane_STATE_HOLD, crane_STATE_RUN});
     check_verdicts();
   }
 
@@ -210,7 +209,7 @@ class LockstepRun {
   std::vector<Verdict> verdicts_;
   std::optional<std::uint64_t> collected_tick_;
   std::uint64_t frontier_ = 0;
-  crane_Source clock_master_ = crane_SOURCE_PLANT;  ///< or the bridge: who pushes the load
+  crane_Source clock_master_ = crane_SOURCE_PLANT;  ///< or SOURCE_BRIDGE; executes kicks
   crane_SupervisorState state_ = crane_STATE_BOOT;
   crane_Cause cause_ = crane_CAUSE_NONE;
 };

@@ -35,8 +35,8 @@ std::vector<Action> actions_of(const experiment::Scenario& scenario) {
   return actions;
 }
 
-/// For an axis that friction holds away from its target, and again for a load that swings on: together less
-/// than the idle time after which HOLD locks.
+/// Longest wait for the arrival of all axes, and longest wait for the end of the swing. Both together are
+/// shorter than the time after which the supervisor locks an idle crane in HOLD.
 constexpr auto kPatience = 30s;
 
 void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& scenario) {

@@ -118,7 +118,8 @@ class Experiment {
     if (options_.axis == plant::kSlew && trolley.present)
       start_[plant::kTrolley] = trolley.low_limit + 1.05 * trolley.soft_margin;
     if (!rig_.carries_load()) return;
-    constexpr double kSwingShare = 0.35;  // of the limit: friction adds harmonics that no reference has
+    // Share of the swing limit. Friction adds harmonics to those of the reference.
+    constexpr double kSwingShare = 0.35;
     limits_.swing_rad = kSwingShare * rig_.limits.swing_limit_rad;
     limits_.load = {
         .cable_m = start_[plant::kHoist], .gravity_mps2 = rig_.design.crane.gravity_mps2, .radius_m = {}};
@@ -220,7 +221,8 @@ class Experiment {
                      excitation_text(kBegin_s, excitation));
     const auto run = axis_run_from(table, rig_, options_.axis, kBegin_s, kBegin_s + excitation.duration_s);
     id::BreakAwayOptions break_away;
-    constexpr double kCounts = 3;  // per window: a slower motion is not told from a step of the encoder
+    // Counts per window. A slower motion cannot be distinguished from one encoder step.
+    constexpr double kCounts = 3;
     break_away.start_speed =
         std::max(break_away.start_speed,
                  kCounts / (rig_.encoders[options_.axis].counts_per_unit * break_away.window_s));

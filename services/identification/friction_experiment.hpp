@@ -2,10 +2,9 @@
 /// Identifies the friction of one drive by experiments with the whole stack. Source: H. M. Omar, Control of
 /// Gantry and Tower Cranes, Virginia Tech, 2003, section 4.4.
 ///   multi_sine/   the axis follows (4.11) or (4.14) without friction compensation: b, c, K_m
-///   break_away/   a slow sine raises the voltage until the axis moves, several times in both directions:
-///   stiction
-///   steps/        steps in both directions with the new compensation, compared with the linear axis (3.4):
-///   figures 4.7, 4.9
+///   break_away/   a slow sine raises the voltage until the axis moves, several times in both directions
+///   steps/        steps in both directions with the new compensation; figures 4.7, 4.9
+/// break_away gives the stiction; steps are compared with the linear axis (3.4).
 /// Each directory contains the files of a run (experiment_run.hpp). The parent directory contains scenarios,
 /// rig files, friction.json, friction.svg, and identified.toml, a rig file that extends the given one by the
 /// new values.

@@ -13,7 +13,7 @@ namespace {
 using plot::CurvePoint;
 using plot::CurveStyle;
 
-/// What is left of the voltage for friction, over speed: the rows of the midpoint form.
+/// Measured friction over speed: voltage minus acceleration / K_m, from the rows of the midpoint form.
 std::vector<CurvePoint> measured_friction(const FrictionPictureData& data, double gain) {
   const auto filtered = [&data](const std::vector<double>& series) {
     return data.cutoff_ratio > 0 ? control::zero_phase_butterworth(series, data.cutoff_ratio) : series;
@@ -21,7 +21,7 @@ std::vector<CurvePoint> measured_friction(const FrictionPictureData& data, doubl
   const auto x = filtered(data.run->position), u = filtered(data.run->drive_v);
   const double period_s = data.period_s;
   std::vector<CurvePoint> points;
-  for (std::size_t k = 2; k < x.size(); k += 2) {  // every second: enough dots
+  for (std::size_t k = 2; k < x.size(); k += 2) {  // every second row
     const double acceleration = (x[k] - 2 * x[k - 1] + x[k - 2]) / (period_s * period_s);
     points.push_back({(x[k] - x[k - 2]) / (2 * period_s), (u[k - 1] + u[k - 2]) / 2 - acceleration / gain});
   }

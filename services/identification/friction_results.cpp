@@ -1,9 +1,8 @@
-/// What the experiment leaves: estimates by both regressions, the rig file, the figures.
+/// Results of the experiment: estimates of both regressions, rig file, figures.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "crane/plant/coordinates.hpp"
-
 #include "identification/axis_data.hpp"
 #include "identification/friction_experiment.hpp"
 

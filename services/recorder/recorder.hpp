@@ -1,10 +1,10 @@
 #pragma once
 /// Records topics of a running crane to one MCAP file: every sample with a correct CRC, without change.
 ///
-/// log time      wall-clock time of arrival: wall clock at the start of the recording plus monotonic time, so
-/// that a
-///               change of the system clock causes no jump
-/// publish time  wall clock of the writer sequence      tick (its lower 32 bits)
+///   log time      time of arrival: wall clock at the start of the recording plus monotonic time, so that a
+///                 change of the system clock causes no jump
+///   publish time  wall clock of the writer
+///   sequence      tick (its lower 32 bits)
 #include <filesystem>
 #include <memory>
 #include <vector>

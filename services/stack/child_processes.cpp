@@ -22,7 +22,7 @@ std::string describe(int status) {
   return "status " + std::to_string(status);
 }
 
-/// Between fork and exec: only calls that are safe there.
+/// Runs between fork and exec; only async-signal-safe calls are permitted.
 [[noreturn]] void become(const char* program, char* const* arguments, pid_t parent) {
   ::setpgid(0, 0);  // Ctrl-C then reaches only the parent, which stops the stack in order
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);

@@ -50,7 +50,7 @@ void launch(ChildProcesses& children, const std::vector<runtime::ComponentSpec>&
 
 void launch_rig(ChildProcesses& children, const configuration::Rig& rig, const LaunchOptions& options) {
   if (rig.board != "emulated") return;
-  // Above the stack: what is hardware elsewhere waits for nobody.
+  // The emulated rig replaces hardware; its priority is above that of the stack.
   const int priority = options.priority > 0 ? options.priority + 1 : 0;
   children.start(
       "emulated_rig", "crane_emulated_rig",

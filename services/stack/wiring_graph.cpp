@@ -75,7 +75,7 @@ struct Arrow {
   std::string from, to, topic;
 };
 
-/// The clock master stands for both of its kinds: a stack has the simulated plant or the hardware bridge.
+/// One node represents the clock master: the simulated plant or the hardware bridge.
 std::string node_of(std::string_view component) {
   return component == "hardware_bridge" ? "plant" : std::string{component};
 }

@@ -85,8 +85,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
 
  private:
-  /// Executes the move that the supervisor has accepted last. The first status tells which moves were
-  /// accepted before this process listened: they are not executed.
+  /// Executes the last move that the supervisor has accepted. Moves that were accepted before the first
+  /// received status are not executed.
   void start_if_new(const msg::AcceptedMove& move, std::uint64_t tick) {
     if (!known_moves_ || move.number <= *known_moves_) return;
     known_moves_ = move_number_ = move.number;

@@ -49,7 +49,7 @@ TEST(Design, RefusesFrictionThatHoldsADriveAtFullVoltage) {
   design.friction[kSlew].stiction_negative_v = 8;
   design.friction[kSlew].factor = 1.5;
   EXPECT_THAT(problems(design),
-              ElementsAre("friction.slew.stiction_negative_v = 8: times factor must be below "
+              ElementsAre("friction.slew.stiction_negative_v = 8: the value times factor must be below "
                           "the volt_limit_v of the drive"));
   design.friction[kSlew].factor = 1;
   EXPECT_THAT(problems(design), IsEmpty());

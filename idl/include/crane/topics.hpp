@@ -1,6 +1,6 @@
 #pragma once
-/// The list of all topics, one line each. Bus, recorder and `crane topic` iterate over this list, so that a
-/// new topic needs a struct in crane.idl and one line here.
+/// The list of all topics, one line each. Bus, recorder and `crane topic` iterate over this list. A new topic
+/// needs a struct in crane.idl and one line here.
 #include <array>
 #include <cstdint>
 #include <string_view>

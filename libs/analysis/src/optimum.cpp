@@ -91,8 +91,8 @@ Optimum optimum(const LoopDamping& damping, const DampingMap& map, Measure measu
   const Landscape landscape{damping, map, measure};
   Vertex best{0, 0, -3};
   for (Vertex top : local_maxima(map, measure)) {
-    // The ridge where two pairs exchange their order is sharp: a simplex that collapsed on it is begun anew,
-    // turned and of another size.
+    // The merit has a sharp ridge where two pairs exchange their order. A simplex that has collapsed on the
+    // ridge is restarted with another orientation and size.
     double size = 1.0 / map.first.points;
     for (int k = 0, idle = 0; k < kMostRestarts && idle < kIdleRestarts; ++k, size *= -0.7) {
       const Vertex higher = climb(landscape, top, size);

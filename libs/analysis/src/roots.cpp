@@ -23,7 +23,7 @@ bool inside(const Box& box, Complex s) {
   return s.real() >= box.left && s.real() <= box.right && s.imag() >= box.bottom && s.imag() <= box.top;
 }
 
-/// Newton on f / prod (s - found): roots that are known do not attract (Maehly).
+/// Newton's method for f / prod (s - found), which does not converge to known roots (Maehly).
 Complex newton(const QuasiPolynomial& f, Complex s, const std::vector<Complex>& found) {
   for (int k = 0; k < kMostIterations; ++k) {
     const auto [value, slope] = evaluate(f, s);
@@ -43,7 +43,7 @@ bool is_new(Complex s, const std::vector<Complex>& found) {
   });
 }
 
-/// |f(s)| is rounding error: the next Newton step would be lost in s.
+/// True when |f(s)| is rounding error: the next Newton step is below the resolution of s.
 bool is_root(const QuasiPolynomial& f, Complex s) {
   const auto [value, slope] = evaluate(f, s);
   return std::abs(value) <= 1e-9 * (1 + std::abs(s)) * std::abs(slope);
@@ -66,7 +66,8 @@ std::vector<Complex> different_roots(const QuasiPolynomial& f, const Box& box, i
   return found;
 }
 
-/// All roots closer together than boxes are divided: one multiple root, by Newton with its multiplicity.
+/// Roots of a box that is too small to be divided: one multiple root, by Newton's method with its
+/// multiplicity.
 Complex multiple_root(const QuasiPolynomial& f, const Box& box, int count) {
   Complex s = centre(box);
   for (int k = 0; k < kMostIterations; ++k) {

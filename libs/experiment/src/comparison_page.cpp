@@ -12,8 +12,9 @@ namespace {
 using Value = std::function<double(const Sample&)>;
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-constexpr std::size_t kDrawEvery = 2;  // ticks: finer than a screen shows, half the size of the page
-constexpr int kReferenceColor = 8;     // grey
+// Ticks between drawn points. Finer than the resolution of a screen; halves the size of the page.
+constexpr std::size_t kDrawEvery = 2;
+constexpr int kReferenceColor = 8;  // grey
 
 struct PlotKind {
   const char* title;
@@ -63,7 +64,7 @@ report::LinePlot plot_of(const std::vector<const ComparedRun*>& runs, const Plot
                            .y = drawn(runs[i]->samples, kind.value),
                            .upper = {},
                            .color = static_cast<int>(i)});
-  // Controllers share references, of which there are as many as shapes: step and accelerate-coast-brake.
+  // The controllers use two references at most: step and bang-coast-bang.
   std::vector<std::vector<double>> references;
   for (const ComparedRun* run : runs) {
     if (!kind.reference) break;
@@ -82,7 +83,7 @@ report::LinePlot plot_of(const std::vector<const ComparedRun*>& runs, const Plot
   return plot;
 }
 
-/// Settling tables say what happened: a number, nothing, or the reason of a stop.
+/// A cell of a settling table is a number, empty (not settled), or the cause of a stop.
 report::Tone tone_of(const std::string& text) {
   if (text == "-") return report::Tone::bad;
   const bool reason = !text.empty() && (text[0] < '0' || text[0] > '9');

@@ -157,7 +157,7 @@ Maneuver maneuver_of(const Scenario& scenario, const configuration::Rig& rig) {
     for (std::size_t axis = 0; axis < kAxes; ++axis)
       maneuver.to[axis] = move.target[axis].value_or(maneuver.to[axis]);
   }
-  // A kick after the last move is met by a crane that has arrived: nothing moves any more.
+  // After the last move, a kick finds all axes at their targets: no axis counts as moved.
   if (!moves.empty() && scenario.last_action_s() > moves.back().at_s) maneuver.from = maneuver.to;
   return maneuver;
 }

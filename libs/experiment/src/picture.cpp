@@ -17,7 +17,7 @@ using recording::shortest;
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 constexpr double kWidth = 900, kPanelHeight = 215, kTop = 62, kBottom = 58;  // pixels
 
-// Okabe and Ito's colours: told apart with every kind of colour vision, and in grey.
+// Colours of Okabe and Ito, distinguishable with colour blindness and in grey.
 constexpr const char* kBlue = "#0072B2";
 constexpr const char* kOrange = "#D55E00";
 constexpr const char* kGreen = "#009E73";

@@ -68,7 +68,7 @@ class PositionReader {
   void check(TomlTable& table, const std::string& key, std::size_t axis, double position) const {
     const configuration::Drive& drive = rig_->drives[axis];
     if (!drive.present) {
-      // A rig without a drive may still stand anywhere: a pendulum has a cable, but no hoist.
+      // A start position is permitted without a drive: a pendulum has a cable, but no hoist.
       if (inside_margin_)
         table.problem(key, rig_->name + " has no " + plant::kCoordinates[axis].name + " drive");
       return;
@@ -76,7 +76,7 @@ class PositionReader {
     const double margin = inside_margin_ ? drive.soft_margin : 0;
     const double low = drive.low_limit + margin;
     const double high = drive.high_limit - margin;
-    // Degrees do not convert to radians exactly: a target on the limit is allowed.
+    // The tolerance permits a target at the limit in spite of the rounding of degrees to radians.
     constexpr double kRounding = 1e-9;
     if (!(position < low - kRounding || position > high + kRounding)) return;
     const double scale = key.ends_with("_deg") ? 1 / kRadPerDeg : 1;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCurvesWidth = 900, kCurvesPanelHeight = 330, kCurvesTop = 44;  // pixels
 
-// Okabe and Ito's colours: told apart with every kind of colour vision.
+// Colours of Okabe and Ito, distinguishable with colour blindness.
 constexpr std::array kCurveColours{"#0072B2", "#D55E00", "#009E73", "#707070", "#CC79A7"};
 
 std::string number(double value) { return recording::shortest(std::round(value * 1e6) / 1e6); }
@@ -54,7 +54,7 @@ void draw_curves(const std::filesystem::path& file, const std::string& title,
       if (curve.points.empty()) throw PictureError(file.string() + ": " + curve.name + " has no points");
   if (panels.empty()) throw PictureError(file.string() + ": there are no panels to draw");
   const double height = kCurvesTop + kCurvesPanelHeight * static_cast<double>(panels.size());
-  // Names of columns and controllers have underscores: they are not to become subscripts.
+  // Names contain underscores, which must not become subscripts.
   std::string script = "set termoption noenhanced\nset encoding utf8\n";
   script += "set border 3 lw 0.8 lc rgb '#404040'\nset tics nomirror out scale 0.5\n";
   script += "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dcdcdc'\nset lmargin 10\n";

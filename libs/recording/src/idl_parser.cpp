@@ -7,7 +7,7 @@
 namespace crane::recording {
 namespace {
 
-constexpr std::uint32_t kMaxCount = 1U << 24U;  // of array elements and string bounds: more is a mistake
+constexpr std::uint32_t kMaxCount = 1U << 24U;  // largest array size and string bound
 
 const std::map<std::string, Kind, std::less<>> kPrimitives{{"boolean", Kind::boolean},
                                                            {"octet", Kind::uint8},

@@ -219,7 +219,7 @@ std::optional<Contents> read_index(const InputFile& file) {
   } catch (const FormatError&) {
     return std::nullopt;
   }
-  // A writer may leave the chunk index out: walking finds what there is.
+  // A writer may omit the chunk index; walk() then finds the chunks.
   if (contents.chunks.empty() && contents.message_count > 0) return std::nullopt;
   return contents;
 }

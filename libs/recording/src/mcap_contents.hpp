@@ -1,5 +1,5 @@
 #pragma once
-/// Where things are in an MCAP file: from its index, or by walking it.
+/// Positions of the records in an MCAP file, from its index or by a scan.
 #include <cstdint>
 #include <map>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
-/// The parts of the MCAP format that writer and reader share (mcap.dev/spec): records are
-/// `opcode u8, length u64, content`, little endian; texts and maps are prefixed with a u32 length.
+/// The MCAP format (mcap.dev/spec), shared by writer and reader. A record is `opcode u8, length u64,
+/// content`, little endian. Texts and maps have a u32 length before their content.
 #include <array>
 #include <boost/crc.hpp>
 #include <cstdint>

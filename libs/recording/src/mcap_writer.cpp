@@ -49,7 +49,7 @@ struct McapWriter::State {
     try {
       close();
     } catch (const WriteError&) {
-      // Nobody is left to be told: whoever needs to know calls close().
+      // A destructor cannot report the error; close() does.
     }
   }
 
@@ -76,7 +76,8 @@ void McapWriter::State::require_open() const {
   file.require_good();
 }
 
-/// One append per chunk, its message indexes included: after a failure the file ends with the chunk before.
+/// Appends a chunk with its message indexes in one write, so that after a failure the file ends with a
+/// complete chunk.
 void McapWriter::State::end_chunk() {
   if (chunk.empty()) return;
   const std::string packed = compress(chunk, options.compression_level);

@@ -71,7 +71,7 @@ msg::Demand demand_from(const ordered_json& j) {
   return demand;
 }
 
-/// By name: the numbers of an older recording may differ.
+/// Converts the state by its name, because the numbers of an older recording may differ.
 msg::SupervisorStatus supervisor_from(const ordered_json& j) {
   static const std::array kNames{"STATE_BOOT",    "STATE_SELFTEST", "STATE_LOCKED", "STATE_READY",
                                  "STATE_ARMING",  "STATE_HOLD",     "STATE_RUN",    "STATE_STOP_C1",

@@ -11,7 +11,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Plain CDR: every primitive is aligned to its size, counted from the end of the encapsulation header.
+/// Decodes plain CDR. Every primitive is aligned to its size, relative to the end of the encapsulation
+/// header.
 class Decoder {
  public:
   Decoder(const Structure& type, std::span<const std::uint8_t> payload) : path_{type.name} {

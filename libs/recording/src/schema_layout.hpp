@@ -44,12 +44,12 @@ struct Field {
 };
 
 struct Structure {
-  std::string name;  ///< with its modules: "crane::Header"
+  std::string name;  ///< full name: "crane::Header"
   std::vector<Field> fields;
 };
 
 struct IdlTypes {
-  std::map<std::string, Structure, std::less<>> structures;  ///< addresses stay: fields point here
+  std::map<std::string, Structure, std::less<>> structures;  ///< stable addresses; fields point to them
   std::map<std::string, Enumeration, std::less<>> enumerations;
   std::vector<std::string> order;  ///< names of the structures in the order of the text
 

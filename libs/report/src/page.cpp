@@ -35,7 +35,7 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-/// JSON that may stand inside a script element: no '<' that could end it.
+/// Escapes '<' in JSON, which could end the enclosing script element.
 std::string escaped_json(const nlohmann::ordered_json& json) {
   std::string text;
   for (const char c : json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace))

@@ -25,7 +25,8 @@ void scale(control::Excitation& excitation, double factor) {
 }  // namespace
 
 double predicted_swing_rad(const control::Excitation& excitation, const CarriedLoad& load) {
-  constexpr double kStep_s = 0.002;  // far below any load's period: semi-implicit Euler keeps its energy
+  // Much shorter than any load period, so that semi-implicit Euler conserves the energy.
+  constexpr double kStep_s = 0.002;
   const auto suspension = [&](double time_s) {
     const double at = excitation.at(time_s).position;
     return load.radius_m ? *load.radius_m * std::polar(1.0, at) : std::complex<double>{at, 0};

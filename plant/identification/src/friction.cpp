@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kFewestRows = 50;  // per direction
 // Spread / mean of the speed. Below this value b and c cannot be distinguished.
 constexpr double kSmallestSpeedSpread = 0.1;
-constexpr double kLargestGainError = 0.1;  // relative standard error of K_m: above, the data do not tell it
+constexpr double kLargestGainError = 0.1;  // largest accepted relative standard error of K_m
 constexpr double kContradiction = 3;       // standard errors
 
 // Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes (friction.hpp).
@@ -53,7 +53,7 @@ void check_options(const FrictionOptions& options) {
   if (options.gain) require_positive("gain", *options.gain);
 }
 
-/// Rows of one direction: how many, and whether their speeds tell b from c.
+/// Number and speeds of the rows of one direction.
 struct Direction {
   std::size_t rows = 0;
   double sum = 0, sum_of_squares = 0;
@@ -117,9 +117,8 @@ Problem problem_of(const Rows& rows, const FrictionOptions& options) {
   return problem;
 }
 
-/// Delete-one-block jackknife: what the estimates would have been without each twentieth of the run.
-/// Jackknife over blocks of neighbouring rows. The scatter of the block estimates contains the correlation of
-/// the residuals, for noise of any spectrum.
+/// Standard errors by the delete-one-block jackknife with 20 blocks of neighbouring rows. The scatter of the
+/// estimates includes the correlation of the residuals, for noise of any spectrum.
 Eigen::VectorXd standard_errors(const Problem& problem) {
   constexpr Eigen::Index kBlocks = 20;
   const Eigen::Index columns = problem.regressors.cols(), rows = problem.regressors.rows();

@@ -9,11 +9,11 @@ struct Printed {
   bool chatters = false;
 };
 
-/// One table: the axis it is about, and what varies.
+/// One table of the source: its axis, its settings and its printed rows.
 struct Table {
   const char* name;
   TestProblem problem;
-  double zero_band;  ///< of a table of cut-off frequencies; 0: the table is about bands, unfiltered
+  double zero_band;  ///< d_s of a table of cut-off frequencies; 0: the table varies d_s, without filter
   std::vector<Printed> rows;
 };
 

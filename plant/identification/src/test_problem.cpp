@@ -25,7 +25,7 @@ class Simulation {
       result.position.push_back(state_.position);
       result.speed.push_back(state_.speed);
       result.drive_v.push_back(held_v_);
-      constexpr int kSteps = 20;  // half a millisecond: RK4 is exact to rounding there
+      constexpr int kSteps = 20;  // steps of 0.5 ms; the error of RK4 is then rounding error
       for (int i = 0; i < kSteps; ++i) advance(p_.period_s / kSteps);
     }
     return result;
@@ -63,7 +63,7 @@ class Simulation {
             state_.speed + h / 6 * (k1.speed + 2 * k2.speed + 2 * k3.speed + k4.speed)};
   }
 
-  /// Which way V overcomes the friction at rest; 0: it does not.
+  /// Direction in which V exceeds the friction at rest; 0: V does not exceed it.
   [[nodiscard]] int pulled(double time_s) const {
     const double v = volts(time_s, state_);
     if (v > p_.friction.coulomb_positive_v) return 1;
@@ -99,7 +99,7 @@ class Simulation {
     }
   }
 
-  static constexpr double kStart_mps = 1e-12;  // out of rest: the sign is all that counts
+  static constexpr double kStart_mps = 1e-12;  // speed after a break-away; only its sign matters
 
   const TestProblem& p_;
   State state_;

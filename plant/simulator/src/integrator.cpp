@@ -27,7 +27,7 @@ void must(int flag, const char* what) {
   throw std::runtime_error(std::string{"CVODE "} + what + ": error " + std::to_string(flag));
 }
 
-/// What CVODE integrates: the crane's coordinates and those of its structure terms, then all their rates.
+/// State vector of CVODE: coordinates of the crane, inner coordinates, then the rates of all.
 struct Motion {
   plant::State state;
   plant::InnerState inner{};

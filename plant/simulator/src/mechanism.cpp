@@ -12,7 +12,7 @@ using plant::kHoist;
 using plant::kSlew;
 using plant::kTrolley;
 
-/// Slower than this under a closed brake is standstill: the brake takes it away in less than a microsecond.
+/// Standstill speed with a closed brake; the brake stops a slower axis in less than a microsecond.
 constexpr double kStandstill = 1e-6;
 /// Maximum number of events of one run(). More events indicate an invalid state.
 constexpr int kMostEvents = 1000;
@@ -80,7 +80,7 @@ void Mechanism::stop(Axis axis, const plant::Locks& locks) {
   state_ = plant::stop_dead(model_.parameters(), state_, axis, locks);
 }
 
-/// What holds at this instant: who is locked, who is braked, what to look out for.
+/// Actuation at the present time (locked axes, brake forces), and the events to watch for.
 Mechanism::Situation Mechanism::situation() {
   Situation now;
   now.actuation.drive_v = drive_v_;

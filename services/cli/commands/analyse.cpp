@@ -1,5 +1,4 @@
-/// crane analyse: what the equations say before anything moves, and how results depend on what is not known
-/// exactly.
+/// crane analyse: analysis of the closed loops, and sensitivity of the results to wrong parameters.
 #include "cli/commands/analyse.hpp"
 
 #include <CLI/CLI.hpp>

@@ -47,7 +47,7 @@ struct DampingStudy {
   std::vector<NamedPoint> points;
 };
 
-/// "LOW:HIGH:POINTS"
+/// Parses "LOW:HIGH:POINTS".
 GainRange range_of(const std::string& text) {
   GainRange range;
   char tail = '\0';

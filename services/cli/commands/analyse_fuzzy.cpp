@@ -1,4 +1,4 @@
-/// crane analyse fuzzy: Table 3.7 beside the rules that its own method gives.
+/// crane analyse fuzzy: Table 3.7 and the rules that the method of the source generates.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>

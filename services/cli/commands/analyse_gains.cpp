@@ -1,4 +1,4 @@
-/// crane analyse gains: the gain curves of figures 3.5, 3.6 and 3.10, with the poles they give.
+/// crane analyse gains: the gain curves of figures 3.5, 3.6 and 3.10, with the closed-loop poles.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ struct GainsOptions {
   bool json = false;
 };
 
-/// One figure: its curve and how the source draws it.
+/// One figure of the source: its curve and its scales.
 struct GainFigure {
   std::string figure, file, over, x_label;
   std::string speed_name, swing_name;

@@ -1,4 +1,4 @@
-/// crane analyse sensitivity: how settling time and residual swing depend on what is not known exactly.
+/// crane analyse sensitivity: settling time and residual swing with one changed quantity at a time.
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -90,7 +90,7 @@ void write_filter_csv(std::ostream& out, const std::vector<FilteredLoop>& loops)
         << '\n';
 }
 
-/// Writes what `write` writes. @throws std::runtime_error when the file does not take it
+/// Writes a file with `write`. @throws std::runtime_error on failure
 template <class Write>
 void write_file(const fs::path& file, Write write) {
   std::ofstream out{file};

@@ -1,5 +1,5 @@
-/// crane bench loop: the stack in real time for a while; lost ticks, and how long a command takes, beside the
-/// floor that raw UDP on the loop-back sets in the same run.
+/// crane bench loop: lost ticks and latency of the stack in real time, compared with raw UDP on the loop-back
+/// in the same run.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -43,8 +43,8 @@ Percentiles percentiles(std::vector<std::int64_t> values_ns) {
   return {at(0.5), at(0.99), at(1)};
 }
 
-/// A datagram of a state's size to a second thread and back, 100 times a second: two of the loop's four hops,
-/// without DDS.
+/// Round trip of a datagram of the size of crane/state to a second thread, 100 times a second: two messages
+/// without DDS; the loop has four.
 class UdpFloor {
  public:
   UdpFloor() : near_{open()}, far_{open()} {

@@ -1,5 +1,5 @@
-/// crane bench cpu: the processor time that each process of the stack takes a tick, its own loop apart from
-/// the threads of its DDS implementation.
+/// crane bench cpu: processor time per tick of each process of the stack, for its loop and for the threads of
+/// its DDS implementation.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
-/// crane bench diagnosis: the score of the diagnosis on data with hidden effects. A program of its own beside
-/// crane, because what hides the effects is built with the tests and shares no code with the product.
+/// crane bench diagnosis: scores the diagnosis with hidden effects. It runs a separate program of the tests,
+/// because the code that generates the data must share no code with the diagnosis.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

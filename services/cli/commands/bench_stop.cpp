@@ -1,4 +1,4 @@
-/// crane bench stop: how long brakes stay open when the hardware bridge is killed or hangs in the middle of a
+/// crane bench stop: time until the brakes are closed when the hardware bridge is killed or stopped during a
 /// move.
 #include <unistd.h>
 
@@ -89,7 +89,7 @@ std::optional<StopTimes> stop_once(stack::LaunchOptions launch, int signal) {
   return StopTimes{ms(lines.relay_dropped_ns), ms(lines.brakes_closed_ns)};
 }
 
-/// @throws experiments::SessionError when the crane does not come to speed
+/// @throws experiments::SessionError when the crane does not reach its speed
 StopTimes stop_at_speed(const stack::LaunchOptions& launch, int signal) {
   constexpr int kAttempts = 5;
   for (int i = 0; i < kAttempts; ++i)

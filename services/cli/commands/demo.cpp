@@ -1,5 +1,5 @@
-/// crane demo: the stack in real time, the dissertation's three maneuvers one after another, as an operator
-/// would run them on the rig; a table, and a recording and a picture of each.
+/// crane demo: the three maneuvers of the dissertation in real time; writes a table, and a recording and a
+/// picture of each.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -35,7 +35,7 @@ constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
 void go_to_start(experiments::RealtimeSession& session, const experiment::Scenario& scenario) {
   const auto& state = *session.state();
   const std::array<double, 3> here{state.trolley_position_m, state.slew_angle_rad, state.cable_length_m};
-  constexpr double kThere = 0.005;  // m, rad
+  constexpr double kThere = 0.005;  // largest distance from the start that needs no move, m, rad
   std::array<bool, 3> selected{};
   std::array<double, 3> target{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-/// crane diagnose: what measured data show the simulation of a rig to get wrong.
+/// crane diagnose: finds errors of the simulation of a rig from measured data.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-/// crane graph: the wiring of a stack, as its components declare it.
+/// crane graph: the wiring of a stack according to the declarations of its components.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>

@@ -1,4 +1,4 @@
-/// crane home: one axis after the other creeps to its mark.
+/// crane home: homes one axis after the other.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -47,7 +47,8 @@ class Watch {
   std::optional<msg::State> state_;
 };
 
-/// A cable first: the shorter it hangs, the less swings. The jib last: its gains need the trolley's place.
+/// Order of homing. The hoist is first, because a short cable reduces the swing. The slew axis is last,
+/// because its gains depend on the trolley position.
 std::vector<std::size_t> axes_to_home(const HomeOptions& options, const msg::State& state) {
   std::vector<std::size_t> axes;
   for (const std::size_t axis : {2U, 0U, 1U}) {
@@ -68,7 +69,7 @@ std::vector<std::size_t> axes_to_home(const HomeOptions& options, const msg::Sta
   throw std::runtime_error("home: stopped because of " + why);
 }
 
-/// From the acceptance of the request until the position is known. @throws std::runtime_error
+/// Waits from the acceptance of the request until the position is known. @throws std::runtime_error
 void follow(Watch& watch, std::size_t axis, double timeout_s) {
   bool taken_up = false;
   const bool done = watch.until(timeout_s, [&](const msg::SupervisorStatus& status, const msg::State& state) {
@@ -82,7 +83,7 @@ void follow(Watch& watch, std::size_t axis, double timeout_s) {
         "home: not complete before the timeout; the crane continues to move (stop it with `crane stop`)");
 }
 
-/// The stop at the end of the axis before is this command's own: acknowledged when it has been clear for a
+/// Acknowledges the stop after the homing of the previous axis, when its cause has been inactive for a
 /// second.
 void acknowledge(bus::Bus& bus, Watch& watch) {
   constexpr double kStops_s = 5;

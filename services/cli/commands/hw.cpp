@@ -1,4 +1,4 @@
-/// crane hw: bringing a rig up, before any stack runs.
+/// crane hw: bring-up of a rig without a stack.
 #include <CLI/CLI.hpp>
 
 #include "cli/commands/hw_commands.hpp"

@@ -1,4 +1,4 @@
-/// crane hw jog, calibrate, selftest: small guarded motions.
+/// crane hw jog, calibrate, selftest: small supervised motions.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

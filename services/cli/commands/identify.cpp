@@ -1,5 +1,5 @@
-/// crane identify: what a crane's own data say about it. friction: the guided experiment; tables: the
-/// theoretical study of the dissertation, printed against recomputed.
+/// crane identify friction: experiment and estimation of the friction of one drive. crane identify tables:
+/// the theoretical study of the dissertation, printed and recomputed.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>

@@ -1,4 +1,4 @@
-/// crane log: what is in a recording, whether it is whole, and out of it again.
+/// crane log: describes, checks, repairs and exports recordings.
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>

@@ -1,4 +1,4 @@
-/// crane record: topics of a running crane into an MCAP file.
+/// crane record: records topics of a running crane to an MCAP file.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

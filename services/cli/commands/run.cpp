@@ -1,5 +1,5 @@
-/// crane run: scenarios in lockstep, each with figures, CSV, recording and picture, or many side by side; in
-/// real time, as on a rig, with what was measured.
+/// crane run: runs scenarios in lockstep, with figures of merit, CSV, recording and picture; compares many
+/// runs; or runs scenarios in real time as on a rig, with CSV only.
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-/// crane status: who runs, in which state the crane is, and what to do about it.
+/// crane status: processes, state of the crane, cause and remedy.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>

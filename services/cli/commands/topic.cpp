@@ -1,4 +1,4 @@
-/// crane topic: what goes over the bus.
+/// crane topic: observes the topics of a running crane.
 #include "topic.hpp"
 
 #include <CLI/CLI.hpp>

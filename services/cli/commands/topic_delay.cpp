@@ -1,4 +1,4 @@
-/// crane topic delay: age of the measurement behind a sample when it arrives.
+/// crane topic delay: time from the latching of the encoders to the arrival of a sample.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
@@ -33,7 +33,7 @@ void show(const std::vector<double>& delays_us, bool json) {
               << fixed(found->max, 0) << "  samples " << delays_us.size() << std::endl;
 }
 
-/// A sample cannot come from the future, nor is any so old: the time stamps are of another clock.
+/// True for a negative or very long delay: the time stamps are from another clock.
 void warn_of_other_clock(const std::vector<double>& delays_us) {
   constexpr double kOldest_us = 60e6;
   const auto median_us = percentile(delays_us, 0.5);

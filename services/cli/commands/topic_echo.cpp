@@ -1,4 +1,4 @@
-/// crane topic echo: samples of one topic, whatever its type.
+/// crane topic echo: prints the samples of one topic of any type.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -47,7 +47,7 @@ int echo(const TopicEchoOptions& options) {
   return runtime::kExitDone;
 }
 
-/// Before anything is read: a wrong name would print nothing for ever.
+/// Checks the field name before the first sample; a wrong name would print nothing.
 void check_field(const TopicEchoOptions& options) {
   if (options.field.empty()) return;
   std::string known;

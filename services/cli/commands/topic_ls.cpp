@@ -1,4 +1,4 @@
-/// crane topic ls: all topics, who writes them now, how often.
+/// crane topic ls: all topics with their writers and rates.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>

@@ -1,4 +1,4 @@
-/// crane up: the stack, until Ctrl-C.
+/// crane up: runs the stack until Ctrl-C.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <limits>
@@ -27,7 +27,7 @@ struct UpOptions {
   std::string twin_rig;
 };
 
-/// The recorder observes: it runs on the other vendor, so that every ordinary run crosses vendors.
+/// The recorder runs on Fast DDS, so that ordinary use exercises both vendors together.
 void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
   auto bus = options.launch.bus;
   bus.vendor = "fastdds";

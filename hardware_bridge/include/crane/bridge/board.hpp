@@ -29,7 +29,7 @@ struct Outputs {
   bool watchdog_level = false;
 };
 
-/// A board that is not there, not permitted, in use or defective; what() is one line with the remedy.
+/// The board is missing, not permitted, in use or defective. what() is one line with the remedy.
 class BoardError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

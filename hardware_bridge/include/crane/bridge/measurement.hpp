@@ -32,8 +32,7 @@ struct Latched {
 /// skipped ticks are interpolated. position() is the position of the sample itself.
 class Coordinate {
  public:
-  /// @param cut_off_ratio    cut-off / sampling frequency of the low-pass filter before the differentiator;
-  ///   0: no filter
+  /// @param cut_off_ratio    cut-off / sampling frequency of the low-pass filter; 0: no filter
   /// @param filter_position  true: position() is low-pass filtered, too
   Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
              bool filter_position = false);

@@ -1,12 +1,14 @@
 #pragma once
-/// Driver of boards that Linux's comedi drives (libcomedi): counters, analog outputs, digital lines, by the
-/// subdevices that [wiring] of the rig file names.
+/// Driver of boards with a driver of Linux comedi (libcomedi): counters, analog outputs and digital lines of
+/// the subdevices in [wiring] of the rig file.
 ///
-/// Counters: 24 bit or more, their lowest 24 bits are used; quadrature, four counts a line. One instruction
-///   list reads all of them and the inputs. At the start they are preset to [start] of the rig file.
-/// Converters: any resolution, on a range that reaches 9.9 V both ways; clamped to it, not finite: 0 V.
-/// Lines: input 0..15 is channel 0..15 of the input subdevice, output 16..31 channel 0..15 of the output
-///   subdevice. Inputs active low, contacts closed when all is well. Outputs: on is high.
+/// Counters: 24 bit or more, of which the lowest 24 are used; quadrature, four counts per line. One
+///   instruction list reads all counters and the inputs. The counters are preset at the start
+///   (start_counts()).
+/// Converters: any resolution, with a range of at least +-9.9 V. Voltages are limited to the range; a value
+///   that is not finite gives 0 V.
+/// Lines: input 0..15 is channel 0..15 of the input subdevice, output 16..31 is channel 0..15 of the output
+///   subdevice. Inputs are active low (contacts closed in normal operation). Outputs: on is high.
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -24,24 +26,23 @@ namespace crane::bridge {
 
 class Comedi final : public Board {
  public:
-  /// Locks the subdevices, checks all of them, then makes the board safe, then starts the counters.
-  /// @throws BoardError when there is no such device, another program has it, or a subdevice is not what the
-  ///   rig file says
+  /// Locks and checks the subdevices, makes the board safe, and starts the counters.
+  /// @throws BoardError when the device is missing or in use, or a subdevice does not agree with the rig file
   explicit Comedi(const configuration::Rig& rig);
-  /// Leaves the board at 0 V, all outputs off.
+  /// Leaves the board at 0 V with all outputs off.
   ~Comedi() override;
   Comedi(const Comedi&) = delete;
   Comedi& operator=(const Comedi&) = delete;
 
   [[nodiscard]] std::string_view name() const override { return name_; }
-  /// @throws BoardError when the device does not answer; so does write()
+  /// read() and write(): @throws BoardError when the device does not answer
   [[nodiscard]] Inputs read() override;
   std::array<double, kDrives> write(const Outputs& outputs) override;
   void make_safe() noexcept override;
   void advance_to(std::int64_t /*time_ns*/) override {}
 
  private:
-  /// Closes the device when the constructor throws, too.
+  /// Closes the device, also when the constructor throws.
   struct Handle {
     comedi_t_struct* device = nullptr;
     Handle() = default;

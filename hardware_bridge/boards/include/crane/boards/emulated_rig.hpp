@@ -1,6 +1,6 @@
 #pragma once
-/// The rig at the plugs of an emulated card, and its time. Either in this process, or in one of its own
-/// (crane_emulated_rig), which goes on when the bridge dies or hangs, as a real rig does.
+/// The rig at the connectors of an emulated card, and its time. It runs in this process or in a separate
+/// process (crane_emulated_rig). A separate process continues when the bridge ends or hangs, like a real rig.
 #include <memory>
 #include <string>
 
@@ -11,12 +11,11 @@ namespace crane::bridge {
 
 class EmulatedRig : public Connector {
  public:
-  /// Where the card keeps its state.
+  /// State of the emulated card.
   [[nodiscard]] virtual CardState& card() noexcept = 0;
-  /// Lets the rig's time run on to `time_ns`, where it does not run by itself. @throws BoardError when it
-  /// does not answer
+  /// Lockstep: advances the rig up to `time_ns`. @throws BoardError when the rig does not answer
   virtual void advance_to(std::int64_t time_ns) = 0;
-  /// A push against the load.
+  /// Adds swing rates to the load.
   virtual void kick(double radial_radps, double tangential_radps) = 0;
   /// @throws BoardError when the rig has stopped
   virtual void require_alive() = 0;

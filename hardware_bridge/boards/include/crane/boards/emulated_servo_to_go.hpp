@@ -1,13 +1,14 @@
 #pragma once
-/// A Servo-to-Go card that exists in memory only, register by register; a driver talks to it through PortIo
-/// and cannot tell. What is connected to the card is somebody else: a Connector.
+/// Emulation of a Servo-to-Go card, register by register. A driver accesses it through PortIo like a real
+/// card. A Connector represents the wiring of the card.
 ///
 /// Modelled: counters with output latch, byte pointer, preset, input enable and quadrature mode (8- and
 /// 16-bit
 ///   accesses); converters; 8255 ports with directions; board test; 8254 timer 0 behind timer 1, which
-///   latches all counters in each period. Not modelled: ADC, index pulses, interrupts; reading any other port
-///   gives 0xFF.
-/// Counters follow `pulses` modulo 2^24 while their inputs are enabled.
+///   latches
+///   all counters in each period.
+/// Not modelled: ADC, index pulses, interrupts. Reading any other port returns 0xFF. Counters follow `pulses`
+/// modulo 2^24 while their inputs are enabled.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -18,25 +19,25 @@ namespace crane::bridge {
 
 inline constexpr std::size_t kCardChannels = 8;
 
-/// The card's plugs.
+/// Connectors of the card.
 class Connector {
  public:
   virtual ~Connector() = default;
-  /// Quadrature edges of an encoder since power came on; may wrap at 2^32.
+  /// Quadrature edges of an encoder since power-on; may wrap at 2^32.
   [[nodiscard]] virtual std::int32_t pulses(std::size_t channel) noexcept = 0;
-  /// Level of the 16 lines of ports A and B.
+  /// Levels of the 16 lines of ports A and B.
   [[nodiscard]] virtual std::uint16_t inputs() noexcept = 0;
   virtual void set_converter(std::size_t channel, std::uint16_t code) noexcept = 0;
-  /// Level of the 16 lines of ports C and D; a line that is no output is low.
+  /// Sets the levels of the 16 lines of ports C and D; a line that is not an output is low.
   virtual void set_outputs(std::uint16_t levels) noexcept = 0;
-  /// The rig's time.
+  /// Time of the rig.
   [[nodiscard]] virtual std::int64_t now_ns() noexcept = 0;
 };
 
-/// What the card remembers. Plain data: it may live in memory that outlasts the driver's process.
+/// State of the card. Plain data, so that it can be in shared memory and survive the process of the driver.
 struct CardState {
   struct Counter {
-    std::uint32_t origin_counts = 0;  ///< value = pulses - origin while counting, else the value itself
+    std::uint32_t origin_counts = 0;  ///< while counting: value = pulses - origin; otherwise the value
     std::array<std::uint8_t, 3> latch{}, preset{};
     std::uint8_t pointer = 0;
     std::uint8_t input_control = 0, quadrature = 0;
@@ -50,12 +51,12 @@ struct CardState {
   std::uint8_t timer_0_low = 0;
   bool timer_0_high_next = false, timer_0_loadable = false;
   std::int64_t timer_period_ns = 0;  ///< 0: stopped
-  std::int64_t timer_begin_ns = 0;   ///< of the present period
+  std::int64_t timer_begin_ns = 0;   ///< start of the present period
 };
 
 class EmulatedServoToGo final : public PortIo {
  public:
-  /// Both outlive the card's emulation.
+  /// `state` and `connector` must outlive this object.
   EmulatedServoToGo(std::uint16_t base_address, CardState& state, Connector& connector)
       : base_{base_address}, state_{state}, connector_{connector} {}
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The card's end of the shared lines, in the bridge's process. The rig's end is in plant/emulated_rig.
+/// The card's end of the shared lines, in the process of the bridge. The rig's end is in plant/emulated_rig.
 #include <memory>
 #include <string>
 
@@ -8,11 +8,10 @@
 
 namespace crane::bridge {
 
-/// The card's side.
+/// The side of the card.
 class LinkedRig final : public EmulatedRig {
  public:
-  /// Waits up to 5 s for the rig to be there. @throws BoardError when it is not, or another bridge has the
-  /// card
+  /// Waits up to 5 s for the rig. @throws BoardError when the rig is missing or another bridge uses the card
   explicit LinkedRig(const std::string& name);
 
   [[nodiscard]] std::int32_t pulses(std::size_t channel) noexcept override;
@@ -30,7 +29,7 @@ class LinkedRig final : public EmulatedRig {
   SharedLines* lines_ = nullptr;
 };
 
-/// Somebody who looks at the lines of a rig that runs, and touches nothing.
+/// Observes the lines of a running rig without changing them.
 class RigMonitor {
  public:
   /// @throws BoardError when no rig of this name runs

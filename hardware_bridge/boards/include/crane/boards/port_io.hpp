@@ -1,5 +1,5 @@
 #pragma once
-/// x86 port input and output as a seam: the real instructions, or a card that is emulated.
+/// Interface for x86 port input and output: the real instructions, or an emulated card.
 #include <cstdint>
 #include <memory>
 
@@ -16,8 +16,8 @@ class PortIo {
   virtual void out_16(std::uint16_t port, std::uint16_t value) noexcept = 0;
 };
 
-/// inb, inw, outb, outw of this machine, for the two windows of the card at `base_address`.
-/// @throws BoardError without permission, or where there are no ports
+/// Port access with inb, inw, outb, outw for the two windows of the card at `base_address`.
+/// @throws BoardError without permission, or on a computer without I/O ports
 [[nodiscard]] std::unique_ptr<PortIo> open_ports(std::uint16_t base_address);
 
 }  // namespace crane::bridge

@@ -1,6 +1,5 @@
 #pragma once
-/// What every card with counters and digital lines has in common: which line is which signal, and what the
-/// counters begin with.
+/// Shared by all cards with counters and digital lines: assignment of lines to signals, and initial counts.
 #include "crane/bridge/board.hpp"
 #include "crane/configuration/rig.hpp"
 
@@ -9,10 +8,10 @@ namespace crane::bridge {
 class RigLines {
  public:
   explicit RigLines(const configuration::Rig& rig);
-  /// Fills in everything but the counts. Inputs are contacts to ground, closed when all is well: a line that
-  /// is low is closed. @param levels  bit n: line n of inputs 0..15
+  /// Sets all inputs except the counts. Inputs are contacts to ground that are closed in normal operation; a
+  /// low line is a closed contact. @param levels  bit n: level of input line n, 0..15
   void read(std::uint32_t levels, Inputs& inputs) const noexcept;
-  /// Bit n: line n of outputs 16..31 is on; no others.
+  /// @return bit n is set when output line n, 16..31, is on; all other bits are 0
   [[nodiscard]] std::uint32_t outputs(const Outputs& outputs) const noexcept;
   [[nodiscard]] bool present(std::size_t drive) const { return present_[drive]; }
 
@@ -21,8 +20,8 @@ class RigLines {
   std::array<bool, kDrives> present_{};
 };
 
-/// Encoders are incremental: [start] of the rig file, or for an axis that is homed the end of its travel that
-/// is farther from the mark.
+/// Initial counts of the incremental encoders: those of [start] of the rig file; for an axis with homing
+/// those of unhomed_position().
 [[nodiscard]] std::array<std::int32_t, kCounters> start_counts(const configuration::Rig& rig);
 
 }  // namespace crane::bridge

@@ -1,11 +1,10 @@
 #pragma once
 /// Driver of the Servo-to-Go ISA card, models 1 and 2 (docs/hardware.md has registers and wiring).
 ///
-/// Counters: all that are in use are latched within a few port accesses before the first byte is read. At the
-/// start
-///   they are preset (start_counts()).
-/// Converters: see crane/bridge/converter.hpp.
-/// Inputs: active low, contacts closed when all is well. Outputs: on is high.
+/// Counters: all counters in use are latched within a few port accesses before the first byte is read. They
+///   are preset at the start (start_counts()).
+/// Converters: see crane/bridge/converter.hpp. Inputs: active low (contacts closed in normal operation).
+/// Outputs: on is high.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -19,11 +18,10 @@ namespace crane::bridge {
 
 class ServoToGo final : public Board {
  public:
-  /// Recognises the card before it writes anything, then makes it safe, then starts the counters.
-  /// @throws BoardError when there is no card at the base address, or a counter does not keep what it is
-  /// given
+  /// Recognises the card before the first write, makes it safe, and starts the counters.
+  /// @throws BoardError when there is no card at the base address, or a counter does not keep a written value
   ServoToGo(const configuration::Rig& rig, std::unique_ptr<PortIo> ports);
-  /// Leaves the card at 0 V, all outputs off.
+  /// Leaves the card at 0 V with all outputs off.
   ~ServoToGo() override;
   ServoToGo(const ServoToGo&) = delete;
   ServoToGo& operator=(const ServoToGo&) = delete;

@@ -54,8 +54,7 @@ class Session {
   /// One tick at 0 V with closed brakes and without toggling the watchdog output. @throws Ended
   const Sample& rest();
   /// One tick that toggles the watchdog output. @param drive_v  V; the sign of the drive in the rig file is
-  /// applied, so
-  ///   that positive should move outward. @throws Ended
+  ///   applied, so that positive should move outward. @throws Ended
   const Sample& awake(const std::array<double, kDrives>& drive_v, const std::array<bool, kDrives>& release);
 
   /// Calls rest() for at least `duration_s`.

@@ -1,7 +1,7 @@
 #pragma once
-/// Anti-swing by delayed swing feedback. Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia
-/// Tech, 2003, section 3.3.2. Time is normalised by the load period T. Signs:
-/// docs/equations.md#coordinates-and-signs (K_del < 0).
+/// Anti-swing by delayed swing feedback. Time is normalised by the load period T.
+/// Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003, section 3.3.2.
+/// Signs: docs/equations.md#coordinates-and-signs (K_del < 0).
 ///
 /// delayed_1 adds volts to the drives; the first parts of (3.37), (3.38) convert Vbar_s to volts:
 ///   trolley  Vbar_s = K_del phi(t - tau_del T)                               (3.47)
@@ -12,8 +12,8 @@
 /// position and, from the delayed swing rate, a speed:
 ///   trolley  L K_del phi(t - tau_del T)
 ///   slew     -(L/x) K_del theta(t - tau_del T), from y of (3.34)
-///   (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - K_del s^2 (K_d s + K_p) exp(-tau_del s) = 0          (3.50),
-///   corrected sign
+///   (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - K_del s^2 (K_d s + K_p) exp(-tau_del s) = 0
+///                                                                            (3.50), corrected sign
 #include <memory>
 
 #include "crane/control/law.hpp"

@@ -1,7 +1,8 @@
 #pragma once
-/// Friction compensation of one drive. Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech,
-/// 2003. The volts F_f/K_m are added to the control volts V: u = V + F_f/K_m (3.5). With v the speed and d_s
-/// the zero band:
+/// Friction compensation of one drive.
+/// Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003.
+/// The volts F_f/K_m are added to the control volts V: u = V + F_f/K_m (3.5). With v the speed and d_s the
+/// zero band, F_f/K_m is:
 ///   v >  d_s:    c+ + b+ v                          (3.1), corrected signs
 ///   v < -d_s:   -c- + b- v
 ///   |v| <= d_s:  f_s+ tanh(A V) for V > 0,  f_s- tanh(A V) for V < 0

@@ -1,13 +1,13 @@
 #pragma once
-/// Gain-scheduling feedback in closed form, exact for the linear models (2.28)-(2.31). Source: H. M. Omar,
-/// Control of Gantry and Tower Cranes, Virginia Tech, 2003, section 3.2. Signs:
-/// docs/equations.md#coordinates-and-signs.
+/// Gain-scheduling feedback in closed form, exact for the linear models (2.28)-(2.31).
+/// Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003, section 3.2.
+/// Signs: docs/equations.md#coordinates-and-signs.
 ///
-/// V_x     = K (x_r     - x     - K_x'     x'     - K_phi   phi   - K_phi'   phi'  )      (3.26) V_gamma = K
-/// (gamma_r - gamma - K_gamma' gamma' + K_theta theta + K_theta' theta')
+///   V_x     = K (x_r     - x     - K_x'     x'     - K_phi   phi   - K_phi'   phi'  )      (3.26)
+///   V_gamma = K (gamma_r - gamma - K_gamma' gamma' + K_theta theta + K_theta' theta')
 ///
-/// The closed loop of each axis is (s + a)^2 (s^2 + sqrt(2) w s + w^2) = 0, (3.20) with zeta = 1/sqrt(2),
-/// where
+/// The closed loop of each axis is, with zeta = 1/sqrt(2),
+///   (s + a)^2 (s^2 + sqrt(2) w s + w^2) = 0                                         (3.20)
 ///   a = (2/pi) w0 (3.21),  w0 = sqrt(g/L),  w = (pi/2) sqrt(K K_m)  from (3.25) with K_x = 1,
 ///   K_x'   = 2/a + sqrt(2)/w                                                        from (3.24),
 ///   K_phi  = L ((a^2 + 2 sqrt(2) a w + w^2 - w0^2 (1 + m_t)) / (K K_m) - 1)         from (3.23),

@@ -7,8 +7,8 @@
 ///   name  shares                        times        residual swing / swing of the unshaped reference
 ///   zv    1/2, 1/2                      0, T/2       |cos(pi r/2)|
 ///   zvd   1/4, 1/2, 1/4                 0, T/2, T    cos^2(pi r/2)
-///   ei    (1+V)/4, (1-V)/2, (1+V)/4     0, T/2, T    |(1+V)/2 cos(pi r) + (1-V)/2|, at most V for r within
-///   +-20 %
+///   ei    (1+V)/4, (1-V)/2, (1+V)/4     0, T/2, T    |(1+V)/2 cos(pi r) + (1-V)/2|
+/// The residual swing of ei is at most V for 0.8 <= r <= 1.2.
 #include <array>
 #include <cstddef>
 

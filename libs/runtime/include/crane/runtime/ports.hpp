@@ -61,8 +61,7 @@ class Ports {
     return bus_.subscriber(topic);
   }
   /// Writer of a topic. @throws std::logic_error when the spec does not declare the topic in `writes`, or
-  /// when the
-  ///   source of the spec may not write the topic
+  ///   when the source of the spec may not write the topic
   template <class T>
   [[nodiscard]] Output<T> output(const topics::Topic<T>& topic) {
     const bool awaited = declared_write(topic.description);

@@ -10,7 +10,7 @@
 
 namespace crane::emulated_rig {
 
-/// The simulated crane, and those of its signals that are on the lines.
+/// Simulates the crane and drives its lines.
 class RigServer {
  public:
   /// @throws bridge::BoardError when another rig has this name; std::invalid_argument naming problems of the
@@ -22,8 +22,8 @@ class RigServer {
 
   /// Lockstep: waits up to 50 ms for an advance request and serves it.
   void serve_advance();
-  /// Real time: the crane runs on to `time_ns`, with each change of the output lines at its moment, then sees
-  /// what is on the lines now.
+  /// Real time: advances the crane up to `time_ns`, applies each change of the output lines at its time, and
+  /// then the present levels.
   void run_to(std::int64_t time_ns);
   [[nodiscard]] const bridge::SharedLines& lines() const { return *lines_; }
   [[nodiscard]] WiredRig& rig() { return rig_; }

@@ -1,8 +1,7 @@
 #pragma once
-/// The simulated crane wired to the plugs of an emulated card as the rig file says: amplifiers and motors at
-/// the converters, encoders at the counters, switches, brake and relay contacts at the inputs, brake supplies
-/// and the watchdog relay at the outputs. Encoders are incremental: their pulses count from where the rig
-/// stood at first.
+/// The simulated crane, connected to an emulated card according to the rig file: amplifiers and motors to the
+/// converters, encoders to the counters, switches, brake and relay contacts to the inputs, brake supplies and
+/// watchdog relay to the outputs. The encoders are incremental; their pulses count from the initial position.
 #include "crane/boards/emulated_rig.hpp"
 #include "crane/simulator/simulated_board.hpp"
 
@@ -10,7 +9,7 @@ namespace crane::emulated_rig {
 
 class WiredRig final : public bridge::EmulatedRig {
  public:
-  /// @throws std::invalid_argument naming every problem of the rig
+  /// @throws std::invalid_argument with all problems of the rig
   explicit WiredRig(const configuration::Rig& rig);
 
   [[nodiscard]] std::int32_t pulses(std::size_t channel) noexcept override;
@@ -19,16 +18,16 @@ class WiredRig final : public bridge::EmulatedRig {
   void set_outputs(std::uint16_t levels) noexcept override;
   [[nodiscard]] std::int64_t now_ns() noexcept override { return crane_.now_ns(); }
   [[nodiscard]] bridge::CardState& card() noexcept override { return card_; }
-  /// @throws std::runtime_error when integration fails
+  /// @throws std::runtime_error when the integration fails
   void advance_to(std::int64_t time_ns) override;
   void kick(double radial_radps, double tangential_radps) override {
     crane_.kick(radial_radps, tangential_radps);
   }
   void require_alive() override {}
 
-  /// What no wire shows; for tests and measurements.
+  /// The simulated board, for tests and measurements.
   [[nodiscard]] simulator::SimulatedBoard& crane() { return crane_; }
-  /// Volts at the amplifiers.
+  /// Voltages at the amplifiers.
   [[nodiscard]] const std::array<double, bridge::kDrives>& drive_v() const { return outputs_.drive_v; }
 
  private:
@@ -39,7 +38,7 @@ class WiredRig final : public bridge::EmulatedRig {
   simulator::SimulatedBoard crane_;
   std::array<std::int32_t, bridge::kCounters> first_counts_;
   bridge::Outputs outputs_;
-  bool changed_ = false;  ///< outputs that the crane has not been told yet
+  bool changed_ = false;  ///< true: outputs_ was not yet written to the crane
 };
 
 }  // namespace crane::emulated_rig

@@ -1,6 +1,5 @@
 #pragma once
-/// Designs the references of the identification experiment: (4.11) for the trolley and (4.14) for the slew
-/// axis,
+/// References of the identification experiment: (4.11) for the trolley and (4.14) for the slew axis,
 ///   A [-0.4 sin(2 pi t/3) + 0.3 sin(2 pi t/4)],  A = 0.6 m and 2 rad,
 /// with a smaller A when travel, speed or swing of the rig require it. Source: H. M. Omar, Control of Gantry
 /// and Tower Cranes, Virginia Tech, 2003.
