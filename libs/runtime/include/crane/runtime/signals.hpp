@@ -1,5 +1,5 @@
 #pragma once
-/// Signals that end a process in order.
+/// Signals that shut down a process.
 namespace crane::runtime {
 
 /// SIGINT, SIGTERM, SIGHUP and SIGQUIT set stop_requested(). The process then ends its loop, and the bridge
