@@ -99,7 +99,7 @@ at_s = -1
               testing::Contains(HasSubstr(
                   "s.toml:5: start.slew_angle_deg = 1: give either this key or slew_angle_rad, not both")));
   EXPECT_THAT(problems,
-              testing::Contains(HasSubstr("s.toml:7: start.cable_length_m = 0: must be finite and > 0")));
+              testing::Contains(HasSubstr("s.toml:7: start.cable_length_m = 0: must be in [0.001, 1000]")));
   EXPECT_THAT(problems, testing::Contains(HasSubstr("the move has no target")));
   EXPECT_THAT(problems, testing::Contains(HasSubstr("at_s = 4: must be later than the previous move")));
   EXPECT_THAT(problems, testing::Contains(HasSubstr("at_s = -1: must be in [0, 86400]")));
