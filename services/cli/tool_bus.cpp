@@ -15,7 +15,8 @@ std::string where_and_remedy(const bus::Options& options) {
   for (const auto& interface : options.interfaces) interfaces += (interfaces.empty() ? "" : ", ") + interface;
   return " for crane '" + options.crane + "' in domain " + std::to_string(options.domain) + " on " +
          interfaces +
-         ": either no stack runs there (start one: crane up), or --crane, --domain or --interface differ "
+         ": either no stack runs there (start one: crane up), or --crane, --domain, --interface or --secure "
+         "differ "
          "from the "
          "stack's";
 }

@@ -42,6 +42,12 @@ class Error : public std::runtime_error {
 
 class MemoryNetwork;  ///< the "wire" of in-process stacks; every Bus of one stack shares one
 
+/// Absolute paths of what DDS Security wants of one participant; PEM, documents signed as S/MIME.
+struct Credentials {
+  std::string identity_ca, identity_certificate, private_key;
+  std::string permissions_ca, governance, permissions;
+};
+
 struct Options {
   Vendor vendor = Vendor::cyclone;
   std::uint32_t domain = 0;                          ///< 0..100
@@ -52,6 +58,9 @@ struct Options {
   std::vector<std::string> interfaces{"127.0.0.1"};  ///< addresses to bind to
   std::vector<std::string> peers{};          ///< not empty: unicast discovery of these hosts, no multicast
   std::shared_ptr<MemoryNetwork> network{};  ///< memory only
+  /// Nothing: DDS Security is off, and every program that reaches this bus may write to it. The memory back
+  /// end needs none.
+  std::optional<Credentials> credentials{};
 };
 
 enum class EventKind : std::uint8_t {
