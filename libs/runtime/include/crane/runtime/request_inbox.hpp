@@ -16,6 +16,8 @@ class RequestInbox {
   /// Requests that may wait for their tick. A move, its kicks and its stop are a handful; a flood must not
   /// fill the memory.
   static constexpr std::size_t kMostWaiting = 256;
+  /// More that are kept when they stop the crane now.
+  static constexpr std::size_t kMostStops = 64;
   /// Requests for a later tick than this many from now are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
 
