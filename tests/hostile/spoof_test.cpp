@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <random>
 
@@ -27,13 +28,13 @@ class Spoof : public testing::Test {
   void SetUp() override {
     if (!Ear::permitted()) GTEST_SKIP() << "listening on the loop-back interface needs CAP_NET_RAW";
   }
-  /// Packets to one process of the stack that arrive within `duration`.
-  static std::vector<Packet> heard(Ear& ear, RunningStack& stack, const char* process,
-                                   std::chrono::milliseconds duration) {
+  /// The next packets to one process of the stack.
+  static std::vector<Packet> heard(RunningStack& stack, const char* process, std::size_t count) {
     const auto ports = ports_of(stack.children().pid_of(process).value());
     std::vector<Packet> packets;
-    const auto end = std::chrono::steady_clock::now() + duration;
-    while (std::chrono::steady_clock::now() < end)
+    Ear ear;
+    const auto end = std::chrono::steady_clock::now() + 5s;
+    while (packets.size() < count && std::chrono::steady_clock::now() < end)
       if (auto packet = ear.next(20ms); packet && ports.contains(packet->port()))
         packets.push_back(std::move(*packet));
     return packets;
@@ -62,9 +63,8 @@ class Spoof : public testing::Test {
   }
   /// A packet with a command as an unsecured supervisor sends it to its bridge.
   static Packet plain_command() {
-    Ear ear;
     RunningStack stack{kDomain, "virginia_tech_tower"};
-    for (auto& packet : heard(ear, stack, "plant", 200ms))
+    for (auto& packet : heard(stack, "plant", 100))
       if (find(packet.message, topics::command)) return packet;
     throw std::runtime_error("no command heard");
   }
@@ -77,10 +77,9 @@ TEST_F(Spoof, NoneOf10000ForgedOrReplayedPacketsMovesACraneWithKeys) {
 
   const recording::TemporaryDirectory directory;
   security::make(directory / "keys", security::valid_for(1));
-  Ear ear;
   RunningStack stack{kDomain, "virginia_tech_tower", stack::Plant::simulated, (directory / "keys").string()};
   wait_until_locked(stack);
-  const auto genuine = heard(ear, stack, "plant", 300ms);
+  const auto genuine = heard(stack, "plant", 100);
   ASSERT_GT(genuine.size(), 50U);
   for (auto packet : genuine)
     ASSERT_FALSE(find(packet.message, topics::command)) << "a command was not encrypted";
@@ -148,7 +147,7 @@ class Impostor {
     constexpr double kStep_v = 0.2;
     for (std::size_t i = 0; i < 2; ++i) {
       command.brake_release[i] = ticks_ > 40;
-      command.drive_v[i] = std::clamp((ticks_ - 60) * kStep_v, 0.0, 3.0);
+      command.drive_v[i] = std::clamp((ticks_ - 40) * kStep_v, 0.0, 3.0);
     }
     replace(packet_.message, found_.data, topics::command, command);
     set_sequence_number(packet_.message, found_.data, number_++);
@@ -164,16 +163,17 @@ class Impostor {
   Mouth mouth_;
 };
 
-/// Not a requirement but a measurement: what keys are for. Run it with --gtest_also_run_disabled_tests.
-TEST_F(Spoof, DISABLED_WithoutKeysForgedPacketsMoveALockedCrane) {
-  Ear ear;
+/// No check above the middleware can keep such packets from the bridge; the supervisor sees what the bridge
+/// does, and ends. `crane up` then ends the bridge; here nobody does.
+TEST_F(Spoof, WithoutKeysForgedPacketsEndTheSupervisorBeforeTheCraneMoves) {
   RunningStack stack{kDomain, "virginia_tech_tower"};
   wait_until_locked(stack);
   std::optional<Impostor> impostor;
-  for (auto& packet : heard(ear, stack, "plant", 200ms))
+  for (auto& packet : heard(stack, "plant", 100))
     if (!impostor && find(packet.message, topics::command)) impostor.emplace(packet);
   ASSERT_TRUE(impostor);
   const auto ports = ports_of(stack.children().pid_of("supervisor").value());
+  Ear ear;
   const auto end = std::chrono::steady_clock::now() + 2s;
   while (std::chrono::steady_clock::now() < end) {
     auto packet = ear.next(20ms);
@@ -184,10 +184,17 @@ TEST_F(Spoof, DISABLED_WithoutKeysForgedPacketsMoveALockedCrane) {
   const auto& states = stack.observer().states();
   const auto open =
       std::count_if(states.begin(), states.end(), [](const auto& state) { return !state.brake_closed[0]; });
+  constexpr double kNoticed_m = 0.002;  // three ticks of rising volts
+  double farthest_m = 0;
+  for (const auto& state : states)
+    farthest_m = std::max(farthest_m, std::abs(state.trolley_position_m - states.front().trolley_position_m));
   std::cout << impostor->sent() << " packets forged: brakes open in " << open << " of " << states.size()
-            << " states, trolley moved by "
-            << states.back().trolley_position_m - states.front().trolley_position_m << " m, latch "
-            << states.back().latch_reason << '\n';
+            << " states, trolley moved by " << farthest_m << " m, latch " << states.back().latch_reason
+            << '\n';
+  EXPECT_LE(farthest_m, kNoticed_m);
+  EXPECT_TRUE(states.back().brake_closed[0] && states.back().brake_closed[1]);
+  while (!stack.children().ended()) stack.listen(10ms);
+  EXPECT_FALSE(stack.children().pid_of("supervisor"));
 }
 
 }  // namespace

@@ -112,7 +112,9 @@ TEST_P(BridgeDeath, AtFullSpeedClosesTheBrakesWithin50MsOfTheLastToggle) {
             << " ms, brakes closed " << ms(monitor.lines().brakes_closed_ns) << " ms\n";
   EXPECT_LE(monitor.lines().brakes_closed_ns - toggled_ns, kBound_ns);
   const bool caught = std::ranges::count(std::array{SIGINT, SIGTERM, SIGHUP, SIGQUIT}, GetParam()) > 0;
-  if (caught) EXPECT_EQ(codes(monitor), zero_v) << "the volts stayed";
+  if (caught) {
+    EXPECT_EQ(codes(monitor), zero_v) << "the volts stayed";
+  }
 }
 
 // The first four are caught and end the process in order, the others leave it to the relay.
@@ -134,7 +136,7 @@ TEST(BridgeProcess, GoesOnWhenItsTerminalIsClosed) {
 TEST(BridgeProcess, LeavesZeroVoltsAndClosedBrakesWhenCraneUpIsKilled) {
   const std::vector<std::string> on_this_crane{"--domain", std::to_string(kDomain), "--crane", crane_name()};
   auto arguments = on_this_crane;
-  arguments.insert(arguments.begin(), {"up", "--plant", "hardware", "--rig", kRig, "--priority", "0"});
+  arguments.insert(arguments.begin(), {"up", "--plant", "hardware", "--rig", kRig});
   ProgramRun up{stack::program_directory() / "crane", arguments};
   ASSERT_TRUE(up.wait_for("is up", 15s)) << up.errors();
   const bridge::RigMonitor monitor{bridge::shared_lines_name(crane_name(), kDomain)};
@@ -143,7 +145,9 @@ TEST(BridgeProcess, LeavesZeroVoltsAndClosedBrakesWhenCraneUpIsKilled) {
   options.domain = kDomain;
   options.crane = crane_name();
   bus::Bus bus{runtime::bus_options(options, "system_test", crane_SOURCE_OPERATOR, 0)};
-  stack::RealtimeSession{bus, [] {}}.arm();
+  stack::RealtimeSession session{bus, [] {}};
+  session.wait_for(crane_STATE_LOCKED, 5s);
+  session.arm();
   auto children = processes_with(crane_name());
   const auto kill_ns = runtime::monotonic_ns();
   up.send(SIGKILL);
