@@ -147,15 +147,15 @@ TEST(BridgeProcess, LeavesZeroVoltsAndClosedBrakesWhenCraneUpIsKilled) {
   bus::Bus bus{runtime::bus_options(options, "system_test", crane_SOURCE_OPERATOR, 0)};
   stack::RealtimeSession session{bus, [] {}};
   session.wait_for(crane_STATE_LOCKED, 5s);
+  const std::uint16_t closed = monitor.lines().outputs;
   session.arm();
-  auto children = processes_with(crane_name());
-  const auto kill_ns = runtime::monotonic_ns();
+  ASSERT_NE(monitor.lines().outputs, closed);
+  const auto children = processes_with(crane_name());
   up.send(SIGKILL);
   EXPECT_TRUE(wait_for_end(children, 5s));
-  EXPECT_GT(monitor.lines().brakes_closed_ns, kill_ns);
   EXPECT_EQ(codes(monitor), zero_v);
-  std::cout << "brakes closed " << static_cast<double>(monitor.lines().brakes_closed_ns - kill_ns) * 1e-6
-            << " ms after the kill\n";
+  EXPECT_EQ(monitor.lines().outputs,
+            closed);  // the emulated rig ends, too: its lines stay as the bridge left them
 }
 
 TEST(BridgeProcess, EndsWithTheProgramThatStartedItWhateverItsFileMayDo) {
