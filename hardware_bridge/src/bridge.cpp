@@ -32,6 +32,7 @@ Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
       measurement_{context.rig},
       last_line_{last_line_parameters(context.rig)},
       homing_{context.rig},
+      probation_{context.rig.period_s},
       ports_{context.ports},
       states_{context.ports.output(topics::state)},
       commands_{context.ports.loop_input(topics::command)},
@@ -94,12 +95,14 @@ void Bridge::take_commands(std::int64_t now_ns) {
       ++(command->header.tick == command_->tick ? counts_.duplicate : counts_.late);
       continue;
     }
-    command_ = CommandView{
+    const bool new_writer = !command_ || taken->taken_over;
+    const CommandView asked{
         .tick = command->header.tick,
         .drive_v = runtime::values(command->drive_v),
         .brake_release = {command->brake_release[0], command->brake_release[1], command->brake_release[2]},
         .watchdog_permission = command->watchdog_permission,
         .homing = {command->homing[0], command->homing[1], command->homing[2]}};
+    command_ = probation_.believed(asked, new_writer);
   }
 }
 

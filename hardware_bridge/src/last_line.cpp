@@ -89,10 +89,10 @@ void LastLine::reset_on_permission_edge(const CommandView& command) noexcept {
       history_[0].tick > command.tick && history_[0].tick - 1 - command.tick < parameters_.stale_after_ticks;
   const bool quiet = command.brake_release == std::array<bool, kDrives>{} &&
                      command.drive_v == std::array<double, kDrives>{};
-  if (!fresh || !quiet || history_[0].seen.second_writer) return;
+  if (!fresh || !quiet) return;
   if (!command.watchdog_permission) {
     permission_withheld_ = true;
-  } else if (permission_withheld_) {
+  } else if (permission_withheld_ && !history_[0].seen.second_writer) {
     permission_withheld_ = false;
     reason_ = Reason::none;
     doubted_ = {};

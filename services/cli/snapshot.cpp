@@ -102,8 +102,9 @@ void print_twin(std::ostream& out, const msg::Twin& twin) {
 }  // namespace
 
 Snapshot listen(bus::Bus& bus, double timeout_s) {
-  // Discovery is complete after this time without a new process.
-  constexpr std::int64_t kQuiet_ns = 300'000'000;
+  // Discovery is complete after this time without a new process. With keys a handshake precedes it, which is
+  // slow on a busy computer.
+  const std::int64_t quiet_ns = bus.options().credentials ? 1'500'000'000 : 300'000'000;
   auto nodes = bus.subscriber(topics::node);
   auto supervisors = bus.subscriber(topics::supervisor);
   auto states = bus.subscriber(topics::state);
@@ -121,7 +122,7 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
     writers = nodes.matched();
     const bool all = writers > 0 && snapshot.nodes.size() >= static_cast<std::size_t>(writers);
     const bool twin_heard = twins.matched() == 0 || snapshot.twin;
-    return all && twin_heard && snapshot.supervisor && snapshot.state && now_ns - changed_ns > kQuiet_ns;
+    return all && twin_heard && snapshot.supervisor && snapshot.state && now_ns - changed_ns > quiet_ns;
   });
   return snapshot;
 }

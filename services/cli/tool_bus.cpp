@@ -15,9 +15,8 @@ std::string where_and_remedy(const bus::Options& options) {
   for (const auto& interface : options.interfaces) interfaces += (interfaces.empty() ? "" : ", ") + interface;
   return " for crane '" + options.crane + "' in domain " + std::to_string(options.domain) + " on " +
          interfaces +
-         ": either no stack runs (start one with crane up), or --crane, --domain or --interface differ "
-         "from the "
-         "stack's";
+         ": either no stack runs (start one with crane up), or --crane, --domain, --interface or --secure "
+         "differ from the stack's";
 }
 
 bool wait_until(bus::Bus& bus, double timeout_s, const std::function<bool()>& poll) {

@@ -1,6 +1,7 @@
 #include "crane/supervisor/component.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "crane/runtime/request_inbox.hpp"
 #include "crane/supervisor/supervisor.hpp"
 #include "process/clock_offset.hpp"
+#include "process/command_echo.hpp"
 #include "process/request_rules.hpp"
 #include "process/samples.hpp"
 #include "process/start_up_test.hpp"
@@ -31,6 +33,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       : JoinedComponent{context, kWaitShare, topics::state, topics::demand, topics::reference},
         limits_{limits_of(context.rig)},
         realtime_{context.clock == runtime::Clock::realtime},
+        echo_{{limits_.axis[0].present, limits_.axis[1].present, limits_.axis[2].present}},
         requests_{context,
                   {crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_DISARM, crane_REQUEST_MOVE,
                    crane_REQUEST_FOLLOW, crane_REQUEST_STOP, crane_REQUEST_ESTOP, crane_REQUEST_HOME}},
@@ -69,7 +72,11 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     bridge_restarts_ = restarts();
     input.second_writer =
         (demand != nullptr && demand->second_writer) || (reference != nullptr && reference->second_writer);
-    if (input.bridge_restarted) self_test_ = {};
+    if (input.bridge_restarted) {
+      self_test_ = {};
+      echo_.restart();
+    }
+    if (realtime_ && echo_.contradicts(*state)) give_up();
     input.self_test = self_test_.step(state);
     step(input);
   }
@@ -128,12 +135,25 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     return true;
   }
 
+  /// The bridge obeys packets that look like this supervisor's. No command helps; the end of this process
+  /// takes its writer away, whose packets the bridge then drops, and makes `crane up` end the bridge with a
+  /// signal.
+  [[noreturn]] void give_up() {
+    node().error("foreign_commands", "the bridge acts on commands that this supervisor has not sent",
+                 "another program forges packets on this bus: end it, or use keys (crane up --secure)");
+    throw std::runtime_error(
+        "the bridge acts on commands that this supervisor has not sent; somebody forges packets "
+        "on this bus: use keys (crane up --secure)");
+  }
+
   void step(TickInput& input) {
     input.second_writer = input.second_writer || ports().disputed(now_ns_);
     const auto asked = collect(input);
     const auto output = supervisor::step(limits_, input, memory_);
     for (const auto& request : asked) answer(request, output);
-    commands_.publish(command_of(last_header_, output));
+    const auto command = command_of(last_header_, output);
+    commands_.publish(command);
+    echo_.commanded(command);
     statuses_.publish(status_of(last_header_, output, limits_, move_));
     announce(output);
   }
@@ -187,6 +207,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   Limits limits_;
   bool realtime_;
+  CommandEcho echo_;
   ClockOffset bridge_clock_;
   runtime::RequestInbox requests_;
   runtime::Output<msg::Command> commands_;

@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Bus, RefusesATopicWithoutHeaderAndCrcByName) {
   Bus bus{{.vendor = Vendor::memory, .network = make_memory_network()}};
   const topics::Topic<bad_Unsealed> topic{
-      {"crane/unsealed", "bad::Unsealed", &bad_Unsealed_desc, topics::Qos::loop, false, topics::kAnybody}};
+      {"crane/unsealed", "bad::Unsealed", &bad_Unsealed_desc, topics::Qos::loop, false, topics::kProcesses}};
   try {
     (void)bus.publisher(topic);
     FAIL() << "a topic without a CRC was accepted";

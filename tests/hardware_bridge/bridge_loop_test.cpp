@@ -11,6 +11,8 @@ namespace crane::bridge {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 10'000'000;
+constexpr std::uint64_t kQuiet_ticks = 50;            // Probation::kQuiet_s at 100 Hz
+constexpr std::uint64_t kClosed = kQuiet_ticks + 20;  // the relay has closed by then
 
 msg::Command command_of(std::uint64_t tick, double trolley_v) {
   msg::Command command{};
@@ -31,13 +33,15 @@ class BridgeLoop : public testing::Test {
     return state.value_or(msg::State{});
   }
   void publish(const msg::Command& command) { EXPECT_TRUE(commands_.publish(command)); }
-  /// 20 ticks, each answered.
+  /// Ticks 0 to kClosed - 1, each answered: quiet at first, then with permission.
   void run_with_closed_relay() {
-    for (std::uint64_t number = 0; number < 20; ++number) {
+    for (std::uint64_t number = 0; number < kClosed; ++number) {
       tick(number);
-      publish(command_of(number, 0));
+      auto command = command_of(number, 0);
+      command.watchdog_permission = number >= kQuiet_ticks;
+      publish(command);
     }
-    ASSERT_FALSE(tick(20).watchdog_dropped);
+    ASSERT_FALSE(tick(kClosed).watchdog_dropped);
   }
   std::string told() {
     std::string codes;
@@ -72,9 +76,18 @@ TEST_F(BridgeLoop, ACommandThatAnswersABridgeBeforeItIsNotListenedTo) {
   }
 }
 
+TEST_F(BridgeLoop, ANewWriterThatCommandsAtOnceMovesNothingHoweverLongItGoesOn) {
+  for (std::uint64_t number = 0; number < 3 * kQuiet_ticks; ++number) {
+    const auto state = tick(number);
+    ASSERT_EQ(state.applied_v[0], 0) << number;
+    ASSERT_TRUE(state.brake_closed[0] && state.watchdog_dropped) << number;
+    publish(command_of(number, 5));
+  }
+}
+
 TEST_F(BridgeLoop, ARelayThatDropsBecauseATickWasLateIsReportedWithHowLate) {
   run_with_closed_relay();
-  EXPECT_TRUE(tick(23).watchdog_dropped);
+  EXPECT_TRUE(tick(kClosed + 3).watchdog_dropped);
   EXPECT_EQ(
       told(),
       "relay_dropped: the watchdog relay dropped while its output toggled, the last time after 30 ms\n");
@@ -82,11 +95,11 @@ TEST_F(BridgeLoop, ARelayThatDropsBecauseATickWasLateIsReportedWithHowLate) {
 
 TEST_F(BridgeLoop, ARelayThatDropsBecauseTheSupervisorWithdrewItsPermissionIsNoEvent) {
   run_with_closed_relay();
-  auto last = command_of(20, 0);
+  auto last = command_of(kClosed, 0);
   last.watchdog_permission = false;
   publish(last);
-  for (std::uint64_t number = 21; number < 24; ++number) tick(number);
-  EXPECT_TRUE(tick(24).watchdog_dropped);
+  for (std::uint64_t number = kClosed + 1; number < kClosed + 4; ++number) tick(number);
+  EXPECT_TRUE(tick(kClosed + 4).watchdog_dropped);
   EXPECT_EQ(told(), "");
 }
 

@@ -23,15 +23,20 @@ std::string unique_name(const std::string& part) {
   return "/crane_test_" + std::to_string(::getpid()) + "_" + part;
 }
 
+volatile std::sig_atomic_t throw_requested = 0;
+
 /// What a bridge does, without a bus: every tick 4 V on trolley and slew, brakes open, watchdog toggling.
+/// SIGUSR1 makes another of its threads throw what nobody catches, as a fault in a DDS library would.
 [[noreturn]] void drive(const std::string& name) {
   runtime::install_stop_signals();
+  std::signal(SIGUSR1, [](int) { throw_requested = 1; });
   const auto rig = emulated_rig();
   try {
     EmulatedBoard board{rig, std::make_unique<LinkedRig>(name)};
     for (std::int64_t tick = 0; !runtime::stop_requested(); ++tick) {
       board.advance_to(tick * kTick_ns);
       (void)board.read();
+      if (throw_requested != 0) std::thread{[] { throw std::runtime_error{"nobody catches this"}; }}.join();
       board.write({{4, 4, 0}, {true, true, true}, tick % 2 == 0});
     }
   } catch (const std::exception& error) {
@@ -84,6 +89,17 @@ TEST_P(Death, BySigkillLeavesTheVoltsAndTheRelayClosesTheBrakesWithin50Ms) {
   pass(1);  // the last lines, and the last toggle with them
   EXPECT_NE(server_.rig().drive_v(), kNothing) << "a card holds its voltages";
   pass(49'999'999);
+  EXPECT_TRUE(server_.rig().crane().read().watchdog_dropped);
+  EXPECT_TRUE(braked());
+}
+
+TEST_P(Death, ByAnExceptionThatNobodyCatchesIsSigabrtAndTheRelayClosesTheBrakesWithin50Ms) {
+  ASSERT_FALSE(braked());
+  ::kill(child_, SIGUSR1);
+  const int status = serve_to_the_end();
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGABRT);
+  pass(50'000'000);
   EXPECT_TRUE(server_.rig().crane().read().watchdog_dropped);
   EXPECT_TRUE(braked());
 }

@@ -43,6 +43,19 @@ TEST(LastLine, HoldsTheLastCommandForFiveTicksThenStopsForGood) {
   EXPECT_FALSE(timeline.tick(10)) << "commands that come back do not restart motion";
 }
 
+TEST(LastLine, IsReleasedByAResetThatCameWhileASecondWriterWasStillHeardOnceItIsGone) {
+  Timeline timeline;
+  timeline.tick(5);
+  timeline.second_writer = true;
+  timeline.tick();
+  timeline.release = timeline.permission = false;
+  timeline.tick(10);
+  timeline.permission = true;
+  EXPECT_FALSE(timeline.tick(10)) << "a second writer is heard";
+  timeline.second_writer = false;
+  EXPECT_TRUE(timeline.tick());
+}
+
 TEST(LastLine, IsReleasedByPermissionWithheldAndThenGrantedWithNothingElseAsked) {
   Timeline timeline;
   timeline.tick(5);

@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "../recording/temporary_directory.hpp"
 #include "stack/child_processes.hpp"
 
 namespace crane::stack {
@@ -103,6 +104,7 @@ struct Discovery {
   std::string name;
   std::vector<std::string> stack_options;
   std::string tool_options;
+  bool secured = false;
 };
 
 class FromAnotherHost : public testing::TestWithParam<Discovery> {
@@ -110,6 +112,22 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
   void SetUp() override {
     if (::geteuid() != 0) GTEST_SKIP() << "network namespaces need root";
     ASSERT_TRUE(hosts.ok()) << "cannot make network namespaces with `ip netns`";
+    if (GetParam().secured) {
+      const auto made = hosts.on_far("keys make " + keys());
+      ASSERT_EQ(made.exit_code, 0) << made.output;
+    }
+  }
+  [[nodiscard]] std::string keys() const { return (directory / "keys").string(); }
+  [[nodiscard]] std::string tool_options() const {
+    return GetParam().tool_options + (GetParam().secured ? " --secure " + keys() : "");
+  }
+  [[nodiscard]] std::vector<std::string> stack_options() const {
+    auto options = GetParam().stack_options;
+    if (GetParam().secured)
+      options.insert(options.end(), {"--secure", keys()});
+    else
+      options.emplace_back("--insecure");
+    return options;
   }
   /// Until the stack has come up the tool says that nobody is there, or sees the first of its processes only.
   Answer patiently(const std::string& command, const std::vector<std::string>& wanted = {}) {
@@ -120,20 +138,22 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
     };
     Answer answer;
     for (int i = 0; i < 10 && !complete(answer); ++i)
-      answer = hosts.on_far(command + " --dds fastdds " + GetParam().tool_options);
+      answer = hosts.on_far(command + " --dds fastdds " + tool_options());
     return answer;
   }
   TwoHosts hosts;
+  recording::TemporaryDirectory directory;
 };
 
 TEST_P(FromAnotherHost, StatusAndTopicsAreSeen) {
-  const StackOnNearHost stack{hosts, GetParam().stack_options};
+  const StackOnNearHost stack{hosts, stack_options()};
   const auto status = patiently("status --json", {"supervisor", "friction_compensation", "cyclone"});
   ASSERT_EQ(status.exit_code, 0) << status.output;
   const auto json = nlohmann::json::parse(status.output);
   EXPECT_THAT(json.dump(),
               testing::AllOf(testing::HasSubstr("supervisor"), testing::HasSubstr("friction_compensation"),
                              testing::HasSubstr("cyclone")));
+  EXPECT_EQ(json.at("insecure"), !GetParam().secured);
   const auto echo = patiently("topic echo crane/state --count 3 --json");
   ASSERT_EQ(echo.exit_code, 0) << echo.output;
   EXPECT_THAT(echo.output, testing::HasSubstr("trolley_position_m"));
@@ -142,6 +162,32 @@ TEST_P(FromAnotherHost, StatusAndTopicsAreSeen) {
   EXPECT_THAT(rate.output, testing::HasSubstr("lost"));
 }
 
+using WithKeys = FromAnotherHost;
+
+TEST_P(WithKeys, AnOperatorIsObeyedAndAHostWithoutKeysHearsNothing) {
+  const StackOnNearHost stack{hosts, stack_options()};
+  const auto status = patiently("status --json", {"LOCKED"});
+  ASSERT_EQ(status.exit_code, 0) << status.output;
+  const auto reset = patiently("reset");
+  EXPECT_EQ(reset.exit_code, 0) << reset.output;
+  const auto without = hosts.on_far("status --dds fastdds " + GetParam().tool_options);
+  EXPECT_EQ(without.exit_code, 1) << without.output;
+  EXPECT_THAT(without.output, testing::HasSubstr("--secure"));
+}
+
+TEST_P(WithKeys, AStackOnAnOpenNetworkIsRefusedWithoutThem) {
+  const auto refused = hosts.on_far("up --interface " + std::string{TwoHosts::kFar});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.output,
+              testing::AllOf(testing::HasSubstr("crane keys make"), testing::HasSubstr("--insecure")));
+}
+
+const Discovery kSecured{"secured",
+                         {"--domain", "83", "--interface", TwoHosts::kNear},
+                         std::string{"--domain 83 --interface "} + TwoHosts::kFar,
+                         true};
+INSTANTIATE_TEST_SUITE_P(Secured, WithKeys, testing::Values(kSecured),
+                         [](const auto& discovery) { return discovery.param.name; });
 INSTANTIATE_TEST_SUITE_P(Discovery, FromAnotherHost,
                          testing::Values(Discovery{"by_multicast",
                                                    {"--domain", "81", "--interface", TwoHosts::kNear},

@@ -73,5 +73,16 @@ TEST_F(Inbox, AFloodFillsNeitherItsMemoryNorATick) {
   EXPECT_EQ(refusals(), 1000 - RequestInbox::kMostWaiting);
 }
 
+TEST_F(Inbox, AFloodOfRequestsForLaterDoesNotKeepAStopOut) {
+  for (std::uint64_t id = 1; id <= 1000; ++id) send(id, 500'000);
+  while (inbox_.receive()) {
+  }
+  send(2000, 0);
+  inbox_.receive();
+  const auto stop = inbox_.take_due(1);
+  ASSERT_TRUE(stop);
+  EXPECT_EQ(stop->id, 2000U);
+}
+
 }  // namespace
 }  // namespace crane::runtime

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstring>
 #include <iostream>
@@ -81,11 +83,17 @@ TEST(HardwareLockstep, ARigInAProcessOfItsOwnGivesTheSameBytesAsOneInTheBridge) 
         << file;
 }
 
+/// What the converters of trolley and jib give, as codes.
+std::array<int, 2> codes(const bridge::RigMonitor& monitor) {
+  return {monitor.lines().codes[0].load(), monitor.lines().codes[1].load()};
+}
+
 class BridgeDeath : public testing::TestWithParam<int> {};
 
 TEST_P(BridgeDeath, AtFullSpeedClosesTheBrakesWithin50MsOfTheLastToggle) {
   RunningStack running{kDomain, kRig, stack::Plant::hardware};
   const bridge::RigMonitor monitor{bridge::shared_lines_name(running.bus_options().crane, kDomain)};
+  const auto zero_v = codes(monitor);
   running.session().arm();
   running.session().request(
       {.kind = crane_REQUEST_MOVE, .selected = {true, true, false}, .target = {1.0, 1.5, 0}}, "move");
@@ -104,6 +112,10 @@ TEST_P(BridgeDeath, AtFullSpeedClosesTheBrakesWithin50MsOfTheLastToggle) {
   std::cout << "after the last toggle: relay open " << ms(monitor.lines().relay_dropped_ns)
             << " ms, brakes closed " << ms(monitor.lines().brakes_closed_ns) << " ms\n";
   EXPECT_LE(monitor.lines().brakes_closed_ns - toggled_ns, kBound_ns);
+  const bool caught = std::ranges::count(std::array{SIGINT, SIGTERM, SIGHUP, SIGQUIT}, GetParam()) > 0;
+  if (caught) {
+    EXPECT_EQ(codes(monitor), zero_v) << "the volts stayed";
+  }
 }
 
 // The first four are caught and end the process in order, the others leave it to the relay.
@@ -120,6 +132,31 @@ TEST(BridgeProcess, GoesOnWhenItsTerminalIsClosed) {
   running.listen(500ms);
   ASSERT_GT(running.observer().states().size(), 30U);
   EXPECT_EQ(running.observer().states().back().latch_reason, crane_LATCH_NONE);
+}
+
+TEST(BridgeProcess, LeavesZeroVoltsAndClosedBrakesWhenCraneUpIsKilled) {
+  const std::vector<std::string> on_this_crane{"--domain", std::to_string(kDomain), "--crane", crane_name()};
+  auto arguments = on_this_crane;
+  arguments.insert(arguments.begin(), {"up", "--plant", "hardware", "--rig", kRig});
+  ProgramRun up{stack::program_directory() / "crane", arguments};
+  ASSERT_TRUE(up.wait_for("is up", 15s)) << up.errors();
+  const bridge::RigMonitor monitor{bridge::shared_lines_name(crane_name(), kDomain)};
+  const auto zero_v = codes(monitor);
+  runtime::BusOptions options;
+  options.domain = kDomain;
+  options.crane = crane_name();
+  bus::Bus bus{runtime::bus_options(options, "system_test", crane_SOURCE_OPERATOR, 0)};
+  stack::RealtimeSession session{bus, [] {}};
+  session.wait_for(crane_STATE_LOCKED, 5s);
+  const std::uint16_t closed = monitor.lines().outputs;
+  session.arm();
+  ASSERT_NE(monitor.lines().outputs, closed);
+  const auto children = processes_with(crane_name());
+  up.send(SIGKILL);
+  EXPECT_TRUE(wait_for_end(children, 5s));
+  EXPECT_EQ(codes(monitor), zero_v);
+  EXPECT_EQ(monitor.lines().outputs,
+            closed);  // the emulated rig ends, too: its lines stay as the bridge left them
 }
 
 TEST(BridgeProcess, EndsWithTheProgramThatStartedItWhateverItsFileMayDo) {

@@ -50,10 +50,12 @@ void Observer::forget() {
   command_times_ns_.clear();
 }
 
-RunningStack::RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant)
+RunningStack::RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant,
+                           const std::string& keys)
     : specs_{stack::stack_with(plant)} {
   options_.bus.domain = domain;
   options_.bus.crane = crane_name();
+  options_.bus.secure = keys;
   options_.rig = stack::find_rig(rig).string();
   if (plant == stack::Plant::hardware)
     stack::launch_rig(children_, configuration::load_rig(options_.rig), options_);

@@ -47,8 +47,9 @@ class Observer {
 
 class RunningStack {
  public:
-  /// Starts a stack on Cyclone DDS and waits until it is ready.
-  RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant = stack::Plant::simulated);
+  /// Starts a stack on Cyclone DDS and waits until it is ready. @param keys  directory of keys; empty: none
+  RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant = stack::Plant::simulated,
+               const std::string& keys = "");
 
   [[nodiscard]] experiments::RealtimeSession& session() { return *session_; }
   [[nodiscard]] stack::ChildProcesses& children() { return children_; }

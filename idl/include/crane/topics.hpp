@@ -40,7 +40,11 @@ template <class... Source>
 [[nodiscard]] constexpr Sources only(Source... source) {
   return ((Sources{1} << static_cast<unsigned>(source)) | ...);
 }
-inline constexpr Sources kAnybody = ~Sources{0};
+/// Processes that run and report on themselves; a tool that asks or reads does not.
+inline constexpr Sources kProcesses =
+    only(crane_SOURCE_PLANT, crane_SOURCE_BRIDGE, crane_SOURCE_PLANNER, crane_SOURCE_TRACKING,
+         crane_SOURCE_ANTI_SWING, crane_SOURCE_FRICTION, crane_SOURCE_SUPERVISOR, crane_SOURCE_RECORDER,
+         crane_SOURCE_TWIN);
 
 /// A topic without its C++ type.
 struct Description {
@@ -70,11 +74,11 @@ struct Topic {
   X(demand, Demand, "crane/demand", loop, true, only(crane_SOURCE_FRICTION))                     \
   X(command, Command, "crane/command", loop, true, only(crane_SOURCE_SUPERVISOR))                \
   X(supervisor, SupervisorStatus, "crane/supervisor", loop, true, only(crane_SOURCE_SUPERVISOR)) \
-  X(request, Request, "crane/request", script, false, kAnybody)                                  \
+  X(request, Request, "crane/request", script, false, only(crane_SOURCE_OPERATOR))               \
   X(reply, Reply, "crane/reply", script, false,                                                  \
     only(crane_SOURCE_SUPERVISOR, crane_SOURCE_PLANT, crane_SOURCE_BRIDGE))                      \
-  X(node, NodeStatus, "crane/node", status, false, kAnybody)                                     \
-  X(event, Event, "crane/event", log, false, kAnybody)                                           \
+  X(node, NodeStatus, "crane/node", status, false, kProcesses)                                   \
+  X(event, Event, "crane/event", log, false, kProcesses)                                         \
   X(twin, Twin, "crane/twin", loop, true, only(crane_SOURCE_TWIN))
 
 #define CRANE_DECLARE_TOPIC(variable, type, name, qos, every_tick, writers) \

@@ -66,7 +66,14 @@ const Options& Bus::options() const { return state_->options; }
 std::unique_ptr<detail::Writer> Bus::make_writer(const topics::Description& topic,
                                                  const EndpointOptions& endpoint) {
   require_sealable(topic);
-  return state_->back_end->writer(topic, endpoint);
+  if (!state_->options.credentials) return state_->back_end->writer(topic, endpoint);
+  try {
+    return state_->back_end->writer(topic, endpoint);
+  } catch (const Error& error) {
+    throw Error{std::string{error.what()} + "; may the role of " +
+                state_->options.credentials->identity_certificate +
+                " write this topic? `crane keys show DIR` lists what each role may write"};
+  }
 }
 
 std::unique_ptr<detail::Reader> Bus::make_reader(const topics::Description& topic,

@@ -96,48 +96,6 @@ std::int64_t monotonic_ns() {
   return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
 }
 
-void add_bus_options(CLI::App& app, BusOptions& options) {
-  app.add_option("--dds", options.vendor, "DDS implementation: cyclone or fastdds")
-      ->check(CLI::IsMember({"cyclone", "fastdds"}))
-      ->capture_default_str();
-  app.add_option("--domain", options.domain, "DDS domain, 0 to 100")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
-  app.add_option("--crane", options.crane, "name of the crane: separates several cranes in one domain")
-      ->capture_default_str();
-  app.add_option(
-         "--interface", options.interfaces,
-         "address of a network interface to use (repeatable); with 127.0.0.1 no sample leaves this host")
-      ->capture_default_str();
-  app.add_option("--peer", options.peers,
-                 "address of a host to discover by unicast (repeatable); disables multicast discovery");
-}
-
-bus::Options bus_options(const BusOptions& options, std::string participant, crane_Source source,
-                         std::uint32_t epoch) {
-  bus::Options result;
-  const auto vendor = bus::vendor_from_string(options.vendor);
-  if (!vendor)
-    throw configuration::ConfigurationError({"--dds " + options.vendor + ": must be cyclone or fastdds"});
-  result.vendor = *vendor;
-  result.domain = options.domain;
-  result.crane = options.crane;
-  result.participant = std::move(participant);
-  result.source = source;
-  result.epoch = epoch;
-  result.interfaces = options.interfaces;
-  result.peers = options.peers;
-  return result;
-}
-
-std::vector<std::string> arguments(const BusOptions& options) {
-  std::vector<std::string> result{"--dds",   options.vendor, "--domain", std::to_string(options.domain),
-                                  "--crane", options.crane};
-  for (const auto& interface : options.interfaces) result.insert(result.end(), {"--interface", interface});
-  for (const auto& peer : options.peers) result.insert(result.end(), {"--peer", peer});
-  return result;
-}
-
 void add_loop_options(CLI::App& app, LoopOptions& options) {
   add_bus_options(app, options.bus);
   app.add_option("--rig", options.rig, "rig file (deploy/rigs/*.toml)")->required();

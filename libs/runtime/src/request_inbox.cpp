@@ -5,6 +5,16 @@
 #include "crane/runtime/node.hpp"
 
 namespace crane::runtime {
+namespace {
+
+/// A request that ends motion at once: a flood of others must not keep it out.
+bool stops(const msg::Request& request) {
+  return request.apply_tick == 0 &&
+         (request.kind == crane_REQUEST_STOP || request.kind == crane_REQUEST_ESTOP ||
+          request.kind == crane_REQUEST_DISARM);
+}
+
+}  // namespace
 
 RequestInbox::RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds)
     : requests_{context.ports.input(topics::request)},
@@ -19,8 +29,9 @@ bool RequestInbox::receive() {
     if (!request) break;
     if (std::find(kinds_.begin(), kinds_.end(), request->kind) == kinds_.end()) continue;
     any = true;
-    if (waiting_.size() >= kMostWaiting) {
-      reply(*request, request->header, false, "256 requests wait for their tick: send the request later");
+    const bool full = waiting_.size() >= kMostWaiting;
+    if (full && !(stops(*request) && waiting_.size() < kMostWaiting + kMostStops)) {
+      reply(*request, request->header, false, "too many requests wait for their tick: send fewer at a time");
       continue;
     }
     waiting_.push_back(*request);

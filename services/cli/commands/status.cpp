@@ -10,6 +10,11 @@
 namespace crane::cli {
 namespace {
 
+constexpr const char* kInsecure =
+    "INSECURE: every host that reaches this network can command the crane; crane keys make DIR, then crane "
+    "up --secure "
+    "DIR\n\n";
+
 struct StatusOptions {
   bool json = false;
   double timeout_s = 3;
@@ -20,10 +25,15 @@ int status(const StatusOptions& options) {
   auto bus = open_bus(options.bus);
   const auto snapshot = listen(bus, options.timeout_s);
   if (snapshot.empty()) throw std::runtime_error("no sample received" + where_and_remedy(bus.options()));
-  if (options.json)
-    std::cout << to_json(snapshot).dump(2) << '\n';
-  else
+  const bool insecure = runtime::is_insecure(bus.options());  // this bus would not receive a secured stack
+  if (options.json) {
+    auto json = to_json(snapshot);
+    json["insecure"] = insecure;
+    std::cout << json.dump(2) << '\n';
+  } else {
+    if (insecure) std::cout << kInsecure;
     print(std::cout, snapshot);
+  }
   return runtime::kExitDone;
 }
 

@@ -10,6 +10,7 @@
 #include "crane/bridge/homing.hpp"
 #include "crane/bridge/last_line.hpp"
 #include "crane/bridge/measurement.hpp"
+#include "crane/bridge/probation.hpp"
 #include "crane/runtime/component.hpp"
 #include "crane/runtime/node.hpp"
 #include "crane/runtime/request_inbox.hpp"
@@ -57,6 +58,7 @@ class Bridge : public runtime::Component {
   MeasurementPipeline measurement_;
   LastLine last_line_;
   Homing homing_;
+  Probation probation_;
   runtime::Ports& ports_;
   runtime::Output<msg::State> states_;
   std::shared_ptr<runtime::LoopReader<msg::Command>> commands_;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cyclone/domain.hpp"
+#include "cyclone/security.hpp"
 
 namespace crane::bus {
 namespace {
@@ -103,6 +104,7 @@ class Endpoint {
 
   ListenerPointer listener() { return ListenerPointer{dds_create_listener(&context_)}; }
   [[nodiscard]] dds_entity_t topic() const { return topic_; }
+  [[nodiscard]] std::string name() const { return std::string{context_.announce.topic}; }
 
  private:
   std::shared_ptr<BackEnd> back_end_;
@@ -117,7 +119,7 @@ class CycloneWriter final : public detail::Writer {
     const auto listener = endpoint_->listener();
     set_writer_listeners(listener.get());
     writer_ = checked_entity(dds_create_writer(publisher, endpoint_->topic(), qos, listener.get()),
-                             "cannot create writer");
+                             "cannot create writer of " + endpoint_->name());
   }
   CycloneWriter(const CycloneWriter&) = delete;
   CycloneWriter& operator=(const CycloneWriter&) = delete;
@@ -145,7 +147,7 @@ class CycloneReader final : public detail::Reader {
     const auto listener = endpoint_->listener();
     set_reader_listeners(listener.get());
     reader_ = checked_entity(dds_create_reader(subscriber, endpoint_->topic(), qos, listener.get()),
-                             "cannot create reader");
+                             "cannot create reader of " + endpoint_->name());
   }
   CycloneReader(const CycloneReader&) = delete;
   CycloneReader& operator=(const CycloneReader&) = delete;
@@ -181,6 +183,7 @@ class CycloneBackEnd final : public BackEnd {
       : domain_{options}, doorbell_{std::move(doorbell)} {
     const QosPointer qos{dds_create_qos()};
     dds_qset_entity_name(qos.get(), options.participant.c_str());
+    if (options.credentials) cyclone::secure(*qos, *options.credentials);
     participant_ = checked_entity(dds_create_participant(options.domain, qos.get(), nullptr),
                                   "cannot create participant in domain " + std::to_string(options.domain));
     const char* partition = options.crane.c_str();

@@ -1,9 +1,13 @@
 #include "cyclone/domain.hpp"
 
+#include <dds/ddsrt/log.h>
+
+#include <algorithm>
 #include <map>
 #include <mutex>
 
 #include "discovery.hpp"
+#include "vendor_log.hpp"
 
 namespace crane::bus::cyclone {
 namespace {
@@ -49,6 +53,13 @@ std::string configuration(const Options& options) {
   return xml;
 }
 
+void report(void* /*unused*/, const dds_log_data_t* entry) {
+  const std::string_view line{entry->message, entry->size};
+  // The domain is open a moment before its participant exists; the others call again.
+  if (line.find("Remote secure participant") != std::string_view::npos) return;
+  vendor_log("Cyclone DDS", line.substr(std::min(entry->hdrsize, line.size())));
+}
+
 }  // namespace
 
 dds_entity_t checked_entity(dds_entity_t code, const std::string& what) {
@@ -60,6 +71,7 @@ Domain::Domain(const Options& options) : number_{options.domain} {
   const std::string wanted = configuration(options);
   OpenDomains& domains = open_domains();
   const std::lock_guard lock{domains.mutex};
+  dds_set_log_sink(report, nullptr);
   const auto found = domains.by_number.find(number_);
   if (found == domains.by_number.end()) {
     const dds_entity_t entity =

@@ -3,6 +3,7 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
 
 #include <mutex>
 #include <set>
@@ -11,7 +12,9 @@
 
 #include "discovery.hpp"
 #include "fastdds/endpoints.hpp"
+#include "fastdds/security.hpp"
 #include "fastdds/topic_type.hpp"
+#include "vendor_log.hpp"
 
 namespace crane::bus {
 namespace {
@@ -28,6 +31,20 @@ void switch_intraprocess_delivery_off() {
     fastrtps::LibrarySettingsAttributes settings;
     settings.intraprocess_delivery = fastrtps::INTRAPROCESS_OFF;
     fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+  });
+}
+
+/// Instead of standard output, which belongs to what a tool was asked for.
+class LogToVendorLog final : public dds::LogConsumer {
+ public:
+  void Consume(const dds::Log::Entry& entry) override { vendor_log("Fast DDS", entry.message); }
+};
+
+void report_to_vendor_log() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    dds::Log::ClearConsumers();
+    dds::Log::RegisterConsumer(std::make_unique<LogToVendorLog>());
   });
 }
 
@@ -74,6 +91,7 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
   builtin.typelookup_config.use_client = false;
   builtin.typelookup_config.use_server = false;
   bind_to_interfaces(qos, options);
+  if (options.credentials) fastdds::secure(qos, *options.credentials);
   if (discovers_by_unicast(options)) discover_peers_by_unicast(qos, options);
   return qos;
 }
@@ -118,6 +136,7 @@ class FastBackEnd final : public BackEnd {
  public:
   FastBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell) : doorbell_{std::move(doorbell)} {
     switch_intraprocess_delivery_off();
+    report_to_vendor_log();
     auto* factory = dds::DomainParticipantFactory::get_instance();
     participant_.reset(factory->create_participant(options.domain, participant_qos(options, number_.value()),
                                                    nullptr, dds::StatusMask::none()));

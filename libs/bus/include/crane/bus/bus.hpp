@@ -42,6 +42,12 @@ class Error : public std::runtime_error {
 
 class MemoryNetwork;  ///< connects the buses of an in-process stack; all buses of one stack share one network
 
+/// Absolute paths of what DDS Security wants of one participant; PEM, documents signed as S/MIME.
+struct Credentials {
+  std::string identity_ca, identity_certificate, private_key;
+  std::string permissions_ca, governance, permissions;
+};
+
 struct Options {
   Vendor vendor = Vendor::cyclone;
   std::uint32_t domain = 0;                          ///< 0..100
@@ -52,6 +58,9 @@ struct Options {
   std::vector<std::string> interfaces{"127.0.0.1"};  ///< addresses to bind to
   std::vector<std::string> peers{};          ///< not empty: unicast discovery of these hosts, no multicast
   std::shared_ptr<MemoryNetwork> network{};  ///< Vendor::memory only
+  /// Nothing: DDS Security is off, and every program that reaches this bus may write to it. The memory back
+  /// end needs no credentials.
+  std::optional<Credentials> credentials{};
 };
 
 enum class EventKind : std::uint8_t {

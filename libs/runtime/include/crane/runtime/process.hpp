@@ -30,10 +30,16 @@ struct BusOptions {
   std::string crane = "crane";
   std::vector<std::string> interfaces{"127.0.0.1"};
   std::vector<std::string> peers;
+  std::string secure;     ///< directory of keys; empty: DDS Security is off
+  bool insecure = false;  ///< beyond the loop-back without keys, on purpose
 };
 void add_bus_options(CLI::App& app, BusOptions& options);
+/// @throws ConfigurationError when keys are missing or do not fit the source, and when a process that writes
+/// would be reachable from other hosts without keys and without `insecure`
 [[nodiscard]] bus::Options bus_options(const BusOptions& options, std::string participant,
                                        crane_Source source, std::uint32_t epoch);
+/// @return true when other hosts can reach this bus and no keys restrict who may write to it
+[[nodiscard]] bool is_insecure(const bus::Options& options);
 /// Converts options to command-line arguments for a child process.
 [[nodiscard]] std::vector<std::string> arguments(const BusOptions& options);
 

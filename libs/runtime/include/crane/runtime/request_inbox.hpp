@@ -16,6 +16,8 @@ class RequestInbox {
   /// Maximum number of requests that wait for their tick. A scripted run schedules fewer than ten; the limit
   /// bounds the memory when a sender floods the topic.
   static constexpr std::size_t kMostWaiting = 256;
+  /// Requests beyond kMostWaiting that are kept when they stop the crane now.
+  static constexpr std::size_t kMostStops = 64;
   /// Requests that are due later than this are refused: 2.8 hours at 100 Hz.
   static constexpr std::uint64_t kFarthest_ticks = 1'000'000;
 

@@ -1,0 +1,34 @@
+#include "vendor_log.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+namespace crane::bus {
+
+void vendor_log(std::string_view vendor, std::string_view line) noexcept {
+  constexpr int kMostLines =
+      20;  // of kMostBytes: fewer than a pipe holds (64 kB), so that none of them waits
+  constexpr std::size_t kMostBytes = 500;
+  constexpr std::string_view kLast = " (further messages of this kind are dropped)";
+  static std::atomic<int> lines{0};
+  const int number = ++lines;
+  if (number > kMostLines) {
+    lines = kMostLines;
+    return;
+  }
+  std::array<char, kMostBytes + kLast.size() + 32> text{};
+  auto* end = text.data();
+  const auto put = [&end](std::string_view part) { end = std::copy(part.begin(), part.end(), end); };
+  while (!line.empty() && line.back() == '\n') line.remove_suffix(1);
+  put(vendor.substr(0, 16));
+  put(": ");
+  put(line.substr(0, kMostBytes));
+  if (number == kMostLines) put(kLast);
+  put("\n");
+  (void)!::write(STDERR_FILENO, text.data(), static_cast<std::size_t>(end - text.data()));
+}
+
+}  // namespace crane::bus

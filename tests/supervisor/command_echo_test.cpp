@@ -1,0 +1,110 @@
+// The supervisor notices that the bridge obeys somebody else.
+#include "process/command_echo.hpp"
+
+#include <gtest/gtest.h>
+
+namespace crane::supervisor {
+namespace {
+
+/// A supervisor and a bridge that obeys it one tick later, unless a test spoils what the bridge reports.
+class Echo : public testing::Test {
+ protected:
+  msg::State report() const {
+    msg::State state{};
+    state.header.tick = tick_ + 1;
+    state.applied_command_tick = tick_;
+    state.applied_v[0] = volts_;
+    for (std::size_t i = 0; i < 3; ++i) state.brake_closed[i] = !released_;
+    return state;
+  }
+  void command(double trolley_v, bool release) {
+    msg::Command command{};
+    command.header.tick = ++tick_;
+    command.drive_v[0] = volts_ = trolley_v;
+    for (bool& brake : command.brake_release) brake = released_ = release;
+    echo_.commanded(command);
+  }
+  /// @return states until it is noticed, 0: never
+  int noticed_after(const msg::State& state, int most = 100) {
+    for (int i = 1; i <= most; ++i)
+      if (echo_.contradicts(state)) return i;
+    return 0;
+  }
+
+  CommandEcho echo_{{true, true, true}};
+  std::uint64_t tick_ = 100;
+  double volts_ = 0;
+  bool released_ = false;
+};
+
+TEST_F(Echo, IsQuietWhileTheBridgeObeys) {
+  for (int i = 0; i < 500; ++i) {
+    command(i < 250 ? 0.04 * i : 0, i < 250);
+    ASSERT_FALSE(echo_.contradicts(report())) << i;
+  }
+}
+
+TEST_F(Echo, IsQuietWhenTheBridgeHoldsAnOldCommandOrGivesNothing) {
+  command(5, true);
+  const auto old = report();
+  command(0, true);
+  EXPECT_EQ(noticed_after(old, 5), 0);
+  auto latched = report();
+  latched.applied_v[0] = 0;
+  EXPECT_EQ(noticed_after(latched, 5), 0);
+}
+
+TEST_F(Echo, IsQuietAboutTheCommandsOfASupervisorBeforeThisOne) {
+  auto state = report();
+  state.applied_v[0] = 5;
+  EXPECT_EQ(noticed_after(state), 0) << "nothing commanded yet";
+  command(0, false);
+  state.applied_command_tick = 90;
+  EXPECT_EQ(noticed_after(state, 5), 0);
+}
+
+TEST_F(Echo, NoticesVoltsThatWereNotCommandedAtTheSecondState) {
+  command(0, false);
+  auto state = report();
+  state.applied_v[1] = -0.2;
+  EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
+}
+
+TEST_F(Echo, NoticesVoltsOfACommandThatWasNeverSent) {
+  command(5, true);
+  auto state = report();
+  state.applied_command_tick += 3;
+  EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
+}
+
+TEST_F(Echo, NoticesABrakeThatIsOpenThoughNobodyHereReleasedIt) {
+  command(0, false);
+  auto state = report();
+  state.brake_closed[2] = false;
+  EXPECT_EQ(noticed_after(state), 0) << "it may still be closing";
+  for (std::uint64_t i = 0; i <= CommandEcho::kBrake_ticks; ++i) command(0, false);
+  state = report();
+  state.brake_closed[2] = false;
+  EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
+}
+
+TEST_F(Echo, DoesNotAskForABrakeWhereThereIsNoDrive) {
+  CommandEcho echo{{true, true, false}};
+  msg::Command command{};
+  echo.commanded(command);
+  msg::State state{};
+  state.header.tick = 1000;
+  state.brake_closed[0] = state.brake_closed[1] = true;
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(echo.contradicts(state));
+}
+
+TEST_F(Echo, AcceptsAnyCommandOfATickThatWasCommandedTwice) {
+  command(4, true);
+  msg::Command again{};
+  again.header.tick = tick_;
+  echo_.commanded(again);
+  EXPECT_EQ(noticed_after(report()), 0);
+}
+
+}  // namespace
+}  // namespace crane::supervisor
