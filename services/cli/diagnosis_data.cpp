@@ -49,7 +49,9 @@ class DataReader {
       return diagnosis::load_run(
           diagnosis::canonical(under_control(recording::read_csv(file)), mapping_, file), rig_, file);
     recording::McapReader recording{file};
-    const auto table = diagnosis::canonical(under_control(recording::run_table(recording)), {}, file);
+    diagnosis::Mapping rows_only;
+    rows_only.whole = mapping_.whole;
+    const auto table = diagnosis::canonical(under_control(recording::run_table(recording)), rows_only, file);
     for (const std::string& problem : recording.problems()) notes_.push_back(problem);
     return diagnosis::load_run(table, rig_, file);
   }

@@ -114,14 +114,15 @@ TEST(MeasuredData, WithSeveralMistakesNameAllOfThem) {
   EXPECT_THAT(problem_of(table), AllOf(HasSubstr("swing_tangential_rad"), HasSubstr("trolley_position_m")));
 }
 
-TEST(MeasuredData, AreCutAtAGapAndItIsSaid) {
+TEST(MeasuredData, AreCutWhereTheStateIsLostAndItIsSaid) {
   Table table = plausible();
-  for (auto& c : table.columns) c.values.erase(c.values.begin() + 180, c.values.begin() + 200);
+  for (auto& c : table.columns) c.values.erase(c.values.begin() + 130, c.values.begin() + 290);
+  for (double& t : column(table, "time_s")) t *= 2;
   const Loaded loaded = load_run(table, tower(), "data.csv");
   ASSERT_EQ(loaded.runs.size(), 2U);
-  EXPECT_EQ(loaded.runs[0].rows(), 180U);
+  EXPECT_EQ(loaded.runs[0].rows(), 130U);
   ASSERT_EQ(loaded.notes.size(), 1U);
-  EXPECT_THAT(loaded.notes[0], HasSubstr("1 gaps"));
+  EXPECT_THAT(loaded.notes[0], AllOf(HasSubstr("1 gaps"), HasSubstr("row 131 at 5.8 s")));
 }
 
 TEST(MeasuredData, AreCutWhereACountJumpsAndItIsSaid) {
@@ -132,16 +133,6 @@ TEST(MeasuredData, AreCutWhereACountJumpsAndItIsSaid) {
   EXPECT_EQ(loaded.runs.size(), 2U);
   ASSERT_EQ(loaded.notes.size(), 1U);
   EXPECT_THAT(loaded.notes[0], HasSubstr("jumps"));
-}
-
-TEST(MeasuredData, SampledIrregularlyAreInterpolatedAndItIsSaid) {
-  Table table = plausible();
-  auto& time = column(table, "time_s");
-  for (std::size_t k = 1; k < time.size(); k += 2) time[k] += 0.002;
-  const Loaded loaded = load_run(table, tower(), "data.csv");
-  ASSERT_EQ(loaded.runs.size(), 1U);
-  ASSERT_EQ(loaded.notes.size(), 1U);
-  EXPECT_THAT(loaded.notes[0], HasSubstr("interpolated"));
 }
 
 TEST(MeasuredData, TooShortForASwingAreRefused) {

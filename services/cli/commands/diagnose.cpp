@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "cli/commands/commands.hpp"
@@ -23,9 +24,10 @@ using diagnosis::Diagnosis;
 struct DiagnoseOptions {
   std::string rig = "virginia_tech_tower", mapping, out = "out/diagnose";
   std::vector<std::string> train, test;
+  std::optional<double> from_s, to_s;
   std::uint64_t seed = 1;
   std::size_t effects = 3;
-  bool json = false, no_picture = false;
+  bool json = false, no_picture = false, check = false;
 };
 
 /// Progress in one line of the terminal.
@@ -70,11 +72,52 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
             << (fs::path{options.out} / "report.html").string() << '\n';
 }
 
+std::string values_of(const std::vector<diagnosis::Estimate>& estimates) {
+  std::string text;
+  for (const auto& e : estimates)
+    text +=
+        (text.empty() ? "" : ", ") + e.name + " " + rounded(e.value) + (e.unit == "1" ? "" : " " + e.unit);
+  return text;
+}
+
+void print_check(const diagnosis::Check& check, const DiagnosisData& data) {
+  TextTable table{{"candidate", "least that would be found", "hardly told from"}};
+  for (const auto& seen : check.excitation) {
+    std::string alike;
+    for (const auto& other : seen.alike)
+      alike += (alike.empty() ? "" : ", ") + other.label + " (" + rounded(other.cosine) + ")";
+    table.add({seen.label, seen.visible ? values_of(seen.least) : "nothing believable", alike});
+  }
+  table.print(std::cout);
+  for (const auto& proposal : check.next)
+    std::cout << "record next, for " << proposal.of
+              << (proposal.from.empty() ? "" : " beside " + proposal.from) << ": "
+              << proposal.motion.description << '\n';
+  for (const std::string& note : data.notes) std::cout << "note: " << note << '\n';
+}
+
+int check_data(const DiagnoseOptions& options, const configuration::Rig& rig, DiagnosisData data) {
+  diagnosis::Request request;
+  request.seed = options.seed;
+  if (::isatty(STDERR_FILENO) == 1) request.progress = show_share;
+  const diagnosis::Check check = diagnosis::check(rig, std::move(data.train), request);
+  if (options.json)
+    std::cout << diagnosis::to_json(check).dump(2) << '\n';
+  else
+    print_check(check, data);
+  return runtime::kExitDone;
+}
+
 int diagnose_data(const DiagnoseOptions& options) {
+  if (options.test.empty() && !options.check)
+    throw diagnosis::DataError({"--test: runs to prove the gain on are needed; only --check does without"});
   const auto rig = configuration::load_rig(stack::find_rig(options.rig));
   diagnosis::Mapping mapping;
   if (!options.mapping.empty()) mapping = diagnosis::load_mapping(options.mapping);
+  if (options.from_s) mapping.whole.from_s = *options.from_s;
+  if (options.to_s) mapping.whole.to_s = *options.to_s;
   DiagnosisData data = read_diagnosis_data(options.train, options.test, mapping, rig);
+  if (options.check) return check_data(options, rig, std::move(data));
   fs::create_directories(options.out);  // fails before the long computation
   diagnosis::Request request;
   request.seed = options.seed;
@@ -107,12 +150,13 @@ void add_diagnose(CLI::App& app, Action& chosen) {
   auto* command = app.add_subcommand("diagnose", "Find errors of the simulation from measured data");
   command->add_option("--rig", options->rig, "rig file or name of the simulation")->capture_default_str();
   command->add_option("--train", options->train, "runs for training: CSV or MCAP")->required();
-  command->add_option("--test", options->test, "runs for the test of the gain (held out): CSV or MCAP")
-      ->required();
+  command->add_option("--test", options->test, "runs for the test of the gain (held out): CSV or MCAP");
   command
       ->add_option("--mapping", options->mapping,
                    "file that describes the columns of another laboratory's CSV files")
       ->check(CLI::ExistingFile);
+  command->add_option("--from", options->from_s, "s: rows of all files before this time do not count");
+  command->add_option("--to", options->to_s, "s: rows of all files after this time do not count");
   command
       ->add_option("--out", options->out,
                    "directory for report.html, report.json, extended.toml and pictures")
@@ -123,6 +167,9 @@ void add_diagnose(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(1, 3))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "seed of the resampling")->capture_default_str();
+  command->add_flag(
+      "--check", options->check,
+      "report what --train can show of each candidate and what to record next, without a verdict");
   command->add_flag("--json", options->json, "print report.json");
   command->add_flag("--no-picture", options->no_picture, "do not draw SVG files");
   command->footer(

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "data/median.hpp"
+#include "crane/diagnosis/mapping.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -31,7 +31,6 @@ class Checks {
     columns_.time_s = table_.find("time_s");
     if (columns_.time_s == nullptr) findings_.problem("time_s", "missing", "the first column must be time_s");
     find_columns();
-    if (columns_.time_s != nullptr) check_time();
     check_values();
     return std::move(columns_);
   }
@@ -50,37 +49,42 @@ class Checks {
     if (!any)
       findings_.problem("columns", "none of the rig's positions or swing angles is there",
                         "see docs/data.md");
-    for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
-      const char* column = axis == plant::kTrolley ? "trolley_voltage_v" : "slew_voltage_v";
-      columns_.commands[axis] = {column, table_.find(column)};
-      if (columns_.outputs[axis].values != nullptr && columns_.commands[axis].values == nullptr)
-        findings_.problem(column, "missing",
-                          std::string{kOutputNames[axis]} + " needs the command that moved it");
-    }
+    find_commands();
     if (rig_.drives[plant::kTrolley].present && columns_.outputs[kRadialSwing].values != nullptr &&
         columns_.outputs[kTrolleyPosition].values == nullptr)
       findings_.problem(kOutputNames[kTrolleyPosition], "missing", "swing needs the motion that excites it");
     columns_.cable = {"cable_length_m", table_.find("cable_length_m")};
+    columns_.stretch = table_.find(kStretchColumn);
+    if (const auto* mass = table_.find(kLoadMassColumn); mass != nullptr && !mass->empty())
+      columns_.load_mass_kg = mass->front();
   }
 
-  void check_time() {
-    const auto& t = *columns_.time_s;
-    if (t.size() < 3) return findings_.problem("time_s", "fewer than three rows", "record longer");
-    for (std::size_t k = 0; k < t.size(); ++k) {
-      if (!std::isfinite(t[k]))
-        return findings_.problem("time_s", "row " + std::to_string(k + 1) + " is not a number",
-                                 "every row needs its time");
-      if (k > 0 && t[k] <= t[k - 1])
-        return findings_.problem(
-            "time_s", "row " + std::to_string(k + 1) + ": " + number(t[k]) + " after " + number(t[k - 1]),
-            "time must increase");
+  /// All drives that are measured, or none of them: then their motion is the support of the load.
+  void find_commands() {
+    bool any = false, swings = false;
+    for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
+      const char* column = axis == plant::kTrolley ? "trolley_voltage_v" : "slew_voltage_v";
+      columns_.commands[axis] = {column, table_.find(column)};
+      any = any || columns_.commands[axis].values != nullptr;
     }
-    std::vector<double> steps(t.size() - 1);
-    for (std::size_t k = 0; k + 1 < t.size(); ++k) steps[k] = t[k + 1] - t[k];
-    columns_.period_s = median(steps);
-    if (columns_.period_s > 0.05)
-      findings_.problem("time_s", "sampled every " + number(columns_.period_s) + " s",
-                        "at least 20 samples a second");
+    for (const Output swing : {kRadialSwing, kTangentialSwing})
+      swings = swings || columns_.outputs[swing].values != nullptr;
+    bool alone = false;
+    for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
+      if (columns_.outputs[axis].values == nullptr || columns_.commands[axis].values != nullptr) continue;
+      const std::string rule = std::string{kOutputNames[axis]} + " needs the command that moved it";
+      if (any)
+        findings_.problem(columns_.commands[axis].name, "missing",
+                          rule + "; without any command the load is compared alone");
+      else if (!swings)
+        findings_.problem(columns_.commands[axis].name, "missing",
+                          rule + ", or a swing that it excites: a motion alone tells nothing");
+      else
+        alone = true;
+    }
+    if (alone)
+      findings_.note(
+          "no command: the measured motion of the drives moves the load, and the load alone is compared");
   }
 
   void check_values() {
@@ -93,6 +97,7 @@ class Checks {
         findings_.problem(columns_.outputs[i].name, "reaches " + number(largest(*columns_.outputs[i].values)),
                           "a swing angle in radians stays below " + number(kLargestSwing_rad) + "; degrees?");
     }
+    check_cable();
     check_slew_unit();
     check_travel();
     for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
@@ -108,13 +113,23 @@ class Checks {
   void judge_constant(Output output) {
     const Output drive = output == kTrolleyPosition || output == kRadialSwing ? kTrolleyPosition : kSlewAngle;
     const auto* command = columns_.commands[drive].values;
-    const bool asked = command == nullptr || largest(*command) > kStandingCommand_v;
+    const bool support = output < kRadialSwing && command == nullptr;
+    const bool asked = !support && (command == nullptr || largest(*command) > kStandingCommand_v);
     const bool measured = std::isfinite(spread(*columns_.outputs[output].values));
     if (asked || !measured)
       findings_.problem(columns_.outputs[output].name, "constant or empty",
                         "a sensor that never changes says nothing");
     else
       findings_.note(columns_.outputs[output].name + " stands still");
+  }
+
+  void check_cable() {
+    constexpr double kLongest_m = 1000;
+    if (columns_.cable.values == nullptr) return;
+    for (std::size_t k = 0; k < columns_.cable.values->size(); ++k)
+      if (const double length = (*columns_.cable.values)[k]; length <= 0 || length > kLongest_m)
+        return findings_.problem(columns_.cable.name, "row " + std::to_string(k + 1) + ": " + number(length),
+                                 "a length in metres, above 0");
   }
 
   void check_slew_unit() {
@@ -151,6 +166,39 @@ class Checks {
 };
 
 }  // namespace
+
+bool times_increase(recording::Table& table, Findings& findings) {
+  const auto* time_s = table.find("time_s");
+  if (time_s == nullptr) return false;
+  const std::vector<double> t = *time_s;
+  const auto wrong = [&](std::size_t k, const std::string& what, const char* rule) {
+    findings.problem("time_s", "row " + std::to_string(k + 1) + what, rule);
+    return false;
+  };
+  std::vector<bool> again(t.size(), false);
+  std::size_t repeated = 0;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    if (!std::isfinite(t[k])) return wrong(k, " is not a number", "every row needs its time");
+    if (k > 0 && t[k] < t[k - 1])
+      return wrong(k, ": " + number(t[k]) + " after " + number(t[k - 1]), "time must increase");
+    if (k > 0 && t[k] == t[k - 1]) again[k] = true, ++repeated;
+  }
+  if (repeated > 0) {
+    const auto first = static_cast<std::size_t>(std::find(again.begin(), again.end(), true) - again.begin());
+    findings.note("time_s: " + std::to_string(repeated) +
+                  " rows at the time of the one before left out (row " + std::to_string(first + 1) + " at " +
+                  number(t[first]) + " s" + (repeated > 1 ? ", ...)" : ")"));
+    for (auto& column : table.columns) {
+      std::vector<double> kept;
+      for (std::size_t k = 0; k < t.size(); ++k)
+        if (!again[k]) kept.push_back(column.values[k]);
+      column.values = std::move(kept);
+    }
+  }
+  if (t.size() - repeated >= 3) return true;
+  findings.problem("time_s", "fewer than three rows", "record longer");
+  return false;
+}
 
 Columns checked_columns(const recording::Table& table, const configuration::Rig& rig, Findings& findings) {
   return Checks(table, rig, findings).run();

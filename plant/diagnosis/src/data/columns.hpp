@@ -20,7 +20,8 @@ struct Columns {
   std::array<Source, kOutputs> outputs;
   std::array<Source, 2> commands;  ///< of trolley and slew
   Source cable;
-  double period_s = 0;  ///< median time step
+  const std::vector<double>* stretch = nullptr;  ///< number of the stretch that counts, by row
+  double load_mass_kg = 0;                       ///< 0: the rig's own
 };
 
 /// What was noticed in one file.
@@ -34,7 +35,10 @@ struct Findings {
   void note(const std::string& text) { notes.push_back(file + ": " + text); }
 };
 
-/// Finds the columns that the rig has, and what is wrong with their names, times, units and values.
+/// Whether every row has a time of its own, in order. Rows that repeat a time are left out.
+[[nodiscard]] bool times_increase(recording::Table& table, Findings& findings);
+
+/// Finds the columns that the rig has, and what is wrong with their names, units and values.
 [[nodiscard]] Columns checked_columns(const recording::Table& table, const configuration::Rig& rig,
                                       Findings& findings);
 

@@ -2,19 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
+#include "data/broken.hpp"
 #include "data/columns.hpp"
-#include "data/thinning.hpp"
+#include "data/grid.hpp"
+#include "data/sensor.hpp"
+#include "data/swapped.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
 /// Shorter pieces say nothing about a crane: less than half a swing of a metre of cable.
 constexpr double kShortest_s = 1.0;
-/// A time step further from the median is a gap.
-constexpr double kGap = 1.5;
-/// Steps within this share of the median count as uniform.
-constexpr double kJitter = 0.02;
+/// A gap after which nothing is left of a state: of a load, in its periods; of drives alone, s.
+constexpr double kLostPeriods = 1.0, kLost_s = 2.0;
+/// Slowest sampling that follows a swing, s; a clock may be off by a percent.
+constexpr double kSlowestRow_s = 0.1 * 1.01;
+/// Faster than any file of a laboratory: rather a time in another unit.
+constexpr double kFastestRow_s = 1e-5;
+/// Rows of the grid for one that was measured: a file of gaps.
+constexpr double kMostlyGaps = 50;
+/// Of rows, s more than usual from one to the next: a row is missing.
+constexpr double kMissing = 1.5;
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
@@ -22,132 +33,169 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
+double lost_after_s(const configuration::Rig& rig) {
+  const double cable_m = rig.start.position[plant::kHoist];
+  if (!(rig.plant.load_mass_kg > 0 && cable_m > 0)) return kLost_s;
+  return kLostPeriods * 2 * std::numbers::pi * std::sqrt(cable_m / rig.plant.gravity_mps2);
+}
+
 /// Cuts checked columns into runs.
 class Cutter {
  public:
   Cutter(const Columns& columns, const configuration::Rig& rig, Findings& findings)
-      : columns_(columns), rig_(rig), findings_(findings) {}
+      : columns_(columns), rig_(rig), findings_(findings), grid_(grid_of(*columns.time_s)) {}
 
   std::vector<Run> runs() {
+    if (grid_.row_s > kSlowestRow_s) {
+      findings_.problem("time_s", "sampled every " + number(grid_.row_s) + " s",
+                        "at least 10 samples a second");
+      return {};
+    }
+    if (!(grid_.row_s > kFastestRow_s)) {
+      findings_.problem("time_s", "sampled every " + number(grid_.row_s) + " s",
+                        "at most 100000 samples a second; another unit?");
+      return {};
+    }
     cut();
-    if (runs_.empty())
+    if (runs_.empty() && findings_.problems.empty())
       findings_.problem("time_s", "no piece without a gap lasts " + number(kShortest_s) + " s",
                         "record longer");
+    say();
     return std::move(runs_);
   }
 
  private:
-  [[nodiscard]] bool complete(std::size_t row) const {
-    for (const Source& source : columns_.outputs)
-      if (source.values != nullptr && !std::isfinite((*source.values)[row])) return false;
-    for (const Source& source : columns_.commands)
-      if (source.values != nullptr && !std::isfinite((*source.values)[row])) return false;
-    return columns_.cable.values == nullptr || std::isfinite((*columns_.cable.values)[row]);
+  /// A count that falls back to zero or wraps moves an axis further in one sample than it can.
+  [[nodiscard]] bool jumps(std::size_t row) {
+    bool any = false;
+    for (std::size_t i = 0; i < kOutputs; ++i) {
+      const auto* values = columns_.outputs[i].values;
+      if (values == nullptr || !std::isfinite((*values)[row])) continue;
+      const std::size_t before = last_seen_[i];
+      last_seen_[i] = row;
+      if (before == kNone) continue;
+      const double time_s = (*columns_.time_s)[row] - (*columns_.time_s)[before];
+      const double most =
+          believable_change(rig_, static_cast<Output>(i), time_s) + kBeyondSensor * sensors_[i].error();
+      any = any || std::abs((*values)[row] - (*values)[before]) > most;
+    }
+    return any;
   }
 
-  /// A count that falls back to zero or wraps moves an axis further in one sample than it can.
-  [[nodiscard]] bool jumps(std::size_t row) const {
-    for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
-      const auto* values = columns_.outputs[axis].values;
-      if (values == nullptr) continue;
-      const double most = 5 * std::max(rig_.drives[axis].max_speed, 0.1) *
-                          ((*columns_.time_s)[row] - (*columns_.time_s)[row - 1]);
-      if (std::abs((*values)[row] - (*values)[row - 1]) > most) return true;
-    }
-    return false;
+  [[nodiscard]] bool says_something(std::size_t row) {
+    bool measured = false, complete = true;
+    for (const Source& source : columns_.outputs)
+      if (source.values != nullptr) {
+        const bool seen = std::isfinite((*source.values)[row]);
+        measured = measured || seen;
+        complete = complete && seen;
+      }
+    bool commanded = false;
+    for (const Source& source : columns_.commands)
+      if (source.values != nullptr) commanded = commanded || std::isfinite((*source.values)[row]);
+    if (!complete) named(incomplete_, row);
+    return measured || commanded;
   }
 
   void cut() {
+    for (std::size_t i = 0; i < kOutputs; ++i)
+      if (columns_.outputs[i].values != nullptr) sensors_[i] = sensor_of(*columns_.outputs[i].values);
     const auto& t = *columns_.time_s;
-    std::size_t missing = 0, gaps = 0, resets = 0;
+    const double lost_s = lost_after_s(rig_);
     std::vector<std::size_t> piece;
     const auto finish = [&] {
       add(piece);
       piece.clear();
     };
     for (std::size_t k = 0; k < t.size(); ++k) {
-      if (!complete(k)) {
-        ++missing;
-        continue;
+      if (!says_something(k)) continue;
+      if (!piece.empty()) {
+        const double step_s = t[k] - t[piece.back()];
+        const bool other_stretch =
+            columns_.stretch != nullptr && (*columns_.stretch)[k] != (*columns_.stretch)[piece.back()];
+        if (other_stretch) {
+          finish();
+        } else if (step_s > lost_s) {
+          named(gaps_, k);
+          finish();
+        } else if (step_s > kMissing * grid_.row_s) {
+          dropped_rows_ += static_cast<std::size_t>(std::lround(step_s / grid_.row_s)) - 1;
+        }
       }
-      if (!piece.empty() && t[k] - t[piece.back()] > kGap * columns_.period_s) ++gaps, finish();
-      if (!piece.empty() && piece.back() + 1 == k && jumps(k)) ++resets, finish();
+      if (piece.empty()) last_seen_.fill(kNone);
+      if (jumps(k)) {
+        named(resets_, k);
+        finish();
+      }
       piece.push_back(k);
     }
     finish();
-    if (missing > 0) findings_.note(std::to_string(missing) + " rows with missing values left out");
-    if (gaps > 0) findings_.note(std::to_string(gaps) + " gaps in time; the run is cut there");
-    if (resets > 0)
-      findings_.note(std::to_string(resets) +
-                     " jumps of a position faster than the axis; the run is cut there");
-    if (resampled_ > 0)
-      findings_.note("irregular sampling interpolated to " + number(columns_.period_s) + " s");
-    if (dropped_ > 0)
-      findings_.note(std::to_string(dropped_) + " pieces shorter than " + number(kShortest_s) +
-                     " s left out");
   }
 
   void add(const std::vector<std::size_t>& rows) {
     if (rows.empty()) return;
     const auto& t = *columns_.time_s;
     if (t[rows.back()] - t[rows.front()] < kShortest_s) {
-      ++dropped_;
+      ++short_pieces_;
       return;
     }
-    Run run;
+    if (t[rows.back()] - t[rows.front()] > kMostlyGaps * grid_.period_s * static_cast<double>(rows.size())) {
+      findings_.problem("time_s", "rows come every " + number(grid_.row_s) + " s, and most are missing",
+                        "one in fifty has to be there");
+      return;
+    }
+    Run run = on_grid(columns_, rows, grid_, rig_.start.position[plant::kHoist], left_out_);
     const std::size_t part = runs_.size() + 1;
     run.name = part == 1 ? findings_.file : findings_.file + ", part " + std::to_string(part);
-    run.period_s = columns_.period_s;
-    run.start_s = t[rows.front()];
-    bool uniform = true;
-    for (std::size_t i = 0; i + 1 < rows.size(); ++i)
-      uniform =
-          uniform && std::abs(t[rows[i + 1]] - t[rows[i]] - columns_.period_s) <= kJitter * columns_.period_s;
-    if (!uniform) ++resampled_;
-    const auto count =
-        uniform ? rows.size()
-                : static_cast<std::size_t>((t[rows.back()] - t[rows.front()]) / columns_.period_s) + 1;
-    const auto take = [&](const Source& source, bool hold) {
-      return sampled(*source.values, rows, count, uniform, hold);
-    };
-    run.command_v.resize(count);
-    for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
-      if (columns_.commands[axis].values == nullptr) continue;
-      const auto values = take(columns_.commands[axis], true);
-      for (std::size_t k = 0; k < count; ++k) run.command_v[k][axis] = values[k];
-    }
-    for (std::size_t i = 0; i < kOutputs; ++i)
-      if (columns_.outputs[i].values != nullptr) run.measured[i] = take(columns_.outputs[i], false);
-    run.cable_m = columns_.cable.values != nullptr
-                      ? take(columns_.cable, false)
-                      : std::vector<double>(count, rig_.start.position[plant::kHoist]);
+    for (std::size_t i = 0; i < kOutputs; ++i) run.resolution[i] = sensors_[i].resolution;
+    run.load_mass_kg = columns_.load_mass_kg;
     runs_.push_back(std::move(run));
   }
 
-  /// The rows themselves, or their values at uniform times: a command holds, a measurement is interpolated.
-  [[nodiscard]] std::vector<double> sampled(const std::vector<double>& values,
-                                            const std::vector<std::size_t>& rows, std::size_t count,
-                                            bool uniform, bool hold) const {
-    std::vector<double> result(count);
-    std::size_t left = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      if (uniform) {
-        result[k] = values[rows[k]];
-        continue;
-      }
-      const double at = (*columns_.time_s)[rows.front()] + static_cast<double>(k) * columns_.period_s;
-      while (left + 2 < rows.size() && (*columns_.time_s)[rows[left + 1]] <= at) ++left;
-      const double t0 = (*columns_.time_s)[rows[left]], t1 = (*columns_.time_s)[rows[left + 1]];
-      const double share = hold ? (at >= t1 ? 1.0 : 0.0) : std::clamp((at - t0) / (t1 - t0), 0.0, 1.0);
-      result[k] = (1 - share) * values[rows[left]] + share * values[rows[left + 1]];
-    }
-    return result;
+  struct Named {
+    std::size_t count = 0, first = 0;
+  };
+  static void named(Named& all, std::size_t row) {
+    if (all.count++ == 0) all.first = row;
   }
+  /// "row 12 at 0.11 s"
+  [[nodiscard]] std::string place(const Named& all) const {
+    return "row " + std::to_string(all.first + 1) + " at " + number((*columns_.time_s)[all.first]) + " s" +
+           (all.count > 1 ? ", ..." : "");
+  }
+
+  void say() {
+    const auto note = [&](std::size_t count, const std::string& what) {
+      if (count > 0) findings_.note(std::to_string(count) + " " + what);
+    };
+    note(incomplete_.count, "rows lack a value (" + place(incomplete_) + "): it is not compared there");
+    note(dropped_rows_, "rows are missing; nothing is put in their place");
+    note(gaps_.count, "gaps after which the state is not known (" + place(gaps_) + "); the run is cut there");
+    note(resets_.count,
+         "jumps of a position faster than the axis (" + place(resets_) + "); the run is cut there");
+    if (left_out_.own_times) findings_.note("irregular sampling: compared at the rows' own times");
+    note(left_out_.crowded, "rows closer together than " + number(grid_.period_s) + " s left out");
+    note(short_pieces_, "pieces shorter than " + number(kShortest_s) + " s left out");
+    if (grid_.rows_in_period > 1)
+      findings_.note(
+          "one row in " + std::to_string(grid_.rows_in_period) +
+          " is compared: nothing of a crane moves faster than 100 samples a second show; commands act at "
+          "their own times");
+  }
+
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  /// As for spikes (broken.cpp).
+  static constexpr double kBeyondSensor = 10;
 
   const Columns& columns_;
   const configuration::Rig& rig_;
   Findings& findings_;
-  std::size_t resampled_ = 0, dropped_ = 0;
+  Grid grid_;
+  std::array<Sensor, kOutputs> sensors_{};
+  std::array<std::size_t, kOutputs> last_seen_{kNone, kNone, kNone, kNone};
+  Named incomplete_, gaps_, resets_;
+  std::size_t dropped_rows_ = 0, short_pieces_ = 0;
+  LeftOut left_out_;
   std::vector<Run> runs_;
 };
 
@@ -156,13 +204,22 @@ class Cutter {
 DataError::DataError(std::vector<std::string> problems)
     : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
 
+bool Run::regular(Output output) const {
+  return offset_s.empty() && std::all_of(measured[output].begin(), measured[output].end(),
+                                         [](double x) { return std::isfinite(x); });
+}
+
 Loaded load_run(const recording::Table& table, const configuration::Rig& rig, const std::string& name) {
   Findings findings{.file = name, .problems = {}, .notes = {}};
-  const Columns columns = checked_columns(table, rig, findings);
+  recording::Table kept = table;
+  const bool timed = times_increase(kept, findings);
+  if (timed) leave_broken_out(kept, rig, findings);
+  const Columns columns = checked_columns(kept, rig, findings);
   if (!findings.problems.empty()) throw DataError(findings.problems);
   std::vector<Run> runs = Cutter(columns, rig, findings).runs();
+  find_swapped(runs, rig, findings);
   if (!findings.problems.empty()) throw DataError(findings.problems);
-  return thinned({std::move(runs), std::move(findings.notes)});
+  return {std::move(runs), std::move(findings.notes)};
 }
 
 }  // namespace crane::diagnosis

@@ -29,10 +29,31 @@ struct Jump {
   double size = 0;
 };
 
-std::vector<double> steps_of(const std::vector<double>& position) {
+/// Rows of a run that were measured.
+struct Rows {
+  std::vector<std::size_t> row;
+  std::vector<double> position;
+  std::vector<double> periods;  ///< from the row before
+};
+Rows measured_rows(const Run& run, Output axis) {
+  Rows rows;
+  const bool regular = run.regular(axis);
+  for (std::size_t k = 0; k < run.measured[axis].size(); ++k) {
+    if (!run.seen(axis, k)) continue;
+    const double time_s = rows.row.empty() ? run.period_s : run.instant_s(k) - run.instant_s(rows.row.back());
+    rows.periods.push_back(regular ? 1 : time_s / run.period_s);
+    rows.row.push_back(k);
+    rows.position.push_back(run.measured[axis][k]);
+  }
+  return rows;
+}
+
+/// Of a period each: speeds, in other units.
+std::vector<double> steps_of(const Rows& rows) {
   std::vector<double> steps;
-  steps.reserve(position.size());
-  for (std::size_t k = 1; k < position.size(); ++k) steps.push_back(position[k] - position[k - 1]);
+  steps.reserve(rows.position.size());
+  for (std::size_t k = 1; k < rows.position.size(); ++k)
+    steps.push_back((rows.position[k] - rows.position[k - 1]) / rows.periods[k]);
   return steps;
 }
 
@@ -55,16 +76,16 @@ double beyond_noise(const std::vector<double>& deviations, std::size_t k) {
   return b * std::log(static_cast<double>(deviations.size()) / kFalseJumps);
 }
 
-std::vector<Jump> clear_jumps(const std::vector<double>& position, double count) {
+std::vector<Jump> clear_jumps(const Rows& rows, double count) {
   std::vector<Jump> found;
-  const std::vector<double> s = steps_of(position), deviations = deviations_of(s);
+  const std::vector<double> s = steps_of(rows), deviations = deviations_of(s);
   for (std::size_t k = 2; k + 2 < s.size(); ++k) {
     const double size = deviations[k];
     const double rough = std::max(
         {std::abs(s[k + 1] - s[k - 1]), std::abs(s[k - 2] - s[k - 1]), std::abs(s[k + 2] - s[k + 1])});
     if (std::abs(size) > kClear * rough && std::abs(size) > kCounts * count &&
         std::abs(size) > beyond_noise(deviations, k))
-      found.push_back({k + 1, size});
+      found.push_back({k + 1, size * rows.periods[k + 1]});
   }
   return found;
 }
@@ -87,15 +108,16 @@ std::optional<double> expected(const std::vector<double>& steps, std::size_t k, 
 /// Steps outside of what the motion before and after makes: one on the way from one speed to another, after
 /// an impact or a push, lies between. The size is by the motion before: a controller that sees the jump
 /// answers it.
-std::vector<Jump> likely_jumps(const std::vector<double>& position, double usual) {
+std::vector<Jump> likely_jumps(const Rows& rows, double usual) {
   std::vector<Jump> found;
-  const std::vector<double> steps = steps_of(position);
+  const std::vector<double> steps = steps_of(rows);
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const auto before = expected(steps, k, -1), after = expected(steps, k, 1);
     if (!before && !after) break;
     const double left = before.value_or(after.value_or(0)), right = after.value_or(left);
     const double outside = std::max(steps[k] - std::max(left, right), std::min(left, right) - steps[k]);
-    if (outside > kUsualShare * usual) found.push_back({k + 1, steps[k] - left});
+    const double periods = rows.periods[k + 1];
+    if (periods * outside > kUsualShare * usual) found.push_back({k + 1, periods * (steps[k] - left)});
   }
   return found;
 }
@@ -110,12 +132,12 @@ void take_out(std::vector<double>& position, const std::vector<Jump>& jumps) {
 }
 
 /// A jump among several shows when these are taken out. @return all of them
-std::vector<Jump> mend(std::vector<double>& position, double usual) {
+std::vector<Jump> mend(Rows& rows, double usual) {
   std::vector<Jump> all;
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<Jump> found = likely_jumps(position, usual);
+    const std::vector<Jump> found = likely_jumps(rows, usual);
     if (found.empty()) break;
-    take_out(position, found);
+    take_out(rows.position, found);
     all.insert(all.end(), found.begin(), found.end());
   }
   return all;
@@ -130,7 +152,7 @@ double median_size(const std::vector<Jump>& jumps) {
 
 double way_of(const std::vector<double>& position) {
   double way = 0;
-  for (const double step : steps_of(position)) way += std::abs(step);
+  for (std::size_t k = 1; k < position.size(); ++k) way += std::abs(position[k] - position[k - 1]);
   return way;
 }
 
@@ -139,15 +161,15 @@ LosingEncoder measured(const std::vector<Run>& runs, Output axis, double usual) 
   double way = 0, squares = 0, deviations = 0;
   for (const Run& run : runs) {
     if (!run.has(axis)) continue;
-    std::vector<double> position = run.measured[axis];
-    for (const Jump& jump : mend(position, usual)) {
+    Rows rows = measured_rows(run, axis);
+    for (const Jump& jump : mend(rows, usual)) {
       ++encoder.jumps;
       encoder.lost += jump.size;
       squares += jump.size * jump.size;
       deviations += std::pow(std::abs(jump.size) - usual, 2);
     }
     encoder.duration_s += run.duration_s();
-    way += way_of(position);
+    way += way_of(rows.position);
   }
   constexpr double kOfAMedian = 1.25;  // its error against a mean's
   const auto count = static_cast<double>(std::max<std::size_t>(1, encoder.jumps));
@@ -165,8 +187,10 @@ std::vector<LosingEncoder> losing_encoders(const std::vector<Run>& runs, const c
     const double counts_per_unit = rig.encoders[axis].counts_per_unit;
     if (!(counts_per_unit > 0)) continue;
     std::vector<Jump> clear;
-    for (const Run& run : runs)
-      for (const Jump& jump : clear_jumps(run.measured[axis], 1 / counts_per_unit)) clear.push_back(jump);
+    for (const Run& run : runs) {
+      const double count = std::max(1 / counts_per_unit, run.resolution[axis]);
+      for (const Jump& jump : clear_jumps(measured_rows(run, axis), count)) clear.push_back(jump);
+    }
     if (clear.size() >= kFewest) losing.push_back(measured(runs, axis, median_size(clear)));
   }
   return losing;
@@ -174,7 +198,12 @@ std::vector<LosingEncoder> losing_encoders(const std::vector<Run>& runs, const c
 
 std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder>& losing) {
   for (const LosingEncoder& encoder : losing)
-    for (Run& run : runs) (void)mend(run.measured[encoder.axis], encoder.jump);
+    for (Run& run : runs) {
+      Rows rows = measured_rows(run, encoder.axis);
+      (void)mend(rows, encoder.jump);
+      for (std::size_t i = 0; i < rows.row.size(); ++i)
+        run.measured[encoder.axis][rows.row[i]] = rows.position[i];
+    }
   return runs;
 }
 

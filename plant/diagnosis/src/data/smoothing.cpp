@@ -33,6 +33,50 @@ Motion smooth(std::span<const double> measured, double period_s, int half_width)
   return motion;
 }
 
+namespace {
+
+/// Second derivatives of the natural cubic spline at its knots: a tridiagonal system, solved by elimination
+/// (C. de Boor, A Practical Guide to Splines, 1978, ch. IV).
+std::vector<double> bends_of(std::span<const double> t, std::span<const double> x) {
+  const std::size_t n = t.size();
+  std::vector<double> bend(n, 0.0), upper(n, 0.0);
+  for (std::size_t k = 1; k + 1 < n; ++k) {
+    const double before = t[k] - t[k - 1], after = t[k + 1] - t[k];
+    const double pivot = 2 * (before + after) - before * upper[k - 1];
+    const double turn = 6 * ((x[k + 1] - x[k]) / after - (x[k] - x[k - 1]) / before);
+    upper[k] = after / pivot;
+    bend[k] = (turn - before * bend[k - 1]) / pivot;
+  }
+  for (std::size_t k = n - 1; k-- > 1;) bend[k] -= upper[k] * bend[k + 1];
+  return bend;
+}
+
+}  // namespace
+
+Motion spline_of(std::span<const double> time_s, std::span<const double> measured, double period_s,
+                 std::size_t rows) {
+  const std::size_t n = time_s.size();
+  Motion motion;
+  for (auto* values : {&motion.position, &motion.rate, &motion.acceleration}) values->assign(rows, 0.0);
+  if (n == 0) return motion;
+  const std::vector<double> bend = bends_of(time_s, measured);
+  for (std::size_t row = 0, k = 0; row < rows; ++row) {
+    const double at = static_cast<double>(row) * period_s;
+    while (k + 2 < n && time_s[k + 1] <= at) ++k;
+    if (n == 1 || at < time_s[0] - period_s || at > time_s[n - 1] + period_s) {
+      motion.position[row] = at < time_s[0] ? measured[0] : measured[n - 1];
+      continue;
+    }
+    const double h = time_s[k + 1] - time_s[k], b = (at - time_s[k]) / h, a = 1 - b;
+    motion.position[row] = a * measured[k] + b * measured[k + 1] +
+                           h * h / 6 * ((a * a * a - a) * bend[k] + (b * b * b - b) * bend[k + 1]);
+    motion.rate[row] = (measured[k + 1] - measured[k]) / h +
+                       h / 6 * ((3 * b * b - 1) * bend[k + 1] - (3 * a * a - 1) * bend[k]);
+    motion.acceleration[row] = a * bend[k] + b * bend[k + 1];
+  }
+  return motion;
+}
+
 Motion spline(std::span<const double> measured, double period_s) {
   constexpr std::size_t kFewest = 8;
   if (measured.size() < kFewest) return smooth(measured, period_s, 1);

@@ -64,7 +64,7 @@ class Comparison {
         const std::size_t first = first_of(w) + lead_, kept = rows_ - lead_;
         const Passage passage =
             part == Part::drive
-                ? Passage{period_s, 0, paces_of(run.run.measured[output], period_s, first, kept)}
+                ? Passage{period_s, 0, paces_of(run.on_grid[output], period_s, first, kept)}
                 : Passage{period_s, plant::swing_radps(gravity_mps2, run.run.cable_m[first]), Paces(kept)};
         whiteners_.emplace_back(disturbances[output], passage);
       }
@@ -250,6 +250,16 @@ std::optional<double> separation_of(const configuration::Rig& rig, const SafeMot
 }
 
 }  // namespace
+
+Disturbances disturbances_of(const Study& study) {
+  constexpr double kTellsNothing = 1e6;  // m or rad
+  Disturbances disturbances{};
+  for (Disturbance& disturbance : disturbances) disturbance.noise = kTellsNothing;
+  for (const Problem* problem : {&study.drive(), &study.load()})
+    for (std::size_t i = 0; i < problem->disturbances().size(); ++i)
+      disturbances[problem->outputs()[i]] = problem->disturbances()[i];
+  return disturbances;
+}
 
 std::optional<NextExperiment> propose_experiment(const configuration::Rig& rig, const Effects& a,
                                                  const Effects& b, const Disturbances& disturbances) {

@@ -13,6 +13,9 @@ namespace crane::diagnosis {
 /// Noise and disturbance of each output, as learnt from the data there is.
 using Disturbances = std::array<Disturbance, kOutputs>;
 
+/// Of the replays; an output that is not measured has so much noise that it tells nothing.
+[[nodiscard]] Disturbances disturbances_of(const Study& study);
+
 /// T-optimality (A. C. Atkinson, V. V. Fedorov, Biometrika 62 (1975) 57): of a menu of motions inside the
 /// rig's limits the one in which one hypothesis, refitted, comes least near to what the other one gives; each
 /// of the two takes the part of the truth once.

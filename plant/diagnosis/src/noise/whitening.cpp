@@ -65,8 +65,10 @@ class Prediction {
     return d_.sticks ? passage_.paces[row].going : Going::on;
   }
   void advance(std::size_t row) {
-    const Vector3d seen = covariance_.col(0);
-    covariance_ -= seen * seen.transpose() / variance();
+    if (passage_.paces[row].seen) {
+      const Vector3d seen = covariance_.col(0);
+      covariance_ -= seen * seen.transpose() / variance();
+    }
     if (going(row) != Going::on) {
       covariance_.row(1).setZero();
       covariance_.col(1).setZero();
@@ -96,7 +98,8 @@ struct Likelihood {
   double variance = 0;
 };
 
-/// Squares of innovations over their variances, after two rows that solve for the start.
+/// Squares of innovations over their variances, after two measured rows that solve for the start. A row that
+/// was not measured tells nothing.
 struct Innovations {
   std::vector<double> squares;
   double logs = 0;  ///< of the variances
@@ -108,13 +111,17 @@ Innovations innovations(const VectorXd& residual, const Passage& passage, const 
   Prediction prediction(d, passage, kUnknownStart);
   const Matrix3d step = step_of(d, passage);
   Vector3d state = Vector3d::Zero();
+  std::size_t seen = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(residual.size()); ++k) {
-    const double surprise = residual[static_cast<Index>(k)] - state[0], f = prediction.variance();
-    if (k >= kStart) {
-      all.logs += std::log(f);
-      all.squares.push_back(surprise * surprise / f);
+    if (passage.paces[k].seen) {
+      const double surprise = residual[static_cast<Index>(k)] - state[0], f = prediction.variance();
+      if (seen++ >= kStart) {
+        all.logs += std::log(f);
+        all.squares.push_back(surprise * surprise / f);
+      }
+      state += prediction.gain() * surprise;
     }
-    state = advanced(step, state + prediction.gain() * surprise, prediction.going(k));
+    state = advanced(step, state, prediction.going(k));
     prediction.advance(k);
   }
   return all;
@@ -256,7 +263,10 @@ Whitener::Whitener(const Disturbance& disturbance, const Passage& passage)
     : step_(step_of(disturbance, passage)) {
   Prediction prediction(disturbance, passage, 0);
   for (std::size_t k = 0; k < passage.paces.size(); ++k) {
-    rows_.push_back({prediction.gain(), 1 / std::sqrt(prediction.variance()), prediction.going(k)});
+    if (passage.paces[k].seen)
+      rows_.push_back({prediction.gain(), 1 / std::sqrt(prediction.variance()), prediction.going(k)});
+    else
+      rows_.push_back({Vector3d::Zero(), 0, prediction.going(k)});
     prediction.advance(k);
   }
 }

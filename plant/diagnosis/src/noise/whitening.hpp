@@ -30,6 +30,7 @@ enum class Going { on, turning, standing };
 struct Pace {
   double slow = 0;  ///< 0 at speed to 1 at standstill
   Going going = Going::on;
+  bool seen = true;  ///< whether the row was measured
 };
 using Paces = std::vector<Pace>;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/grid.hpp"
 #include "replay/standstill.hpp"
 
 namespace crane::diagnosis {
@@ -19,6 +20,12 @@ bool has_sensor_term(const Crane& crane) {
   });
 }
 
+/// The crane with the load of a run.
+Crane loaded_as(const Run& run, Crane crane) {
+  if (run.load_mass_kg > 0) crane.parameters.load_mass_kg = run.load_mass_kg;
+  return crane;
+}
+
 bool has_inner_coordinates(const Crane& crane) {
   return plant::Model(crane.parameters, crane.terms).inner_coordinates() > 0;
 }
@@ -27,16 +34,20 @@ bool has_inner_coordinates(const Crane& crane) {
 
 Replay::Parts::Parts(const PreparedRun& prepared, const Crane& the_crane)
     : source(prepared),
-      crane(the_crane),
+      crane(loaded_as(prepared.run, the_crane)),
       steps(steps_in(prepared.run.period_s, has_inner_coordinates(crane))),
       model(crane.parameters, crane.terms, step_s()),
       sensors(has_sensor_term(crane)) {
   ringing = model.ringing_coordinates();
   std::fill_n(led.begin(), model.inner_coordinates(), true);
   for (const std::size_t i : ringing) led[i] = false;
-  drive_v.reserve(prepared.run.rows() * static_cast<std::size_t>(steps));
-  for (const plant::PerAxis& command : prepared.run.command_v)
-    for (int step = 0; step < steps; ++step) drive_v.push_back(model.drive_voltage(command));
+  const auto in_a_row = static_cast<std::size_t>(steps), all = prepared.run.rows() * in_a_row;
+  const bool fine = !prepared.run.commands.empty();
+  const std::vector<plant::PerAxis> given =
+      fine ? mean_commands(prepared.run.commands, step_s(), all) : std::vector<plant::PerAxis>{};
+  drive_v.reserve(all);
+  for (std::size_t at = 0; at < all; ++at)
+    drive_v.push_back(model.drive_voltage(fine ? given[at] : prepared.run.command_v[at / in_a_row]));
   if (sensors) undo_sensors();
   if (model.inner_coordinates() > 0) follow_inner();
 }
@@ -70,7 +81,8 @@ Measured Replay::Parts::measured_half_way(std::size_t row) const {
 void Replay::Parts::undo_sensors() {
   constexpr int kRounds = 5;
   const Run& run = source.run;
-  std::array<std::vector<double>, kOutputs> values = run.measured;
+  const std::array<std::vector<double>, kOutputs>& measured = source.on_grid;
+  std::array<std::vector<double>, kOutputs> values = measured;
   for (int round = 0; round < kRounds; ++round) {
     plant::Model fresh(crane.parameters, crane.terms, run.period_s);
     for (std::size_t k = 0; k < run.rows(); ++k) {
@@ -81,12 +93,24 @@ void Replay::Parts::undo_sensors() {
       const plant::Measurement reported = fresh.measure(at);
       for (const Output output : kAllOutputs)
         if (run.has(output) && (round == 0 || output == kTrolleyPosition || output == kSlewAngle))
-          values[output][k] += run.measured[output][k] - measured_of(reported, output);
+          values[output][k] += measured[output][k] - measured_of(reported, output);
     }
   }
   for (const Output output : kAllOutputs)
     if (run.has(output)) corrected[output] = motion_of(output, values[output], run.period_s);
   corrected_half_way = half_way_through_steps(corrected, source.cable, steps, run.period_s);
+}
+
+void Replay::Parts::give_past(plant::Model& sensing, std::size_t row) const {
+  constexpr double kLongestMemory_s = 0.5;  // of a mean over time (swing_moving_average)
+  const auto memory = static_cast<std::size_t>(kLongestMemory_s / source.run.period_s);
+  for (std::size_t k = row - std::min(row, memory); k < row; ++k) {
+    plant::State at;
+    for (const Output output : kAllOutputs)
+      if (source.run.has(output)) position_of(at, output) = given(output).position[k];
+    at.cable_m = source.run.cable_m[k];
+    (void)sensing.measure(at);
+  }
 }
 
 /// What the motors' speeds show of impacts between a row and the next, beside what usually is unexplained.

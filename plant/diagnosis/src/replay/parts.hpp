@@ -42,6 +42,8 @@ struct Replay::Parts {
     const auto& all = sensors ? corrected_half_way : source.half_way[model.inner_coordinates() > 0 ? 1 : 0];
     return all[row * static_cast<std::size_t>(steps) + static_cast<std::size_t>(step)];
   }
+  /// Measures what was measured before a row, as far back as sensors remember.
+  void give_past(plant::Model& sensing, std::size_t row) const;
   [[nodiscard]] const Motion& given(Output output) const {
     return sensors ? corrected[output] : source.motion[output];
   }

@@ -12,14 +12,16 @@ namespace {
 
 constexpr double kSmoothing_s = 0.03;
 
-/// Standard deviation of a value that is rounded to whole counts. What has no encoder is known to this.
-std::array<double, kOutputs> noise_of_counts(const configuration::Rig& rig) {
+/// Standard deviation of a value that is rounded to whole steps of its sensor: those that the data show, else
+/// the counts of the rig file. What has neither is known to the least.
+std::array<double, kOutputs> noise_of_counts(const Run& run, const configuration::Rig& rig) {
   constexpr double kLeast = 1e-7;
   constexpr std::array<std::size_t, kOutputs> kEncoders{0, 1, 3, 4};
   std::array<double, kOutputs> noise{};
   for (std::size_t i = 0; i < kOutputs; ++i) {
     const double counts = rig.encoders[kEncoders[i]].counts_per_unit;
-    noise[i] = counts > 0 ? std::max(kLeast, 1 / (counts * std::sqrt(12.0))) : kLeast;
+    const double step = run.resolution[i] > 0 ? run.resolution[i] : counts > 0 ? 1 / counts : 0;
+    noise[i] = std::max(kLeast, step / std::sqrt(12.0));
   }
   return noise;
 }
@@ -41,17 +43,44 @@ int smoothing_half_width(double period_s) {
   return std::max(3, static_cast<int>(std::lround(kSmoothing_s / period_s)));
 }
 
+namespace {
+
+/// Through the values at their own times.
+Motion spline_through(const Run& run, Output output) {
+  std::vector<double> time_s, values;
+  for (std::size_t row = 0; row < run.rows(); ++row)
+    if (run.seen(output, row)) {
+      time_s.push_back(run.instant_s(row));
+      values.push_back(run.measured[output][row]);
+    }
+  return spline_of(time_s, values, run.period_s, run.rows());
+}
+
+}  // namespace
+
+std::vector<double> measured_on_grid(const Run& run, Output output) {
+  return run.regular(output) ? run.measured[output] : spline_through(run, output).position;
+}
+
 PreparedRun prepare(Run run, const configuration::Rig& rig) {
   PreparedRun prepared;
-  for (std::size_t i = 0; i < kOutputs; ++i)
-    if (!run.measured[i].empty())
-      prepared.motion[i] = motion_of(static_cast<Output>(i), run.measured[i], run.period_s);
+  for (const Output output : kAllOutputs) {
+    if (!run.has(output)) continue;
+    const bool drive = output == kTrolleyPosition || output == kSlewAngle;
+    if (run.regular(output) || !drive) {
+      prepared.on_grid[output] = measured_on_grid(run, output);
+      prepared.motion[output] = motion_of(output, prepared.on_grid[output], run.period_s);
+    } else {
+      prepared.motion[output] = spline_through(run, output);
+      prepared.on_grid[output] = prepared.motion[output].position;
+    }
+  }
   prepared.cable = smooth(run.cable_m, run.period_s, smoothing_half_width(run.period_s));
   for (const bool inner : {false, true})
     prepared.half_way[inner ? 1 : 0] =
         half_way_through_steps(prepared.motion, prepared.cable, steps_in(run.period_s, inner), run.period_s);
   prepared.kind = rig.kind;
-  prepared.least_noise = noise_of_counts(rig);
+  prepared.least_noise = noise_of_counts(run, rig);
   prepared.run = std::move(run);
   return prepared;
 }
@@ -60,8 +89,8 @@ std::vector<Output> simulated_outputs(const PreparedRun& run, Part part) {
   std::vector<Output> outputs;
   for (const Output output : kAllOutputs) {
     const bool drive = output == kTrolleyPosition || output == kSlewAngle;
-    if (run.run.has(output) && (part == Part::whole || (part == Part::drive) == drive))
-      outputs.push_back(output);
+    if (!run.run.has(output) || (drive && !run.run.commanded[output])) continue;
+    if (part == Part::whole || (part == Part::drive) == drive) outputs.push_back(output);
   }
   return outputs;
 }
@@ -88,21 +117,82 @@ std::vector<double> Replay::measured_start(Part part, std::size_t first) const {
   return start;
 }
 
+/// Outputs of a window at the rows' own instants: inside the step that an instant falls into the acceleration
+/// is that step's. What sensors add is known at the grid's times and goes straight between them.
+struct Replay::OwnTimes {
+  OwnTimes(const Run& measured, std::size_t first_row, std::span<const Output> simulated,
+           std::span<double> values)
+      : run(measured),
+        first(first_row),
+        rows(values.size() / simulated.size()),
+        outputs(simulated),
+        out(values) {
+    added.assign(values.size(), 0.0);
+  }
+
+  void note_before(const plant::State& state) { before = state; }
+  /// @param step of `steps` after `row`, which has brought the crane from what was noted to `after`
+  void note_after(std::size_t row, int step, int steps, plant::State after) {
+    const double step_s = run.period_s / steps;
+    for (const std::size_t near : {row, row + 1}) {
+      if (near < first || near >= first + rows) continue;
+      const double offset_s = run.offset_s[near];
+      const bool before_all = near == first && row == first && offset_s < 0;
+      if (!before_all && (near == row) != (offset_s >= 0)) continue;
+      const double from_row_s = near == row ? offset_s : offset_s + run.period_s;
+      if (step != std::clamp(static_cast<int>(from_row_s / step_s), 0, steps - 1)) continue;
+      const double t = from_row_s - step * step_s;
+      for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const double rate = rate_of(before, outputs[i]);
+        const double acceleration = (rate_of(after, outputs[i]) - rate) / step_s;
+        out[i * rows + near - first] = position_of(before, outputs[i]) + t * (rate + 0.5 * t * acceleration);
+      }
+    }
+  }
+  /// Whether the steps before a row have told its outputs.
+  [[nodiscard]] bool told(std::size_t row) const { return row > first && run.offset_s[row] < 0; }
+  /// @param reported, at by output at the grid's time of `row`
+  void note_sensor(std::size_t row, std::size_t i, double reported, double at) {
+    if (row - first < rows) added[i * rows + row - first] = reported - at;
+  }
+  void add_sensors() {
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      for (std::size_t k = 0; k < rows; ++k) {
+        const double offset_s = run.offset_s[first + k];
+        const std::size_t other = offset_s < 0 ? k - std::min<std::size_t>(k, 1) : std::min(k + 1, rows - 1);
+        const double share = std::abs(offset_s) / run.period_s;
+        out[i * rows + k] += (1 - share) * added[i * rows + k] + share * added[i * rows + other];
+      }
+  }
+
+  const Run& run;
+  std::size_t first, rows;
+  std::span<const Output> outputs;
+  std::span<double> out;
+  std::vector<double> added;
+  plant::State before;
+};
+
 void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const double> start,
                  std::span<double> out) const {
   const Parts& p = *parts_;
   const double period_s = p.source.run.period_s;
   const std::vector<Output> outputs = simulated_outputs(p.source, part);
+  if (outputs.empty()) return;
   std::array<bool, kOutputs> simulated{};
   for (const Output output : outputs) simulated[output] = true;
   Course course(p.model, simulated, p.locks(simulated), p.step_s());
+  std::optional<OwnTimes> own_times;
+  if (!p.source.run.offset_s.empty()) own_times.emplace(p.source.run, first, outputs, out);
   const auto pass = [&](std::size_t row) {
     p.visit_steps(row, [&](int step, const plant::PerAxis& volts, bool changed) {
       if (changed) course.new_command(volts);
       const double middle = (step + 0.5) / p.steps;
       for (std::size_t i = 0; i < course.led.size(); ++i)
         if (course.led[i]) course.led_at[i] = between(p.inner[i], row, middle, period_s);
+      if (own_times) own_times->note_before(course.state);
       course.step(p.half_way(row, step));
+      if (own_times) own_times->note_after(row, step, p.steps, course.state);
     });
     course.follow(p.measured_at(row + 1));
   };
@@ -116,18 +206,30 @@ void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const
   for (std::size_t i = 0, at = 2 * outputs.size(); at < start.size(); ++i, at += 2)
     course.inner[p.ringing[i]] = {start[at], start[at + 1]};
   std::optional<plant::Model> sensing;
-  if (p.sensors) sensing.emplace(p.crane.parameters, p.crane.terms, period_s);
+  if (p.sensors) {
+    sensing.emplace(p.crane.parameters, p.crane.terms, period_s);
+    p.give_past(*sensing, first);
+  }
   for (std::size_t k = 0; k < rows; ++k) {
     if (sensing) {
       const plant::Measurement reported = sensing->measure(course.state);
-      for (std::size_t i = 0; i < outputs.size(); ++i) out[i * rows + k] = measured_of(reported, outputs[i]);
-    } else {
+      for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const double value = measured_of(reported, outputs[i]);
+        if (own_times)
+          own_times->note_sensor(first + k, i, value, position_of(course.state, outputs[i]));
+        else
+          out[i * rows + k] = value;
+      }
+    }
+    if (own_times ? !own_times->told(first + k) : !sensing)
       for (std::size_t i = 0; i < outputs.size(); ++i)
         out[i * rows + k] = position_of(course.state, outputs[i]);
-    }
-    if (k + 1 == rows) break;
+    // An instant behind the last row's lies in the interval after it.
+    const bool beyond = own_times && k + 1 == rows && p.source.run.offset_s[first + k] > 0;
+    if (k + 1 == rows && !(beyond && first + k + 1 < p.source.run.rows())) break;
     pass(first + k);
   }
+  if (own_times) own_times->add_sensors();
 }
 
 Replay::Guided Replay::guided(Output axis) const {

@@ -53,14 +53,33 @@ ordered_json held_out_json(const HeldOut& held_out) {
           {"gain_ci95", held_out.gain_ci95}};
 }
 
+ordered_json excitation_json(const std::vector<Visibility>& excitation) {
+  ordered_json json = ordered_json::array();
+  for (const Visibility& seen : excitation) {
+    ordered_json least = ordered_json::object(), alike = ordered_json::array();
+    for (const Estimate& e : seen.least) least[e.name] = {{"value", e.value}, {"unit", e.unit}};
+    for (const auto& other : seen.alike) alike.push_back({{"label", other.label}, {"cosine", other.cosine}});
+    json.push_back({{"label", seen.label}, {"visible", seen.visible}, {"least", least}, {"alike", alike}});
+  }
+  return json;
+}
+
+ordered_json motion_json(const NextExperiment& next) {
+  return {{"name", next.name}, {"description", next.description}, {"separation", next.separation}};
+}
+
 }  // namespace
+
+ordered_json to_json(const Check& check) {
+  ordered_json next = ordered_json::array();
+  for (const Check::Proposal& proposal : check.next)
+    next.push_back({{"of", proposal.of}, {"from", proposal.from}, {"motion", motion_json(proposal.motion)}});
+  return {{"excitation", excitation_json(check.excitation)}, {"next", next}};
+}
 
 ordered_json to_json(const Diagnosis& diagnosis) {
   ordered_json next;  // null without a proposal
-  if (diagnosis.next_experiment)
-    next = {{"name", diagnosis.next_experiment->name},
-            {"description", diagnosis.next_experiment->description},
-            {"separation", diagnosis.next_experiment->separation}};
+  if (diagnosis.next_experiment) next = motion_json(*diagnosis.next_experiment);
   return {{"verdict", name_of(diagnosis.verdict)},
           {"sentence", diagnosis.sentence},
           {"causes", causes_json(diagnosis.causes)},
@@ -72,6 +91,7 @@ ordered_json to_json(const Diagnosis& diagnosis) {
            {{"predictable_fraction", diagnosis.remainder.predictable_fraction},
             {"from", diagnosis.remainder.from}}},
           {"candidates", candidates_json(diagnosis.ranking)},
+          {"excitation", excitation_json(diagnosis.excitation)},
           {"detection_p_value", diagnosis.detection_p_value},
           {"notes", diagnosis.notes},
           {"runtime_s", diagnosis.runtime_s}};

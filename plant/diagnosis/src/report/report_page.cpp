@@ -224,6 +224,38 @@ report::Section candidates_section(const Diagnosis& diagnosis) {
   return section;
 }
 
+/// "level_v 0.12 V, ..."
+std::string plain_values(const std::vector<Estimate>& estimates) {
+  std::string text;
+  for (const Estimate& e : estimates)
+    text += (text.empty() ? "" : ", ") + e.name + " " + significant(e.value, 3) + unit_of(e);
+  return text;
+}
+
+report::Section excitation_section(const Diagnosis& diagnosis) {
+  report::Section section{.title = "What these data can show", .blocks = {}};
+  report::Table table{.title = "",
+                      .header = {"candidate", "least that would be found", "hardly told from (cosine)"},
+                      .rows = {}};
+  for (const Visibility& seen : diagnosis.excitation) {
+    std::string alike;
+    for (const auto& other : seen.alike)
+      alike += (alike.empty() ? "" : ", ") + other.label + " (" + significant(other.cosine, 3) + ")";
+    table.rows.push_back({{seen.label},
+                          {seen.visible ? plain_values(seen.least) : "nothing believable",
+                           seen.visible ? Tone::neutral : Tone::muted},
+                          {alike}});
+  }
+  section.blocks.emplace_back(std::move(table));
+  section.blocks.emplace_back(
+      report::Paragraph{"By the training data and the noise that was learnt from them, before any candidate "
+                        "is fitted: the size that "
+                        "the score test finds in 9 of 10 such data sets, where nothing at all is named in 99 "
+                        "of 100 clean ones. Two "
+                        "candidates with a cosine near 1 or -1 change these data in the same way."});
+  return section;
+}
+
 report::Section remainder_section(const Diagnosis& diagnosis) {
   report::Section section{.title = "What was not explained", .blocks = {}};
   std::string from;
@@ -282,6 +314,7 @@ report::Page report_page(const Diagnosis& diagnosis, const configuration::Rig& r
   page.sections.push_back(verdict_section(diagnosis));
   page.sections.push_back(held_out_section(diagnosis));
   page.sections.push_back(candidates_section(diagnosis));
+  page.sections.push_back(excitation_section(diagnosis));
   page.sections.push_back(remainder_section(diagnosis));
   page.sections.push_back(next_section(diagnosis, rig));
   page.sections.push_back(residual_section(diagnosis, rig, test));

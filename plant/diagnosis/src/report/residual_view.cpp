@@ -43,7 +43,9 @@ std::vector<double> without_start(const Trace& trace, const std::vector<double>&
     const double swing_radps = plant::swing_radps(rig.plant.gravity_mps2, run.cable_m[first]);
     const auto motions = free_motions(is_swing(trace.column), swing_radps, size, run.period_s);
     Eigen::Map<Eigen::VectorXd> window(left.data() + first, size);
-    window -= motions * motions.colPivHouseholderQr().solve(window).eval();
+    const Eigen::VectorXd seen = window.unaryExpr([](double x) { return std::isfinite(x) ? 1.0 : 0.0; });
+    const Eigen::VectorXd known = window.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
+    window -= motions * (seen.asDiagonal() * motions).colPivHouseholderQr().solve(known).eval();
   }
   return left;
 }
@@ -63,11 +65,11 @@ class ViewBuilder {
     if (run_.has(drive_)) {
       const std::string unit = radial ? "m" : "rad";
       const std::string name = radial ? "trolley" : "slew";
-      add(name + " position [" + unit + "]", run_.measured[drive_]);
+      add(name + " position [" + unit + "]", measured_on_grid(run_, drive_));
       add(name + " speed [" + unit + "/s]", rate(drive_));
     }
     if (run_.has(swing_)) {
-      add("swing [rad]", run_.measured[swing_]);
+      add("swing [rad]", measured_on_grid(run_, swing_));
       add("swing rate [rad/s]", rate(swing_));
     }
     if (run_.has(drive_)) add(radial ? "trolley command [V]" : "slew command [V]", command());
@@ -75,7 +77,7 @@ class ViewBuilder {
 
  private:
   [[nodiscard]] std::vector<double> rate(Output output) const {
-    return smooth(run_.measured[output], run_.period_s, smoothing_half_width(run_.period_s)).rate;
+    return smooth(measured_on_grid(run_, output), run_.period_s, smoothing_half_width(run_.period_s)).rate;
   }
   [[nodiscard]] std::vector<double> command() const {
     std::vector<double> volts;

@@ -7,8 +7,6 @@
 namespace crane::diagnosis {
 namespace {
 
-using Eigen::Index;
-
 constexpr int kResamples = 1000;
 
 /// Windows of one part whose starts make the error least, in m or rad: a start that is best in units of a
@@ -23,7 +21,7 @@ struct PlainFits {
   [[nodiscard]] std::vector<double> mean_squares(std::size_t output) const {
     std::vector<double> result = problem.squares_left(fits, output);
     for (std::size_t w = 0; w < result.size(); ++w)
-      result[w] /= static_cast<double>(problem.windows()[w].rows);
+      result[w] /= static_cast<double>(problem.seen_rows(problem.windows()[w], output));
     return result;
   }
 };
@@ -59,14 +57,17 @@ double gain_of(const Compared& c, const std::vector<std::vector<std::size_t>>* p
 std::vector<double> held_value_squares(const Problem& problem, std::size_t output) {
   std::vector<double> result;
   for (const Window& window : problem.windows()) {
-    const auto rows = static_cast<Index>(window.rows);
-    const Eigen::VectorXd part = problem.measured(window).segment(static_cast<Index>(output) * rows, rows);
-    result.push_back((part.array() - part[0]).matrix().squaredNorm() / static_cast<double>(rows));
+    const Eigen::VectorXd part = problem.seen(window, output);
+    result.push_back((part.array() - part[0]).matrix().squaredNorm() / static_cast<double>(part.size()));
   }
   return result;
 }
 
-double scatter(const std::vector<double>& values) {
+/// Of those values whose `beside` is a number.
+double scatter(const std::vector<double>& all, const std::vector<double>& beside) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (std::isfinite(beside[k])) values.push_back(all[k]);
   const double middle = mean(values);
   double sum = 0;
   for (const double value : values) sum += (value - middle) * (value - middle);
@@ -108,8 +109,9 @@ std::vector<Trace> traces(const Study& study, const Study& as_measured, const Ef
         trace.baseline.assign(before[w].begin() + first, before[w].begin() + last);
         trace.extended.assign(after[w].begin() + first, after[w].begin() + last);
         for (std::size_t k = 0; k < run.rows(); ++k) {
-          trace.time_s.push_back(run.start_s + static_cast<double>(k) * run.period_s);
-          trace.extended[k] += run.measured[output][k] - whole.runs()[number].run.measured[output][k];
+          trace.time_s.push_back(run.start_s + run.instant_s(k));
+          if (run.seen(output, k))
+            trace.extended[k] += run.measured[output][k] - whole.runs()[number].run.measured[output][k];
         }
         all.push_back(std::move(trace));
       }
@@ -155,14 +157,17 @@ HeldOut held_out(const Study& study, const Study& as_measured, const Effects& ef
   result.gain_ci95 = {gains[kResamples * 25 / 1000], gains[kResamples * 975 / 1000]};
   std::map<std::string, double> rows, measured_motion, simulated_motion;
   for (const Trace& trace : traces(study, as_measured, effects)) {
-    measured_motion[trace.column] += scatter(trace.measured);
-    simulated_motion[trace.column] += scatter(trace.extended);
+    measured_motion[trace.column] += scatter(trace.measured, trace.measured);
+    simulated_motion[trace.column] += scatter(trace.extended, trace.measured);
+    const auto first =
+        std::find_if(trace.measured.begin(), trace.measured.end(), [](double x) { return std::isfinite(x); });
     for (std::size_t k = 0; k < trace.measured.size(); ++k) {
-      result.whole_held_value_rms[trace.column] += std::pow(trace.measured[k] - trace.measured[0], 2);
+      if (!std::isfinite(trace.measured[k])) continue;
+      ++rows[trace.column];
+      result.whole_held_value_rms[trace.column] += std::pow(trace.measured[k] - *first, 2);
       result.whole_baseline_rms[trace.column] += std::pow(trace.measured[k] - trace.baseline[k], 2);
       result.whole_extended_rms[trace.column] += std::pow(trace.measured[k] - trace.extended[k], 2);
     }
-    rows[trace.column] += static_cast<double>(trace.measured.size());
   }
   for (const auto& [name, motion] : measured_motion)
     result.whole_extended_motion[name] = motion > 0 ? simulated_motion[name] / motion : 1;

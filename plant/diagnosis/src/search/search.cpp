@@ -45,6 +45,7 @@ class Search {
     request_.progress(0.1, "scores of all candidates");
     const ScoreTable scores = study_.score({}, found_.base.train, request_.seed);
     found_.detection_p_value = scores.p_value;
+    found_.excitation = scores.excitation;
     fit_singles(scores);
     choose();
     return std::move(found_);
@@ -61,6 +62,7 @@ class Search {
     for (std::size_t i = 0; i < before.singles.size(); ++i)
       add(before.singles[i].effects, before.ranking[i].p_value);
     const ScoreTable scores = study_.score({}, found_.base.train, request_.seed);
+    found_.excitation = scores.excitation;
     for (const Score& score : strongest(scores, kRefitted))
       if (const Effects effects = begin({}, score); !fitted_alone(effects)) add(effects, score.p_value);
     choose();

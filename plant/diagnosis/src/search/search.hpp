@@ -16,6 +16,7 @@ struct Hypotheses {
   std::vector<Fitted> singles, all;
   std::vector<Ranked> ranking;
   double detection_p_value = 1;
+  std::vector<Visibility> excitation;  ///< in the noise that was learnt last
 };
 
 /// Scores of all candidates and fits of the best.

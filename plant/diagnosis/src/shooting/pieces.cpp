@@ -16,26 +16,45 @@ using Eigen::VectorXd;
 
 /// Shorter ones say nothing beyond their start; longer ones are cut.
 constexpr double kShortestPiece_s = 0.15, kLongestPiece_s = 2;
+/// Over a longer gap nobody knows the speed that the model is asked at; rows further apart than this have
+/// gaps of their own distance, so many times.
+constexpr double kUnknownSpeed_s = 0.1, kUnknownRows = 2.5;
 
-struct Stretch {
+struct MovingStretch {
   std::size_t run = 0, first = 0, rows = 0;
   std::vector<double> position;
 };
 
+/// Rows at which the measured motion is only what a spline makes of a gap.
+std::vector<bool> unknown_rows(const Run& run, Output axis) {
+  std::vector<bool> unknown(run.rows(), false);
+  if (run.regular(axis)) return unknown;
+  const double longest_s = std::max(kUnknownSpeed_s, kUnknownRows * usual_distance_s(run, axis));
+  for (std::size_t row = 0, after = 0; row < run.rows(); ++row) {
+    if (!run.seen(axis, row)) continue;
+    if (run.instant_s(row) - (after > 0 ? run.instant_s(after - 1) : 0) > longest_s)
+      std::fill(unknown.begin() + static_cast<std::ptrdiff_t>(after),
+                unknown.begin() + static_cast<std::ptrdiff_t>(row), true);
+    after = row + 1;
+  }
+  return unknown;
+}
+
 /// Where the axis of a run moves without a rest.
-std::vector<Stretch> stretches_of(const PreparedRun& run, std::size_t number, Output axis) {
+std::vector<MovingStretch> stretches_of(const PreparedRun& run, std::size_t number, Output axis) {
   const std::vector<double>& rate = run.motion[axis].rate;
   const auto shortest = static_cast<std::size_t>(kShortestPiece_s / run.run.period_s);
   const auto longest = static_cast<std::size_t>(kLongestPiece_s / run.run.period_s);
-  std::vector<Stretch> all;
+  const std::vector<bool> unknown = unknown_rows(run.run, axis);
+  std::vector<MovingStretch> all;
   for (std::size_t first = 0, row = 0; row <= rate.size(); ++row) {
-    const bool goes_on = row < rate.size() && std::abs(rate[row]) >= kStands &&
-                         (row == first || rate[row] * rate[row - 1] > 0);
+    const bool moves = row < rate.size() && std::abs(rate[row]) >= kStands && !unknown[row];
+    const bool goes_on = moves && (row == first || rate[row] * rate[row - 1] > 0);
     if (goes_on) continue;
     const std::size_t rows = row - first, count = (rows + longest - 1) / longest;
     for (std::size_t piece = 0; rows >= shortest && piece < count; ++piece)
       all.push_back({number, first + piece * rows / count, rows / count, {}});
-    first = row + (row < rate.size() && std::abs(rate[row]) >= kStands ? 0 : 1);
+    first = row + (moves ? 0 : 1);
   }
   return all;
 }
@@ -51,26 +70,49 @@ void integrate(MatrixXd& x, double period_s) {
   }
 }
 
-/// In what the sensor shows: a scale of it must not make errors smaller.
+/// Where the model is at the rows' own instants, from rest at `first`: between two rows of the grid the
+/// acceleration is what it makes of the speed there.
+VectorXd way_of(const Run& run, const Replay::Guided& drive, std::size_t first, std::size_t row_count) {
+  VectorXd way(static_cast<Index>(row_count));
+  std::vector<double> position{0}, speed{0};
+  for (std::size_t k = 0; k < row_count; ++k) {
+    way[static_cast<Index>(k)] = position[k];
+    position.push_back(position[k] + run.period_s * speed[k] + drive.way[first + k]);
+    speed.push_back(speed[k] + drive.speed[first + k]);
+  }
+  if (run.offset_s.empty()) return way;
+  for (std::size_t k = 0; k < row_count; ++k) {
+    const double offset_s = run.offset_s[first + k];
+    const std::size_t from = offset_s < 0 && k > 0 ? k - 1 : k;
+    const double t = from < k ? offset_s + run.period_s : offset_s, share = t / run.period_s;
+    way[static_cast<Index>(k)] = position[from] + t * speed[from] + share * share * drive.way[first + from];
+  }
+  return way;
+}
+
+/// In what the sensor shows: a scale of it must not make errors smaller. 0 where nothing was measured.
 VectorXd left_of(const PreparedRun& run, const Replay::Guided& drive, Output axis, std::size_t first,
                  std::size_t row_count) {
   const auto rows = static_cast<Index>(row_count);
-  VectorXd way(rows);
-  double position = 0, speed = 0;
-  for (std::size_t k = 0; k < row_count; ++k) {
-    way[static_cast<Index>(k)] = position;
-    position += run.run.period_s * speed + drive.way[first + k];
-    speed += drive.speed[first + k];
-  }
+  const VectorXd way = way_of(run.run, drive, first, row_count);
   const std::vector<double>&shown = run.motion[axis].position, &true_position = drive.position;
   const std::size_t last = first + row_count - 1;
   const double scale = (shown[last] - shown[first]) / (true_position[last] - true_position[first]);
-  return scale * (Eigen::Map<const VectorXd>(&true_position[first], rows) - way);
+  if (run.run.regular(axis)) return scale * (Eigen::Map<const VectorXd>(&true_position[first], rows) - way);
+  VectorXd left = VectorXd::Zero(rows);
+  for (std::size_t k = 0; k < row_count; ++k) {
+    if (!run.run.seen(axis, first + k)) continue;
+    const double undone = true_position[first + k] - shown[first + k];  // what the sensor's errors made
+    left[static_cast<Index>(k)] =
+        scale * (run.run.measured[axis][first + k] + undone - way[static_cast<Index>(k)]);
+  }
+  return left;
 }
 
-Passage passage_of(const PreparedRun& run, const Stretch& at, Output axis) {
-  Passage passage{run.run.period_s, 0, paces_of(run.run.measured[axis], run.run.period_s, at.first, at.rows)};
-  for (Pace& pace : passage.paces) pace.going = Going::on;
+Passage passage_of(const PreparedRun& run, const MovingStretch& at, Output axis) {
+  Passage passage{run.run.period_s, 0, paces_of(run.on_grid[axis], run.run.period_s, at.first, at.rows)};
+  for (std::size_t k = 0; k < at.rows; ++k)
+    passage.paces[k].going = Going::on, passage.paces[k].seen = run.run.seen(axis, at.first + k);
   return passage;
 }
 
@@ -107,11 +149,11 @@ double Pieces::squares() const {
 Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis, const Disturbance& known) {
   std::vector<VectorXd> left;
   std::vector<Passage> passages;
-  std::vector<Stretch> stretches;
+  std::vector<MovingStretch> stretches;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!runs[r].run.has(axis)) continue;
     const Replay::Guided drive = crane[r].guided(axis);
-    for (Stretch& stretch : stretches_of(runs[r], r, axis)) {
+    for (MovingStretch& stretch : stretches_of(runs[r], r, axis)) {
       const auto from = drive.position.begin() + static_cast<std::ptrdiff_t>(stretch.first);
       stretch.position.assign(from, from + static_cast<std::ptrdiff_t>(stretch.rows));
       left.push_back(left_of(runs[r], drive, axis, stretch.first, stretch.rows));

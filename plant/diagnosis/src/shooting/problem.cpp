@@ -68,29 +68,17 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
   for (const PreparedRun& run : runs)
     if (outputs_.empty()) outputs_ = simulated_outputs(run, part);
   if (outputs_.empty()) return;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const double period_s = runs[i].run.period_s;
-    const auto lead =
-        part == Part::load ? static_cast<std::size_t>(std::lround(kLead_s / period_s)) : std::size_t{0};
-    const std::size_t rows = runs[i].run.rows();
-    if (rows <= lead) continue;
-    const auto wanted = std::isfinite(window_s) ? static_cast<std::size_t>(window_s / period_s) : rows - lead;
-    if (rows < lead + wanted / 2) continue;
-    const std::size_t count = std::max<std::size_t>(1, (rows - lead + wanted / 2) / wanted);
-    const std::size_t length = (rows - lead) / count;
-    for (std::size_t w = 0; w < count; ++w) windows_.push_back({i, lead + w * length, length, lead});
-  }
+  windows_ = windows_of(runs, part, window_s, part == Part::load ? kLead_s : 0, natural_radps);
   for (const Output output : outputs_) {
     std::vector<Passage>& of_output = passages_.emplace_back();
     for (const Window& window : windows_) {
       const PreparedRun& run = runs[window.run];
-      const std::vector<double>& measured = run.run.measured[output];
-      if (part == Part::drive)
-        of_output.push_back(
-            {run.run.period_s, 0, paces_of(measured, run.run.period_s, window.first, window.rows)});
-      else
-        of_output.push_back(
-            {run.run.period_s, natural_radps * softened(measured, window), Paces(window.rows)});
+      const std::vector<double>& position = run.on_grid[output];
+      const double radps = part == Part::drive ? 0 : natural_radps * softened(position, window);
+      Paces paces = part == Part::drive ? paces_of(position, run.run.period_s, window.first, window.rows)
+                                        : Paces(window.rows);
+      for (std::size_t k = 0; k < window.rows; ++k) paces[k].seen = run.run.seen(output, window.first + k);
+      of_output.push_back({run.run.period_s, radps, std::move(paces)});
     }
   }
 }
@@ -109,6 +97,12 @@ std::vector<std::vector<VectorXd>> Problem::residuals(const Replays& crane) cons
 }
 
 void Problem::whiten_with(std::vector<Disturbance> disturbances) {
+  // Of an output that nothing was learnt of, for no window of it tells a start, nothing is compared.
+  if (disturbances.size() != outputs_.size()) {
+    windows_.clear();
+    for (std::vector<Passage>& of_output : passages_) of_output.clear();
+    return;
+  }
   disturbances_ = std::move(disturbances);
   whiteners_.assign(outputs_.size(), {});
   for (std::size_t output = 0; output < outputs_.size(); ++output)
@@ -155,6 +149,10 @@ VectorXd Problem::simulate(const Replay& replay, const Window& window, const Vec
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     kept.segment(static_cast<Index>(i * window.rows), static_cast<Index>(window.rows)) =
         Eigen::Map<const VectorXd>(&out[i * all + window.lead], static_cast<Index>(window.rows));
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    for (std::size_t k = 0; k < window.rows; ++k)
+      if (!runs_[window.run].run.seen(outputs_[i], window.first + k))
+        kept[static_cast<Index>(i * window.rows + k)] = 0;
   return kept;
 }
 
@@ -164,7 +162,30 @@ VectorXd Problem::measured(const Window& window) const {
     values.segment(static_cast<Index>(i * window.rows), static_cast<Index>(window.rows)) =
         Eigen::Map<const VectorXd>(&runs_[window.run].run.measured[outputs_[i]][window.first],
                                    static_cast<Index>(window.rows));
+  return values.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
+}
+
+VectorXd Problem::seen(const Window& window, std::size_t output) const {
+  const Run& run = runs_[window.run].run;
+  VectorXd values(static_cast<Index>(seen_rows(window, output)));
+  Index next = 0;
+  for (std::size_t k = window.first; k < window.first + window.rows; ++k)
+    if (run.seen(outputs_[output], k)) values[next++] = run.measured[outputs_[output]][k];
   return values;
+}
+
+std::size_t Problem::seen_rows(const Window& window, std::size_t output) const {
+  const Run& run = runs_[window.run].run;
+  std::size_t rows = 0;
+  for (std::size_t k = window.first; k < window.first + window.rows; ++k)
+    rows += run.seen(outputs_[output], k) ? 1 : 0;
+  return rows;
+}
+
+std::size_t Problem::seen_rows(const Window& window) const {
+  std::size_t rows = 0;
+  for (std::size_t output = 0; output < outputs_.size(); ++output) rows += seen_rows(window, output);
+  return rows;
 }
 
 void Problem::whiten(std::size_t window, Eigen::Ref<MatrixXd> x) const {
@@ -266,12 +287,14 @@ WindowFit Problem::fit_from(const Replay& replay, std::size_t at, const VectorXd
   return fit;
 }
 
-bool Problem::poorly_followed(const VectorXd& target, const VectorXd& simulated) const {
-  const auto rows = target.size() / static_cast<Index>(outputs_.size());
-  for (Index first = 0; first < target.size(); first += rows) {
-    const auto part = target.segment(first, rows);
+bool Problem::poorly_followed(std::size_t at, const VectorXd& target, const VectorXd& simulated) const {
+  const auto rows = static_cast<Index>(windows_[at].rows);
+  for (std::size_t output = 0; output < outputs_.size(); ++output) {
+    const VectorXd part = seen(windows_[at], output);
     const double moves = (part.array() - part.mean()).matrix().squaredNorm();
-    if (!((part - simulated.segment(first, rows)).squaredNorm() <= kPoorlyFollowed * moves)) return true;
+    const auto first = static_cast<Index>(output) * rows;
+    const double left = (target - simulated).segment(first, rows).squaredNorm();
+    if (!(left <= kPoorlyFollowed * moves)) return true;
   }
   return false;
 }
@@ -283,7 +306,7 @@ bool Problem::poorly_followed(const VectorXd& target, const VectorXd& simulated)
 void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) const {
   const VectorXd target = measured(windows_[at]), begin = measured_start(replay, windows_[at]);
   fit = fit_from(replay, at, target, begin);
-  if (part_ == Part::load && poorly_followed(target, fit.simulated)) {
+  if (part_ == Part::load && poorly_followed(at, target, fit.simulated)) {
     VectorXd without_rate = begin;
     for (Index i = 1; i < bare_start(); i += 2) without_rate[i] = 0;
     const VectorXd at_rest = VectorXd::Zero(begin.size());

@@ -8,13 +8,9 @@
 
 #include "crane/diagnosis/replay.hpp"
 #include "noise/whitening.hpp"
+#include "shooting/windows.hpp"
 
 namespace crane::diagnosis {
-
-/// Rows compared; the replay begins `lead` rows earlier so that sensors and filters have a past.
-struct Window {
-  std::size_t run = 0, first = 0, rows = 0, lead = 0;
-};
 
 /// One window around one crane: everything whitened, the start's directions taken out.
 struct WindowFit {
@@ -70,8 +66,14 @@ class Problem {
                                                     double* own = nullptr) const;
   /// The same windows with plain residuals: starts that make the error in m or rad least.
   [[nodiscard]] Problem plain() const;
-  /// Measured rows of a window, outputs one after the other.
+  /// Rows of a window, outputs one after the other; 0 where nothing was measured, and so is what is
+  /// simulated: such a row leaves nothing.
   [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
+  /// What was measured of one output in a window, without the rows that were not.
+  [[nodiscard]] Eigen::VectorXd seen(const Window& window, std::size_t output) const;
+  /// How many rows of an output, or of all, were measured.
+  [[nodiscard]] std::size_t seen_rows(const Window& window, std::size_t output) const;
+  [[nodiscard]] std::size_t seen_rows(const Window& window) const;
   /// Sums of squares of measured - simulated by window, not whitened, of one output.
   [[nodiscard]] std::vector<double> squares_left(const Fits& fits, std::size_t output) const;
 
@@ -99,7 +101,8 @@ class Problem {
   [[nodiscard]] WindowFit fit_from(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
                                    const Eigen::VectorXd& begin) const;
   /// Whether a simulation leaves much of the motion of an output.
-  [[nodiscard]] bool poorly_followed(const Eigen::VectorXd& target, const Eigen::VectorXd& simulated) const;
+  [[nodiscard]] bool poorly_followed(std::size_t window, const Eigen::VectorXd& target,
+                                     const Eigen::VectorXd& simulated) const;
 
   const Runs& runs_;
   Part part_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "replay/travel.hpp"
 #include "study/candidate_shapes.hpp"
@@ -39,9 +40,17 @@ class Builder {
     const auto measured = [&](Output output) {
       return std::any_of(runs_.begin(), runs_.end(), [&](const PreparedRun& r) { return r.run.has(output); });
     };
+    const auto driven = [&](Output output) {
+      return std::any_of(runs_.begin(), runs_.end(),
+                         [&](const PreparedRun& r) { return r.run.has(output) && r.run.commanded[output]; });
+    };
     const bool load = rig_.has_load();
-    if (measured(kTrolleyPosition)) add_axis("trolley", kTrolleyPosition, 1.0);
-    if (measured(kSlewAngle)) add_axis("slew", kSlewAngle, 2.0);
+    for (const auto& [axis, output, scale] :
+         {std::tuple{"trolley", kTrolleyPosition, 1.0}, std::tuple{"slew", kSlewAngle, 2.0}}) {
+      if (driven(output)) add_axis(axis, output, scale);
+      if (!driven(output) && measured(output)) add_support_sensor(axis);
+    }
+    driven_ = driven(kTrolleyPosition) || driven(kSlewAngle);
     radial_ = load && measured(kRadialSwing), tangential_ = load && measured(kTangentialSwing);
     if (radial_ || tangential_) add_load(measured(kTrolleyPosition), measured(kSlewAngle));
     return std::move(all_);
@@ -107,6 +116,12 @@ class Builder {
     add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
   }
 
+  /// A drive without a command shows its sensor's errors by the swing alone.
+  void add_support_sensor(const std::string& axis) {
+    add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), false, true);
+    add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), false, true);
+  }
+
   /// How far the load and the guide move what is behind the gap depends on its inertia more than on the gap.
   void add_gap(const std::string& axis, Output output, double scale) {
     const double carriage = rig_.plant.trolley_mass_kg / rig_.plant.trolley_inertia_kg;
@@ -155,8 +170,7 @@ class Builder {
   void add_load(bool trolley, bool slew) {
     const double m = rig_.plant.load_mass_kg, g = rig_.plant.gravity_mps2;
     const double length = rig_.start.position[plant::kHoist];
-    if (trolley || slew)
-      add(amount("payload_mass", "", "delta_kg", -0.9 * m, 10 * m, 0.05 * m), true, true, true);
+    if (driven_) add(amount("payload_mass", "", "delta_kg", -0.9 * m, 10 * m, 0.05 * m), true, true, true);
     add(amount("cable_length", "", "delta_m", -0.7 * length, 2 * length, 0.005), true, true, true);
     add(amount("load_linear_drag", "", "coefficient_nspm", 0, 50 * m, 0.02 * m), false, true);
     add(amount("load_quadratic_drag", "", "coefficient_ns2pm2", 0, 50 * m, 0.05 * m), false, true);
@@ -229,7 +243,7 @@ class Builder {
     }
     for (const std::string& way : ways) {
       add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), drive, true);
-      add(amount("swing_moving_average", way, "window_s", 0, 0.3, 0.02), drive, true);
+      add(amount("swing_moving_average", way, "window_s", 0, 0.5, 0.02), drive, true);
     }
   }
 
@@ -241,6 +255,7 @@ class Builder {
   const configuration::Rig& rig_;
   const std::vector<PreparedRun>& runs_;
   bool radial_ = false, tangential_ = false;
+  bool driven_ = false;  ///< whether any drive is compared
   std::vector<Candidate> all_;
 };
 

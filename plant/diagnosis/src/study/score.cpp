@@ -8,6 +8,7 @@
 #include "force/position_spectrum.hpp"
 #include "parallel.hpp"
 #include "study/blocks.hpp"
+#include "study/design.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -165,10 +166,30 @@ double Study::add_probes(const Effects& effects, const Evaluation& at, const Sco
   return own;
 }
 
+std::vector<Visibility> Study::excitation(const std::vector<Score>& places, const std::vector<Slopes>& slopes,
+                                          const Evaluation& at) const {
+  std::vector<std::vector<double>> information;
+  for (const Slopes& of_place : slopes) {
+    std::vector<double>& own = information.emplace_back(of_place.drive.size(), 0.0);
+    for (std::size_t probe = 0; probe < own.size(); ++probe)
+      for (const auto* part : {&of_place.drive[probe], &of_place.under_way[probe], &of_place.load[probe]})
+        for (const VectorXd& change : *part) own[probe] += change.squaredNorm();
+  }
+  const std::vector<Direction> directions = strongest_directions(places, information);
+  Slopes all;
+  for (const Direction& d : directions) {
+    all.drive.push_back(slopes[d.place].drive[d.probe]);
+    all.under_way.push_back(slopes[d.place].under_way[d.probe]);
+    all.load.push_back(slopes[d.place].load[d.probe]);
+  }
+  return visibility_of(candidates_, places, directions, block_scores(at, all));
+}
+
 ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const {
   std::vector<Score> scores = places(effects);
   const Slopes known = slopes(effects, at);
   std::vector<Directions> directions(scores.size());
+  std::vector<Slopes> kept(effects.empty() ? scores.size() : 0);
   parallel_for(scores.size(), [&](std::size_t i) {
     Slopes all = known;
     const double own = add_probes(effects, at, scores[i], all);
@@ -184,8 +205,10 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
     scores[i].gain += own;
     const double loss = (candidate.drive ? at.drive_loss : 0) + (candidate.load ? at.load_loss : 0);
     scores[i].share = loss > 0 ? scores[i].gain / loss : 0;
+    if (effects.empty()) kept[i] = std::move(all);
   });
   ScoreTable table;
+  if (effects.empty()) table.excitation = excitation(scores, kept, at);
   double least = 1;
   for (const Score& score : scores) least = std::min(least, score.p_value);
   table.p_value = luck(directions, least, seed);

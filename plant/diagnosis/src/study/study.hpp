@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crane/diagnosis/candidate.hpp"
+#include "crane/diagnosis/diagnosis.hpp"
 #include "robust.hpp"
 #include "shooting/problem.hpp"
 #include "shooting/under_way.hpp"
@@ -63,6 +64,7 @@ struct Score {
 struct ScoreTable {
   /// Best shape of every candidate with where its fit may begin, in the candidates' order.
   std::vector<Score> best;
+  std::vector<Visibility> excitation;  ///< what the data can show; only where nothing is known
   double p_value = 1;  ///< that the largest of all comes from nothing, by flipping the signs of blocks
 };
 
@@ -146,6 +148,10 @@ class Study {
   /// @return what the start of coordinates of its own gains
   double add_slope(const Crane& crane, const Evaluation& at, double step, ShowsIn parts,
                    Slopes& slopes) const;
+  /// What the data can show of the candidates. @param slopes by place, of its probes
+  [[nodiscard]] std::vector<Visibility> excitation(const std::vector<Score>& places,
+                                                   const std::vector<Slopes>& slopes,
+                                                   const Evaluation& at) const;
   /// Every shape of every candidate that is not among the effects.
   [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
   /// Appends the changes that the probes of a candidate's shape make.

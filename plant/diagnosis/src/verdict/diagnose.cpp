@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "crane/diagnosis/diagnosis.hpp"
 #include "crane/diagnosis/moment.hpp"
@@ -10,6 +9,7 @@
 #include "search/compare.hpp"
 #include "search/held_out.hpp"
 #include "search/intervals.hpp"
+#include "verdict/excitation.hpp"
 #include "verdict/judgement.hpp"
 #include "verdict/losing_encoders.hpp"
 
@@ -32,68 +32,6 @@ constexpr double kStandsStill = 0.1;
 /// Errors of a swing over whole runs in open loop may grow by that much: phase drifts. Of drives nothing is
 /// asked there, where the smallest error of friction integrates into position.
 constexpr double kWorseOverWholeRuns = 1.25;
-
-Runs prepared(std::vector<Run> runs, const configuration::Rig& rig) {
-  Runs all;
-  for (Run& run : runs) all.push_back(prepare(std::move(run), rig));
-  return all;
-}
-
-double total_s(const Runs& runs) {
-  double sum = 0;
-  for (const PreparedRun& run : runs) sum += run.run.duration_s();
-  return sum;
-}
-
-/// "training data (a.csv, b.csv)"
-std::string called(const std::string& what, const Runs& runs) {
-  std::string names;
-  for (const PreparedRun& run : runs)
-    if (names.find(run.run.name) == std::string::npos) names += (names.empty() ? "" : ", ") + run.run.name;
-  return what + (names.empty() ? "" : " (" + names + ")");
-}
-
-/// What is wrong with runs in which too little happens.
-void add_problems(const std::string& what, const Runs& runs, double least_s, const configuration::Rig& rig,
-                  std::vector<std::string>& problems) {
-  constexpr double kLeastRate = 0.01, kLeastWay = 0.005;
-  if (total_s(runs) < least_s)
-    problems.push_back((std::ostringstream{} << called(what, runs) << ": " << total_s(runs)
-                                             << " s in all: at least " << least_s << " s")
-                           .str());
-  bool moves = false;
-  for (const PreparedRun& run : runs)
-    for (const Motion& motion : run.motion) {
-      if (motion.position.empty()) continue;
-      const auto [low, high] = std::minmax_element(motion.position.begin(), motion.position.end());
-      double fastest = 0;
-      for (const double rate : motion.rate) fastest = std::max(fastest, std::abs(rate));
-      moves = moves || (fastest > kLeastRate && *high - *low > kLeastWay);
-    }
-  if (!moves)
-    problems.push_back((std::ostringstream{} << called(what, runs) << ": nothing of " << rig.name
-                                             << " moves by more than " << kLeastWay << " and faster than "
-                                             << kLeastRate << " /s (m or rad): record a motion")
-                           .str());
-}
-
-/// Whether anything happens in the data.
-void require_excitation(const Runs& train, const Runs& test, const configuration::Rig& rig) {
-  constexpr double kLeastTraining_s = 8, kLeastHeldOut_s = 4;
-  std::vector<std::string> problems;
-  add_problems("training data", train, kLeastTraining_s, rig, problems);
-  if (!test.empty()) add_problems("held-out data", test, kLeastHeldOut_s, rig, problems);
-  if (!problems.empty()) throw DataError(problems);
-}
-
-/// Of the replays, by output; of one that is not measured nothing.
-Disturbances disturbances_of(const Study& study) {
-  Disturbances disturbances{};
-  for (const Problem* problem : {&study.drive(), &study.load()})
-    for (std::size_t i = 0; i < problem->outputs().size(); ++i)
-      disturbances[problem->outputs()[i]] = problem->disturbances()[i];
-  return disturbances;
-}
 
 /// Whether a swing is simulated so much better that what was wrong with it has been taken for a force.
 bool follows_better(const Study& study, const Fitted& fitted) {
@@ -221,6 +159,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   Hypotheses found = searched(study, request);
   request.progress(0.85, "what is left");
   auto [result, rival] = judge(study, found, losing, request.seed);
+  result.excitation = found.excitation;
   if (!found.best.effects.empty()) {
     request.progress(0.88, "how well the data know it");
     found.best = settled(study, found.best, request.seed);

@@ -29,10 +29,12 @@ constexpr double kClearWin = 0.8;
 constexpr double kRunnerUp = 0.1;
 
 /// 1 where noise and disturbance are as learnt.
-double mean_loss(const Fits& fits) {
+double mean_loss(const Problem& problem, const Fits& fits) {
   double sum = 0, count = 0;
-  for (const WindowFit& fit : fits)
-    sum += loss_of(fit.residual), count += static_cast<double>(fit.residual.size());
+  for (std::size_t w = 0; w < fits.size(); ++w) {
+    sum += loss_of(fits[w].residual);
+    count += static_cast<double>(problem.seen_rows(problem.windows()[w]));
+  }
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
 
@@ -41,11 +43,9 @@ double mean_loss(const Fits& fits) {
 double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
   double moved = 0, count = 0;
   for (const Window& window : problem.windows()) {
-    const auto rows = static_cast<Eigen::Index>(window.rows);
-    const Eigen::VectorXd measured =
-        problem.measured(window).segment(static_cast<Eigen::Index>(output) * rows, rows);
+    const Eigen::VectorXd measured = problem.seen(window, output);
     moved += (measured.array() - measured.mean()).matrix().squaredNorm();
-    count += static_cast<double>(rows);
+    count += static_cast<double>(measured.size());
   }
   return moved > kMoves * kMoves * count ? std::sqrt(sum(problem.squares_left(fits, output)) / moved) : 0;
 }
@@ -66,7 +66,12 @@ double lacking_force(const Problem& problem, const Fits& fits, std::size_t outpu
     const Eigen::VectorXd left = (problem.measured(window) - fits[w].simulated)
                                      .segment(static_cast<Eigen::Index>(output) * rows, rows);
     const double scale = 1 / std::pow(static_cast<double>(span) * period_s * natural_radps, 2);
+    const Run& run = problem.runs()[window.run].run;
+    const auto seen = [&](Eigen::Index k) {
+      return run.seen(problem.outputs()[output], window.first + static_cast<std::size_t>(k));
+    };
     for (Eigen::Index k = span; k + span < rows; ++k) {
+      if (!seen(k - span) || !seen(k) || !seen(k + span)) continue;
       const double force = scale * (left[k + span] - 2 * left[k] + left[k - span]) + left[k];
       squares += force * force;
       ++count;
@@ -100,7 +105,8 @@ class Judgement {
  private:
   /// Whether what is left is too much to be believed; says what it goes with.
   bool doubt() {
-    const double load = mean_loss(best_.train.load), drives = mean_loss(best_.train.drive);
+    const double load = mean_loss(study_.load(), best_.train.load),
+                 drives = mean_loss(study_.drive(), best_.train.drive);
     Remainder& remainder = result_.remainder;
     if (std::max(load, drives) > kWorst) {
       remainder.predictable_fraction = 1 - kWorst / std::max(load, drives);

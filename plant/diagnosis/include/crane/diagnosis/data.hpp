@@ -1,6 +1,8 @@
 #pragma once
-/// Measured data as the diagnosis takes them: uniform pieces of runs, checked.
+/// Measured data as the diagnosis takes them: runs on the grid that a replay goes by, measurements and
+/// commands at their own times, checked.
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <stdexcept>
@@ -31,18 +33,40 @@ inline constexpr auto kOutputNames = [] {
   return plant::kCoordinates[kCoordinateOf[output]].axis;
 }
 
-/// A piece of a run without gaps. Row k: measurement at t_k, command applied from t_k on.
+/// Volts of the drives from a time on, until the next one.
+struct TimedCommand {
+  double time_s = 0;  ///< since row 0 of its run
+  plant::PerAxis drive_v{};
+};
+
+/// A run on a grid of equal periods. Row k: the measurement at its own instant near start + k periods, the
+/// command from there on. A row that was not measured is NaN: it is simulated, and never compared.
 struct Run {
-  std::string name;                                    ///< "train_1.csv", with ", part 2" after a gap
-  double period_s = 0;                                 ///< > 0
-  double start_s = 0;                                  ///< time of row 0
-  std::vector<plant::PerAxis> command_v;               ///< 0 for a drive without a column
+  std::string name;                       ///< "train_1.csv", with ", part 2" where the state was lost
+  double period_s = 0;                    ///< of the grid, > 0
+  double start_s = 0;                     ///< time of row 0
+  std::vector<plant::PerAxis> command_v;  ///< mean of the period; 0 for a drive without a column
   std::array<std::vector<double>, kOutputs> measured;  ///< m or rad; empty when there is no such column
   std::vector<double> cable_m;                         ///< measured, or the rig's own
+  std::vector<double> offset_s;  ///< by row, of its instant from the grid's, within a period; empty: none
+  std::vector<TimedCommand> commands;         ///< as they were given; empty: one a row, `command_v`
+  std::array<bool, 2> commanded{true, true};  ///< whether the command of trolley and slew is known
+  double load_mass_kg = 0;                    ///< of this run; 0: the rig's own
+  /// Smallest step of each sensor that the data show; 0: not known.
+  std::array<double, kOutputs> resolution{};
 
   [[nodiscard]] std::size_t rows() const { return command_v.size(); }
   [[nodiscard]] double duration_s() const { return static_cast<double>(rows()) * period_s; }
   [[nodiscard]] bool has(Output output) const { return !measured[output].empty(); }
+  [[nodiscard]] bool seen(Output output, std::size_t row) const {
+    return std::isfinite(measured[output][row]);
+  }
+  /// Instant of a row since row 0.
+  [[nodiscard]] double instant_s(std::size_t row) const {
+    return static_cast<double>(row) * period_s + (offset_s.empty() ? 0.0 : offset_s[row]);
+  }
+  /// Whether every row was measured, at the grid's times.
+  [[nodiscard]] bool regular(Output output) const;
 };
 
 /// What was noticed and what was done about it; nothing is mended without a word here.
@@ -61,10 +85,11 @@ class DataError : public std::runtime_error {
   std::vector<std::string> problems_;
 };
 
-/// Checks a table of canonical columns against the rig and cuts it at gaps into uniform pieces. Irregular
-/// sampling is interpolated to the median period and said so. Angles that look like degrees, counts that
-/// wrap, constant and missing columns, time that does not increase and pieces too short are problems or
-/// notes.
+/// Checks a table of canonical columns against the rig. Rows keep their own times: dropped rows, jitter and
+/// two sample times cost nothing but what was not measured. A run is cut only where its state is lost: after
+/// a gap of a whole swing (two seconds without a load), and where a position is set to another value. Angles
+/// that look like degrees, counts that wrap, constant and missing columns, time that does not increase and
+/// pieces too short are problems or notes.
 /// @param name of the file, for messages
 /// @throws DataError with all problems of the table
 [[nodiscard]] Loaded load_run(const recording::Table& table, const configuration::Rig& rig,
@@ -80,5 +105,9 @@ struct Motion {
 /// From a measured position by the cubic spline through the samples: its acceleration, straight between them
 /// and integrated twice, gives them back.
 [[nodiscard]] Motion spline(std::span<const double> measured, double period_s);
+/// The natural cubic spline through samples at their own, increasing times, at the instants 0, period, ... of
+/// `rows` rows. A period before the first sample and after the last one it stands still.
+[[nodiscard]] Motion spline_of(std::span<const double> time_s, std::span<const double> measured,
+                               double period_s, std::size_t rows);
 
 }  // namespace crane::diagnosis

@@ -61,6 +61,19 @@ struct Remainder {
   std::vector<std::string> from;
 };
 
+/// What the data can show of one candidate, whatever they say.
+struct Visibility {
+  std::string label, cause, axis;
+  bool visible = false;  ///< whether an effect inside its bounds would be found
+  std::vector<Estimate>
+      least;  ///< the least that would be found, in 9 of 10 data sets; empty: nothing shows it
+  struct Alike {
+    std::string label;
+    double cosine = 0;  ///< between the changes of the two, 1: the same
+  };
+  std::vector<Alike> alike;  ///< hardly told from it by these data, most alike first
+};
+
 struct NextExperiment {
   std::string name;         ///< of the menu
   std::string description;  ///< one sentence
@@ -87,8 +100,19 @@ struct Diagnosis {
   std::vector<Trace> traces;
   std::vector<plant::TermSetting> extension;  ///< terms to append to the rig's
   std::vector<std::string> notes;
-  double detection_p_value = 1;  ///< that the largest score of all candidates comes from nothing
+  std::vector<Visibility> excitation;  ///< what the training data could show
+  double detection_p_value = 1;        ///< that the largest score of all candidates comes from nothing
   double runtime_s = 0;
+};
+
+/// What the data can show, before anything is fitted, and what to record for what they cannot.
+struct Check {
+  std::vector<Visibility> excitation;
+  struct Proposal {
+    std::string of, from;  ///< shows one candidate, or tells two apart
+    NextExperiment motion;
+  };
+  std::vector<Proposal> next;
 };
 
 struct Request {
@@ -103,5 +127,8 @@ struct Request {
 /// @throws DataError when the data cannot tell: too short, nothing moves
 [[nodiscard]] Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::vector<Run> test,
                                  const Request& request = {});
+
+/// @throws DataError as diagnose()
+[[nodiscard]] Check check(const configuration::Rig& rig, std::vector<Run> train, const Request& request = {});
 
 }  // namespace crane::diagnosis

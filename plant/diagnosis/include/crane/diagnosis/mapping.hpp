@@ -1,13 +1,25 @@
 #pragma once
-/// Another laboratory's columns, names, units, signs and zeros, turned into the canonical ones
-/// (docs/data.md). A mapping file:
+/// Another laboratory's columns, names, units, signs and zeros, turned into the canonical ones, and which of
+/// its rows count (docs/data.md). A mapping file:
 ///
+///   from_s = 0.2                                    # canonical time; to_s likewise
 ///   [columns]
 ///   time_s = { column = "t_s" }
 ///   swing_radial_rad = { column = "theta_deg", factor = 0.017453292519943295, sign = -1, offset = 3.14159 }
+///   slew_voltage_v = { column = "duty", times = ["supply_v"], factor = 0.00113 }
+///   trolley_voltage_v = { column = "current_a", unit = "A", per_volt = 0.5 }
+///   cable_length_m = { value = 0.7 }
+///   [enable]
+///   column = "torque_enable"                        # rows in which it is not 0
+///   [stretches]
+///   "sac.csv" = [0.0, 3.9]                          # from, to, from, to ...
+///   [runs."heavy.csv"]
+///   load_mass_kg = 3.2                              # cable_length_m likewise
 ///
-///   canonical = sign * factor * column + offset
+///   canonical = sign * factor * column * times[0] * ... + offset
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,21 +28,47 @@
 namespace crane::diagnosis {
 
 struct MappedColumn {
-  std::string canonical;  ///< one of recording::kCanonicalColumns
-  std::string column;     ///< name in the other file
-  double factor = 1;      ///< canonical units per unit of the column, > 0
-  int sign = 1;           ///< 1 or -1
-  double offset = 0;      ///< canonical unit; added last
+  std::string canonical;           ///< one of recording::kCanonicalColumns
+  std::string column;              ///< name in the other file; empty: `offset` in every row
+  double factor = 1;               ///< canonical units per unit of the column, > 0
+  int sign = 1;                    ///< 1 or -1
+  double offset = 0;               ///< canonical unit; added last
+  std::vector<std::string> times;  ///< columns that multiply it row by row
+  std::string unit;                ///< of a command that is no voltage, for messages
 };
-using Mapping = std::vector<MappedColumn>;
+
+/// Times between which rows count, both included.
+struct Stretch {
+  double from_s = -std::numeric_limits<double>::infinity(), to_s = std::numeric_limits<double>::infinity();
+};
+
+/// What is known of one run beside its rows; 0: what the rig file says.
+struct RunValues {
+  double cable_length_m = 0, load_mass_kg = 0;
+};
+
+struct Mapping {
+  std::vector<MappedColumn> columns;
+  Stretch whole;       ///< of every file
+  std::string enable;  ///< column; empty: none
+  std::map<std::string, std::vector<Stretch>>
+      stretches;                          ///< by file name without folders; none: the whole file
+  std::map<std::string, RunValues> runs;  ///< likewise
+};
+
+/// Column of `canonical` that counts the stretches of the rows that are left, where there are several:
+/// between them nothing is known of the crane.
+inline constexpr const char* kStretchColumn = "stretch";
+/// Column of the mass of the load, kg, the same in all rows, where a mapping gives it.
+inline constexpr const char* kLoadMassColumn = "load_mass_kg";
 
 /// @throws configuration::ConfigurationError with every problem as "file:line: name = value: rule"
 [[nodiscard]] Mapping load_mapping(const std::filesystem::path& file);
 [[nodiscard]] Mapping parse_mapping(const std::string& text, const std::string& file);
 
-/// Canonical columns only, in their order. A column that the mapping does not name is taken as it is where it
-/// has a canonical name already.
-/// @param name of the file, for messages
+/// Canonical columns only, in their order, in the rows that count. A column that the mapping does not name is
+/// taken as it is where it has a canonical name already.
+/// @param name of the file, for messages and for what the mapping says of this file
 /// @throws DataError naming every column that the mapping wants and the table lacks
 [[nodiscard]] recording::Table canonical(const recording::Table& table, const Mapping& mapping,
                                          const std::string& name);

@@ -33,6 +33,9 @@ struct PreparedRun {
   Run run;
   configuration::RigKind kind = configuration::RigKind::tower;
   std::array<Motion, kOutputs> motion;  ///< smoothed; empty without a measurement
+  /// What was measured, at the grid's times: only where a replay follows it and where a start begins. What is
+  /// compared is `run.measured`, at its own times.
+  std::array<std::vector<double>, kOutputs> on_grid;
   Motion cable;
   /// Along `motion`, in steps without and with coordinates of terms' own; what every replay goes by.
   std::array<std::vector<Measured>, 2> half_way;
@@ -46,8 +49,12 @@ struct PreparedRun {
 /// A measured position with its rate and acceleration: a drive's as the spline through it, a swing's
 /// smoothed.
 [[nodiscard]] Motion motion_of(Output output, const std::vector<double>& measured, double period_s);
+/// What a run measured at the grid's times: the values themselves where it is regular, else a spline through
+/// them.
+[[nodiscard]] std::vector<double> measured_on_grid(const Run& run, Output output);
 
-/// Which outputs a part simulates on a run; the order is that of Output.
+/// Which outputs a part simulates on a run; the order is that of Output. A drive without a command is none of
+/// them: it goes where it was measured.
 [[nodiscard]] std::vector<Output> simulated_outputs(const PreparedRun& run, Part part);
 
 /// One crane on one run: command terms have gone over the whole of it, the errors of the crane's sensors are
@@ -66,7 +73,8 @@ class Replay {
   [[nodiscard]] std::size_t start_size(Part part) const;
   /// What the measurement says about them at row `first`.
   [[nodiscard]] std::vector<double> measured_start(Part part, std::size_t first) const;
-  /// Rows first ... first + rows - 1 from `start` at row `first`; `out` takes output by output.
+  /// Rows first ... first + rows - 1 from `start` at the grid's row `first`, each at its own instant; `out`
+  /// takes output by output.
   /// @param start as long as start_size(part), or without the inner coordinates
   /// @pre first + rows <= rows of the run; sizes fit
   void run(Part part, std::size_t first, std::size_t rows, std::span<const double> start,
@@ -88,6 +96,7 @@ class Replay {
 
  private:
   struct Parts;
+  struct OwnTimes;
   std::unique_ptr<Parts> parts_;
 };
 

@@ -15,6 +15,9 @@ namespace crane::diagnosis {
 /// report.json; fields in docs/diagnosis.md.
 [[nodiscard]] nlohmann::ordered_json to_json(const Diagnosis& diagnosis);
 
+/// What `crane diagnose --check` prints with --json.
+[[nodiscard]] nlohmann::ordered_json to_json(const Check& check);
+
 /// A rig file that extends that of `rig` (by its absolute path) with the terms of the diagnosis after its
 /// own.
 [[nodiscard]] std::string extended_rig_text(const configuration::Rig& rig, const Diagnosis& diagnosis);

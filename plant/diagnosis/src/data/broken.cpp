@@ -1,0 +1,140 @@
+#include "data/broken.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "data/sensor.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+/// A spike lasts no longer than this many rows; more is another zero of the sensor.
+constexpr std::size_t kLongestSpike = 5;
+/// Beyond what the motion makes, in errors of the sensor: normal noise comes there once in 1e23 rows.
+constexpr double kBeyondSensor = 10;
+/// Share of broken values beyond which a column is refused.
+constexpr double kMostBroken = 0.05;
+/// A motion that is measured at so many errors of the sensor a row does not stop from one row to the next for
+/// so long, and go on elsewhere.
+constexpr double kMoving = 8, kFrozen_s = 0.25;
+constexpr std::size_t kFrozenRows = 10, kNamed = 3;
+
+struct BrokenRows {
+  std::size_t first = 0, last = 0;  ///< both broken
+};
+
+class Column {
+ public:
+  Column(std::vector<double>& values, const std::vector<double>& time_s, const configuration::Rig& rig,
+         Output output)
+      : values_(values), time_s_(time_s), rig_(rig), output_(output), error_(sensor_of(values).error()) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (std::isfinite(values[k])) seen_.push_back(k);
+  }
+
+  std::vector<BrokenRows> spikes() {
+    std::vector<BrokenRows> found;
+    for (std::size_t good = 0, i = 1; i < seen_.size(); ++i) {
+      std::size_t back = i;
+      while (back < std::min(i + kLongestSpike + 1, seen_.size()) && far(seen_[good], seen_[back])) ++back;
+      const bool returns = back < std::min(i + kLongestSpike + 1, seen_.size());
+      if (back > i && returns) {
+        found.push_back({seen_[i], seen_[back - 1]});
+        i = back;
+      }
+      good = i;
+    }
+    return found;
+  }
+
+  std::vector<BrokenRows> freezes() {
+    std::vector<BrokenRows> found;
+    for (std::size_t i = 3; i < seen_.size();) {
+      std::size_t end = i + 1;
+      while (end < seen_.size() && values_[seen_[end]] == values_[seen_[i]]) ++end;
+      const bool lasts = end - i > kFrozenRows && time_s_[seen_[end - 1]] - time_s_[seen_[i]] > kFrozen_s;
+      if (lasts && end < seen_.size() && steps(i - 1, i) && steps(i - 2, i - 1) && steps(end - 1, end))
+        found.push_back({seen_[i + 1], seen_[end - 1]});
+      i = end;
+    }
+    return found;
+  }
+
+  void leave_out(const std::vector<BrokenRows>& broken) {
+    for (const BrokenRows& rows : broken)
+      for (std::size_t k = rows.first; k <= rows.last; ++k)
+        values_[k] = std::numeric_limits<double>::quiet_NaN();
+  }
+  [[nodiscard]] std::size_t seen() const { return seen_.size(); }
+
+ private:
+  [[nodiscard]] bool far(std::size_t a, std::size_t b) const {
+    return !(std::abs(values_[b] - values_[a]) <=
+             believable_change(rig_, output_, time_s_[b] - time_s_[a]) + kBeyondSensor * error_);
+  }
+  [[nodiscard]] bool steps(std::size_t i, std::size_t j) const {
+    return std::abs(values_[seen_[j]] - values_[seen_[i]]) > kMoving * error_;
+  }
+
+  std::vector<double>& values_;
+  const std::vector<double>& time_s_;
+  const configuration::Rig& rig_;
+  Output output_;
+  double error_;
+  std::vector<std::size_t> seen_;
+};
+
+/// "3 spikes (row 12 at 0.11 s: 1e+07; ...)"
+void say(const std::string& column, const char* what, const std::vector<BrokenRows>& broken,
+         const std::vector<double>& time_s, const std::vector<double>& values, std::size_t of,
+         Findings& findings) {
+  if (broken.empty()) return;
+  std::size_t rows = 0;
+  std::string named;
+  for (std::size_t i = 0; i < broken.size(); ++i) {
+    rows += broken[i].last - broken[i].first + 1;
+    if (i >= kNamed) continue;
+    named += (named.empty() ? "row " : "; row ") + std::to_string(broken[i].first + 1);
+    if (broken[i].last > broken[i].first) named += " to " + std::to_string(broken[i].last + 1);
+    named += " at " + number(time_s[broken[i].first]) + " s: " + number(values[broken[i].first]);
+  }
+  if (broken.size() > kNamed) named += "; and " + std::to_string(broken.size() - kNamed) + " more";
+  if (static_cast<double>(rows) > kMostBroken * static_cast<double>(of) && std::string{what} == "spikes")
+    findings.problem(
+        column, std::to_string(rows) + " of " + std::to_string(of) + " values are spikes (" + named + ")",
+        "at most one in twenty may be broken");
+  else
+    findings.note(column + ": " + what + " left out (" + named + ")");
+}
+
+}  // namespace
+
+double believable_change(const configuration::Rig& rig, Output output, double time_s) {
+  constexpr double kOfADrive = 5, kSlowest = 0.1, kOfASwing = 3;
+  if (output == kTrolleyPosition || output == kSlewAngle)
+    return kOfADrive * std::max(rig.drives[output].max_speed, kSlowest) * time_s;
+  const double length_m = std::max(rig.start.position[plant::kHoist], 0.05);
+  return kOfASwing * 2 * std::sqrt(rig.plant.gravity_mps2 / length_m) * time_s;
+}
+
+void leave_broken_out(recording::Table& table, const configuration::Rig& rig, Findings& findings) {
+  const auto* time_s = table.find("time_s");
+  if (time_s == nullptr) return;
+  const std::vector<double> times = *time_s;
+  for (const Output output : {kTrolleyPosition, kSlewAngle, kRadialSwing, kTangentialSwing}) {
+    const auto found = std::find_if(table.columns.begin(), table.columns.end(),
+                                    [&](const auto& column) { return column.name == kOutputNames[output]; });
+    if (found == table.columns.end()) continue;
+    const std::vector<double> before = found->values;
+    Column column(found->values, times, rig, output);
+    const std::vector<BrokenRows> spikes = column.spikes(), freezes = column.freezes();
+    column.leave_out(spikes);
+    column.leave_out(freezes);
+    say(found->name, "spikes", spikes, times, before, column.seen(), findings);
+    say(found->name, "values that do not change while it moves", freezes, times, before, column.seen(),
+        findings);
+  }
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,219 @@
+#include "data/grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "data/median.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+/// Nothing of a crane moves faster than 100 samples a second show.
+constexpr double kFinest_s = 0.01;
+/// Of the steps, the share that a second, shorter sample time has to make up; and how much shorter it is.
+constexpr double kShare = 0.1, kShorter = 0.75;
+/// Shortest grid period of rows that come irregularly, s, and as a share of the median step.
+constexpr double kLeastPeriod_s = 0.005, kLeastShare = 0.25;
+/// Rows this near to the grid, as a share of its period, are on it: 1 um at 1 m/s and 10 ms.
+constexpr double kOnGrid = 1e-4;
+/// Steps this near to a whole number of periods tell the period.
+constexpr double kRegular = 0.25;
+/// Nothing is measured there.
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+/// Usual step: the median, or a shorter sample time that the file has, too.
+double usual_step(const std::vector<double>& steps) {
+  const double middle = median(steps);
+  std::vector<double> sorted = steps;
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(sorted.size()));
+  std::nth_element(sorted.begin(), at, sorted.end());
+  if (*at >= kShorter * middle) return middle;
+  return std::min(middle, std::max({*at, kLeastPeriod_s, kLeastShare * middle}));
+}
+
+/// The period of which the steps are multiples, near a guess: their sum over how many there are.
+double period_near(const std::vector<double>& steps, double guess_s) {
+  double time = 0, count = 0;
+  for (const double step : steps) {
+    const double periods = std::round(step / guess_s);
+    if (periods < 1 || periods > 2 || std::abs(step / guess_s - periods) > kRegular) continue;
+    time += step, count += periods;
+  }
+  return count > 0.5 * static_cast<double>(steps.size()) ? time / count : guess_s;
+}
+
+/// Grid row of every row; of rows that crowd, all but one get none: that with most measured values, of these
+/// the nearest.
+class Places {
+ public:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  /// @param values measured in every row
+  Places(const std::vector<double>& at, const std::vector<std::size_t>& values, const Grid& grid)
+      : of_row_(at.size(), kNone) {
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double place = at[i] / grid.period_s;
+      auto node = static_cast<std::size_t>(std::max(0.0, std::round(place)));
+      const bool taken = i > 0 && !row_at_.empty() && node < row_at_.size();
+      if (taken && grid.rows_in_period == 1 && std::abs(static_cast<double>(row_at_.size()) - place) < 1) {
+        node = row_at_.size();  // a row that comes early: the next place is free
+      } else if (taken) {
+        const std::size_t other = row_at_[node];
+        const auto distance = [&](std::size_t row) {
+          return std::abs(at[row] / grid.period_s - static_cast<double>(node));
+        };
+        if (other != kNone &&
+            (values[other] != values[i] ? values[other] > values[i] : distance(other) <= distance(i)))
+          continue;
+        if (other != kNone) of_row_[other] = kNone;
+      }
+      if (node >= row_at_.size()) row_at_.resize(node + 1, kNone);
+      row_at_[node] = i;
+      of_row_[i] = node;
+    }
+    // The last rows of a fast file may end before the grid's next row, to which they are no neighbours.
+    if (grid.rows_in_period > 1 && last_offset(at, grid) * static_cast<double>(grid.rows_in_period) < -0.5) {
+      of_row_[row_at_.back()] = kNone;
+      row_at_.pop_back();
+      while (row_at_.back() == kNone) row_at_.pop_back();
+    }
+  }
+  /// Of the last row that has a place, in periods.
+  [[nodiscard]] double last_offset(const std::vector<double>& at, const Grid& grid) const {
+    return at[row_at_.back()] / grid.period_s - static_cast<double>(row_at_.size() - 1);
+  }
+  [[nodiscard]] std::size_t count() const { return row_at_.size(); }
+  [[nodiscard]] std::size_t of_row(std::size_t row) const { return of_row_[row]; }
+
+ private:
+  std::vector<std::size_t> of_row_, row_at_;
+};
+
+/// A command that is not known holds the last one; before the first one it holds that.
+std::vector<double> held(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
+  double last = 0;
+  for (const std::size_t row : rows)
+    if (std::isfinite(values[row])) {
+      last = values[row];
+      break;
+    }
+  std::vector<double> result;
+  for (const std::size_t row : rows) result.push_back(last = std::isfinite(values[row]) ? values[row] : last);
+  return result;
+}
+
+/// Measured where it is, straight between, the rig's own where it never is.
+std::vector<double> cable_on_grid(const Run& run, const std::vector<double>& seen, double rigs_own_m) {
+  std::vector<double> time_s, length_m;
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    if (std::isfinite(seen[k])) time_s.push_back(run.instant_s(k)), length_m.push_back(seen[k]);
+  if (time_s.empty()) return std::vector<double>(run.rows(), rigs_own_m);
+  std::vector<double> result(run.rows());
+  for (std::size_t k = 0, next = 0; k < result.size(); ++k) {
+    const double at = static_cast<double>(k) * run.period_s;
+    while (next < time_s.size() && time_s[next] < at) ++next;
+    if (next == 0 || next == time_s.size()) {
+      result[k] = next == 0 ? length_m.front() : length_m.back();
+      continue;
+    }
+    const double share = (at - time_s[next - 1]) / (time_s[next] - time_s[next - 1]);
+    result[k] = (1 - share) * length_m[next - 1] + share * length_m[next];
+  }
+  return result;
+}
+
+}  // namespace
+
+Grid grid_of(const std::vector<double>& time_s) {
+  std::vector<double> steps(time_s.size() - 1);
+  for (std::size_t k = 0; k < steps.size(); ++k) steps[k] = time_s[k + 1] - time_s[k];
+  Grid grid;
+  grid.row_s = usual_step(steps);
+  const bool uniform = std::all_of(steps.begin(), steps.end(), [&](double step) {
+    return std::abs(step - grid.row_s) <= kOnGrid * grid.row_s;
+  });
+  if (!uniform) grid.row_s = period_near(steps, grid.row_s);
+  constexpr double kFastest_s = 1e-6;  // faster is refused
+  if (!(grid.row_s > kFastest_s)) return {grid.row_s, grid.row_s, 1};
+  grid.rows_in_period = std::max<std::size_t>(1, static_cast<std::size_t>(kFinest_s / grid.row_s + 1e-3));
+  grid.period_s = static_cast<double>(grid.rows_in_period) * grid.row_s;
+  return grid;
+}
+
+Run on_grid(const Columns& columns, const std::vector<std::size_t>& rows, const Grid& grid, double cable_m,
+            LeftOut& left_out) {
+  const std::vector<double>& t = *columns.time_s;
+  std::vector<double> at;
+  for (const std::size_t row : rows) at.push_back(t[row] - t[rows.front()]);
+  std::vector<std::size_t> values(rows.size(), 0);
+  for (const Source& source : columns.outputs)
+    for (std::size_t r = 0; source.values != nullptr && r < rows.size(); ++r)
+      values[r] += std::isfinite((*source.values)[rows[r]]) ? 1 : 0;
+  const Places places(at, values, grid);
+  Run run;
+  run.period_s = grid.period_s;
+  run.start_s = t[rows.front()];
+  // The instant of the last row must not lie behind the end of the grid.
+  const std::size_t count = places.count() + (places.last_offset(at, grid) > kOnGrid ? 1 : 0);
+  std::vector<double> cable(count, kNotMeasured);
+  run.offset_s.assign(count, 0.0);
+  for (std::size_t i = 0; i < kOutputs; ++i)
+    if (columns.outputs[i].values != nullptr) run.measured[i].assign(count, kNotMeasured);
+  bool own_times = false;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const std::size_t node = places.of_row(r);
+    if (node == Places::kNone) {
+      left_out.crowded += grid.rows_in_period == 1 ? 1 : 0;
+      continue;
+    }
+    const double offset_s = at[r] - static_cast<double>(node) * grid.period_s;
+    if (std::abs(offset_s) > kOnGrid * grid.period_s) run.offset_s[node] = offset_s, own_times = true;
+    for (std::size_t i = 0; i < kOutputs; ++i)
+      if (columns.outputs[i].values != nullptr) run.measured[i][node] = (*columns.outputs[i].values)[rows[r]];
+    if (columns.cable.values != nullptr) cable[node] = (*columns.cable.values)[rows[r]];
+  }
+  left_out.own_times = left_out.own_times || own_times;
+  run.commands.resize(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) run.commands[r].time_s = at[r];
+  for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
+    run.commanded[axis] = columns.commands[axis].values != nullptr;
+    if (!run.commanded[axis]) continue;
+    const std::vector<double> volts = held(*columns.commands[axis].values, rows);
+    for (std::size_t r = 0; r < rows.size(); ++r) run.commands[r].drive_v[axis] = volts[r];
+  }
+  run.command_v = mean_commands(run.commands, run.period_s, count);
+  if (!own_times) run.offset_s.clear();
+  if (!own_times && grid.rows_in_period == 1 && count == rows.size()) {
+    for (std::size_t r = 0; r < rows.size(); ++r) run.command_v[r] = run.commands[r].drive_v;
+    run.commands.clear();
+  }
+  run.cable_m = cable_on_grid(run, cable, cable_m);
+  return run;
+}
+
+std::vector<plant::PerAxis> mean_commands(const std::vector<TimedCommand>& commands, double step_s,
+                                          std::size_t count) {
+  std::vector<plant::PerAxis> means(count);
+  std::size_t now = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double from = static_cast<double>(k) * step_s, to = from + step_s;
+    const double close = 1e-9 * step_s;
+    while (now + 1 < commands.size() && commands[now + 1].time_s <= from + close) ++now;
+    plant::PerAxis sum{};
+    double at = from;
+    while (now + 1 < commands.size() && commands[now + 1].time_s < to - close) {
+      const double until = commands[now + 1].time_s;
+      for (std::size_t axis = 0; axis < sum.size(); ++axis)
+        sum[axis] += (until - at) * commands[now].drive_v[axis];
+      at = until, ++now;
+    }
+    means[k] = commands[now].drive_v;
+    if (at == from) continue;
+    for (std::size_t axis = 0; axis < sum.size(); ++axis)
+      means[k][axis] = (sum[axis] + (to - at) * commands[now].drive_v[axis]) / step_s;
+  }
+  return means;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,129 @@
+#include "study/design.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+
+#include "search/compare.hpp"
+#include "study/blocks.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+
+/// Standard normal quantile of 1 - p.
+double beyond(double p) { return std::sqrt(2.0) * boost::math::erfc_inv(2 * p); }
+
+/// Standard deviations of an amount that is found with a chance of kPower, where the largest of `tests`
+/// scores comes from nothing with kSignificant (Bonferroni).
+double found_at(std::size_t tests, bool one_sided) {
+  const double sides = one_sided ? 1 : 2;
+  return beyond(kSignificant / (sides * static_cast<double>(tests))) + beyond(1 - kPower);
+}
+
+/// Of an amount alone: what the learnt noise makes, and not less than the blocks scatter.
+double deviation(const BlockScores& at, Index i) {
+  const double information = at.curvature(i, i);
+  if (!(information > 0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(std::max(1 / information, at.by_block.col(i).squaredNorm() / (information * information)));
+}
+
+std::string label_of(const Candidate& candidate, const Score& place, std::size_t probe) {
+  if (place.shape.probes.size() < 2) return candidate.label();
+  for (const auto& [name, value] : place.shape.probes[probe].parameters) {
+    const auto& parameters = candidate.parameters;
+    const auto found =
+        std::find_if(parameters.begin(), parameters.end(), [&](const auto& p) { return p.name == name; });
+    if (found != parameters.end() && value != found->null) return candidate.label() + " " + name;
+  }
+  return candidate.label();
+}
+
+/// Values of a candidate of `amount` along a probe; of one that has no small amount, the first value scaled.
+std::vector<double> values_of(const Candidate& candidate, const Score& place, std::size_t probe,
+                              double amount) {
+  const Shape& shape = place.shape;
+  if (shape.as_it_is) {
+    std::vector<double> values = candidate.begin(shape, shape.amounts);
+    values[0] = candidate.parameters[0].null + (values[0] - candidate.parameters[0].null) * amount;
+    return values;
+  }
+  std::vector<double> amounts(shape.amounts.size(), 0.0);
+  amounts[probe] = amount;
+  return candidate.begin(shape, amounts);
+}
+
+bool beyond_bounds(const Candidate& candidate, const Score& place, std::size_t probe, double amount) {
+  if (!std::isfinite(amount)) return true;
+  const std::vector<double> values = values_of(candidate, place, probe, amount);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const FreeParameter& p = candidate.parameters[i];
+    if (values[i] != p.null && (values[i] <= p.low || values[i] >= p.high) && i == 0) return true;
+  }
+  return false;
+}
+
+void add_alike(const std::vector<std::size_t>& of, const BlockScores& at, std::vector<Visibility>& all) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
+      const double size = std::sqrt(at.curvature(a, a) * at.curvature(b, b));
+      if (of[i] == of[j] || !(size > 0)) continue;
+      const double cosine = at.curvature(a, b) / size;
+      if (std::abs(cosine) >= kAlike) all[i].alike.push_back({all[j].label, cosine});
+    }
+    std::sort(all[i].alike.begin(), all[i].alike.end(),
+              [](const auto& x, const auto& y) { return std::abs(x.cosine) > std::abs(y.cosine); });
+  }
+}
+
+}  // namespace
+
+std::vector<Direction> strongest_directions(const std::vector<Score>& places,
+                                            const std::vector<std::vector<double>>& information) {
+  std::vector<Direction> directions;
+  for (std::size_t first = 0; first < places.size();) {
+    std::size_t end = first, best = first;
+    double most = -1;
+    for (; end < places.size() && places[end].candidate == places[first].candidate; ++end) {
+      // A small amount where there is one; of settings as they are the strongest.
+      const double least = *std::min_element(information[end].begin(), information[end].end());
+      const double worth = places[end].shape.as_it_is ? least / (1 + least) - 1 : least;
+      if (worth > most) most = worth, best = end;
+    }
+    for (std::size_t probe = 0; probe < places[best].shape.probes.size(); ++probe)
+      directions.push_back({best, probe});
+    first = end;
+  }
+  return directions;
+}
+
+std::vector<Visibility> visibility_of(const std::vector<Candidate>& candidates,
+                                      const std::vector<Score>& places,
+                                      const std::vector<Direction>& directions, const BlockScores& at) {
+  std::vector<Visibility> all;
+  std::vector<std::size_t> of;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const Score& place = places[directions[i].place];
+    const Candidate& candidate = candidates[place.candidate];
+    const std::size_t probe = directions[i].probe;
+    const bool one_sided = candidate.one_sided || place.shape.as_it_is;
+    const double least = found_at(directions.size(), one_sided) * deviation(at, static_cast<Index>(i));
+    Visibility seen;
+    seen.label = label_of(candidate, place, probe);
+    seen.cause = candidate.cause, seen.axis = candidate.axis;
+    seen.visible = !beyond_bounds(candidate, place, probe, least);
+    if (std::isfinite(least)) {
+      const std::vector<double> values = values_of(candidate, place, probe, least);
+      for (std::size_t k = 0; k < values.size(); ++k)
+        seen.least.push_back({candidate.parameters[k].name, candidate.parameters[k].unit, values[k], 0});
+    }
+    all.push_back(std::move(seen));
+    of.push_back(place.candidate);
+  }
+  add_alike(of, at, all);
+  return all;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "crane/diagnosis/diagnosis.hpp"
+#include "experiment/next_experiment.hpp"
+#include "study/study.hpp"
+#include "verdict/excitation.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+/// Simulating the menu takes seconds a proposal.
+constexpr std::size_t kProposals = 4;
+/// Effects are asked for at so many times the least size that these data show.
+constexpr double kTimesLeast = 2;
+
+const Candidate* candidate_of(const Study& study, const Visibility& seen) {
+  const auto found =
+      std::find_if(study.candidates().begin(), study.candidates().end(),
+                   [&](const Candidate& c) { return c.cause == seen.cause && c.axis == seen.axis; });
+  return found == study.candidates().end() ? nullptr : &*found;
+}
+
+/// Of twice the least size, inside its bounds.
+Effects effect_of(const Study& study, const Visibility& seen) {
+  const Candidate* candidate = candidate_of(study, seen);
+  if (candidate == nullptr || seen.least.size() != candidate->parameters.size()) return {};
+  std::vector<double> values;
+  for (std::size_t i = 0; i < seen.least.size(); ++i) {
+    const FreeParameter& p = candidate->parameters[i];
+    const double value = i == 0 ? p.null + kTimesLeast * (seen.least[0].value - p.null) : seen.least[i].value;
+    values.push_back(std::clamp(value, p.low, p.high));
+  }
+  return {{candidate, values}};
+}
+
+/// Pairs that look alike, most alike first, each once; then what is not seen at all, against nothing.
+std::vector<std::pair<const Visibility*, const Visibility*>> questions(const std::vector<Visibility>& all) {
+  std::vector<std::pair<const Visibility*, const Visibility*>> asked;
+  for (const Visibility& seen : all)
+    if (!seen.visible) asked.emplace_back(&seen, nullptr);
+  std::vector<std::tuple<double, const Visibility*, const Visibility*>> pairs;
+  for (const Visibility& seen : all)
+    for (const auto& alike : seen.alike) {
+      const auto other =
+          std::find_if(all.begin(), all.end(), [&](const Visibility& v) { return v.label == alike.label; });
+      if (other != all.end() && &seen < &*other) pairs.emplace_back(-std::abs(alike.cosine), &seen, &*other);
+    }
+  std::sort(pairs.begin(), pairs.end());
+  for (const auto& [cosine, a, b] : pairs) asked.emplace_back(a, b);
+  return asked;
+}
+
+}  // namespace
+
+Check check(const configuration::Rig& rig, std::vector<Run> train, const Request& request) {
+  const Runs runs = prepared(std::move(train), rig), none;
+  require_excitation(runs, none, rig);
+  Study study(rig, runs, none, request.excluded);
+  request.progress(0.1, "noise and disturbance");
+  study.learn_disturbance();
+  request.progress(0.3, "what the data show");
+  Check result;
+  result.excitation = study.score({}, study.base_train(), request.seed).excitation;
+  const Disturbances disturbances = disturbances_of(study);
+  std::size_t asked = 0;
+  for (const auto& [a, b] : questions(result.excitation)) {
+    if (asked++ >= kProposals) break;
+    request.progress(0.5 + 0.1 * static_cast<double>(asked), "what to record next");
+    const Effects one = effect_of(study, *a), other = b != nullptr ? effect_of(study, *b) : Effects{};
+    if (one.empty()) continue;
+    if (const auto next = propose_experiment(rig, one, other, disturbances))
+      result.next.push_back({a->label, b != nullptr ? b->label : "", *next});
+  }
+  request.progress(1, "done");
+  return result;
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,125 @@
+/// Values that no motion makes are named with row and time; left out where that is safe, refused where not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "crane/diagnosis/data.hpp"
+#include "strange_lab.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+configuration::Rig broken_lab() { return configuration::load_rig(CRANE_RIGS "/gantry.toml"); }
+
+recording::Table whole_file() { return strange::recorded(strange::moved({}, 12, strange::rich_command), {}); }
+
+std::vector<double>& values_of(recording::Table& table, const std::string& name) {
+  for (auto& column : table.columns)
+    if (column.name == name) return column.values;
+  throw std::invalid_argument(name);
+}
+
+std::string refusal_of(const recording::Table& table) {
+  try {
+    (void)load_run(table, broken_lab(), "broken.csv");
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(BrokenData, AWholeFileHasNothingToSay) {
+  const Loaded loaded = load_run(whole_file(), broken_lab(), "broken.csv");
+  EXPECT_TRUE(loaded.notes.empty()) << loaded.notes[0];
+}
+
+TEST(BrokenData, SpikesAreNamedWithRowAndTimeAndLeftOut) {
+  auto table = whole_file();
+  values_of(table, "swing_radial_rad")[400] = 1e7 * M_PI / 180;
+  values_of(table, "trolley_position_m")[700] = -1e7;
+  values_of(table, "trolley_position_m")[701] = -1e7;
+  const Loaded loaded = load_run(table, broken_lab(), "broken.csv");
+  ASSERT_EQ(loaded.runs.size(), 1U);
+  ASSERT_GE(loaded.notes.size(), 2U);
+  EXPECT_THAT(loaded.notes[0],
+              AllOf(HasSubstr("trolley_position_m: spikes"), HasSubstr("row 701 to 702 at 7 s")));
+  EXPECT_THAT(loaded.notes[1], AllOf(HasSubstr("swing_radial_rad: spikes"), HasSubstr("row 401 at 4 s")));
+  EXPECT_FALSE(loaded.runs[0].seen(kRadialSwing, 400));
+  EXPECT_TRUE(loaded.runs[0].seen(kTrolleyPosition, 400));
+  EXPECT_FALSE(loaded.runs[0].seen(kTrolleyPosition, 701));
+}
+
+TEST(BrokenData, AColumnOfSpikesIsRefused) {
+  auto table = whole_file();
+  for (std::size_t k = 5; k < 1200; k += 10) values_of(table, "swing_radial_rad")[k] = 3e5;
+  EXPECT_THAT(refusal_of(table), AllOf(HasSubstr("swing_radial_rad"), HasSubstr("are spikes")));
+}
+
+TEST(BrokenData, AColumnThatFreezesInMotionIsLeftOutThere) {
+  auto table = whole_file();
+  auto& swing = values_of(table, "swing_radial_rad");
+  std::size_t from = 500;  // where it swings through rest, fast
+  while (std::abs(swing[from + 1] - swing[from - 1]) < 0.004) ++from;
+  for (std::size_t k = from; k < from + 77; ++k) swing[k] = swing[from];
+  const Loaded loaded = load_run(table, broken_lab(), "broken.csv");
+  ASSERT_FALSE(loaded.notes.empty());
+  EXPECT_THAT(loaded.notes[0], AllOf(HasSubstr("swing_radial_rad: values that do not change while it moves"),
+                                     HasSubstr("row " + std::to_string(from + 2))));
+  EXPECT_FALSE(loaded.runs.at(0).seen(kRadialSwing, from + 20));
+  EXPECT_TRUE(loaded.runs.at(0).seen(kTrolleyPosition, from + 20));
+}
+
+TEST(BrokenData, AnAxisThatRestsIsNotFrozen) {
+  const auto rest = [](double t) { return t < 4 ? 0.8 * std::sin(2 * M_PI * t / 4) : 0.0; };
+  const auto table =
+      strange::recorded(strange::moved({.drag_nspm = 60}, 12, rest), {.position_step_m = 1e-3});
+  for (const std::string& note : load_run(table, broken_lab(), "broken.csv").notes)
+    EXPECT_THAT(note, Not(HasSubstr("do not change")));
+}
+
+TEST(BrokenData, ACountThatIsSetToZeroEndsThePieceAndIsNamed) {
+  auto table = whole_file();
+  auto& position = values_of(table, "trolley_position_m");
+  const double lost = position[600];
+  for (std::size_t k = 600; k < position.size(); ++k) position[k] -= lost;
+  const Loaded loaded = load_run(table, broken_lab(), "broken.csv");
+  EXPECT_EQ(loaded.runs.size(), 2U);
+  EXPECT_THAT(loaded.notes.at(0), AllOf(HasSubstr("jumps"), HasSubstr("row 601 at 6 s")));
+}
+
+TEST(BrokenData, ValuesThatAreMissingAreNamedAndCostTheirOwnColumnOnly) {
+  auto table = whole_file();
+  for (std::size_t k = 300; k < 330; ++k) values_of(table, "swing_radial_rad")[k] = std::nan("");
+  const Loaded loaded = load_run(table, broken_lab(), "broken.csv");
+  ASSERT_EQ(loaded.runs.size(), 1U);
+  EXPECT_THAT(loaded.notes.at(0), AllOf(HasSubstr("30 rows lack a value"), HasSubstr("row 301 at 3 s")));
+  EXPECT_TRUE(loaded.runs[0].seen(kTrolleyPosition, 310));
+}
+
+TEST(BrokenData, ASwingOfTheOtherSignIsRefused) {
+  auto table = whole_file();
+  for (double& swing : values_of(table, "swing_radial_rad")) swing = -swing;
+  EXPECT_THAT(refusal_of(table), AllOf(HasSubstr("swing_radial_rad"), HasSubstr("sign?")));
+}
+
+TEST(BrokenData, AllProblemsAreNamedAtOnce) {
+  auto table = whole_file();
+  for (double& swing : values_of(table, "swing_radial_rad")) swing *= 4000;
+  for (double& position : values_of(table, "trolley_position_m")) position *= 1000;
+  for (double& volts : values_of(table, "trolley_voltage_v")) volts *= 1000;
+  EXPECT_THAT(refusal_of(table), AllOf(HasSubstr("swing_radial_rad"), HasSubstr("trolley_position_m"),
+                                       HasSubstr("trolley_voltage_v")));
+}
+
+TEST(BrokenData, ATimeThatIsRepeatedCostsThatRow) {
+  auto table = whole_file();
+  values_of(table, "time_s")[200] = values_of(table, "time_s")[199];
+  const Loaded loaded = load_run(table, broken_lab(), "broken.csv");
+  EXPECT_EQ(loaded.runs.size(), 1U);
+  EXPECT_THAT(loaded.notes.at(0), HasSubstr("row 201"));
+}
+
+}  // namespace
+}  // namespace crane::diagnosis

@@ -1,0 +1,235 @@
+/// Data at the times at which laboratories have them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "crane/diagnosis/diagnosis.hpp"
+#include "crane/diagnosis/replay.hpp"
+#include "data/grid.hpp"
+#include "data/sensor.hpp"
+#include "shooting/problem.hpp"
+#include "strange_lab.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using strange::Gantry;
+using strange::Recording;
+using testing::HasSubstr;
+
+configuration::Rig gantry() { return configuration::load_rig(CRANE_RIGS "/gantry.toml"); }
+
+Loaded loaded_as(const Recording& recording, double duration_s = 12, const Gantry& crane = {}) {
+  return load_run(strange::recorded(strange::moved(crane, duration_s, strange::rich_command), recording),
+                  gantry(), "lab.csv");
+}
+
+std::size_t seen_in(const Run& run, Output output) {
+  std::size_t seen = 0;
+  for (std::size_t row = 0; row < run.rows(); ++row) seen += run.seen(output, row) ? 1 : 0;
+  return seen;
+}
+
+/// Every row of the file that is compared stands at its own time with its own value.
+void expect_rows_as_they_are(const recording::Table& table, const Run& run) {
+  const auto &time_s = *table.find("time_s"), &position = *table.find("trolley_position_m");
+  for (std::size_t row = 0; row < run.rows(); ++row) {
+    if (!run.seen(kTrolleyPosition, row)) continue;
+    const double at = run.start_s + run.instant_s(row);
+    const auto found = std::min_element(time_s.begin(), time_s.end(), [&](double a, double b) {
+      return std::abs(a - at) < std::abs(b - at);
+    });
+    ASSERT_NEAR(*found, at, 2e-6) << "row " << row;
+    ASSERT_EQ(position[static_cast<std::size_t>(found - time_s.begin())],
+              run.measured[kTrolleyPosition][row]);
+  }
+}
+
+TEST(DataAtTheirOwnTimes, AMissingRowCostsThatRowAndNotTheRun) {
+  const auto truth = strange::moved({}, 12, strange::rich_command);
+  auto table = strange::recorded(truth, {});
+  for (auto& column : table.columns) column.values.erase(column.values.begin() + 500);
+  const Loaded loaded = load_run(table, gantry(), "lab.csv");
+  ASSERT_EQ(loaded.runs.size(), 1U);
+  EXPECT_EQ(seen_in(loaded.runs[0], kTrolleyPosition), table.rows());
+  EXPECT_FALSE(loaded.runs[0].seen(kTrolleyPosition, 500));
+  expect_rows_as_they_are(table, loaded.runs[0]);
+  EXPECT_THAT(loaded.notes.at(0), HasSubstr("1 rows are missing"));
+}
+
+TEST(DataAtTheirOwnTimes, JitterAndDroppedFramesCostNothingElse) {
+  for (const double row_s : {0.1, 0.0345, 0.01}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      SCOPED_TRACE("row " + std::to_string(row_s) + " s, seed " + std::to_string(seed));
+      const Recording lab{.row_s = row_s, .jitter = 0.5, .dropped = 0.1, .seed = seed};
+      const auto table = strange::recorded(strange::moved({}, 30, strange::rich_command), lab);
+      const Loaded loaded = load_run(table, gantry(), "lab.csv");
+      ASSERT_EQ(loaded.runs.size(), 1U);
+      EXPECT_GE(static_cast<double>(seen_in(loaded.runs[0], kTrolleyPosition)),
+                0.98 * static_cast<double>(table.rows()));
+      expect_rows_as_they_are(table, loaded.runs[0]);
+    }
+  }
+}
+
+TEST(DataAtTheirOwnTimes, TwoSampleTimesInOneFileAreOneRun) {
+  const auto truth = strange::moved({}, 12, strange::rich_command);
+  auto table = strange::recorded(truth, {.row_s = 0.0055});
+  const auto slow = strange::recorded(truth, {.row_s = 0.0035});
+  const auto before = [](const recording::Table& t) {
+    return std::lower_bound(t.columns[0].values.begin(), t.columns[0].values.end(), 4.0) -
+           t.columns[0].values.begin();
+  };
+  const auto kept = before(table), from = before(slow);
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    table.columns[c].values.resize(static_cast<std::size_t>(kept));
+    table.columns[c].values.insert(table.columns[c].values.end(), slow.columns[c].values.begin() + from,
+                                   slow.columns[c].values.end());
+  }
+  const Loaded loaded = load_run(table, gantry(), "lab.csv");
+  ASSERT_EQ(loaded.runs.size(), 1U);
+  EXPECT_NEAR(loaded.runs[0].duration_s(), 12, 0.05);
+  EXPECT_GE(seen_in(loaded.runs[0], kTrolleyPosition), 1200U) << "100 rows a second at least";
+  expect_rows_as_they_are(table, loaded.runs[0]);
+}
+
+TEST(DataAtTheirOwnTimes, FromTenHertzToTenKilohertz) {
+  EXPECT_EQ(loaded_as({.row_s = 0.1}).runs.size(), 1U);
+  const diagnosis::Run fast = loaded_as({.row_s = 0.0005}).runs.at(0);
+  EXPECT_NEAR(fast.period_s, 0.01, 1e-9);
+  EXPECT_EQ(fast.commands.size(), 24000U) << "commands act at their own times";
+  EXPECT_THROW((void)loaded_as({.row_s = 0.2}), DataError);
+}
+
+TEST(DataAtTheirOwnTimes, ASensorSlowerThanTheFileIsComparedWhereItMeasured) {
+  const diagnosis::Run run = loaded_as({.row_s = 0.01, .swing_every_s = 0.0345}).runs.at(0);
+  EXPECT_EQ(run.rows(), 1200U);
+  EXPECT_EQ(seen_in(run, kTrolleyPosition), 1200U);
+  EXPECT_NEAR(static_cast<double>(seen_in(run, kRadialSwing)), 12 / 0.0345, 3);
+}
+
+TEST(DataAtTheirOwnTimes, OfASlowSensorInAFastFileNoRowIsLost) {
+  const diagnosis::Run run = loaded_as({.row_s = 0.001, .swing_every_s = 0.0345}).runs.at(0);
+  EXPECT_NEAR(static_cast<double>(seen_in(run, kRadialSwing)), 12 / 0.0345, 3);
+}
+
+/// Prediction of the right model at rows of their own times against the truth.
+double worst_prediction(const Recording& lab, Part part, Output output) {
+  const auto rig = gantry();
+  Recording exact = lab;
+  exact.position_step_m = exact.swing_step_rad = 0;
+  Run run =
+      load_run(strange::recorded(strange::moved({}, 8, strange::rich_command, 0.3), exact), rig, "lab.csv")
+          .runs.at(0);
+  const PreparedRun prepared = prepare(run, rig);
+  const Replay replay(prepared, {rig.plant, rig.terms});
+  const auto outputs = simulated_outputs(prepared, part);
+  const std::size_t rows = run.rows();
+  std::vector<double> start, out(rows * outputs.size());
+  for (const Output o : outputs) start.insert(start.end(), {o == kTrolleyPosition ? 1.0 : 0.3, 0.0});
+  replay.run(part, 0, rows, start, out);
+  const auto at =
+      static_cast<std::size_t>(std::find(outputs.begin(), outputs.end(), output) - outputs.begin());
+  double worst = 0;
+  for (std::size_t k = 0; k < rows; ++k)
+    if (run.seen(output, k)) worst = std::max(worst, std::abs(out[at * rows + k] - run.measured[output][k]));
+  return worst;
+}
+
+TEST(DataPredictedAtOwnTimes, ErrWellBelowAnySensorsNoise) {
+  const Recording jittered{.row_s = 0.01, .jitter = 0.6, .dropped = 0.1};
+  EXPECT_LT(worst_prediction(jittered, Part::load, kRadialSwing), 2e-4);
+  EXPECT_LT(worst_prediction({.row_s = 0.01}, Part::load, kRadialSwing), 2e-4);
+}
+
+TEST(DataPredictedAtOwnTimes, FollowACommandThatChangesBetweenTheRowsThatAreCompared) {
+  // One row in ten is compared; the command changes every 2 ms.
+  EXPECT_LT(worst_prediction({.row_s = 0.001}, Part::whole, kTrolleyPosition), 5e-4);
+}
+
+TEST(DataThatWereNotMeasured, EnterNoResidual) {
+  const auto rig = gantry();
+  const Runs runs{prepare(loaded_as({.row_s = 0.01, .jitter = 0.4, .dropped = 0.2}).runs.at(0), rig)};
+  for (const Part part : {Part::drive, Part::load}) {
+    Problem problem(runs, part, 2, 2.5);
+    const Replays replays = replays_of(runs, {rig.plant, rig.terms});
+    for (const bool whitened : {false, true}) {
+      if (whitened) problem.learn_disturbance(replays);
+      const Fits fits = problem.fit(replays);
+      for (std::size_t w = 0; w < fits.size(); ++w)
+        for (std::size_t k = 0; k < problem.windows()[w].rows; ++k)
+          if (!runs[0].run.seen(problem.outputs()[0], problem.windows()[w].first + k)) {
+            const auto row = static_cast<Eigen::Index>(k);
+            ASSERT_EQ(problem.measured(problem.windows()[w])[row] - fits[w].simulated[row], 0.0);
+            if (whitened) {
+              Eigen::MatrixXd one =
+                  Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(problem.windows()[w].rows), 1);
+              problem.whitener(0, w).apply(one);
+              ASSERT_EQ(one(row, 0), 0.0);
+            }
+          }
+    }
+  }
+}
+
+TEST(DataOfASensor, ResolutionAndNoiseAreWhatTheDataShow) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> gauss;
+  for (const double finer : {0.01, 1.0, 100.0}) {
+    const double step = 1e-4 / finer;
+    std::vector<double> counts, noisy;
+    for (int k = 0; k < 4000; ++k) {
+      const double x = 0.3 * std::sin(0.01 * k);
+      counts.push_back(std::round(x / step) * step);
+      noisy.push_back(x + 1e-3 * gauss(random));
+    }
+    EXPECT_NEAR(sensor_of(counts).resolution, step, 0.01 * step);
+    EXPECT_NEAR(sensor_of(noisy).noise, 1e-3, 1e-4);
+  }
+}
+
+TEST(DataOfASensor, AHundredTimesFinerOrCoarserThanTheRigFileIsTakenAsItIs) {
+  const auto rig = gantry();
+  for (const double finer : {0.01, 1.0, 100.0}) {
+    const Recording lab{.row_s = 0.01, .position_step_m = 2.5e-5 / finer};
+    const PreparedRun run = prepare(loaded_as(lab).runs.at(0), rig);
+    EXPECT_NEAR(run.least_noise[kTrolleyPosition], std::max(1e-7, 2.5e-5 / finer / std::sqrt(12.0)), 1e-7);
+  }
+}
+
+/// A gantry watched by a camera at 29 Hz that drops frames, whose angle is a mean over 0.37 s.
+TEST(DataOfACamera, HasNoLargerErrorsInWindowsThanOverWholeRuns) {
+  const auto rig = gantry();
+  const auto watched = [&](std::uint64_t seed) {
+    const Recording lab{.row_s = 0.0345,
+                        .jitter = 0.2,
+                        .dropped = 0.05,
+                        .swing_mean_s = 0.37,
+                        .position_noise_m = 5e-4,
+                        .swing_noise_rad = 1e-3,
+                        .seed = seed};
+    const auto command = [&](double t) { return strange::rich_command(t + 5.0 * static_cast<double>(seed)); };
+    return load_run(strange::recorded(strange::moved({.drag_nspm = 3}, 20, command), lab), rig,
+                    "camera_" + std::to_string(seed) + ".csv");
+  };
+  std::vector<diagnosis::Run> train, test;
+  for (const std::uint64_t seed : {1U, 2U}) {
+    ASSERT_EQ(watched(seed).runs.size(), 1U);
+    train.push_back(watched(seed).runs[0]);
+  }
+  test.push_back(watched(3).runs.at(0));
+  const Diagnosis found = diagnose(rig, train, test, {.most_effects = 2});
+  const HeldOut& held_out = found.held_out;
+  for (const char* column : {"swing_radial_rad", "trolley_position_m"}) {
+    SCOPED_TRACE(column);
+    EXPECT_LE(held_out.baseline_rms.at(column), 1.05 * held_out.whole_baseline_rms.at(column));
+    EXPECT_LE(held_out.extended_rms.at(column), 1.05 * held_out.whole_extended_rms.at(column));
+  }
+  EXPECT_LE(held_out.extended_rms.at("swing_radial_rad"), 3e-3) << found.sentence;
+  EXPECT_THAT(found.sentence, HasSubstr("swing_moving_average"));
+  EXPECT_THAT(found.sentence, HasSubstr("viscous_friction"));
+}
+
+}  // namespace
+}  // namespace crane::diagnosis
