@@ -160,7 +160,9 @@ TEST(DataFuzz, NoFileCrashesReaderMappingAndLoader) {
   }
   std::cout << loaded << " loaded, " << refused << " refused, " << simulated << " simulated\n";
   EXPECT_EQ(loaded + refused, cases);
-  if (cases >= 1000) EXPECT_GT(loaded, cases / 50) << "most files have to reach the loader";
+  if (cases >= 1000) {
+    EXPECT_GT(loaded, cases / 50) << "most files have to reach the loader";
+  }
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ TEST_F(Mutation, AtAnObserverOnFastDdsDoesNotDisturbTheLoop) {
   stack_->listen(500ms);
   watch();
   expect_no_motion();
-  EXPECT_TRUE(supervisor_is(crane_STATE_HOLD)) << stack::in_words(stack_->observer().statuses().back());
+  EXPECT_TRUE(supervisor_is(crane_STATE_HOLD)) << experiments::in_words(stack_->observer().statuses().back());
   EXPECT_TRUE(std::all_of(ended_.begin(), ended_.end(), [](const auto& name) { return name == "recorder"; }));
   const auto& states = stack_->observer().states();
   std::cout << "the recorder " << (ended_.empty() ? "still runs" : "died") << "; overruns of the loop "

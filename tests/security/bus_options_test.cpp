@@ -16,7 +16,7 @@ using testing::HasSubstr;
 std::string refusal(const BusOptions& options, crane_Source source) {
   try {
     (void)bus_options(options, "test", source, 1);
-  } catch (const ConfigurationError& error) {
+  } catch (const configuration::ConfigurationError& error) {
     return error.what();
   }
   return "accepted";

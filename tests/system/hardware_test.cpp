@@ -146,7 +146,7 @@ TEST(BridgeProcess, LeavesZeroVoltsAndClosedBrakesWhenCraneUpIsKilled) {
   options.domain = kDomain;
   options.crane = crane_name();
   bus::Bus bus{runtime::bus_options(options, "system_test", crane_SOURCE_OPERATOR, 0)};
-  stack::RealtimeSession session{bus, [] {}};
+  experiments::RealtimeSession session{bus, [] {}};
   session.wait_for(crane_STATE_LOCKED, 5s);
   const std::uint16_t closed = monitor.lines().outputs;
   session.arm();

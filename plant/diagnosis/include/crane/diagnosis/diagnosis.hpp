@@ -118,7 +118,7 @@ struct Check {
 struct Request {
   std::uint64_t seed = 1;  ///< of the resampling
   std::size_t most_effects = 3;
-  std::vector<std::string> excluded;  ///< causes that are not considered
+  std::vector<std::string> excluded{};  ///< causes that are not considered
   /// Called with the share done, 0..1, and what is being done.
   std::function<void(double, const std::string&)> progress = [](double, const std::string&) {};
 };
