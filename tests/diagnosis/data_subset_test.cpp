@@ -147,7 +147,7 @@ TEST(MappingOfRows, ProblemsAreNamedWithFileLineAndRule) {
     EXPECT_THAT(error.what(),
                 AllOf(HasSubstr("their.toml:2: to_s = 1: must be after from_s"),
                       HasSubstr("columns.time_s.value"), HasSubstr("only a command has a unit"),
-                      HasSubstr("stretches.a.csv"), HasSubstr("load_mass_kg = -1: must be > 0")));
+                      HasSubstr("stretches.a.csv"), HasSubstr("load_mass_kg = -1: must be finite and > 0")));
   }
 }
 
