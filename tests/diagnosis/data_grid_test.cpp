@@ -233,7 +233,9 @@ TEST(DataOfACamera, HasNoLargerErrorsInWindowsThanOverWholeRuns) {
     train.push_back(watched(seed).runs[0]);
   }
   test.push_back(watched(3).runs.at(0));
-  const Diagnosis found = diagnose(rig, train, test, {.most_effects = 2});
+  Request request;
+  request.most_effects = 2;
+  const Diagnosis found = diagnose(rig, train, test, request);
   const HeldOut& held_out = found.held_out;
   for (const char* column : {"swing_radial_rad", "trolley_position_m"}) {
     SCOPED_TRACE(column);
