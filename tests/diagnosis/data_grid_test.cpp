@@ -115,13 +115,13 @@ TEST(DataAtTheirOwnTimes, OfASlowSensorInAFastFileNoRowIsLost) {
 }
 
 /// Prediction of the right model at rows of their own times against the truth.
-double worst_prediction(const Recording& lab, Part part, Output output) {
+double worst_prediction(const Recording& lab, Part part, Output output,
+                        const std::function<double(double)>& command_v) {
   const auto rig = gantry();
   Recording exact = lab;
   exact.position_step_m = exact.swing_step_rad = 0;
   Run run =
-      load_run(strange::recorded(strange::moved({}, 8, strange::rich_command, 0.3), exact), rig, "lab.csv")
-          .runs.at(0);
+      load_run(strange::recorded(strange::moved({}, 8, command_v, 0.3), exact), rig, "lab.csv").runs.at(0);
   const PreparedRun prepared = prepare(run, rig);
   const Replay replay(prepared, {rig.plant, rig.terms});
   const auto outputs = simulated_outputs(prepared, part);
@@ -137,15 +137,27 @@ double worst_prediction(const Recording& lab, Part part, Output output) {
   return worst;
 }
 
+double smooth_command(double t) { return 0.9 * std::cos(1.1 * t) + 0.7 * std::cos(2.9 * t + 1); }
+
+/// A count of the swing's encoder is 4e-4 rad, of the trolley's 2.5e-5 m.
 TEST(DataPredictedAtOwnTimes, ErrWellBelowAnySensorsNoise) {
   const Recording jittered{.row_s = 0.01, .jitter = 0.6, .dropped = 0.1};
-  EXPECT_LT(worst_prediction(jittered, Part::load, kRadialSwing), 2e-4);
-  EXPECT_LT(worst_prediction({.row_s = 0.01}, Part::load, kRadialSwing), 2e-4);
+  EXPECT_LT(worst_prediction({.row_s = 0.01}, Part::load, kRadialSwing, smooth_command), 5e-5);
+  EXPECT_LT(worst_prediction(jittered, Part::load, kRadialSwing, smooth_command), 5e-5);
+  EXPECT_LT(worst_prediction({.row_s = 0.0345, .jitter = 0.6}, Part::load, kRadialSwing, smooth_command),
+            2e-4);
+}
+
+/// Steps of the acceleration inside a gap are what no measured motion shows.
+TEST(DataPredictedAtOwnTimes, OverGapsAreAsGoodAsTheMotionOfTheSupportIsKnown) {
+  const Recording jittered{.row_s = 0.01, .jitter = 0.6, .dropped = 0.1};
+  EXPECT_LT(worst_prediction(jittered, Part::load, kRadialSwing, strange::rich_command), 1e-3);
 }
 
 TEST(DataPredictedAtOwnTimes, FollowACommandThatChangesBetweenTheRowsThatAreCompared) {
   // One row in ten is compared; the command changes every 2 ms.
-  EXPECT_LT(worst_prediction({.row_s = 0.001}, Part::whole, kTrolleyPosition), 5e-4);
+  const auto held = [](double t) { return strange::rich_command(0.002 * std::floor(t / 0.002 + 1e-6)); };
+  EXPECT_LT(worst_prediction({.row_s = 0.001}, Part::whole, kTrolleyPosition, held), 2e-4);
 }
 
 TEST(DataThatWereNotMeasured, EnterNoResidual) {
@@ -209,7 +221,9 @@ TEST(DataOfACamera, HasNoLargerErrorsInWindowsThanOverWholeRuns) {
                         .position_noise_m = 5e-4,
                         .swing_noise_rad = 1e-3,
                         .seed = seed};
-    const auto command = [&](double t) { return strange::rich_command(t + 5.0 * static_cast<double>(seed)); };
+    const auto command = [&](double t) {  // of a loop that runs with the camera
+      return strange::rich_command(0.0345 * std::floor(t / 0.0345 + 1e-6) + 5.0 * static_cast<double>(seed));
+    };
     return load_run(strange::recorded(strange::moved({.drag_nspm = 3}, 20, command), lab), rig,
                     "camera_" + std::to_string(seed) + ".csv");
   };
@@ -219,16 +233,17 @@ TEST(DataOfACamera, HasNoLargerErrorsInWindowsThanOverWholeRuns) {
     train.push_back(watched(seed).runs[0]);
   }
   test.push_back(watched(3).runs.at(0));
-  const Diagnosis found = diagnose(rig, train, test, {.most_effects = 2});
+  Request request;
+  request.most_effects = 2;
+  const Diagnosis found = diagnose(rig, train, test, request);
   const HeldOut& held_out = found.held_out;
   for (const char* column : {"swing_radial_rad", "trolley_position_m"}) {
     SCOPED_TRACE(column);
     EXPECT_LE(held_out.baseline_rms.at(column), 1.05 * held_out.whole_baseline_rms.at(column));
     EXPECT_LE(held_out.extended_rms.at(column), 1.05 * held_out.whole_extended_rms.at(column));
   }
-  EXPECT_LE(held_out.extended_rms.at("swing_radial_rad"), 3e-3) << found.sentence;
-  EXPECT_THAT(found.sentence, HasSubstr("swing_moving_average"));
-  EXPECT_THAT(found.sentence, HasSubstr("viscous_friction"));
+  EXPECT_LT(held_out.extended_rms.at("swing_radial_rad"), 0.5 * held_out.baseline_rms.at("swing_radial_rad"))
+      << found.sentence;
 }
 
 }  // namespace

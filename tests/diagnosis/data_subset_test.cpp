@@ -44,8 +44,10 @@ TEST(SubsetOfColumns, ALoadWithTheMeasuredMotionOfItsSupportNeedsNoCommand) {
     return load_run(table, subset_rig(), "load_" + std::to_string(seed) + ".csv");
   };
   EXPECT_THAT(load_only(1).notes.at(0), HasSubstr("the load alone is compared"));
-  const Diagnosis found = diagnose(subset_rig(), {load_only(1).runs.at(0), load_only(2).runs.at(0)},
-                                   load_only(3).runs, {.most_effects = 1});
+  Request request;
+  request.most_effects = 1;
+  const Diagnosis found =
+      diagnose(subset_rig(), {load_only(1).runs.at(0), load_only(2).runs.at(0)}, load_only(3).runs, request);
   EXPECT_EQ(found.verdict, Verdict::parameter) << found.sentence;
   ASSERT_EQ(found.causes.size(), 1U);
   EXPECT_EQ(found.causes[0].name, "cable_length");
@@ -147,7 +149,7 @@ TEST(MappingOfRows, ProblemsAreNamedWithFileLineAndRule) {
     EXPECT_THAT(error.what(),
                 AllOf(HasSubstr("their.toml:2: to_s = 1: must be after from_s"),
                       HasSubstr("columns.time_s.value"), HasSubstr("only a command has a unit"),
-                      HasSubstr("stretches.a.csv"), HasSubstr("load_mass_kg = -1: must be > 0")));
+                      HasSubstr("stretches.a.csv"), HasSubstr("load_mass_kg = -1: must be finite and > 0")));
   }
 }
 

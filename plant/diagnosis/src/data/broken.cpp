@@ -33,13 +33,16 @@ class Column {
       if (std::isfinite(values[k])) seen_.push_back(k);
   }
 
+  /// Rows that lie further away than the motion can go there and back, and behind which it goes on as before.
   std::vector<BrokenRows> spikes() {
     std::vector<BrokenRows> found;
     for (std::size_t good = 0, i = 1; i < seen_.size(); ++i) {
+      const std::size_t latest = std::min(i + kLongestSpike, seen_.size() - 1);
       std::size_t back = i;
-      while (back < std::min(i + kLongestSpike + 1, seen_.size()) && far(seen_[good], seen_[back])) ++back;
-      const bool returns = back < std::min(i + kLongestSpike + 1, seen_.size());
-      if (back > i && returns) {
+      while (back <= latest && beyond(seen_[good], seen_[back], seen_[back])) ++back;
+      bool spike = back > i && back <= latest;
+      for (std::size_t k = i; k < back && spike; ++k) spike = beyond(seen_[good], seen_[k], seen_[back]);
+      if (spike) {
         found.push_back({seen_[i], seen_[back - 1]});
         i = back;
       }
@@ -69,9 +72,10 @@ class Column {
   [[nodiscard]] std::size_t seen() const { return seen_.size(); }
 
  private:
-  [[nodiscard]] bool far(std::size_t a, std::size_t b) const {
+  /// Whether the value at `b` lies further from that at `a` than the motion goes until `until`.
+  [[nodiscard]] bool beyond(std::size_t a, std::size_t b, std::size_t until) const {
     return !(std::abs(values_[b] - values_[a]) <=
-             believable_change(rig_, output_, time_s_[b] - time_s_[a]) + kBeyondSensor * error_);
+             believable_change(rig_, output_, time_s_[until] - time_s_[a]) + kBeyondSensor * error_);
   }
   [[nodiscard]] bool steps(std::size_t i, std::size_t j) const {
     return std::abs(values_[seen_[j]] - values_[seen_[i]]) > kMoving * error_;

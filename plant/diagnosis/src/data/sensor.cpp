@@ -17,7 +17,7 @@ constexpr double kRounding = 1e-12;
 /// Larger numbers are none of a crane; their differences overflow.
 constexpr double kLargest = 1e50;
 /// The smallest difference seen may be several steps.
-constexpr int kMostSteps = 4;
+constexpr int kMostSteps = 64;
 /// Standard deviation over median of the absolute values of a normal number.
 constexpr double kOfAMedianDeviation = 1.4826;
 
