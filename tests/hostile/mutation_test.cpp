@@ -27,7 +27,7 @@ constexpr std::uint32_t kDomain = 67;
 constexpr std::uint64_t kSeed = 1'965;
 constexpr std::uint64_t kMutations = 100'000;
 constexpr auto kMost = 15s;
-constexpr std::uint64_t kPerSecond = 20'000;  ///< more than that the sockets drop
+constexpr std::uint64_t kPerSecond = 50'000;  ///< more than that the sockets drop
 constexpr long kGrowth_kb = 64 * 1024;        ///< a history of the longest samples, for every topic
 constexpr const char* kRig = "emulated_servo_to_go";
 
