@@ -30,5 +30,7 @@ void add_diagnose(CLI::App& app, Action& chosen);
 void add_analyse(CLI::App& app, Action& chosen);
 void add_hw(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
+void add_campaign(CLI::App& app, Action& chosen);
+void add_supervisor(CLI::App& app, Action& chosen);
 
 }  // namespace crane::cli
