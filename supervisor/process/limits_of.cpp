@@ -1,6 +1,34 @@
 #include "crane/supervisor/component.hpp"
 
+#include <algorithm>
+
 namespace crane::supervisor {
+namespace {
+
+double count_of(const configuration::Encoder& encoder) {
+  return encoder.counts_per_unit > 0 ? 1 / encoder.counts_per_unit : 0;
+}
+
+MachineModel machine_of(const configuration::Rig& rig) {
+  MachineModel machine{.known = true, .crane = rig.design.crane};
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const auto& friction = rig.design.friction[i];
+    machine.friction_v[i] = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
+                                      friction.stiction_positive_v, friction.stiction_negative_v});
+    machine.viscous_v[i] = std::max(friction.viscous_positive_vspm, friction.viscous_negative_vspm);
+    machine.resolution[i] = count_of(rig.encoders[i]);
+  }
+  const bool load = rig.design.crane.load_mass_kg > 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    machine.swing_resolution_rad[i] = count_of(rig.encoders[kAxes + i]);
+    machine.swing_measured[i] = load && machine.swing_resolution_rad[i] > 0;
+  }
+  machine.cable_measured = machine.resolution[plant::kHoist] > 0;
+  machine.cable_m = rig.start.position[plant::kHoist];
+  return machine;
+}
+
+}  // namespace
 
 Limits limits_of(const configuration::Rig& rig) {
   Limits limits;
@@ -9,6 +37,7 @@ Limits limits_of(const configuration::Rig& rig) {
   limits.swing_limit_rad = rig.limits.swing_limit_rad;
   limits.demand_stale_after_ticks = rig.ticks_in(rig.limits.demand_stale_after_s);
   limits.idle_lock_s = rig.limits.idle_lock_s;
+  limits.machine = machine_of(rig);
   return limits;
 }
 

@@ -5,9 +5,13 @@
 #include <numbers>
 
 #include "crane/plant/coordinates.hpp"
+#include "crane/protection.hpp"
 
 namespace crane::supervisor {
 namespace {
+
+using protection::enabled;
+using enum protection::Protection;
 
 constexpr double kLongestFollow_s = 3600;
 
@@ -28,7 +32,7 @@ Excursion excursion_of(const msg::Request& request) {
 std::string target_problem(const msg::Request& request, const AxisLimits& axis, std::size_t i) {
   const auto excursion = excursion_of(request);
   for (const double target : {request.target[i] - excursion.distance, request.target[i] + excursion.distance})
-    if (!target_allowed(axis, target))
+    if (!target_allowed(axis, target) && enabled(request_target))
       return std::string{plant::kCoordinates[i].name} + " target " + std::to_string(target) +
              " must lie in [" + std::to_string(axis.low_limit + axis.soft_margin) + ", " +
              std::to_string(axis.high_limit - axis.soft_margin) + "]";
@@ -73,7 +77,7 @@ bool moves_axes(const msg::Request& request) {
 }
 
 std::string problem_of(const msg::Request& request, const Limits& limits) {
-  if (request.id == 0) return "id = 0: a client numbers its requests from 1";
+  if (request.id == 0 && enabled(request_id)) return "id = 0: a client numbers its requests from 1";
   const bool home = request.kind == crane_REQUEST_HOME;
   if (!moves_axes(request) && !home) return "";
   int selected = 0;

@@ -50,6 +50,9 @@ static_assert(same(Cause::not_homed, crane_CAUSE_NOT_HOMED));
 static_assert(same(Cause::homed, crane_CAUSE_HOMED));
 static_assert(same(Cause::homing_failed, crane_CAUSE_HOMING_FAILED));
 static_assert(same(Cause::bridge_restarted, crane_CAUSE_BRIDGE_RESTARTED));
+static_assert(same(Cause::following_error, crane_CAUSE_FOLLOWING_ERROR));
+static_assert(same(Cause::swing_sensor, crane_CAUSE_SWING_SENSOR));
+static_assert(kCauses == crane_CAUSE_SWING_SENSOR + 1);
 static_assert(same(HomingFailure::mark_not_found, crane_HOMING_MARK_NOT_FOUND));
 static_assert(same(HomingFailure::mark_stuck, crane_HOMING_MARK_STUCK));
 static_assert(same(HomingFailure::other_switch, crane_HOMING_OTHER_SWITCH));
@@ -72,6 +75,7 @@ Sample sample_of(const msg::State& state) {
     sample.mark_active[i] = state.mark_active[i];
     sample.mark_found[i] = state.mark_found[i];
   }
+  sample.applied_v = runtime::values(state.applied_v);
   sample.estop_pressed = state.estop_pressed;
   sample.command_stale = state.command_stale;
   sample.command_invalid = state.command_invalid;

@@ -3,6 +3,9 @@
 namespace crane::supervisor {
 namespace {
 
+using enum protection::Protection;
+using protection::enabled;
+
 constexpr std::array<const char*, kAxes> kNotHomed{
     "the position of the trolley is not known: reset, then `crane home --axis trolley`",
     "the position of the slewing jib is not known: reset, then `crane home --axis slew`",
@@ -40,15 +43,16 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
   }
   if (asked(in, Request::estop))
     return refuse("an emergency stop was asked for in the same tick: reset again");
-  if (m.reset_was_up) return refuse("the reset was already on: take it back, then reset again");
-  if (const Cause c = blocking_cause(in); c != Cause::none) return refuse(remedy_for(c));
-  if (in.load_unclear)
+  if (m.reset_was_up && enabled(reset_edge))
+    return refuse("the reset was already on: take it back, then reset again");
+  if (const Cause c = blocking_cause(limits, in, m); c != Cause::none) return refuse(remedy_for(c));
+  if (in.load_unclear && enabled(reset_load_unclear))
     return refuse(
         "the load swung when the bridge started, so its zero is wrong: let it hang still, then start the "
         "bridge again");
-  if (in.place_unclear) return refuse(kUnclear[in.unclear_axis]);
+  if (in.place_unclear && enabled(reset_place_unclear)) return refuse(kUnclear[in.unclear_axis]);
   if (m.state == State::estop && !in.standstill) return refuse("the crane is still moving: wait, then reset");
-  if (in.now_s - m.clear_since_s < limits.clear_time_s) {
+  if (in.now_s - m.clear_since_s < limits.clear_time_s && enabled(reset_clear_time)) {
     return refuse("the causes have been clear for less than a second: wait, then reset again");
   }
   return kAccepted;
@@ -66,13 +70,13 @@ Answer answer_release(const Limits& limits, const Inputs& in, const Memory& m) {
     default:
       return refuse("the crane is not READY: reset first");
   }
-  if (const Cause c = blocking_cause(in); c != Cause::none) return refuse(remedy_for(c));
+  if (const Cause c = blocking_cause(limits, in, m); c != Cause::none) return refuse(remedy_for(c));
   if (asked(in, Request::stop) || asked(in, Request::disarm)) {
     return refuse("a stop was asked for in the same tick: reset, then arm again");
   }
   if (in.gate_cause == Cause::demand_invalid) return refuse(remedy_for(Cause::demand_invalid));
   if (in.demand_stale) return refuse(remedy_for(Cause::demand_stale));
-  if (in.now_s - m.fresh_since_s < limits.clear_time_s) {
+  if (in.now_s - m.fresh_since_s < limits.clear_time_s && enabled(arm_fresh_time)) {
     return refuse("state and demand have been complete for less than a second: wait, then arm again");
   }
   return kAccepted;

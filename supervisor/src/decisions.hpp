@@ -1,6 +1,6 @@
 #pragma once
 // What the parts of the state machine share.
-#include "crane/supervisor/state_machine.hpp"
+#include "crane/supervisor/rules.hpp"
 
 namespace crane::supervisor {
 
@@ -13,18 +13,6 @@ namespace crane::supervisor {
   return m.state == State::arming || m.state == State::hold || m.state == State::run ||
          m.state == State::stop_c1;
 }
-
-/// What stands against a reset, and takes READY back to LOCKED. A latched bridge and a dropped watchdog do
-/// not: both need the watchdog permission that comes with the reset.
-[[nodiscard]] Cause blocking_cause(const Inputs& in) noexcept;
-
-struct Finding {
-  Cause cause = Cause::none;
-  Reaction reaction = Reaction::none;
-};
-
-/// The severest cause of this tick.
-[[nodiscard]] Finding worst_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept;
 
 using Answers = std::array<Answer, kRequests>;
 

@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/protection.hpp"
+
 namespace crane::supervisor {
 namespace {
+
+using enum protection::Protection;
+using protection::enabled;
 
 constexpr int kCountEnd = 1'000'000;  // counts in a row stop here: a stream may be missing for months
 
@@ -28,7 +33,7 @@ void limit_rate(const Limits& limits, GateMemory& memory, PerAxis& volts_v, Gate
     const double step_v = limits.axis[i].volt_rate_limit_vps * limits.period_s;
     const double reachable_v = std::clamp(volts_v[i], memory.last_v[i] - step_v, memory.last_v[i] + step_v);
     clamped = clamped || std::abs(reachable_v - volts_v[i]) > kRounding_v;
-    volts_v[i] = reachable_v;
+    if (enabled(gate_rate)) volts_v[i] = reachable_v;
   }
   output.clamped = output.clamped || clamped;
   memory.rate_pressure = clamped ? memory.rate_pressure + 2 : std::max(0, memory.rate_pressure - 1);
@@ -78,7 +83,7 @@ GateOutput gate(const Limits& limits, const GateInput& input, GateMemory& memory
   if (!input.arrived) ++memory.missing_count;
 
   PerAxis volts_v = usable ? input.demand_v : memory.last_v;
-  if (usable) limit_range(limits, volts_v, output);
+  if (usable && enabled(gate_range)) limit_range(limits, volts_v, output);
   output.near_zero = usable && is_near_zero(limits, volts_v);
   if (usable && input.armed) limit_rate(limits, memory, volts_v, output);
   if (!input.armed) memory.rate_pressure = 0;
@@ -86,8 +91,8 @@ GateOutput gate(const Limits& limits, const GateInput& input, GateMemory& memory
   if (output.clamped) ++memory.clamped_count;
   if (!input.armed) return output;
   for (std::size_t i = 0; i < kAxes; ++i) {
-    if (input.block_positive[i]) volts_v[i] = std::min(volts_v[i], 0.0);
-    if (input.block_negative[i]) volts_v[i] = std::max(volts_v[i], 0.0);
+    if (input.block_positive[i] && enabled(gate_block_outwards)) volts_v[i] = std::min(volts_v[i], 0.0);
+    if (input.block_negative[i] && enabled(gate_block_outwards)) volts_v[i] = std::max(volts_v[i], 0.0);
   }
   output.drive_v = volts_v;
   return output;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/protection.hpp"
+
 namespace crane::supervisor {
 
 void observe(const Limits& limits, double now_s, double sampled_s, const PerAxis& position,
@@ -51,7 +53,9 @@ bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion
     const bool slipped = std::abs(motion.position[i] - memory.position[i]) > allowed;
     const double report_s = limits.period_s + axis.brake_close_time_s + limits.brake_report_time_s;
     const bool silent = !brake_closed[i] && now_s - memory.since_s > report_s;
-    failed = failed || slipped || silent;
+    using enum protection::Protection;
+    failed = failed || (slipped && protection::enabled(brake_slip)) ||
+             (silent && protection::enabled(brake_report));
   }
   return failed;
 }

@@ -73,8 +73,8 @@ void begin_anew(const Inputs& in, Memory& m) {
   m.releasing = m.ramping = false;
 }
 
-void step_ready(const Inputs& in, const Answers& answers, Memory& m) {
-  const Cause blocking = blocking_cause(in);
+void step_ready(const Limits& limits, const Inputs& in, const Answers& answers, Memory& m) {
+  const Cause blocking = blocking_cause(limits, in, m);
   if (blocking != Cause::none) {
     enter(State::locked, blocking, in, m);
   } else if (asked(in, Request::stop) || asked(in, Request::disarm)) {
@@ -151,7 +151,7 @@ void transition(const Limits& limits, const Inputs& in, const Answers& answers, 
       }
       break;
     case State::ready:
-      step_ready(in, answers, m);
+      step_ready(limits, in, answers, m);
       break;
     case State::arming:
       step_arming(in, m);
@@ -191,10 +191,11 @@ bool drives_active(const Memory& m) noexcept {
 }
 
 Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
-  if (blocking_cause(in) != Cause::none || m.state == State::boot) m.clear_since_s = in.now_s;
+  if (blocking_cause(limits, in, m) != Cause::none || m.state == State::boot) m.clear_since_s = in.now_s;
   if (in.state_stale || in.demand_stale || m.state == State::boot) m.fresh_since_s = in.now_s;
 
-  if (in.bridge_restarted) begin_anew(in, m);
+  if (in.bridge_restarted && protection::enabled(protection::Protection::supervisor_bridge_restarted))
+    begin_anew(in, m);
   const Finding finding = worst_cause(limits, in, m);
   if (finding.reaction > severity(m)) react(finding, in, m);
   const Answers answers = answer_all(limits, in, m);

@@ -24,6 +24,8 @@ void take_over_bridge(const Limits& limits, const TickInput& input, TickMemory& 
             memory.restart);
   memory.motion = {};
   memory.brakes = {};
+  memory.following = {};
+  memory.pendulum = {};
   memory.sample = {};
   memory.overruns_in_row = 0;
 }
@@ -153,6 +155,36 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
   return gate(limits, in, memory.gate);
 }
 
+/// An axis that is homed creeps, without a position; its motion is judged by the homing itself.
+Following following_now(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
+  if (!sampled) return {};
+  const Sample& sample = memory.sample;
+  FollowingInput in{.sampled_s = sample.time_s,
+                    .position = sample.position,
+                    .swing_radial_rad = sample.swing_radial_rad,
+                    .swing_tangential_rad = sample.swing_tangential_rad,
+                    .applied_v = sample.applied_v,
+                    .reference_arrived = input.reference_arrived,
+                    .reference = input.reference,
+                    .reference_speed = input.reference_speed};
+  for (std::size_t i = 0; i < kAxes; ++i)
+    in.free[i] = memory.machine.releasing && !memory.machine.homing && !sample.brake_closed[i];
+  const Following found = judge_following(limits, in, memory.following);
+  return drives_active(memory.machine) ? found : Following{};
+}
+
+bool swing_sensor_now(const Limits& limits, bool sampled, TickMemory& memory) {
+  if (!sampled) return false;
+  const Sample& sample = memory.sample;
+  const bool failed = swing_sensor_failed(limits,
+                                          {.sampled_s = sample.time_s,
+                                           .position = sample.position,
+                                           .radial_rad = sample.swing_radial_rad,
+                                           .tangential_rad = sample.swing_tangential_rad},
+                                          memory.pendulum);
+  return failed && drives_active(memory.machine) && !memory.machine.homing;
+}
+
 Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelope& envelope,
                       const GateOutput& gated, bool brakes_failed, const TickMemory& memory) {
   const Sample& sample = memory.sample;
@@ -221,7 +253,9 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   const bool brakes_failed = watch_brakes(limits, input, sampled, memory);
   const GateOutput gated = run_gate(limits, input, envelope, memory);
   const double creeping_speed = creep(limits, memory);
-  const Inputs inputs = machine_inputs(limits, input, envelope, gated, brakes_failed, memory);
+  Inputs inputs = machine_inputs(limits, input, envelope, gated, brakes_failed, memory);
+  inputs.following = following_now(limits, input, sampled, memory);
+  inputs.swing_sensor_failed = swing_sensor_now(limits, sampled, memory);
 
   const bool was_ramping = memory.machine.ramping && memory.machine.state == State::stop_c1;
   const bool was_releasing = memory.machine.releasing;

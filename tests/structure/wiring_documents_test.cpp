@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "crane/supervisor/rules.hpp"
 #include "stack/stack.hpp"
 #include "stack/wiring_graph.hpp"
 
@@ -18,8 +19,16 @@ std::string text_of(const std::string& file) {
   return text.str();
 }
 
-/// The text between "<!-- crane graph --format FORMAT -->" and "<!-- end -->", without the fence of a
-/// diagram.
+/// The text between "<!-- COMMAND -->" and "<!-- end -->".
+std::string output_of(const std::string& command, const std::string& file) {
+  const auto text = text_of(file);
+  const auto begin = "<!-- " + command + " -->\n";
+  const auto from = text.find(begin);
+  if (from == std::string::npos) return "no " + begin + " in " + file;
+  return text.substr(from + begin.size(), text.find("<!-- end -->", from) - from - begin.size());
+}
+
+/// The same for "crane graph --format FORMAT", without the fence of a diagram.
 std::string generated_part(const std::string& file, const std::string& format) {
   const auto text = text_of(file);
   const auto begin = "<!-- crane graph --format " + format + " -->\n";
@@ -44,6 +53,11 @@ TEST(Documents, ShowWhatEachComponentReadsAndWrites) {
 TEST(Documents, ShowTheDiagramOfTheWiring) {
   EXPECT_EQ(generated_part("README.md", "mermaid"), wiring_mermaid(all_components()))
       << "put the output of `crane graph --format mermaid` there";
+}
+
+TEST(Documents, ShowTheRulesThatTheSupervisorRuns) {
+  EXPECT_EQ(output_of("crane supervisor explain", "docs/safety.md"), supervisor::rule_table())
+      << "put the output of `crane supervisor explain` there";
 }
 
 TEST(Wiring, GivesEveryLoopTopicOneWriterInAStack) {

@@ -5,12 +5,15 @@
 
 #include "crane/bus/bus.hpp"
 #include "crane/bus/cdr.hpp"
+#include "crane/protection.hpp"
 #include "crc32c.hpp"
 
 namespace crane::bus::detail {
 namespace {
 
 constexpr std::size_t kCrcBytes = sizeof(std::uint32_t);
+using protection::enabled;
+using enum protection::Protection;
 
 /// CRC of all fields before the last one, followed by the name of the topic. @return false when the sample
 /// cannot be encoded
@@ -21,8 +24,9 @@ bool checksum(const topics::Description& topic, const void* sample, std::uint32_
   if (buffer.size() < needed) buffer.resize(needed);
   const std::size_t bytes = codec.encode(sample, std::span{buffer}.first(codec.max_encoded_bytes()));
   if (bytes < kCrcBytes) return false;
-  std::memcpy(buffer.data() + bytes - kCrcBytes, topic.name.data(), topic.name.size());
-  crc = crc32c(std::span{buffer}.first(bytes - kCrcBytes + topic.name.size()));
+  const std::size_t name_bytes = enabled(bus_checksum_of_topic) ? topic.name.size() : 0;
+  std::memcpy(buffer.data() + bytes - kCrcBytes, topic.name.data(), name_bytes);
+  crc = crc32c(std::span{buffer}.first(bytes - kCrcBytes + name_bytes));
   return true;
 }
 
@@ -43,7 +47,7 @@ bool intact(const topics::Description& topic, const void* sample) {
   std::uint32_t carried = 0;
   std::memcpy(&carried, static_cast<const std::uint8_t*>(sample) + codec.fields().back().offset, kCrcBytes);
   std::uint32_t computed = 0;
-  return checksum(topic, sample, computed) && computed == carried;
+  return (checksum(topic, sample, computed) && computed == carried) || !enabled(bus_checksum);
 }
 
 }  // namespace crane::bus::detail

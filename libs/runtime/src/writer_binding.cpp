@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#include "crane/protection.hpp"
+
 namespace crane::runtime {
 namespace {
+
+using protection::enabled;
+using enum protection::Protection;
 
 constexpr std::array<const char*, 12> kSourceNames{
     "nobody",     "plant",    "bridge",   "planner", "tracking", "anti_swing", "friction_compensation",
@@ -39,13 +44,14 @@ WriterBinding::Verdict WriterBinding::judge(const Writer& writer, std::int64_t n
   // A process keeps its source and epoch. The bound DDS writer with another source or epoch is no restarted
   // process.
   const bool renamed = bound_ && bound_->id == writer.id;
-  if (!topics::may_write(*topic_, writer.source) || renamed) return refuse(writer, now_ns);
+  if ((!topics::may_write(*topic_, writer.source) && enabled(bus_source)) || renamed)
+    return refuse(writer, now_ns);
   if (!bound_) {
     if (matched > 1) return refuse(writer, now_ns);  // the right writer cannot be determined
     bind(writer, now_ns, matched);
     return Verdict::own;
   }
-  if (!silent(now_ns)) return refuse(writer, now_ns);
+  if (!silent(now_ns) && enabled(bus_one_writer)) return refuse(writer, now_ns);
   bind(writer, now_ns, matched);
   return Verdict::taken_over;
 }

@@ -31,5 +31,7 @@ void add_analyse(CLI::App& app, Action& chosen);
 void add_hw(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
 void add_keys(CLI::App& app, Action& chosen);
+void add_campaign(CLI::App& app, Action& chosen);
+void add_supervisor(CLI::App& app, Action& chosen);
 
 }  // namespace crane::cli

@@ -115,10 +115,16 @@ void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose
   const std::lock_guard lock{mutex_};
   Stamp stamp{++published_, {.source_time_ns = time_ns, .valid = !dispose, .disposed = dispose}};
   std::memcpy(stamp.info.writer.data(), &writer.number, sizeof writer.number);
-  for (ReaderPort* reader : writer.readers) {
-    reader->queue.push(sample, stamp);
-    reader->doorbell->ring();
-  }
+  const auto deliver = [&](const void* arriving) {
+    for (ReaderPort* reader : writer.readers) {
+      reader->queue.push(arriving, stamp);
+      reader->doorbell->ring();
+    }
+  };
+  if (wire_ && !dispose)
+    wire_(*writer.topic, sample, deliver);
+  else
+    deliver(sample);
   if (dispose)
     writer.history.forget(sample);
   else
@@ -143,6 +149,13 @@ int MemoryNetwork::matched(const ReaderPort& port) const {
   const std::lock_guard lock{mutex_};
   return static_cast<int>(port.writers.size());
 }
+
+void MemoryNetwork::set_wire(Wire wire) {
+  const std::lock_guard lock{mutex_};
+  wire_ = std::move(wire);
+}
+
+void set_wire(MemoryNetwork& network, Wire wire) { network.set_wire(std::move(wire)); }
 
 std::shared_ptr<MemoryNetwork> make_memory_network() { return std::make_shared<MemoryNetwork>(); }
 

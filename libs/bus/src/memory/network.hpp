@@ -47,10 +47,12 @@ class MemoryNetwork {
   bool take(memory::ReaderPort& reader, void* sample, SampleInfo& info);
   [[nodiscard]] int matched(const memory::WriterPort& writer) const;
   [[nodiscard]] int matched(const memory::ReaderPort& reader) const;
+  void set_wire(Wire wire);
 
  private:
   struct News;
   mutable std::mutex mutex_;
+  Wire wire_;
   std::vector<memory::WriterPort*> writers_;
   std::vector<memory::ReaderPort*> readers_;
   std::uint64_t published_ = 0, writers_so_far_ = 0;

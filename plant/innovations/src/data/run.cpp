@@ -30,15 +30,15 @@ Series series_of(const recording::Table& table, const char* column, const std::v
   return series;
 }
 
-std::array<bool, kChannels> channels_of(const runtime::Rig& rig) {
+std::array<bool, kChannels> channels_of(const configuration::Rig& rig) {
   switch (rig.kind) {
-    case runtime::RigKind::tower:
+    case configuration::RigKind::tower:
       return {true, true, true, true};
-    case runtime::RigKind::gantry:
+    case configuration::RigKind::gantry:
       return {true, false, true, false};
-    case runtime::RigKind::drive_axis:
+    case configuration::RigKind::drive_axis:
       return {rig.drives[0].present, rig.drives[1].present, false, false};
-    case runtime::RigKind::pendulum:
+    case configuration::RigKind::pendulum:
       return {false, false, true, true};
   }
   return {};
@@ -77,7 +77,7 @@ double resolution_of(const std::vector<double>& values) {
   return *place;
 }
 
-LoadedRun load_run(const recording::Table& table, const runtime::Rig& rig, const std::string& name) {
+LoadedRun load_run(const recording::Table& table, const configuration::Rig& rig, const std::string& name) {
   LoadedRun loaded;
   const auto* time_s = table.find("time_s");
   if (time_s == nullptr) throw DataProblem(name + ": time_s: there is no such column");
@@ -85,7 +85,8 @@ LoadedRun load_run(const recording::Table& table, const runtime::Rig& rig, const
   if (rows.size() < static_cast<std::size_t>(rule::kLeastRows.value))
     throw DataProblem(name + ": " + std::to_string(rows.size()) + " rows with increasing time: too few");
   if (const std::size_t lost = time_s->size() - rows.size(); lost > 0)
-    loaded.notes.push_back(name + ": " + std::to_string(lost) + " rows whose time does not increase are left out");
+    loaded.notes.push_back(name + ": " + std::to_string(lost) +
+                           " rows whose time does not increase are left out");
   Run& run = loaded.run;
   run.name = name;
   const auto has = channels_of(rig);

@@ -8,9 +8,9 @@ namespace crane::innovations {
 
 /// Everything that the hypotheses share. Immutable once made.
 struct Problem {
-  Problem(const runtime::Rig& rig, std::vector<Run> all);
+  Problem(const configuration::Rig& rig, std::vector<Run> all);
 
-  runtime::Rig rig;
+  configuration::Rig rig;
   std::vector<Run> runs;
   Scales scales;
   ParameterTable table;
@@ -50,8 +50,8 @@ struct Blocks {
 
 /// Derivatives of every value's log likelihood by forward differences of the whole filter: a column per
 /// parameter.
-[[nodiscard]] Eigen::MatrixXd scores(const Problem& problem, const Hypothesis& at, const std::vector<Index>& free,
-                                     const std::vector<double>& l0);
+[[nodiscard]] Eigen::MatrixXd scores(const Problem& problem, const Hypothesis& at,
+                                     const std::vector<Index>& free, const std::vector<double>& l0);
 
 [[nodiscard]] double sum(std::span<const double> values);
 

@@ -35,7 +35,7 @@ Range range_of(const std::vector<Run>& runs, std::size_t channel) {
   return {quantile(all, 0.002), quantile(all, 0.998)};
 }
 
-void set_axis(ParameterTable& t, const runtime::Rig& rig, const Scales& s, std::size_t i) {
+void set_axis(ParameterTable& t, const configuration::Rig& rig, const Scales& s, std::size_t i) {
   const double u = s.volts[i], v = s.speed[i], travel = s.travel[i];
   const auto set = [&](AxisParameter p, double scale, double low, double high, double null = 0) {
     t[of_axis(i, p)] = {null, scale, low, high};
@@ -115,7 +115,7 @@ void set_noise(ParameterTable& t, const Scales& s) {
 
 }  // namespace
 
-Scales scales_of(const runtime::Rig& rig, const std::vector<Run>& runs) {
+Scales scales_of(const configuration::Rig& rig, const std::vector<Run>& runs) {
   Scales s;
   for (std::size_t c = 0; c < kChannels; ++c) {
     const Range range = range_of(runs, c);
@@ -141,7 +141,7 @@ Scales scales_of(const runtime::Rig& rig, const std::vector<Run>& runs) {
   return s;
 }
 
-ParameterTable parameter_table(const runtime::Rig& rig, const Scales& scales) {
+ParameterTable parameter_table(const configuration::Rig& rig, const Scales& scales) {
   ParameterTable table{};
   for (std::size_t i = 0; i < 2; ++i) set_axis(table, rig, scales, i);
   set_load(table, scales);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "crane/configuration/rig.hpp"
 #include "crane/innovations/data.hpp"
-#include "crane/runtime/rig.hpp"
 
 namespace crane::innovations {
 
@@ -71,7 +71,9 @@ inline constexpr std::size_t kParameters = kCommandNoiseBegin + 2;
 using Values = std::array<double, kParameters>;
 using Index = std::size_t;
 
-[[nodiscard]] constexpr Index of_axis(std::size_t drive, AxisParameter p) { return drive * kAxisParameters + p; }
+[[nodiscard]] constexpr Index of_axis(std::size_t drive, AxisParameter p) {
+  return drive * kAxisParameters + p;
+}
 [[nodiscard]] constexpr Index of_load(std::size_t p) { return kLoadBegin + p; }
 [[nodiscard]] constexpr Index of_noise(std::size_t channel, NoiseParameter p) {
   return kNoiseBegin + channel * kNoiseParameters + p;
@@ -86,13 +88,13 @@ struct Scales {
   double load_n = 1;                      ///< weight
   double load_kg = 1, cable_m = 1, swing_rad = 1, omega_radps = 1;
 };
-[[nodiscard]] Scales scales_of(const runtime::Rig& rig, const std::vector<Run>& runs);
+[[nodiscard]] Scales scales_of(const configuration::Rig& rig, const std::vector<Run>& runs);
 
 struct ParameterInfo {
   double null = 0, scale = 1, low = 0, high = 0;
 };
 using ParameterTable = std::array<ParameterInfo, kParameters>;
-[[nodiscard]] ParameterTable parameter_table(const runtime::Rig& rig, const Scales& scales);
+[[nodiscard]] ParameterTable parameter_table(const configuration::Rig& rig, const Scales& scales);
 [[nodiscard]] Values null_values(const ParameterTable& table);
 
 }  // namespace crane::innovations

@@ -26,16 +26,23 @@ nlohmann::ordered_json to_json(const Result& result) {
   more["leftover_p_value"] = result.leftover_p_value;
   more["leftover"] = nlohmann::ordered_json::array();
   for (const LeftoverLaw& law : result.leftover)
-    more["leftover"].push_back(
-        {{"from", law.from}, {"gain_nats", law.gain_nats}, {"share", law.share}, {"force_rms", law.force_rms}});
+    more["leftover"].push_back({{"from", law.from},
+                                {"gain_nats", law.gain_nats},
+                                {"share", law.share},
+                                {"force_rms", law.force_rms}});
   more["rules"] = nlohmann::ordered_json::array();
   for (const Rule& r : kRules)
-    more["rules"].push_back({{"name", r.name}, {"value", r.value}, {"unit", r.unit}, {"meaning", r.meaning},
-                             {"source", r.source}, {"level", r.level}});
+    more["rules"].push_back({{"name", r.name},
+                             {"value", r.value},
+                             {"unit", r.unit},
+                             {"meaning", r.meaning},
+                             {"source", r.source},
+                             {"level", r.level}});
   return json;
 }
 
-void write_report(const std::filesystem::path& directory, const Result& result, const runtime::Rig& rig) {
+void write_report(const std::filesystem::path& directory, const Result& result,
+                  const configuration::Rig& rig) {
   write(directory / "report.json", to_json(result).dump(2) + "\n");
   write(directory / "extended.toml", diagnosis::extended_rig_text(rig, result.diagnosis));
 }

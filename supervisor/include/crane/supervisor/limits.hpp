@@ -1,9 +1,11 @@
 #pragma once
 /// Every number the supervisor decides by, in force from the load of the rig file on.
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "crane/control/drive_limits.hpp"
+#include "crane/plant/parameters.hpp"
 #include "crane/supervisor/states.hpp"
 
 namespace crane::supervisor {
@@ -11,6 +13,24 @@ namespace crane::supervisor {
 /// One drive axis; "unit" is m (trolley, hoist) or rad (slew). The soft margin is at least the stopping
 /// distance at max_speed.
 using AxisLimits = control::DriveLimits;
+
+/// What the rig file says of the machine, for the checks that compare it with its equations of motion.
+struct MachineModel {
+  bool known = false;  ///< false: neither following error nor swing encoders are judged
+  plant::Parameters crane{};
+  PerAxis friction_v{};                  ///< largest friction at rest, or Coulomb friction, V
+  PerAxis viscous_v{};                   ///< largest viscous friction, V per unit/s
+  PerAxis resolution{};                  ///< of the encoders: one count, unit
+  std::array<bool, 2> swing_measured{};  ///< radial, tangential
+  std::array<double, 2> swing_resolution_rad{};
+  bool cable_measured = false;
+  double cable_m = 1;  ///< where it is not measured, > 0
+
+  [[nodiscard]] double cable(double measured_m) const {
+    constexpr double kShortest_m = 0.05;
+    return cable_measured ? std::max(measured_m, kShortest_m) : cable_m;
+  }
+};
 
 struct Limits {
   std::array<AxisLimits, kAxes> axis{};
@@ -35,6 +55,7 @@ struct Limits {
   double load_still_rad = 0.005;     ///< a load that swings less when a bridge starts hangs at its zero, > 0
   double load_watch_s =
       10;  ///< for so long after the start of a bridge its load is looked at, >= clear_time_s
+  MachineModel machine{};
   double creeping_ratio =
       2.5;  ///< an axis without a zero is too fast above this multiple of its homing speed, >= 1
 };

@@ -1,6 +1,7 @@
 #pragma once
 /// The safety states. A pure function of what is seen in one tick, with its memory and the time as arguments.
 #include "crane/supervisor/envelope.hpp"
+#include "crane/supervisor/following.hpp"
 
 namespace crane::supervisor {
 
@@ -18,6 +19,8 @@ struct Inputs {
   bool demand_stale = false;
   Cause gate_cause = Cause::none;  ///< none, demand_stale, demand_invalid, demand_rate
   Envelope envelope{};
+  Following following{};
+  bool swing_sensor_failed = false;  ///< see pendulum.hpp
   bool estop_pressed = false;
   bool bridge_latched = false;    ///< the bridge holds 0 V and closed brakes by itself
   bool watchdog_dropped = false;  ///< the relay has removed the brake supply

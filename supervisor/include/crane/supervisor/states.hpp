@@ -53,9 +53,11 @@ enum class Cause : std::uint8_t {
   not_homed,
   homed,
   homing_failed,
-  bridge_restarted
+  bridge_restarted,
+  following_error,
+  swing_sensor
 };
-inline constexpr std::size_t kCauses = 27;
+inline constexpr std::size_t kCauses = 29;
 
 /// Why an axis has not been homed.
 enum class HomingFailure : std::uint8_t {
@@ -78,13 +80,11 @@ enum class Reaction : std::uint8_t {
   fault             ///< FAULT: as STOP_C0, and stays until the program starts anew
 };
 
-[[nodiscard]] Reaction reaction_to(Cause cause) noexcept;
-
 /// "STOP_C1", "SWING_LIMIT": the IDL's names without their prefix.
 [[nodiscard]] const char* name_of(State state) noexcept;
 [[nodiscard]] const char* name_of(Cause cause) noexcept;
 
-/// What the operator can do about it; never empty.
+/// What the operator can do about it, from the rule table (rules.hpp); never empty.
 [[nodiscard]] const char* remedy_for(Cause cause) noexcept;
 
 /// "MARK_STUCK", and what to look at; empty for none.

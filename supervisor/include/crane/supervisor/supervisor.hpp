@@ -4,6 +4,7 @@
 #include "crane/supervisor/gate.hpp"
 #include "crane/supervisor/homing.hpp"
 #include "crane/supervisor/motion.hpp"
+#include "crane/supervisor/pendulum.hpp"
 #include "crane/supervisor/restart.hpp"
 #include "crane/supervisor/state_machine.hpp"
 
@@ -25,6 +26,7 @@ struct Sample {
   AxisFlags position_unknown{};  ///< the axis has to be homed
   AxisFlags mark_active{};       ///< it stands on its mark
   AxisFlags mark_found{};        ///< the bridge has seen the mark at the same place twice
+  PerAxis applied_v{};           ///< acts from this sample on
 };
 
 struct TickInput {
@@ -36,6 +38,8 @@ struct TickInput {
   bool bridge_restarted = false;  ///< from here on a younger bridge speaks; its ticks begin anew
   bool demand_arrived = false;
   PerAxis demand_v{};
+  bool reference_arrived = false;
+  PerAxis reference{}, reference_speed{};  ///< where each axis is to be at this tick; read only when arrived
   bool reference_moving = false;
   bool second_writer = false;
   SelfTest self_test = SelfTest::not_started;
@@ -52,6 +56,8 @@ struct TickMemory {
   MotionMemory motion{};
   BrakeMemory brakes{};
   RestartMemory restart{};
+  FollowingMemory following{};
+  PendulumMemory pendulum{};
   Sample sample{};  ///< newest
   int state_missing_in_row = 0;
   int overruns_in_row = 0;

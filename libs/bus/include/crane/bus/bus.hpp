@@ -254,4 +254,13 @@ class Bus {
 /// @return an in-process network without endpoints
 [[nodiscard]] std::shared_ptr<MemoryNetwork> make_memory_network();
 
+/// Hands a sample of the topic to all its readers.
+using Deliver = std::function<void(const void* sample)>;
+/// What an in-process network does to a published sample: calls `deliver` once for every sample that arrives,
+/// this one or any other of its topic. It must not use the network.
+using Wire =
+    std::function<void(const topics::Description& topic, const void* sample, const Deliver& deliver)>;
+/// From now on samples go through `wire`; an empty one delivers each sample once.
+void set_wire(MemoryNetwork& network, Wire wire);
+
 }  // namespace crane::bus

@@ -16,14 +16,14 @@ struct Result {
   diagnosis::Diagnosis diagnosis;
   std::vector<LeftoverLaw> leftover;
   double leftover_p_value = 1;
-  double held_out_nats = 0;                ///< gain in likelihood of the extended model
+  double held_out_nats = 0;  ///< gain in likelihood of the extended model
   std::array<double, 2> held_out_nats_ci95{0, 0};
-  std::vector<std::string> refused;        ///< rules of sanity that the best extension breaks
+  std::vector<std::string> refused;  ///< rules of sanity that the best extension breaks
 };
 
 /// @param train,test whole runs belong to one side; the test runs choose nothing
 /// @throws DataProblem when there is too little
-[[nodiscard]] Result diagnose(const runtime::Rig& rig, std::vector<Run> train, std::vector<Run> test,
+[[nodiscard]] Result diagnose(const configuration::Rig& rig, std::vector<Run> train, std::vector<Run> test,
                               const diagnosis::Request& request = {});
 
 }  // namespace crane::innovations

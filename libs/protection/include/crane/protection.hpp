@@ -1,0 +1,98 @@
+#pragma once
+/// Every protection of supervisor, bridge and bus by name. In a build with CRANE_MUTATION one of them can be
+/// switched off, so that tests/campaign can show that a fault gets through without it. In every other build
+/// `enabled` is the constant true and nothing of this is left in a program.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace crane::protection {
+
+// Supervisor: rules in the order of supervisor/src/rules.cpp, then gate, requests and brakes. Bridge: checks
+// in the order of hardware_bridge/src/checks.cpp. Bus: seal and writer binding.
+#define CRANE_PROTECTIONS(X)          \
+  X(supervisor_brake_did_not_close)   \
+  X(supervisor_selftest_failed)       \
+  X(supervisor_estop_input)           \
+  X(supervisor_operator_estop)        \
+  X(supervisor_second_writer)         \
+  X(supervisor_bridge_latched)        \
+  X(supervisor_not_homed)             \
+  X(supervisor_homing_failed)         \
+  X(supervisor_position_limit)        \
+  X(supervisor_limit_switch)          \
+  X(supervisor_overspeed)             \
+  X(supervisor_brake_closed_itself)   \
+  X(supervisor_following_error_twice) \
+  X(supervisor_bridge_not_ready)      \
+  X(supervisor_no_match)              \
+  X(supervisor_moved_while_arming)    \
+  X(supervisor_brake_did_not_open)    \
+  X(supervisor_state_stale)           \
+  X(supervisor_demand_stale)          \
+  X(supervisor_demand_invalid)        \
+  X(supervisor_demand_rate)           \
+  X(supervisor_overrun)               \
+  X(supervisor_stopping_envelope)     \
+  X(supervisor_swing_runaway)         \
+  X(supervisor_following_error)       \
+  X(supervisor_swing_sensor)          \
+  X(supervisor_stop_timeout)          \
+  X(supervisor_swing_limit)           \
+  X(supervisor_operator_stop)         \
+  X(supervisor_operator_disarm)       \
+  X(supervisor_homed)                 \
+  X(supervisor_idle)                  \
+  X(supervisor_bridge_restarted)      \
+  X(gate_range)                       \
+  X(gate_rate)                        \
+  X(gate_block_outwards)              \
+  X(request_target)                   \
+  X(request_id)                       \
+  X(reset_edge)                       \
+  X(reset_clear_time)                 \
+  X(reset_place_unclear)              \
+  X(reset_load_unclear)               \
+  X(arm_fresh_time)                   \
+  X(brake_slip)                       \
+  X(brake_report)                     \
+  X(bridge_second_writer)             \
+  X(bridge_command_stale)             \
+  X(bridge_command_not_finite)        \
+  X(bridge_command_range)             \
+  X(bridge_command_rate)              \
+  X(bridge_not_homed)                 \
+  X(bridge_encoder_jump)              \
+  X(bridge_lost_counts)               \
+  X(bridge_position)                  \
+  X(bridge_speed)                     \
+  X(bridge_swing)                     \
+  X(bridge_braked_motion)             \
+  X(bridge_encoder_frozen)            \
+  X(bridge_drive_response)            \
+  X(bridge_latch_is_kept)             \
+  X(bus_checksum)                     \
+  X(bus_checksum_of_topic)            \
+  X(bus_source)                       \
+  X(bus_one_writer)
+
+enum class Protection : std::uint8_t {
+#define CRANE_DECLARE_PROTECTION(name) name,
+  CRANE_PROTECTIONS(CRANE_DECLARE_PROTECTION)
+#undef CRANE_DECLARE_PROTECTION
+};
+
+#define CRANE_NAME_PROTECTION(name) #name,
+inline constexpr std::array kNames{CRANE_PROTECTIONS(CRANE_NAME_PROTECTION)};
+#undef CRANE_NAME_PROTECTION
+inline constexpr std::size_t kProtections = kNames.size();
+
+#ifdef CRANE_MUTATION
+inline namespace mutated {
+[[nodiscard]] bool enabled(Protection protection) noexcept;  // tests/campaign/mutation.cpp
+}
+#else
+[[nodiscard]] constexpr bool enabled(Protection /*protection*/) noexcept { return true; }
+#endif
+
+}  // namespace crane::protection

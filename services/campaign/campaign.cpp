@@ -1,0 +1,231 @@
+#include "campaign/campaign.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+#include <type_traits>
+
+#include "stack/tick_log.hpp"
+
+namespace crane::campaign {
+namespace {
+
+static_assert(std::is_trivially_copyable_v<Result> && sizeof(Result) < 4096);  // one write to a pipe is whole
+
+/// Mixes the parts of a tuple (splitmix64).
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  std::uint64_t x = a * 0x9E3779B97F4A7C15ULL + b * 0xBF58476D1CE4E5B9ULL + c + 1;
+  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBULL;
+  return x ^ (x >> 31U);
+}
+
+Dice dice_of(const Tuple& tuple) {
+  return Dice{
+      mixed(static_cast<std::uint64_t>(tuple.hazard), static_cast<std::uint64_t>(tuple.moment), tuple.seed)};
+}
+/// Not of the moment: what a hazard changes of a rig is the same at every moment.
+Dice dice_of_preparation(const Tuple& tuple) {
+  return Dice{mixed(static_cast<std::uint64_t>(tuple.hazard), 99, tuple.seed)};
+}
+
+bool is_over(const Bench& bench) {
+  const Row& row = bench.now();
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if (bench.setting().told.drives[i].present && !row.truth.brake_closed[i]) return false;
+  return row.status.state >= crane_STATE_STOP_C0 || row.status.state == crane_STATE_LOCKED;
+}
+
+/// Lets the fault act until the crane has been at rest for a while, or nothing more is to be expected.
+void watch(Bench& bench, const Strike& strike, Run& run) {
+  constexpr double kAfterwards_s = 0.25, kControlledStop_s = 8.5;
+  const double period_s = bench.setting().told.period_s;
+  double over_s = 0;
+  for (double t_s = 0; t_s < strike.watched_s + kControlledStop_s && over_s < kAfterwards_s;
+       t_s += period_s) {
+    if (t_s >= strike.watched_s && bench.now().status.state != crane_STATE_STOP_C1) break;
+    bench.tick();
+    if (!run.visible_ns && (!strike.visible || strike.visible())) run.visible_ns = bench.now().time_ns;
+    const bool must_go_on = strike.expectation.brakes_are_broken || strike.expectation.detection_ms > 1000;
+    over_s = is_over(bench) && !(must_go_on && t_s < strike.watched_s) ? over_s + period_s : 0;
+  }
+}
+
+Result result_of(const Tuple& tuple, const Expectation& expected, const Verdict& verdict) {
+  Result result{.tuple = tuple};
+  for (const auto& violation : verdict.violations)
+    result.violations |= 1U << static_cast<unsigned>(violation.invariant);
+  if (!verdict.violations.empty()) verdict.violations.front().what.copy(result.what, sizeof result.what - 1);
+  result.stopped = verdict.first.has_value();
+  result.first = verdict.first.value_or(Reason{});
+  result.right = !(result.violations & (1U << static_cast<unsigned>(Invariant::right_reason)));
+  result.detection_ms = verdict.detection_ms.value_or(-1);
+  result.zero_volts_ms = verdict.zero_volts_ms.value_or(-1);
+  result.braked_ms = verdict.braked_ms.value_or(-1);
+  result.bound_ms = expected.detection_ms;
+  result.beyond_limit = verdict.beyond_limit;
+  return result;
+}
+
+void leave(const std::filesystem::path& recording, const std::vector<Row>& rows) {
+  experiments::TickLog log{recording};
+  for (const Row& row : rows)
+    log.add({.state = &row.state,
+             .reference = &row.reference,
+             .tracking = &row.tracking,
+             .anti_swing = &row.anti_swing,
+             .demand = &row.demand,
+             .command = &row.command,
+             .supervisor = &row.status});
+  log.close();
+}
+
+/// From the prepared crane on.
+Result strike(const Tuple& tuple, Bench& bench, const std::optional<std::filesystem::path>& recording) {
+  const Hazard& hazard = *find_hazard(tuple.hazard);
+  Dice dice = dice_of(tuple);
+  constexpr std::size_t kSpread_ticks = 8;
+  const auto later = dice.pick(kSpread_ticks);
+  if (tuple.moment != Moment::brake_release && !hazard.from_power_on)
+    bench.run(static_cast<double>(later) * bench.setting().told.period_s);
+  Strike what = hazard.strike(bench, dice);
+  Run run{.onset_ns = bench.next_tick_ns(), .expectation = what.expectation};
+  if (const auto reply = bench.reply()) run.accepted = reply->accepted;
+  watch(bench, what, run);
+  run.rows = bench.take_rows();
+  if (recording) leave(*recording, run.rows);
+  return result_of(tuple, what.expectation, judge(bench.setting().told, run));
+}
+
+/// Configurations that are refused never get to a bench.
+Result run_alone(const Tuple& tuple, const std::optional<std::filesystem::path>& recording) {
+  const Hazard& hazard = *find_hazard(tuple.hazard);
+  Setting made = setting(tuple.seed % kSettings, tuple.moment);
+  Dice dice = dice_of_preparation(tuple);
+  if (hazard.prepare != nullptr) hazard.prepare(made, dice);
+  try {
+    Bench bench{std::move(made)};
+    if (!hazard.from_power_on && !bench.prepare(tuple.moment)) return {.tuple = tuple, .prepared = false};
+    return strike(tuple, bench, recording);
+  } catch (const configuration::ConfigurationError&) {
+    return {.tuple = tuple, .right = true};
+  }
+}
+
+bool shares_preparation(const Tuple& tuple) {
+  const Hazard& hazard = *find_hazard(tuple.hazard);
+  return hazard.prepare == nullptr && !hazard.from_power_on;
+}
+
+class Pipe {
+ public:
+  Pipe() {
+    if (::pipe(ends_) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  }
+  ~Pipe() { ::close(ends_[0]); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  void put(const Result& result) const {
+    if (::write(ends_[1], &result, sizeof result) != sizeof result) ::_exit(1);
+  }
+  void no_more_writers() const { ::close(ends_[1]); }
+  bool get(Result& result) const { return ::read(ends_[0], &result, sizeof result) == sizeof result; }
+
+ private:
+  int ends_[2]{};
+};
+
+pid_t forked(const std::function<void()>& child) {
+  const pid_t pid = ::fork();
+  if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (pid > 0) return pid;
+  int code = 0;
+  try {
+    child();
+  } catch (...) {
+    code = 1;
+  }
+  ::_exit(code);
+}
+
+/// One run in a process of its own.
+void run_forked(const Tuple& tuple, const Pipe& pipe, const std::function<Result()>& run) {
+  const pid_t pid = forked([&] { pipe.put(run()); });
+  int status = 0;
+  ::waitpid(pid, &status, 0);
+  if (status != 0) pipe.put({.tuple = tuple, .crashed = true});
+}
+
+struct Group {
+  std::uint64_t setting;
+  Moment moment;
+  auto operator<=>(const Group&) const = default;
+};
+
+void run_group(const Group& place, const std::vector<Tuple>& tuples, const Pipe& pipe) {
+  std::optional<Bench> prepared;
+  bool ready = false;
+  for (const auto& tuple : tuples) {
+    if (!shares_preparation(tuple)) {
+      run_forked(tuple, pipe, [&] { return run_alone(tuple, {}); });
+      continue;
+    }
+    if (!prepared) {
+      prepared.emplace(setting(place.setting, place.moment));
+      ready = prepared->prepare(place.moment);
+    }
+    if (!ready)
+      pipe.put({.tuple = tuple, .prepared = false});
+    else
+      run_forked(tuple, pipe, [&] { return strike(tuple, *prepared, {}); });
+  }
+}
+
+}  // namespace
+
+std::string to_string(const Tuple& tuple) {
+  return "--hazard " + std::to_string(tuple.hazard) + " --moment " + std::string{name_of(tuple.moment)} +
+         " --seed " + std::to_string(tuple.seed);
+}
+
+std::vector<Tuple> tuples(const Selection& selection) {
+  std::vector<Tuple> all;
+  const auto wanted = [](const auto& list, const auto& item) {
+    return list.empty() || std::ranges::find(list, item) != list.end();
+  };
+  for (std::uint64_t seed = selection.first_seed; seed < selection.first_seed + selection.seeds; ++seed)
+    for (std::size_t m = 0; m < kMoments; ++m)
+      for (const Hazard& hazard : hazards()) {
+        const auto moment = static_cast<Moment>(m);
+        if (hazard.place == Place::campaign && seed % hazard.every == 0 &&
+            wanted(selection.moments, moment) && wanted(selection.hazards, hazard.number))
+          all.push_back({hazard.number, moment, seed});
+      }
+  return all;
+}
+
+Result run_one(const Tuple& tuple, const std::optional<std::filesystem::path>& recording) {
+  return run_alone(tuple, recording);
+}
+
+void run_all(const std::vector<Tuple>& tuples, unsigned jobs,
+             const std::function<void(const Result&)>& done) {
+  std::map<Group, std::vector<Tuple>> groups;
+  for (const auto& tuple : tuples) groups[{tuple.seed % kSettings, tuple.moment}].push_back(tuple);
+  const Pipe pipe;
+  std::vector<pid_t> workers;
+  for (unsigned worker = 0; worker < jobs; ++worker)
+    workers.push_back(forked([&] {
+      unsigned number = 0;
+      for (const auto& [place, group] : groups)
+        if (number++ % jobs == worker) run_group(place, group, pipe);
+    }));
+  pipe.no_more_writers();
+  for (Result result; pipe.get(result);) done(result);
+  for (const pid_t pid : workers) ::waitpid(pid, nullptr, 0);
+}
+
+}  // namespace crane::campaign

@@ -1,0 +1,315 @@
+#include "campaign/judge/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crane::campaign {
+namespace {
+
+constexpr double kCommunicationBound_ms = 70;  // I2: onset of a communication fault to 0 V
+constexpr double kZeroVoltsBound_ms = 20;      // I2: any detection to 0 V
+constexpr double kBrakesBound_ms = 10;         // I3: 0 V to brakes told to close: one tick
+constexpr double kControlledStop_ms = 8'200;   // the longest controlled stop, and its ramp
+constexpr double kOutside = 1e-3;          // I1: m, rad; the size of a weld bead, not of a stopping distance
+constexpr double kSlip = 1e-3;             // I4: m, rad
+constexpr double kAtRest = 1e-6;           // m/s, rad/s: a locked axis of the simulated rig
+constexpr double kVolt = 1e-9;             // V: rounding
+constexpr std::size_t kOldestCommand = 6;  // ticks: the bridge holds a command for five
+
+double ms(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
+
+/// Power is, or is being, taken away. LOCKED is where a stop ends.
+bool is_stop(crane_SupervisorState state) {
+  return state >= crane_STATE_STOP_C1 || state == crane_STATE_LOCKED || state == crane_STATE_SELFTEST;
+}
+
+bool is_controlled(const Reason& reason) {
+  return reason.cause == crane_CAUSE_OPERATOR_STOP || reason.cause == crane_CAUSE_OPERATOR_DISARM ||
+         reason.cause == crane_CAUSE_IDLE || reason.cause == crane_CAUSE_SWING_LIMIT;
+}
+
+bool no_volts(const Row& row) { return row.truth.written_v == PerAxis{}; }
+bool told_closed(const Row& row) { return row.truth.brake_release == AxisFlags{}; }
+
+class Judgement {
+ public:
+  Judgement(const configuration::Rig& rig, const Run& run) : rig_{rig}, run_{run} {
+    while (onset_ < run.rows.size() && run.rows[onset_].time_ns < run.onset_ns) ++onset_;
+  }
+
+  Verdict take() {
+    for (std::size_t k = 0; k < run_.rows.size(); ++k) {
+      inside_limits(k);
+      follows_latch(k);
+      runaway_swing(k);
+      braked_stays(k);
+      reset_and_arm(k);
+      if (k > 0) only_supervisor(k);
+      if (k > 0) volts_in_range(k);
+    }
+    no_trip_before_onset();
+    find_first_reason();
+    right_reason();
+    refusal();
+    latch_of_its_own();
+    nothing_outwards();
+    stop_times();
+    return std::move(verdict_);
+  }
+
+ private:
+  void violated(Invariant invariant, std::size_t k, std::string what) {
+    const bool known = std::ranges::any_of(
+        verdict_.violations, [invariant](const auto& other) { return other.invariant == invariant; });
+    if (!known) verdict_.violations.push_back({invariant, run_.rows[k].time_ns, std::move(what)});
+  }
+
+  void inside_limits(std::size_t k) {
+    const Truth& truth = run_.rows[k].truth;
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      const auto& drive = rig_.drives[i];
+      if (!drive.present || truth.brake_closed[i]) continue;
+      const double beyond =
+          std::max(truth.position[i] - drive.high_limit, drive.low_limit - truth.position[i]);
+      verdict_.beyond_limit = std::max(verdict_.beyond_limit, beyond);
+      if (beyond > kOutside && !run_.expectation.position_is_false && !run_.expectation.brakes_are_broken)
+        violated(Invariant::inside_limits, k,
+                 "axis " + std::to_string(i) + " is " + std::to_string(beyond) +
+                     " beyond its hard limit with its brake open");
+    }
+  }
+
+  /// A supervisor that sees a latch stops, too.
+  void follows_latch(std::size_t k) {
+    constexpr std::size_t kTicks = 3;
+    if (k < kTicks || run_.expectation.supervisor_gone) return;
+    const bool latched = run_.rows[k - kTicks].state.latch_reason != crane_LATCH_NONE &&
+                         run_.rows[k].state.latch_reason != crane_LATCH_NONE;
+    const auto state = run_.rows[k].status.state;
+    if (latched && (state == crane_STATE_HOLD || state == crane_STATE_RUN))
+      violated(Invariant::right_reason, k, "the supervisor goes on although the bridge has latched");
+  }
+
+  /// Beyond 1.25 times its limit the swing is no controlled stop's to damp.
+  void runaway_swing(std::size_t k) {
+    constexpr double kRunaway = 1.25, kReserve = 1.02, kBound_ms = 50;
+    const Truth& truth = run_.rows[k].truth;
+    const double limit_rad = kRunaway * kReserve * rig_.limits.swing_limit_rad;
+    const bool beyond =
+        std::abs(truth.swing_radial_rad) > limit_rad || std::abs(truth.swing_tangential_rad) > limit_rad;
+    if (beyond && !runaway_ns_) runaway_ns_ = run_.rows[k].time_ns;
+    if (runaway_ns_ && ms(*runaway_ns_, run_.rows[k].time_ns) > kBound_ms && !no_volts(run_.rows[k]) &&
+        !run_.expectation.supervisor_gone && !run_.expectation.volts_by_rig)
+      violated(Invariant::zero_volts, k, "volts on although the load has swung beyond 1.25 times its limit");
+  }
+
+  void braked_stays(std::size_t k) {
+    const Truth& truth = run_.rows[k].truth;
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      if (!rig_.drives[i].present) continue;
+      if (!truth.brake_closed[i]) anchor_[i].reset();
+      if (truth.brake_closed[i] && !anchor_[i] && std::abs(truth.speed[i]) <= kAtRest)
+        anchor_[i] = truth.position[i];
+      if (anchor_[i] && std::abs(truth.position[i] - *anchor_[i]) > kSlip &&
+          !run_.expectation.brakes_are_broken)
+        violated(Invariant::braked_stays, k, "axis " + std::to_string(i) + " moved under its closed brake");
+    }
+  }
+
+  /// Permission begins with reset, then arm, and ends with every stop.
+  void reset_and_arm(std::size_t k) {
+    const Row& row = run_.rows[k];
+    const bool was_released = k > 0 && !told_closed(run_.rows[k - 1]);
+    const bool may = permitted_;
+    if (is_stop(row.status.state)) permitted_ = reset_ = false;
+    if (row.reset_asked) reset_ = true;
+    if (row.arm_asked && reset_) permitted_ = true;
+    if (row.status.state == crane_STATE_READY && !reset_)
+      violated(Invariant::reset_and_arm, k, "READY without a reset");
+    if (!told_closed(row) && !was_released && !may && !permitted_)
+      violated(Invariant::reset_and_arm, k, "a brake was opened without reset and arm");
+  }
+
+  void only_supervisor(std::size_t k) {
+    const Row& row = run_.rows[k];
+    if (no_volts(row) && told_closed(row)) return;
+    for (std::size_t age = 1; age <= std::min(k, kOldestCommand); ++age)
+      if (is_of(run_.rows[k - age].command, row.truth)) return;
+    violated(Invariant::only_supervisor, k, "the board was given what the supervisor has not published");
+  }
+
+  [[nodiscard]] bool is_of(const msg::Command& command, const Truth& truth) const {
+    for (std::size_t i = 0; i < kAxes; ++i)
+      if (std::abs(truth.written_v[i] - command.drive_v[i]) > kVolt ||
+          (truth.brake_release[i] && !command.brake_release[i]))
+        return false;
+    return true;
+  }
+
+  void volts_in_range(std::size_t k) {
+    const Row& row = run_.rows[k];
+    const auto tick = row.state.applied_command_tick, before = run_.rows[k - 1].state.applied_command_tick;
+    const double ticks = tick > before ? static_cast<double>(tick - before) : 1;
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      const double u = row.truth.written_v[i], last = run_.rows[k - 1].truth.written_v[i];
+      const auto& drive = rig_.drives[i];
+      const double limit_v = drive.present ? drive.volt_limit_v : 0;
+      const bool towards_zero = u * last >= 0 && std::abs(u) <= std::abs(last);
+      const double most_v = drive.volt_rate_limit_vps * rig_.period_s * ticks;
+      if (!(std::abs(u) <= limit_v + kVolt) || !(towards_zero || std::abs(u - last) <= most_v + kVolt))
+        violated(Invariant::volts_in_range, k,
+                 "axis " + std::to_string(i) + " was given " + std::to_string(u) + " V after " +
+                     std::to_string(last));
+    }
+  }
+
+  void no_trip_before_onset() {
+    for (std::size_t k = 0; k < std::min(onset_, run_.rows.size()); ++k) {
+      const auto& status = run_.rows[k].status;
+      const bool asked = status.cause <= crane_CAUSE_OPERATOR_ESTOP;
+      if (run_.rows[k].state.latch_reason != crane_LATCH_NONE || (is_stop(status.state) && !asked))
+        violated(Invariant::no_false_trip, k,
+                 "stopped before the fault, cause " + std::to_string(status.cause));
+    }
+  }
+
+  void find_first_reason() {
+    const Row before = onset_ > 0 ? run_.rows[onset_ - 1] : Row{};
+    for (first_row_ = onset_; first_row_ < run_.rows.size(); ++first_row_) {
+      const Row& row = run_.rows[first_row_];
+      const bool stopped = is_stop(row.status.state) &&
+                           (!is_stop(before.status.state) || row.status.cause != before.status.cause);
+      const bool latched =
+          row.state.latch_reason != crane_LATCH_NONE && before.state.latch_reason == crane_LATCH_NONE;
+      if (!stopped && !latched) continue;
+      const auto cause = stopped ? row.status.cause : crane_CAUSE_BRIDGE_LATCHED;
+      verdict_.first =
+          Reason{cause, cause == crane_CAUSE_BRIDGE_LATCHED ? row.state.latch_reason : crane_LATCH_NONE};
+      return;
+    }
+  }
+
+  void right_reason() {
+    const auto& wanted = run_.expectation;
+    if (run_.rows.empty() || !verdict_.first) return undetected();
+    const auto seen_ns = run_.visible_ns.value_or(run_.onset_ns);
+    const double detection_ms = ms(seen_ns, run_.rows[first_row_].time_ns);
+    if (wanted.reasons.empty()) {
+      violated(Invariant::no_false_trip, first_row_, "nothing was to stop the crane");
+    } else if (std::ranges::find(wanted.reasons, *verdict_.first) == wanted.reasons.end()) {
+      violated(Invariant::right_reason, first_row_, "a wrong reason came first");
+    } else if (run_.visible_ns && detection_ms > wanted.detection_ms + 1e-6) {
+      violated(Invariant::right_reason, first_row_, "detected after " + std::to_string(detection_ms) + " ms");
+    }
+    if (run_.visible_ns) verdict_.detection_ms = std::max(detection_ms, 0.0);
+  }
+
+  /// Nothing has to be detected that nobody can see, or when another stop had ended before it was due.
+  void undetected() {
+    const auto& wanted = run_.expectation;
+    if (wanted.reasons.empty() || wanted.may_ride_through || !run_.visible_ns || run_.rows.empty()) return;
+    const Row& last = run_.rows.back();
+    if (ms(*run_.visible_ns, last.time_ns) < wanted.detection_ms) return;
+    for (const Row& row : run_.rows)
+      if (row.time_ns >= run_.onset_ns && ms(*run_.visible_ns, row.time_ns) <= wanted.detection_ms &&
+          is_stop(row.status.state) && told_closed(row) && no_volts(row))
+        return;
+    violated(Invariant::right_reason, run_.rows.size() - 1, "not detected");
+  }
+
+  void refusal() {
+    if (run_.expectation.refused && run_.accepted != false)
+      violated(
+          Invariant::reset_and_arm, run_.rows.size() - 1,
+          run_.accepted ? "a request was accepted that has to be refused" : "a request was not answered");
+  }
+
+  void latch_of_its_own() {
+    const auto& wanted = run_.expectation;
+    if (wanted.latch_too == crane_LATCH_NONE || !run_.visible_ns) return;
+    for (std::size_t k = onset_; k < run_.rows.size(); ++k)
+      if (run_.rows[k].state.latch_reason == wanted.latch_too &&
+          ms(*run_.visible_ns, run_.rows[k].time_ns) <= wanted.latch_ms)
+        return;
+    violated(Invariant::right_reason, run_.rows.size() - 1, "the bridge has not found it by itself");
+  }
+
+  void nothing_outwards() {
+    const auto& axis = run_.expectation.outwards_axis;
+    if (!axis || !verdict_.first || verdict_.first->cause != crane_CAUSE_STOPPING_ENVELOPE) return;
+    for (std::size_t k = first_row_ + 1; k < run_.rows.size(); ++k)  // its command acts from the next tick on
+      if (run_.rows[k].truth.written_v[*axis] * run_.expectation.outwards > kVolt)
+        violated(Invariant::zero_volts, k,
+                 "a voltage outwards although the axis would not stop before its limit");
+  }
+
+  /// Without the bridge only the relay of the rig acts.
+  void relay_acts() {
+    for (std::size_t k = onset_; k < run_.rows.size(); ++k)
+      if (run_.rows[k].truth.brake_closed == present_brakes(run_.rows[k])) {
+        if (ms(run_.onset_ns, run_.rows[k].time_ns) > run_.expectation.braked_by_rig_ms)
+          violated(Invariant::brakes_told, k, "the relay closed the brakes late");
+        return;
+      }
+    violated(Invariant::brakes_told, run_.rows.size() - 1, "the relay did not close the brakes");
+  }
+
+  void stop_times() {
+    if (run_.expectation.volts_by_rig) relay_acts();
+    if (!verdict_.first) return;
+    const auto detected_ns = run_.rows[first_row_].time_ns;
+    const auto since_ns = run_.visible_ns.value_or(run_.onset_ns);
+    const bool controlled = is_controlled(*verdict_.first);
+    std::optional<std::int64_t> zero_ns, told_ns;
+    for (std::size_t k = first_row_; k < run_.rows.size(); ++k) {
+      const Row& row = run_.rows[k];
+      if (!zero_ns && no_volts(row) && (!controlled || told_closed(row))) zero_ns = row.time_ns;
+      if (!told_ns && told_closed(row)) told_ns = row.time_ns;
+      if (!verdict_.braked_ms && row.truth.brake_closed == present_brakes(row))
+        verdict_.braked_ms = ms(since_ns, row.time_ns);
+    }
+    if (zero_ns) verdict_.zero_volts_ms = ms(since_ns, *zero_ns);
+    if (run_.expectation.volts_by_rig) return;
+    const auto end_ns = run_.rows.back().time_ns;
+    const double bound_ms = controlled ? kControlledStop_ms : kZeroVoltsBound_ms;
+    if (ms(detected_ns, zero_ns.value_or(end_ns)) > bound_ms + 1e-6)
+      violated(Invariant::zero_volts, first_row_, "0 V comes late after the detection");
+    if (run_.expectation.communication && !controlled &&
+        ms(run_.onset_ns, zero_ns.value_or(end_ns)) > kCommunicationBound_ms + 1e-6)
+      violated(Invariant::zero_volts, first_row_, "0 V comes late after the onset");
+    // Where no voltage was on, the ramp lasts all the same.
+    const bool late = ms(detected_ns, told_ns.value_or(end_ns)) > kZeroVoltsBound_ms + 1e-6;
+    if (zero_ns && late && ms(*zero_ns, told_ns.value_or(end_ns)) > kBrakesBound_ms + 1e-6)
+      violated(Invariant::brakes_told, first_row_, "the brakes are told to close late");
+  }
+
+  [[nodiscard]] AxisFlags present_brakes(const Row& row) const {
+    AxisFlags flags = row.truth.brake_closed;
+    for (std::size_t i = 0; i < kAxes; ++i)
+      if (rig_.drives[i].present) flags[i] = true;
+    return flags;
+  }
+
+  const configuration::Rig& rig_;
+  const Run& run_;
+  Verdict verdict_;
+  std::size_t onset_ = 0, first_row_ = 0;
+  std::array<std::optional<double>, kAxes> anchor_{};
+  std::optional<std::int64_t> runaway_ns_;
+  bool reset_ = false, permitted_ = false;
+};
+
+}  // namespace
+
+const char* name_of(Invariant invariant) noexcept {
+  static constexpr std::array<const char*, kInvariants> kNames{
+      "I1 inside hard limits", "I2 0 V in time",        "I3 brakes told to close",
+      "I4 braked axes stay",   "I5 reset and arm",      "I6 supervisor's volts only",
+      "I7 volts in range",     "I8 right first reason", "I9 recording recoverable",
+      "I10 no false trip"};
+  return kNames[static_cast<std::size_t>(invariant)];
+}
+
+Verdict judge(const configuration::Rig& rig, const Run& run) { return Judgement{rig, run}.take(); }
+
+}  // namespace crane::campaign

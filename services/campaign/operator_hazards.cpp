@@ -1,0 +1,371 @@
+/// Hazards 28 to 30, and what an operator may ask for and must not get.
+#include "campaign/hazards.hpp"
+#include "campaign/traffic.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::campaign {
+namespace {
+
+constexpr double kClear_s = 1.2;  // longer than the second for which causes have to be clear
+
+Strike refusal() { return {.expectation = {.refused = true}, .watched_s = 0.3}; }
+
+/// A margin that the axis does not stop in.
+void bad_limits(Setting& setting, Dice& dice) {
+  auto& drive = setting.told.drives[setting.axis];
+  switch (dice.pick(4)) {
+    case 0:
+      drive.soft_margin = 1e-3;
+      break;
+    case 1:
+      drive.brake_close_time_s = 0.5;
+      break;
+    case 2:
+      drive.low_limit = drive.high_limit;
+      break;
+    default:
+      drive.brake_deceleration = 0;
+  }
+}
+
+Strike never_armed(Bench& /*bench*/, Dice& /*dice*/) {
+  return {.expectation = {.reasons = {because(crane_CAUSE_SELFTEST_FAILED)}, .detection_ms = 0},
+          .watched_s = 0.2};
+}
+
+Strike bad_target(Bench& bench, Dice& dice) {
+  const std::size_t i = bench.axis();
+  const auto& drive = bench.setting().told.drives[i];
+  stack::Wish wish{.kind = crane_REQUEST_MOVE};
+  wish.selected[i] = true;
+  wish.target[i] = dice.pick(2) == 0 ? drive.high_limit + dice.between(-0.9 * drive.soft_margin, 5)
+                                     : drive.low_limit - dice.between(-0.9 * drive.soft_margin, 5);
+  bench.ask(wish);
+  return refusal();
+}
+
+/// A request without a number cannot be told from another.
+Strike no_number(Bench& bench, Dice& /*dice*/) {
+  bench.ask_without_number();
+  return refusal();
+}
+
+void stop_at_once(Bench& bench) {
+  bench.ask(crane_REQUEST_ESTOP);
+  bench.run(0.3);
+}
+
+Strike reset_too_soon(Bench& bench, Dice& dice) {
+  bench.world().board().press_estop(true);
+  bench.run(0.5);
+  bench.world().board().press_estop(false);
+  bench.run(dice.between(0.02, 0.9));
+  bench.ask(crane_REQUEST_RESET);
+  return refusal();
+}
+
+Strike reset_while_pressed(Bench& bench, Dice& dice) {
+  stop_at_once(bench);
+  if (dice.pick(2) == 0)
+    bench.world().board().press_estop(true);
+  else
+    bench.world().spoil_inputs = [i = bench.axis()](bridge::Inputs& inputs) { inputs.limit_low[i] = true; };
+  bench.run(kClear_s);
+  bench.ask(crane_REQUEST_RESET);
+  return refusal();
+}
+
+/// The button of the reset is stuck: the cause goes, the reset is still there.
+Strike reset_held(Bench& bench, Dice& /*dice*/) {
+  stop_at_once(bench);
+  bench.world().board().press_estop(true);
+  bench.run(0.2);
+  bench.world().board().press_estop(false);
+  for (int tick = 0; tick < 130; ++tick) bench.ask(crane_REQUEST_RESET);
+  return refusal();
+}
+
+Strike arm_without_demand(Bench& bench, Dice& dice) {
+  stop_at_once(bench);
+  bench.run(kClear_s);
+  bench.stack().suspend(crane_SOURCE_FRICTION, bench.next_tick_ns() + 40'000'000);
+  bench.ask(crane_REQUEST_RESET);
+  bench.run(dice.between(0.1, 0.8));
+  bench.ask(crane_REQUEST_ARM);
+  return refusal();
+}
+
+Strike reset_beside_a_stranger(Bench& bench, Dice& dice) {
+  stop_at_once(bench);
+  bench.run(kClear_s);
+  auto stranger = std::make_shared<Stranger>(bench, crane_SOURCE_FRICTION,
+                                             static_cast<std::uint32_t>(2 + dice.pick(900)));
+  bench.every_tick = [&bench, stranger] { stranger->speak(topics::demand.description, bench); };
+  bench.run(0.1);
+  bench.ask(crane_REQUEST_RESET);
+  return refusal();
+}
+
+/// A writer dies, and a program of another kind takes its topic. Arming it would move the crane by a
+/// stranger's demand.
+Strike reset_with_a_stranger(Bench& bench, Dice& dice) {
+  bench.stack().kill(crane_SOURCE_FRICTION);
+  bench.run(0.5);
+  auto stranger = std::make_shared<Stranger>(bench, crane_SOURCE_OPERATOR,
+                                             static_cast<std::uint32_t>(2 + dice.pick(900)));
+  bench.every_tick = [&bench, stranger] { stranger->speak(topics::demand.description, bench); };
+  bench.run(kClear_s);
+  bench.ask(crane_REQUEST_RESET);
+  return refusal();
+}
+
+Strike refused(Bench& bench, Dice& dice) {
+  static constexpr std::array kWays{
+      bad_target, no_number,          reset_too_soon,          reset_while_pressed,
+      reset_held, arm_without_demand, reset_beside_a_stranger, reset_with_a_stranger};
+  return kWays[dice.pick(kWays.size())](bench, dice);
+}
+
+/// The crane is switched on where it must not be: beyond a limit, or with a swinging load.
+void bad_start(Setting& setting, Dice& dice) {
+  auto& start = setting.told.start;
+  if (dice.pick(2) == 0)
+    start.position[setting.axis] =
+        setting.told.drives[setting.axis].high_limit + 0.01;  // and its switch is broken
+  else
+    start.swing_radial_rad = setting.told.limits.swing_limit_rad * 1.3;
+  setting.wired = setting.told;
+}
+
+Strike reset_at_a_bad_start(Bench& bench, Dice& /*dice*/) {
+  bench.world().spoil_inputs = [](bridge::Inputs& inputs) { inputs.limit_high = inputs.limit_low = {}; };
+  bench.run(2.5);
+  bench.ask(crane_REQUEST_RESET);
+  return refusal();
+}
+
+Strike self_test_fails(Bench& bench, Dice& dice) {
+  const bool brake = dice.pick(2) == 0;
+  bench.world().spoil_inputs = [brake, i = bench.axis()](bridge::Inputs& inputs) {
+    if (brake)
+      inputs.brake_closed[i] = false;
+    else
+      inputs.watchdog_dropped = false;
+  };
+  bench.run(0.05);
+  return {.expectation = {.reasons = {because(crane_CAUSE_SELFTEST_FAILED)}, .detection_ms = 2100},
+          .watched_s = 2.5};
+}
+
+Strike bridge_restarts(Bench& bench, Dice& dice) {
+  const bool moves = std::abs(bench.now().truth.speed[bench.axis()]) > 0.05;
+  const bool load_swings = bench.now().status.state == crane_STATE_HOLD && dice.pick(2) == 0;
+  if (load_swings) bench.world().board().kick(0.3, 0);
+  bench.stack().kill(crane_SOURCE_PLANT);
+  bench.run(0.4);
+  bench.restart_bridge();
+  if (!load_swings && (dice.pick(2) == 0 || !moves))
+    return {.expectation = {.reasons = {because(crane_CAUSE_BRIDGE_RESTARTED)},
+                            .detection_ms = 50,
+                            .volts_by_rig = true}};
+  bench.run(2.5);
+  bench.ask(crane_REQUEST_RESET);
+  return refusal();
+}
+
+void soon_idle(Setting& setting, Dice& /*dice*/) { setting.told.limits.idle_lock_s = 0.6; }
+
+Strike idle(Bench& bench, Dice& /*dice*/) {
+  const bool holds = bench.now().status.state == crane_STATE_HOLD;
+  return {.expectation = {
+              .reasons = {because(crane_CAUSE_IDLE)}, .may_ride_through = !holds, .detection_ms = 400}};
+}
+
+Strike operator_stops(Bench& bench, Dice& dice) {
+  static constexpr std::array kWays{std::pair{crane_REQUEST_STOP, crane_CAUSE_OPERATOR_STOP},
+                                    std::pair{crane_REQUEST_DISARM, crane_CAUSE_OPERATOR_DISARM},
+                                    std::pair{crane_REQUEST_ESTOP, crane_CAUSE_OPERATOR_ESTOP}};
+  const auto [request, cause] = kWays[dice.pick(kWays.size())];
+  const bool stopping = bench.now().status.state == crane_STATE_STOP_C1;
+  bench.every_tick = [&bench, request = request, asked = false]() mutable {
+    if (!asked) bench.send(request);
+    asked = true;
+  };
+  return {.expectation = {.reasons = {because(cause)},
+                          .may_ride_through = stopping && request != crane_REQUEST_ESTOP,
+                          .detection_ms = 10},
+          .watched_s = 2};
+}
+
+/// Controllers that go on moving while the crane is to stop.
+Strike stop_ignored(Bench& bench, Dice& dice) {
+  const double volts_v = dice.between(2.2, 3);
+  bench.mad = madness(topics::demand, [i = bench.axis(), volts_v, tick = 0](msg::Demand& demand) mutable {
+    demand.total_v[i] = (++tick / 25) % 2 == 0 ? volts_v : -volts_v;
+  });
+  bench.ask(crane_REQUEST_STOP);
+  return {
+      .expectation = {.reasons = {because(crane_CAUSE_STOP_TIMEOUT), because(crane_CAUSE_STOPPING_ENVELOPE),
+                                  because(crane_CAUSE_SWING_LIMIT), because(crane_CAUSE_FOLLOWING_ERROR)},
+                      .may_ride_through = true,
+                      .detection_ms = 8100},
+      .watched_s = 9};
+}
+
+/// From LOCKED to READY, by the operator.
+void make_ready(Bench& bench) {
+  stop_at_once(bench);
+  bench.run(kClear_s);
+  bench.ask(crane_REQUEST_RESET);
+  bench.run(kClear_s);
+}
+
+/// Arming that must not end in HOLD.
+Strike arming_fails(Bench& bench, Dice& dice) {
+  make_ready(bench);
+  const std::size_t i = bench.axis();
+  const auto kind = dice.pick(3);
+  Strike strike{.expectation = {.detection_ms = 5200}, .watched_s = 5.6};
+  if (kind == 0) {
+    bench.world().spoil_inputs = [](bridge::Inputs& inputs) { inputs.watchdog_dropped = true; };
+    strike.expectation.reasons = {because(crane_CAUSE_BRIDGE_LATCHED)};
+  } else if (kind == 1) {
+    bench.mad = madness(topics::demand, [i](msg::Demand& demand) { demand.total_v[i] = 3; });
+    strike.expectation.reasons = {because(crane_CAUSE_DEMAND_RATE)};
+  } else {
+    auto moved = std::make_shared<double>(0);
+    bench.world().spoil_inputs = [moved, i, &bench](bridge::Inputs& inputs) {
+      const auto& encoder = bench.setting().told.encoders[i];
+      const auto& drive = bench.setting().told.drives[i];
+      const auto& command = bench.now().command;
+      if (command.brake_release[i])
+        *moved += std::min(drive.max_speed * 0.8 * bench.setting().told.period_s, 0.03 - *moved);
+      const auto by = std::llround(*moved * encoder.counts_per_unit * encoder.sign);
+      inputs.raw_counts[i] = simulator::wrap_24_bit(inputs.raw_counts[i] + by);
+    };
+    strike.expectation.reasons = {because(crane_CAUSE_STOPPING_ENVELOPE),
+                                  because(crane_CAUSE_FOLLOWING_ERROR)};
+    strike.expectation.detection_ms = 300;
+  }
+  bench.every_tick = [&bench, asked = false]() mutable {
+    if (!asked) bench.send(crane_REQUEST_ARM);
+    asked = true;
+  };
+  return strike;
+}
+
+void homing_rig(Setting& setting, Dice& /*dice*/) {
+  setting.told = configuration::load_rig(stack::find_rig("homing_servo_to_go"));
+  setting.axis = 0;
+  setting.selected = {true, false, false};
+  setting.told.start.position[0] = 0.16;  // a short way to the mark
+  setting.wired = setting.told;
+}
+
+void ask_to_home(Bench& bench) {
+  bench.run(kClear_s);
+  bench.ask(crane_REQUEST_RESET);
+  bench.run(kClear_s);
+  stack::Wish wish{.kind = crane_REQUEST_HOME};
+  wish.selected[0] = true;
+  bench.ask(wish);
+  bench.permit();
+  bench.run(0.4);
+}
+
+Strike homing(Bench& bench, Dice& dice) {
+  ask_to_home(bench);
+  Strike strike{.expectation = {.detection_ms = 20'000}, .watched_s = 20};
+  switch (dice.pick(4)) {
+    case 0:
+      strike.expectation.reasons = {because(crane_CAUSE_HOMED)};
+      break;
+    case 1:  // the mark's switch hangs
+      bench.world().spoil_inputs = [](bridge::Inputs& inputs) { inputs.limit_low[0] = true; };
+      strike.expectation.reasons = {because(crane_CAUSE_HOMING_FAILED)};
+      break;
+    case 2:  // a supervisor that takes the axis for homed
+      bench.mad = madness(topics::command, [](msg::Command& command) {
+        command.homing[0] = false;
+        command.brake_release[0] = command.watchdog_permission = true;
+        command.drive_v[0] = 4;
+      });
+      strike.expectation.reasons = {latched(crane_LATCH_NOT_HOMED)};
+      strike.expectation.detection_ms = 10;
+      strike.watched_s = 0.5;
+      break;
+    default:  // the axis that is homed creeps; the zero of another is lost
+      bench.mad = madness(topics::state, [](msg::State& state) {
+        for (bool& known : state.position_known) known = false;
+      });
+      bench.ask(crane_REQUEST_ESTOP);
+      bench.run(kClear_s);
+      bench.ask(crane_REQUEST_RESET);
+      bench.run(kClear_s);
+      bench.ask(crane_REQUEST_ARM);
+      return refusal();
+  }
+  return strike;
+}
+
+Strike zero_lost(Bench& bench, Dice& /*dice*/) {
+  bench.mad =
+      madness(topics::state, [i = bench.axis()](msg::State& state) { state.position_known[i] = false; });
+  return {.expectation = {.reasons = {because(crane_CAUSE_NOT_HOMED)}, .detection_ms = 10}};
+}
+
+constexpr const char* kRecorder = "the recorder is a process beside the loop: tests/recording, tests/cli";
+
+constexpr std::array kOfOperators{
+    Hazard{.number = 28, .name = "bad configuration", .prepare = bad_limits, .strike = never_armed},
+    Hazard{
+        .number = 29, .name = "disk full while recording", .place = Place::process, .elsewhere = kRecorder},
+    Hazard{
+        .number = 30, .name = "power cut while recording", .place = Place::process, .elsewhere = kRecorder},
+    Hazard{.number = 32, .name = "request that must be refused", .strike = refused},
+    Hazard{.number = 33,
+           .name = "switched on at a bad place",
+           .from_power_on = true,
+           .prepare = bad_start,
+           .strike = reset_at_a_bad_start},
+    Hazard{.number = 34, .name = "self-test fails", .from_power_on = true, .strike = self_test_fails},
+    Hazard{.number = 35, .name = "bridge starts anew", .strike = bridge_restarts},
+    Hazard{.number = 36, .name = "nobody asks for anything", .prepare = soon_idle, .strike = idle},
+    Hazard{.number = 37, .name = "operator stops", .strike = operator_stops},
+    Hazard{.number = 39,
+           .name = "homing, and zeros that are lost",
+           .every = 3,
+           .from_power_on = true,
+           .prepare = homing_rig,
+           .strike = homing},
+    Hazard{.number = 40, .name = "arming that fails", .every = 2, .strike = arming_fails},
+    Hazard{.number = 42, .name = "zero lost while armed", .strike = zero_lost},
+    Hazard{.number = 38, .name = "controllers ignore a stop", .every = 6, .strike = stop_ignored},
+};
+
+}  // namespace
+
+std::span<const Hazard> operator_hazards() { return kOfOperators; }
+
+namespace {
+std::vector<Hazard> every_hazard() {
+  std::vector<Hazard> all;
+  for (const auto part : {process_hazards(), rig_hazards(), operator_hazards()})
+    all.insert(all.end(), part.begin(), part.end());
+  std::ranges::sort(all, {}, &Hazard::number);
+  return all;
+}
+}  // namespace
+
+std::span<const Hazard> hazards() {
+  static const std::vector<Hazard> kAll = every_hazard();
+  return kAll;
+}
+
+const Hazard* find_hazard(int number) {
+  const auto all = hazards();
+  const auto found = std::ranges::find(all, number, &Hazard::number);
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace crane::campaign

@@ -1,0 +1,38 @@
+#pragma once
+/// Results of a campaign: a line each, and a table with a row per hazard.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/campaign.hpp"
+
+namespace crane::campaign {
+
+/// "FOLLOWING_ERROR", "BRIDGE_LATCHED: encoder_frozen"
+[[nodiscard]] std::string to_string(const Reason& reason);
+/// One run in full.
+[[nodiscard]] std::string describe(const Result& result);
+/// One run as a line of a log, and back. @return nothing when the line is none
+[[nodiscard]] std::string line_of(const Result& result);
+[[nodiscard]] std::optional<Result> result_from(const std::string& line);
+
+class Table {
+ public:
+  void add(const Result& result);
+  [[nodiscard]] std::string text() const;
+  [[nodiscard]] std::string json() const;
+  /// Runs that violated an invariant, crashed, or never came to their moment.
+  [[nodiscard]] std::size_t violations() const { return failed_.size(); }
+
+ private:
+  struct Line {
+    std::size_t runs = 0, failed = 0, stopped = 0, right = 0;
+    double detection_ms = -1, bound_ms = 0, zero_volts_ms = -1, braked_ms = -1, beyond = 0;
+    std::map<std::string, std::size_t> reasons;
+  };
+  std::map<int, Line> lines_;
+  std::vector<Result> failed_;
+};
+
+}  // namespace crane::campaign

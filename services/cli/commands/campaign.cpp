@@ -1,0 +1,141 @@
+/// crane campaign: faults on simulated cranes in virtual time, judged by invariants.
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <thread>
+
+#include "campaign/report.hpp"
+#include "cli/commands/commands.hpp"
+
+namespace crane::cli {
+namespace {
+
+using namespace campaign;
+
+struct CampaignOptions {
+  std::vector<int> hazards;
+  std::vector<std::string> moments;
+  std::optional<std::uint64_t> seed;
+  std::uint64_t first_seed = 0, seeds = 12;
+  unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+  std::string record, log;
+  double fault_free_h = 0;
+  bool json = false, list = false;
+};
+
+Selection selection_of(const CampaignOptions& options) {
+  Selection selection{
+      .hazards = options.hazards, .moments = {}, .first_seed = options.first_seed, .seeds = options.seeds};
+  for (const int number : options.hazards)
+    if (find_hazard(number) == nullptr)
+      throw configuration::ConfigurationError(
+          {"--hazard " + std::to_string(number) + ": there is none; see --list"});
+  for (const auto& name : options.moments) {
+    const auto moment = moment_named(name);
+    if (!moment)
+      throw configuration::ConfigurationError({"--moment " + name + ": there is none; see --list"});
+    selection.moments.push_back(*moment);
+  }
+  if (options.seed) selection.first_seed = *options.seed, selection.seeds = 1;
+  return selection;
+}
+
+int list() {
+  std::cout << "moments:";
+  for (std::size_t m = 0; m < kMoments; ++m) std::cout << ' ' << name_of(static_cast<Moment>(m));
+  std::cout << "\nhazards:\n";
+  for (const auto& hazard : hazards())
+    std::cout << "  " << hazard.number << "  " << hazard.name
+              << (hazard.place == Place::campaign ? "" : std::string{" (not here: "} + hazard.elsewhere + ")")
+              << '\n';
+  return 0;
+}
+
+int run_single(const CampaignOptions& options, const Tuple& tuple) {
+  const auto recording =
+      options.record.empty() ? std::nullopt : std::optional<std::filesystem::path>{options.record};
+  const auto result = run_one(tuple, recording);
+  std::cout << describe(result) << '\n';
+  return result.violations == 0 && !result.crashed ? 0 : 1;
+}
+
+/// Lines of an earlier campaign: what is there is not run again.
+std::set<std::string> done_before(const std::string& log, Table& table) {
+  std::set<std::string> done;
+  std::ifstream in{log};
+  for (std::string line; std::getline(in, line);)
+    if (const auto result = result_from(line)) {
+      done.insert(to_string(result->tuple));
+      table.add(*result);
+    }
+  return done;
+}
+
+int run_many(const CampaignOptions& options) {
+  auto wanted = tuples(selection_of(options));
+  Table table;
+  const auto done = options.log.empty() ? std::set<std::string>{} : done_before(options.log, table);
+  std::erase_if(wanted, [&](const Tuple& tuple) { return done.contains(to_string(tuple)); });
+  std::ofstream log;
+  if (!options.log.empty()) log.open(options.log, std::ios::app);
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  std::size_t count = 0;
+  run_all(wanted, options.jobs, [&](const Result& result) {
+    table.add(result);
+    if (log) log << line_of(result) << '\n' << std::flush;
+    if (terminal && ++count % 100 == 0) std::cerr << "\r" << count << " of " << wanted.size() << " runs";
+  });
+  if (terminal) std::cerr << "\r";
+  std::cout << (options.json ? table.json() : table.text());
+  return table.violations() == 0 ? 0 : 1;
+}
+
+int run_free(const CampaignOptions& options) {
+  const auto found = run_fault_free(options.fault_free_h, options.jobs, options.first_seed);
+  std::cout << found.hours << " h of virtual time without a fault, " << found.trips.size()
+            << " false trips\n";
+  for (const auto& line : found.trips) std::cout << line << '\n';
+  return found.trips.empty() ? 0 : 1;
+}
+
+int run(const CampaignOptions& options) {
+  spdlog::set_level(spdlog::level::off);  // what the components say of their faults is in the recordings
+  if (options.list) return list();
+  if (options.fault_free_h > 0) return run_free(options);
+  const auto all = tuples(selection_of(options));
+  if (options.seed && all.size() == 1) return run_single(options, all.front());
+  if (!options.record.empty())
+    throw configuration::ConfigurationError({"--record: name one --hazard, --moment and --seed"});
+  return run_many(options);
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app, Action& chosen) {
+  auto* command = app.add_subcommand(
+      "campaign", "Faults on simulated cranes, judged by the invariants of docs/safety.md");
+  auto options = std::make_shared<CampaignOptions>();
+  command->add_option("--hazard", options->hazards, "hazards by number (default: all)");
+  command->add_option("--moment", options->moments, "moments by name (default: all)");
+  command->add_option("--seed", options->seed,
+                      "this seed only; with one hazard and one moment: one run, told in full");
+  command->add_option("--first-seed", options->first_seed, "first seed");
+  command->add_option("--seeds", options->seeds, "number of seeds; about 200 runs each");
+  command->add_option("--jobs", options->jobs, "processes that work at the same time")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--record", options->record, "MCAP file of the one run");
+  command->add_option("--log", options->log,
+                      "a line for each run; runs that it has already are not run again");
+  command->add_option("--fault-free", options->fault_free_h,
+                      "instead: so many hours of virtual time without a fault");
+  command->add_flag("--json", options->json, "table as JSON");
+  command->add_flag("--list", options->list, "hazards and moments");
+  command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace crane::cli

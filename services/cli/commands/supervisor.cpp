@@ -1,0 +1,89 @@
+/// crane supervisor explain: the rule table that the supervisor runs, and why the present state refuses what.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "cli/snapshot.hpp"
+#include "cli/tool_bus.hpp"
+#include "commands.hpp"
+#include "crane/bus/cdr.hpp"
+#include "crane/recording/mcap_reader.hpp"
+#include "crane/supervisor/rules.hpp"
+#include "process/explain.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct ExplainOptions {
+  std::string state;
+  bool live = false;
+  double timeout_s = 3;
+  runtime::BusOptions bus = tool_bus();
+};
+
+template <class T>
+void keep_last(const topics::Topic<T>& topic, const recording::Message& message, std::optional<T>& last) {
+  constexpr std::size_t kEncapsulation_bytes = 4;
+  if (message.channel->topic != topic.description.name || message.data.size() < kEncapsulation_bytes) return;
+  T sample{};
+  if (bus::CdrCodec::of(*topic.description.descriptor)
+          .decode(message.data.subspan(kEncapsulation_bytes), false, &sample))
+    last = sample;
+}
+
+Snapshot last_of(const std::string& file) {
+  recording::McapReader reader{file};
+  Snapshot snapshot;
+  reader.for_each({.topics = {std::string{topics::state.description.name},
+                              std::string{topics::supervisor.description.name}}},
+                  [&](const recording::Message& message) {
+                    keep_last(topics::state, message, snapshot.state);
+                    keep_last(topics::supervisor, message, snapshot.supervisor);
+                    return true;
+                  });
+  if (!snapshot.supervisor) throw std::runtime_error(file + ": no crane/supervisor in it");
+  return snapshot;
+}
+
+void explain_present(const Snapshot& snapshot) {
+  const auto& status = *snapshot.supervisor;
+  const auto cause = static_cast<supervisor::Cause>(status.cause);
+  std::cout << supervisor::name_of(static_cast<supervisor::State>(status.state));
+  if (cause != supervisor::Cause::none)
+    std::cout << " because of " << supervisor::name_of(cause) << ": " << supervisor::remedy_for(cause);
+  std::cout << '\n';
+  for (const auto& line : supervisor::explain(status, snapshot.state ? &*snapshot.state : nullptr))
+    std::cout << line.request << ": " << (line.accepted ? "accepted" : "refused: " + line.reason) << '\n';
+}
+
+int explain(const ExplainOptions& options) {
+  if (!options.state.empty()) {
+    explain_present(last_of(options.state));
+  } else if (options.live) {
+    auto bus = open_bus(options.bus);
+    const auto snapshot = listen(bus, options.timeout_s);
+    if (!snapshot.supervisor)
+      throw std::runtime_error("no supervisor heard" + where_and_remedy(bus.options()));
+    explain_present(snapshot);
+  } else {
+    std::cout << supervisor::rule_table();
+  }
+  return runtime::kExitDone;
+}
+
+}  // namespace
+
+void add_supervisor(CLI::App& app, Action& chosen) {
+  auto* group = app.add_subcommand("supervisor", "What the supervisor decides by");
+  group->require_subcommand(1);
+  auto* command = group->add_subcommand(
+      "explain", "The rule table; with --live or --state: what the present state refuses, and why");
+  auto options = std::make_shared<ExplainOptions>();
+  command->add_option("--state", options->state, "recording whose last state is explained");
+  command->add_flag("--live", options->live, "explain the state of the running crane");
+  command->add_option("--timeout", options->timeout_s, "longest wait in s for the supervisor to be heard");
+  runtime::add_bus_options(*command, options->bus);
+  command->callback([options, &chosen] { chosen = [options] { return explain(*options); }; });
+}
+
+}  // namespace crane::cli

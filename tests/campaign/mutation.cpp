@@ -1,0 +1,162 @@
+/// The campaign with one protection switched off. Without arguments every protection is switched off in turn,
+/// and the runs that need it are made: one of them has to violate an invariant.
+///   campaign_mutants [--without NAME] [--seeds N] [--hazard N ...]
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <optional>
+
+#include "campaign/report.hpp"
+#include "crane/protection.hpp"
+
+namespace {
+std::optional<crane::protection::Protection> switched_off;
+}
+
+namespace crane::protection {
+inline namespace mutated {
+bool enabled(Protection protection) noexcept { return switched_off != protection; }
+}  // namespace mutated
+}  // namespace crane::protection
+
+namespace {
+
+using namespace crane;
+using namespace crane::campaign;
+
+/// Where a protection is needed: hazards, and how many seeds are enough.
+struct Need {
+  protection::Protection protection;
+  std::vector<int> hazards;
+  std::uint64_t seeds = 12;
+};
+
+std::vector<Need> needs() {
+  using enum protection::Protection;
+  return {{supervisor_brake_did_not_close, {24}},
+          {supervisor_selftest_failed, {34}},
+          {supervisor_estop_input, {31}},
+          {supervisor_operator_estop, {37}},
+          {supervisor_second_writer, {9, 10}},
+          {supervisor_bridge_latched, {15}},
+          {supervisor_not_homed, {42}},
+          {supervisor_homing_failed, {39}},
+          {supervisor_position_limit, {33}},
+          {supervisor_limit_switch, {32}},
+          {supervisor_overspeed, {15}},
+          {supervisor_brake_closed_itself, {25}},
+          {supervisor_following_error_twice, {16, 20}},
+          {supervisor_bridge_not_ready, {40}},
+          {supervisor_no_match, {40}},
+          {supervisor_moved_while_arming, {40}},
+          {supervisor_brake_did_not_open, {25}},
+          {supervisor_state_stale, {4}},
+          {supervisor_demand_stale, {1}},
+          {supervisor_demand_invalid, {6}},
+          {supervisor_demand_rate, {7}},
+          {supervisor_overrun, {27}},
+          {supervisor_stopping_envelope, {22}},
+          {supervisor_swing_runaway, {23}},
+          {supervisor_following_error, {20}},
+          {supervisor_swing_sensor, {18}},
+          {supervisor_stop_timeout, {38}},
+          {supervisor_swing_limit, {23}},
+          {supervisor_operator_stop, {37}},
+          {supervisor_operator_disarm, {37}},
+          {supervisor_homed, {39}},
+          {supervisor_idle, {36}},
+          {supervisor_bridge_restarted, {35}},
+          {gate_range, {14}},
+          {gate_rate, {7}},
+          {gate_block_outwards, {22}},
+          {request_target, {32}},
+          {request_id, {32}},
+          {reset_edge, {32}},
+          {reset_clear_time, {32}},
+          {reset_place_unclear, {35}},
+          {reset_load_unclear, {35}},
+          {arm_fresh_time, {32}},
+          {brake_slip, {24, 41}},
+          {brake_report, {24}},
+          {bridge_second_writer, {9}},
+          {bridge_command_stale, {3}},
+          {bridge_command_not_finite, {6}},
+          {bridge_command_range, {6}},
+          {bridge_command_rate, {7}},
+          {bridge_not_homed, {39}},
+          {bridge_encoder_jump, {15}},
+          {bridge_lost_counts, {17}},
+          {bridge_position, {22}},
+          {bridge_speed, {15}},
+          {bridge_swing, {23}},
+          {bridge_braked_motion, {41}},
+          {bridge_encoder_frozen, {41}},
+          {bridge_drive_response, {41}},
+          {bridge_latch_is_kept, {15, 22}},
+          {bus_checksum, {8}},
+          {bus_checksum_of_topic, {8}},
+          {bus_source, {32}},
+          {bus_one_writer, {9}}};
+}
+
+/// @return the first run that shows the protection missing
+std::optional<Result> caught_by(const Need& need, std::uint64_t most_seeds, unsigned jobs) {
+  for (std::uint64_t first = 0; first < most_seeds; first += need.seeds) {
+    std::optional<Result> caught;
+    run_all(tuples({.hazards = need.hazards, .moments = {}, .first_seed = first, .seeds = need.seeds}), jobs,
+            [&](const Result& result) {
+              if (!caught && (result.violations != 0 || result.crashed)) caught = result;
+            });
+    if (caught) return caught;
+  }
+  return std::nullopt;
+}
+
+int check_all(std::uint64_t most_seeds, unsigned jobs) {
+  std::size_t caught = 0;
+  const auto all = needs();
+  for (const auto& need : all) {
+    switched_off = need.protection;
+    const auto result = caught_by(need, most_seeds, jobs);
+    const char* name = protection::kNames[static_cast<std::size_t>(need.protection)];
+    if (result) ++caught;
+    std::cout << name << ": " << (result ? describe(*result) : std::string{"NOT CAUGHT"}) << std::endl;
+  }
+  std::cout << caught << " of " << all.size() << " protections are needed by the campaign; "
+            << protection::kProtections << " are declared\n";
+  return caught == protection::kProtections ? 0 : 1;
+}
+
+int run_campaign(const Selection& selection, unsigned jobs) {
+  Table table;
+  run_all(tuples(selection), jobs, [&](const Result& result) { table.add(result); });
+  std::cout << table.text();
+  return table.violations() == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spdlog::set_level(spdlog::level::off);
+  CLI::App app{"The campaign with one protection switched off"};
+  std::string without;
+  std::vector<int> hazards;
+  std::uint64_t seeds = 24, seed = 0;
+  std::string moment;
+  unsigned jobs = 2;
+  app.add_option("--without", without, "name of a protection; none: every one in turn");
+  app.add_option("--hazard", hazards, "with --without: these hazards only");
+  app.add_option("--moment", moment, "with --hazard: this moment only");
+  app.add_option("--first-seed", seed, "first seed");
+  app.add_option("--seeds", seeds, "seeds, at most");
+  app.add_option("--jobs", jobs, "processes that work at the same time");
+  CLI11_PARSE(app, argc, argv);
+  if (without.empty()) return check_all(seeds, jobs);
+  for (std::size_t i = 0; i < protection::kProtections; ++i)
+    if (without == protection::kNames[i]) switched_off = static_cast<protection::Protection>(i);
+  Selection selection{.hazards = hazards, .moments = {}, .first_seed = seed, .seeds = seeds};
+  if (const auto named = moment_named(moment)) selection.moments = {*named};
+  return run_campaign(selection, jobs);
+}
