@@ -8,7 +8,7 @@
 #include <system_error>
 #include <type_traits>
 
-#include "stack/tick_log.hpp"
+#include "experiments/tick_log.hpp"
 
 namespace crane::campaign {
 namespace {

@@ -1,4 +1,4 @@
-#include "process/explain.hpp"
+#include "crane/supervisor/explain.hpp"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 #include "crane/bus/cdr.hpp"
 #include "crane/recording/mcap_reader.hpp"
 #include "crane/supervisor/rules.hpp"
-#include "process/explain.hpp"
+#include "crane/supervisor/explain.hpp"
 
 namespace crane::cli {
 namespace {

@@ -4,7 +4,7 @@
 /// regularised set-valued law.
 #include <vector>
 
-#include "crane/plant/equations.hpp"
+#include "crane/plant/matrices.hpp"
 #include "model/parameter.hpp"
 
 namespace crane::innovations {
