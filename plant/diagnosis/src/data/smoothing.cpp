@@ -35,19 +35,29 @@ Motion smooth(std::span<const double> measured, double period_s, int half_width)
 
 namespace {
 
-/// Second derivatives of the natural cubic spline at its knots: a tridiagonal system, solved by elimination
-/// (C. de Boor, A Practical Guide to Splines, 1978, ch. IV).
+/// Second derivatives of the cubic spline at its knots, whose third derivative does not change at the second
+/// and the last knot but one ("not a knot"): a tridiagonal system, solved by elimination (C. de Boor, A
+/// Practical Guide to Splines, 1978, ch. IV).
 std::vector<double> bends_of(std::span<const double> t, std::span<const double> x) {
   const std::size_t n = t.size();
   std::vector<double> bend(n, 0.0), upper(n, 0.0);
+  if (n < 4) return bend;
   for (std::size_t k = 1; k + 1 < n; ++k) {
     const double before = t[k] - t[k - 1], after = t[k + 1] - t[k];
-    const double pivot = 2 * (before + after) - before * upper[k - 1];
+    double below = before, diagonal = 2 * (before + after), above = after;
+    if (k == 1) diagonal += before * (1 + before / after), above -= before * before / after, below = 0;
+    if (k + 2 == n) diagonal += after * (1 + after / before), below -= after * after / before, above = 0;
+    const double pivot = diagonal - below * upper[k - 1];
     const double turn = 6 * ((x[k + 1] - x[k]) / after - (x[k] - x[k - 1]) / before);
-    upper[k] = after / pivot;
-    bend[k] = (turn - before * bend[k - 1]) / pivot;
+    upper[k] = above / pivot;
+    bend[k] = (turn - below * bend[k - 1]) / pivot;
   }
-  for (std::size_t k = n - 1; k-- > 1;) bend[k] -= upper[k] * bend[k + 1];
+  for (std::size_t k = n - 2; k-- > 1;) bend[k] -= upper[k] * bend[k + 1];
+  const auto beyond = [&](std::size_t end, std::size_t near, std::size_t far) {
+    bend[end] = bend[near] + (bend[near] - bend[far]) * (t[end] - t[near]) / (t[near] - t[far]);
+  };
+  beyond(0, 1, 2);
+  beyond(n - 1, n - 2, n - 3);
   return bend;
 }
 

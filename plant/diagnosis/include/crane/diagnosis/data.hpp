@@ -105,7 +105,7 @@ struct Motion {
 /// From a measured position by the cubic spline through the samples: its acceleration, straight between them
 /// and integrated twice, gives them back.
 [[nodiscard]] Motion spline(std::span<const double> measured, double period_s);
-/// The natural cubic spline through samples at their own, increasing times, at the instants 0, period, ... of
+/// The cubic spline through samples at their own, increasing times, at the instants 0, period, ... of
 /// `rows` rows. A period before the first sample and after the last one it stands still.
 [[nodiscard]] Motion spline_of(std::span<const double> time_s, std::span<const double> measured,
                                double period_s, std::size_t rows);
