@@ -2,7 +2,6 @@
 
 #include <dds/ddsrt/log.h>
 
-#include <algorithm>
 #include <map>
 #include <mutex>
 
@@ -57,7 +56,7 @@ void report(void* /*unused*/, const dds_log_data_t* entry) {
   const std::string_view line{entry->message, entry->size};
   // The domain is open a moment before its participant exists; the others call again.
   if (line.find("Remote secure participant") != std::string_view::npos) return;
-  vendor_log("Cyclone DDS", line.substr(std::min(entry->hdrsize, line.size())));
+  vendor_log("Cyclone DDS", line);
 }
 
 }  // namespace

@@ -109,8 +109,10 @@ class ParticipantNumber {
   ParticipantNumber& operator=(const ParticipantNumber&) = delete;
   ~ParticipantNumber() {
     const std::lock_guard lock{mutex()};
-    used().erase(number_);
+    if (!kept_) used().erase(number_);
   }
+  /// Fast DDS does not give the number of a participant back that it could not create.
+  void keep() { kept_ = true; }
   [[nodiscard]] int value() const { return number_; }
 
  private:
@@ -123,6 +125,7 @@ class ParticipantNumber {
     return instance;
   }
   int number_ = 0;
+  bool kept_ = false;
 };
 
 struct ParticipantDeleter {
@@ -140,10 +143,12 @@ class FastBackEnd final : public BackEnd {
     auto* factory = dds::DomainParticipantFactory::get_instance();
     participant_.reset(factory->create_participant(options.domain, participant_qos(options, number_.value()),
                                                    nullptr, dds::StatusMask::none()));
-    if (!participant_)
+    if (!participant_) {
+      number_.keep();
       throw Error{"Fast DDS: cannot create participant in domain " + std::to_string(options.domain) + " on " +
                   options.interfaces.front() + "; is the interface up, and are UDP ports " +
                   std::to_string(7400 + 250 * options.domain) + " and up free?"};
+    }
     dds::PublisherQos publisher_qos = dds::PUBLISHER_QOS_DEFAULT;
     publisher_qos.partition().push_back(options.crane.c_str());
     publisher_ = participant_->create_publisher(publisher_qos);
