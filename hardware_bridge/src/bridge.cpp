@@ -131,7 +131,9 @@ void Bridge::tick(std::int64_t now_ns) {
   }
   const auto previous = tick_;
   tick_ = next;
-  board_->advance_to(static_cast<std::int64_t>(next) * period_ns_);
+  // A rig that simulates its time is read when the stamp says: late when the tick is late.
+  const bool paced_by_clock = clock_ == runtime::Clock::realtime;
+  board_->advance_to(paced_by_clock ? now_ns - start_ns_ : static_cast<std::int64_t>(next) * period_ns_);
   const auto inputs = board_->read();
   const auto measured = measurement_.step(inputs.raw_counts, latched_at(previous, next, sample_time_ns));
   report_relay(inputs, now_ns);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "crane/bridge/bridge.hpp"
 #include "crane/runtime/in_process.hpp"
@@ -77,8 +78,9 @@ void Bench::tap(const topics::Description& topic, const void* sample) {
 }
 
 void Bench::tick() {
-  row_.reset_asked = row_.arm_asked = false;
   every_tick();
+  row_.reset_asked = std::exchange(reset_sent_, false);
+  row_.arm_asked = std::exchange(arm_sent_, false);
   stack_->run_until(next_ns_);
   world_->board().advance_to(next_ns_ - 1'000'000'000);  // nature goes on when the bridge does not
   row_.time_ns = next_ns_;
@@ -102,10 +104,8 @@ bool Bench::run_until(const std::function<bool()>& holds, double longest_s) {
 
 void Bench::ask(const stack::Wish& wish) {
   last_request_ = operator_->send(wish);
-  const bool reset = wish.kind == crane_REQUEST_RESET, arm = wish.kind == crane_REQUEST_ARM;
+  note(wish.kind);
   tick();
-  rows_.back().reset_asked = reset;
-  rows_.back().arm_asked = arm;
 }
 
 void Bench::ask_without_number() {
@@ -115,7 +115,15 @@ void Bench::ask_without_number() {
   tick();
 }
 
-void Bench::send(crane_RequestKind kind) { last_request_ = operator_->send({.kind = kind}); }
+void Bench::send(crane_RequestKind kind) {
+  last_request_ = operator_->send({.kind = kind});
+  note(kind);
+}
+
+void Bench::note(crane_RequestKind kind) {
+  reset_sent_ = reset_sent_ || kind == crane_REQUEST_RESET;
+  arm_sent_ = arm_sent_ || kind == crane_REQUEST_ARM || kind == crane_REQUEST_HOME;
+}
 
 void Bench::restart_bridge() {
   building_ = this;

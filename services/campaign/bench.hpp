@@ -40,8 +40,6 @@ class Bench {
   void ask_without_number();  ///< a move whose id is 0
   /// The same without a tick.
   void send(crane_RequestKind kind);
-  /// The operator's home stands for an arm in the log.
-  void permit() { rows_.back().arm_asked = true; }
   /// A new process on the same board.
   void restart_bridge();
   /// What came of the newest request; nothing: no answer yet.
@@ -58,6 +56,7 @@ class Bench {
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
  private:
+  void note(crane_RequestKind kind);
   void carry(const topics::Description& topic, const void* sample, const bus::Deliver& deliver);
   void tap(const topics::Description& topic, const void* sample);
   [[nodiscard]] double speed_of_axis() const;
@@ -74,6 +73,7 @@ class Bench {
   std::int64_t period_ns_, next_ns_;
   std::uint64_t last_request_ = 0;
   std::uint32_t next_epoch_;
+  bool reset_sent_ = false, arm_sent_ = false;
   std::vector<std::max_align_t> copy_;
   Row row_;
   std::vector<Row> rows_;

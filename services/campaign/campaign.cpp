@@ -1,9 +1,11 @@
 #include "campaign/campaign.hpp"
 
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <map>
 #include <system_error>
 #include <type_traits>
@@ -91,8 +93,9 @@ Result strike(const Tuple& tuple, Bench& bench, const std::optional<std::filesys
   const auto later = dice.pick(kSpread_ticks);
   if (tuple.moment != Moment::brake_release && !hazard.from_power_on)
     bench.run(static_cast<double>(later) * bench.setting().told.period_s);
+  const auto begin_ns = bench.next_tick_ns();
   Strike what = hazard.strike(bench, dice);
-  Run run{.onset_ns = bench.next_tick_ns(), .expectation = what.expectation};
+  Run run{.begin_ns = begin_ns, .onset_ns = bench.next_tick_ns(), .expectation = what.expectation};
   if (const auto reply = bench.reply()) run.accepted = reply->accepted;
   watch(bench, what, run);
   run.rows = bench.take_rows();
@@ -142,6 +145,7 @@ pid_t forked(const std::function<void()>& child) {
   const pid_t pid = ::fork();
   if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (pid > 0) return pid;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   int code = 0;
   try {
     child();

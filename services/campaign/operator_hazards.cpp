@@ -178,7 +178,7 @@ void soon_idle(Setting& setting, Dice& /*dice*/) { setting.told.limits.idle_lock
 Strike idle(Bench& bench, Dice& /*dice*/) {
   const bool holds = bench.now().status.state == crane_STATE_HOLD;
   return {.expectation = {
-              .reasons = {because(crane_CAUSE_IDLE)}, .may_ride_through = !holds, .detection_ms = 400}};
+              .reasons = {because(crane_CAUSE_IDLE)}, .may_ride_through = !holds, .detection_ms = 700}};
 }
 
 Strike operator_stops(Bench& bench, Dice& dice) {
@@ -256,6 +256,7 @@ Strike arming_fails(Bench& bench, Dice& dice) {
 
 void homing_rig(Setting& setting, Dice& /*dice*/) {
   setting.told = configuration::load_rig(stack::find_rig("homing_servo_to_go"));
+  setting.controller = control::find_controller(setting.told.controller);
   setting.axis = 0;
   setting.selected = {true, false, false};
   setting.told.start.position[0] = 0.16;  // a short way to the mark
@@ -269,13 +270,12 @@ void ask_to_home(Bench& bench) {
   stack::Wish wish{.kind = crane_REQUEST_HOME};
   wish.selected[0] = true;
   bench.ask(wish);
-  bench.permit();
   bench.run(0.4);
 }
 
 Strike homing(Bench& bench, Dice& dice) {
   ask_to_home(bench);
-  Strike strike{.expectation = {.detection_ms = 20'000}, .watched_s = 20};
+  Strike strike{.expectation = {.detection_ms = 20'000, .position_is_false = true}, .watched_s = 20};
   switch (dice.pick(4)) {
     case 0:
       strike.expectation.reasons = {because(crane_CAUSE_HOMED)};

@@ -11,6 +11,7 @@ using Plane = std::array<double, 2>;
 constexpr double kLongestGap_s = 0.1;  // without samples the observer starts anew
 constexpr double kErratic = 3;         // second differences too large, less a fifth for each that is not
 constexpr double kForgiven = 0.2;
+constexpr double kSmooth = 0.5;  // per sample: a rate that noise does not make
 constexpr double kBeyondMotion = 2;
 
 Plane operator-(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
@@ -70,21 +71,23 @@ Plane observe_load(const Limits& limits, const Geometry& at, double dt_s, Pendul
   return residual;
 }
 
-/// Largest second difference of a swing angle that motion can make.
-double largest_jerk_rad(const Limits& limits, double cable_m, double dt_s) {
+/// Largest angular acceleration of a swing that gravity, drives and brakes can make.
+double largest_radps2(const Limits& limits, double cable_m) {
   const auto& p = limits.machine.crane;
   const double drive_mps2 =
       std::max(p.trolley_gain_mps2pv * limits.axis[0].volt_limit_v, limits.axis[0].brake_deceleration);
-  return (p.gravity_mps2 + drive_mps2) / cable_m * dt_s * dt_s;
+  return (p.gravity_mps2 + drive_mps2) / cable_m;
 }
 
 double judge_channel(const Limits& limits, std::size_t i, double swing_rad, double residual_rad,
-                     double jerk_rad, double rate_radps, PendulumMemory& memory) {
-  const double step_rad = swing_rad - memory.swing_rad[i];
-  const bool shakes = std::abs(step_rad - memory.step_rad[i]) >
-                      kBeyondMotion * jerk_rad + 4 * limits.machine.swing_resolution_rad[i];
+                     double largest_radps2, double dt_s, double observed_radps, PendulumMemory& memory) {
+  const double shown_radps = (swing_rad - memory.swing_rad[i]) / dt_s;
+  const bool shakes = std::abs(shown_radps - memory.shown_radps[i]) >
+                      kBeyondMotion * largest_radps2 * std::max(dt_s, limits.period_s) +
+                          4 * limits.machine.swing_resolution_rad[i] / dt_s;
+  memory.smooth_radps[i] += kSmooth * (shown_radps - memory.smooth_radps[i]);
   memory.erratic[i] = shakes ? memory.erratic[i] + 1 : std::max(memory.erratic[i] - kForgiven, 0.0);
-  memory.step_rad[i] = step_rad;
+  memory.shown_radps[i] = shown_radps;
   memory.swing_rad[i] = swing_rad;
   const bool stands =
       std::abs(swing_rad - memory.frozen_at_rad[i]) <= 2 * limits.machine.swing_resolution_rad[i];
@@ -93,7 +96,9 @@ double judge_channel(const Limits& limits, std::size_t i, double swing_rad, doub
   const double size = std::abs(swing_rad);
   const double frozen =
       memory.frozen_ticks[i] < kFrozen_ticks ? 0 : std::abs(residual_rad) / (kFrozen_rad + 0.05 * size);
-  const double implausible = std::abs(residual_rad) / (kImplausible_rad + 0.1 * size + kRate_s * rate_radps);
+  const double implausible =
+      std::abs(residual_rad) /
+      (kImplausible_rad + 0.1 * size + kRate_s * std::max(observed_radps, std::abs(memory.smooth_radps[i])));
   return std::max({frozen, implausible, memory.erratic[i] / kErratic});
 }
 
@@ -113,13 +118,13 @@ bool swing_sensor_failed(const Limits& limits, const PendulumInput& input, Pendu
   const Plane residual = turned(observe_load(limits, at, dt_s, memory), -input.position[1]);
   const Plane pivot_mps{(at.pivot_m[0] - before_m[0]) / dt_s, (at.pivot_m[1] - before_m[1]) / dt_s};
   const double rate_radps = norm(relative_mps - pivot_mps) / at.cable_m;
-  const double jerk_rad = largest_jerk_rad(limits, at.cable_m, dt_s);
+  const double largest = largest_radps2(limits, at.cable_m);
   const Plane swing{input.radial_rad, input.tangential_rad};
   double worst = 0;
   for (std::size_t i = 0; i < 2; ++i)
     if (limits.machine.swing_measured[i])
-      worst = std::max(
-          worst, judge_channel(limits, i, swing[i], residual[i] / at.cable_m, jerk_rad, rate_radps, memory));
+      worst = std::max(worst, judge_channel(limits, i, swing[i], residual[i] / at.cable_m, largest, dt_s,
+                                            rate_radps, memory));
   memory.largest = std::max(memory.largest, worst);
   return worst > 1;
 }

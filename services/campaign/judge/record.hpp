@@ -54,9 +54,10 @@ struct Expectation {
   bool communication = false;      ///< I2: 0 V within 70 ms of the onset
   bool volts_by_rig = false;       ///< the bridge is dead: only the relay of the rig acts, on the brakes
   bool position_is_false = false;  ///< I1 cannot be kept by counters: travel beyond a hard limit is reported
-  bool refused = false;            ///< the newest request of the operator is to be refused
-  double braked_by_rig_ms = 90;    ///< volts_by_rig: from onset to closed brakes: relay, coil and two ticks
-  bool supervisor_gone = false;    ///< nobody follows a latch of the bridge
+  bool loses_commands = false;   ///< a command that stops the crane may be lost: the bridge stops it at 50 ms
+  bool refused = false;          ///< the newest request of the operator is to be refused
+  double braked_by_rig_ms = 90;  ///< volts_by_rig: from onset to closed brakes: relay, coil and two ticks
+  bool supervisor_gone = false;  ///< nobody follows a latch of the bridge
   /// The bridge has to find this by itself, whatever the supervisor did before; LATCH_NONE: nothing.
   crane_LatchReason latch_too = crane_LATCH_NONE;
   double latch_ms = 0;                         ///< latch_too: from the time the fault was visible
@@ -67,6 +68,7 @@ struct Expectation {
 
 struct Run {
   std::vector<Row> rows{};
+  std::int64_t begin_ns = 0;                 ///< until then nothing was done to the crane
   std::int64_t onset_ns = 0;                 ///< of the fault
   std::optional<std::int64_t> visible_ns{};  ///< when its effect could be seen at the earliest; none: never
   Expectation expectation{};

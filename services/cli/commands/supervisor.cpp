@@ -8,8 +8,8 @@
 #include "commands.hpp"
 #include "crane/bus/cdr.hpp"
 #include "crane/recording/mcap_reader.hpp"
-#include "crane/supervisor/rules.hpp"
 #include "crane/supervisor/explain.hpp"
+#include "crane/supervisor/rules.hpp"
 
 namespace crane::cli {
 namespace {

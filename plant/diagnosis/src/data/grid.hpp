@@ -1,11 +1,11 @@
 #pragma once
 /// Rows at their own times, put on the grid that a replay goes by.
 ///
-/// A replay takes fixed steps. Each row belongs to the grid row nearest to it and keeps its distance from it: the
-/// prediction is evaluated at the row's own instant inside the step that it falls into, with that step's
-/// acceleration. Measured error of the swing over 8 s, the motion of the support known at jittered rows only: below
-/// 5e-5 rad at 100 Hz, 3.0e-4 rad at 29 Hz, an eighth of an encoder's count and a third of a camera's noise
-/// (data_grid_test). Rows that were not measured are NaN.
+/// A replay takes fixed steps. Each row belongs to the grid row nearest to it and keeps its distance from it:
+/// the prediction is evaluated at the row's own instant inside the step that it falls into, with that step's
+/// acceleration. Measured error of the swing over 8 s, the motion of the support known at jittered rows only:
+/// below 5e-5 rad at 100 Hz, 3.0e-4 rad at 29 Hz, an eighth of an encoder's count and a third of a camera's
+/// noise (data_grid_test). Rows that were not measured are NaN.
 #include <vector>
 
 #include "data/columns.hpp"
