@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "crane/innovations/diagnose.hpp"
-#include "likelihood/problem.hpp"
 #include "fit/ascent.hpp"
+#include "likelihood/problem.hpp"
 #include "rigs.hpp"
 
 namespace crane::innovations::test {
@@ -14,13 +14,16 @@ using diagnosis::Verdict;
 /// @param believed what the rig file says, @param real what is measured
 Result diagnosed(const SampleCrane& believed, const SampleCrane& real, unsigned seed, double seconds = 10) {
   const bool load = real.load_kg > 0;
-  std::vector<innovations::Run> train{run_of(SampleRun{real, seed}.rows(seconds), load), run_of(SampleRun{real, seed + 1}.rows(seconds), load)};
+  std::vector<innovations::Run> train{run_of(SampleRun{real, seed}.rows(seconds), load),
+                                      run_of(SampleRun{real, seed + 1}.rows(seconds), load)};
   diagnosis::Request request;
   request.most_effects = 1;
   return diagnose(rig_of(believed), train, {run_of(SampleRun{real, seed + 2}.rows(seconds), load)}, request);
 }
 
-std::string first_name(const Result& r) { return r.diagnosis.causes.empty() ? "" : r.diagnosis.causes[0].name; }
+std::string first_name(const Result& r) {
+  return r.diagnosis.causes.empty() ? "" : r.diagnosis.causes[0].name;
+}
 
 TEST(Diagnosis, FindsNothingWrongWhereNothingIs) {
   const Result r = diagnosed({}, {}, 11);
@@ -93,13 +96,15 @@ TEST(SmallData, OfAnyKindAreDiagnosedOrRefused) {
     crane.load_kg = random() % 2 == 0 ? 2 : 0;
     const auto rows = 5 + random() % 60;
     recording::Table table;
-    table.columns = {{"time_s", {}}, {"trolley_voltage_v", {}}, {"trolley_position_m", {}}, {"swing_radial_rad", {}}};
+    table.columns = {
+        {"time_s", {}}, {"trolley_voltage_v", {}}, {"trolley_position_m", {}}, {"swing_radial_rad", {}}};
     if (random() % 4 == 0) table.columns.erase(table.columns.begin() + 1);
     const double size = std::pow(10, 2 * n(random));
     double t = 0;
     for (std::size_t k = 0; k < rows; ++k) {
       t += random() % 10 == 0 ? -0.01 : 0.02 * std::abs(n(random));
-      for (auto& c : table.columns) c.values.push_back(c.name == "time_s" ? t : random() % 9 == 0 ? NAN : size * n(random));
+      for (auto& c : table.columns)
+        c.values.push_back(c.name == "time_s" ? t : random() % 9 == 0 ? NAN : size * n(random));
     }
     diagnosis::Request request;
     request.most_effects = 1;

@@ -31,12 +31,15 @@ Values linear_values(const Problem& problem) {
 double joint_log_density(const Problem& problem, const Values& values, const Run& run, const SampleCrane& c) {
   const Series& y = run.measured[0];
   const auto n = static_cast<Eigen::Index>(y.size());
-  const double sigma2 = std::exp(2 * values[of_noise(0, kLogForce)]), correlation = std::exp(values[of_noise(0, kLogCorrelation)]);
+  const double sigma2 = std::exp(2 * values[of_noise(0, kLogForce)]),
+               correlation = std::exp(values[of_noise(0, kLogCorrelation)]);
   const double noise = sensor_variance(values, problem.scales, run, 0);
   Eigen::Matrix4d a = Eigen::Matrix4d::Zero();  // the fourth state is the held command
-  a(0, 1) = 1, a(1, 1) = -c.gain * c.viscous_vs, a(1, 2) = c.gain, a(1, 3) = c.gain, a(2, 2) = -1 / correlation;
+  a(0, 1) = 1, a(1, 1) = -c.gain * c.viscous_vs, a(1, 2) = c.gain, a(1, 3) = c.gain,
+       a(2, 2) = -1 / correlation;
   Eigen::Vector4d mean{y.value[0], 0, 0, run.command[0].value[0]};
-  Eigen::Matrix4d p = Eigen::Vector4d{4 * noise, problem.scales.speed[0] * problem.scales.speed[0], sigma2, 0}.asDiagonal();
+  Eigen::Matrix4d p =
+      Eigen::Vector4d{4 * noise, problem.scales.speed[0] * problem.scales.speed[0], sigma2, 0}.asDiagonal();
   std::vector<Eigen::Matrix4d> transitions, covariances;
   Eigen::VectorXd means(n);
   double now = y.time_s[0];
@@ -48,7 +51,8 @@ double joint_log_density(const Problem& problem, const Values& values, const Run
     const double to = y.time_s[static_cast<std::size_t>(k)];
     while (now < to) {
       const auto next = command + 1;
-      const double edge = next < run.command[0].size() ? run.command[0].time_s[next] : 1e9, until = std::min(edge, to);
+      const double edge = next < run.command[0].size() ? run.command[0].time_s[next] : 1e9,
+                   until = std::min(edge, to);
       const double h = until - now;
       Eigen::Matrix<double, 8, 8> van_loan = Eigen::Matrix<double, 8, 8>::Zero();
       van_loan.topLeftCorner<4, 4>() = -a, van_loan.bottomRightCorner<4, 4>() = a.transpose();
@@ -73,7 +77,8 @@ double joint_log_density(const Problem& problem, const Values& values, const Run
   const Eigen::VectorXd e = Eigen::Map<const Eigen::VectorXd>(y.value.data(), n) - means;
   const Eigen::LLT<Eigen::MatrixXd> llt{joint};
   const Eigen::MatrixXd l = llt.matrixL();
-  return -0.5 * e.dot(llt.solve(e)) - l.diagonal().array().log().sum() - 0.5 * static_cast<double>(n) * std::log(6.283185307179586);
+  return -0.5 * e.dot(llt.solve(e)) - l.diagonal().array().log().sum() -
+         0.5 * static_cast<double>(n) * std::log(6.283185307179586);
 }
 
 TEST(Filter, HasTheLikelihoodOfTheJointGaussianWhereTheCraneIsLinear) {
@@ -87,9 +92,11 @@ TEST(Filter, HasTheLikelihoodOfTheJointGaussianWhereTheCraneIsLinear) {
   const Innovations out = innovations(problem, {values, {}}, 0);
   double log_density = 0;
   for (std::size_t k = 0; k < out.e.size(); ++k)
-    log_density -= 0.5 * (out.e[k] * out.e[k] / out.variance[k] + std::log(6.283185307179586 * out.variance[k]));
+    log_density -=
+        0.5 * (out.e[k] * out.e[k] / out.variance[k] + std::log(6.283185307179586 * out.variance[k]));
   // The noise of d enters by Simpson's rule along steps of at most 12.5 ms.
-  EXPECT_NEAR(log_density, joint_log_density(problem, values, run, crane), 1e-3 * static_cast<double>(out.e.size()));
+  EXPECT_NEAR(log_density, joint_log_density(problem, values, run, crane),
+              1e-3 * static_cast<double>(out.e.size()));
 }
 
 TEST(DryFriction, CancelsWhatIsAppliedAtRestAndIsTheLevelAtSpeed) {
@@ -98,9 +105,11 @@ TEST(DryFriction, CancelsWhatIsAppliedAtRestAndIsTheLevelAtSpeed) {
   const CraneModel model{problem.nominal, problem.layout(problem.base), problem.base, problem.scales};
   const double soft = 1e-3, c = crane.coulomb_v;
   for (const double applied : {-0.7, -0.2, 0.0, 0.5, 0.79})
-    EXPECT_NEAR(model.dry_friction_v(0, 0, 0, applied, 0, soft), applied, 1e-12) << "it sticks at " << applied << " V";
+    EXPECT_NEAR(model.dry_friction_v(0, 0, 0, applied, 0, soft), applied, 1e-12)
+        << "it sticks at " << applied << " V";
   for (const double applied : {-3.0, -0.9, 0.9, 3.0})
-    EXPECT_NEAR(model.dry_friction_v(0, 0, 0, applied, 0, soft), std::copysign(c, applied), 1e-12) << "it breaks loose";
+    EXPECT_NEAR(model.dry_friction_v(0, 0, 0, applied, 0, soft), std::copysign(c, applied), 1e-12)
+        << "it breaks loose";
   for (const double v : {-0.5, -0.05, 0.05, 0.5})
     EXPECT_NEAR(model.dry_friction_v(0, 0, v, -std::copysign(0.5, v), 0, soft), std::copysign(c, v), 1e-12);
 }
@@ -140,14 +149,18 @@ TEST(Scores, AreTheSlopesOfTheLikelihood) {
   const Problem problem{rig_of(crane), {run_of(SampleRun{crane, 4}.rows(8), true)}};
   const Hypothesis at{problem.base, {}};
   const auto l0 = log_likelihoods(problem, at);
-  const std::vector<Index> free{of_axis(0, kGain), of_load(kCable), of_noise(2, kLogForce), of_noise(0, kLogSensor)};
+  const std::vector<Index> free{of_axis(0, kGain), of_load(kCable), of_noise(2, kLogForce),
+                                of_noise(0, kLogSensor)};
   const Eigen::VectorXd slopes = scores(problem, at, free, l0).colwise().sum();
   for (std::size_t i = 0; i < free.size(); ++i) {
     const double step = 0.02 * problem.table[free[i]].scale;
     Hypothesis up = at, down = at;
     up.values[free[i]] += step, down.values[free[i]] -= step;
-    const double central = (sum(log_likelihoods(problem, up)) - sum(log_likelihoods(problem, down))) / (2 * step);
-    EXPECT_NEAR(slopes[static_cast<Eigen::Index>(i)], central, 0.15 * std::abs(central) + 3 / problem.table[free[i]].scale) << free[i];
+    const double central =
+        (sum(log_likelihoods(problem, up)) - sum(log_likelihoods(problem, down))) / (2 * step);
+    EXPECT_NEAR(slopes[static_cast<Eigen::Index>(i)], central,
+                0.15 * std::abs(central) + 3 / problem.table[free[i]].scale)
+        << free[i];
   }
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 /// A trolley with a hanging load, by itself: Runge-Kutta 4 at 0.5 ms, bristle friction (LuGre), coloured
 /// disturbances. Shares nothing with the project.
-#include <cmath>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -51,7 +51,8 @@ class SampleRun {
 
   double reference(double t) const {
     double r = 0;
-    for (const Tone& tone : tones_) r += 0.06 / (1 + 6 * tone.hz) * std::sin(6.2832 * tone.hz * t + tone.phase);
+    for (const Tone& tone : tones_)
+      r += 0.06 / (1 + 6 * tone.hz) * std::sin(6.2832 * tone.hz * t + tone.phase);
     return r;
   }
   double rounded(double v, double step) {
@@ -67,11 +68,13 @@ class SampleRun {
     const double z = s[4], v = s[1], level = std::max(c_.coulomb_v, 1e-9);
     const double z_rate = v - std::abs(v) * z / kBristle;
     const double friction = level * z / kBristle + c_.viscous_vs * v;
-    const double force = c_.inertia_kg * c_.gain * (volts + drive_ - friction), m = c_.load_kg, l = c_.cable_m;
+    const double force = c_.inertia_kg * c_.gain * (volts + drive_ - friction), m = c_.load_kg,
+                 l = c_.cable_m;
     const double sn = std::sin(s[2]), cs = std::cos(s[2]);
     // (M + m) x'' - m l p'' cos p + m l p'^2 sin p = F; l p'' + g sin p - x'' cos p = Fx / -m cos p
     const double swing0 = -9.81 * sn - (m > 0 ? load_ / m * cs : 0);
-    const double a = (force + load_ + m * cs * swing0 - m * l * s[3] * s[3] * sn) / (c_.inertia_kg + m * sn * sn);
+    const double a =
+        (force + load_ + m * cs * swing0 - m * l * s[3] * s[3] * sn) / (c_.inertia_kg + m * sn * sn);
     return {v, a, s[3], (swing0 + a * cs) / l, z_rate};
   }
   void advance(double t) {
@@ -88,7 +91,8 @@ class SampleRun {
       return q;
     };
     // the bristle is stiff: it follows exactly for the step's speed
-    const S k1 = rate(s_, volts), k2 = rate(moved(k1, h / 2), volts), k3 = rate(moved(k2, h / 2), volts), k4 = rate(moved(k3, h), volts);
+    const S k1 = rate(s_, volts), k2 = rate(moved(k1, h / 2), volts), k3 = rate(moved(k2, h / 2), volts),
+            k4 = rate(moved(k3, h), volts);
     const double z = s_[4], v = s_[1];
     for (std::size_t i = 0; i < 4; ++i) s_[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
     const double fade = std::exp(-std::abs(v) * h / 2e-5), end = v >= 0 ? 2e-5 : -2e-5;

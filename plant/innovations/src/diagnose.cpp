@@ -32,8 +32,13 @@ std::vector<diagnosis::Cause> causes_of(const Problem& problem, const SearchResu
     const auto place = [&](Index i) { return std::find(theta.begin(), theta.end(), i) - theta.begin(); };
     for (Eigen::Index a = 0; a < n; ++a)
       for (Eigen::Index b = 0; b < n; ++b)
-        own(a, b) = s.covariance(place(c.theta[static_cast<std::size_t>(a)]), place(c.theta[static_cast<std::size_t>(b)]));
-    diagnosis::Cause cause{setting_of(c, problem, found.model.fit.at.values).name, c.axis, {}, rule::kDetection.value, found.frequency[k]};
+        own(a, b) = s.covariance(place(c.theta[static_cast<std::size_t>(a)]),
+                                 place(c.theta[static_cast<std::size_t>(b)]));
+    diagnosis::Cause cause{setting_of(c, problem, found.model.fit.at.values).name,
+                           c.axis,
+                           {},
+                           rule::kDetection.value,
+                           found.frequency[k]};
     cause.parameters = as_diagnosis(estimates_of(c, problem, found.model.fit.at.values, own));
     causes.push_back(std::move(cause));
   }
@@ -54,13 +59,15 @@ Verdict verdict_of(const SearchResult& found, const Leftover& left, const HeldOu
   if (causes.empty()) return Verdict::none;
   if (!held.refused.empty()) return Verdict::unknown;
   if (!found.rivals.empty()) return Verdict::ambiguous;
-  const bool known = std::all_of(causes.begin(), causes.end(), [](const Candidate& c) { return c.known_parameter; });
+  const bool known =
+      std::all_of(causes.begin(), causes.end(), [](const Candidate& c) { return c.known_parameter; });
   return known ? Verdict::parameter : Verdict::named;
 }
 
 std::string list_of(const std::vector<diagnosis::Cause>& causes) {
   std::string text;
-  for (const auto& c : causes) text += (text.empty() ? "" : ", ") + c.name + (c.axis.empty() ? "" : " (" + c.axis + ")");
+  for (const auto& c : causes)
+    text += (text.empty() ? "" : ", ") + c.name + (c.axis.empty() ? "" : " (" + c.axis + ")");
   return text;
 }
 
@@ -95,17 +102,22 @@ std::string sentence_of(const Result& r, const Leftover& left) {
 void describe(const Problem& problem, const SearchResult& found, const Leftover& left, Result& r) {
   Diagnosis& d = r.diagnosis;
   auto causes = causes_of(problem, found);
-  if (d.verdict == Verdict::unknown) d.attempted = std::move(causes);
-  else d.causes = std::move(causes);
+  if (d.verdict == Verdict::unknown)
+    d.attempted = std::move(causes);
+  else
+    d.causes = std::move(causes);
   if (d.verdict == Verdict::ambiguous) d.ambiguous_with = found.rivals;
   for (const Candidate& c : found.model.causes)
-    if (c.term) d.extension.push_back(setting_of(c, problem, found.model.fit.at.values));
-    else d.notes.push_back(c.label() + ": no term of the simulator; extended.toml lacks it");
+    if (c.term)
+      d.extension.push_back(setting_of(c, problem, found.model.fit.at.values));
+    else
+      d.notes.push_back(c.label() + ": no term of the simulator; extended.toml lacks it");
   for (const Tried& t : found.tried)
     d.ranking.push_back({t.label, as_diagnosis(t.estimates), t.gain, 0, 1, 0});
   for (const LeftoverGroup& g : left.groups) r.leftover.push_back({g.name, g.gain, g.share, g.force_rms});
   r.leftover_p_value = left.p_value;
-  if (const auto* g = left.strongest(); g != nullptr && g->gain > 0 && left.p_value <= rule::kLeftoverLevel.value) {
+  if (const auto* g = left.strongest();
+      g != nullptr && g->gain > 0 && left.p_value <= rule::kLeftoverLevel.value) {
     d.remainder.predictable_fraction = g->share;
     d.remainder.from = {g->name};
   }
@@ -124,7 +136,8 @@ Result diagnose(const runtime::Rig& rig, std::vector<Run> train, std::vector<Run
   if (train.empty() || test.empty()) throw DataProblem("no run to learn from, or none held out");
   Problem problem{rig, std::move(train)};
   if (const std::size_t size = problem.layout(problem.base).size; !has_filter(size))
-    throw DataProblem(rig.name + ": a state of " + std::to_string(size) + " numbers: this engine takes one or two coordinates");
+    throw DataProblem(rig.name + ": a state of " + std::to_string(size) +
+                      " numbers: this engine takes one or two coordinates");
   SearchOptions options{request.most_effects, request.seed, request.excluded, request.progress};
   const SearchResult found = search(problem, options);
   request.progress(0.9, "what is left");
@@ -139,7 +152,8 @@ Result diagnose(const runtime::Rig& rig, std::vector<Run> train, std::vector<Run
   result.refused = judged.refused;
   describe(problem, found, left, result);
   result.diagnosis.detection_p_value = found.model.causes.empty() ? 1 : rule::kDetection.value;
-  result.diagnosis.runtime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.diagnosis.runtime_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   request.progress(1, "done");
   return result;
 }

@@ -69,8 +69,10 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
               << (fs::path{options.out} / "next_experiment.toml").string() << " --rig " << options.rig
               << '\n';
   for (const std::string& note : diagnosis.notes) std::cout << "note: " << note << '\n';
-  std::cout << "seed " << options.seed << ", " << rounded(diagnosis.runtime_s) << " s; "
-            << (fs::path{options.out} / (options.engine == "windows" ? "report.html" : "report.json")).string() << '\n';
+  std::cout
+      << "seed " << options.seed << ", " << rounded(diagnosis.runtime_s) << " s; "
+      << (fs::path{options.out} / (options.engine == "windows" ? "report.html" : "report.json")).string()
+      << '\n';
 }
 
 int diagnose_data(const DiagnoseOptions& options) {
@@ -95,8 +97,9 @@ int diagnose_data(const DiagnoseOptions& options) {
 }
 
 /// Rows at their own times, for the engine in innovations form.
-std::vector<innovations::Run> read_runs(const std::vector<std::string>& files, const diagnosis::Mapping& mapping,
-                                        const runtime::Rig& rig, std::vector<std::string>& notes) {
+std::vector<innovations::Run> read_runs(const std::vector<std::string>& files,
+                                        const diagnosis::Mapping& mapping, const runtime::Rig& rig,
+                                        std::vector<std::string>& notes) {
   std::vector<innovations::Run> runs;
   for (const std::string& file : files) {
     recording::Table table;
@@ -106,7 +109,8 @@ std::vector<innovations::Run> read_runs(const std::vector<std::string>& files, c
     } else {
       table = recording::read_csv(file);
     }
-    auto loaded = innovations::load_run(diagnosis::canonical(under_control(std::move(table)), mapping, file), rig, file);
+    auto loaded = innovations::load_run(diagnosis::canonical(under_control(std::move(table)), mapping, file),
+                                        rig, file);
     notes.insert(notes.end(), loaded.notes.begin(), loaded.notes.end());
     runs.push_back(std::move(loaded.run));
   }
@@ -118,7 +122,8 @@ int diagnose_in_innovations_form(const DiagnoseOptions& options) {
   diagnosis::Mapping mapping;
   if (!options.mapping.empty()) mapping = diagnosis::load_mapping(options.mapping);
   std::vector<std::string> notes;
-  auto train = read_runs(options.train, mapping, rig, notes), test = read_runs(options.test, mapping, rig, notes);
+  auto train = read_runs(options.train, mapping, rig, notes),
+       test = read_runs(options.test, mapping, rig, notes);
   fs::create_directories(options.out);
   diagnosis::Request request;
   request.seed = options.seed;

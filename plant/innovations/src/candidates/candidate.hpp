@@ -18,10 +18,11 @@ struct Candidate {
   std::vector<Index> theta;
   /// Fits begin at these values of theta, too, besides a step of the score.
   std::vector<std::vector<double>> starts;
-  /// Starts are tried with the unknown force at a quarter: an effect and a large unknown force are two valleys.
+  /// Starts are tried with the unknown force at a quarter: an effect and a large unknown force are two
+  /// valleys.
   bool quiet_starts = false;
-  bool known_parameter = false;  ///< the rig file has this quantity
-  bool term = true;              ///< plant/model has a term of this name
+  bool known_parameter = false;       ///< the rig file has this quantity
+  bool term = true;                   ///< plant/model has a term of this name
   std::vector<std::size_t> channels;  ///< that it acts on
 
   [[nodiscard]] std::string label() const { return axis.empty() ? name : name + " (" + axis + ")"; }
@@ -31,7 +32,8 @@ struct Candidate {
 [[nodiscard]] std::vector<Candidate> candidates_for(const Problem& problem);
 
 /// Parameters of the term beyond the base's, as the rig file says them.
-[[nodiscard]] plant::TermSetting setting_of(const Candidate& candidate, const Problem& problem, const Values& values);
+[[nodiscard]] plant::TermSetting setting_of(const Candidate& candidate, const Problem& problem,
+                                            const Values& values);
 /// The same with standard deviations by the delta method. @param covariance of theta
 [[nodiscard]] std::vector<Estimate> estimates_of(const Candidate& candidate, const Problem& problem,
                                                  const Values& values, const Eigen::MatrixXd& covariance);

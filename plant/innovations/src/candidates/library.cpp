@@ -8,7 +8,8 @@ namespace {
 
 class Library {
  public:
-  explicit Library(const Problem& problem) : problem_(problem), layout_(layout_of(problem.rig, problem.runs, false)) {
+  explicit Library(const Problem& problem)
+      : problem_(problem), layout_(layout_of(problem.rig, problem.runs, false)) {
     for (std::size_t c = 0; c < kChannels; ++c)
       measured_[c] = std::any_of(problem.runs.begin(), problem.runs.end(),
                                  [&](const Run& r) { return !r.measured[c].empty(); });
@@ -27,19 +28,24 @@ class Library {
   void add_drive(std::size_t i) {
     const double u = problem_.scales.volts[i], v = problem_.scales.speed[i];
     const auto of = [&](AxisParameter p) { return of_axis(i, p); };
-    const auto drive = [&](const char* name, std::vector<Index> theta, std::vector<std::vector<double>> starts = {},
-                           bool quiet = false, bool known = false, bool term = true) {
+    const auto drive = [&](const char* name, std::vector<Index> theta,
+                           std::vector<std::vector<double>> starts = {}, bool quiet = false,
+                           bool known = false, bool term = true) {
       add({name, kDriveNames[i], std::move(theta), std::move(starts), quiet, known, term, {i}});
     };
     const auto& friction = problem_.nominal.friction[i];
-    const bool dry = friction.dry[0] + friction.dry[1] > 0, viscous = friction.viscous[0] + friction.viscous[1] > 0;
+    const bool dry = friction.dry[0] + friction.dry[1] > 0,
+               viscous = friction.viscous[0] + friction.viscous[1] > 0;
     drive("coulomb_friction", {of(kCoulomb)}, {}, true, dry);
     drive("viscous_friction", {of(kViscous)}, {}, false, viscous);
-    drive("direction_asymmetry", {of(kAsymmetryDry), of(kAsymmetryViscous)}, {{0.05 * u, 0}, {-0.05 * u, 0}}, true);
-    drive("stribeck_friction", {of(kStribeck), of(kStribeckSpeed)}, {{0.1 * u, 0.1 * v}, {0.1 * u, 0.3 * v}}, true);
+    drive("direction_asymmetry", {of(kAsymmetryDry), of(kAsymmetryViscous)}, {{0.05 * u, 0}, {-0.05 * u, 0}},
+          true);
+    drive("stribeck_friction", {of(kStribeck), of(kStribeckSpeed)}, {{0.1 * u, 0.1 * v}, {0.1 * u, 0.3 * v}},
+          true);
     drive("position_dependent_friction", {of(kTight), of(kTightAt), of(kTightWave)});
     drive("torque_ripple", {of(kRippleSine), of(kRippleCosine), of(kRippleWave)});
-    if (i == kSlew) drive("torque_of_turn", {of(kTurnSine), of(kTurnCosine)}, {{-0.1 * u, 0}, {0.1 * u, 0}}, true);
+    if (i == kSlew)
+      drive("torque_of_turn", {of(kTurnSine), of(kTurnCosine)}, {{-0.1 * u, 0}, {0.1 * u, 0}}, true);
     drive("motor_gain", {of(kGain)}, {}, false, true);
     drive("command_offset", {of(kOffset)}, {{0.05 * u}, {-0.05 * u}}, true);
     drive("command_dead_zone", {of(kDeadZone)}, {{0.05 * u}, {0.15 * u}}, true);
@@ -84,9 +90,11 @@ class Library {
   void add_pivots(bool both) {
     for (std::size_t k = 0; k < 2; ++k)
       if (measured_[2 + k] || (k == 0 && layout_.has(kPhi)))
-        load("swing_pivot_friction", {of_load(kPivotDry + k), of_load(kPivotViscous + k)}, {}, false, kSwingNames[k]);
+        load("swing_pivot_friction", {of_load(kPivotDry + k), of_load(kPivotViscous + k)}, {}, false,
+             kSwingNames[k]);
     if (both)
-      load("swing_pivot_friction", {of_load(kPivotDry), of_load(kPivotViscous), of_load(kPivotDry + 1), of_load(kPivotViscous + 1)});
+      load("swing_pivot_friction",
+           {of_load(kPivotDry), of_load(kPivotViscous), of_load(kPivotDry + 1), of_load(kPivotViscous + 1)});
   }
 
   /// Slings whose fast mode spans a decade; the measured length ends at the hook or at the load.
@@ -97,9 +105,16 @@ class Library {
     std::vector<std::vector<double>> starts;
     for (const double share : {0.4, 0.75})
       for (const double sling : {0.08, 0.18, 0.35, 0.6})
-        for (const double raised : {0.0, 1.0}) starts.push_back({share, sling * l, std::min(raised * sling, 0.6) * l});
-    Candidate c{"double_pendulum", "", {of_load(kLowerShare), of_load(kLowerLength), of_load(kHookRaised)},
-                starts, true, false, true, swings()};
+        for (const double raised : {0.0, 1.0})
+          starts.push_back({share, sling * l, std::min(raised * sling, 0.6) * l});
+    Candidate c{"double_pendulum",
+                "",
+                {of_load(kLowerShare), of_load(kLowerLength), of_load(kHookRaised)},
+                starts,
+                true,
+                false,
+                true,
+                swings()};
     add(std::move(c));
   }
 

@@ -15,7 +15,8 @@ constexpr std::size_t kAtOnce = 48;  // wave numbers of one pass of the filter
 
 std::vector<double> wave_numbers(double travel, bool friction) {
   std::vector<double> k;
-  const double step = 0.35 / travel, low = (friction ? 1.0 : 1.5) / travel, high = (friction ? 12 : 120) / travel;
+  const double step = 0.35 / travel, low = (friction ? 1.0 : 1.5) / travel,
+               high = (friction ? 12 : 120) / travel;
   for (double at = low; at < high; at += step) k.push_back(at);
   return k;
 }
@@ -28,14 +29,16 @@ Whitened whitened(const Problem& problem, const Hypothesis& at, const Columns& c
                     [&](std::size_t r) { runs[r] = innovations(problem, at, r, &columns); });
   Eigen::Index rows = 0;
   for (const Innovations& run : runs) rows += run.sensitivity.rows();
-  Whitened w{Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(columns.coordinate.size())), Eigen::VectorXd::Zero(rows)};
+  Whitened w{Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(columns.coordinate.size())),
+             Eigen::VectorXd::Zero(rows)};
   Eigen::Index begin = 0;
   const double nu = rule::kStudent.value;
   for (const Innovations& run : runs) {
     for (Eigen::Index k = 0; k < run.sensitivity.rows(); ++k) {
       const auto slot = static_cast<std::size_t>(k);
       if (run.log_likelihood[slot] == 0) continue;
-      const double z = run.e[slot] / std::sqrt(run.variance[slot]), weight = std::sqrt((nu + 1) / (nu + z * z));
+      const double z = run.e[slot] / std::sqrt(run.variance[slot]),
+                   weight = std::sqrt((nu + 1) / (nu + z * z));
       w.y[begin + k] = weight * z;
       w.x.row(begin + k) = weight * run.sensitivity.row(k);
     }
@@ -68,7 +71,8 @@ Wave strongest_wave(const Problem& problem, const Hypothesis& at, std::size_t dr
     const auto mean = static_cast<Eigen::Index>(2 * count);
     const double mean_alone = 0.5 * right[mean] * right[mean] / (gram(mean, mean) + 1e-9);
     for (std::size_t i = 0; i < count; ++i) {
-      const std::array<Eigen::Index, 3> places{static_cast<Eigen::Index>(2 * i), static_cast<Eigen::Index>(2 * i) + 1, mean};
+      const std::array<Eigen::Index, 3> places{static_cast<Eigen::Index>(2 * i),
+                                               static_cast<Eigen::Index>(2 * i) + 1, mean};
       Eigen::Matrix3d h;
       Eigen::Vector3d g;
       for (Eigen::Index a = 0; a < 3; ++a) {
@@ -77,7 +81,8 @@ Wave strongest_wave(const Problem& problem, const Hypothesis& at, std::size_t dr
           h(a, b) = gram(places[static_cast<std::size_t>(a)], places[static_cast<std::size_t>(b)]);
         h(a, a) += 1e-9;
       }
-      // The innovation is measured - predicted: sensitivities of e to a force are negative of those of the prediction.
+      // The innovation is measured - predicted: sensitivities of e to a force are negative of those of the
+      // prediction.
       const Eigen::Vector3d amount = h.ldlt().solve(g);
       const double gain = 0.5 * g.dot(amount) - mean_alone;
       if (gain > best.gain) best = {gain, 1 / numbers[from + i], amount[0], amount[1]};

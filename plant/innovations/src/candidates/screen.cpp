@@ -18,7 +18,8 @@ bool is_wave(const Candidate& c) {
 
 class Screening {
  public:
-  Screening(const Problem& problem, const Fit& base) : problem_(problem), base_(base), noise_(problem.noise()) {
+  Screening(const Problem& problem, const Fit& base)
+      : problem_(problem), base_(base), noise_(problem.noise()) {
     value_ = sum(base.by_value);
     noise_scores_ = scores(problem, base.at, noise_, base.by_value);
   }
@@ -65,7 +66,8 @@ class Screening {
     if (!c.starts.empty() && c.channels.front() >= 2) return c.starts;
     const double force = std::exp(base_.at.values[of_noise(c.channels.front(), kLogForce)]);
     std::vector<std::vector<double>> all;
-    const std::vector<double> like = c.starts.empty() ? std::vector<double>(c.theta.size(), 0.0) : c.starts.front();
+    const std::vector<double> like =
+        c.starts.empty() ? std::vector<double>(c.theta.size(), 0.0) : c.starts.front();
     for (const double k : {-2.0, -1.0, 1.0, 2.0}) {
       std::vector<double> values = like;
       values[0] = base_.at.values[c.theta[0]] + k * force;
@@ -83,7 +85,8 @@ class Screening {
     both << own, noise_scores_;
     Eigen::MatrixXd h = both.transpose() * both;
     for (Eigen::Index i = 0; i < h.rows(); ++i)
-      h(i, i) += i < own.cols() ? 1e-6 / std::pow(problem_.table[theta[static_cast<std::size_t>(i)]].scale, 2) : 0.03;
+      h(i, i) += i < own.cols() ? 1e-6 / std::pow(problem_.table[theta[static_cast<std::size_t>(i)]].scale, 2)
+                                : 0.03;
     const Eigen::VectorXd g = both.colwise().sum().transpose(), step = h.ldlt().solve(g);
     const Eigen::Index n = noise_scores_.cols();
     s.promised = 0.5 * g.dot(step) - 0.5 * g.tail(n).dot(h.bottomRightCorner(n, n).ldlt().solve(g.tail(n)));
@@ -97,8 +100,10 @@ class Screening {
         v = std::clamp(v + share * step[static_cast<Eigen::Index>(i)], info.low, info.high);
         moves = moves || v != before;
       }
-      if (!moves) s.promised = 0;
-      else attempt(moved, s);
+      if (!moves)
+        s.promised = 0;
+      else
+        attempt(moved, s);
     }
   }
 
@@ -134,8 +139,10 @@ double Screened::rank() const { return std::max(gained, 0.6 * promised); }
 std::vector<Screened> screen(const Problem& problem, const Fit& base, const std::vector<Candidate>& library) {
   const Screening screening{problem, base};
   std::vector<Screened> all(library.size());
-  tbb::parallel_for(std::size_t{0}, library.size(), [&](std::size_t i) { all[i] = screening.screened(library[i]); });
-  std::stable_sort(all.begin(), all.end(), [](const Screened& a, const Screened& b) { return a.rank() > b.rank(); });
+  tbb::parallel_for(std::size_t{0}, library.size(),
+                    [&](std::size_t i) { all[i] = screening.screened(library[i]); });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Screened& a, const Screened& b) { return a.rank() > b.rank(); });
   return all;
 }
 

@@ -1,20 +1,21 @@
 #pragma once
-/// Which candidates are worth a fit: scores with the noise projected out (Rao, Proc. Camb. Phil. Soc. 44 (1948)
-/// 50), gains of the candidates' own starts, and a periodogram over position for waves.
+/// Which candidates are worth a fit: scores with the noise projected out (Rao, Proc. Camb. Phil. Soc. 44
+/// (1948) 50), gains of the candidates' own starts, and a periodogram over position for waves.
 #include "candidates/candidate.hpp"
 
 namespace crane::innovations {
 
 struct Screened {
   const Candidate* candidate = nullptr;
-  double promised = 0;    ///< nats of a score step
-  double gained = 0;      ///< nats of the best start as it is
-  Hypothesis start;       ///< that start, or the base
+  double promised = 0;  ///< nats of a score step
+  double gained = 0;    ///< nats of the best start as it is
+  Hypothesis start;     ///< that start, or the base
   [[nodiscard]] double rank() const;
 };
 
 /// Best first. @param base fitted, of the causes found before
-[[nodiscard]] std::vector<Screened> screen(const Problem& problem, const Fit& base, const std::vector<Candidate>& library);
+[[nodiscard]] std::vector<Screened> screen(const Problem& problem, const Fit& base,
+                                           const std::vector<Candidate>& library);
 
 /// Whitened, robustly weighted innovations y and sensitivities X: y + X a is what an amount a would leave.
 struct Whitened {
@@ -28,6 +29,7 @@ struct Whitened {
 struct Wave {
   double gain = 0, length = 0, cosine = 0, sine = 0;
 };
-[[nodiscard]] Wave strongest_wave(const Problem& problem, const Hypothesis& at, std::size_t drive, bool friction);
+[[nodiscard]] Wave strongest_wave(const Problem& problem, const Hypothesis& at, std::size_t drive,
+                                  bool friction);
 
 }  // namespace crane::innovations

@@ -85,7 +85,8 @@ LoadedRun load_run(const recording::Table& table, const runtime::Rig& rig, const
   if (rows.size() < static_cast<std::size_t>(rule::kLeastRows.value))
     throw DataProblem(name + ": " + std::to_string(rows.size()) + " rows with increasing time: too few");
   if (const std::size_t lost = time_s->size() - rows.size(); lost > 0)
-    loaded.notes.push_back(name + ": " + std::to_string(lost) + " rows whose time does not increase are left out");
+    loaded.notes.push_back(name + ": " + std::to_string(lost) +
+                           " rows whose time does not increase are left out");
   Run& run = loaded.run;
   run.name = name;
   const auto has = channels_of(rig);

@@ -22,8 +22,9 @@ class Command {
   /// Passes the next row. @return |change| times the time since the last row [V s]
   double pass() {
     const std::size_t k = next_++;
-    const double area = k == 0 ? 0 : std::abs(rows_.value[k] - rows_.value[k - 1]) *
-                                         std::min(rows_.time_s[k] - rows_.time_s[k - 1], 0.1);
+    const double area = k == 0 ? 0
+                               : std::abs(rows_.value[k] - rows_.value[k - 1]) *
+                                     std::min(rows_.time_s[k] - rows_.time_s[k - 1], 0.1);
     raw_ = rows_.value[k];
     output_ = shaped(raw_);
     return area;

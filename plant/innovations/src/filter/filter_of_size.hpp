@@ -10,8 +10,9 @@
 
 namespace crane::innovations {
 
-/// Exact local linearisation s+ = s + G f, P+ = F P F', F = exp(A h), G = int exp(A u) du (Jimenez, Ozaki 2003):
-/// Taylor to order three with scaling and doubling, G <- G + F G, F <- F F, so that stiff dry friction is exact.
+/// Exact local linearisation s+ = s + G f, P+ = F P F', F = exp(A h), G = int exp(A u) du (Jimenez, Ozaki
+/// 2003): Taylor to order three with scaling and doubling, G <- G + F G, F <- F F, so that stiff dry friction
+/// is exact.
 template <int N>
 void linearised_step(const Eigen::Matrix<double, N, N>& a, double h, Eigen::Matrix<double, N, N>& f,
                      Eigen::Matrix<double, N, N>& g) {
@@ -36,11 +37,18 @@ class FilterOfSize {
   using Square = Eigen::Matrix<double, N, N>;
   using Row = Eigen::Matrix<double, 1, N>;
 
-  FilterOfSize(CraneModel model, const Nominal& nominal, const Scales& scales, const Run& run, const Values& values,
-               const FilterRequest& request)
-      : model_(std::move(model)), layout_(model_.layout), scales_(scales), run_(run), p_(values), request_(request),
-        commands_{Command{run.command[0], values, 0, request.between}, Command{run.command[1], values, 1, request.between}} {
-    longest_s_ = std::min(rule::kStepMost.value, rule::kStep.value / std::sqrt(nominal.plant.gravity_mps2 / nominal.cable_m));
+  FilterOfSize(CraneModel model, const Nominal& nominal, const Scales& scales, const Run& run,
+               const Values& values, const FilterRequest& request)
+      : model_(std::move(model)),
+        layout_(model_.layout),
+        scales_(scales),
+        run_(run),
+        p_(values),
+        request_(request),
+        commands_{Command{run.command[0], values, 0, request.between},
+                  Command{run.command[1], values, 1, request.between}} {
+    longest_s_ = std::min(rule::kStepMost.value,
+                          rule::kStep.value / std::sqrt(nominal.plant.gravity_mps2 / nominal.cable_m));
     if (!layout_.has(kPhi) && !layout_.has(kTheta)) longest_s_ = rule::kStepMost.value;
     std::size_t count = 0;
     for (std::size_t c = 0; c < kChannels; ++c) first_[c] = count, count += run.measured[c].size();
@@ -192,7 +200,8 @@ class FilterOfSize {
     return h;
   }
 
-  [[nodiscard]] State rate(const State& s, const std::array<double, 2>& volts, const std::array<double, 2>& soft) const {
+  [[nodiscard]] State rate(const State& s, const std::array<double, 2>& volts,
+                           const std::array<double, 2>& soft) const {
     State r = State::Zero();
     model_.rate(s.data(), volts, soft, r.data());
     return r;
@@ -246,7 +255,8 @@ class FilterOfSize {
     }
   }
 
-  void push_columns(const std::array<double, 2>& volts, const Square& a, const Square& transition, const Square& integral) {
+  void push_columns(const std::array<double, 2>& volts, const Square& a, const Square& transition,
+                    const Square& integral) {
     request_.columns->evaluate(now_s_, s_.data(), volts, h_.data());
     delta_ = (transition * delta_).eval();
     for (std::size_t j = 0; j < h_.size(); ++j) {
@@ -258,8 +268,8 @@ class FilterOfSize {
     }
   }
 
-  /// d' = -d/T + sqrt(2 sigma^2 / T) w, its covariance by Simpson's rule: what enters at the begin, in the middle
-  /// and at the end of a step.
+  /// d' = -d/T + sqrt(2 sigma^2 / T) w, its covariance by Simpson's rule: what enters at the begin, in the
+  /// middle and at the end of a step.
   /// @param later A times the time that is left of the step
   void add_unknown_force(double seconds, const Square& later) {
     for (std::size_t c = 0; c < kChannels; ++c) {
@@ -268,12 +278,14 @@ class FilterOfSize {
       const auto d = static_cast<Eigen::Index>(b) + 2;
       State entered = later.col(d);
       entered[d] += 1;
-      const double intensity = 2 * std::exp(2 * p_[of_noise(c, kLogForce)] - p_[of_noise(c, kLogCorrelation)]);
+      const double intensity =
+          2 * std::exp(2 * p_[of_noise(c, kLogForce)] - p_[of_noise(c, kLogCorrelation)]);
       covariance_ += intensity * seconds * entered * entered.transpose();
     }
   }
 
-  /// White acceleration near rest, where friction has a memory that the law lacks: q^2 exp(-v^2/(v_b^2 + P_vv)).
+  /// White acceleration near rest, where friction has a memory that the law lacks: q^2 exp(-v^2/(v_b^2 +
+  /// P_vv)).
   void add_standstill(double h) {
     for (std::size_t i = 0; i < 2; ++i) {
       if (!layout_.volts[i]) continue;
@@ -309,7 +321,8 @@ class FilterOfSize {
     update(first_[c] + k, run_.measured[c].value[k] - y, h, sensor_variance(p_, scales_, run_, c));
   }
 
-  /// phi + w^2/24 phi'' at t - delay - w/2 is the moving average to fourth order; misalignment turns the pair.
+  /// phi + w^2/24 phi'' at t - delay - w/2 is the moving average to fourth order; misalignment turns the
+  /// pair.
   double swing_seen(std::size_t k, Row& h) {
     const double turn = p_[of_load(kMisalignment)];
     const auto own = layout_.begin[k == 0 ? kPhi : kTheta], other = layout_.begin[k == 0 ? kTheta : kPhi];
@@ -347,7 +360,8 @@ class FilterOfSize {
       return;
     }
     out_.e[slot] = e, out_.variance[slot] = variance;
-    if (run_.measured[out_.channel[slot]].time_s[slot - first_[out_.channel[slot]]] > run_.begin_s() + rule::kBurnIn.value)
+    if (run_.measured[out_.channel[slot]].time_s[slot - first_[out_.channel[slot]]] >
+        run_.begin_s() + rule::kBurnIn.value)
       out_.log_likelihood[slot] = student_log_density(e, variance);
     const State gain = ph / variance;
     if (request_.columns != nullptr) {

@@ -1,8 +1,8 @@
 #pragma once
 /// Continuous-discrete extended Kalman filter of one run. Commands, positions and swings are events at their
-/// own times: a command delay, a sensor delay, jitter, a gap, a missing column and any rate are the same code.
-/// Sources: R. E. Kalman, J. Basic Eng. 82 (1960) 35; N. R. Kristensen, H. Madsen, S. B. Jorgensen, Automatica
-/// 40 (2004) 225.
+/// own times: a command delay, a sensor delay, jitter, a gap, a missing column and any rate are the same
+/// code. Sources: R. E. Kalman, J. Basic Eng. 82 (1960) 35; N. R. Kristensen, H. Madsen, S. B. Jorgensen,
+/// Automatica 40 (2004) 225.
 #include <Eigen/Core>
 #include <functional>
 
@@ -39,18 +39,22 @@ struct FilterRequest {
   bool keep_states = false;
   const Columns* columns = nullptr;
   RunStart start;
-  /// Open loop from this state; only the motion of a drive whose command is not known is followed as measured.
+  /// Open loop from this state; only the motion of a drive whose command is not known is followed as
+  /// measured.
   const Eigen::VectorXd* open_loop = nullptr;
 };
 
 /// Variance of a sensor's noise: r^2 + (counts and floor).
-[[nodiscard]] double sensor_variance(const Values& values, const Scales& scales, const Run& run, std::size_t channel);
+[[nodiscard]] double sensor_variance(const Values& values, const Scales& scales, const Run& run,
+                                     std::size_t channel);
 
 [[nodiscard]] Innovations filter(const CraneModel& model, const Nominal& nominal, const Scales& scales,
                                  const Run& run, const Values& values, const FilterRequest& request);
 
 /// Sizes of states that the filter is compiled for: one coordinate or two, with or without a lower cable.
-[[nodiscard]] constexpr bool has_filter(std::size_t size) { return size == 3 || size == 5 || size == 6 || size == 8; }
+[[nodiscard]] constexpr bool has_filter(std::size_t size) {
+  return size == 3 || size == 5 || size == 6 || size == 8;
+}
 
 /// log of Student's t, scaled to `variance` at its centre.
 [[nodiscard]] double student_log_density(double e, double variance);

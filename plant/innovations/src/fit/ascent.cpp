@@ -51,7 +51,8 @@ void hold_at_bounds(const Problem& problem, const Values& at, const std::vector<
   for (std::size_t i = 0; i < free.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const ParameterInfo& info = problem.table[free[i]];
-    const bool held = (at[free[i]] <= info.low && q.gradient[k] < 0) || (at[free[i]] >= info.high && q.gradient[k] > 0);
+    const bool held =
+        (at[free[i]] <= info.low && q.gradient[k] < 0) || (at[free[i]] >= info.high && q.gradient[k] > 0);
     if (!held) continue;
     const double own = q.hessian(k, k);
     q.hessian.row(k).setZero(), q.hessian.col(k).setZero();

@@ -7,8 +7,8 @@ namespace crane::innovations {
 
 struct Fit {
   Hypothesis at;
-  double value = -1e300;           ///< log likelihood and prior
-  std::vector<double> by_value;    ///< log likelihoods
+  double value = -1e300;         ///< log likelihood and prior
+  std::vector<double> by_value;  ///< log likelihoods
   [[nodiscard]] bool usable() const { return !by_value.empty(); }
 };
 
@@ -17,13 +17,14 @@ struct AscentLimits {
   double least_gain = 0.3;  ///< nats of a round; less ends it
 };
 
-[[nodiscard]] Fit ascend(const Problem& problem, Hypothesis from, const std::vector<Index>& free, AscentLimits limits);
+[[nodiscard]] Fit ascend(const Problem& problem, Hypothesis from, const std::vector<Index>& free,
+                         AscentLimits limits);
 
 /// Starts of the lower cable, run by run, by Gauss-Newton steps on the likelihood.
 [[nodiscard]] Fit fit_starts(const Problem& problem, Fit fit, int rounds);
 
-/// Sandwich of `theta` with the noise as it is: covariance I^-1 J I^-1 and TIC's penalty tr(I^-1 J), I from the
-/// values' scores, J from those of blocks (Takeuchi 1976).
+/// Sandwich of `theta` with the noise as it is: covariance I^-1 J I^-1 and TIC's penalty tr(I^-1 J), I from
+/// the values' scores, J from those of blocks (Takeuchi 1976).
 struct Sandwich {
   Eigen::MatrixXd covariance;
   double penalty = 0;

@@ -9,10 +9,12 @@ namespace {
 constexpr int kNumbers = 4;  // angle and rate, radial and tangential
 
 double& number(RunStart& start, int i) {
-  return i < 2 ? start.lower_rad[static_cast<std::size_t>(i)] : start.lower_radps[static_cast<std::size_t>(i - 2)];
+  return i < 2 ? start.lower_rad[static_cast<std::size_t>(i)]
+               : start.lower_radps[static_cast<std::size_t>(i - 2)];
 }
 
-double value_of(const Problem& problem, const Hypothesis& h, std::size_t run, std::vector<double>* rows = nullptr) {
+double value_of(const Problem& problem, const Hypothesis& h, std::size_t run,
+                std::vector<double>* rows = nullptr) {
   Innovations out = innovations(problem, h, run);
   if (!out.finite) return -1e300;
   if (rows != nullptr) *rows = out.log_likelihood;
@@ -32,7 +34,8 @@ bool improve(const Problem& problem, Hypothesis& h, std::size_t run) {
     number(moved.starts[run], i) += step;
     std::vector<double> there;
     if (value_of(problem, moved, run, &there) < -1e299) return false;
-    for (std::size_t k = 0; k < rows.size(); ++k) s(static_cast<Eigen::Index>(k), i) = (there[k] - rows[k]) / step;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      s(static_cast<Eigen::Index>(k), i) = (there[k] - rows[k]) / step;
   }
   Eigen::MatrixXd hessian = s.transpose() * s;
   for (int i = 0; i < kNumbers; ++i) hessian(i, i) += 1e-2 / std::pow(i < 2 ? angle : rate, 2) * 1e-4;

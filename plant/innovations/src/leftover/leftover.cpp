@@ -18,7 +18,8 @@ constexpr double kRidge = 0.003;  // of the mean diagonal
 /// Columns: hats over a quantity that runs from 0 to 1.
 void hats(double q, std::size_t count, double factor, double* h) {
   const double at = std::clamp(q, 0.0, 1.0) * static_cast<double>(count - 1);
-  for (std::size_t i = 0; i < count; ++i) h[i] = factor * std::max(0.0, 1 - std::abs(at - static_cast<double>(i)));
+  for (std::size_t i = 0; i < count; ++i)
+    h[i] = factor * std::max(0.0, 1 - std::abs(at - static_cast<double>(i)));
 }
 
 struct Group {
@@ -29,7 +30,8 @@ struct Group {
 
 class Groups {
  public:
-  Groups(const Problem& problem, const Hypothesis& at) : scales_(problem.scales), layout_(problem.layout(at.values)) {
+  Groups(const Problem& problem, const Hypothesis& at)
+      : scales_(problem.scales), layout_(problem.layout(at.values)) {
     for (const Run& run : problem.runs) longest_s_ = std::max(longest_s_, run.end_s() - run.begin_s());
     begin_s_ = problem.runs.front().begin_s();
     for (std::size_t i = 0; i < 2; ++i)
@@ -41,7 +43,8 @@ class Groups {
 
  private:
   template <class Quantity, class Factor>
-  void add(const std::string& name, std::size_t coordinate, std::size_t count, Quantity quantity, Factor factor) {
+  void add(const std::string& name, std::size_t coordinate, std::size_t count, Quantity quantity,
+           Factor factor) {
     Group g{name, {std::vector<std::size_t>(count, coordinate), {}}, coordinate};
     g.columns.evaluate = [=](double t, const double* s, const std::array<double, 2>& u, double* h) {
       hats(quantity(t, s), count, factor(s, u), h);
@@ -52,14 +55,21 @@ class Groups {
   void add_drive(std::size_t i) {
     const std::size_t coordinate = i == 0 ? kX : kGamma, b = layout_.begin[coordinate];
     const std::string drive = std::string{kDriveNames[i]} + " force by ";
-    const double low = scales_.middle[i] - 0.5 * scales_.travel[i], width = scales_.travel[i], speed = scales_.speed[i];
+    const double low = scales_.middle[i] - 0.5 * scales_.travel[i], width = scales_.travel[i],
+                 speed = scales_.speed[i];
     const double rest = rule::kRestBand.value * rule::kRestSpeed.value * speed;
     const auto one = [](const double*, const std::array<double, 2>&) { return 1.0; };
     const auto place = [=](double, const double* s) { return (s[b] - low) / width; };
-    const auto time = [begin = begin_s_, length = longest_s_](double t, const double*) { return (t - begin) / length; };
-    const auto sign = [=](const double* s, const std::array<double, 2>&) { return std::tanh(s[b + 1] / rest); };
+    const auto time = [begin = begin_s_, length = longest_s_](double t, const double*) {
+      return (t - begin) / length;
+    };
+    const auto sign = [=](const double* s, const std::array<double, 2>&) {
+      return std::tanh(s[b + 1] / rest);
+    };
     add(drive + "position", coordinate, 24, place, one);
-    add(drive + "speed", coordinate, 13, [=](double, const double* s) { return 0.5 + 0.5 * s[b + 1] / speed; }, one);
+    add(
+        drive + "speed", coordinate, 13,
+        [=](double, const double* s) { return 0.5 + 0.5 * s[b + 1] / speed; }, one);
     add(drive + "direction and position", coordinate, 16, place, sign);
     add(drive + "command over time", coordinate, 8, time,
         [i](const double*, const std::array<double, 2>& u) { return u[i]; });
@@ -70,13 +80,22 @@ class Groups {
     const std::string name = std::string{kSwingNames[k]} + " force by ";
     const double angle = scales_.swing_rad, rate = angle * scales_.omega_radps;
     const auto one = [](const double*, const std::array<double, 2>&) { return 1.0; };
-    add(name + "swing", coordinate, 9, [=](double, const double* s) { return 0.5 + 0.5 * s[b] / angle; }, one);
-    add(name + "swing rate", coordinate, 9, [=](double, const double* s) { return 0.5 + 0.5 * s[b + 1] / rate; }, one);
+    add(
+        name + "swing", coordinate, 9, [=](double, const double* s) { return 0.5 + 0.5 * s[b] / angle; },
+        one);
+    add(
+        name + "swing rate", coordinate, 9,
+        [=](double, const double* s) { return 0.5 + 0.5 * s[b + 1] / rate; }, one);
     const std::size_t drive = layout_.begin[k == 0 ? kX : kGamma];
     if (drive == kNone) return;
-    const double speed = scales_.speed[k], low = scales_.middle[k] - 0.5 * scales_.travel[k], width = scales_.travel[k];
-    add(name + "drive position", coordinate, 12, [=](double, const double* s) { return (s[drive] - low) / width; }, one);
-    add(name + "drive speed", coordinate, 9, [=](double, const double* s) { return 0.5 + 0.5 * s[drive + 1] / speed; }, one);
+    const double speed = scales_.speed[k], low = scales_.middle[k] - 0.5 * scales_.travel[k],
+                 width = scales_.travel[k];
+    add(
+        name + "drive position", coordinate, 12,
+        [=](double, const double* s) { return (s[drive] - low) / width; }, one);
+    add(
+        name + "drive speed", coordinate, 9,
+        [=](double, const double* s) { return 0.5 + 0.5 * s[drive + 1] / speed; }, one);
   }
 
   const Scales& scales_;
@@ -151,7 +170,8 @@ class Ridge {
 };
 
 /// rms of the fitted force along the filtered motion.
-double force_rms(const Problem& problem, const Hypothesis& at, const Group& g, const Eigen::VectorXd& amounts) {
+double force_rms(const Problem& problem, const Hypothesis& at, const Group& g,
+                 const Eigen::VectorXd& amounts) {
   double squares = 0, count = 0;
   std::vector<double> h(g.columns.coordinate.size());
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
@@ -203,7 +223,8 @@ Leftover leftover(const Problem& problem, const Hypothesis& at, std::uint64_t se
     more += most >= largest;
   }
   result.p_value = (more + 1.0) / (kFlips + 1.0);
-  std::stable_sort(result.groups.begin(), result.groups.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
+  std::stable_sort(result.groups.begin(), result.groups.end(),
+                   [](const auto& a, const auto& b) { return a.gain > b.gain; });
   return result;
 }
 

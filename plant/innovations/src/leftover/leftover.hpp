@@ -6,10 +6,10 @@
 namespace crane::innovations {
 
 struct LeftoverGroup {
-  std::string name;          ///< "trolley force by speed"
-  double gain = 0;           ///< cross-validated nats
-  double share = 0;          ///< of the unknown force's variance
-  double force_rms = 0;      ///< V or N (m/s^2 without a command)
+  std::string name;      ///< "trolley force by speed"
+  double gain = 0;       ///< cross-validated nats
+  double share = 0;      ///< of the unknown force's variance
+  double force_rms = 0;  ///< V or N (m/s^2 without a command)
 };
 struct Leftover {
   std::vector<LeftoverGroup> groups;  ///< strongest first

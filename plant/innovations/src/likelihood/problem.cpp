@@ -19,8 +19,9 @@ void guess_noise(const Problem& problem, Values& v) {
     double resolution = 0;
     for (const Run& run : problem.runs) resolution = std::max(resolution, run.resolution[c]);
     v[of_noise(c, kLogSensor)] = std::log(std::max({1e-9, 0.3 * resolution, s.floor[c]}));
-    const double force = c >= 2 ? 0.02 * s.load_n * std::min(s.swing_rad, 0.3)
-                         : layout.volts[c] ? 0.1 * s.volts[c] : s.speed[c] / 0.3;
+    const double force = c >= 2            ? 0.02 * s.load_n * std::min(s.swing_rad, 0.3)
+                         : layout.volts[c] ? 0.1 * s.volts[c]
+                                           : s.speed[c] / 0.3;
     v[of_noise(c, kLogForce)] = std::log(std::max(1e-7, force));
     v[of_noise(c, kLogCorrelation)] = c < 2 && !layout.volts[c] ? -1.5 : -1;
   }
@@ -29,8 +30,12 @@ void guess_noise(const Problem& problem, Values& v) {
 }  // namespace
 
 Problem::Problem(const runtime::Rig& of, std::vector<Run> all)
-    : rig(of), runs(std::move(all)), scales(scales_of(rig, runs)), table(parameter_table(rig, scales)),
-      base(null_values(table)), nominal(nominal_of(rig, base)) {
+    : rig(of),
+      runs(std::move(all)),
+      scales(scales_of(rig, runs)),
+      table(parameter_table(rig, scales)),
+      base(null_values(table)),
+      nominal(nominal_of(rig, base)) {
   for (Index i = 0; i < kNoiseBegin; ++i) {
     table[i].low = std::min(table[i].low, base[i]);
     table[i].high = std::max(table[i].high, base[i]);
@@ -49,7 +54,8 @@ std::vector<Index> Problem::noise() const {
   const Layout layout = layout_of(rig, runs, false);
   for (std::size_t c = 0; c < kChannels; ++c) {
     if (!layout.has(kCoordinateOf[c])) continue;
-    const bool measured = std::any_of(runs.begin(), runs.end(), [&](const Run& r) { return !r.measured[c].empty(); });
+    const bool measured =
+        std::any_of(runs.begin(), runs.end(), [&](const Run& r) { return !r.measured[c].empty(); });
     free.push_back(of_noise(c, kLogForce));
     free.push_back(of_noise(c, kLogCorrelation));
     if (measured) free.push_back(of_noise(c, kLogSensor));
@@ -86,9 +92,12 @@ double log_prior(const Problem& problem, const Values& v) {
   };
   for (const Index i : problem.noise()) {
     const bool correlation = i < kStandstillBegin && (i - kNoiseBegin) % kNoiseParameters == kLogCorrelation;
-    if (correlation) gauss(i, -0.7, 1.5);
-    else if (i >= kCommandNoiseBegin) gauss(i, problem.base[i], 3);
-    else gauss(i, problem.base[i], 5);
+    if (correlation)
+      gauss(i, -0.7, 1.5);
+    else if (i >= kCommandNoiseBegin)
+      gauss(i, problem.base[i], 3);
+    else
+      gauss(i, problem.base[i], 5);
   }
   return log_density;
 }
@@ -121,7 +130,8 @@ std::vector<double> block_sums(const Blocks& blocks, std::span<const double> val
 
 Eigen::MatrixXd scores(const Problem& problem, const Hypothesis& at, const std::vector<Index>& free,
                        const std::vector<double>& l0) {
-  Eigen::MatrixXd s = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(l0.size()), static_cast<Eigen::Index>(free.size()));
+  Eigen::MatrixXd s =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(l0.size()), static_cast<Eigen::Index>(free.size()));
   tbb::parallel_for(std::size_t{0}, free.size(), [&](std::size_t i) {
     const ParameterInfo& info = problem.table[free[i]];
     double step = 0.05 * info.scale;

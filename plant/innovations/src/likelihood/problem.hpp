@@ -50,8 +50,8 @@ struct Blocks {
 
 /// Derivatives of every value's log likelihood by forward differences of the whole filter: a column per
 /// parameter.
-[[nodiscard]] Eigen::MatrixXd scores(const Problem& problem, const Hypothesis& at, const std::vector<Index>& free,
-                                     const std::vector<double>& l0);
+[[nodiscard]] Eigen::MatrixXd scores(const Problem& problem, const Hypothesis& at,
+                                     const std::vector<Index>& free, const std::vector<double>& l0);
 
 [[nodiscard]] double sum(std::span<const double> values);
 

@@ -15,10 +15,12 @@ constexpr double kHardlyDry = 0.002;
 
 }  // namespace
 
-CraneModel::CraneModel(const Nominal& nominal, const Layout& which, const Values& values, const Scales& scales)
+CraneModel::CraneModel(const Nominal& nominal, const Layout& which, const Values& values,
+                       const Scales& scales)
     : layout(which), nominal_(nominal), p_(values), plant_(nominal.plant), cable_m_(nominal.cable_m) {
   if (plant_.load_mass_kg > 0)
-    plant_.load_mass_kg = std::max(plant_.load_mass_kg + p_[of_load(kMass)], 0.05 * nominal.plant.load_mass_kg);
+    plant_.load_mass_kg =
+        std::max(plant_.load_mass_kg + p_[of_load(kMass)], 0.05 * nominal.plant.load_mass_kg);
   if (!layout.has(kPhi) && !layout.has(kTheta)) plant_.load_mass_kg = 0;
   if (layout.lower[0] != kNone || layout.lower[1] != kNone) {
     lower_kg_ = p_[of_load(kLowerShare)] * plant_.load_mass_kg;
@@ -29,12 +31,13 @@ CraneModel::CraneModel(const Nominal& nominal, const Layout& which, const Values
   locks_.radial = !layout.has(kPhi), locks_.tangential = !layout.has(kTheta);
   per_volt_ = {plant_.trolley_inertia_kg * plant_.trolley_gain_mps2pv,
                plant_.jib_inertia_kgm2 * plant_.slew_gain_radps2pv};
-  for (std::size_t c = 0; c < 4; ++c) forgetting_[c] = std::exp(-p_[of_noise(kChannelOf[c], kLogCorrelation)]);
+  for (std::size_t c = 0; c < 4; ++c)
+    forgetting_[c] = std::exp(-p_[of_noise(kChannelOf[c], kLogCorrelation)]);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& dry = nominal_.friction[i].dry;
-    rubs_[i] = layout.volts[i] &&
-               (dry[0] + dry[1] > 0 || p_[of_axis(i, kCoulomb)] != 0 || p_[of_axis(i, kAsymmetryDry)] != 0 ||
-                p_[of_axis(i, kStribeck)] > 0 || p_[of_axis(i, kTight)] > 0 || p_[of_axis(i, kLoadFriction)] > 0);
+    rubs_[i] = layout.volts[i] && (dry[0] + dry[1] > 0 || p_[of_axis(i, kCoulomb)] != 0 ||
+                                   p_[of_axis(i, kAsymmetryDry)] != 0 || p_[of_axis(i, kStribeck)] > 0 ||
+                                   p_[of_axis(i, kTight)] > 0 || p_[of_axis(i, kLoadFriction)] > 0);
   }
   pivot_soft_ = 0.01 * scales.swing_rad * scales.omega_radps;
 }
@@ -42,11 +45,15 @@ CraneModel::CraneModel(const Nominal& nominal, const Layout& which, const Values
 plant::State CraneModel::state_of(const double* s) const {
   plant::State state;
   state.cable_m = std::max(0.05 * nominal_.cable_m, cable_m_ + p_[of_load(kCable)]);
-  if (lower_kg_ > 0) state.cable_m = std::max(0.05 * nominal_.cable_m, state.cable_m - p_[of_load(kHookRaised)]);
+  if (lower_kg_ > 0)
+    state.cable_m = std::max(0.05 * nominal_.cable_m, state.cable_m - p_[of_load(kHookRaised)]);
   state.cable_mps = cable_mps_;
-  if (const std::size_t b = layout.begin[kX]; b != kNone) state.trolley_m = s[b], state.trolley_mps = s[b + 1];
-  if (const std::size_t b = layout.begin[kPhi]; b != kNone) state.radial_rad = s[b], state.radial_radps = s[b + 1];
-  if (const std::size_t b = layout.begin[kGamma]; b != kNone) state.slew_rad = s[b], state.slew_radps = s[b + 1];
+  if (const std::size_t b = layout.begin[kX]; b != kNone)
+    state.trolley_m = s[b], state.trolley_mps = s[b + 1];
+  if (const std::size_t b = layout.begin[kPhi]; b != kNone)
+    state.radial_rad = s[b], state.radial_radps = s[b + 1];
+  if (const std::size_t b = layout.begin[kGamma]; b != kNone)
+    state.slew_rad = s[b], state.slew_radps = s[b + 1];
   if (const std::size_t b = layout.begin[kTheta]; b != kNone)
     state.tangential_rad = s[b], state.tangential_radps = s[b + 1];
   return state;
@@ -62,7 +69,8 @@ double CraneModel::turn_volts(std::size_t i, double q) const {
 /// Everything of the axis itself but dry friction, in volts towards +.
 double CraneModel::smooth_volts(std::size_t i, double q, double v) const {
   const auto& f = nominal_.friction[i];
-  double volts = -(f.viscous[v < 0] + p_[of_axis(i, kViscous)]) * v - p_[of_axis(i, kAsymmetryViscous)] * std::abs(v);
+  double volts =
+      -(f.viscous[v < 0] + p_[of_axis(i, kViscous)]) * v - p_[of_axis(i, kAsymmetryViscous)] * std::abs(v);
   const double sine = p_[of_axis(i, kRippleSine)], cosine = p_[of_axis(i, kRippleCosine)];
   if (sine != 0 || cosine != 0) {
     const double angle = kTurn * q / p_[of_axis(i, kRippleWave)];
@@ -77,14 +85,16 @@ double CraneModel::dry_friction_v(std::size_t i, double q, double v, double appl
   const auto at = [&](AxisParameter p) { return p_[of_axis(i, p)]; };
   double common = at(kCoulomb) + at(kLoadFriction) * std::abs(carried);
   if (at(kStribeck) > 0) common += at(kStribeck) * std::exp(-std::pow(v / at(kStribeckSpeed), 2));
-  if (at(kTight) > 0) common += 0.5 * at(kTight) * (1 + std::cos(kTurn * (q - at(kTightAt)) / at(kTightWave)));
+  if (at(kTight) > 0)
+    common += 0.5 * at(kTight) * (1 + std::cos(kTurn * (q - at(kTightAt)) / at(kTightWave)));
   const double decay = f.excess[0] + f.excess[1] > 0 ? std::exp(-std::pow(v / f.excess_speed, 2)) : 0;
   const auto level = [&](std::size_t side) {
     return common + f.dry[side] + f.excess[side] * decay + (side == 0 ? 1 : -1) * at(kAsymmetryDry);
   };
   const double mean = 0.5 * (level(0) + level(1)), hardly = kHardlyDry * std::max(1.0, f.dry[0]);
   if (mean < hardly) return level(v < 0) * std::tanh(v / soft);
-  const double share = std::clamp(applied / mean + v / soft, -1.5, 1.5), most = std::max(level(share < 0), hardly);
+  const double share = std::clamp(applied / mean + v / soft, -1.5, 1.5),
+               most = std::max(level(share < 0), hardly);
   return std::clamp(share * mean, -most, most);
 }
 
@@ -98,7 +108,8 @@ Eigen::Vector3d CraneModel::load_force(const double* s, const plant::State& stat
     const Eigen::Vector3d v = plant::load_velocity_mps(state);
     force -= (linear + quadratic * v.norm()) * v;
   }
-  if (const double along = p_[of_load(kWindAlong)], across = p_[of_load(kWindAcross)]; along != 0 || across != 0) {
+  if (const double along = p_[of_load(kWindAlong)], across = p_[of_load(kWindAcross)];
+      along != 0 || across != 0) {
     const double c = std::cos(state.slew_rad), n = std::sin(state.slew_rad);
     force.x() += along * c + across * n;
     force.y() += across * c - along * n;
@@ -116,9 +127,11 @@ void CraneModel::rub(const double* s, const plant::State& state, const std::arra
   for (std::size_t i = 0; i < 2; ++i) {
     if (!rubs_[i]) continue;
     const std::size_t b = layout.begin[i == 0 ? kX : kGamma];
-    const double carried = p_[of_axis(i, kLoadFriction)] > 0 ? volts[i] - s[b + 1] * nominal_.friction[i].viscous[0] -
-                                                                    turn_volts(i, s[b]) : 0;
-    force[i] = -per_volt_[i] * dry_friction_v(i, s[b], s[b + 1], free[i] / (own[i] * per_volt_[i]), carried, soft[i]);
+    const double carried = p_[of_axis(i, kLoadFriction)] > 0
+                               ? volts[i] - s[b + 1] * nominal_.friction[i].viscous[0] - turn_volts(i, s[b])
+                               : 0;
+    force[i] = -per_volt_[i] *
+               dry_friction_v(i, s[b], s[b + 1], free[i] / (own[i] * per_volt_[i]), carried, soft[i]);
   }
   const double x = own[0] * force[0] + response.coupling * force[1];
   const double gamma = own[1] * force[1] + response.coupling * force[0];
@@ -164,12 +177,15 @@ void CraneModel::add_lower_rates(const double* s, const plant::State& state, con
   const double g = plant_.gravity_mps2, l = state.cable_m, ratio = lower_kg_ / plant_.load_mass_kg;
   if (layout.planar()) {
     const std::size_t b = layout.lower[0];
-    const double f2 = s[b], sf = std::sin(state.radial_rad), cf = std::cos(state.radial_rad), w = state.radial_radps;
+    const double f2 = s[b], sf = std::sin(state.radial_rad), cf = std::cos(state.radial_rad),
+                 w = state.radial_radps;
     const double ax = a.trolley_mps2 - l * cf * a.radial_radps2 + l * sf * w * w;
     const double az = l * sf * a.radial_radps2 + l * cf * w * w;
     const Eigen::Vector3d force = load_force(s, state);
     r[b] = s[b + 1];
-    r[b + 1] = (-(force.x() / lower_kg_ - ax) * std::cos(f2) + (force.z() / lower_kg_ - g - az) * std::sin(f2)) / lower_m_;
+    r[b + 1] =
+        (-(force.x() / lower_kg_ - ax) * std::cos(f2) + (force.z() / lower_kg_ - g - az) * std::sin(f2)) /
+        lower_m_;
     return;
   }
   const std::array<double, 2> upper{state.radial_rad, state.tangential_rad};
@@ -215,7 +231,8 @@ void CraneModel::rate(const double* s, const std::array<double, 2>& volts, const
   }
   plant::Accelerations a = plant::accelerations(plant_, state, sum, 0, locks);
   rub(s, state, pushed, soft, a);
-  const std::array<double, 4> acceleration{a.trolley_mps2, a.radial_radps2, a.slew_radps2, a.tangential_radps2};
+  const std::array<double, 4> acceleration{a.trolley_mps2, a.radial_radps2, a.slew_radps2,
+                                           a.tangential_radps2};
   for (std::size_t c = 0; c < 4; ++c)
     if (const std::size_t b = layout.begin[c]; b != kNone)
       r[b] = s[b + 1], r[b + 1] = acceleration[c], r[b + 2] = -forgetting_[c] * s[b + 2];

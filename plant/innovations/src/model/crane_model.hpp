@@ -19,9 +19,9 @@ inline constexpr std::array<std::size_t, 4> kCoordinateOf{kX, kGamma, kPhi, kThe
 /// Which coordinates the state has, as blocks (q, q', d); then (angle, rate) of the lower cable per direction
 /// of swing where the load is a double pendulum.
 struct Layout {
-  std::array<std::size_t, 4> begin{kNone, kNone, kNone, kNone};   ///< by Coordinate
-  std::array<std::size_t, 2> lower{kNone, kNone};                 ///< by direction of swing
-  std::array<bool, 2> volts{};                                    ///< the drive's command is known
+  std::array<std::size_t, 4> begin{kNone, kNone, kNone, kNone};  ///< by Coordinate
+  std::array<std::size_t, 2> lower{kNone, kNone};                ///< by direction of swing
+  std::array<bool, 2> volts{};                                   ///< the drive's command is known
   std::size_t size = 0;
 
   [[nodiscard]] bool has(std::size_t coordinate) const { return begin[coordinate] != kNone; }
@@ -53,7 +53,8 @@ class CraneModel {
 
   void set_cable(double cable_m, double cable_mps) { cable_m_ = cable_m, cable_mps_ = cable_mps; }
   /// @param soft width of each drive's step of dry friction [unit/s]
-  void rate(const double* s, const std::array<double, 2>& volts, const std::array<double, 2>& soft, double* r) const;
+  void rate(const double* s, const std::array<double, 2>& volts, const std::array<double, 2>& soft,
+            double* r) const;
 
   /// What dry friction of one drive opposes with. At rest it cancels what is applied, so that rest says
   /// nothing about the unknown force; it breaks loose without delay; at speed it is c sign(v):
@@ -70,18 +71,19 @@ class CraneModel {
   [[nodiscard]] double smooth_volts(std::size_t drive, double position, double speed) const;
   [[nodiscard]] double turn_volts(std::size_t drive, double position) const;
   [[nodiscard]] Eigen::Vector3d load_force(const double* s, const plant::State& state) const;
-  void lower_cable(const double* s, const plant::State& state, const Eigen::Vector3d& force, plant::Forces& sum,
-                   double* r) const;
+  void lower_cable(const double* s, const plant::State& state, const Eigen::Vector3d& force,
+                   plant::Forces& sum, double* r) const;
   void rub(const double* s, const plant::State& state, const std::array<double, 2>& volts,
            const std::array<double, 2>& soft, plant::Accelerations& a) const;
-  void add_lower_rates(const double* s, const plant::State& state, const plant::Accelerations& a, double* r) const;
+  void add_lower_rates(const double* s, const plant::State& state, const plant::Accelerations& a,
+                       double* r) const;
 
   const Nominal& nominal_;
   const Values& p_;
   plant::Parameters plant_;
   plant::Locks locks_;
-  std::array<double, 2> per_volt_{};       ///< N or N m per V
-  std::array<double, 4> forgetting_{};     ///< 1 / correlation time, by coordinate
+  std::array<double, 2> per_volt_{};    ///< N or N m per V
+  std::array<double, 4> forgetting_{};  ///< 1 / correlation time, by coordinate
   std::array<bool, 2> rubs_{};
   double cable_m_, cable_mps_ = 0, pivot_soft_;
   double lower_kg_ = 0, lower_m_ = 1;

@@ -26,26 +26,42 @@ void add_friction(const TermSetting& term, Nominal::Friction& f) {
 
 /// Amounts that add to the parameter of the same meaning.
 bool add_axis_term(const TermSetting& term, std::size_t i, Values& v) {
-  if (term.name == "coulomb_friction") v[of_axis(i, kCoulomb)] += get(term, "level_v");
-  else if (term.name == "viscous_friction") v[of_axis(i, kViscous)] += get(term, "vspm");
-  else if (term.name == "motor_gain") v[of_axis(i, kGain)] += get(term, "factor", 1) - 1;
-  else if (term.name == "command_offset") v[of_axis(i, kOffset)] += get(term, "offset_v");
-  else if (term.name == "command_dead_zone") v[of_axis(i, kDeadZone)] += get(term, "width_v");
-  else if (term.name == "command_delay") v[of_axis(i, kDelay)] += get(term, "delay_s");
-  else if (term.name == "position_scale") v[of_axis(i, kPositionScale)] += get(term, "factor", 1) - 1;
-  else return false;
+  if (term.name == "coulomb_friction")
+    v[of_axis(i, kCoulomb)] += get(term, "level_v");
+  else if (term.name == "viscous_friction")
+    v[of_axis(i, kViscous)] += get(term, "vspm");
+  else if (term.name == "motor_gain")
+    v[of_axis(i, kGain)] += get(term, "factor", 1) - 1;
+  else if (term.name == "command_offset")
+    v[of_axis(i, kOffset)] += get(term, "offset_v");
+  else if (term.name == "command_dead_zone")
+    v[of_axis(i, kDeadZone)] += get(term, "width_v");
+  else if (term.name == "command_delay")
+    v[of_axis(i, kDelay)] += get(term, "delay_s");
+  else if (term.name == "position_scale")
+    v[of_axis(i, kPositionScale)] += get(term, "factor", 1) - 1;
+  else
+    return false;
   return true;
 }
 
 bool add_load_term(const TermSetting& term, Values& v) {
-  if (term.name == "payload_mass") v[of_load(kMass)] += get(term, "delta_kg");
-  else if (term.name == "cable_length") v[of_load(kCable)] += get(term, "delta_m");
-  else if (term.name == "load_linear_drag") v[of_load(kLinearDrag)] += get(term, "coefficient_nspm");
-  else if (term.name == "load_quadratic_drag") v[of_load(kQuadraticDrag)] += get(term, "coefficient_ns2pm2");
-  else if (term.name == "jib_tilt") v[of_load(kTilt)] += get(term, "angle_rad");
-  else if (term.name == "swing_delay" && term.axis.empty()) v[of_load(kSwingDelay)] += get(term, "delay_s");
-  else if (term.name == "swing_moving_average" && term.axis.empty()) v[of_load(kSwingAverage)] += get(term, "window_s");
-  else return false;
+  if (term.name == "payload_mass")
+    v[of_load(kMass)] += get(term, "delta_kg");
+  else if (term.name == "cable_length")
+    v[of_load(kCable)] += get(term, "delta_m");
+  else if (term.name == "load_linear_drag")
+    v[of_load(kLinearDrag)] += get(term, "coefficient_nspm");
+  else if (term.name == "load_quadratic_drag")
+    v[of_load(kQuadraticDrag)] += get(term, "coefficient_ns2pm2");
+  else if (term.name == "jib_tilt")
+    v[of_load(kTilt)] += get(term, "angle_rad");
+  else if (term.name == "swing_delay" && term.axis.empty())
+    v[of_load(kSwingDelay)] += get(term, "delay_s");
+  else if (term.name == "swing_moving_average" && term.axis.empty())
+    v[of_load(kSwingAverage)] += get(term, "window_s");
+  else
+    return false;
   return true;
 }
 
@@ -57,9 +73,12 @@ bool add_swing_term(const TermSetting& term, Values& v) {
     if (term.name == "swing_pivot_friction") {
       v[of_load(kPivotViscous + k)] += get(term, "viscous_nmsprad");
       v[of_load(kPivotDry + k)] += get(term, "coulomb_nm");
-    } else if (term.name == "swing_offset") v[of_load(kSwingOffset + k)] += get(term, "offset_rad");
-    else if (term.name == "swing_scale") v[of_load(kSwingScale + k)] += get(term, "factor", 1) - 1;
-    else known = false;
+    } else if (term.name == "swing_offset")
+      v[of_load(kSwingOffset + k)] += get(term, "offset_rad");
+    else if (term.name == "swing_scale")
+      v[of_load(kSwingScale + k)] += get(term, "factor", 1) - 1;
+    else
+      known = false;
   }
   return known;
 }
@@ -82,12 +101,13 @@ Nominal nominal_of(const runtime::Rig& rig, Values& values) {
   for (const TermSetting& term : rig.terms) {
     if (term.axis == "hoist") continue;
     const std::size_t i = term.axis == "slew" ? kSlew : kTrolley;
-    if (term.name == "drive_friction") add_friction(term, nominal.friction[i]);
+    if (term.name == "drive_friction")
+      add_friction(term, nominal.friction[i]);
     else if (term.name == "torque_ripple")
       nominal.ripples[i].push_back({get(term, "amplitude_v"), get(term, "phase_rad"),
                                     2 * std::numbers::pi / get(term, "period", 0.1)});
-    else if (!add_axis_term(term, i, values) && !add_load_term(term, values) && !add_swing_term(term, values) &&
-             !add_double_pendulum(term, values))
+    else if (!add_axis_term(term, i, values) && !add_load_term(term, values) &&
+             !add_swing_term(term, values) && !add_double_pendulum(term, values))
       nominal.ignored.push_back(term.name);
   }
   return nominal;

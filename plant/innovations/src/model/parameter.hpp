@@ -71,7 +71,9 @@ inline constexpr std::size_t kParameters = kCommandNoiseBegin + 2;
 using Values = std::array<double, kParameters>;
 using Index = std::size_t;
 
-[[nodiscard]] constexpr Index of_axis(std::size_t drive, AxisParameter p) { return drive * kAxisParameters + p; }
+[[nodiscard]] constexpr Index of_axis(std::size_t drive, AxisParameter p) {
+  return drive * kAxisParameters + p;
+}
 [[nodiscard]] constexpr Index of_load(std::size_t p) { return kLoadBegin + p; }
 [[nodiscard]] constexpr Index of_noise(std::size_t channel, NoiseParameter p) {
   return kNoiseBegin + channel * kNoiseParameters + p;

@@ -26,12 +26,18 @@ nlohmann::ordered_json to_json(const Result& result) {
   more["leftover_p_value"] = result.leftover_p_value;
   more["leftover"] = nlohmann::ordered_json::array();
   for (const LeftoverLaw& law : result.leftover)
-    more["leftover"].push_back(
-        {{"from", law.from}, {"gain_nats", law.gain_nats}, {"share", law.share}, {"force_rms", law.force_rms}});
+    more["leftover"].push_back({{"from", law.from},
+                                {"gain_nats", law.gain_nats},
+                                {"share", law.share},
+                                {"force_rms", law.force_rms}});
   more["rules"] = nlohmann::ordered_json::array();
   for (const Rule& r : kRules)
-    more["rules"].push_back({{"name", r.name}, {"value", r.value}, {"unit", r.unit}, {"meaning", r.meaning},
-                             {"source", r.source}, {"level", r.level}});
+    more["rules"].push_back({{"name", r.name},
+                             {"value", r.value},
+                             {"unit", r.unit},
+                             {"meaning", r.meaning},
+                             {"source", r.source},
+                             {"level", r.level}});
   return json;
 }
 

@@ -45,7 +45,8 @@ void set_gain(const OpenLoop& base, const OpenLoop& extended, const Channels& no
   }
   std::sort(gains.begin(), gains.end());
   const double tail = 0.5 * rule::kGainLevel.value;
-  out.gain_ci95 = {gains[static_cast<std::size_t>(tail * 1000)], gains[static_cast<std::size_t>((1 - tail) * 1000) - 1]};
+  out.gain_ci95 = {gains[static_cast<std::size_t>(tail * 1000)],
+                   gains[static_cast<std::size_t>((1 - tail) * 1000) - 1]};
 }
 
 Fit as_fit(const Problem& problem, const Hypothesis& of) {
@@ -57,14 +58,16 @@ Fit as_fit(const Problem& problem, const Hypothesis& of) {
 std::map<std::string, double> named(const Channels& values, const Problem& problem) {
   std::map<std::string, double> by_name;
   for (std::size_t c = 0; c < kChannels; ++c)
-    if (std::any_of(problem.runs.begin(), problem.runs.end(), [&](const Run& r) { return !r.measured[c].empty(); }))
+    if (std::any_of(problem.runs.begin(), problem.runs.end(),
+                    [&](const Run& r) { return !r.measured[c].empty(); }))
       by_name[kChannelNames[c]] = values[c];
   return by_name;
 }
 
 void refuse(const Model& extended, HeldOutJudgement& j) {
   const auto& e = j.errors;
-  if (e.gain_ci95[0] <= 0) j.refused.push_back("the held-out windows are not simulated better beyond resampling");
+  if (e.gain_ci95[0] <= 0)
+    j.refused.push_back("the held-out windows are not simulated better beyond resampling");
   for (const Candidate& cause : extended.causes)
     for (const std::size_t c : cause.channels) {
       const std::string column = kChannelNames[c];
@@ -83,8 +86,8 @@ void refuse(const Model& extended, HeldOutJudgement& j) {
 
 }  // namespace
 
-HeldOutJudgement judge_held_out(const Problem& train, const Problem& test, const Model& base, const Model& extended,
-                                std::uint64_t seed) {
+HeldOutJudgement judge_held_out(const Problem& train, const Problem& test, const Model& base,
+                                const Model& extended, std::uint64_t seed) {
   HeldOutJudgement j;
   const Fit before = as_fit(test, base.fit.at), after = as_fit(test, extended.fit.at);
   if (before.usable() && after.usable()) {
@@ -99,8 +102,10 @@ HeldOutJudgement judge_held_out(const Problem& train, const Problem& test, const
   const OpenLoop whole_b = open_loop(test, before.at, 0), whole_e = open_loop(test, after.at, 0);
   j.errors.baseline_rms = named(b.rms(), test), j.errors.extended_rms = named(e.rms(), test);
   j.errors.noise = named(noise, test);
-  j.errors.whole_baseline_rms = named(whole_b.rms(), test), j.errors.whole_extended_rms = named(whole_e.rms(), test);
-  j.errors.held_value_rms = named(b.held_rms(), test), j.errors.whole_held_value_rms = named(whole_b.held_rms(), test);
+  j.errors.whole_baseline_rms = named(whole_b.rms(), test),
+  j.errors.whole_extended_rms = named(whole_e.rms(), test);
+  j.errors.held_value_rms = named(b.held_rms(), test),
+  j.errors.whole_held_value_rms = named(whole_b.held_rms(), test);
   j.errors.whole_extended_motion = named(whole_e.motion_share(), test);
   set_gain(b, e, noise, seed, j.errors);
   if (!extended.causes.empty()) refuse(extended, j);

@@ -16,7 +16,9 @@ using Vector = Eigen::VectorXd;
 class Shooting {
  public:
   Shooting(const Problem& problem, const Hypothesis& h, const Run& window)
-      : problem_(problem), h_(h), window_(window),
+      : problem_(problem),
+        h_(h),
+        window_(window),
         model_{problem.nominal, problem.layout(h.values), h.values, problem.scales} {
     const Layout& layout = model_.layout;
     for (std::size_t c = 0; c < 4; ++c)
@@ -24,11 +26,13 @@ class Shooting {
         const bool drive = c == kX || c == kGamma;
         const std::size_t i = c == kX ? 0 : 1;
         const double q = drive ? problem.scales.travel[i] : problem.scales.swing_rad;
-        const double v = drive ? problem.scales.speed[i] : problem.scales.swing_rad * problem.scales.omega_radps;
+        const double v =
+            drive ? problem.scales.speed[i] : problem.scales.swing_rad * problem.scales.omega_radps;
         if (!drive || layout.volts[i]) add(b, q), add(b + 1, v);
       }
     for (const std::size_t b : layout.lower)
-      if (b != kNone) add(b, problem.scales.swing_rad), add(b + 1, problem.scales.swing_rad * problem.scales.omega_radps);
+      if (b != kNone)
+        add(b, problem.scales.swing_rad), add(b + 1, problem.scales.swing_rad * problem.scales.omega_radps);
   }
 
   [[nodiscard]] Simulated best(const Vector& guess) const {
@@ -64,7 +68,8 @@ class Shooting {
       const Series& y = window_.measured[c];
       const std::size_t k = std::min<std::size_t>(y.size() - 1, 5);
       s[static_cast<Eigen::Index>(b)] = y.value[0];
-      if (k > 0) s[static_cast<Eigen::Index>(b) + 1] = slope * (y.value[k] - y.value[0]) / (y.time_s[k] - y.time_s[0]);
+      if (k > 0)
+        s[static_cast<Eigen::Index>(b) + 1] = slope * (y.value[k] - y.value[0]) / (y.time_s[k] - y.time_s[0]);
     }
     for (std::size_t k = 0; k < 2; ++k)
       if (const std::size_t b = model_.layout.lower[k]; b != kNone) {
@@ -106,7 +111,8 @@ class Shooting {
       damped.diagonal().array() += 1e-12;
       const Vector step = damped.ldlt().solve(g);
       Vector moved = best.start;
-      for (std::size_t i = 0; i < free_.size(); ++i) moved[free_[i]] -= step[static_cast<Eigen::Index>(i)] * scale_[i];
+      for (std::size_t i = 0; i < free_.size(); ++i)
+        moved[free_[i]] -= step[static_cast<Eigen::Index>(i)] * scale_[i];
       Simulated there = from(moved);
       if (cost(there) < cost(best)) {
         best = std::move(there);
@@ -154,7 +160,8 @@ Vector filtered_at(const Innovations& whole, double at_s) {
   std::size_t best = 0;
   double time_s = 1e300;
   for (std::size_t k = 0; k < whole.time_s.size(); ++k)
-    if (whole.time_s[k] >= at_s && whole.time_s[k] < time_s && !whole.states.col(static_cast<Eigen::Index>(k)).isZero())
+    if (whole.time_s[k] >= at_s && whole.time_s[k] < time_s &&
+        !whole.states.col(static_cast<Eigen::Index>(k)).isZero())
       best = k, time_s = whole.time_s[k];
   return whole.states.col(static_cast<Eigen::Index>(best));
 }
@@ -173,18 +180,22 @@ std::array<double, kChannels> ratio(const std::vector<WindowError>& windows, Par
 }  // namespace
 
 std::array<double, kChannels> OpenLoop::rms() const {
-  return ratio(windows, [](const auto& w, std::size_t c) { return w.squares[c]; },
-               [](const auto& w, std::size_t c) { return static_cast<double>(w.values[c]); });
+  return ratio(
+      windows, [](const auto& w, std::size_t c) { return w.squares[c]; },
+      [](const auto& w, std::size_t c) { return static_cast<double>(w.values[c]); });
 }
 std::array<double, kChannels> OpenLoop::held_rms() const {
-  return ratio(windows, [](const auto& w, std::size_t c) { return w.held_squares[c]; },
-               [](const auto& w, std::size_t c) { return static_cast<double>(w.values[c]); });
+  return ratio(
+      windows, [](const auto& w, std::size_t c) { return w.held_squares[c]; },
+      [](const auto& w, std::size_t c) { return static_cast<double>(w.values[c]); });
 }
 std::array<double, kChannels> OpenLoop::motion_share() const {
-  auto share = ratio(windows, [](const auto& w, std::size_t c) { return w.simulated_motion[c]; },
-                     [](const auto& w, std::size_t c) { return w.motion[c]; });
+  auto share = ratio(
+      windows, [](const auto& w, std::size_t c) { return w.simulated_motion[c]; },
+      [](const auto& w, std::size_t c) { return w.motion[c]; });
   for (std::size_t c = 0; c < kChannels; ++c)
-    if (share[c] == 0 && std::all_of(windows.begin(), windows.end(), [&](const auto& w) { return w.motion[c] == 0; }))
+    if (share[c] == 0 &&
+        std::all_of(windows.begin(), windows.end(), [&](const auto& w) { return w.motion[c] == 0; }))
       share[c] = 1;
   return share;
 }
@@ -204,7 +215,8 @@ OpenLoop open_loop(const Problem& problem, const Hypothesis& h, double window_s)
     const Run& run = problem.runs[r];
     const Innovations whole = innovations(problem, h, r, nullptr, true);
     const double begin = run.begin_s(), seconds = run.end_s() - begin;
-    const auto count = window_s > 0 ? std::max<std::size_t>(1, static_cast<std::size_t>(seconds / window_s)) : 1;
+    const auto count =
+        window_s > 0 ? std::max<std::size_t>(1, static_cast<std::size_t>(seconds / window_s)) : 1;
     for (std::size_t k = 0; k < count; ++k) {
       const double from = begin + seconds * static_cast<double>(k) / static_cast<double>(count);
       const double to = begin + seconds * static_cast<double>(k + 1) / static_cast<double>(count);
@@ -214,7 +226,8 @@ OpenLoop open_loop(const Problem& problem, const Hypothesis& h, double window_s)
       const Layout layout = problem.layout(h.values);
       for (std::size_t c = 0; c < 4; ++c) {
         const bool followed = kChannelOf[c] < 2 && !layout.volts[kChannelOf[c]];
-        if (const std::size_t b = layout.begin[c]; b != kNone && !followed) guess[static_cast<Eigen::Index>(b) + 2] = 0;
+        if (const std::size_t b = layout.begin[c]; b != kNone && !followed)
+          guess[static_cast<Eigen::Index>(b) + 2] = 0;
       }
       jobs.push_back({r, std::move(window), std::move(guess)});
     }
@@ -222,7 +235,8 @@ OpenLoop open_loop(const Problem& problem, const Hypothesis& h, double window_s)
   OpenLoop result;
   result.windows.resize(jobs.size());
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-    result.windows[i] = error_of(jobs[i].window, simulate_best(problem, h, jobs[i].window, jobs[i].guess), jobs[i].run);
+    result.windows[i] =
+        error_of(jobs[i].window, simulate_best(problem, h, jobs[i].window, jobs[i].guess), jobs[i].run);
   });
   return result;
 }

@@ -6,7 +6,7 @@
 namespace crane::innovations {
 
 struct WindowError {
-  std::array<double, kChannels> squares{}, held_squares{};  ///< sums; held: the first measured value kept
+  std::array<double, kChannels> squares{}, held_squares{};     ///< sums; held: the first measured value kept
   std::array<double, kChannels> motion{}, simulated_motion{};  ///< sums of squares about the mean
   std::array<std::size_t, kChannels> values{};
   std::size_t run = 0;

@@ -16,7 +16,8 @@ std::vector<std::size_t> fold_of_value(const Problem& problem, const Blocks& blo
   const bool by_run = problem.runs.size() >= static_cast<std::size_t>(rule::kLeastRuns.value);
   folds = by_run ? problem.runs.size() : static_cast<std::size_t>(rule::kFolds.value);
   std::vector<std::size_t> fold;
-  for (const std::size_t b : blocks.of_value) fold.push_back(by_run ? blocks.run_of_block[b] : (b / 2) % folds);
+  for (const std::size_t b : blocks.of_value)
+    fold.push_back(by_run ? blocks.run_of_block[b] : (b / 2) % folds);
   return fold;
 }
 

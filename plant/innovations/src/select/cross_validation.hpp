@@ -6,10 +6,11 @@
 
 namespace crane::innovations {
 
-/// log likelihood of every value at the estimate that leaves its fold out: whole runs where there are at least
-/// rule::kLeastRuns, interleaved blocks otherwise. The estimate of a fold is one Newton step from the common
-/// one, theta - (I - I_f)^-1 g_f (Stone 1974; the infinitesimal jackknife).
-[[nodiscard]] std::vector<double> cross_validated(const Problem& problem, const Fit& fit, const std::vector<Index>& free);
+/// log likelihood of every value at the estimate that leaves its fold out: whole runs where there are at
+/// least rule::kLeastRuns, interleaved blocks otherwise. The estimate of a fold is one Newton step from the
+/// common one, theta - (I - I_f)^-1 g_f (Stone 1974; the infinitesimal jackknife).
+[[nodiscard]] std::vector<double> cross_validated(const Problem& problem, const Fit& fit,
+                                                  const std::vector<Index>& free);
 
 /// Quantile of the sum of resampled blocks (Kuensch 1989). No block counts for more than 2.5 times what nine
 /// tenths of them keep to.

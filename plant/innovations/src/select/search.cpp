@@ -45,8 +45,10 @@ class Search {
     if (!layout.volts[0] && !layout.volts[1]) return;
     problem_.between = Between::straight;
     Fit straight = ascend(problem_, fit.at, problem_.noise(), {8, 0.3});
-    if (straight.value > fit.value + 20) fit = std::move(straight);
-    else problem_.between = Between::held;
+    if (straight.value > fit.value + 20)
+      fit = std::move(straight);
+    else
+      problem_.between = Between::held;
   }
 
   void judge(Model& model) const {
@@ -91,7 +93,8 @@ class Search {
     std::stable_sort(models.begin(), models.end(), by_likelihood);
     models.resize(std::min(models.size(), kFinalists + 1));
     for (Model& m : models) judge(m);
-    std::stable_sort(models.begin(), models.end(), [](const Model& a, const Model& b) { return a.value() > b.value(); });
+    std::stable_sort(models.begin(), models.end(),
+                     [](const Model& a, const Model& b) { return a.value() > b.value(); });
     return models;
   }
 
@@ -112,7 +115,8 @@ class Search {
     const auto d = difference(best.by_block, result_.model.by_block);
     const double level = rule::kDetection.value / static_cast<double>(library_.size());
     const double lower = resampled_sum(d, level, options_.seed), gain = sum(d);
-    const auto before = stage == 0 ? base_error_ : open_loop(problem_, result_.model.fit.at, rule::kWindow.value).rms();
+    const auto before =
+        stage == 0 ? base_error_ : open_loop(problem_, result_.model.fit.at, rule::kWindow.value).rms();
     const double removed = effect(best, before);
     for (const Model& m : models) {
       const double own = m.value() - result_.model.value();
@@ -121,7 +125,8 @@ class Search {
                                estimates_of(m.causes.back(), problem_, m.fit.at.values, s.covariance)});
     }
     const double so_far = result_.model.value() - result_.base.value();
-    if (lower <= 0 || removed < rule::kLeastEffect.value || gain < rule::kLeastSecond.value * so_far) return false;
+    if (lower <= 0 || removed < rule::kLeastEffect.value || gain < rule::kLeastSecond.value * so_far)
+      return false;
     std::vector<std::string> rivals;
     double frequency = 1;
     for (std::size_t i = 1; i < models.size(); ++i) {
@@ -154,10 +159,15 @@ class Search {
         if (std::find(kept.begin(), kept.end(), i) == kept.end()) less.fit.at.values[i] = problem_.base[i];
       }
       less.fit = ascend(problem_, less.fit.at, joined(less.theta(), problem_.noise()), {8, 0.5});
-      if (!less.fit.usable()) { ++k; continue; }
+      if (!less.fit.usable()) {
+        ++k;
+        continue;
+      }
       judge(less);
-      if (m.value() - less.value() < rule::kLeastSecond.value * (m.value() - result_.base.value())) m = std::move(less);
-      else ++k;
+      if (m.value() - less.value() < rule::kLeastSecond.value * (m.value() - result_.base.value()))
+        m = std::move(less);
+      else
+        ++k;
     }
     return m;
   }

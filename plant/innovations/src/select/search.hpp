@@ -19,9 +19,9 @@ struct Model {
 /// One hypothesis that was fitted, for the report.
 struct Tried {
   std::string label;
-  double gain = 0;         ///< cross-validated nats over the model before
-  double lower = 0;        ///< of the gain, at the detection level
-  double effect = 0;       ///< largest share of the open-loop error that it removes in a column
+  double gain = 0;    ///< cross-validated nats over the model before
+  double lower = 0;   ///< of the gain, at the detection level
+  double effect = 0;  ///< largest share of the open-loop error that it removes in a column
   std::vector<Estimate> estimates;
 };
 
@@ -29,7 +29,7 @@ struct SearchResult {
   Model base, model;
   std::vector<std::string> rivals;  ///< names that explain the last cause alike
   std::vector<Tried> tried;
-  std::vector<double> frequency;    ///< by cause: share of resamples in which it beats its best rival
+  std::vector<double> frequency;  ///< by cause: share of resamples in which it beats its best rival
 };
 
 struct SearchOptions {

@@ -21,7 +21,8 @@ struct Series {
 /// Drives and directions of swing.
 enum Drive : std::size_t { kTrolley = 0, kSlew = 1 };
 enum Swing : std::size_t { kRadial = 0, kTangential = 1 };
-inline constexpr std::array<const char*, 2> kDriveNames{"trolley", "slew"}, kSwingNames{"radial", "tangential"};
+inline constexpr std::array<const char*, 2> kDriveNames{"trolley", "slew"},
+    kSwingNames{"radial", "tangential"};
 
 /// What a sensor measures. Position and swing of number i are channels i and 2 + i.
 inline constexpr std::size_t kChannels = 4;
@@ -31,9 +32,9 @@ inline constexpr std::array<const char*, kChannels> kChannelNames{"trolley_posit
 /// One recording. A command acts from its time on.
 struct Run {
   std::string name;
-  std::array<Series, 2> command;            ///< V
-  std::array<Series, kChannels> measured;   ///< m or rad, in the order of kChannelNames
-  Series cable;                             ///< m; empty: the rig's own
+  std::array<Series, 2> command;               ///< V
+  std::array<Series, kChannels> measured;      ///< m or rad, in the order of kChannelNames
+  Series cable;                                ///< m; empty: the rig's own
   std::array<double, kChannels> resolution{};  ///< smallest step between values, m or rad; 0: no such column
 
   [[nodiscard]] const Series& position(std::size_t drive) const { return measured[drive]; }
@@ -57,7 +58,8 @@ struct LoadedRun {
 /// Columns of the rig's kind, each with its finite values. Rows whose time does not increase are left out and
 /// counted in the notes.
 /// @throws DataProblem when nothing is measured or there are fewer than kLeastRows rows
-[[nodiscard]] LoadedRun load_run(const recording::Table& table, const runtime::Rig& rig, const std::string& name);
+[[nodiscard]] LoadedRun load_run(const recording::Table& table, const runtime::Rig& rig,
+                                 const std::string& name);
 
 /// The part of a run from `from_s` to `to_s`, with the commands of a second before.
 [[nodiscard]] Run cut(const Run& run, double from_s, double to_s);

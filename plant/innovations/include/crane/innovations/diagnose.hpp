@@ -16,9 +16,9 @@ struct Result {
   diagnosis::Diagnosis diagnosis;
   std::vector<LeftoverLaw> leftover;
   double leftover_p_value = 1;
-  double held_out_nats = 0;                ///< gain in likelihood of the extended model
+  double held_out_nats = 0;  ///< gain in likelihood of the extended model
   std::array<double, 2> held_out_nats_ci95{0, 0};
-  std::vector<std::string> refused;        ///< rules of sanity that the best extension breaks
+  std::vector<std::string> refused;  ///< rules of sanity that the best extension breaks
 };
 
 /// @param train,test whole runs belong to one side; the test runs choose nothing

@@ -1,5 +1,6 @@
 #pragma once
-/// report.json: the fields of crane::diagnosis, and the table of rules, the leftover laws and the likelihoods.
+/// report.json: the fields of crane::diagnosis, and the table of rules, the leftover laws and the
+/// likelihoods.
 #include <nlohmann/json.hpp>
 
 #include "crane/innovations/diagnose.hpp"
