@@ -94,7 +94,7 @@ TEST(Filter, HasTheLikelihoodOfTheJointGaussianWhereTheCraneIsLinear) {
   for (std::size_t k = 0; k < out.e.size(); ++k)
     log_density -=
         0.5 * (out.e[k] * out.e[k] / out.variance[k] + std::log(6.283185307179586 * out.variance[k]));
-  // The noise of d enters half before and half after each step: an error of second order in the step.
+  // The noise of d enters by Simpson's rule along steps of at most 12.5 ms.
   EXPECT_NEAR(log_density, joint_log_density(problem, values, run, crane),
               1e-3 * static_cast<double>(out.e.size()));
 }

@@ -239,9 +239,10 @@ class FilterOfSize {
       if (request_.columns != nullptr) push_columns(volts, a, transition, integral);
       s_ += integral * f;
       if (request_.open_loop == nullptr || follows(0) || follows(1)) {
-        add_unknown_force(0.5 * h);  // half before, half after: of second order in h
+        add_unknown_force(h / 6, Square::Zero());
         covariance_ = (transition * covariance_ * transition.transpose()).eval();
-        add_unknown_force(0.5 * h);
+        add_unknown_force(h / 6, Square::Zero());
+        add_unknown_force(2 * h / 3, 0.5 * h * a);
         last_volts_column_ = a;
       }
       if (request_.open_loop == nullptr) add_standstill(h);
@@ -267,14 +268,19 @@ class FilterOfSize {
     }
   }
 
-  /// d' = -d/T + sqrt(2 sigma^2 / T) w
-  void add_unknown_force(double h) {
+  /// d' = -d/T + sqrt(2 sigma^2 / T) w, its covariance by Simpson's rule: what enters at the begin, in the
+  /// middle and at the end of a step.
+  /// @param later A times the time that is left of the step
+  void add_unknown_force(double seconds, const Square& later) {
     for (std::size_t c = 0; c < kChannels; ++c) {
       const std::size_t b = layout_.begin[kCoordinateOf[c]];
       if (b == kNone || !follows(c)) continue;
       const auto d = static_cast<Eigen::Index>(b) + 2;
-      const double sigma2 = std::exp(2 * p_[of_noise(c, kLogForce)]);
-      covariance_(d, d) += sigma2 * -std::expm1(-2 * h * std::exp(-p_[of_noise(c, kLogCorrelation)]));
+      State entered = later.col(d);
+      entered[d] += 1;
+      const double intensity =
+          2 * std::exp(2 * p_[of_noise(c, kLogForce)] - p_[of_noise(c, kLogCorrelation)]);
+      covariance_ += intensity * seconds * entered * entered.transpose();
     }
   }
 
