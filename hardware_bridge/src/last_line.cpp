@@ -12,16 +12,18 @@ using protection::enabled;
 using enum protection::Protection;
 
 /// What the mutation check calls a check, in the order of Reason from command_stale on.
-constexpr std::array kProtections{
-    bridge_command_stale, bridge_command_not_finite, bridge_command_range,  bridge_command_rate,   bridge_position,
-    bridge_speed,         bridge_swing,              bridge_encoder_jump,   bridge_lost_counts,    bridge_braked_motion,
-    bridge_encoder_frozen, bridge_drive_response,    bridge_not_homed,      bridge_second_writer};
+constexpr std::array kProtections{bridge_command_stale, bridge_command_not_finite, bridge_command_range,
+                                  bridge_command_rate,  bridge_position,           bridge_speed,
+                                  bridge_swing,         bridge_encoder_jump,       bridge_lost_counts,
+                                  bridge_braked_motion, bridge_encoder_frozen,     bridge_drive_response,
+                                  bridge_not_homed,     bridge_second_writer};
 static_assert(kProtections.size() + 1 == kReasons);
 
-bool is_made(const Check& check) noexcept { return enabled(kProtections[static_cast<std::size_t>(check.reason) - 1]); }
+bool is_made(const Check& check) noexcept {
+  return enabled(kProtections[static_cast<std::size_t>(check.reason) - 1]);
+}
 
 }  // namespace
-
 
 void History::add(const Entry& entry) noexcept {
   newest_ = (newest_ + 1) % kLength;
@@ -76,8 +78,9 @@ void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Seen& se
 }
 
 Reason LastLine::first_failure(const Moment& moment) const noexcept {
-  const auto failed = std::find_if(checks_.begin(), checks_.end(),
-                                   [&](const Check& check) { return is_made(check) && check.fails(parameters_, moment); });
+  const auto failed = std::find_if(checks_.begin(), checks_.end(), [&](const Check& check) {
+    return is_made(check) && check.fails(parameters_, moment);
+  });
   return failed == checks_.end() ? Reason::none : failed->reason;
 }
 

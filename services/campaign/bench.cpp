@@ -41,9 +41,8 @@ Bench::Bench(Setting setting)
     return std::make_unique<bridge::Bridge>(context, std::make_unique<FaultyBoard>(building_->world_));
   };
   stack_.emplace(specs, setting_.told, *setting_.controller);
-  bus::set_wire(*stack_->network(), [this](const auto& topic, const void* sample, const bus::Deliver& deliver) {
-    carry(topic, sample, deliver);
-  });
+  bus::set_wire(*stack_->network(), [this](const auto& topic, const void* sample,
+                                           const bus::Deliver& deliver) { carry(topic, sample, deliver); });
   bus_.emplace(runtime::memory_options(stack_->network(), "operator", crane_SOURCE_OPERATOR));
   operator_.emplace(*bus_, "campaign", 1);
   next_ns_ = stack_->now_ns();
@@ -169,7 +168,12 @@ bool Bench::prepare(Moment moment) {
   run(kCausesClear_s);
   ask(crane_REQUEST_ARM);
   if (moment == Moment::brake_release)
-    return run_until([this] { return row_.command.brake_release[0] || row_.command.brake_release[1] || row_.command.brake_release[2]; }, 2);
+    return run_until(
+        [this] {
+          return row_.command.brake_release[0] || row_.command.brake_release[1] ||
+                 row_.command.brake_release[2];
+        },
+        2);
   if (!reach_hold()) return false;
   constexpr double kIdle_s = 0.3, kIntoTheMove_s = 0.12, kIntoTheStop_s = 0.05;
   run(kIdle_s);
@@ -189,7 +193,8 @@ bool Bench::prepare(Moment moment) {
   const std::size_t i = setting_.axis;
   const double way = std::abs(setting_.target[i] - setting_.told.start.position[i]);
   constexpr double kLastShare = 0.2;
-  return run_until([&] { return std::abs(setting_.target[i] - row_.truth.position[i]) < kLastShare * way; }, kLongest_s);
+  return run_until([&] { return std::abs(setting_.target[i] - row_.truth.position[i]) < kLastShare * way; },
+                   kLongest_s);
 }
 
 }  // namespace crane::campaign

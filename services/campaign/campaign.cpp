@@ -26,10 +26,13 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
 }
 
 Dice dice_of(const Tuple& tuple) {
-  return Dice{mixed(static_cast<std::uint64_t>(tuple.hazard), static_cast<std::uint64_t>(tuple.moment), tuple.seed)};
+  return Dice{
+      mixed(static_cast<std::uint64_t>(tuple.hazard), static_cast<std::uint64_t>(tuple.moment), tuple.seed)};
 }
 /// Not of the moment: what a hazard changes of a rig is the same at every moment.
-Dice dice_of_preparation(const Tuple& tuple) { return Dice{mixed(static_cast<std::uint64_t>(tuple.hazard), 99, tuple.seed)}; }
+Dice dice_of_preparation(const Tuple& tuple) {
+  return Dice{mixed(static_cast<std::uint64_t>(tuple.hazard), 99, tuple.seed)};
+}
 
 bool is_over(const Bench& bench) {
   const Row& row = bench.now();
@@ -43,7 +46,8 @@ void watch(Bench& bench, const Strike& strike, Run& run) {
   constexpr double kAfterwards_s = 0.25, kControlledStop_s = 8.5;
   const double period_s = bench.setting().told.period_s;
   double over_s = 0;
-  for (double t_s = 0; t_s < strike.watched_s + kControlledStop_s && over_s < kAfterwards_s; t_s += period_s) {
+  for (double t_s = 0; t_s < strike.watched_s + kControlledStop_s && over_s < kAfterwards_s;
+       t_s += period_s) {
     if (t_s >= strike.watched_s && bench.now().status.state != crane_STATE_STOP_C1) break;
     bench.tick();
     if (!run.visible_ns && (!strike.visible || strike.visible())) run.visible_ns = bench.now().time_ns;
@@ -54,7 +58,8 @@ void watch(Bench& bench, const Strike& strike, Run& run) {
 
 Result result_of(const Tuple& tuple, const Expectation& expected, const Verdict& verdict) {
   Result result{.tuple = tuple};
-  for (const auto& violation : verdict.violations) result.violations |= 1U << static_cast<unsigned>(violation.invariant);
+  for (const auto& violation : verdict.violations)
+    result.violations |= 1U << static_cast<unsigned>(violation.invariant);
   if (!verdict.violations.empty()) verdict.violations.front().what.copy(result.what, sizeof result.what - 1);
   result.stopped = verdict.first.has_value();
   result.first = verdict.first.value_or(Reason{});
@@ -164,7 +169,6 @@ struct Group {
   auto operator<=>(const Group&) const = default;
 };
 
-
 void run_group(const Group& place, const std::vector<Tuple>& tuples, const Pipe& pipe) {
   std::optional<Bench> prepared;
   bool ready = false;
@@ -187,19 +191,21 @@ void run_group(const Group& place, const std::vector<Tuple>& tuples, const Pipe&
 }  // namespace
 
 std::string to_string(const Tuple& tuple) {
-  return "--hazard " + std::to_string(tuple.hazard) + " --moment " + std::string{name_of(tuple.moment)} + " --seed " +
-         std::to_string(tuple.seed);
+  return "--hazard " + std::to_string(tuple.hazard) + " --moment " + std::string{name_of(tuple.moment)} +
+         " --seed " + std::to_string(tuple.seed);
 }
 
 std::vector<Tuple> tuples(const Selection& selection) {
   std::vector<Tuple> all;
-  const auto wanted = [](const auto& list, const auto& item) { return list.empty() || std::ranges::find(list, item) != list.end(); };
+  const auto wanted = [](const auto& list, const auto& item) {
+    return list.empty() || std::ranges::find(list, item) != list.end();
+  };
   for (std::uint64_t seed = selection.first_seed; seed < selection.first_seed + selection.seeds; ++seed)
     for (std::size_t m = 0; m < kMoments; ++m)
       for (const Hazard& hazard : hazards()) {
         const auto moment = static_cast<Moment>(m);
-        if (hazard.place == Place::campaign && seed % hazard.every == 0 && wanted(selection.moments, moment) &&
-            wanted(selection.hazards, hazard.number))
+        if (hazard.place == Place::campaign && seed % hazard.every == 0 &&
+            wanted(selection.moments, moment) && wanted(selection.hazards, hazard.number))
           all.push_back({hazard.number, moment, seed});
       }
   return all;
@@ -209,7 +215,8 @@ Result run_one(const Tuple& tuple, const std::optional<std::filesystem::path>& r
   return run_alone(tuple, recording);
 }
 
-void run_all(const std::vector<Tuple>& tuples, unsigned jobs, const std::function<void(const Result&)>& done) {
+void run_all(const std::vector<Tuple>& tuples, unsigned jobs,
+             const std::function<void(const Result&)>& done) {
   std::map<Group, std::vector<Tuple>> groups;
   for (const auto& tuple : tuples) groups[{tuple.seed % kSettings, tuple.moment}].push_back(tuple);
   const Pipe pipe;

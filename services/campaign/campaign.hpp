@@ -37,8 +37,8 @@ struct Result {
 };
 
 struct Selection {
-  std::vector<int> hazards{};      ///< empty: all
-  std::vector<Moment> moments{};   ///< empty: all
+  std::vector<int> hazards{};     ///< empty: all
+  std::vector<Moment> moments{};  ///< empty: all
   std::uint64_t first_seed = 0, seeds = 1;
 };
 /// Every tuple, in the order of settings and moments.

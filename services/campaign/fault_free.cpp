@@ -21,7 +21,8 @@ stack::Wish random_move(const Setting& setting, Dice& dice) {
     const auto& drive = setting.told.drives[i];
     wish.selected[i] = drive.present && (dice.pick(2) == 0 || i == setting.axis);
     any = any || wish.selected[i];
-    wish.target[i] = dice.between(drive.low_limit + drive.soft_margin + 1e-6, drive.high_limit - drive.soft_margin - 1e-6);
+    wish.target[i] =
+        dice.between(drive.low_limit + drive.soft_margin + 1e-6, drive.high_limit - drive.soft_margin - 1e-6);
   }
   return wish;
 }
@@ -37,7 +38,9 @@ Stretch run_stretch(std::uint64_t number, Dice& dice) {
   Stretch stretch;
   if (!bench.prepare(Moment::armed_idle)) return {.trip = "never armed"};
   const double period_s = bench.setting().told.period_s;
-  const auto stopped = [&bench] { return bench.now().status.state >= crane_STATE_STOP_C1 || bench.now().status.state == crane_STATE_LOCKED; };
+  const auto stopped = [&bench] {
+    return bench.now().status.state >= crane_STATE_STOP_C1 || bench.now().status.state == crane_STATE_LOCKED;
+  };
   while (stretch.seconds < kShare_s && !stopped()) {
     bench.ask(random_move(bench.setting(), dice));
     bench.run(kPause_s);
@@ -46,8 +49,8 @@ Stretch run_stretch(std::uint64_t number, Dice& dice) {
   }
   if (stopped()) {
     const Reason reason{bench.now().status.cause, bench.now().state.latch_reason};
-    stretch.trip = std::string{bench.setting().controller->name} + " on " + bench.setting().told.name + ", after " +
-                   std::to_string(stretch.seconds) + " s: " + to_string(reason);
+    stretch.trip = std::string{bench.setting().controller->name} + " on " + bench.setting().told.name +
+                   ", after " + std::to_string(stretch.seconds) + " s: " + to_string(reason);
   }
   return stretch;
 }

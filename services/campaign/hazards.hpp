@@ -1,6 +1,6 @@
 #pragma once
-/// The hazards of docs/safety.md, each as something that happens to a crane on the test bench, and what has to
-/// come of it.
+/// The hazards of docs/safety.md, each as something that happens to a crane on the test bench, and what has
+/// to come of it.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -32,17 +32,17 @@ enum class Place : std::uint8_t { campaign, process, hardware };
 
 struct Strike {
   Expectation expectation{};
-  double watched_s = 1;               ///< after the onset
-  std::function<bool()> visible{};    ///< whether its effect can be seen by now; empty: from the onset on
+  double watched_s = 1;             ///< after the onset
+  std::function<bool()> visible{};  ///< whether its effect can be seen by now; empty: from the onset on
 };
 
 struct Hazard {
   int number;  ///< 1 to 31: docs/safety.md; from 32 on what an operator asks for
   const char* name;
   Place place = Place::campaign;
-  const char* elsewhere = "";   ///< where it is proved instead, for a place that is not the campaign
-  std::uint64_t every = 1;      ///< only every n-th seed: a run takes long
-  bool from_power_on = false;   ///< strikes before anything has been asked for, whatever the moment
+  const char* elsewhere = "";  ///< where it is proved instead, for a place that is not the campaign
+  std::uint64_t every = 1;     ///< only every n-th seed: a run takes long
+  bool from_power_on = false;  ///< strikes before anything has been asked for, whatever the moment
   /// Changes the rig before anything is built; null: nothing. Runs with it share no preparation with others.
   void (*prepare)(Setting&, Dice&) = nullptr;
   /// At the moment. It may let requests take effect first: the onset is the tick after it returns.

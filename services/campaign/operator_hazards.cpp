@@ -29,7 +29,8 @@ void bad_limits(Setting& setting, Dice& dice) {
 }
 
 Strike never_armed(Bench& /*bench*/, Dice& /*dice*/) {
-  return {.expectation = {.reasons = {because(crane_CAUSE_SELFTEST_FAILED)}, .detection_ms = 0}, .watched_s = 0.2};
+  return {.expectation = {.reasons = {because(crane_CAUSE_SELFTEST_FAILED)}, .detection_ms = 0},
+          .watched_s = 0.2};
 }
 
 Strike bad_target(Bench& bench, Dice& dice) {
@@ -97,18 +98,21 @@ Strike arm_without_demand(Bench& bench, Dice& dice) {
 Strike reset_beside_a_stranger(Bench& bench, Dice& dice) {
   stop_at_once(bench);
   bench.run(kClear_s);
-  auto stranger = std::make_shared<Stranger>(bench, crane_SOURCE_FRICTION, static_cast<std::uint32_t>(2 + dice.pick(900)));
+  auto stranger = std::make_shared<Stranger>(bench, crane_SOURCE_FRICTION,
+                                             static_cast<std::uint32_t>(2 + dice.pick(900)));
   bench.every_tick = [&bench, stranger] { stranger->speak(topics::demand.description, bench); };
   bench.run(0.1);
   bench.ask(crane_REQUEST_RESET);
   return refusal();
 }
 
-/// A writer dies, and a program of another kind takes its topic. Arming it would move the crane by a stranger's demand.
+/// A writer dies, and a program of another kind takes its topic. Arming it would move the crane by a
+/// stranger's demand.
 Strike reset_with_a_stranger(Bench& bench, Dice& dice) {
   bench.stack().kill(crane_SOURCE_FRICTION);
   bench.run(0.5);
-  auto stranger = std::make_shared<Stranger>(bench, crane_SOURCE_OPERATOR, static_cast<std::uint32_t>(2 + dice.pick(900)));
+  auto stranger = std::make_shared<Stranger>(bench, crane_SOURCE_OPERATOR,
+                                             static_cast<std::uint32_t>(2 + dice.pick(900)));
   bench.every_tick = [&bench, stranger] { stranger->speak(topics::demand.description, bench); };
   bench.run(kClear_s);
   bench.ask(crane_REQUEST_RESET);
@@ -116,9 +120,9 @@ Strike reset_with_a_stranger(Bench& bench, Dice& dice) {
 }
 
 Strike refused(Bench& bench, Dice& dice) {
-  static constexpr std::array kWays{bad_target,          no_number,  reset_too_soon,
-                                    reset_while_pressed, reset_held, arm_without_demand,
-                                    reset_beside_a_stranger, reset_with_a_stranger};
+  static constexpr std::array kWays{
+      bad_target, no_number,          reset_too_soon,          reset_while_pressed,
+      reset_held, arm_without_demand, reset_beside_a_stranger, reset_with_a_stranger};
   return kWays[dice.pick(kWays.size())](bench, dice);
 }
 
@@ -126,7 +130,8 @@ Strike refused(Bench& bench, Dice& dice) {
 void bad_start(Setting& setting, Dice& dice) {
   auto& start = setting.told.start;
   if (dice.pick(2) == 0)
-    start.position[setting.axis] = setting.told.drives[setting.axis].high_limit + 0.01;  // and its switch is broken
+    start.position[setting.axis] =
+        setting.told.drives[setting.axis].high_limit + 0.01;  // and its switch is broken
   else
     start.swing_radial_rad = setting.told.limits.swing_limit_rad * 1.3;
   setting.wired = setting.told;
@@ -148,7 +153,8 @@ Strike self_test_fails(Bench& bench, Dice& dice) {
       inputs.watchdog_dropped = false;
   };
   bench.run(0.05);
-  return {.expectation = {.reasons = {because(crane_CAUSE_SELFTEST_FAILED)}, .detection_ms = 2100}, .watched_s = 2.5};
+  return {.expectation = {.reasons = {because(crane_CAUSE_SELFTEST_FAILED)}, .detection_ms = 2100},
+          .watched_s = 2.5};
 }
 
 Strike bridge_restarts(Bench& bench, Dice& dice) {
@@ -159,7 +165,9 @@ Strike bridge_restarts(Bench& bench, Dice& dice) {
   bench.run(0.4);
   bench.restart_bridge();
   if (!load_swings && (dice.pick(2) == 0 || !moves))
-    return {.expectation = {.reasons = {because(crane_CAUSE_BRIDGE_RESTARTED)}, .detection_ms = 50, .volts_by_rig = true}};
+    return {.expectation = {.reasons = {because(crane_CAUSE_BRIDGE_RESTARTED)},
+                            .detection_ms = 50,
+                            .volts_by_rig = true}};
   bench.run(2.5);
   bench.ask(crane_REQUEST_RESET);
   return refusal();
@@ -169,20 +177,23 @@ void soon_idle(Setting& setting, Dice& /*dice*/) { setting.told.limits.idle_lock
 
 Strike idle(Bench& bench, Dice& /*dice*/) {
   const bool holds = bench.now().status.state == crane_STATE_HOLD;
-  return {.expectation = {.reasons = {because(crane_CAUSE_IDLE)}, .may_ride_through = !holds, .detection_ms = 700}};
+  return {.expectation = {
+              .reasons = {because(crane_CAUSE_IDLE)}, .may_ride_through = !holds, .detection_ms = 700}};
 }
 
 Strike operator_stops(Bench& bench, Dice& dice) {
-  static constexpr std::array kWays{
-      std::pair{crane_REQUEST_STOP, crane_CAUSE_OPERATOR_STOP}, std::pair{crane_REQUEST_DISARM, crane_CAUSE_OPERATOR_DISARM},
-      std::pair{crane_REQUEST_ESTOP, crane_CAUSE_OPERATOR_ESTOP}};
+  static constexpr std::array kWays{std::pair{crane_REQUEST_STOP, crane_CAUSE_OPERATOR_STOP},
+                                    std::pair{crane_REQUEST_DISARM, crane_CAUSE_OPERATOR_DISARM},
+                                    std::pair{crane_REQUEST_ESTOP, crane_CAUSE_OPERATOR_ESTOP}};
   const auto [request, cause] = kWays[dice.pick(kWays.size())];
   const bool stopping = bench.now().status.state == crane_STATE_STOP_C1;
   bench.every_tick = [&bench, request = request, asked = false]() mutable {
     if (!asked) bench.send(request);
     asked = true;
   };
-  return {.expectation = {.reasons = {because(cause)}, .may_ride_through = stopping && request != crane_REQUEST_ESTOP, .detection_ms = 10},
+  return {.expectation = {.reasons = {because(cause)},
+                          .may_ride_through = stopping && request != crane_REQUEST_ESTOP,
+                          .detection_ms = 10},
           .watched_s = 2};
 }
 
@@ -193,11 +204,12 @@ Strike stop_ignored(Bench& bench, Dice& dice) {
     demand.total_v[i] = (++tick / 25) % 2 == 0 ? volts_v : -volts_v;
   });
   bench.ask(crane_REQUEST_STOP);
-  return {.expectation = {.reasons = {because(crane_CAUSE_STOP_TIMEOUT), because(crane_CAUSE_STOPPING_ENVELOPE),
-                                      because(crane_CAUSE_SWING_LIMIT), because(crane_CAUSE_FOLLOWING_ERROR)},
-                          .may_ride_through = true,
-                          .detection_ms = 8100},
-          .watched_s = 9};
+  return {
+      .expectation = {.reasons = {because(crane_CAUSE_STOP_TIMEOUT), because(crane_CAUSE_STOPPING_ENVELOPE),
+                                  because(crane_CAUSE_SWING_LIMIT), because(crane_CAUSE_FOLLOWING_ERROR)},
+                      .may_ride_through = true,
+                      .detection_ms = 8100},
+      .watched_s = 9};
 }
 
 /// From LOCKED to READY, by the operator.
@@ -226,11 +238,13 @@ Strike arming_fails(Bench& bench, Dice& dice) {
       const auto& encoder = bench.setting().told.encoders[i];
       const auto& drive = bench.setting().told.drives[i];
       const auto& command = bench.now().command;
-      if (command.brake_release[i]) *moved += std::min(drive.max_speed * 0.8 * bench.setting().told.period_s, 0.03 - *moved);
+      if (command.brake_release[i])
+        *moved += std::min(drive.max_speed * 0.8 * bench.setting().told.period_s, 0.03 - *moved);
       const auto by = std::llround(*moved * encoder.counts_per_unit * encoder.sign);
       inputs.raw_counts[i] = simulator::wrap_24_bit(inputs.raw_counts[i] + by);
     };
-    strike.expectation.reasons = {because(crane_CAUSE_STOPPING_ENVELOPE), because(crane_CAUSE_FOLLOWING_ERROR)};
+    strike.expectation.reasons = {because(crane_CAUSE_STOPPING_ENVELOPE),
+                                  because(crane_CAUSE_FOLLOWING_ERROR)};
     strike.expectation.detection_ms = 300;
   }
   bench.every_tick = [&bench, asked = false]() mutable {
@@ -295,7 +309,8 @@ Strike homing(Bench& bench, Dice& dice) {
 }
 
 Strike zero_lost(Bench& bench, Dice& /*dice*/) {
-  bench.mad = madness(topics::state, [i = bench.axis()](msg::State& state) { state.position_known[i] = false; });
+  bench.mad =
+      madness(topics::state, [i = bench.axis()](msg::State& state) { state.position_known[i] = false; });
   return {.expectation = {.reasons = {because(crane_CAUSE_NOT_HOMED)}, .detection_ms = 10}};
 }
 
@@ -303,15 +318,26 @@ constexpr const char* kRecorder = "the recorder is a process beside the loop: te
 
 constexpr std::array kOfOperators{
     Hazard{.number = 28, .name = "bad configuration", .prepare = bad_limits, .strike = never_armed},
-    Hazard{.number = 29, .name = "disk full while recording", .place = Place::process, .elsewhere = kRecorder},
-    Hazard{.number = 30, .name = "power cut while recording", .place = Place::process, .elsewhere = kRecorder},
+    Hazard{
+        .number = 29, .name = "disk full while recording", .place = Place::process, .elsewhere = kRecorder},
+    Hazard{
+        .number = 30, .name = "power cut while recording", .place = Place::process, .elsewhere = kRecorder},
     Hazard{.number = 32, .name = "request that must be refused", .strike = refused},
-    Hazard{.number = 33, .name = "switched on at a bad place", .from_power_on = true, .prepare = bad_start, .strike = reset_at_a_bad_start},
+    Hazard{.number = 33,
+           .name = "switched on at a bad place",
+           .from_power_on = true,
+           .prepare = bad_start,
+           .strike = reset_at_a_bad_start},
     Hazard{.number = 34, .name = "self-test fails", .from_power_on = true, .strike = self_test_fails},
     Hazard{.number = 35, .name = "bridge starts anew", .strike = bridge_restarts},
     Hazard{.number = 36, .name = "nobody asks for anything", .prepare = soon_idle, .strike = idle},
     Hazard{.number = 37, .name = "operator stops", .strike = operator_stops},
-    Hazard{.number = 39, .name = "homing, and zeros that are lost", .every = 3, .from_power_on = true, .prepare = homing_rig, .strike = homing},
+    Hazard{.number = 39,
+           .name = "homing, and zeros that are lost",
+           .every = 3,
+           .from_power_on = true,
+           .prepare = homing_rig,
+           .strike = homing},
     Hazard{.number = 40, .name = "arming that fails", .every = 2, .strike = arming_fails},
     Hazard{.number = 42, .name = "zero lost while armed", .strike = zero_lost},
     Hazard{.number = 38, .name = "controllers ignore a stop", .every = 6, .strike = stop_ignored},
@@ -324,7 +350,8 @@ std::span<const Hazard> operator_hazards() { return kOfOperators; }
 namespace {
 std::vector<Hazard> every_hazard() {
   std::vector<Hazard> all;
-  for (const auto part : {process_hazards(), rig_hazards(), operator_hazards()}) all.insert(all.end(), part.begin(), part.end());
+  for (const auto part : {process_hazards(), rig_hazards(), operator_hazards()})
+    all.insert(all.end(), part.begin(), part.end());
   std::ranges::sort(all, {}, &Hazard::number);
   return all;
 }

@@ -22,11 +22,14 @@ const std::array<const Description*, 4>& control_topics() {
 }
 
 Strike lost_demand(double watched_s = 1) {
-  return {.expectation = {.reasons = {because(crane_CAUSE_DEMAND_STALE)}, .detection_ms = 50, .communication = true},
+  return {.expectation = {.reasons = {because(crane_CAUSE_DEMAND_STALE)},
+                          .detection_ms = 50,
+                          .communication = true},
           .watched_s = watched_s};
 }
 Strike lost_command() {
-  return {.expectation = {.reasons = {latched(crane_LATCH_COMMAND_STALE)}, .detection_ms = 60, .communication = true}};
+  return {.expectation = {
+              .reasons = {latched(crane_LATCH_COMMAND_STALE)}, .detection_ms = 60, .communication = true}};
 }
 /// The supervisor counts missing states, the bridge missing answers: who is first depends on the phase.
 Strike lost_state() {
@@ -68,7 +71,8 @@ Strike bridge_gone(Bench& bench, Dice& dice) {
     bench.stack().kill(crane_SOURCE_PLANT);
   else
     bench.stack().suspend(crane_SOURCE_PLANT, runtime::kNever);
-  return {.expectation = {.reasons = {because(crane_CAUSE_STATE_STALE)}, .detection_ms = 70, .volts_by_rig = true}};
+  return {.expectation = {
+              .reasons = {because(crane_CAUSE_STATE_STALE)}, .detection_ms = 70, .volts_by_rig = true}};
 }
 
 const Description& any_loop_topic(Dice& dice) {
@@ -78,7 +82,8 @@ const Description& any_loop_topic(Dice& dice) {
 }
 
 Strike duplicates(Bench& bench, const Description& topic) {
-  bench.wire = on(topic, [](const void* sample, const bus::Deliver& deliver) { deliver(sample), deliver(sample); });
+  bench.wire =
+      on(topic, [](const void* sample, const bus::Deliver& deliver) { deliver(sample), deliver(sample); });
   return nothing();
 }
 
@@ -124,14 +129,18 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 Strike mad_demand(Bench& bench, Dice& dice) {
   static constexpr std::array kValues{kNan, HUGE_VAL, -HUGE_VAL, 1e300, -1e9, 201.0};
   const double value_v = kValues[dice.pick(kValues.size())];
-  bench.mad = madness(topics::demand, [axis = bench.axis(), value_v](msg::Demand& demand) { demand.total_v[axis] = value_v; });
+  bench.mad = madness(topics::demand, [axis = bench.axis(), value_v](msg::Demand& demand) {
+    demand.total_v[axis] = value_v;
+  });
   return {.expectation = {.reasons = {because(crane_CAUSE_DEMAND_INVALID)}, .detection_ms = 30}};
 }
 
 Strike mad_command(Bench& bench, Dice& dice) {
   static constexpr std::array kValues{kNan, HUGE_VAL, 10.5, -1e6};
   const double value_v = kValues[dice.pick(kValues.size())];
-  bench.mad = madness(topics::command, [axis = bench.axis(), value_v](msg::Command& command) { command.drive_v[axis] = value_v; });
+  bench.mad = madness(topics::command, [axis = bench.axis(), value_v](msg::Command& command) {
+    command.drive_v[axis] = value_v;
+  });
   const auto reason = std::isfinite(value_v) ? crane_LATCH_COMMAND_RANGE : crane_LATCH_COMMAND_NOT_FINITE;
   return {.expectation = {.reasons = {latched(reason)}, .detection_ms = 10}};
 }
@@ -196,7 +205,8 @@ Strike corrupted(Bench& bench, Dice& dice) {
   auto bits = std::make_shared<Dice>(dice.pick(1U << 30U));
   const bool seldom = dice.chance(0.3);
   auto count = std::make_shared<int>(0);
-  bench.wire = on(topic, [&topic, bits, seldom, count, axis = bench.axis()](const void* sample, const bus::Deliver& deliver) {
+  bench.wire = on(topic, [&topic, bits, seldom, count, axis = bench.axis()](const void* sample,
+                                                                            const bus::Deliver& deliver) {
     Held copy{topic};
     copy.keep(sample);
     const auto bit = bits->pick(topic.descriptor->m_size * 8);
@@ -216,8 +226,9 @@ Strike intruder(Bench& bench, const Description& topic, crane_Source source, Dic
   auto stranger = std::make_shared<Stranger>(bench, source, static_cast<std::uint32_t>(2 + dice.pick(900)));
   bench.every_tick = [&bench, stranger, &topic] { stranger->speak(topic, bench); };
   const bool command = &topic == &topics::command.description;
-  return {.expectation = {.reasons = {command ? latched(crane_LATCH_SECOND_WRITER) : because(crane_CAUSE_SECOND_WRITER)},
-                          .detection_ms = 20}};
+  return {.expectation = {
+              .reasons = {command ? latched(crane_LATCH_SECOND_WRITER) : because(crane_CAUSE_SECOND_WRITER)},
+              .detection_ms = 20}};
 }
 
 Strike second_writer(Bench& bench, Dice& dice) {
@@ -226,7 +237,8 @@ Strike second_writer(Bench& bench, Dice& dice) {
 }
 
 Strike unauthorised(Bench& bench, Dice& dice) {
-  static constexpr std::array kWrong{crane_SOURCE_NONE, crane_SOURCE_OPERATOR, crane_SOURCE_MONITOR, crane_SOURCE_TWIN};
+  static constexpr std::array kWrong{crane_SOURCE_NONE, crane_SOURCE_OPERATOR, crane_SOURCE_MONITOR,
+                                     crane_SOURCE_TWIN};
   return intruder(bench, any_loop_topic(dice), kWrong[dice.pick(kWrong.size())], dice);
 }
 
@@ -234,7 +246,9 @@ Strike flood(Bench& bench, Dice& dice) {
   auto stranger = std::make_shared<Stranger>(bench, crane_SOURCE_OPERATOR, 7);
   const std::size_t each_tick = 200 + dice.pick(400);
   const bool later = dice.pick(2) == 0;
-  bench.every_tick = [&bench, stranger, each_tick, later] { stranger->flood_requests(bench, each_tick, later); };
+  bench.every_tick = [&bench, stranger, each_tick, later] {
+    stranger->flood_requests(bench, each_tick, later);
+  };
   return nothing();
 }
 
@@ -299,7 +313,9 @@ constexpr std::array kOfProcesses{
     Hazard{.number = 11, .name = "flood of requests", .strike = flood},
     Hazard{.number = 12, .name = "20 % loss", .strike = loss},
     Hazard{.number = 13, .name = "partition", .strike = partition},
-    Hazard{.number = 26, .name = "wall-clock jump", .place = Place::process,
+    Hazard{.number = 26,
+           .name = "wall-clock jump",
+           .place = Place::process,
            .elsewhere = "time is an argument of every component; processes read CLOCK_MONOTONIC only"},
     Hazard{.number = 27, .name = "CPU starvation", .strike = starved},
 };

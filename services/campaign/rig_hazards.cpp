@@ -8,20 +8,25 @@
 namespace crane::campaign {
 namespace {
 
-constexpr double kSeen = 0.005;       // m, rad: an error of a position that any check may be asked to see
+constexpr double kSeen = 0.005;  // m, rad: an error of a position that any check may be asked to see
 constexpr double kSeenSwing_rad = 0.1;
-constexpr double kSeen_v = 3;         // V, of what a drive gets against what it was told
+constexpr double kSeen_v = 3;  // V, of what a drive gets against what it was told
 
-const runtime::Encoder& encoder(const Bench& bench, std::size_t counter) { return bench.setting().told.encoders[counter]; }
+const runtime::Encoder& encoder(const Bench& bench, std::size_t counter) {
+  return bench.setting().told.encoders[counter];
+}
 
 std::int32_t counts(const Bench& bench, std::size_t counter, double change) {
-  return static_cast<std::int32_t>(std::llround(change * encoder(bench, counter).counts_per_unit * encoder(bench, counter).sign));
+  return static_cast<std::int32_t>(
+      std::llround(change * encoder(bench, counter).counts_per_unit * encoder(bench, counter).sign));
 }
 
 /// The counter that feels the motion of the axis most: radial for trolley and hoist, tangential for the jib.
 std::size_t swing_counter(const Bench& bench) { return bench.axis() == 1 ? 4 : 3; }
 
-double direction(const Bench& bench) { return bench.setting().target[bench.axis()] >= bench.setting().told.start.position[bench.axis()] ? 1 : -1; }
+double direction(const Bench& bench) {
+  return bench.setting().target[bench.axis()] >= bench.setting().told.start.position[bench.axis()] ? 1 : -1;
+}
 
 /// The counter runs over its end within the move, where the move leads away from 0.
 void fine_encoders(Setting& setting, Dice& dice) {
@@ -31,7 +36,8 @@ void fine_encoders(Setting& setting, Dice& dice) {
   if (std::abs(target) <= std::abs(start) + 0.1) return;
   const double at = start + dice.between(0.3, 0.7) * (target - start);
   if (std::abs(at) <= std::abs(start)) return;
-  setting.told.encoders[i].counts_per_unit = setting.wired.encoders[i].counts_per_unit = kHalfRange / std::abs(at);
+  setting.told.encoders[i].counts_per_unit = setting.wired.encoders[i].counts_per_unit =
+      kHalfRange / std::abs(at);
 }
 
 Strike nothing_at_all(Bench& /*bench*/, Dice& /*dice*/) { return {.expectation = {}, .watched_s = 2}; }
@@ -56,7 +62,8 @@ Strike encoder_jump(Bench& bench, Dice& dice) {
   std::vector<Reason> reasons{latched(crane_LATCH_ENCODER_JUMP)};
   switch (dice.pick(4)) {
     case 0:
-      shift_counter(bench, swing_counter(bench), counts(bench, swing_counter(bench), dice.sign() * dice.between(0.4, 1)));
+      shift_counter(bench, swing_counter(bench),
+                    counts(bench, swing_counter(bench), dice.sign() * dice.between(0.4, 1)));
       break;
     case 1:
       jump_to_speed(bench, dice.between(1.2, 1.9));
@@ -83,10 +90,11 @@ Strike encoder_frozen(Bench& bench, Dice& /*dice*/) {
     if (!*at) *at = inputs.raw_counts[i];
     inputs.raw_counts[i] = **at;
   };
-  return {.expectation = {.reasons = {latched(crane_LATCH_ENCODER_FROZEN), because(crane_CAUSE_FOLLOWING_ERROR)},
-                          .detection_ms = 300},
-          .watched_s = 2,
-          .visible = sees_error(bench, i, kSeen)};
+  return {
+      .expectation = {.reasons = {latched(crane_LATCH_ENCODER_FROZEN), because(crane_CAUSE_FOLLOWING_ERROR)},
+                      .detection_ms = 300},
+      .watched_s = 2,
+      .visible = sees_error(bench, i, kSeen)};
 }
 
 /// The counter misses a share of the way; nothing but a mark or a switch can tell.
@@ -95,7 +103,8 @@ Strike lost_counts(Bench& bench, Dice& dice) {
   const double kept = dice.between(0.85, 0.97);
   const auto first = static_cast<double>(bench.world().board().read().raw_counts[i]);
   bench.world().spoil_inputs = [i, kept, first](bridge::Inputs& inputs) {
-    inputs.raw_counts[i] = static_cast<std::int32_t>(std::lround(first + kept * (inputs.raw_counts[i] - first)));
+    inputs.raw_counts[i] =
+        static_cast<std::int32_t>(std::lround(first + kept * (inputs.raw_counts[i] - first)));
   };
   return {.expectation = {.reasons = {latched(crane_LATCH_LOST_COUNTS), because(crane_CAUSE_LIMIT_SWITCH),
                                       because(crane_CAUSE_FOLLOWING_ERROR)},
@@ -114,7 +123,8 @@ Strike switch_elsewhere(Bench& bench, Dice& dice) {
   };
   const auto& drive = bench.setting().told.drives[i];
   const double x = bench.now().truth.position[i];
-  const bool near = high ? x > drive.high_limit - 1.2 * drive.soft_margin : x < drive.low_limit + 1.2 * drive.soft_margin;
+  const bool near =
+      high ? x > drive.high_limit - 1.2 * drive.soft_margin : x < drive.low_limit + 1.2 * drive.soft_margin;
   std::vector<Reason> reasons{latched(crane_LATCH_LOST_COUNTS)};
   if (near) reasons.push_back(because(crane_CAUSE_LIMIT_SWITCH));
   return {.expectation = {.reasons = reasons, .detection_ms = 10}};
@@ -152,19 +162,23 @@ std::function<bool()> sees_volts(Bench& bench, std::size_t axis) {
 }
 
 std::vector<Reason> drive_reasons() {
-  return {because(crane_CAUSE_FOLLOWING_ERROR), latched(crane_LATCH_DRIVE_RESPONSE), latched(crane_LATCH_ENCODER_FROZEN),
-          because(crane_CAUSE_STOPPING_ENVELOPE)};
+  return {because(crane_CAUSE_FOLLOWING_ERROR), latched(crane_LATCH_DRIVE_RESPONSE),
+          latched(crane_LATCH_ENCODER_FROZEN), because(crane_CAUSE_STOPPING_ENVELOPE)};
 }
 
 /// Stuck where it is, at the end of its range, or the wrong sign.
 Strike converter(Bench& bench, Dice& dice) {
   const std::size_t i = bench.axis();
   const auto kind = dice.pick(3);
-  const double stuck_v = kind == 0 ? bench.now().truth.converter_v[i] * bench.setting().told.drives[i].sign : dice.sign() * dice.between(6, 10);
+  const double stuck_v = kind == 0 ? bench.now().truth.converter_v[i] * bench.setting().told.drives[i].sign
+                                   : dice.sign() * dice.between(6, 10);
   bench.world().spoil_outputs = [i, kind, stuck_v](bridge::Outputs& outputs) {
     outputs.drive_v[i] = kind == 2 ? -outputs.drive_v[i] : stuck_v;
   };
-  return {.expectation = {.reasons = drive_reasons(), .may_ride_through = true, .detection_ms = 900, .position_is_false = true},
+  return {.expectation = {.reasons = drive_reasons(),
+                          .may_ride_through = true,
+                          .detection_ms = 900,
+                          .position_is_false = true},
           .watched_s = 1.5,
           .visible = sees_volts(bench, i)};
 }
@@ -179,7 +193,10 @@ Strike weak_drive(Bench& bench, Dice& dice) {
     if (kind == 1) outputs.drive_v[i] += offset_v;
     if (kind == 2) outputs.drive_v[i] *= 2;
   };
-  return {.expectation = {.reasons = drive_reasons(), .may_ride_through = kind == 2, .detection_ms = 1e6, .position_is_false = false},
+  return {.expectation = {.reasons = drive_reasons(),
+                          .may_ride_through = kind == 2,
+                          .detection_ms = 1e6,
+                          .position_is_false = false},
           .watched_s = 2,
           .visible = sees_volts(bench, i)};
 }
@@ -199,14 +216,15 @@ Strike overspeed(Bench& bench, Dice& dice) {
 
 /// A supervisor that has forgotten everything: brakes open, one voltage for ever.
 void mad_supervisor(Bench& bench, double volts_v, bool all_axes) {
-  bench.mad = madness(topics::command, [i = bench.axis(), volts_v, all_axes, before = 0.0](msg::Command& command) mutable {
-    before += std::clamp(volts_v - before, -2.0, 2.0);
-    for (std::size_t k = 0; k < kAxes; ++k) {
-      command.brake_release[k] = k == i || all_axes;
-      command.drive_v[k] = k == i ? before : 0;
-    }
-    command.watchdog_permission = true;
-  });
+  bench.mad = madness(topics::command,
+                      [i = bench.axis(), volts_v, all_axes, before = 0.0](msg::Command& command) mutable {
+                        before += std::clamp(volts_v - before, -2.0, 2.0);
+                        for (std::size_t k = 0; k < kAxes; ++k) {
+                          command.brake_release[k] = k == i || all_axes;
+                          command.drive_v[k] = k == i ? before : 0;
+                        }
+                        command.watchdog_permission = true;
+                      });
 }
 
 Strike position_limit(Bench& bench, Dice& dice) {
@@ -214,22 +232,24 @@ Strike position_limit(Bench& bench, Dice& dice) {
   if (dice.pick(2) == 0) {
     const double volts_v = direction(bench) * dice.between(3, 5);
     bench.mad = madness(topics::demand, [i, volts_v](msg::Demand& demand) { demand.total_v[i] = volts_v; });
-    return {.expectation = {.reasons = {because(crane_CAUSE_STOPPING_ENVELOPE), because(crane_CAUSE_SWING_LIMIT),
-                                        because(crane_CAUSE_OVERSPEED), because(crane_CAUSE_FOLLOWING_ERROR)},
-                            .may_ride_through = true,
-                            .detection_ms = 8000,
-                            .outwards_axis = i,
-                            .outwards = direction(bench)},
-            .watched_s = 4};
+    return {
+        .expectation = {.reasons = {because(crane_CAUSE_STOPPING_ENVELOPE), because(crane_CAUSE_SWING_LIMIT),
+                                    because(crane_CAUSE_OVERSPEED), because(crane_CAUSE_FOLLOWING_ERROR)},
+                        .may_ride_through = true,
+                        .detection_ms = 8000,
+                        .outwards_axis = i,
+                        .outwards = direction(bench)},
+        .watched_s = 4};
   }
   mad_supervisor(bench, direction(bench) * dice.between(3, 8), false);
-  return {.expectation = {.reasons = {latched(crane_LATCH_POSITION), latched(crane_LATCH_SPEED), latched(crane_LATCH_SWING),
-                                      latched(crane_LATCH_DRIVE_RESPONSE), because(crane_CAUSE_STOPPING_ENVELOPE),
-                                      because(crane_CAUSE_SWING_LIMIT), because(crane_CAUSE_FOLLOWING_ERROR),
-                                      because(crane_CAUSE_OVERSPEED)},
-                          .may_ride_through = true,
-                          .detection_ms = 8000},
-          .watched_s = 4};
+  return {
+      .expectation = {.reasons = {latched(crane_LATCH_POSITION), latched(crane_LATCH_SPEED),
+                                  latched(crane_LATCH_SWING), latched(crane_LATCH_DRIVE_RESPONSE),
+                                  because(crane_CAUSE_STOPPING_ENVELOPE), because(crane_CAUSE_SWING_LIMIT),
+                                  because(crane_CAUSE_FOLLOWING_ERROR), because(crane_CAUSE_OVERSPEED)},
+                      .may_ride_through = true,
+                      .detection_ms = 8000},
+      .watched_s = 4};
 }
 
 /// A push against the load that swings it so far. @param rad  amplitude
@@ -245,7 +265,8 @@ Strike swing_of_a_mad_supervisor(Bench& bench, double limit_rad) {
   mad_supervisor(bench, 0, true);
   push(bench, 1.9 * limit_rad);
   return {.expectation = {.reasons = {because(crane_CAUSE_SWING_LIMIT), latched(crane_LATCH_SWING),
-                                      because(crane_CAUSE_BRAKE_DID_NOT_CLOSE), because(crane_CAUSE_STOPPING_ENVELOPE)},
+                                      because(crane_CAUSE_BRAKE_DID_NOT_CLOSE),
+                                      because(crane_CAUSE_STOPPING_ENVELOPE)},
                           .detection_ms = 1e6,
                           .supervisor_gone = true,
                           .latch_too = crane_LATCH_SWING,
@@ -253,7 +274,8 @@ Strike swing_of_a_mad_supervisor(Bench& bench, double limit_rad) {
           .watched_s = 1.5,
           .visible = [&bench, limit_rad] {
             const auto& truth = bench.now().truth;
-            return std::max(std::abs(truth.swing_radial_rad), std::abs(truth.swing_tangential_rad)) > 1.51 * limit_rad;
+            return std::max(std::abs(truth.swing_radial_rad), std::abs(truth.swing_tangential_rad)) >
+                   1.51 * limit_rad;
           }};
 }
 
@@ -267,7 +289,8 @@ Strike swing_limit(Bench& bench, Dice& dice) {
           .watched_s = 2,
           .visible = [&bench, limit_rad] {
             const auto& truth = bench.now().truth;
-            return std::max(std::abs(truth.swing_radial_rad), std::abs(truth.swing_tangential_rad)) > limit_rad;
+            return std::max(std::abs(truth.swing_radial_rad), std::abs(truth.swing_tangential_rad)) >
+                   limit_rad;
           }};
 }
 
@@ -288,7 +311,8 @@ Strike brake_stays_open(Bench& bench, Dice& dice) {
   if (silent) bench.world().spoil_inputs = [i](bridge::Inputs& inputs) { inputs.brake_closed[i] = false; };
   bench.ask(crane_REQUEST_ESTOP);
   const bool seen = silent || hangs;
-  return {.expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_CLOSE), latched(crane_LATCH_BRAKED_MOTION)},
+  return {.expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_CLOSE),
+                                      latched(crane_LATCH_BRAKED_MOTION)},
                           .may_ride_through = !seen,
                           .detection_ms = seen ? 150.0 : 1e6,
                           .brakes_are_broken = true},
@@ -302,12 +326,14 @@ Strike brake_closes(Bench& bench, Dice& dice) {
   if (unseen) bench.world().spoil_inputs = [i](bridge::Inputs& inputs) { inputs.brake_closed[i] = false; };
   if (!unseen) {
     const bool opening = bench.now().status.state == crane_STATE_ARMING;
-    return {.expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_OPEN), because(crane_CAUSE_FOLLOWING_ERROR)},
-                            .detection_ms = opening ? 230.0 : 50.0}};
+    return {.expectation = {
+                .reasons = {because(crane_CAUSE_BRAKE_DID_NOT_OPEN), because(crane_CAUSE_FOLLOWING_ERROR)},
+                .detection_ms = opening ? 230.0 : 50.0}};
   }
   auto reasons = drive_reasons();
   reasons.push_back(because(crane_CAUSE_BRAKE_DID_NOT_CLOSE));
-  return {.expectation = {.reasons = reasons, .may_ride_through = true, .detection_ms = 1e6}, .watched_s = 1.5};
+  return {.expectation = {.reasons = reasons, .may_ride_through = true, .detection_ms = 1e6},
+          .watched_s = 1.5};
 }
 
 Strike inputs_pressed(Bench& bench, Dice& dice) {
@@ -325,10 +351,14 @@ Strike needs_nobody(Bench& bench, Dice& dice) {
   const std::size_t i = bench.axis();
   const double side = direction(bench);
   const auto kind = dice.pick(3);
-  Strike strike{.expectation = {.reasons = drive_reasons(), .detection_ms = 1e6, .position_is_false = true, .supervisor_gone = true},
+  Strike strike{.expectation = {.reasons = drive_reasons(),
+                                .detection_ms = 1e6,
+                                .position_is_false = true,
+                                .supervisor_gone = true},
                 .watched_s = 1.5};
   auto& wanted = strike.expectation;
-  for (const auto cause : {crane_CAUSE_BRAKE_DID_NOT_CLOSE, crane_CAUSE_OVERSPEED, crane_CAUSE_STOPPING_ENVELOPE, crane_CAUSE_SWING_LIMIT})
+  for (const auto cause : {crane_CAUSE_BRAKE_DID_NOT_CLOSE, crane_CAUSE_OVERSPEED,
+                           crane_CAUSE_STOPPING_ENVELOPE, crane_CAUSE_SWING_LIMIT})
     wanted.reasons.push_back(because(cause));
   if (kind == 0) {  // an encoder stands, and the drive pushes
     mad_supervisor(bench, side * 8, true);
@@ -341,7 +371,9 @@ Strike needs_nobody(Bench& bench, Dice& dice) {
     wanted.latch_ms = 250;
   } else if (kind == 1 && i != 2) {  // the drive does the opposite of what it is told
     mad_supervisor(bench, -side * 5, true);
-    bench.world().spoil_outputs = [i](bridge::Outputs& outputs) { outputs.drive_v[i] = -2 * outputs.drive_v[i]; };
+    bench.world().spoil_outputs = [i](bridge::Outputs& outputs) {
+      outputs.drive_v[i] = -2 * outputs.drive_v[i];
+    };
     wanted.latch_too = crane_LATCH_DRIVE_RESPONSE;
     wanted.latch_ms = 500;
   } else {  // the axis creeps under its closed brake
@@ -351,7 +383,8 @@ Strike needs_nobody(Bench& bench, Dice& dice) {
     const double speed = i == 1 ? 0.1 : 0.05;  // slow enough to be explained by friction and load
     bench.world().spoil_inputs = [moved, i, &bench, speed](bridge::Inputs& inputs) {
       *moved += speed * bench.setting().told.period_s;
-      inputs.raw_counts[i] = simulator::wrap_24_bit(std::int64_t{inputs.raw_counts[i]} + counts(bench, i, *moved));
+      inputs.raw_counts[i] =
+          simulator::wrap_24_bit(std::int64_t{inputs.raw_counts[i]} + counts(bench, i, *moved));
     };
     wanted.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_CLOSE), latched(crane_LATCH_BRAKED_MOTION)};
     wanted.latch_too = crane_LATCH_BRAKED_MOTION;

@@ -35,8 +35,8 @@ constexpr std::array<Choice, kSettings> kChoices{{
     {kTower, "anti_swing_pd_optimised", {0.4, 0, 1}, {1.0, 1.2, 0.7}, 1},
 }};
 
-constexpr std::array<std::string_view, kMoments> kMomentNames{"armed_idle", "brake_release", "peak_acceleration",
-                                                              "cruise",     "limit",         "stop"};
+constexpr std::array<std::string_view, kMoments> kMomentNames{
+    "armed_idle", "brake_release", "peak_acceleration", "cruise", "limit", "stop"};
 
 /// As far as an operator may ask the axis to go, the way it goes anyway.
 double farthest(const runtime::Drive& drive, double start, double target) {

@@ -20,8 +20,8 @@ constexpr double kPush_v = 6;
 
 bus::Wire on(const topics::Description& topic,
              std::function<void(const void* sample, const bus::Deliver& deliver)> fault) {
-  return [name = topic.name, fault = std::move(fault)](const topics::Description& published, const void* sample,
-                                                       const bus::Deliver& deliver) {
+  return [name = topic.name, fault = std::move(fault)](const topics::Description& published,
+                                                       const void* sample, const bus::Deliver& deliver) {
     if (published.name == name)
       fault(sample, deliver);
     else
@@ -49,9 +49,12 @@ void Held::flip(std::size_t bit) {
 
 void Held::spoil_value(std::size_t axis) {
   void* sample = bytes_.data();
-  if (topic_.name == topics::command.description.name) static_cast<msg::Command*>(sample)->drive_v[axis] += kPush_v;
-  if (topic_.name == topics::demand.description.name) static_cast<msg::Demand*>(sample)->total_v[axis] += kPush_v;
-  if (topic_.name == topics::state.description.name) static_cast<msg::State*>(sample)->trolley_position_m += 0.5;
+  if (topic_.name == topics::command.description.name)
+    static_cast<msg::Command*>(sample)->drive_v[axis] += kPush_v;
+  if (topic_.name == topics::demand.description.name)
+    static_cast<msg::Demand*>(sample)->total_v[axis] += kPush_v;
+  if (topic_.name == topics::state.description.name)
+    static_cast<msg::State*>(sample)->trolley_position_m += 0.5;
 }
 
 crane_Source right_source(const topics::Description& topic) {
@@ -60,7 +63,8 @@ crane_Source right_source(const topics::Description& topic) {
   return crane_SOURCE_NONE;
 }
 
-Stranger::Stranger(Bench& bench, crane_Source source, std::uint32_t epoch) : bus_{options_of(bench, source, epoch)} {}
+Stranger::Stranger(Bench& bench, crane_Source source, std::uint32_t epoch)
+    : bus_{options_of(bench, source, epoch)} {}
 
 void Stranger::speak(const topics::Description& topic, const Bench& bench) {
   const auto send = [&](auto& publisher, const auto& typed, auto sample) {

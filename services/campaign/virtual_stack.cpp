@@ -8,7 +8,8 @@
 namespace crane::campaign {
 namespace {
 constexpr std::uint32_t kFirstEpoch = 1;
-constexpr std::int64_t kShortestStep_ns = 100'000;  // a component that has asked for the past is asked again then
+constexpr std::int64_t kShortestStep_ns =
+    100'000;  // a component that has asked for the past is asked again then
 }  // namespace
 
 VirtualStack::VirtualStack(std::span<const runtime::ComponentSpec> specs, const runtime::Rig& rig,
@@ -29,7 +30,8 @@ void VirtualStack::fill(Room& room, std::uint32_t epoch) {
 }
 
 VirtualStack::Room& VirtualStack::room_of(crane_Source source) {
-  const auto found = std::ranges::find_if(rooms_, [&](const Room& room) { return room.spec.source == source; });
+  const auto found =
+      std::ranges::find_if(rooms_, [&](const Room& room) { return room.spec.source == source; });
   if (found == rooms_.end()) throw std::logic_error{"no such component in this stack"};
   return *found;
 }

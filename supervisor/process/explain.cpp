@@ -60,9 +60,13 @@ std::vector<Explained> explain(const msg::SupervisorStatus& status, const msg::S
   for (const auto& [request, name] : kAsked) {
     Inputs in = inputs_of(limits, status, state);
     in.requests[static_cast<std::size_t>(request)] = true;
-    Memory memory{.state = static_cast<State>(status.state), .cause = static_cast<Cause>(status.cause),
-                  .entered_s = kNow_s, .clear_since_s = kLongAgo_s, .fresh_since_s = kLongAgo_s,
-                  .idle_since_s = kNow_s, .self_test_passed = true};
+    Memory memory{.state = static_cast<State>(status.state),
+                  .cause = static_cast<Cause>(status.cause),
+                  .entered_s = kNow_s,
+                  .clear_since_s = kLongAgo_s,
+                  .fresh_since_s = kLongAgo_s,
+                  .idle_since_s = kNow_s,
+                  .self_test_passed = true};
     const auto answer = step(limits, in, memory).answers[static_cast<std::size_t>(request)];
     explained.push_back({name, answer.accepted, answer.reason});
   }

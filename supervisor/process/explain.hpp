@@ -1,5 +1,6 @@
 #pragma once
-/// Why the present state refuses what: the answers the supervisor would give, from what it and the bridge publish.
+/// Why the present state refuses what: the answers the supervisor would give, from what it and the bridge
+/// publish.
 #include <string>
 #include <vector>
 

@@ -43,7 +43,8 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
   }
   if (asked(in, Request::estop))
     return refuse("an emergency stop was asked for in the same tick: reset again");
-  if (m.reset_was_up && enabled(reset_edge)) return refuse("the reset was already on: take it back, then reset again");
+  if (m.reset_was_up && enabled(reset_edge))
+    return refuse("the reset was already on: take it back, then reset again");
   if (const Cause c = blocking_cause(limits, in, m); c != Cause::none) return refuse(remedy_for(c));
   if (in.load_unclear && enabled(reset_load_unclear))
     return refuse(

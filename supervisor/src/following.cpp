@@ -8,9 +8,9 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr int kSettled_ticks = 5;      // both voltages and all three samples are of an open brake
+constexpr int kSettled_ticks = 5;  // both voltages and all three samples are of an open brake
 constexpr double kFrictionReserve = 1.5;
-constexpr double kStepReserve = 1.3;   // of a step that a controller overshoots by
+constexpr double kStepReserve = 1.3;  // of a step that a controller overshoots by
 constexpr double kStepForget_s = 10;
 constexpr double kSwingForget_s = 5;
 constexpr double kSwingReserve = 1.5;  // of the load's way, that an anti-swing law moves the axis by
@@ -49,7 +49,9 @@ PerAxis accelerations(const Limits& limits, const FollowingMemory& memory, const
                       double load_kg) noexcept {
   plant::Parameters p = limits.machine.crane;
   p.load_mass_kg = load_kg;
-  const auto mean_v = [&](std::size_t i) { return (memory.seen[1].applied_v[i] + memory.seen[2].applied_v[i]) / 2; };
+  const auto mean_v = [&](std::size_t i) {
+    return (memory.seen[1].applied_v[i] + memory.seen[2].applied_v[i]) / 2;
+  };
   plant::Locks locks;
   for (std::size_t i = 0; i < kAxes; ++i) locks.axis[i] = memory.free_ticks[i] < kSettled_ticks;
   locks.radial = !limits.machine.swing_measured[0];
@@ -71,8 +73,8 @@ double gain_of(const Limits& limits, std::size_t axis, const plant::State& state
 }
 
 /// Change of speed that nothing explains, unit/s, signed.
-double unexplained(const Limits& limits, std::size_t i, const FollowingMemory& memory, const plant::State& state,
-                   double with_load, double without_load) noexcept {
+double unexplained(const Limits& limits, std::size_t i, const FollowingMemory& memory,
+                   const plant::State& state, double with_load, double without_load) noexcept {
   const auto& [newest, middle, oldest] = memory.seen;
   const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
   const double v = (newest.position[i] - middle.position[i]) / newer_s;
@@ -81,8 +83,8 @@ double unexplained(const Limits& limits, std::size_t i, const FollowingMemory& m
   const double gain = gain_of(limits, i, state);
   const double volts_v = std::max(std::abs(middle.applied_v[i]), std::abs(oldest.applied_v[i]));
   const double drag = i == 2 ? std::abs(v) / limits.machine.crane.hoist_lag_s : 0;
-  const double unknown = gain * (kGainUnknown * volts_v + kOffset_v) + kGainUnknown * drag +
-                         std::abs(with_load - without_load);
+  const double unknown =
+      gain * (kGainUnknown * volts_v + kOffset_v) + kGainUnknown * drag + std::abs(with_load - without_load);
   const double friction = kFrictionReserve * gain *
                           (limits.machine.friction_v[i] + limits.machine.viscous_v[i] * std::abs(before));
   const double slow = kSpeedShare * limits.axis[i].max_speed;  // either way at these speeds
@@ -137,8 +139,8 @@ void judge_reference(const Limits& limits, const FollowingInput& input, Followin
     const double error = std::abs(input.position[i] - input.reference[i]);
     const double jump = std::abs(input.reference[i] - memory.last_reference[i]);
     const bool steps = !memory.referenced || jump > 2 * axis.max_speed * limits.period_s;
-    memory.step_left[i] =
-        steps ? std::max(kStepReserve * error, memory.step_left[i]) : memory.step_left[i] * (1 - limits.period_s / kStepForget_s);
+    memory.step_left[i] = steps ? std::max(kStepReserve * error, memory.step_left[i])
+                                : memory.step_left[i] * (1 - limits.period_s / kStepForget_s);
     memory.last_reference[i] = input.reference[i];
     if (!axis.present || memory.free_ticks[i] < kSettled_ticks) continue;
     const double limit = kTravelShare * (axis.high_limit - axis.low_limit) + memory.step_left[i] +
@@ -150,11 +152,13 @@ void judge_reference(const Limits& limits, const FollowingInput& input, Followin
 
 }  // namespace
 
-Following judge_following(const Limits& limits, const FollowingInput& input, FollowingMemory& memory) noexcept {
+Following judge_following(const Limits& limits, const FollowingInput& input,
+                          FollowingMemory& memory) noexcept {
   Following found;
   if (!limits.machine.known || !(input.sampled_s > memory.seen[0].sampled_s)) return found;
   remember(input, memory);
-  const bool any_free = std::ranges::any_of(memory.free_ticks, [](int ticks) { return ticks == kSettled_ticks; });
+  const bool any_free =
+      std::ranges::any_of(memory.free_ticks, [](int ticks) { return ticks == kSettled_ticks; });
   if (any_free) judge_speed(limits, memory, found);
   judge_reference(limits, input, memory, found);
   return found;

@@ -54,7 +54,8 @@ bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion
     const double report_s = limits.period_s + axis.brake_close_time_s + limits.brake_report_time_s;
     const bool silent = !brake_closed[i] && now_s - memory.since_s > report_s;
     using enum protection::Protection;
-    failed = failed || (slipped && protection::enabled(brake_slip)) || (silent && protection::enabled(brake_report));
+    failed = failed || (slipped && protection::enabled(brake_slip)) ||
+             (silent && protection::enabled(brake_report));
   }
   return failed;
 }

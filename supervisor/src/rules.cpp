@@ -31,7 +31,8 @@ constexpr const char* kBridgeStopped =
     "the bridge or its relay has stopped the crane: look at the bridge's events, then reset";
 constexpr const char* kBrakeSupply = "check the brake supply and its relay";
 constexpr const char* kEnvelope =
-    "the axis would not have stopped before its limit, or moved while its brake opened: check target and load";
+    "the axis would not have stopped before its limit, or moved while its brake opened: check target and "
+    "load";
 constexpr const char* kDemandJumps =
     "the demand jumps, or does not match a crane at rest: check the controller and its reference";
 constexpr const char* kFollowing =
@@ -174,7 +175,8 @@ static_assert(ids_are_places());
 constexpr bool every_cause_has_a_rule() {
   for (std::size_t cause = 0; cause < kCauses; ++cause)
     if (static_cast<Cause>(cause) != Cause::none && static_cast<Cause>(cause) != Cause::start &&
-        std::ranges::none_of(kRules, [cause](const Rule& rule) { return static_cast<std::size_t>(rule.cause) == cause; }))
+        std::ranges::none_of(
+            kRules, [cause](const Rule& rule) { return static_cast<std::size_t>(rule.cause) == cause; }))
       return false;
   return true;
 }
@@ -235,12 +237,13 @@ const char* remedy_for(Cause cause) noexcept {
 
 std::string rule_table() {
   std::string table =
-      "| cause | seen when | detection | reaction | 0 V | brakes told to close | remedy |\n|---|---|---|---|---|---|---|\n";
+      "| cause | seen when | detection | reaction | 0 V | brakes told to close | remedy "
+      "|\n|---|---|---|---|---|---|---|\n";
   for (const Rule& rule : kRules) {
     const auto& words = rule.scope == Scope::restart ? ReactionWords{"SELFTEST, LOCKED", "10 ms", "10 ms"}
                                                      : kReactions[static_cast<std::size_t>(rule.reaction)];
-    for (const char* cell : {name_of(rule.cause), rule.predicate, rule.detection, words.reaction, words.zero_volts,
-                             words.brakes, rule.remedy})
+    for (const char* cell : {name_of(rule.cause), rule.predicate, rule.detection, words.reaction,
+                             words.zero_volts, words.brakes, rule.remedy})
       table += std::string{"| "} + cell + " ";
     table += "|\n";
   }

@@ -1,5 +1,5 @@
-/// The campaign with one protection switched off. Without arguments every protection is switched off in turn, and
-/// the runs that need it are made: one of them has to violate an invariant.
+/// The campaign with one protection switched off. Without arguments every protection is switched off in turn,
+/// and the runs that need it are made: one of them has to violate an invariant.
 ///   campaign_mutants [--without NAME] [--seeds N] [--hazard N ...]
 #include <spdlog/spdlog.h>
 #include <unistd.h>

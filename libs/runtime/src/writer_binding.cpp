@@ -43,7 +43,8 @@ WriterBinding::Verdict WriterBinding::judge(const Writer& writer, std::int64_t n
   }
   // The bound DDS writer under another name is no new start: a process keeps its source and its epoch.
   const bool renamed = bound_ && bound_->id == writer.id;
-  if ((!topics::may_write(*topic_, writer.source) && enabled(bus_source)) || renamed) return refuse(writer, now_ns);
+  if ((!topics::may_write(*topic_, writer.source) && enabled(bus_source)) || renamed)
+    return refuse(writer, now_ns);
   if (!bound_) {
     if (matched > 1) return refuse(writer, now_ns);  // no telling which of them is the right one
     bind(writer, now_ns, matched);

@@ -10,11 +10,11 @@ constexpr double kCommunicationBound_ms = 70;  // I2: onset of a communication f
 constexpr double kZeroVoltsBound_ms = 20;      // I2: any detection to 0 V
 constexpr double kBrakesBound_ms = 10;         // I3: 0 V to brakes told to close: one tick
 constexpr double kControlledStop_ms = 8'200;   // the longest controlled stop, and its ramp
-constexpr double kOutside = 1e-3;              // I1: m, rad; the size of a weld bead, not of a stopping distance
-constexpr double kSlip = 1e-3;                 // I4: m, rad
-constexpr double kAtRest = 1e-6;               // m/s, rad/s: a locked axis of the simulated rig
-constexpr double kVolt = 1e-9;                 // V: rounding
-constexpr std::size_t kOldestCommand = 6;      // ticks: the bridge holds a command for five
+constexpr double kOutside = 1e-3;          // I1: m, rad; the size of a weld bead, not of a stopping distance
+constexpr double kSlip = 1e-3;             // I4: m, rad
+constexpr double kAtRest = 1e-6;           // m/s, rad/s: a locked axis of the simulated rig
+constexpr double kVolt = 1e-9;             // V: rounding
+constexpr std::size_t kOldestCommand = 6;  // ticks: the bridge holds a command for five
 
 double ms(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
 
@@ -73,8 +73,9 @@ class Judgement {
           std::max(truth.position[i] - drive.high_limit, drive.low_limit - truth.position[i]);
       verdict_.beyond_limit = std::max(verdict_.beyond_limit, beyond);
       if (beyond > kOutside && !run_.expectation.position_is_false && !run_.expectation.brakes_are_broken)
-        violated(Invariant::inside_limits, k, "axis " + std::to_string(i) + " is " + std::to_string(beyond) +
-                                                  " beyond its hard limit with its brake open");
+        violated(Invariant::inside_limits, k,
+                 "axis " + std::to_string(i) + " is " + std::to_string(beyond) +
+                     " beyond its hard limit with its brake open");
     }
   }
 
@@ -94,7 +95,8 @@ class Judgement {
     constexpr double kRunaway = 1.25, kReserve = 1.02, kBound_ms = 50;
     const Truth& truth = run_.rows[k].truth;
     const double limit_rad = kRunaway * kReserve * rig_.limits.swing_limit_rad;
-    const bool beyond = std::abs(truth.swing_radial_rad) > limit_rad || std::abs(truth.swing_tangential_rad) > limit_rad;
+    const bool beyond =
+        std::abs(truth.swing_radial_rad) > limit_rad || std::abs(truth.swing_tangential_rad) > limit_rad;
     if (beyond && !runaway_ns_) runaway_ns_ = run_.rows[k].time_ns;
     if (runaway_ns_ && ms(*runaway_ns_, run_.rows[k].time_ns) > kBound_ms && !no_volts(run_.rows[k]) &&
         !run_.expectation.supervisor_gone && !run_.expectation.volts_by_rig)
@@ -108,7 +110,8 @@ class Judgement {
       if (!truth.brake_closed[i]) anchor_[i].reset();
       if (truth.brake_closed[i] && !anchor_[i] && std::abs(truth.speed[i]) <= kAtRest)
         anchor_[i] = truth.position[i];
-      if (anchor_[i] && std::abs(truth.position[i] - *anchor_[i]) > kSlip && !run_.expectation.brakes_are_broken)
+      if (anchor_[i] && std::abs(truth.position[i] - *anchor_[i]) > kSlip &&
+          !run_.expectation.brakes_are_broken)
         violated(Invariant::braked_stays, k, "axis " + std::to_string(i) + " moved under its closed brake");
     }
   }
@@ -155,8 +158,9 @@ class Judgement {
       const bool towards_zero = u * last >= 0 && std::abs(u) <= std::abs(last);
       const double most_v = drive.volt_rate_limit_vps * rig_.period_s * ticks;
       if (!(std::abs(u) <= limit_v + kVolt) || !(towards_zero || std::abs(u - last) <= most_v + kVolt))
-        violated(Invariant::volts_in_range, k, "axis " + std::to_string(i) + " was given " +
-                                                   std::to_string(u) + " V after " + std::to_string(last));
+        violated(Invariant::volts_in_range, k,
+                 "axis " + std::to_string(i) + " was given " + std::to_string(u) + " V after " +
+                     std::to_string(last));
     }
   }
 
@@ -165,7 +169,8 @@ class Judgement {
       const auto& status = run_.rows[k].status;
       const bool asked = status.cause <= crane_CAUSE_OPERATOR_ESTOP;
       if (run_.rows[k].state.latch_reason != crane_LATCH_NONE || (is_stop(status.state) && !asked))
-        violated(Invariant::no_false_trip, k, "stopped before the fault, cause " + std::to_string(status.cause));
+        violated(Invariant::no_false_trip, k,
+                 "stopped before the fault, cause " + std::to_string(status.cause));
     }
   }
 
@@ -175,11 +180,13 @@ class Judgement {
       const Row& row = run_.rows[first_row_];
       const bool stopped = is_stop(row.status.state) &&
                            (!is_stop(before.status.state) || row.status.cause != before.status.cause);
-      const bool latched = row.state.latch_reason != crane_LATCH_NONE && before.state.latch_reason == crane_LATCH_NONE;
+      const bool latched =
+          row.state.latch_reason != crane_LATCH_NONE && before.state.latch_reason == crane_LATCH_NONE;
       if (!stopped && !latched) continue;
       if (ends_the_stop(before, row)) return;
       const auto cause = stopped ? row.status.cause : crane_CAUSE_BRIDGE_LATCHED;
-      verdict_.first = Reason{cause, cause == crane_CAUSE_BRIDGE_LATCHED ? row.state.latch_reason : crane_LATCH_NONE};
+      verdict_.first =
+          Reason{cause, cause == crane_CAUSE_BRIDGE_LATCHED ? row.state.latch_reason : crane_LATCH_NONE};
       return;
     }
   }
@@ -221,15 +228,17 @@ class Judgement {
 
   void refusal() {
     if (run_.expectation.refused && run_.accepted != false)
-      violated(Invariant::reset_and_arm, run_.rows.size() - 1,
-               run_.accepted ? "a request was accepted that has to be refused" : "a request was not answered");
+      violated(
+          Invariant::reset_and_arm, run_.rows.size() - 1,
+          run_.accepted ? "a request was accepted that has to be refused" : "a request was not answered");
   }
 
   void latch_of_its_own() {
     const auto& wanted = run_.expectation;
     if (wanted.latch_too == crane_LATCH_NONE || !run_.visible_ns) return;
     for (std::size_t k = onset_; k < run_.rows.size(); ++k)
-      if (run_.rows[k].state.latch_reason == wanted.latch_too && ms(*run_.visible_ns, run_.rows[k].time_ns) <= wanted.latch_ms)
+      if (run_.rows[k].state.latch_reason == wanted.latch_too &&
+          ms(*run_.visible_ns, run_.rows[k].time_ns) <= wanted.latch_ms)
         return;
     violated(Invariant::right_reason, run_.rows.size() - 1, "the bridge has not found it by itself");
   }
@@ -239,7 +248,8 @@ class Judgement {
     if (!axis || !verdict_.first || verdict_.first->cause != crane_CAUSE_STOPPING_ENVELOPE) return;
     for (std::size_t k = first_row_ + 1; k < run_.rows.size(); ++k)  // its command acts from the next tick on
       if (run_.rows[k].truth.written_v[*axis] * run_.expectation.outwards > kVolt)
-        violated(Invariant::zero_volts, k, "a voltage outwards although the axis would not stop before its limit");
+        violated(Invariant::zero_volts, k,
+                 "a voltage outwards although the axis would not stop before its limit");
   }
 
   /// Without the bridge only the relay of the rig acts.
@@ -264,12 +274,15 @@ class Judgement {
       const Row& row = run_.rows[k];
       if (!zero_ns && no_volts(row) && (!controlled || told_closed(row))) zero_ns = row.time_ns;
       if (!told_ns && told_closed(row)) told_ns = row.time_ns;
-      if (!verdict_.braked_ms && row.truth.brake_closed == present_brakes(row)) verdict_.braked_ms = ms(since_ns, row.time_ns);
+      if (!verdict_.braked_ms && row.truth.brake_closed == present_brakes(row))
+        verdict_.braked_ms = ms(since_ns, row.time_ns);
     }
     if (zero_ns) verdict_.zero_volts_ms = ms(since_ns, *zero_ns);
-    if (run_.expectation.volts_by_rig || (run_.expectation.supervisor_gone && !run_.expectation.communication)) return;
+    if (run_.expectation.volts_by_rig ||
+        (run_.expectation.supervisor_gone && !run_.expectation.communication))
+      return;
     const auto end_ns = run_.rows.back().time_ns;
-    const double bound_ms = controlled                         ? kControlledStop_ms
+    const double bound_ms = controlled                        ? kControlledStop_ms
                             : run_.expectation.loses_commands ? kCommunicationBound_ms
                                                               : kZeroVoltsBound_ms;
     if (ms(detected_ns, zero_ns.value_or(end_ns)) > bound_ms + 1e-6)
@@ -303,9 +316,10 @@ class Judgement {
 
 const char* name_of(Invariant invariant) noexcept {
   static constexpr std::array<const char*, kInvariants> kNames{
-      "I1 inside hard limits",     "I2 0 V in time",         "I3 brakes told to close", "I4 braked axes stay",
-      "I5 reset and arm",          "I6 supervisor's volts only", "I7 volts in range",    "I8 right first reason",
-      "I9 recording recoverable", "I10 no false trip"};
+      "I1 inside hard limits", "I2 0 V in time",        "I3 brakes told to close",
+      "I4 braked axes stay",   "I5 reset and arm",      "I6 supervisor's volts only",
+      "I7 volts in range",     "I8 right first reason", "I9 recording recoverable",
+      "I10 no false trip"};
   return kNames[static_cast<std::size_t>(invariant)];
 }
 

@@ -19,9 +19,9 @@ struct Truth {
   PerAxis position{};  ///< m, rad, m of cable
   PerAxis speed{};     ///< per second
   double swing_radial_rad = 0, swing_tangential_rad = 0;
-  PerAxis converter_v{};    ///< what the drives get
+  PerAxis converter_v{};  ///< what the drives get
   AxisFlags brake_closed{};
-  PerAxis written_v{};      ///< what the bridge asked the board for
+  PerAxis written_v{};        ///< what the bridge asked the board for
   AxisFlags brake_release{};  ///< the same
 };
 
@@ -29,10 +29,11 @@ struct Truth {
 struct Row {
   std::int64_t time_ns = 0;
   Truth truth;
-  msg::State state{};                ///< newest published
-  msg::Command command{};            ///< newest that the supervisor published
-  msg::SupervisorStatus status{};    ///< newest published
-  msg::Reference reference{};        ///< this and the next two lines: newest published, for the recording, not for the judge
+  msg::State state{};              ///< newest published
+  msg::Command command{};          ///< newest that the supervisor published
+  msg::SupervisorStatus status{};  ///< newest published
+  msg::Reference
+      reference{};  ///< this and the next two lines: newest published, for the recording, not for the judge
   msg::Contribution tracking{}, anti_swing{};
   msg::Demand demand{};
   bool reset_asked = false, arm_asked = false;  ///< by the operator, in this tick
@@ -47,28 +48,28 @@ struct Reason {
 
 /// What has to come of a fault.
 struct Expectation {
-  std::vector<Reason> reasons{};      ///< any of them is right; empty: nothing may stop the crane
-  bool may_ride_through = false;    ///< no stop is right, too
-  double detection_ms = 0;          ///< from onset to the first reason
-  bool communication = false;       ///< I2: 0 V within 70 ms of the onset
-  bool volts_by_rig = false;        ///< the bridge is dead: only the relay of the rig acts, on the brakes
-  bool position_is_false = false;   ///< I1 cannot be kept by counters: travel beyond a hard limit is reported
-  bool loses_commands = false;      ///< a command that stops the crane may be lost: the bridge stops it at 50 ms
-  bool refused = false;             ///< the newest request of the operator is to be refused
-  double braked_by_rig_ms = 90;     ///< volts_by_rig: from onset to closed brakes: relay, coil and two ticks
-  bool supervisor_gone = false;     ///< nobody follows a latch of the bridge
+  std::vector<Reason> reasons{};   ///< any of them is right; empty: nothing may stop the crane
+  bool may_ride_through = false;   ///< no stop is right, too
+  double detection_ms = 0;         ///< from onset to the first reason
+  bool communication = false;      ///< I2: 0 V within 70 ms of the onset
+  bool volts_by_rig = false;       ///< the bridge is dead: only the relay of the rig acts, on the brakes
+  bool position_is_false = false;  ///< I1 cannot be kept by counters: travel beyond a hard limit is reported
+  bool loses_commands = false;   ///< a command that stops the crane may be lost: the bridge stops it at 50 ms
+  bool refused = false;          ///< the newest request of the operator is to be refused
+  double braked_by_rig_ms = 90;  ///< volts_by_rig: from onset to closed brakes: relay, coil and two ticks
+  bool supervisor_gone = false;  ///< nobody follows a latch of the bridge
   /// The bridge has to find this by itself, whatever the supervisor did before; LATCH_NONE: nothing.
   crane_LatchReason latch_too = crane_LATCH_NONE;
-  double latch_ms = 0;              ///< latch_too: from the time the fault was visible
+  double latch_ms = 0;                         ///< latch_too: from the time the fault was visible
   std::optional<std::size_t> outwards_axis{};  ///< after STOPPING_ENVELOPE no voltage drives this axis ...
   double outwards = 1;                         ///< ... to this side
-  bool brakes_are_broken = false;   ///< I3 and I4 say nothing about a brake that does not close
+  bool brakes_are_broken = false;              ///< I3 and I4 say nothing about a brake that does not close
 };
 
 struct Run {
   std::vector<Row> rows{};
-  std::int64_t begin_ns = 0;    ///< until then nothing was done to the crane
-  std::int64_t onset_ns = 0;    ///< of the fault
+  std::int64_t begin_ns = 0;                 ///< until then nothing was done to the crane
+  std::int64_t onset_ns = 0;                 ///< of the fault
   std::optional<std::int64_t> visible_ns{};  ///< when its effect could be seen at the earliest; none: never
   Expectation expectation{};
   std::optional<bool> accepted{};  ///< what came of the operator's newest request

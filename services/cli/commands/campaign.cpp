@@ -29,10 +29,12 @@ struct CampaignOptions {
 };
 
 Selection selection_of(const CampaignOptions& options) {
-  Selection selection{.hazards = options.hazards, .moments = {}, .first_seed = options.first_seed, .seeds = options.seeds};
+  Selection selection{
+      .hazards = options.hazards, .moments = {}, .first_seed = options.first_seed, .seeds = options.seeds};
   for (const int number : options.hazards)
     if (find_hazard(number) == nullptr)
-      throw runtime::ConfigurationError({"--hazard " + std::to_string(number) + ": there is none; see --list"});
+      throw runtime::ConfigurationError(
+          {"--hazard " + std::to_string(number) + ": there is none; see --list"});
   for (const auto& name : options.moments) {
     const auto moment = moment_named(name);
     if (!moment) throw runtime::ConfigurationError({"--moment " + name + ": there is none; see --list"});
@@ -48,12 +50,14 @@ int list() {
   std::cout << "\nhazards:\n";
   for (const auto& hazard : hazards())
     std::cout << "  " << hazard.number << "  " << hazard.name
-              << (hazard.place == Place::campaign ? "" : std::string{" (not here: "} + hazard.elsewhere + ")") << '\n';
+              << (hazard.place == Place::campaign ? "" : std::string{" (not here: "} + hazard.elsewhere + ")")
+              << '\n';
   return 0;
 }
 
 int run_single(const CampaignOptions& options, const Tuple& tuple) {
-  const auto recording = options.record.empty() ? std::nullopt : std::optional<std::filesystem::path>{options.record};
+  const auto recording =
+      options.record.empty() ? std::nullopt : std::optional<std::filesystem::path>{options.record};
   const auto result = run_one(tuple, recording);
   std::cout << describe(result) << '\n';
   return result.violations == 0 && !result.crashed ? 0 : 1;
@@ -92,7 +96,8 @@ int run_many(const CampaignOptions& options) {
 
 int run_free(const CampaignOptions& options) {
   const auto found = run_fault_free(options.fault_free_h, options.jobs, options.first_seed);
-  std::cout << found.hours << " h of virtual time without a fault, " << found.trips.size() << " false trips\n";
+  std::cout << found.hours << " h of virtual time without a fault, " << found.trips.size()
+            << " false trips\n";
   for (const auto& line : found.trips) std::cout << line << '\n';
   return found.trips.empty() ? 0 : 1;
 }
@@ -103,24 +108,30 @@ int run(const CampaignOptions& options) {
   if (options.fault_free_h > 0) return run_free(options);
   const auto all = tuples(selection_of(options));
   if (options.seed && all.size() == 1) return run_single(options, all.front());
-  if (!options.record.empty()) throw runtime::ConfigurationError({"--record: name one --hazard, --moment and --seed"});
+  if (!options.record.empty())
+    throw runtime::ConfigurationError({"--record: name one --hazard, --moment and --seed"});
   return run_many(options);
 }
 
 }  // namespace
 
 void add_campaign(CLI::App& app, Action& chosen) {
-  auto* command = app.add_subcommand("campaign", "Faults on simulated cranes, judged by the invariants of docs/safety.md");
+  auto* command = app.add_subcommand(
+      "campaign", "Faults on simulated cranes, judged by the invariants of docs/safety.md");
   auto options = std::make_shared<CampaignOptions>();
   command->add_option("--hazard", options->hazards, "hazards by number (default: all)");
   command->add_option("--moment", options->moments, "moments by name (default: all)");
-  command->add_option("--seed", options->seed, "this seed only; with one hazard and one moment: one run, told in full");
+  command->add_option("--seed", options->seed,
+                      "this seed only; with one hazard and one moment: one run, told in full");
   command->add_option("--first-seed", options->first_seed, "first seed");
   command->add_option("--seeds", options->seeds, "number of seeds; about 200 runs each");
-  command->add_option("--jobs", options->jobs, "processes that work at the same time")->check(CLI::PositiveNumber);
+  command->add_option("--jobs", options->jobs, "processes that work at the same time")
+      ->check(CLI::PositiveNumber);
   command->add_option("--record", options->record, "MCAP file of the one run");
-  command->add_option("--log", options->log, "a line for each run; runs that it has already are not run again");
-  command->add_option("--fault-free", options->fault_free_h, "instead: so many hours of virtual time without a fault");
+  command->add_option("--log", options->log,
+                      "a line for each run; runs that it has already are not run again");
+  command->add_option("--fault-free", options->fault_free_h,
+                      "instead: so many hours of virtual time without a fault");
   command->add_flag("--json", options->json, "table as JSON");
   command->add_flag("--list", options->list, "hazards and moments");
   command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });

@@ -34,7 +34,8 @@ void keep_last(const topics::Topic<T>& topic, const recording::Message& message,
 Snapshot last_of(const std::string& file) {
   recording::McapReader reader{file};
   Snapshot snapshot;
-  reader.for_each({.topics = {std::string{topics::state.description.name}, std::string{topics::supervisor.description.name}}},
+  reader.for_each({.topics = {std::string{topics::state.description.name},
+                              std::string{topics::supervisor.description.name}}},
                   [&](const recording::Message& message) {
                     keep_last(topics::state, message, snapshot.state);
                     keep_last(topics::supervisor, message, snapshot.supervisor);
@@ -61,7 +62,8 @@ int explain(const ExplainOptions& options) {
   } else if (options.live) {
     auto bus = open_bus(options.bus);
     const auto snapshot = listen(bus, options.timeout_s);
-    if (!snapshot.supervisor) throw std::runtime_error("no supervisor heard" + where_and_remedy(bus.options()));
+    if (!snapshot.supervisor)
+      throw std::runtime_error("no supervisor heard" + where_and_remedy(bus.options()));
     explain_present(snapshot);
   } else {
     std::cout << supervisor::rule_table();
@@ -74,7 +76,8 @@ int explain(const ExplainOptions& options) {
 void add_supervisor(CLI::App& app, Action& chosen) {
   auto* group = app.add_subcommand("supervisor", "What the supervisor decides by");
   group->require_subcommand(1);
-  auto* command = group->add_subcommand("explain", "The rule table; with --live or --state: what the present state refuses, and why");
+  auto* command = group->add_subcommand(
+      "explain", "The rule table; with --live or --state: what the present state refuses, and why");
   auto options = std::make_shared<ExplainOptions>();
   command->add_option("--state", options->state, "recording whose last state is explained");
   command->add_flag("--live", options->live, "explain the state of the running crane");

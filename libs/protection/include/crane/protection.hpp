@@ -8,8 +8,8 @@
 
 namespace crane::protection {
 
-// Supervisor: rules in the order of supervisor/src/rules.cpp, then gate, requests and brakes. Bridge: checks in
-// the order of hardware_bridge/src/checks.cpp. Bus: seal and writer binding.
+// Supervisor: rules in the order of supervisor/src/rules.cpp, then gate, requests and brakes. Bridge: checks
+// in the order of hardware_bridge/src/checks.cpp. Bus: seal and writer binding.
 #define CRANE_PROTECTIONS(X)          \
   X(supervisor_brake_did_not_close)   \
   X(supervisor_selftest_failed)       \

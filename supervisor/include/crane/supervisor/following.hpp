@@ -5,10 +5,10 @@
 /// the voltages of the last two ticks, (2.16) to (2.20), within what is not known of it: kGainUnknown of the
 /// voltage's effect, kOffset_v, any friction from none to 1.5 times the rig file's, and as much again as the
 /// load does. What lies beyond is added up, forgotten with kForget_s, and compared with
-/// kSpeedShare (max_speed + |v|). Bound: an encoder that stops shows its whole speed in one tick; a dead drive
-/// at a V shows gain V (1 - kGainUnknown) a second.
-/// Reference: position - reference, against kTravelShare of the travel, kReferenceLag_s of the reference's
-/// speed, what is left of the last step of the reference, and what a swinging load moves the axis by.
+/// kSpeedShare (max_speed + |v|). Bound: an encoder that stops shows its whole speed in one tick; a dead
+/// drive at a V shows gain V (1 - kGainUnknown) a second. Reference: position - reference, against
+/// kTravelShare of the travel, kReferenceLag_s of the reference's speed, what is left of the last step of the
+/// reference, and what a swinging load moves the axis by.
 #include <array>
 
 #include "crane/plant/parameters.hpp"
@@ -44,7 +44,7 @@ struct FollowingMemory {
   std::array<int, kAxes> free_ticks{};  ///< in a row
   PerAxis speed_error{};                ///< unexplained change of speed, unit/s
   PerAxis last_reference{};
-  PerAxis step_left{};  ///< what is left of the last step of the reference, unit
+  PerAxis step_left{};   ///< what is left of the last step of the reference, unit
   double swing_rad = 0;  ///< amplitude of the last seconds
   bool referenced = false;
   PerAxis largest{};  ///< of both errors over their limits while judged: 1 stops the crane

@@ -18,9 +18,9 @@ using AxisLimits = control::DriveLimits;
 struct MachineModel {
   bool known = false;  ///< false: neither following error nor swing encoders are judged
   plant::Parameters crane{};
-  PerAxis friction_v{};  ///< largest friction at rest, or Coulomb friction, V
-  PerAxis viscous_v{};   ///< largest viscous friction, V per unit/s
-  PerAxis resolution{};  ///< of the encoders: one count, unit
+  PerAxis friction_v{};                  ///< largest friction at rest, or Coulomb friction, V
+  PerAxis viscous_v{};                   ///< largest viscous friction, V per unit/s
+  PerAxis resolution{};                  ///< of the encoders: one count, unit
   std::array<bool, 2> swing_measured{};  ///< radial, tangential
   std::array<double, 2> swing_resolution_rad{};
   bool cable_measured = false;

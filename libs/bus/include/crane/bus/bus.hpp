@@ -248,7 +248,8 @@ class Bus {
 using Deliver = std::function<void(const void* sample)>;
 /// What an in-process network does to a published sample: calls `deliver` once for every sample that arrives,
 /// this one or any other of its topic. It must not use the network.
-using Wire = std::function<void(const topics::Description& topic, const void* sample, const Deliver& deliver)>;
+using Wire =
+    std::function<void(const topics::Description& topic, const void* sample, const Deliver& deliver)>;
 /// From now on samples go through `wire`; an empty one delivers each sample once.
 void set_wire(MemoryNetwork& network, Wire wire);
 
