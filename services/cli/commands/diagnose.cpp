@@ -29,12 +29,8 @@ struct DiagnoseOptions {
   std::optional<double> from_s, to_s;
   std::uint64_t seed = 1;
   std::size_t effects = 3;
-<<<<<<< ours
   bool json = false, no_picture = false, check = false;
-=======
-  bool json = false, no_picture = false;
   std::string engine = "windows";
->>>>>>> theirs
 };
 
 /// Progress in one line of the terminal.
@@ -221,17 +217,16 @@ void add_diagnose(CLI::App& app, Action& chosen) {
                    "largest number of causes; a smaller number takes less time")
       ->check(CLI::Range(1, 3))
       ->capture_default_str();
-<<<<<<< ours
   command->add_option("--seed", options->seed, "seed of the resampling")->capture_default_str();
   command->add_flag(
       "--check", options->check,
       "report what --train can show of each candidate and what to record next, without a verdict");
-=======
-  command->add_option("--seed", options->seed, "of the resampling")->capture_default_str();
-  command->add_option("--engine", options->engine, "windows, or innovations (docs/innovations.md)")
+  command
+      ->add_option("--engine", options->engine,
+                   "windows, or innovations: a second engine for gantries, drive axes and pendulums "
+                   "(docs/innovations.md)")
       ->check(CLI::IsMember({"windows", "innovations"}))
-      ->group("");
->>>>>>> theirs
+      ->capture_default_str();
   command->add_flag("--json", options->json, "print report.json");
   command->add_flag("--no-picture", options->no_picture, "do not draw SVG files");
   command->footer(
