@@ -56,8 +56,17 @@ void VirtualStack::settle() {
   for (bool progress = true; progress;) {
     progress = false;
     for (auto& room : rooms_)
-      while (room.hosted && room.suspended_until_ns <= now_ns_ && room.hosted->component().poll(now_ns_))
-        progress = true;
+      while (room.hosted && room.suspended_until_ns <= now_ns_ && polled(room)) progress = true;
+  }
+}
+
+/// An exception ends a process, and with it the component.
+bool VirtualStack::polled(Room& room) {
+  try {
+    return room.hosted->component().poll(now_ns_);
+  } catch (const std::runtime_error&) {
+    kill(room.spec.source);
+    return true;
   }
 }
 

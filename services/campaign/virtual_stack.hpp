@@ -39,6 +39,7 @@ class VirtualStack {
   void fill(Room& room, std::uint32_t epoch);
   [[nodiscard]] std::int64_t next_wake_ns() const;
   Room& room_of(crane_Source source);
+  bool polled(Room& room);
 
   const configuration::Rig& rig_;
   const control::Controller& controller_;

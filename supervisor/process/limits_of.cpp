@@ -10,7 +10,7 @@ double count_of(const configuration::Encoder& encoder) {
 }
 
 MachineModel machine_of(const configuration::Rig& rig) {
-  MachineModel machine{.known = true, .crane = rig.design.crane};
+  MachineModel machine{.known = rig.limits.model_checks, .crane = rig.design.crane};
   for (std::size_t i = 0; i < kAxes; ++i) {
     const auto& friction = rig.design.friction[i];
     machine.friction_v[i] = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,

@@ -95,7 +95,7 @@ class Fuzz {
  private:
   std::string cell(const std::string& name, double time_s, double wild) {
     if (below(60) == 0) return below(2) == 0 ? "" : "nan";
-    if (below(200) == 0) return "1e300";
+    if (below(5000) == 0) return "1e300";  // one of them makes most files be refused
     const double wave = std::sin(2 * time_s + static_cast<double>(name.size()));
     const double value = name == "cable_length_m"                    ? 0.8 + 0.1 * wave
                          : name == "trolley_position_m"              ? 0.6 + 0.2 * wave

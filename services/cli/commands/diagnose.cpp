@@ -13,8 +13,6 @@
 #include "cli/diagnosis_data.hpp"
 #include "cli/text_table.hpp"
 #include "crane/diagnosis/report.hpp"
-#include "crane/innovations/report.hpp"
-#include "crane/recording/run_table.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::cli {
@@ -30,7 +28,6 @@ struct DiagnoseOptions {
   std::uint64_t seed = 1;
   std::size_t effects = 3;
   bool json = false, no_picture = false, check = false;
-  std::string engine = "windows";
 };
 
 /// Progress in one line of the terminal.
@@ -71,10 +68,8 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
               << (fs::path{options.out} / "next_experiment.toml").string() << " --rig " << options.rig
               << '\n';
   for (const std::string& note : diagnosis.notes) std::cout << "note: " << note << '\n';
-  std::cout
-      << "seed " << options.seed << ", " << rounded(diagnosis.runtime_s) << " s; "
-      << (fs::path{options.out} / (options.engine == "windows" ? "report.html" : "report.json")).string()
-      << '\n';
+  std::cout << "seed " << options.seed << ", " << rounded(diagnosis.runtime_s) << " s; "
+            << (fs::path{options.out} / "report.html").string() << '\n';
 }
 
 std::string values_of(const std::vector<diagnosis::Estimate>& estimates) {
@@ -139,55 +134,9 @@ int diagnose_data(const DiagnoseOptions& options) {
   return runtime::kExitDone;
 }
 
-/// Rows at their own times, for the engine in innovations form.
-std::vector<innovations::Run> read_runs(const std::vector<std::string>& files,
-                                        const diagnosis::Mapping& mapping, const configuration::Rig& rig,
-                                        std::vector<std::string>& notes) {
-  std::vector<innovations::Run> runs;
-  for (const std::string& file : files) {
-    recording::Table table;
-    if (fs::path{file}.extension() == ".mcap") {
-      recording::McapReader recording{file};
-      table = recording::run_table(recording);
-    } else {
-      table = recording::read_csv(file);
-    }
-    auto loaded = innovations::load_run(diagnosis::canonical(under_control(std::move(table)), mapping, file),
-                                        rig, file);
-    notes.insert(notes.end(), loaded.notes.begin(), loaded.notes.end());
-    runs.push_back(std::move(loaded.run));
-  }
-  return runs;
-}
-
-int diagnose_in_innovations_form(const DiagnoseOptions& options) {
-  const auto rig = configuration::load_rig(stack::find_rig(options.rig));
-  diagnosis::Mapping mapping;
-  if (!options.mapping.empty()) mapping = diagnosis::load_mapping(options.mapping);
-  std::vector<std::string> notes;
-  auto train = read_runs(options.train, mapping, rig, notes),
-       test = read_runs(options.test, mapping, rig, notes);
-  fs::create_directories(options.out);
-  diagnosis::Request request;
-  request.seed = options.seed;
-  request.most_effects = options.effects;
-  if (::isatty(STDERR_FILENO) == 1) request.progress = show_share;
-  auto result = innovations::diagnose(rig, std::move(train), std::move(test), request);
-  result.diagnosis.notes.insert(result.diagnosis.notes.begin(), notes.begin(), notes.end());
-  innovations::write_report(options.out, result, rig);
-  if (options.json)
-    std::cout << innovations::to_json(result).dump(2) << '\n';
-  else
-    print_diagnosis(result.diagnosis, options);
-  return runtime::kExitDone;
-}
-
 int diagnose(const DiagnoseOptions& options) {
   try {
-    return options.engine == "innovations" ? diagnose_in_innovations_form(options) : diagnose_data(options);
-  } catch (const innovations::DataProblem& error) {
-    std::cerr << error.what() << '\n';
-    return runtime::kExitBadInput;
+    return diagnose_data(options);
   } catch (const diagnosis::DataError& error) {
     std::cerr << error.what() << '\n';
     return runtime::kExitBadInput;
@@ -221,12 +170,6 @@ void add_diagnose(CLI::App& app, Action& chosen) {
   command->add_flag(
       "--check", options->check,
       "report what --train can show of each candidate and what to record next, without a verdict");
-  command
-      ->add_option("--engine", options->engine,
-                   "windows, or innovations: a second engine for gantries, drive axes and pendulums "
-                   "(docs/innovations.md)")
-      ->check(CLI::IsMember({"windows", "innovations"}))
-      ->capture_default_str();
   command->add_flag("--json", options->json, "print report.json");
   command->add_flag("--no-picture", options->no_picture, "do not draw SVG files");
   command->footer(

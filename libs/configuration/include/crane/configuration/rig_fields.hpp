@@ -216,7 +216,7 @@ inline constexpr std::array<Field<Sensing>, 3> kSensingFields{{
          "the swing angles themselves are passed on filtered, too (`docs/analysis.md`: what it costs)"},
 }};
 
-inline constexpr std::array<Field<Limits>, 4> kLimitFields{{
+inline constexpr std::array<Field<Limits>, 5> kLimitFields{{
     {.key = "swing_limit_rad",
      .member = &Limits::swing_limit_rad,
      .range = control::kSwingLimits,
@@ -238,6 +238,10 @@ inline constexpr std::array<Field<Limits>, 4> kLimitFields{{
      .range = control::kIdleTimes,
      .unit = "s",
      .meaning = "HOLD without a move for so long locks the crane"},
+    {.key = "model_checks",
+     .member = &Limits::model_checks,
+     .meaning = "the supervisor judges following error and swing encoders by the model of this file "
+                "(FOLLOWING_ERROR, SWING_SENSOR in `docs/safety.md`)"},
 }};
 
 inline constexpr std::array<Field<Start>, 6> kStartFields{{
