@@ -101,8 +101,8 @@ std::string change_one(std::mt19937& random, Rig& rig) {
 
 Rig read_back(const Rig& rig) { return parse_rig(to_toml(rig), rig.path); }
 
-/// The design's lengths, period and volts follow from other fields, which have changed; how an axis homes is
-/// told only of one that does.
+/// The design's lengths, period and volts follow from other fields, which have changed. The file has the
+/// homing only of an axis that homes, and the channel only of an encoder that exists.
 Rig with_what_follows(Rig rig, const Rig& read) {
   rig.design.period_s = read.design.period_s;
   rig.design.shortest_cable_length_m = read.design.shortest_cable_length_m;
@@ -110,6 +110,8 @@ Rig with_what_follows(Rig rig, const Rig& read) {
   rig.design.volt_limit_v = read.design.volt_limit_v;
   for (Drive& drive : rig.drives)
     if (!drive.homes()) drive.homing = {};
+  for (Encoder& encoder : rig.encoders)
+    if (encoder.counts_per_unit == 0) encoder = {};
   return rig;
 }
 
