@@ -32,6 +32,10 @@ constexpr double kStandsStill = 0.1;
 /// Errors of a swing over whole runs in open loop may grow by that much: phase drifts. Of drives nothing is
 /// asked there, where the smallest error of friction integrates into position.
 constexpr double kWorseOverWholeRuns = 1.25;
+/// Of the squares of a motion over whole runs that the base model follows, the extended model has to follow
+/// at least this share: friction that is off by a little lets an axis drift, one that holds it fast explains
+/// nothing.
+constexpr double kStillFollowed = 0.5;
 
 /// Whether a swing is simulated so much better that what was wrong with it has been taken for a force.
 bool follows_better(const Study& study, const Fitted& fitted) {
@@ -126,6 +130,18 @@ bool acts_on(const Effects& effects, const std::string& column) {
   });
 }
 
+/// Whether the extended model loses over whole runs what the base model followed of a motion.
+bool loses_motion(const HeldOut& held_out, const std::string& column) {
+  const auto squares = [&column](const std::map<std::string, double>& rms) {
+    const auto found = rms.find(column);
+    return found == rms.end() ? 0.0 : found->second * found->second;
+  };
+  const double moved = squares(held_out.whole_held_value_rms);
+  const double followed_before = moved - squares(held_out.whole_baseline_rms);
+  const double followed = moved - squares(held_out.whole_extended_rms);
+  return followed_before > 0 && followed < kStillFollowed * followed_before;
+}
+
 /// Why held-out runs do not speak for the extended model; empty when they do.
 std::string held_out_doubt(const HeldOut& held_out, const Effects& effects) {
   const bool nothing_held_out = held_out.baseline_rms.empty();
@@ -144,6 +160,10 @@ std::string held_out_doubt(const HeldOut& held_out, const Effects& effects) {
     if (column.starts_with("swing") && acts_on(effects, column) &&
         held_out.whole_extended_rms.at(column) > kWorseOverWholeRuns * before)
       return "held-out runs: over whole runs the extended model simulates " + column + " worse";
+  for (const auto& [column, before] : held_out.whole_baseline_rms)
+    if (acts_on(effects, column) && loses_motion(held_out, column))
+      return "held-out runs: over whole runs the extended model follows " + column +
+             " less than half as well as the base model";
   return "";
 }
 
