@@ -60,7 +60,6 @@ Setting setting(std::uint64_t number, Moment moment) {
   Setting made;
   made.told = configuration::load_rig(stack::find_rig(choice.rig));
   made.told.start.position = choice.start;
-  made.told.limits.model_checks = true;
   made.controller = control::find_controller(choice.controller);
   made.axis = choice.axis;
   for (std::size_t i = 0; i < made.target.size(); ++i) {

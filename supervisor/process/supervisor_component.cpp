@@ -146,11 +146,13 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   /// takes its writer away, whose packets the bridge then drops, and makes `crane up` end the bridge with a
   /// signal.
   [[noreturn]] void give_up() {
-    node().error("foreign_commands", "the bridge acts on commands that this supervisor has not sent",
-                 "another program forges packets on this bus: end it, or use keys (crane up --secure)");
-    throw std::runtime_error(
-        "the bridge acts on commands that this supervisor has not sent; somebody forges packets "
-        "on this bus: use keys (crane up --secure)");
+    constexpr const char* kWhat =
+        "the bridge gives voltages, or a brake is open, that this supervisor has not commanded";
+    constexpr const char* kRemedy =
+        "look at the brakes and their contacts; if they are sound, another program forges packets on this "
+        "bus: end it, or use keys (crane up --secure)";
+    node().error("foreign_commands", kWhat, kRemedy);
+    throw std::runtime_error(std::string{kWhat} + "; " + kRemedy);
   }
 
   void step(TickInput& input) {
