@@ -50,7 +50,7 @@ struct Selection {
 /// All runs, `jobs` at a time. @param done  called for each, in any order
 void run_all(const std::vector<Tuple>& tuples, unsigned jobs, const std::function<void(const Result&)>& done);
 
-/// Seconds of a crane without any fault in which nothing stopped it, and how near its checks came.
+/// Result of fault-free runs: hours of virtual time, and every stop that no operator asked for.
 struct FaultFree {
   double hours = 0;
   std::vector<std::string> trips{};  ///< "setting 3, 812.4 s: FOLLOWING_ERROR"

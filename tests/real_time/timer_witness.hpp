@@ -1,6 +1,7 @@
 #pragma once
-/// A bare timer on every processor beside a real-time test. It says whether the computer itself paused: a
-/// virtual machine whose host takes a processor away fails a real-time test that no defect fails.
+/// A bare timer on every processor beside a real-time test. It detects pauses of the computer itself. When
+/// the host of a virtual machine takes a processor away, a real-time test can fail although the code has no
+/// defect.
 #include <atomic>
 #include <cstdint>
 #include <latch>
@@ -10,7 +11,8 @@
 
 namespace crane::real_time_test {
 
-/// A bare timer that wakes this late proves a pause: a tick that begins half a period late is an overrun.
+/// A wake-up this late counts as a pause: 5 ms is half a period of 10 ms, the lateness that makes a tick an
+/// overrun.
 inline constexpr std::int64_t kPause_ns = 5'000'000;
 
 class TimerWitness {

@@ -4,8 +4,9 @@
 ///   V = k_p (r - q) - k_v q' - k_s s - k_r s'
 ///
 /// q is trolley position or slew angle, s the swing angle in its plane (phi, theta; signs of
-/// docs/equations.md). Tracking gives the part of q and moves the hoist, anti-swing gives the part of s. The
-/// gains are not scheduled: they suit one cable length and, for the slew axis, one trolley position.
+/// docs/equations.md). The tracking law computes the terms in r, q and q' and drives the hoist. The
+/// anti-swing law computes the terms in s and s'. The gains are constant: they suit one cable length and, for
+/// the slew axis, one trolley position.
 #include <memory>
 
 #include "crane/control/law.hpp"

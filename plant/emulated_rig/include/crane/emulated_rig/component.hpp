@@ -11,7 +11,8 @@ namespace crane::emulated_rig {
 /// @throws std::invalid_argument naming every problem of the rig
 [[nodiscard]] std::unique_ptr<bridge::Board> open_board(const configuration::Rig& rig);
 
-/// bridge::hardware_bridge_spec(), but on the memory bus an emulated board gets its crane from open_board().
+/// Same as bridge::hardware_bridge_spec(), except that on the memory bus open_board() makes an emulated
+/// board, with its simulated crane in this process.
 [[nodiscard]] runtime::ComponentSpec hardware_bridge_spec();
 
 }  // namespace crane::emulated_rig
