@@ -41,7 +41,7 @@ class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
 
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Reference* reference) override {
-    step_(*state, runtime::reference(reference->axis), disputed());
+    step_(*state, runtime::reference(*reference), disputed());
   }
 
  private:
@@ -59,7 +59,7 @@ class CorrectedTracking : public runtime::JoinedComponent<msg::State, msg::Refer
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Reference* reference,
                const msg::Contribution* anti_swing) override {
-    auto wanted = runtime::reference(reference->axis);
+    auto wanted = runtime::reference(*reference);
     const auto correction = runtime::reference(anti_swing->correction);
     for (std::size_t i = 0; i < control::kAxes; ++i) {
       wanted[i].position += correction[i].position;
@@ -78,19 +78,20 @@ bool corrects_reference(const control::Controller& controller) { return controll
 }  // namespace
 
 runtime::ComponentSpec tracking_spec() {
-  return {.name = "tracking",
-          .program = "crane_tracking",
-          .summary = "Tracking law: volts that make trolley, slew and hoist follow their reference.",
-          .source = crane_SOURCE_TRACKING,
-          .runs_controller = true,
-          .reads = {{&topics::state.description, "positions and speeds of the axes"},
-                    {&topics::reference.description, "where each axis is to be"},
-                    {&topics::anti_swing.description, "correction of the reference", corrects_reference}},
-          .writes = {{&topics::tracking.description, "volts that keep the axes on their reference"}},
-          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
-            if (context.controller.corrects_reference) return std::make_unique<CorrectedTracking>(context);
-            return std::make_unique<Tracking>(context);
-          }};
+  return {
+      .name = "tracking",
+      .program = "crane_tracking",
+      .summary = "Tracking law: volts that make trolley, slew and hoist follow their reference.",
+      .source = crane_SOURCE_TRACKING,
+      .runs_controller = true,
+      .reads = {{&topics::state.description, "positions and speeds of the axes"},
+                {&topics::reference.description, "position, speed and acceleration that each axis must have"},
+                {&topics::anti_swing.description, "correction of the reference", corrects_reference}},
+      .writes = {{&topics::tracking.description, "volts that keep the axes on their reference"}},
+      .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+        if (context.controller.corrects_reference) return std::make_unique<CorrectedTracking>(context);
+        return std::make_unique<Tracking>(context);
+      }};
 }
 
 }  // namespace crane::services

@@ -194,8 +194,7 @@ Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
   if (blocking_cause(limits, in, m) != Cause::none || m.state == State::boot) m.clear_since_s = in.now_s;
   if (in.state_stale || in.demand_stale || m.state == State::boot) m.fresh_since_s = in.now_s;
 
-  if (in.bridge_restarted && protection::enabled(protection::Protection::supervisor_bridge_restarted))
-    begin_anew(in, m);
+  if (in.bridge_restarted && protection::enabled("supervisor_bridge_restarted")) begin_anew(in, m);
   const Finding finding = worst_cause(limits, in, m);
   if (finding.reaction > severity(m)) react(finding, in, m);
   const Answers answers = answer_all(limits, in, m);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "crane/control/drive_limits.hpp"
+#include "crane/control/operating_limits.hpp"
 #include "crane/plant/parameters.hpp"
 #include "crane/supervisor/states.hpp"
 
@@ -32,10 +33,10 @@ struct MachineModel {
   }
 };
 
-struct Limits {
+/// The base is section [limits] of the rig file.
+struct Limits : control::OperatingLimits {
   std::array<AxisLimits, kAxes> axis{};
   double period_s = 0.01;             ///< tick
-  double swing_limit_rad = 0.7;       ///< controlled stop above it
   double swing_runaway_ratio = 1.25;  ///< ramped stop above this multiple of it, >= 1
   int state_stale_after_ticks = 3;    ///< missing states in a row that stop the crane, >= 1
   int demand_stale_after_ticks = 3;   ///< ticks in a row without a usable demand that stop the crane, >= 1
@@ -51,7 +52,6 @@ struct Limits {
   double brake_test_time_s =
       0.2;  ///< longer than the opening time: brakes have to report open within it, > 0
   double brake_report_time_s = 0.1;  ///< beyond the closing time: brakes have to report closed by then, > 0
-  double idle_lock_s = 60;           ///< HOLD without a move for so long locks the crane, > 0
   double load_still_rad = 0.005;     ///< a load that swings less when a bridge starts hangs at its zero, > 0
   double load_watch_s =
       10;  ///< for so long after the start of a bridge its load is looked at, >= clear_time_s

@@ -3,6 +3,7 @@
 /// table; docs/safety.md and `crane supervisor explain` print it.
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "crane/protection.hpp"
 #include "crane/supervisor/state_machine.hpp"
@@ -20,7 +21,7 @@ enum class Scope : std::uint8_t {
 };
 
 struct Rule {
-  protection::Protection id;  ///< names the rule in the mutation check
+  std::string_view name;  ///< in the mutation check, tests/campaign
   Cause cause;
   Reaction reaction;
   Scope scope;

@@ -18,6 +18,7 @@ struct Inputs {
   bool state_stale = false;
   bool demand_stale = false;
   Cause gate_cause = Cause::none;  ///< none, demand_stale, demand_invalid, demand_rate
+  EnvelopeInput measured{};        ///< for rules that compare a measured value with a limit
   Envelope envelope{};
   Following following{};
   bool swing_sensor_failed = false;  ///< see pendulum.hpp

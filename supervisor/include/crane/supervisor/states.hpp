@@ -26,38 +26,17 @@ enum class State : std::uint8_t {
 };
 inline constexpr std::size_t kStates = 11;
 
+/// The causes of crane.idl in lower case. crane.idl says what each one means.
 enum class Cause : std::uint8_t {
-  none,
-  start,
-  operator_stop,
-  operator_disarm,
-  operator_estop,
-  estop_input,
-  idle,
-  state_stale,
-  demand_stale,
-  demand_invalid,
-  demand_rate,
-  bridge_latched,
-  position_limit,
-  stopping_envelope,
-  limit_switch,
-  overspeed,
-  swing_limit,
-  brake_did_not_close,
-  brake_did_not_open,
-  second_writer,
-  overrun,
-  selftest_failed,
-  stop_timeout,
-  not_homed,
-  homed,
-  homing_failed,
-  bridge_restarted,
-  following_error,
-  swing_sensor
+#define CRANE_CAUSE(name, text) name,
+#include "crane/causes.def"
+#undef CRANE_CAUSE
 };
-inline constexpr std::size_t kCauses = 29;
+#define CRANE_CAUSE(name, text) +1
+inline constexpr std::size_t kCauses = 0
+#include "crane/causes.def"
+    ;
+#undef CRANE_CAUSE
 
 /// Why an axis has not been homed.
 enum class HomingFailure : std::uint8_t {

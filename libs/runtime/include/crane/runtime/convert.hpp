@@ -17,7 +17,13 @@ namespace crane::runtime {
 [[nodiscard]] inline control::Reference reference(const msg::AxisReference (&axes)[control::kAxes]) {
   control::Reference result;
   for (std::size_t i = 0; i < control::kAxes; ++i)
-    result[i] = {axes[i].position, axes[i].speed, axes[i].acceleration};
+    result[i] = {.position = axes[i].position, .speed = axes[i].speed, .acceleration = axes[i].acceleration};
+  return result;
+}
+
+[[nodiscard]] inline control::Reference reference(const msg::Reference& sample) {
+  control::Reference result = reference(sample.axis);
+  for (std::size_t i = 0; i < control::kAxes; ++i) result[i].start = sample.start[i];
   return result;
 }
 
