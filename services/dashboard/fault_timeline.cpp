@@ -122,7 +122,7 @@ bool FaultTimeline::poll(std::int64_t now_ns, std::int64_t log_now_ns, const Tra
 
 void FaultTimeline::notice_silence(std::int64_t now_ns, const Traffic& traffic) {
   for (const auto& [number, heard] : traffic.nodes()) {
-    const bool silent = now_ns - heard.arrival_ns > Traffic::kSilent_ns;
+    const bool silent = heard.silent(now_ns);
     if (silent == std::exchange(silent_[number], silent) || !silent) continue;
     const bool orderly = heard.status.phase == crane_PHASE_STOPPING;
     put({heard.log_time_ns, heard.status.header.tick, orderly ? Note::Kind::warning : Note::Kind::fault,

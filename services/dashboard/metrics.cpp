@@ -66,7 +66,7 @@ void add_topics(Page& page, const Model& model) {
 void add_processes(Page& page, const Model& model, std::int64_t now_ns) {
   page.add("crane_process_up", "1: the process reports itself.", MetricType::Gauge);
   for (const auto& [number, heard] : model.traffic().nodes())
-    page.value(now_ns - heard.arrival_ns > Traffic::kSilent_ns ? 0 : 1, {{"process", heard.status.name}});
+    page.value(heard.silent(now_ns) ? 0 : 1, {{"process", heard.status.name}});
   page.add("crane_process_lost_ticks_total", "Ticks with incomplete inputs.", MetricType::Counter);
   for (const auto& [number, heard] : model.traffic().nodes())
     page.value(static_cast<double>(heard.status.lost_ticks), {{"process", heard.status.name}});

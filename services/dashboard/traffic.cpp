@@ -41,7 +41,7 @@ ordered_json json_of(const Traffic::Heard& heard, std::int64_t now_ns) {
           {"pid", node.pid},
           {"phase", phase_name(node.phase)},
           {"controller", node.controller},
-          {"silent", now_ns - heard.arrival_ns > Traffic::kSilent_ns},
+          {"silent", heard.silent(now_ns)},
           {"ticks", node.ticks},
           {"lost", node.lost_ticks},
           {"late", node.late_samples},
@@ -67,6 +67,11 @@ const char* phase_name(crane_NodePhase phase) {
   constexpr std::array kNames{"starting", "ready", "stopping"};
   const auto index = static_cast<std::size_t>(phase);
   return index < kNames.size() ? kNames[index] : "unknown";
+}
+
+bool Traffic::Heard::silent(std::int64_t now_ns) const {
+  const bool in_loop = status.node < crane_SOURCE_OPERATOR && status.node != crane_SOURCE_NONE;
+  return now_ns - arrival_ns > (in_loop ? kSilent_ns : kSilentWithoutPriority_ns);
 }
 
 std::vector<Traffic::Line> Traffic::lines() {

@@ -28,8 +28,9 @@ class Traffic {
  public:
   /// Interval over which rates and delays are computed.
   static constexpr std::int64_t kWindow_ns = 1'000'000'000;
-  /// A process reports itself once a second; it counts as silent after two missing reports.
-  static constexpr std::int64_t kSilent_ns = 2'500'000'000;
+  /// A process reports itself once a second. One of the loop counts as silent after two missing reports; twin and
+  /// recorder have no priority, and a busy computer delays them by seconds.
+  static constexpr std::int64_t kSilent_ns = 2'500'000'000, kSilentWithoutPriority_ns = 10'000'000'000;
 
   void add(const Sample& sample);
   /// Ends the window when it is over. @return true when the figures are new
@@ -38,6 +39,7 @@ class Traffic {
   struct Heard {
     msg::NodeStatus status{};
     std::int64_t arrival_ns = 0, log_time_ns = 0;
+    [[nodiscard]] bool silent(std::int64_t now_ns) const;
   };
   [[nodiscard]] const std::map<std::uint32_t, Heard>& nodes() const { return nodes_; }
   [[nodiscard]] const TopicTraffic& topic(std::size_t index) const { return topics_[index].figures; }

@@ -20,7 +20,7 @@ TEST(History, KeepsTwoMinutes) {
 
 TEST(History, OfAFastTopicIsBoundedByBytes) {
   History history;
-  for (int i = 0; i < 100'000; ++i) history.add(sample_of(topics::state, msg::State{}, i * 100'000));
+  for (int i = 0; i < 100'000; ++i) history.add(sample_of(topics::state, msg::State{}, std::int64_t{i} * 100'000));
   EXPECT_LE(history.bytes(), History::kLargestTopic_bytes);
   EXPECT_GT(history.bytes(), History::kLargestTopic_bytes / 2);
 }

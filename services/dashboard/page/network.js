@@ -4,7 +4,9 @@ import { element } from "./words.js";
 const find = (id) => document.getElementById(id);
 const SVG = "http://www.w3.org/2000/svg";
 // Places in the flow of one tick, from the measurement to the command.
-const PLACES = { plant: [110, 150], hardware_bridge: [110, 150], trajectory_planner: [370, 60], anti_swing: [370, 150], tracking: [600, 105], friction_compensation: [830, 150], supervisor: [830, 270], twin: [370, 270], operator: [600, 330], recorder: [110, 330] };
+const PLACES = { plant: [100, 190], hardware_bridge: [100, 190], trajectory_planner: [345, 60], anti_swing: [345, 190], tracking: [590, 125], friction_compensation: [850, 125], supervisor: [850, 300], twin: [345, 310], operator: [590, 395], recorder: [100, 395] };
+// Long lines go around the boxes: the point that bends them.
+const BENDS = { "plant>friction_compensation": [470, 262], "plant>supervisor": [470, 292], "supervisor>plant": [490, 345], "plant>tracking": [330, 132], "trajectory_planner>supervisor": [735, 225], "supervisor>trajectory_planner": [690, 190], "anti_swing>friction_compensation": [620, 225], "operator>plant": [300, 420] };
 const SHORT = { trajectory_planner: "planner", friction_compensation: "friction comp.", hardware_bridge: "bridge", operator: "operators" };
 
 export class NetworkView {
@@ -69,7 +71,7 @@ export class NetworkView {
         if (topic === "crane/request") { add("operator", reader.component, topic); continue; }
         for (const writer of shown) if (writer.writes.some((write) => write.topic === topic)) add(writer.component, reader.component, topic);
       }
-    const svg = node("svg", { viewBox: "0 0 960 390", role: "img", "aria-label": "Processes and topics" });
+    const svg = node("svg", { viewBox: "0 0 950 440", role: "img", "aria-label": "Processes and topics" });
     for (const edge of edges.values()) svg.append(...arrow(edge, flowing));
     for (const name of [...heard.keys(), "operator"]) if (PLACES[name]) svg.append(...place(name, heard.get(name)));
     find("graph").replaceChildren(svg);
@@ -106,7 +108,7 @@ function arrow({ from, to, topics }, flowing) {
   const colour = live.length === 0 ? "var(--line)" : lost ? "var(--attention)" : "var(--measured)";
   // Bent to the side, so that the two directions do not cover each other.
   const dx = x2 - x1, dy = y2 - y1, length = Math.hypot(dx, dy) || 1, bend = Math.min(46, 14 + length * 0.06);
-  const mx = (x1 + x2) / 2 - dy / length * bend, my = (y1 + y2) / 2 + dx / length * bend;
+  const [mx, my] = BENDS[`${from}>${to}`.replace("hardware_bridge", "plant")] ?? [(x1 + x2) / 2 - dy / length * bend, (y1 + y2) / 2 + dx / length * bend];
   const edge = (x, y, toX, toY) => {
     const ux = toX - x, uy = toY - y, scale = Math.min(73 / Math.max(1e-6, Math.abs(ux)), 25 / Math.max(1e-6, Math.abs(uy)));
     return [x + ux * Math.min(1, scale), y + uy * Math.min(1, scale)];

@@ -9,6 +9,7 @@ const PRESETS = {
   Slew: [["crane/state", "slew_angle_rad"], ["crane/reference", "axis[1].position"], ["crane/twin", "column[1].predicted"]],
   Swing: [["crane/state", "swing_radial_rad"], ["crane/state", "swing_tangential_rad"], ["crane/twin", "column[2].predicted"], ["crane/twin", "column[3].predicted"]],
   Drives: [["crane/state", "applied_v[0]"], ["crane/state", "applied_v[1]"], ["crane/state", "applied_v[2]"]],
+  Commands: [["crane/demand", "control_v[0]"], ["crane/demand", "friction_v[0]"], ["crane/command", "drive_v[0]"]],
   Speeds: [["crane/state", "trolley_speed_mps"], ["crane/state", "slew_speed_radps"], ["crane/reference", "axis[0].speed"], ["crane/reference", "axis[1].speed"]],
 };
 const BY_SOURCE = { measured: "measured", reference: "reference", predicted: "predicted" };
@@ -36,7 +37,8 @@ class Plot {
     const { label, unit, source } = describe(topic, path);
     const used = new Set(this.signals.map((signal) => signal.tone));
     const tone = [BY_SOURCE[source], ...FURTHER].find((name) => name && !used.has(name)) ?? "ink";
-    this.signals.push({ topic, path, label, unit, tone });
+    const signal = { topic, path, label, unit, tone, predicted: source === "predicted" };
+    signal.predicted ? this.signals.unshift(signal) : this.signals.push(signal);
     this.rebuild();
     if (!this.view.moment) await this.view.signals.want(topic, path);
   }
@@ -65,7 +67,8 @@ class Plot {
       cursor: { sync: { key: "crane", setSeries: false }, drag: { x: true, y: false }, points: { size: 7 } },
       hooks: { setSelect: [(chart) => this.#zoom(chart)], setCursor: [(chart) => this.#readCursor(chart)] },
       axes: [{ stroke: colour("muted"), font: "12px Plex", grid: { stroke: colour("line"), width: 1 }, ticks: { stroke: colour("line"), width: 1 }, values: (chart, marks) => marks.map((mark) => mark + " s") }, ...units.slice(0, 2).map(axis)],
-      series: [{}, ...this.signals.map((signal) => ({ label: signal.label, scale: signal.unit || "none", stroke: colour(signal.tone), width: 1.6, dash: signal.tone === "reference" ? [6, 4] : undefined, spanGaps: true, points: { show: false } }))],
+      // A prediction is a broad band under the thin line of what was measured: both stay visible.
+      series: [{}, ...this.signals.map((signal) => ({ label: signal.label, scale: signal.unit || "none", stroke: colour(signal.tone) + (signal.predicted ? "66" : ""), width: signal.predicted ? 5 : 1.6, dash: signal.tone === "reference" ? [6, 4] : undefined, spanGaps: true, points: { show: false } }))],
     }, this.#data(), this.area);
     this.chart.over.ondblclick = () => { this.view.zoomTo(null); };
   }
@@ -233,6 +236,7 @@ export class PlotsView {
     const groups = [];
     for (const topic of this.link.topics) {
       const rows = this.link.decoders.get(topic).columns.filter(({ kind, path }) => kind !== "string" && path !== "crc32c").map((column) => ({ ...column, ...describe(topic, column.path) }))
+        .sort((a, b) => a.path.startsWith("header.") - b.path.startsWith("header."))
         .filter((column) => wanted.every((word) => `${topic} ${column.path} ${column.label} ${column.meaning}`.toLowerCase().includes(word)));
       if (!rows.length) continue;
       groups.push(element("h3", {}, topic), ...rows.map((column) => element("li", {}, element("button", {

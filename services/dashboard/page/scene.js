@@ -11,7 +11,7 @@ function colours() {
 
 export class Scene {
   #dirty = true;
-  #orbit = { azimuth: 0.9, height: 0.42, distance: 5.2, target: new THREE.Vector3(0.15, 0.95, 0) };
+  #orbit = { azimuth: 0.9, height: 0.42, distance: 4.4, target: new THREE.Vector3(0.15, 0.95, 0) };
   #view = { reach: 1.45, height: 2, kind: "tower" };
   #trail = [];
   frames = 0;
@@ -39,14 +39,14 @@ export class Scene {
     const colour = colours();
     this.scene.clear();
     this.scene.background = colour("ground");
-    this.scene.fog = new THREE.Fog(colour("ground"), 9, 20);
+    this.scene.fog = new THREE.Fog(colour("ground"), 4.2 * this.#view.reach, 11 * this.#view.reach);
     this.scene.add(new THREE.HemisphereLight(0xffffff, colour("line"), 2.1));
     const sun = new THREE.DirectionalLight(0xffffff, 1.6);
     sun.position.set(3, 6, 2);
     this.scene.add(sun);
     const { reach, height } = this.#view;
     const grid = new THREE.PolarGridHelper(reach, 12, 5, 96, colour("line"), colour("line"));
-    const floor = new THREE.Mesh(new THREE.CircleGeometry(reach * 4, 64), new THREE.MeshBasicMaterial({ color: colour("panel"), transparent: true, opacity: 0.55 }));
+    const floor = new THREE.Mesh(new THREE.CircleGeometry(reach * 14, 64), new THREE.MeshBasicMaterial({ color: colour("panel") }));
     floor.rotation.x = -Math.PI / 2;
     floor.position.y = -0.004;
     this.scene.add(floor);
@@ -115,7 +115,7 @@ export class Scene {
   configure(view) {
     if (JSON.stringify(view) === JSON.stringify(this.#view)) return;
     this.#view = view;
-    this.#orbit.distance = 3.6 * view.reach;
+    this.#orbit.distance = 3 * view.reach;
     this.#orbit.target.set(view.kind === "gantry" ? view.reach / 2 : 0.12 * view.reach, view.height * 0.5, 0);
     this.#paint();
   }

@@ -4,23 +4,31 @@
 export const KEPT_S = 120;
 const CAPACITY = 16384;
 
-/** What a column is called in plain English, its unit on the page, and the factor to it. */
+const AXES = ["trolley", "slew", "hoist"];
+const COLUMNS = ["trolley", "slew", "radial swing", "tangential swing"];
+const UNITS = { mps: "m/s", mps2: "m/s²", radps: "°/s", rad: "°", m: "m", v: "V", us: "µs", ns: "s", s: "s" };
+const OF_AXIS = { position: ["m", "°", "m"], speed: ["m/s", "°/s", "m/s"], acceleration: ["m/s²", "°/s²", "m/s²"] };
+const SOURCES = { "crane/state": "measured", "crane/reference": "reference", "crane/twin": "predicted" };
+const NAMES = { "applied_v": "drive voltage", "drive_v": "drive voltage", "swing_radial_rad": "radial swing", "swing_tangential_rad": "tangential swing", "swing_radial_radps": "radial swing rate", "swing_tangential_radps": "tangential swing rate", "predicted": "position" };
+
+/** What a column is called in plain English, its unit on the page, the factor to it, and the kind of its source. */
 export function describe(topic, path) {
-  const name = path.replace(/^header\./, "");
-  const found = name.match(/_(mps2|mps|radps|rad|m|v|us|ns|s)(\[\d\])?(\.|$)/);
-  const axis = path.match(/\[(\d)\]/)?.[1];
-  let unit = { mps: "m/s", mps2: "m/s²", radps: "°/s", rad: "°", m: "m", v: "V", us: "µs", ns: "s", s: "s" }[found?.[1]] ?? "";
-  const AXES = ["trolley", "slew", "hoist"];
-  let where = axis !== undefined && AXES[axis] && !path.startsWith("counts") && !path.startsWith("column") ? AXES[axis] : "";
+  const index = path.match(/\[(\d)\]/)?.[1];
+  const bare = path.replace(/^header\./, "").replace(/^(axis|column)\[\d\]\./, "").replace(/\[\d\]$/, "");
+  const suffix = bare.match(/_(mps2|mps|radps|rad|m|v|us|ns|s)$/)?.[1];
+  let unit = UNITS[suffix] ?? "", where = "", source = SOURCES[topic] ?? topic.replace("crane/", "").replace(/_/g, " ");
   if (path.startsWith("column[")) {
-    where = ["trolley", "slew", "radial swing", "tangential swing"][axis];
-    unit = axis === "0" ? "m" : "°";
+    where = COLUMNS[index];
+    unit = index === "0" ? "m" : "°";
+    if (bare !== "predicted") source = "twin";
+  } else if (path.startsWith("counts[")) {
+    where = [...AXES, "radial swing", "tangential swing"][index];
+  } else if (index !== undefined) {
+    where = AXES[index] ?? index;
+    unit = OF_AXIS[bare]?.[index] ?? unit;
   }
-  const field = path.match(/\.(position|speed|acceleration)$/)?.[1];
-  if (field && where) unit = { position: ["m", "°", "m"], speed: ["m/s", "°/s", "m/s"], acceleration: ["m/s²", "°/s²", "m/s²"] }[field][axis];
-  const factor = unit.startsWith("°") ? 180 / Math.PI : found?.[1] === "ns" ? 1e-9 : 1;
-  const words = name.replace(/_(mps2|mps|radps|rad|m|v|us|ns|s)(?=\[|\.|$)/g, "").replace(/\[\d\]/g, "").replace(/^(axis|column)\./, "").replace(/[_.]/g, " ");
-  const source = { "crane/state": "measured", "crane/reference": "reference", "crane/twin": "predicted" }[topic] ?? topic.replace("crane/", "").replace("_", " ");
+  const words = where.endsWith("swing") && bare === "predicted" ? "" : NAMES[bare] ?? bare.replace(suffix ? new RegExp(`_${suffix}$`) : "", "").replace(/[_.]/g, " ");
+  const factor = unit.startsWith("°") ? 180 / Math.PI : suffix === "ns" ? 1e-9 : 1;
   return { label: [source, where, words].filter(Boolean).join(" "), unit, factor, source };
 }
 
