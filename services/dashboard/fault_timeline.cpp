@@ -1,6 +1,7 @@
 #include "dashboard/fault_timeline.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <ranges>
 #include <span>
@@ -68,7 +69,7 @@ void FaultTimeline::add_status(const Sample& sample, const msg::SupervisorStatus
   const auto cause = static_cast<supervisor::Cause>(cause_);
   put({sample.log_time_ns, sample.header.tick, kind_of(cause_), "supervisor", supervisor::name_of(cause),
        std::string{"the supervisor went to "} + supervisor::name_of(static_cast<supervisor::State>(status.state)),
-       supervisor::remedy_for(cause)});
+       supervisor::remedy_for(cause), "supervisor/supervisor_state"});
 }
 
 void FaultTimeline::add_state(const Sample& sample, const msg::State& state) {
@@ -79,14 +80,19 @@ void FaultTimeline::add_state(const Sample& sample, const msg::State& state) {
   // The supervisor withdraws the watchdog permission after every stop; silence of the commands is then no fault.
   put({sample.log_time_ns, sample.header.tick, Note::Kind::fault, source_name(sample.header.source),
        "LATCH_" + std::string{bridge::name_of(reason)}, std::string{bridge::explanation_of(reason)},
-       std::string{bridge::remedy_for(reason)}});
+       std::string{bridge::remedy_for(reason)},
+       std::string{source_name(sample.header.source)} + "/" + std::string{bridge::name_of(reason)}});
 }
 
 void FaultTimeline::add_event(const Sample& sample, const msg::Event& event) {
   if (event.severity == crane_SEVERITY_INFO) return;
   const auto kind = event.severity == crane_SEVERITY_ERROR ? Note::Kind::fault : Note::Kind::warning;
-  // An event may be older than the dashboard: its writer keeps the last 64 for late joiners.
-  put({sample.source_time_ns, event.header.tick, kind, event.node, event.code, event.what, event.remedy});
+  // An event may be older than the dashboard: its writer keeps the last 64 for late joiners. That of a live one counts by
+  // its arrival, as the samples of all other topics: the clock of another host may differ a little.
+  constexpr std::int64_t kLive_ns = 2'000'000'000;
+  const bool live = std::abs(sample.log_time_ns - sample.source_time_ns) < kLive_ns;
+  put({live ? sample.log_time_ns : sample.source_time_ns, event.header.tick, kind, event.node, event.code, event.what,
+       event.remedy, std::string{event.node} + "/" + event.code, true});
 }
 
 void FaultTimeline::put(Note note) {
@@ -101,6 +107,7 @@ void FaultTimeline::put(Note note) {
     faults_.insert(later, Fault{.number = next_number_++, .notes = {std::move(note)}, .last_ns = at_ns, .moment = {}});
     return;
   }
+  if (merge(*joined, note)) return;
   const bool repeated = std::ranges::any_of(joined->notes, [&](const Note& other) {
     return other.from == note.from && other.what == note.what && other.explanation == note.explanation;
   });
@@ -111,6 +118,21 @@ void FaultTimeline::put(Note note) {
   }
   const auto later = std::ranges::upper_bound(joined->notes, note.at_ns, {}, &Note::at_ns);
   joined->notes.insert(later, std::move(note));
+}
+
+bool FaultTimeline::merge(Fault& fault, const Note& note) {
+  constexpr std::int64_t kSame_ns = 1'000'000'000;
+  const auto found = std::ranges::find_if(fault.notes, [&](const Note& other) {
+    return !other.announced && other.event != note.event && !note.key.empty() && other.key == note.key &&
+           std::abs(other.at_ns - note.at_ns) < kSame_ns;
+  });
+  if (found == fault.notes.end()) return false;
+  const auto at_ns = std::min(found->at_ns, note.at_ns);
+  if (found->event) *found = note;  // the topic says what it is, the event when it was said first
+  found->at_ns = at_ns;
+  found->announced = true;
+  std::ranges::stable_sort(fault.notes, {}, &Note::at_ns);
+  return true;
 }
 
 bool FaultTimeline::poll(std::int64_t now_ns, std::int64_t log_now_ns, const Traffic& traffic,
@@ -128,7 +150,7 @@ void FaultTimeline::notice_silence(std::int64_t now_ns, const Traffic& traffic) 
     put({heard.log_time_ns, heard.status.header.tick, orderly ? Note::Kind::warning : Note::Kind::fault,
          heard.status.name, "process_silent",
          orderly ? "the process has ended" : "the process was last heard here, and not since",
-         "look at the output of `crane up`, and start the process anew"});
+         "look at the output of `crane up`, and start the process anew", ""});
   }
 }
 

@@ -3,7 +3,7 @@
 ///
 /// Notes are: a new cause of the supervisor, a new latch of the bridge, a warning or an error on crane/event, and a
 /// process that is no longer heard. Notes less than kQuiet_ns apart belong to one fault. The earliest is its first
-/// cause; a process that fell silent before the stop comes before it, however late its silence is noticed.
+/// cause; an event that announces a cause or a latch is the same note; a process that fell silent before the stop comes before it, however late its silence is noticed.
 #include <deque>
 #include <functional>
 #include <map>
@@ -23,6 +23,9 @@ struct Note {
   std::string from;  ///< process
   std::string what;  ///< "SWING_LIMIT", "LATCH speed", code of an event
   std::string explanation, remedy;
+  std::string key{};       ///< equal for a cause or latch and the event that announces it
+  bool event = false;      ///< true: from crane/event
+  bool announced = false;  ///< true: the event and what it announces are this one note
 };
 
 struct Fault {
@@ -52,6 +55,8 @@ class FaultTimeline {
 
  private:
   void put(Note note);
+  /// @return true when `note` and one that is there are the same thing, told by a topic and by an event
+  static bool merge(Fault& fault, const Note& note);
   void add_status(const Sample& sample, const msg::SupervisorStatus& status);
   void add_state(const Sample& sample, const msg::State& state);
   void add_event(const Sample& sample, const msg::Event& event);

@@ -21,6 +21,7 @@ SamplePtr event_at(std::int64_t at_ns, crane_Severity severity, const char* code
 SamplePtr latched_at(std::int64_t at_ns, crane_LatchReason reason) {
   msg::State state{};
   state.latch_reason = reason;
+  state.header.source = crane_SOURCE_PLANT;
   return sample_of(topics::state, state, at_ns);
 }
 
@@ -46,6 +47,20 @@ TEST(FaultTimeline, ALatchIsTheFirstCauseAndTheStopOfTheSupervisorItsConsequence
   EXPECT_EQ(notes[1].what, "latched");
   EXPECT_EQ(notes[2].what, "BRIDGE_LATCHED");
   EXPECT_FALSE(notes[0].remedy.empty());
+}
+
+TEST(FaultTimeline, AnEventThatAnnouncesACauseOrALatchIsNoConsequenceOfIt) {
+  FaultTimeline timeline;
+  timeline.add(*event_at(10 * kSecond_ns, crane_SEVERITY_ERROR, "speed"));
+  timeline.add(*latched_at(10 * kSecond_ns + 3, crane_LATCH_SPEED));
+  timeline.add(*status_at(10 * kSecond_ns + 4, crane_STATE_STOP_C0, crane_CAUSE_BRIDGE_LATCHED));
+  timeline.add(*event_at(10 * kSecond_ns + 5, crane_SEVERITY_ERROR, "another"));
+  ASSERT_EQ(timeline.faults().size(), 1U);
+  const auto& notes = timeline.faults()[0].notes;
+  ASSERT_EQ(notes.size(), 3U);
+  EXPECT_EQ(notes[0].what, "LATCH_speed");
+  EXPECT_EQ(notes[0].at_ns, 10 * kSecond_ns);
+  EXPECT_EQ(notes[2].what, "another");
 }
 
 TEST(FaultTimeline, AProcessThatFellSilentComesBeforeTheStopThatItCaused) {

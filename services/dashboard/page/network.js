@@ -6,7 +6,7 @@ const SVG = "http://www.w3.org/2000/svg";
 // Places in the flow of one tick, from the measurement to the command.
 const PLACES = { plant: [100, 190], hardware_bridge: [100, 190], trajectory_planner: [345, 60], anti_swing: [345, 190], tracking: [590, 125], friction_compensation: [850, 125], supervisor: [850, 300], twin: [345, 310], operator: [590, 395], recorder: [100, 395] };
 // Long lines go around the boxes: the point that bends them.
-const BENDS = { "plant>friction_compensation": [470, 262], "plant>supervisor": [470, 292], "supervisor>plant": [490, 345], "plant>tracking": [330, 132], "trajectory_planner>supervisor": [735, 225], "supervisor>trajectory_planner": [690, 190], "anti_swing>friction_compensation": [620, 225], "operator>plant": [300, 420] };
+const BENDS = { "plant>friction_compensation": [470, 262], "plant>supervisor": [470, 292], "supervisor>plant": [490, 345], "plant>tracking": [330, 132], "trajectory_planner>supervisor": [560, 255], "supervisor>trajectory_planner": [790, 0], "anti_swing>friction_compensation": [620, 225], "operator>plant": [300, 420] };
 const SHORT = { trajectory_planner: "planner", friction_compensation: "friction comp.", hardware_bridge: "bridge", operator: "operators" };
 
 export class NetworkView {

@@ -92,10 +92,11 @@ export class OperateView {
       if (shown.get(id) !== text) find(id).textContent = text;
       shown.set(id, text);
     };
+    const fixed = (value, digits) => value.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1"); // no negative zero
     AXES.forEach((axis, i) => {
-      put("hud-" + axis.key, (this.state.get(axis.state) * axis.factor).toFixed(axis.digits), axis.unit);
-      write("volts-" + axis.key, this.state.get(`applied_v[${i}]`).toFixed(2) + " V");
-      write("speed-" + axis.key, (this.state.get(axis.speed) * axis.factor).toFixed(2) + " " + axis.speedUnit);
+      put("hud-" + axis.key, fixed(this.state.get(axis.state) * axis.factor, axis.digits), axis.unit);
+      write("volts-" + axis.key, fixed(this.state.get(`applied_v[${i}]`), 2) + " V");
+      write("speed-" + axis.key, fixed(this.state.get(axis.speed) * axis.factor, 2) + " " + axis.speedUnit);
       const known = this.state.get(`position_known[${i}]`);
       write("brake-" + axis.key, known ? (this.state.get(`brake_closed[${i}]`) ? "brake closed" : "brake open") : "not homed");
     });

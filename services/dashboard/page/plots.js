@@ -30,6 +30,9 @@ class Plot {
     new ResizeObserver(() => this.chart?.setSize(this.#size())).observe(this.area);
   }
 
+  /** In the order of drawing: predictions first, so that they lie below. */
+  get #drawn() { return [...this.signals].sort((a, b) => b.predicted - a.predicted); }
+
   #size() { return { width: Math.max(120, this.area.clientWidth), height: Math.max(80, this.area.clientHeight) }; }
 
   async add(topic, path) {
@@ -38,7 +41,7 @@ class Plot {
     const used = new Set(this.signals.map((signal) => signal.tone));
     const tone = [BY_SOURCE[source], ...FURTHER].find((name) => name && !used.has(name)) ?? "ink";
     const signal = { topic, path, label, unit, tone, predicted: source === "predicted" };
-    signal.predicted ? this.signals.unshift(signal) : this.signals.push(signal);
+    this.signals.push(signal);
     this.rebuild();
     if (!this.view.moment) await this.view.signals.want(topic, path);
   }
@@ -68,7 +71,7 @@ class Plot {
       hooks: { setSelect: [(chart) => this.#zoom(chart)], setCursor: [(chart) => this.#readCursor(chart)] },
       axes: [{ stroke: colour("muted"), font: "12px Plex", grid: { stroke: colour("line"), width: 1 }, ticks: { stroke: colour("line"), width: 1 }, values: (chart, marks) => marks.map((mark) => mark + " s") }, ...units.slice(0, 2).map(axis)],
       // A prediction is a broad band under the thin line of what was measured: both stay visible.
-      series: [{}, ...this.signals.map((signal) => ({ label: signal.label, scale: signal.unit || "none", stroke: colour(signal.tone) + (signal.predicted ? "66" : ""), width: signal.predicted ? 5 : 1.6, dash: signal.tone === "reference" ? [6, 4] : undefined, spanGaps: true, points: { show: false } }))],
+      series: [{}, ...this.#drawn.map((signal) => ({ label: signal.label, scale: signal.unit || "none", stroke: colour(signal.tone) + (signal.predicted ? "66" : ""), width: signal.predicted ? 5 : 1.6, dash: signal.tone === "reference" ? [6, 4] : undefined, spanGaps: true, points: { show: false } }))],
     }, this.#data(), this.area);
     this.chart.over.ondblclick = () => { this.view.zoomTo(null); };
   }
@@ -82,7 +85,7 @@ class Plot {
 
   #readCursor(chart) {
     const at = chart.cursor.idx;
-    this.signals.forEach((signal, i) => {
+    this.#drawn.forEach((signal, i) => {
       const value = at == null ? this.#last(chart.data?.[i + 1] ?? []) : chart.data[i + 1]?.[at];
       signal.shown.textContent = value == null || Number.isNaN(value) ? "—" : Number(value.toPrecision(4)).toString();
     });
@@ -95,7 +98,7 @@ class Plot {
   #data() {
     const [from_s, to_s] = this.view.range();
     const now_s = this.shownNow_s = this.view.now_s;
-    const lines = this.signals.map((signal) => this.view.read(signal, from_s, to_s));
+    const lines = this.#drawn.map((signal) => this.view.read(signal, from_s, to_s));
     // Signals of one tick have the same time: most tables are joined without a gap.
     const tables = lines.map(([times, values]) => [times.map((time) => Math.round((time - now_s) * 1e5) / 1e5), values]);
     return tables.length === 1 ? tables[0] : uPlot.join(tables, tables.map((table) => table.slice(1).map(() => 2)));
@@ -116,7 +119,7 @@ class Plot {
 
   #extent(unit) {
     let min = Infinity, max = -Infinity;
-    this.signals.forEach((signal, i) => {
+    this.#drawn.forEach((signal, i) => {
       if ((signal.unit || "none") !== unit) return;
       for (const value of this.chart.data[i + 1] ?? []) if (value != null && Number.isFinite(value)) { if (value < min) min = value; if (value > max) max = value; }
     });
@@ -147,11 +150,13 @@ export class PlotsView {
     find("signal-search").oninput = () => this.#list();
     link.addEventListener("change", () => { if (link.state === "live") { this.#list(); } });
     document.addEventListener("themechange", () => { for (const plot of this.#plots) plot.rebuild(); });
-    let last_ms = 0;
+    // At most 20 pictures a second, and at most a third of the time of a slow computer.
+    let due_ms = 0;
     const loop = (now_ms) => {
-      if (this.#visible && now_ms - last_ms > 45) {
-        last_ms = now_ms;
+      if (this.#visible && now_ms >= due_ms) {
+        const begin_ms = performance.now();
         for (const plot of this.#plots) plot.draw();
+        due_ms = now_ms + Math.max(45, 3 * (performance.now() - begin_ms));
       }
       requestAnimationFrame(loop);
     };
@@ -237,7 +242,7 @@ export class PlotsView {
     for (const topic of this.link.topics) {
       const rows = this.link.decoders.get(topic).columns.filter(({ kind, path }) => kind !== "string" && path !== "crc32c").map((column) => ({ ...column, ...describe(topic, column.path) }))
         .sort((a, b) => a.path.startsWith("header.") - b.path.startsWith("header."))
-        .filter((column) => wanted.every((word) => `${topic} ${column.path} ${column.label} ${column.meaning}`.toLowerCase().includes(word)));
+        .filter((column) => wanted.every((word) => `${topic} ${column.path} ${column.label}`.toLowerCase().includes(word)));
       if (!rows.length) continue;
       groups.push(element("h3", {}, topic), ...rows.map((column) => element("li", {}, element("button", {
         type: "button", draggable: true, title: [column.path, column.meaning].filter(Boolean).join(": "), onclick: () => this.add(topic, column.path),

@@ -12,7 +12,7 @@ export class SwingPlot {
     const frame = begin(this.canvas);
     if (!frame) return;
     const { context, width, height, colour } = frame;
-    const cx = width / 2, cy = height / 2, radius = Math.min(width, height) / 2 - 22;
+    const cx = width / 2, cy = height / 2, radius = Math.min(width / 2 - 84, height / 2 - 22);
     const largest = this.trail.reduce((most, s) => Math.max(most, Math.hypot(s.radial, s.tangential)), 0) * DEGREES;
     const full = [2, 5, 10, 20, 40, 90].find((degrees) => degrees >= largest * 1.1) ?? 90;
     const px = radius / full;
