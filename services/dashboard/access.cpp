@@ -36,7 +36,8 @@ bool same_origin(const Visitor& visitor) {
 
 bool host_allowed(const AccessRules& rules, const Visitor& visitor) {
   const auto name = without_port(visitor.host);
-  return name == "localhost" || is_address(name) || std::ranges::find(rules.host_names, name) != rules.host_names.end();
+  return name == "localhost" || is_address(name) ||
+         std::ranges::find(rules.host_names, name) != rules.host_names.end();
 }
 
 bool may_look(const AccessRules& rules, const Visitor& visitor) {
@@ -47,7 +48,8 @@ bool may_look(const AccessRules& rules, const Visitor& visitor) {
 
 std::string why_not_operate(const AccessRules& rules, const Visitor& visitor) {
   if (rules.read_only) return "this dashboard was started with --read-only: nobody operates through it";
-  const bool own_page = visitor.fetched.empty() || visitor.fetched == "same-origin" || visitor.fetched == "none";
+  const bool own_page =
+      visitor.fetched.empty() || visitor.fetched == "same-origin" || visitor.fetched == "none";
   if (!host_allowed(rules, visitor) || (!visitor.origin.empty() && !same_origin(visitor)) || !own_page)
     return "the request comes from another page than the dashboard's own";
   if (visitor.loop_back) return "";
@@ -58,7 +60,8 @@ std::string why_not_operate(const AccessRules& rules, const Visitor& visitor) {
 }
 
 bool equal_in_constant_time(std::string_view a, std::string_view b) {
-  std::array<std::array<unsigned char, SHA256_DIGEST_LENGTH>, 2> digest{};  // equal length, whatever the texts
+  std::array<std::array<unsigned char, SHA256_DIGEST_LENGTH>, 2>
+      digest{};  // equal length, whatever the texts
   SHA256(reinterpret_cast<const unsigned char*>(a.data()), a.size(), digest[0].data());
   SHA256(reinterpret_cast<const unsigned char*>(b.data()), b.size(), digest[1].data());
   return CRYPTO_memcmp(digest[0].data(), digest[1].data(), SHA256_DIGEST_LENGTH) == 0;

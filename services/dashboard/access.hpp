@@ -16,14 +16,15 @@ struct Visitor {
 };
 
 struct AccessRules {
-  std::string token;                        ///< operator token; empty: nobody operates from another computer
-  std::vector<std::string> host_names;      ///< names of this computer beside its addresses and localhost
-  std::vector<std::string> other_origins;   ///< origins of other pages that may look: "https://app.foxglove.dev"
-  bool read_only = false;                   ///< true: nobody operates
+  std::string token;                    ///< operator token; empty: nobody operates from another computer
+  std::vector<std::string> host_names;  ///< names of this computer beside its addresses and localhost
+  std::vector<std::string>
+      other_origins;       ///< origins of other pages that may look: "https://app.foxglove.dev"
+  bool read_only = false;  ///< true: nobody operates
 };
 
-/// Host must be an address, localhost or one of `host_names`: a foreign name that is resolved to this computer
-/// (DNS rebinding) is refused.
+/// Host must be an address, localhost or one of `host_names`: a foreign name that is resolved to this
+/// computer (DNS rebinding) is refused.
 [[nodiscard]] bool host_allowed(const AccessRules& rules, const Visitor& visitor);
 /// A page of another origin may not look, unless `other_origins` names its origin.
 [[nodiscard]] bool may_look(const AccessRules& rules, const Visitor& visitor);

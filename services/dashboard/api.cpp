@@ -45,7 +45,8 @@ Number number_of(const std::string& text, const char* name) {
 
 std::size_t topic_index(const std::string& name) {
   const auto found = std::ranges::find(topics::kAll, name, &topics::Description::name);
-  if (found == topics::kAll.end()) throw BadRequest("topic: no topic has the name '" + name.substr(0, 64) + "'");
+  if (found == topics::kAll.end())
+    throw BadRequest("topic: no topic has the name '" + name.substr(0, 64) + "'");
   return static_cast<std::size_t>(found - topics::kAll.begin());
 }
 
@@ -109,7 +110,8 @@ ApiAnswer Api::history(std::string_view query) const {
   ApiAnswer answer{.media_type = "application/octet-stream", .body = ""};
   if (parameters.contains("fault")) {
     const auto* fault = model_.faults().find(number_of<std::uint64_t>(parameters["fault"], "fault"));
-    if (fault == nullptr || !fault->moment.contains(topic)) return problem(404, "no data are kept of this fault");
+    if (fault == nullptr || !fault->moment.contains(topic))
+      return problem(404, "no data are kept of this fault");
     answer.body = packed(fault->moment.at(topic));
     return answer;
   }
@@ -129,8 +131,9 @@ void Api::post(const ApiRequest& request, Answer answer) {
   const auto now_ns = runtime::monotonic_ns();
   if (request.target == "/api/operator/take") return answer(take_seat(request));
   if (request.target == "/api/operator/renew")
-    return answer(model_.seat().renew(request.seat_key, now_ns) ? json_answer({{"held", true}})
-                                                               : problem(409, "another one has the controls, or the time ran out"));
+    return answer(model_.seat().renew(request.seat_key, now_ns)
+                      ? json_answer({{"held", true}})
+                      : problem(409, "another one has the controls, or the time ran out"));
   if (request.target == "/api/operator/release") {
     const bool held = model_.seat().release(request.seat_key, now_ns);
     return answer(json_answer({{"held", false}, {"released", held}}));
@@ -144,8 +147,9 @@ ApiAnswer Api::take_seat(const ApiRequest& request) {
   const bool named = body.is_object() && body.contains("name") && body["name"].is_string();
   auto key = random_token();
   if (!model_.seat().take(named ? body["name"].get<std::string>() : "operator", key, runtime::monotonic_ns()))
-    return problem(409, *model_.seat().holder(runtime::monotonic_ns()) +
-                            " has the controls; they become free when released, or 10 s after the other page is gone");
+    return problem(
+        409, *model_.seat().holder(runtime::monotonic_ns()) +
+                 " has the controls; they become free when released, or 10 s after the other page is gone");
   return json_answer({{"seat", key}});
 }
 

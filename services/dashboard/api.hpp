@@ -1,6 +1,6 @@
 #pragma once
-/// What each path answers. No sockets: the session reads a request and sends the answer. docs/dashboard.md lists
-/// the paths.
+/// What each path answers. No sockets: the session reads a request and sends the answer. docs/dashboard.md
+/// lists the paths.
 #include <functional>
 #include <string>
 #include <string_view>

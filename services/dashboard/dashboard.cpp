@@ -21,13 +21,15 @@ namespace {
 void check_address(const std::string& listen) {
   boost::system::error_code error;
   boost::asio::ip::make_address(listen, error);
-  if (error) throw configuration::ConfigurationError({"--listen " + listen + ": must be an address of this computer"});
+  if (error)
+    throw configuration::ConfigurationError({"--listen " + listen + ": must be an address of this computer"});
 }
 
 std::unique_ptr<Server> open_server(const Options& options, About about, AccessRules rules,
                                     std::function<void(const stack::Wish&, Answered)> send) {
   try {
-    return std::make_unique<Server>(options.listen, options.port, std::move(about), std::move(rules), std::move(send));
+    return std::make_unique<Server>(options.listen, options.port, std::move(about), std::move(rules),
+                                    std::move(send));
   } catch (const boost::system::system_error& error) {
     throw std::runtime_error("dashboard: cannot open " + address_of(options.listen, options.port) + ": " +
                              error.code().message() + "; choose another --port or --listen");
@@ -48,11 +50,13 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--port", options.port, "port of pages, viewers, /api and /metrics; 0: any free port")
       ->capture_default_str();
-  app.add_option("--operator-token", options.token_file,
-                 "file with the token that operators on other computers give; it is made when it does not exist");
+  app.add_option(
+      "--operator-token", options.token_file,
+      "file with the token that operators on other computers give; it is made when it does not exist");
   app.add_flag("--read-only", options.read_only, "nobody operates through this dashboard");
-  app.add_option("--host-name", options.host_names,
-                 "name under which browsers open this dashboard, beside its addresses and localhost (repeatable)");
+  app.add_option(
+      "--host-name", options.host_names,
+      "name under which browsers open this dashboard, beside its addresses and localhost (repeatable)");
   app.add_option("--allow-origin", options.other_origins,
                  "origin of another page that may look: https://app.foxglove.dev (repeatable)");
   app.add_option("--rig", options.rig, "rig file or name: soft limits and planned paths are then drawn");
@@ -87,7 +91,8 @@ int run(const Options& options) {
                          const auto back = [&server, answered](Reply reply) {
                            server->post([answered, reply = std::move(reply)] { answered(reply); });
                          };
-                         if (!observer.ask(wish, back)) answered({false, "too many requests at once: try again"});
+                         if (!observer.ask(wish, back))
+                           answered({false, "too many requests at once: try again"});
                        });
   std::cout << "dashboard: " << address_of(options.listen, server->port()) << std::endl;
   std::jthread network{[&server] { server->run(); }};
@@ -96,7 +101,8 @@ int run(const Options& options) {
   return runtime::kExitDone;
 }
 
-void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig, unsigned short port) {
+void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig,
+            unsigned short port) {
   bus.vendor = default_options().bus.vendor;
   auto arguments = runtime::arguments(bus);
   arguments.insert(arguments.end(),
@@ -105,8 +111,9 @@ void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std:
 }
 
 int main_of(int argc, char** argv) {
-  CLI::App app{"Serves the dashboard of a crane: pages, live data for viewers, /api and /metrics on one port.",
-               "crane_dashboard"};
+  CLI::App app{
+      "Serves the dashboard of a crane: pages, live data for viewers, /api and /metrics on one port.",
+      "crane_dashboard"};
   auto options = default_options();
   add_options(app, options);
   try {

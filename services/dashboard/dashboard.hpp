@@ -25,7 +25,8 @@ void add_options(CLI::App& app, Options& options);
 int run(const Options& options);
 
 /// Starts crane_dashboard as a child, on the vendor of the tools; it prints its address when it serves.
-void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig, unsigned short port);
+void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig,
+            unsigned short port);
 
 /// main() of crane_dashboard.
 int main_of(int argc, char** argv);

@@ -68,7 +68,8 @@ void FaultTimeline::add_status(const Sample& sample, const msg::SupervisorStatus
   if (cause_ == crane_CAUSE_NONE || cause_ == crane_CAUSE_START) return;
   const auto cause = static_cast<supervisor::Cause>(cause_);
   put({sample.log_time_ns, sample.header.tick, kind_of(cause_), "supervisor", supervisor::name_of(cause),
-       std::string{"the supervisor went to "} + supervisor::name_of(static_cast<supervisor::State>(status.state)),
+       std::string{"the supervisor went to "} +
+           supervisor::name_of(static_cast<supervisor::State>(status.state)),
        supervisor::remedy_for(cause), "supervisor/supervisor_state"});
 }
 
@@ -77,7 +78,8 @@ void FaultTimeline::add_state(const Sample& sample, const msg::State& state) {
   latch_ = state.latch_reason;
   if (latch_ == crane_LATCH_NONE) return;
   const auto reason = static_cast<bridge::Reason>(latch_);
-  // The supervisor withdraws the watchdog permission after every stop; silence of the commands is then no fault.
+  // The supervisor withdraws the watchdog permission after every stop; silence of the commands is then no
+  // fault.
   put({sample.log_time_ns, sample.header.tick, Note::Kind::fault, source_name(sample.header.source),
        "LATCH_" + std::string{bridge::name_of(reason)}, std::string{bridge::explanation_of(reason)},
        std::string{bridge::remedy_for(reason)},
@@ -87,12 +89,13 @@ void FaultTimeline::add_state(const Sample& sample, const msg::State& state) {
 void FaultTimeline::add_event(const Sample& sample, const msg::Event& event) {
   if (event.severity == crane_SEVERITY_INFO) return;
   const auto kind = event.severity == crane_SEVERITY_ERROR ? Note::Kind::fault : Note::Kind::warning;
-  // An event may be older than the dashboard: its writer keeps the last 64 for late joiners. That of a live one counts by
-  // its arrival, as the samples of all other topics: the clock of another host may differ a little.
+  // An event may be older than the dashboard: its writer keeps the last 64 for late joiners. That of a live
+  // one counts by its arrival, as the samples of all other topics: the clock of another host may differ a
+  // little.
   constexpr std::int64_t kLive_ns = 2'000'000'000;
   const bool live = std::abs(sample.log_time_ns - sample.source_time_ns) < kLive_ns;
-  put({live ? sample.log_time_ns : sample.source_time_ns, event.header.tick, kind, event.node, event.code, event.what,
-       event.remedy, std::string{event.node} + "/" + event.code, true});
+  put({live ? sample.log_time_ns : sample.source_time_ns, event.header.tick, kind, event.node, event.code,
+       event.what, event.remedy, std::string{event.node} + "/" + event.code, true});
 }
 
 void FaultTimeline::put(Note note) {
@@ -104,7 +107,8 @@ void FaultTimeline::put(Note note) {
     if (faults_.size() == kMostFaults) faults_.pop_front();
     const auto later = std::ranges::upper_bound(faults_, note.at_ns, {}, &Fault::last_ns);
     const auto at_ns = note.at_ns;
-    faults_.insert(later, Fault{.number = next_number_++, .notes = {std::move(note)}, .last_ns = at_ns, .moment = {}});
+    faults_.insert(
+        later, Fault{.number = next_number_++, .notes = {std::move(note)}, .last_ns = at_ns, .moment = {}});
     return;
   }
   if (merge(*joined, note)) return;
@@ -157,9 +161,11 @@ void FaultTimeline::notice_silence(std::int64_t now_ns, const Traffic& traffic) 
 void FaultTimeline::keep_moments(std::int64_t log_now_ns, const History& history) {
   for (auto& fault : faults_) {
     const auto at_ns = fault.notes.front().at_ns;
-    if (fault.moment_taken || log_now_ns < at_ns + kAfter_ns || log_now_ns > at_ns + History::kLongest_ns) continue;
+    if (fault.moment_taken || log_now_ns < at_ns + kAfter_ns || log_now_ns > at_ns + History::kLongest_ns)
+      continue;
     for (std::size_t i = 0; i < topics::kAll.size(); ++i)
-      if (topics::kAll[i].every_tick) fault.moment[i] = history.between(i, at_ns - kBefore_ns, at_ns + kAfter_ns);
+      if (topics::kAll[i].every_tick)
+        fault.moment[i] = history.between(i, at_ns - kBefore_ns, at_ns + kAfter_ns);
     fault.moment_taken = true;
     changed_ = true;
   }

@@ -1,9 +1,10 @@
 #pragma once
 /// What went wrong, in the order of time: the first cause of each stop, and what followed from it. Pure.
 ///
-/// Notes are: a new cause of the supervisor, a new latch of the bridge, a warning or an error on crane/event, and a
-/// process that is no longer heard. Notes less than kQuiet_ns apart belong to one fault. The earliest is its first
-/// cause; an event that announces a cause or a latch is the same note; a process that fell silent before the stop comes before it, however late its silence is noticed.
+/// Notes are: a new cause of the supervisor, a new latch of the bridge, a warning or an error on crane/event,
+/// and a process that is no longer heard. Notes less than kQuiet_ns apart belong to one fault. The earliest
+/// is its first cause; an event that announces a cause or a latch is the same note; a process that fell
+/// silent before the stop comes before it, however late its silence is noticed.
 #include <deque>
 #include <functional>
 #include <map>
@@ -16,8 +17,12 @@
 namespace crane::dashboard {
 
 struct Note {
-  enum class Kind : std::uint8_t { order, warning, fault };  ///< order: an operator or the idle time asked for it
-  std::int64_t at_ns = 0;                                    ///< ns since 1970
+  enum class Kind : std::uint8_t {
+    order,
+    warning,
+    fault
+  };                       ///< order: an operator or the idle time asked for it
+  std::int64_t at_ns = 0;  ///< ns since 1970
   std::uint64_t tick = 0;
   Kind kind = Kind::fault;
   std::string from;  ///< process
@@ -29,11 +34,12 @@ struct Note {
 };
 
 struct Fault {
-  std::uint64_t number = 0;  ///< 1, 2, ...
-  std::vector<Note> notes;   ///< the first cause, then its consequences
-  std::uint64_t left_out = 0;  ///< consequences that were not kept
+  std::uint64_t number = 0;                  ///< 1, 2, ...
+  std::vector<Note> notes;                   ///< the first cause, then its consequences
+  std::uint64_t left_out = 0;                ///< consequences that were not kept
   std::int64_t last_ns = 0, cleared_ns = 0;  ///< cleared_ns: READY, HOLD or RUN again; 0: not yet
-  /// Samples from 10 s before to 5 s after the first cause, by topic; empty until then, and when it is too old.
+  /// Samples from 10 s before to 5 s after the first cause, by topic; empty until then, and when it is too
+  /// old.
   std::map<std::size_t, std::vector<SamplePtr>> moment;
   bool moment_taken = false;
 };

@@ -16,8 +16,8 @@ constexpr std::array<const char*, kDocuments> kDocumentNames{"dashboard/situatio
 std::vector<Channel> make_channels() {
   std::vector<Channel> all;
   for (const auto& topic : topics::kAll)
-    all.push_back({channel_of_topic(all.size()), "/" + std::string{topic.name}, "cdr", std::string{topic.type},
-                   std::string{topics::idl_text()}, "omgidl"});
+    all.push_back({channel_of_topic(all.size()), "/" + std::string{topic.name}, "cdr",
+                   std::string{topic.type}, std::string{topics::idl_text()}, "omgidl"});
   for (std::size_t i = 0; i < kDocuments; ++i)
     all.push_back({channel_of(static_cast<Document>(i)), std::string{"/"} + kDocumentNames[i], "json",
                    kDocumentNames[i], R"({"type":"object"})", "jsonschema"});
@@ -55,7 +55,8 @@ GetParameters parameters_of(const json& message) {
   GetParameters result;
   for (const auto& name : list_of(message, "parameterNames"))
     if (name.is_string()) result.names.push_back(name.get<std::string>());
-  if (const auto id = message.find("id"); id != message.end() && id->is_string()) result.id = id->get<std::string>();
+  if (const auto id = message.find("id"); id != message.end() && id->is_string())
+    result.id = id->get<std::string>();
   return result;
 }
 
@@ -94,13 +95,14 @@ std::string advertise() {
 
 std::string status_message(const std::string& what) {
   constexpr int kError = 2;
-  return json{{"op", "status"}, {"level", kError}, {"message", what}}.dump(
-      -1, ' ', false, json::error_handler_t::replace);
+  return json{{"op", "status"}, {"level", kError}, {"message", what}}.dump(-1, ' ', false,
+                                                                           json::error_handler_t::replace);
 }
 
 ClientMessage parse_client_message(std::string_view text) {
   if (text.size() > kLongestMessage_bytes) throw ProtocolError("the message is longer than 65536 bytes");
-  // Deeply nested lists would fill the stack of a recursive reader: nothing here nests deeper than four levels.
+  // Deeply nested lists would fill the stack of a recursive reader: nothing here nests deeper than four
+  // levels.
   constexpr int kDeepest = 6;
   const auto message = json::parse(
       text,
@@ -117,7 +119,8 @@ ClientMessage parse_client_message(std::string_view text) {
   if (op == "getParameters") return parameters_of(message);
   if (op == "unsubscribe") {
     Unsubscribe result;
-    for (const auto& id : list_of(message, "subscriptionIds")) result.ids.push_back(number_of(id, "subscriptionIds"));
+    for (const auto& id : list_of(message, "subscriptionIds"))
+      result.ids.push_back(number_of(id, "subscriptionIds"));
     return result;
   }
   if (op == "subscribeParameterUpdates" || op == "unsubscribeParameterUpdates") return Ignored{};

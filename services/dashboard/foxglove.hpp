@@ -1,6 +1,6 @@
 #pragma once
-/// foxglove.websocket.v1: what viewers (Foxglove, Lichtblick, PlotJuggler) and the dashboard's own page speak.
-/// Pure: texts and bytes.
+/// foxglove.websocket.v1: what viewers (Foxglove, Lichtblick, PlotJuggler) and the dashboard's own page
+/// speak. Pure: texts and bytes.
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
@@ -71,8 +71,8 @@ void append_little_endian(std::string& out, T value) {
 [[nodiscard]] std::string message_head(std::uint32_t subscription, std::int64_t time_ns);
 [[nodiscard]] std::string time_message(std::int64_t time_ns);
 
-/// Many messages as one frame of kPageProtocol: of each its kind (1 text, 2 data), its length (uint32) and its
-/// bytes. Takes from `queue` until it is empty or the frame is full.
+/// Many messages as one frame of kPageProtocol: of each its kind (1 text, 2 data), its length (uint32) and
+/// its bytes. Takes from `queue` until it is empty or the frame is full.
 [[nodiscard]] std::string batch_of(SendQueue& queue);
 
 }  // namespace crane::dashboard

@@ -28,8 +28,10 @@ void History::add(SamplePtr sample) {
 
 std::vector<SamplePtr> History::between(std::size_t topic, std::int64_t from_ns, std::int64_t to_ns) const {
   const auto& samples = lines_[topic].samples;
-  const auto first = std::ranges::lower_bound(samples, from_ns, {}, [](const auto& s) { return s->log_time_ns; });
-  const auto last = std::ranges::upper_bound(first, samples.end(), to_ns, {}, [](const auto& s) { return s->log_time_ns; });
+  const auto first =
+      std::ranges::lower_bound(samples, from_ns, {}, [](const auto& s) { return s->log_time_ns; });
+  const auto last =
+      std::ranges::upper_bound(first, samples.end(), to_ns, {}, [](const auto& s) { return s->log_time_ns; });
   return {first, last};
 }
 

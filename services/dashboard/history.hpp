@@ -15,7 +15,8 @@ class History {
 
   void add(SamplePtr sample);
   /// Samples of a topic that arrived in [from_ns, to_ns] (Sample::log_time_ns), oldest first.
-  [[nodiscard]] std::vector<SamplePtr> between(std::size_t topic, std::int64_t from_ns, std::int64_t to_ns) const;
+  [[nodiscard]] std::vector<SamplePtr> between(std::size_t topic, std::int64_t from_ns,
+                                               std::int64_t to_ns) const;
   [[nodiscard]] std::size_t bytes() const;
 
  private:

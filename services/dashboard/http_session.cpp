@@ -22,7 +22,8 @@ std::string_view bearer_of(std::string_view authorization) {
   return authorization.starts_with(kBearer) ? authorization.substr(kBearer.size()) : std::string_view{};
 }
 
-/// The page loads from this server only, cannot be put into a frame of another page, and its scripts are files.
+/// The page loads from this server only, cannot be put into a frame of another page, and its scripts are
+/// files.
 constexpr const char* kContentRules =
     "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -40,9 +41,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     parser_->header_limit(kLongestHeader_bytes);
     parser_->body_limit(kLongestBody_bytes);
     stream_.expires_after(kRequestPatience);
-    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
-      self->was_read(error);
-    });
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](error_code error, std::size_t) { self->was_read(error); });
   }
 
  private:
@@ -135,7 +135,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
 }  // namespace
 
-void start_http_session(boost::asio::ip::tcp::socket socket, Server& server, std::vector<ConnectionCount> counts) {
+void start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
+                        std::vector<ConnectionCount> counts) {
   std::make_shared<HttpSession>(std::move(socket), server, std::move(counts))->read();
 }
 

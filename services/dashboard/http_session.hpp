@@ -8,6 +8,7 @@
 namespace crane::dashboard {
 
 /// Keeps itself alive until the connection ends.
-void start_http_session(boost::asio::ip::tcp::socket socket, Server& server, std::vector<ConnectionCount> counts);
+void start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
+                        std::vector<ConnectionCount> counts);
 
 }  // namespace crane::dashboard

@@ -12,7 +12,9 @@ using Labels = std::vector<ClientMetric::Label>;
 
 class Page {
  public:
-  void add(const char* name, const char* help, MetricType type) { families_.push_back({name, help, type, {}}); }
+  void add(const char* name, const char* help, MetricType type) {
+    families_.push_back({name, help, type, {}});
+  }
   void value(double value, Labels labels = {}) {
     ClientMetric metric;
     metric.label = std::move(labels);
@@ -36,10 +38,12 @@ class Page {
 Labels of_topic(std::size_t index) { return {{"topic", std::string{topics::kAll[index].name}}}; }
 
 template <class Value>
-void per_topic(Page& page, const char* name, const char* help, MetricType type, const Model& model, Value value) {
+void per_topic(Page& page, const char* name, const char* help, MetricType type, const Model& model,
+               Value value) {
   page.add(name, help, type);
   for (std::size_t i = 0; i < topics::kAll.size(); ++i)
-    if (const std::optional<double> number = value(model.traffic().topic(i))) page.value(*number, of_topic(i));
+    if (const std::optional<double> number = value(model.traffic().topic(i)))
+      page.value(*number, of_topic(i));
 }
 
 void add_topics(Page& page, const Model& model) {
@@ -50,12 +54,13 @@ void add_topics(Page& page, const Model& model) {
             [](Traffic t) { return static_cast<double>(t.counts.lost); });
   per_topic(page, "crane_topic_rate_hertz", "Rate by the clock of the source.", MetricType::Gauge, model,
             [](Traffic t) { return t.window.samples > 0 ? t.window.rate_hz : std::nullopt; });
-  page.add("crane_topic_delay_seconds", "From the latching of the encoders to the sending, over the last second.",
-           MetricType::Gauge);
+  page.add("crane_topic_delay_seconds",
+           "From the latching of the encoders to the sending, over the last second.", MetricType::Gauge);
   for (std::size_t i = 0; i < topics::kAll.size(); ++i) {
     const auto& delay = model.traffic().topic(i).delay_us;
     if (!delay) continue;
-    for (const auto& [quantile, value] : {std::pair{"0.5", delay->p50}, {"0.99", delay->p99}, {"1", delay->max}}) {
+    for (const auto& [quantile, value] :
+         {std::pair{"0.5", delay->p50}, {"0.99", delay->p99}, {"1", delay->max}}) {
       auto labels = of_topic(i);
       labels.push_back({"quantile", quantile});
       page.value(value * 1e-6, std::move(labels));
@@ -83,7 +88,8 @@ void add_crane(Page& page, const Model& model) {
     page.gauge("crane_cable_length_meters", "Cable length.", state->cable_length_m);
     page.gauge("crane_swing_radial_radians", "Radial swing.", state->swing_radial_rad);
     page.gauge("crane_swing_tangential_radians", "Tangential swing.", state->swing_tangential_rad);
-    page.counter("crane_bridge_overruns_total", "Ticks that began more than half a period late.", state->overruns);
+    page.counter("crane_bridge_overruns_total", "Ticks that began more than half a period late.",
+                 state->overruns);
   }
 }
 
@@ -95,11 +101,16 @@ std::string metrics(const Model& model, const ServerCounts& counts, std::int64_t
   add_processes(page, model, now_ns);
   add_crane(page, model);
   page.gauge("crane_dashboard_viewers", "Open WebSockets.", static_cast<double>(counts.viewers));
-  page.gauge("crane_dashboard_history_bytes", "Memory of the history.", static_cast<double>(model.history().bytes()));
-  page.counter("crane_dashboard_dropped_messages_total", "Samples that slow clients did not get.", counts.dropped_messages);
-  page.counter("crane_dashboard_given_up_clients_total", "Clients that were too slow for events.", counts.given_up_clients);
-  page.counter("crane_dashboard_lost_samples_total", "Samples that the dashboard was too busy to take.", counts.lost_samples);
-  page.counter("crane_dashboard_refused_requests_total", "Requests refused for origin, host or token.", counts.refused_requests);
+  page.gauge("crane_dashboard_history_bytes", "Memory of the history.",
+             static_cast<double>(model.history().bytes()));
+  page.counter("crane_dashboard_dropped_messages_total", "Samples that slow clients did not get.",
+               counts.dropped_messages);
+  page.counter("crane_dashboard_given_up_clients_total", "Clients that were too slow for events.",
+               counts.given_up_clients);
+  page.counter("crane_dashboard_lost_samples_total", "Samples that the dashboard was too busy to take.",
+               counts.lost_samples);
+  page.counter("crane_dashboard_refused_requests_total", "Requests refused for origin, host or token.",
+               counts.refused_requests);
   return page.text();
 }
 

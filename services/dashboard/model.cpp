@@ -21,7 +21,8 @@ std::vector<Document> Model::poll(std::int64_t now_ns, std::int64_t log_now_ns) 
   if (faults_.poll(now_ns, log_now_ns, traffic_, history_) || text(Document::faults).empty())
     update(Document::faults, faults_.json());
   const auto holder = seat_.holder(now_ns);
-  update(Document::seat, {{"operator", holder ? nlohmann::ordered_json(*holder) : nlohmann::ordered_json(nullptr)}});
+  update(Document::seat,
+         {{"operator", holder ? nlohmann::ordered_json(*holder) : nlohmann::ordered_json(nullptr)}});
   return changed;
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// The samples of one tick arrive within a millisecond or two: taking them together costs a fifth of waking for each.
+/// The samples of one tick arrive within a millisecond or two: taking them together costs a fifth of waking
+/// for each.
 constexpr milliseconds kGather{4};
 
 }  // namespace
@@ -36,13 +37,14 @@ void Observer::poll() {
   for (std::size_t i = 0; i < readers_.size(); ++i)
     while (const auto header = readers_[i].take(cdr, &info)) {
       if (!info.valid) continue;
-      samples.push_back(std::make_shared<const Sample>(Sample{.topic = i,
-                                                              .header = *header,
-                                                              .source_time_ns = info.source_time_ns,
-                                                              .arrival_time_ns = runtime::monotonic_ns(),
-                                                              .written_time_ns = info.source_time_ns + monotonic_minus_wall_ns,
-                                                              .log_time_ns = log_now_ns(),
-                                                              .cdr = cdr}));
+      samples.push_back(std::make_shared<const Sample>(
+          Sample{.topic = i,
+                 .header = *header,
+                 .source_time_ns = info.source_time_ns,
+                 .arrival_time_ns = runtime::monotonic_ns(),
+                 .written_time_ns = info.source_time_ns + monotonic_minus_wall_ns,
+                 .log_time_ns = log_now_ns(),
+                 .cdr = cdr}));
     }
   if (!samples.empty()) deliver_(std::move(samples));
   if (!desk_) return;

@@ -1,6 +1,6 @@
 #pragma once
-/// The side of the bus: takes the samples of every topic, and sends the requests of the page. It reads what the tools
-/// read; the loop does not notice it.
+/// The side of the bus: takes the samples of every topic, and sends the requests of the page. It reads what
+/// the tools read; the loop does not notice it.
 #include <functional>
 #include <memory>
 #include <optional>

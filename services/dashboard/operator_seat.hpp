@@ -14,7 +14,8 @@ class OperatorSeat {
   static constexpr std::int64_t kHeldFor_ns = 10'000'000'000;
   static constexpr std::size_t kLongestName = 32;
 
-  /// Takes the free seat. @param key  new key, which no one else knows. @return false when another one holds it
+  /// Takes the free seat. @param key  new key, which no one else knows. @return false when another one holds
+  /// it
   bool take(std::string_view name, std::string key, std::int64_t now_ns);
   /// @return true when `key` holds the seat; the time then begins anew
   bool renew(std::string_view key, std::int64_t now_ns);

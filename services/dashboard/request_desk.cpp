@@ -9,8 +9,9 @@
 namespace crane::dashboard {
 namespace {
 
-constexpr std::int64_t kPatience_ns = 2'000'000'000;  ///< longest wait for an answer, as of the `crane` commands
-constexpr std::int64_t kRepeat_ns = 100'000'000;      ///< a stop is repeated until it is answered
+constexpr std::int64_t kPatience_ns =
+    2'000'000'000;                                ///< longest wait for an answer, as of the `crane` commands
+constexpr std::int64_t kRepeat_ns = 100'000'000;  ///< a stop is repeated until it is answered
 
 }  // namespace
 
@@ -19,7 +20,8 @@ RequestDesk::RequestDesk(bus::Bus& bus)
 
 void RequestDesk::send(const stack::Wish& wish, Answered answered) {
   const auto now_ns = runtime::monotonic_ns();
-  pending_.push_back({.wish = wish, .answered = std::move(answered), .ids = {}, .sent_ns = now_ns, .repeat_ns = now_ns});
+  pending_.push_back(
+      {.wish = wish, .answered = std::move(answered), .ids = {}, .sent_ns = now_ns, .repeat_ns = now_ns});
   advance(pending_.back(), now_ns);
 }
 
@@ -37,9 +39,10 @@ void RequestDesk::advance(Pending& pending, std::int64_t now_ns) {
   }
   if (pending.done) return;
   if (now_ns - pending.sent_ns > kPatience_ns) {
-    pending.answered({false, client_.listeners() == 0
-                                 ? "no supervisor is found: start a stack with `crane up`"
-                                 : "the supervisor did not answer within 2 s: look whether its ticks advance"});
+    pending.answered(
+        {false, client_.listeners() == 0
+                    ? "no supervisor is found: start a stack with `crane up`"
+                    : "the supervisor did not answer within 2 s: look whether its ticks advance"});
     pending.done = true;
     return;
   }

@@ -74,7 +74,8 @@ stack::Wish wish_of_text(std::string_view text) {
   if (!body.is_object()) throw BadRequest("a JSON object is expected");
   const auto kind = body.find("kind");
   const auto found = kind != body.end() && kind->is_string()
-                         ? std::ranges::find(kKinds, kind->get<std::string>(), [](const auto& k) { return std::string{k.first}; })
+                         ? std::ranges::find(kKinds, kind->get<std::string>(),
+                                             [](const auto& k) { return std::string{k.first}; })
                          : kKinds.end();
   if (found == kKinds.end()) throw BadRequest("kind: must be reset, arm, disarm, stop, estop, home or move");
   stack::Wish wish{.kind = found->second};

@@ -28,7 +28,8 @@ using SamplePtr = std::shared_ptr<const Sample>;
 template <class T>
 [[nodiscard]] bool decode(const topics::Topic<T>& topic, const Sample& sample, T& out) {
   constexpr std::size_t kEncapsulation_bytes = 4;
-  if (topic_of(sample).name != topic.description.name || sample.cdr.size() < kEncapsulation_bytes) return false;
+  if (topic_of(sample).name != topic.description.name || sample.cdr.size() < kEncapsulation_bytes)
+    return false;
   return bus::CdrCodec::of(*topic.description.descriptor)
       .decode(std::span{sample.cdr}.subspan(kEncapsulation_bytes), false, &out);
 }

@@ -18,7 +18,8 @@ using boost::system::error_code;
 
 std::int64_t log_now_ns() {
   static const auto kWallMinusMonotonic_ns =
-      std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count() - runtime::monotonic_ns();
+      std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count() -
+      runtime::monotonic_ns();
   return runtime::monotonic_ns() + kWallMinusMonotonic_ns;
 }
 
@@ -80,7 +81,9 @@ void Server::accept() {
 void Server::welcome(tcp::socket socket) {
   error_code error;
   const bool foreign = !socket.remote_endpoint(error).address().is_loopback();
-  if (error || *connections_ >= kMostConnections || (foreign && *foreign_connections_ >= kMostForeignConnections)) return;
+  if (error || *connections_ >= kMostConnections ||
+      (foreign && *foreign_connections_ >= kMostForeignConnections))
+    return;
   std::vector<ConnectionCount> counts;
   counts.emplace_back(connections_);
   if (foreign) counts.emplace_back(foreign_connections_);

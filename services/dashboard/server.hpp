@@ -1,6 +1,6 @@
 #pragma once
-/// One port for pages, /api, /metrics and the WebSockets of viewers. Asynchronous, in one thread; it holds a bounded
-/// number of connections, each with bounded memory and time.
+/// One port for pages, /api, /metrics and the WebSockets of viewers. Asynchronous, in one thread; it holds a
+/// bounded number of connections, each with bounded memory and time.
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -38,8 +38,8 @@ class Server {
   void run();
   /// May be called by any thread.
   void stop();
-  /// Hands over samples. May be called by any thread, and never blocks it: when this server is too busy, samples
-  /// are lost and counted.
+  /// Hands over samples. May be called by any thread, and never blocks it: when this server is too busy,
+  /// samples are lost and counted.
   void put(std::vector<SamplePtr> samples);
   /// Runs `work` in the thread of run(). May be called by any thread.
   void post(std::function<void()> work);

@@ -29,7 +29,7 @@ void make(const std::filesystem::path& file) {
 
 std::string read_or_make_token(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) make(file);
-  struct stat status{};
+  struct stat status {};
   if (::stat(file.c_str(), &status) != 0) refuse(file, "the file cannot be read");
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     refuse(file, "others can read the file, or change it: chmod 600 it, and give it a new token");

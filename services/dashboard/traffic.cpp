@@ -12,7 +12,8 @@ using nlohmann::ordered_json;
 constexpr double kLongestDelay_us = 60e6;
 
 std::size_t bin_of(double delay_us) {
-  return static_cast<std::size_t>(std::ranges::lower_bound(kDelayBounds_us, delay_us) - kDelayBounds_us.begin());
+  return static_cast<std::size_t>(std::ranges::lower_bound(kDelayBounds_us, delay_us) -
+                                  kDelayBounds_us.begin());
 }
 
 ordered_json json_of(const std::optional<cli::Spread>& spread) {
@@ -21,8 +22,11 @@ ordered_json json_of(const std::optional<cli::Spread>& spread) {
 }
 
 ordered_json json_of(const topics::Description& topic, const TopicTraffic& traffic) {
-  ordered_json line{{"topic", topic.name}, {"every_tick", topic.every_tick}, {"samples", traffic.counts.samples},
-                    {"rate_hz", nullptr},  {"writer", source_name(traffic.writer)}};
+  ordered_json line{{"topic", topic.name},
+                    {"every_tick", topic.every_tick},
+                    {"samples", traffic.counts.samples},
+                    {"rate_hz", nullptr},
+                    {"writer", source_name(traffic.writer)}};
   if (traffic.window.rate_hz && traffic.window.samples > 0) line["rate_hz"] = *traffic.window.rate_hz;
   line["lost"] = traffic.counts.lost;
   line["late"] = traffic.counts.late;
@@ -56,9 +60,18 @@ ordered_json json_of(const Traffic::Heard& heard, std::int64_t now_ns) {
 }  // namespace
 
 const char* source_name(crane_Source source) {
-  constexpr std::array kNames{"nobody",  "plant",    "hardware_bridge", "trajectory_planner",
-                              "tracking", "anti_swing", "friction_compensation", "supervisor",
-                              "operator", "recorder", "monitor", "twin"};
+  constexpr std::array kNames{"nobody",
+                              "plant",
+                              "hardware_bridge",
+                              "trajectory_planner",
+                              "tracking",
+                              "anti_swing",
+                              "friction_compensation",
+                              "supervisor",
+                              "operator",
+                              "recorder",
+                              "monitor",
+                              "twin"};
   const auto index = static_cast<std::size_t>(source);
   return index < kNames.size() ? kNames[index] : "unknown";
 }
@@ -85,7 +98,8 @@ void Traffic::add(const Sample& sample) {
   auto& line = topics_[sample.topic];
   const auto& header = sample.header;
   line.figures.writer = header.source;
-  line.statistics.add({header.tick, header.epoch, topic.every_tick ? header.sample_time_ns : sample.source_time_ns,
+  line.statistics.add({header.tick, header.epoch,
+                       topic.every_tick ? header.sample_time_ns : sample.source_time_ns,
                        sample.written_time_ns});
   if (topic.every_tick) {
     constexpr std::size_t kMostDelays = 10'000;  // one window of a loop at 10 kHz
@@ -107,7 +121,8 @@ bool Traffic::poll(std::int64_t now_ns) {
     line.figures.window = line.statistics.take_window();
     line.figures.counts = line.statistics.counts();
     line.figures.delay_us = cli::spread(line.delays_us);
-    if (line.figures.delay_us && (line.figures.delay_us->p50 < 0 || line.figures.delay_us->p50 > kLongestDelay_us))
+    if (line.figures.delay_us &&
+        (line.figures.delay_us->p50 < 0 || line.figures.delay_us->p50 > kLongestDelay_us))
       line.figures.delay_us.reset();
     line.delays_us.clear();
   }

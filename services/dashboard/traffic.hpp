@@ -1,7 +1,7 @@
 #pragma once
-/// Who runs and what flows between them: rates, losses, delays of every topic, and the status of every process.
-/// Delay and jitter are those of the writing: from the latching of the encoders until the writer has sent the sample.
-/// They do not depend on when this process, which has no priority, comes to take it.
+/// Who runs and what flows between them: rates, losses, delays of every topic, and the status of every
+/// process. Delay and jitter are those of the writing: from the latching of the encoders until the writer has
+/// sent the sample. They do not depend on when this process, which has no priority, comes to take it.
 #include <array>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -18,18 +18,19 @@ inline constexpr std::array<double, 9> kDelayBounds_us{100, 200, 500, 1000, 2000
 struct TopicTraffic {
   cli::ArrivalStatistics::Counts counts;
   cli::ArrivalStatistics::Window window;
-  /// From the latching of the encoders to the sending of the sample; nothing when the clocks are those of two hosts.
+  /// From the latching of the encoders to the sending of the sample; nothing when the clocks are those of two
+  /// hosts.
   std::optional<cli::Spread> delay_us;
   std::array<std::uint64_t, kDelayBounds_us.size() + 1> delay_histogram{};  ///< since the start
-  crane_Source writer = crane_SOURCE_NONE;                                 ///< kind of process that wrote last
+  crane_Source writer = crane_SOURCE_NONE;  ///< kind of process that wrote last
 };
 
 class Traffic {
  public:
   /// Interval over which rates and delays are computed.
   static constexpr std::int64_t kWindow_ns = 1'000'000'000;
-  /// A process reports itself once a second. One of the loop counts as silent after two missing reports; twin and
-  /// recorder have no priority, and a busy computer delays them by seconds.
+  /// A process reports itself once a second. One of the loop counts as silent after two missing reports; twin
+  /// and recorder have no priority, and a busy computer delays them by seconds.
   static constexpr std::int64_t kSilent_ns = 2'500'000'000, kSilentWithoutPriority_ns = 10'000'000'000;
 
   void add(const Sample& sample);

@@ -30,14 +30,17 @@ bool offers(std::string_view list, std::string_view protocol) {
   return false;
 }
 
-Bytes bytes_of(std::string_view text) { return std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end()); }
+Bytes bytes_of(std::string_view text) {
+  return std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end());
+}
 
 /// Events, replies and the health of processes are rare and tell what happened.
 Keep keep_of(const topics::Description& topic) { return topic.every_tick ? Keep::may_drop : Keep::always; }
 
 }  // namespace
 
-ViewerSession::ViewerSession(boost::asio::ip::tcp::socket socket, Server& server, std::vector<ConnectionCount> counts)
+ViewerSession::ViewerSession(boost::asio::ip::tcp::socket socket, Server& server,
+                             std::vector<ConnectionCount> counts)
     : socket_{std::move(socket)}, server_{server}, counts_{std::move(counts)} {
   error_code ignored;
   auto& tcp = socket_.next_layer().socket();
@@ -51,12 +54,13 @@ void ViewerSession::accept(UpgradeRequest request) {
   const std::string_view offered{field.data(), field.size()};
   batches_ = offers(offered, kPageProtocol);
   const auto chosen = batches_ ? kPageProtocol : kViewerProtocol;
-  socket_.set_option(websocket::stream_base::timeout{.handshake_timeout = kRequestPatience,
-                                                     .idle_timeout = kViewerPatience,
-                                                     .keep_alive_pings = true});
+  socket_.set_option(websocket::stream_base::timeout{
+      .handshake_timeout = kRequestPatience, .idle_timeout = kViewerPatience, .keep_alive_pings = true});
   const bool agreed = batches_ || offers(offered, kViewerProtocol);
   socket_.set_option(websocket::stream_base::decorator([agreed, chosen](websocket::response_type& response) {
-    if (agreed) response.set(beast::http::field::sec_websocket_protocol, beast::string_view{chosen.data(), chosen.size()});
+    if (agreed)
+      response.set(beast::http::field::sec_websocket_protocol,
+                   beast::string_view{chosen.data(), chosen.size()});
   }));
   socket_.read_message_max(kLongestMessage_bytes);
   socket_.async_accept(request_, [self = shared_from_this()](error_code error) {
@@ -105,7 +109,8 @@ void ViewerSession::was_read(std::size_t bytes) {
 void ViewerSession::obey(const ClientMessage& message) {
   if (const auto* wanted = std::get_if<Subscribe>(&message)) return subscribe(*wanted);
   if (const auto* unwanted = std::get_if<Unsubscribe>(&message)) {
-    for (const auto id : unwanted->ids) std::erase_if(subscriptions_, [id](const auto& entry) { return entry.second == id; });
+    for (const auto id : unwanted->ids)
+      std::erase_if(subscriptions_, [id](const auto& entry) { return entry.second == id; });
   } else if (const auto* asked = std::get_if<GetParameters>(&message)) {
     const auto& about = server_.model().about();
     nlohmann::json values = nlohmann::json::array();
@@ -131,7 +136,8 @@ void ViewerSession::subscribe(const Subscribe& wanted) {
       continue;
     }
     if (topics::kAll[channel - 1].every_tick) continue;
-    for (const auto& sample : server_.model().history().between(channel - 1, 0, std::numeric_limits<std::int64_t>::max()))
+    for (const auto& sample :
+         server_.model().history().between(channel - 1, 0, std::numeric_limits<std::int64_t>::max()))
       send_sample(sample);
   }
 }
@@ -151,7 +157,11 @@ void ViewerSession::send_document(Document document, const Bytes& text, std::int
   const auto channel = channel_of(document);
   const auto found = subscriptions_.find(channel);
   if (found == subscriptions_.end()) return;
-  put({.channel = channel, .keep = Keep::newest, .binary = true, .head = message_head(found->second, time_ns), .payload = text});
+  put({.channel = channel,
+       .keep = Keep::newest,
+       .binary = true,
+       .head = message_head(found->second, time_ns),
+       .payload = text});
 }
 
 void ViewerSession::send_time(std::int64_t time_ns) {
@@ -203,8 +213,8 @@ void ViewerSession::end() {
   server_.leave(shared_from_this());
 }
 
-void start_viewer_session(boost::asio::ip::tcp::socket socket, ViewerSession::UpgradeRequest request, Server& server,
-                          std::vector<ConnectionCount> counts) {
+void start_viewer_session(boost::asio::ip::tcp::socket socket, ViewerSession::UpgradeRequest request,
+                          Server& server, std::vector<ConnectionCount> counts) {
   std::make_shared<ViewerSession>(std::move(socket), server, std::move(counts))->accept(std::move(request));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// One WebSocket: a viewer that speaks foxglove.websocket.v1, or the page, which gets the same messages many in a
-/// frame.
+/// One WebSocket: a viewer that speaks foxglove.websocket.v1, or the page, which gets the same messages many
+/// in a frame.
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
@@ -52,7 +52,7 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
   int messages_ = 0;  ///< of the client, since allowance_from_ns_
 };
 
-void start_viewer_session(boost::asio::ip::tcp::socket socket, ViewerSession::UpgradeRequest request, Server& server,
-                          std::vector<ConnectionCount> counts);
+void start_viewer_session(boost::asio::ip::tcp::socket socket, ViewerSession::UpgradeRequest request,
+                          Server& server, std::vector<ConnectionCount> counts);
 
 }  // namespace crane::dashboard

@@ -9,7 +9,8 @@ const AccessRules kRules{.token = "0123456789abcdef",
                          .host_names = {"crane.lab"},
                          .other_origins = {"https://app.foxglove.dev"},
                          .read_only = false};
-const Visitor kAtTheRig{.loop_back = true, .host = "127.0.0.1:8765", .origin = "", .fetched = "", .token = ""};
+const Visitor kAtTheRig{
+    .loop_back = true, .host = "127.0.0.1:8765", .origin = "", .fetched = "", .token = ""};
 
 TEST(Access, TheRigsOwnComputerLooksAndOperatesWithoutAToken) {
   EXPECT_TRUE(may_look(kRules, kAtTheRig));
@@ -49,12 +50,14 @@ TEST(Access, ARequestThatABrowserCallsCrossSiteDoesNotOperate) {
 }
 
 TEST(Access, AddressesLocalhostAndNamedHostsAreThisComputer) {
-  for (const auto* host : {"127.0.0.1:8765", "127.0.0.1", "localhost:8765", "[::1]:8765", "192.0.2.7:80", "crane.lab:8765"}) {
+  for (const auto* host :
+       {"127.0.0.1:8765", "127.0.0.1", "localhost:8765", "[::1]:8765", "192.0.2.7:80", "crane.lab:8765"}) {
     auto visitor = kAtTheRig;
     visitor.host = host;
     EXPECT_TRUE(host_allowed(kRules, visitor)) << host;
   }
-  for (const auto* host : {"", ":", "[", "[::1", "localhost.evil.example", "127.0.0.1.evil.example:8765", "crane.lab.evil:1"}) {
+  for (const auto* host :
+       {"", ":", "[", "[::1", "localhost.evil.example", "127.0.0.1.evil.example:8765", "crane.lab.evil:1"}) {
     auto visitor = kAtTheRig;
     visitor.host = host;
     EXPECT_FALSE(host_allowed(kRules, visitor)) << host;
@@ -74,7 +77,8 @@ TEST(Access, FromAnotherComputerTheTokenDecides) {
 TEST(Access, WithoutATokenNobodyOperatesFromAnotherComputerNotEvenWithAnEmptyOne) {
   auto rules = kRules;
   rules.token = "";
-  const Visitor visitor{.loop_back = false, .host = "192.0.2.7:8765", .origin = "", .fetched = "", .token = ""};
+  const Visitor visitor{
+      .loop_back = false, .host = "192.0.2.7:8765", .origin = "", .fetched = "", .token = ""};
   EXPECT_NE(why_not_operate(rules, visitor), "");
 }
 

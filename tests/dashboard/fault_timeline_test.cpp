@@ -106,7 +106,8 @@ TEST(FaultTimeline, AFloodOfEventsIsBoundedAndCounted) {
   ASSERT_EQ(timeline.faults().size(), 1U);
   EXPECT_EQ(timeline.faults()[0].notes.size(), FaultTimeline::kMostNotes);
   EXPECT_EQ(timeline.faults()[0].left_out, 10'000 - FaultTimeline::kMostNotes);
-  for (int i = 0; i < 1000; ++i) timeline.add(*event_at((10 + 10 * i) * kSecond_ns, crane_SEVERITY_WARNING, "again"));
+  for (int i = 0; i < 1000; ++i)
+    timeline.add(*event_at((10 + 10 * i) * kSecond_ns, crane_SEVERITY_WARNING, "again"));
   EXPECT_EQ(timeline.faults().size(), FaultTimeline::kMostFaults);
 }
 
@@ -114,7 +115,8 @@ TEST(FaultTimeline, KeepsTheDataFromTenSecondsBeforeToFiveAfter) {
   FaultTimeline timeline;
   History history;
   const Traffic traffic;
-  for (int second = 0; second <= 40; ++second) history.add(sample_of(topics::state, msg::State{}, second * kSecond_ns));
+  for (int second = 0; second <= 40; ++second)
+    history.add(sample_of(topics::state, msg::State{}, second * kSecond_ns));
   timeline.add(*status_at(20 * kSecond_ns, crane_STATE_ESTOP, crane_CAUSE_ESTOP_INPUT));
   timeline.poll(24 * kSecond_ns, 24 * kSecond_ns, traffic, history);
   EXPECT_TRUE(timeline.faults()[0].moment.empty());

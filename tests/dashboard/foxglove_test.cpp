@@ -17,8 +17,8 @@ TEST(Foxglove, SubscriptionsNameChannelsThatExist) {
   EXPECT_EQ(entries[0].id, 9U);
   EXPECT_EQ(entries[0].channel, 1U);
   for (const auto* channel : {"0", "17", "4294967295", "-1", "1.5", "\"1\"", "null"})
-    EXPECT_THROW((void)parse_client_message(
-                     R"({"op":"subscribe","subscriptions":[{"id":9,"channelId":)" + std::string{channel} + "}]}"),
+    EXPECT_THROW((void)parse_client_message(R"({"op":"subscribe","subscriptions":[{"id":9,"channelId":)" +
+                                            std::string{channel} + "}]}"),
                  ProtocolError)
         << channel;
 }
@@ -27,8 +27,8 @@ TEST(Foxglove, WhatIsNoMessageOfAClientIsRefusedWithAReason) {
   for (const auto* text :
        {"", "{", "[]", "null", "{}", R"({"op":7})", R"({"op":"launch"})", R"({"op":"subscribe"})",
         R"({"op":"subscribe","subscriptions":{}})", R"({"op":"subscribe","subscriptions":[1]})",
-        R"({"op":"unsubscribe","subscriptionIds":["a"]})", R"({"op":"getParameters"})", R"({"op":"setParameters"})",
-        "{\"op\":\"\xff\xfe\"}"})
+        R"({"op":"unsubscribe","subscriptionIds":["a"]})", R"({"op":"getParameters"})",
+        R"({"op":"setParameters"})", "{\"op\":\"\xff\xfe\"}"})
     EXPECT_THROW((void)parse_client_message(text), ProtocolError) << text;
 }
 
@@ -69,9 +69,14 @@ TEST(Foxglove, EveryTopicIsAChannelWithTheIdlAsItsSchema) {
 
 TEST(Foxglove, AFrameOfThePageHoldsManyMessagesAndKeepsTheirOrder) {
   SendQueue queue;
-  ASSERT_TRUE(queue.put({.channel = 0, .keep = Keep::always, .binary = false, .head = "text", .payload = {}}));
-  ASSERT_TRUE(queue.put({.channel = 1, .keep = Keep::may_drop, .binary = true, .head = message_head(3, 5),
-                         .payload = std::make_shared<const std::vector<std::uint8_t>>(2, std::uint8_t{0xAB})}));
+  ASSERT_TRUE(
+      queue.put({.channel = 0, .keep = Keep::always, .binary = false, .head = "text", .payload = {}}));
+  ASSERT_TRUE(
+      queue.put({.channel = 1,
+                 .keep = Keep::may_drop,
+                 .binary = true,
+                 .head = message_head(3, 5),
+                 .payload = std::make_shared<const std::vector<std::uint8_t>>(2, std::uint8_t{0xAB})}));
   const auto frame = batch_of(queue);
   const std::string expected = std::string("\1\4\0\0\0text", 9) + std::string("\2\17\0\0\0", 5) +
                                std::string("\1\3\0\0\0\5\0\0\0\0\0\0\0", 13) + "\xAB\xAB";

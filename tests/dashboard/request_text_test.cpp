@@ -17,7 +17,8 @@ TEST(RequestText, AMoveNamesTheAxesThatItMoves) {
 TEST(RequestText, HomeAndResetHaveTheirFields) {
   EXPECT_EQ(wish_of_text(R"({"kind":"home","axis":"hoist"})").selected, (std::array{false, false, true}));
   EXPECT_EQ(wish_of_text(R"({"kind":"reset"})").selected, (std::array{false, false, false}));
-  EXPECT_EQ(wish_of_text(R"({"kind":"reset","confirm_positions":true})").selected, (std::array{true, true, true}));
+  EXPECT_EQ(wish_of_text(R"({"kind":"reset","confirm_positions":true})").selected,
+            (std::array{true, true, true}));
 }
 
 TEST(RequestText, OnlyStopsNeedNoSeat) {
@@ -29,10 +30,11 @@ TEST(RequestText, OnlyStopsNeedNoSeat) {
 
 TEST(RequestText, WhatIsNoRequestOfAnOperatorIsRefused) {
   for (const auto* text :
-       {"", "[]", "{}", R"({"kind":"advance"})", R"({"kind":"kick"})", R"({"kind":"follow"})", R"({"kind":1})",
-        R"({"kind":"move"})", R"({"kind":"move","trolley_m":"1"})", R"({"kind":"move","trolley_m":1e999})",
-        R"({"kind":"move","trolley":1})", R"({"kind":"move","trolley_m":null})", R"({"kind":"arm","trolley_m":1})",
-        R"({"kind":"home"})", R"({"kind":"home","axis":"jib"})", R"({"kind":"reset","confirm_positions":1})",
+       {"", "[]", "{}", R"({"kind":"advance"})", R"({"kind":"kick"})", R"({"kind":"follow"})",
+        R"({"kind":1})", R"({"kind":"move"})", R"({"kind":"move","trolley_m":"1"})",
+        R"({"kind":"move","trolley_m":1e999})", R"({"kind":"move","trolley":1})",
+        R"({"kind":"move","trolley_m":null})", R"({"kind":"arm","trolley_m":1})", R"({"kind":"home"})",
+        R"({"kind":"home","axis":"jib"})", R"({"kind":"reset","confirm_positions":1})",
         R"({"kind":"move","trolley_m":[[[1]]]})"})
     EXPECT_THROW((void)wish_of_text(text), BadRequest) << text;
 }

@@ -25,7 +25,8 @@ SamplePtr sample_of(const topics::Topic<T>& topic, T message, std::int64_t at_ns
   return sample;
 }
 
-inline SamplePtr status_at(std::int64_t at_ns, crane_SupervisorState state, crane_Cause cause, std::uint64_t tick = 1) {
+inline SamplePtr status_at(std::int64_t at_ns, crane_SupervisorState state, crane_Cause cause,
+                           std::uint64_t tick = 1) {
   msg::SupervisorStatus status{};
   status.state = state;
   status.cause = cause;

@@ -51,7 +51,8 @@ TEST(SendQueue, GivesUpAClientThatDoesNotEvenTakeEvents) {
 
 TEST(SendQueue, CountsItsBytesExactly) {
   SendQueue queue;
-  for (int i = 0; i < 100; ++i) ASSERT_TRUE(queue.put(message(i % 2 ? Keep::newest : Keep::always, static_cast<std::size_t>(i))));
+  for (int i = 0; i < 100; ++i)
+    ASSERT_TRUE(queue.put(message(i % 2 ? Keep::newest : Keep::always, static_cast<std::size_t>(i))));
   while (!queue.empty()) (void)queue.take();
   EXPECT_EQ(queue.bytes(), 0U);
 }

@@ -28,11 +28,15 @@ using nlohmann::json;
 class ServerTest : public testing::Test {
  protected:
   explicit ServerTest(AccessRules rules = {})
-      : server_{"127.0.0.1", 0, {.version = "0", .crane = "test", .domain = 0, .rig = ""}, std::move(rules),
-                [this](const stack::Wish& wish, const Answered& answered) {
-                  ++asked_;
-                  answered({wish.kind != crane_REQUEST_ARM, wish.kind == crane_REQUEST_ARM ? "not READY" : ""});
-                }} {}
+      : server_{
+            "127.0.0.1",
+            0,
+            {.version = "0", .crane = "test", .domain = 0, .rig = ""},
+            std::move(rules),
+            [this](const stack::Wish& wish, const Answered& answered) {
+              ++asked_;
+              answered({wish.kind != crane_REQUEST_ARM, wish.kind == crane_REQUEST_ARM ? "not READY" : ""});
+            }} {}
   ~ServerTest() override { server_.stop(); }
 
   tcp::socket connect() {
@@ -67,7 +71,9 @@ class ServerTest : public testing::Test {
   std::string metric(const std::string& name) {
     const auto text = get("/metrics").body();
     const auto at = text.find("\n" + name + " ");
-    return at == std::string::npos ? "" : text.substr(at + name.size() + 2, text.find('\n', at + 1) - at - name.size() - 2);
+    return at == std::string::npos
+               ? ""
+               : text.substr(at + name.size() + 2, text.find('\n', at + 1) - at - name.size() - 2);
   }
 
   /// Sends bytes as they are, and reads until the server ends the connection.
@@ -98,7 +104,8 @@ class ServerTest : public testing::Test {
   }
   static void subscribe(Viewer& viewer, std::uint32_t channel) {
     viewer.text(true);
-    viewer.write(asio::buffer(json{{"op", "subscribe"}, {"subscriptions", {{{"id", channel}, {"channelId", channel}}}}}.dump()));
+    viewer.write(asio::buffer(
+        json{{"op", "subscribe"}, {"subscriptions", {{{"id", channel}, {"channelId", channel}}}}}.dump()));
   }
 
   asio::io_context context_;
@@ -117,14 +124,15 @@ TEST_F(ServerTest, ServesThePageWithItsRules) {
 }
 
 TEST_F(ServerTest, NoPathLeadsOutOfThePage) {
-  for (const auto* path : {"/../../etc/passwd", "/..%2f..%2fetc/passwd", "//etc/passwd", "/style.css/..", "/./style.css",
-                           "/style.css%00", "/page/style.css", "/vendor", "/vendor/"})
+  for (const auto* path : {"/../../etc/passwd", "/..%2f..%2fetc/passwd", "//etc/passwd", "/style.css/..",
+                           "/./style.css", "/style.css%00", "/page/style.css", "/vendor", "/vendor/"})
     EXPECT_EQ(get(path).result_int(), 404U) << path;
 }
 
 TEST_F(ServerTest, OneOperatesAndEverybodyMayStop) {
   EXPECT_EQ(post("/api/request", {{"kind", "reset"}}).result_int(), 409U);
-  const auto seat = json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();
+  const auto seat =
+      json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();
   EXPECT_EQ(post("/api/operator/take", {{"name", "Bob"}}).result_int(), 409U);
   EXPECT_TRUE(json::parse(post("/api/request", {{"kind", "reset"}}, seat).body())["accepted"].get<bool>());
   EXPECT_EQ(json::parse(post("/api/request", {{"kind", "arm"}}, seat).body())["reason"], "not READY");
@@ -166,7 +174,8 @@ TEST_F(ServerTest, BoundsHeadersAndBodies) {
 
 TEST_F(ServerTest, StaysUpUnderMutatedHttpAndWebSocketBytes) {
   const std::string request =
-      "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+      "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: "
+      "Upgrade\r\nSec-WebSocket-Version: 13\r\n"
       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nContent-Length: 0\r\n\r\n";
   // A masked text frame, a ping, a frame that says it is 2^63 bytes long.
   const std::string frames = std::string("\x81\x82\1\2\3\4zx", 8) + std::string("\x89\x80\1\2\3\4", 6) +

@@ -23,7 +23,7 @@ TEST_F(TokenFile, IsMadeOnceAndReadByItsOwnerAlone) {
   const auto token = read_or_make_token(file_);
   EXPECT_EQ(token.size(), 32U);
   EXPECT_EQ(read_or_make_token(file_), token);
-  struct stat status{};
+  struct stat status {};
   ASSERT_EQ(::stat(file_.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777U, 0600U);
 }

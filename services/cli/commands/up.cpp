@@ -39,8 +39,8 @@ void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
   children.start("recorder", "crane", arguments);
 }
 
-/// What the crane does without when a process outside the control loop has ended; empty: the process is part of the
-/// loop.
+/// What the crane does without when a process outside the control loop has ended; empty: the process is part
+/// of the loop.
 std::string goes_without(const std::string& process) {
   if (process == "recorder") return "a recording";
   if (process == "twin") return "its twin";
@@ -53,7 +53,8 @@ bool watch(stack::ChildProcesses& children) {
     if (const auto ended = children.ended()) {
       const auto without = goes_without(ended->name);
       std::cerr << "crane up: " << stack::describe(*ended)
-                << (without.empty() ? "; stopping the others" : "; the crane continues without " + without) << '\n';
+                << (without.empty() ? "; stopping the others" : "; the crane continues without " + without)
+                << '\n';
       if (without.empty()) return false;
     }
     ::usleep(50'000);
@@ -119,7 +120,8 @@ void add_up(CLI::App& app, Action& chosen) {
                       "run a live twin with another rig file, for example extended.toml of crane diagnose");
   command->add_flag("--dashboard", options->dashboard,
                     "serve a page that shows and operates this crane (docs/dashboard.md)");
-  command->add_option("--dashboard-port", options->dashboard_port, "port of --dashboard")->capture_default_str();
+  command->add_option("--dashboard-port", options->dashboard_port, "port of --dashboard")
+      ->capture_default_str();
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   command->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")

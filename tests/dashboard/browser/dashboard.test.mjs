@@ -134,6 +134,7 @@ test("the software stop stops the crane, with cause and remedy, in both browsers
   assert.equal(await page.textContent("#cause-name"), "Operator emergency stop");
   assert.match(await page.textContent("#remedy"), /Find out why it was stopped, then reset/);
   await shot(page, "operate_software_stop");
+  await second.close(); // two cranes drawn in software leave little of two processors
 });
 
 test("the timeline names the stop, and shows the data around it", async () => {
@@ -175,7 +176,7 @@ test("a client that does not read delays nobody", async () => {
   await page.waitForTimeout(3000);
   const drawn = (await page.evaluate(() => craneDashboard.frames)) - before_frames;
   console.log(`${(drawn / 3).toFixed(0)} pictures per second beside a client that does not read`);
-  assert.ok(drawn >= 5, `${drawn} pictures in 3 s`); // drawn in software beside a whole stack and two more pages
+  assert.ok(drawn >= 5, `${drawn} pictures in 3 s`); // drawn in software beside a whole stack
   hanging.terminate();
 });
 
@@ -186,7 +187,8 @@ test("it works on a phone and in light colours", async () => {
   assert.equal(wide, 0, "the page is as wide as the phone");
   const stop = await phone.locator("#estop").boundingBox();
   assert.ok(stop.height >= 44 && stop.y + stop.height <= 844, "the stop is in reach of a thumb");
-  await phone.screenshot({ path: "screenshots/phone.png", fullPage: true });
+  await shot(phone, "phone");
+  await phone.close();
   await page.click("#theme");
   await page.waitForTimeout(300);
   await shot(page, "operate_other_theme");

@@ -46,13 +46,17 @@ test("the client knows the server and its channels", async () => {
   assert.deepEqual(info.capabilities, ["time", "parameters"]);
 });
 
-test("every topic of the loop is decoded, tick by tick", async () => {
+test("every topic of the loop is decoded, in order and whole", async () => {
   const loop = ["/crane/state", "/crane/reference", "/crane/tracking", "/crane/anti_swing", "/crane/demand", "/crane/command", "/crane/supervisor"];
   await until("200 samples of each", () => loop.every((topic) => (samples.get(topic)?.length ?? 0) >= 200));
   for (const topic of loop) {
     const ticks = samples.get(topic).map(({ value }) => value.header.tick);
-    assert.deepEqual(ticks, ticks.map((_, i) => ticks[0] + BigInt(i)), `${topic} without a gap`);
+    assert.ok(ticks.every((tick, i) => i === 0 || tick > ticks[i - 1]), `${topic} in order`);
   }
+  // A busy computer may skip ticks; what the dashboard has, it passes on.
+  const metrics = await (await fetch(dashboard.address + "metrics")).text();
+  assert.match(metrics, /\ncrane_dashboard_dropped_messages_total 0\n/);
+  assert.match(metrics, /\ncrane_dashboard_lost_samples_total 0\n/);
   const { value: state, timestamp } = samples.get("/crane/state").at(-1);
   assert.ok(Math.abs(state.trolley_position_m - 0.3) < 0.01, "where the rig file starts the trolley");
   assert.ok(Math.abs(Number(timestamp / 1000000n) - Date.now()) < 5000, "times are ns since 1970");
