@@ -122,8 +122,8 @@ export class Link extends EventTarget {
   /** Samples that the dashboard still has. @param more  "&from=..&to=.." [ns since 1970] or "&fault=3" */
   async history(topic, more = "") {
     await this.ready;
-    const answer = await fetch(`/api/history?topic=${topic}${more}`);
-    if (!answer.ok) return [];
+    const answer = await fetch(`/api/history?topic=${topic}${more}`).catch(() => null); // the banner says that it is lost
+    if (!answer?.ok) return [];
     const data = await answer.arrayBuffer();
     const view = new DataView(data), samples = [];
     for (let at = 0; at + 12 <= data.byteLength;) {
