@@ -117,6 +117,19 @@ std::vector<double> Replay::measured_start(Part part, std::size_t first) const {
   return start;
 }
 
+std::vector<double> Replay::inner_start_scale() const {
+  std::vector<double> scale;
+  for (const std::size_t i : parts_->ringing) {
+    double position = 0, rate = 0;
+    for (const plant::InnerState& at : parts_->inner_at)
+      position += at[i].position * at[i].position, rate += at[i].rate * at[i].rate;
+    const auto rows = static_cast<double>(parts_->inner_at.size());
+    scale.push_back(std::sqrt(position / rows));
+    scale.push_back(std::sqrt(rate / rows));
+  }
+  return scale;
+}
+
 /// Outputs of a window at the rows' own instants: inside the step that an instant falls into the acceleration
 /// is that step's. What sensors add is known at the grid's times and goes straight between them.
 struct Replay::OwnTimes {

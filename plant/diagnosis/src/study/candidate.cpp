@@ -32,6 +32,9 @@ KnownFriction known_friction(const configuration::Rig& rig, const std::string& a
   return known;
 }
 
+/// A support that travels less [m or rad] shows nothing of its sensor.
+constexpr double kResting = 0.005;
+
 class Builder {
  public:
   Builder(const configuration::Rig& rig, const std::vector<PreparedRun>& runs) : rig_(rig), runs_(runs) {}
@@ -48,7 +51,7 @@ class Builder {
     for (const auto& [axis, output, scale] :
          {std::tuple{"trolley", kTrolleyPosition, 1.0}, std::tuple{"slew", kSlewAngle, 2.0}}) {
       if (driven(output)) add_axis(axis, output, scale);
-      if (!driven(output) && measured(output)) add_support_sensor(axis);
+      if (!driven(output) && measured(output) && travelled(output) > kResting) add_support_sensor(axis);
     }
     driven_ = driven(kTrolleyPosition) || driven(kSlewAngle);
     radial_ = load && measured(kRadialSwing), tangential_ = load && measured(kTangentialSwing);
@@ -101,6 +104,11 @@ class Builder {
                        excesses));
     add_tight_spots(axis, output);
     add_ripple(axis, output);
+    add_force(GoesWith::position,
+              two_amounts("position_force", axis,
+                          {free_parameter("position_force", "stiffness_vpm", -100, 100, 0.05),
+                           free_parameter("position_force", "offset_v", -5, 5, 0.02)}));
+    add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), true, false);
     add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), true, false, true);
     add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), true, false);
     add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
