@@ -1,6 +1,7 @@
 #include "noise/whitening.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,7 +17,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kSweeps = 4;
+constexpr int kSweeps = 8;
+/// Of the force; 0: white.
+constexpr std::array kCorrelations_s{0.0, 0.05, 0.1, 0.2, 0.5, 1.0};
 /// Decrease of minus twice the log likelihood that asks for another sweep.
 constexpr double kWorthASweep = 1;
 /// Share of what friction does at standstill that is left when an axis stands: it creeps, the model's
@@ -199,7 +202,7 @@ class Learning {
       const double before = found_.value;
       for (const double factor : {0.3, 0.7, 1.4, 3.0})
         try_with(best_.acceleration, factor * best_.acceleration);
-      for (const double correlation_s : {0.0, 0.05, 0.1, 0.2, 0.5, 1.0})
+      for (const double correlation_s : kCorrelations_s)
         try_with(best_.correlation_s, correlation_s);
       if (passages_.at(0).natural_radps == 0) try_drive();
       if (before - found_.value < kWorthASweep) break;
@@ -213,16 +216,21 @@ class Learning {
     return found;
   }
 
-  /// A force of some size, what friction does in its measure.
+  /// A force of some size and colour, what friction does in its measure: the likelihood has several summits, a
+  /// weak slow force with a rough sensor is one, a strong fast one with a fine sensor another.
   void begin() {
-    const double share = best_.friction;
-    Disturbance likeliest = best_;
-    for (int decade = -1; decade < 8; ++decade) {
-      best_.acceleration = std::pow(10, decade);
-      best_.friction = share * best_.acceleration;
-      const Likelihood tried = likelihood(residuals_, passages_, best_, found_.variance);
-      if (tried.value < found_.value) found_ = tried, likeliest = best_;
-    }
+    const Disturbance start = best_;
+    const double share = start.friction;
+    Disturbance likeliest = start;
+    for (const double correlation_s : kCorrelations_s)
+      for (int decade = -1; decade < 8; ++decade) {
+        best_ = start;
+        best_.correlation_s = correlation_s;
+        best_.acceleration = std::pow(10, decade);
+        best_.friction = share * best_.acceleration;
+        const Likelihood tried = likelihood(residuals_, passages_, best_, found_.variance);
+        if (tried.value < found_.value) found_ = tried, likeliest = best_;
+      }
     best_ = likeliest;
   }
 

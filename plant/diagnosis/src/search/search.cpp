@@ -10,13 +10,13 @@ namespace crane::diagnosis {
 namespace {
 
 /// Candidates that are fitted beside the base model, and beside each hypothesis of a beam.
-constexpr std::size_t kFirst = 10, kExtensions = 6;
+constexpr std::size_t kFirst = 10, kExtensions = 5;
 /// Hypotheses of a size that are extended. What is best alone need not be best beside another effect.
-constexpr std::size_t kBeam = 3;
+constexpr std::size_t kBeam = 2;
 /// Of the single effects, those all of whose pairs are fitted: two may explain together what neither does.
-constexpr std::size_t kPaired = 4;
+constexpr std::size_t kPaired = 3;
 /// Hypotheses of a size that are settled: the likeliest, before their fits know their own noise.
-constexpr std::size_t kSettled = 6;
+constexpr std::size_t kSettled = 4;
 
 /// Half of them those that promise the largest share, half the surest ones: a large effect is as uneven from
 /// block to block as it is large, and in a rough residual luck promises much.

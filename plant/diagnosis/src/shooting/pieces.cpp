@@ -98,7 +98,6 @@ VectorXd left_of(const PreparedRun& run, const Replay::Guided& drive, Output axi
   const std::vector<double>&shown = run.motion[axis].position, &true_position = drive.position;
   const std::size_t last = first + row_count - 1;
   const double scale = (shown[last] - shown[first]) / (true_position[last] - true_position[first]);
-  if (run.run.regular(axis)) return scale * (Eigen::Map<const VectorXd>(&true_position[first], rows) - way);
   VectorXd left = VectorXd::Zero(rows);
   for (std::size_t k = 0; k < row_count; ++k) {
     if (!run.run.seen(axis, first + k)) continue;

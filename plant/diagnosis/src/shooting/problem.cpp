@@ -336,6 +336,20 @@ Fits Problem::fit(const Replays& crane) const {
   return fits;
 }
 
+Fits Problem::fit_again(const Replays& crane, const Fits& near) const {
+  Fits fits = near;
+  parallel_for(windows_.size(), [&](std::size_t w) {
+    const Replay& replay = crane[windows_[w].run];
+    if (static_cast<std::size_t>(fits[w].start.size()) != replay.start_size(part_))
+      return fit_start(replay, w, fits[w]);
+    const VectorXd target = measured(windows_[w]), begin = fits[w].start;
+    fits[w] = fit_from(replay, w, target, begin);
+    fits[w].measured_start = measured_start(replay, windows_[w]);
+    take_start_out(fits[w]);
+  });
+  return fits;
+}
+
 Fits Problem::fit_near(const Replays& crane, const Fits& near) const {
   Fits fits = near;
   parallel_for(windows_.size(), [&](std::size_t w) {

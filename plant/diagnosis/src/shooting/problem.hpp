@@ -61,6 +61,8 @@ class Problem {
 
   /// Solves for the starts from the measured ones.
   [[nodiscard]] Fits fit(const Replays& crane) const;
+  /// The same from the starts of `near`: another noise, or values that differ little.
+  [[nodiscard]] Fits fit_again(const Replays& crane, const Fits& near) const;
   /// Solves for the starts with the directions of `near`, a crane that differs little; as fit() where it has
   /// other coordinates.
   [[nodiscard]] Fits fit_near(const Replays& crane, const Fits& near) const;

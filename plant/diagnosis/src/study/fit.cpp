@@ -234,7 +234,7 @@ Noise Study::noise_of(const Fitted& fitted) const {
 }
 
 Fitted Study::screened(const Effects& effects, const Fitted& near) const {
-  Fitted fitted = fit(effects, std::numeric_limits<double>::infinity(), near.train);
+  Fitted fitted = fit(effects, near.train.loss - kLeastGain, near.train);
   fitted.noise = noise_of(fitted);
   for (const auto* of : {&fitted.noise.drive, &fitted.noise.under_way, &fitted.noise.load})
     for (const Disturbance& disturbance : *of) fitted.misfit += disturbance.misfit;
@@ -247,8 +247,7 @@ Fitted Study::settled(const Fitted& screened) {
   for (int round = 0; round < kMostNoiseRounds; ++round) {
     const Noise noise = round == 0 ? screened.noise : noise_of(last);
     whiten_training(noise);
-    last = fit(last.effects, std::numeric_limits<double>::infinity(),
-               evaluated(train_, replays_of(train_.runs, with(last.effects))));
+    last = fit(last.effects, std::numeric_limits<double>::infinity(), evaluated_again(last));
     judge_by_likelihood(last);
     last.misfit = screened.misfit;
     const double gained = least - sum(last.deviance);

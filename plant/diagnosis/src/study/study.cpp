@@ -114,6 +114,15 @@ Evaluation Study::evaluated(const Body& body, const Replays& base) const {
   return summed(body, fit_of(body.drive, base), fit_of(body.load, base), body.under_way.residuals(base));
 }
 
+Evaluation Study::evaluated_again(const Fitted& fitted) const {
+  const Replays crane = replays_of(train_.runs, with(fitted.effects));
+  const auto again = [&crane](const Problem& problem, const Fits& near) {
+    return problem.empty() ? Fits{} : problem.fit_again(crane, near);
+  };
+  return summed(train_, again(train_.drive, fitted.train.drive), again(train_.load, fitted.train.load),
+                train_.under_way.residuals(crane));
+}
+
 Evaluation Study::evaluate(const Body& body, const Effects& effects, const Evaluation& near) const {
   const Replays crane = replays_of(body.runs, with(effects));
   bool in_drive = false, in_load = false;

@@ -173,6 +173,8 @@ class Study {
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
   /// Around the base crane.
   [[nodiscard]] Evaluation evaluated(const Body& body, const Replays& base) const;
+  /// The training data around a fit in another noise.
+  [[nodiscard]] Evaluation evaluated_again(const Fitted& fitted) const;
   /// @pre the training data are whitened
   void evaluate_base();
   [[nodiscard]] Evaluation evaluate(const Body& body, const Effects& effects, const Evaluation& near) const;
