@@ -86,8 +86,12 @@ struct WhiteJerk {
 struct Filtered {
   std::vector<Vector3d> before, after;
   std::vector<Matrix3d> covariance_before, covariance_after;
-  double variance = 0;  ///< of the sensor, the likeliest
-  double misfit = 0;    ///< minus twice the log likelihood, the variance profiled out
+  double squares = 0, logs = 0;  ///< of the innovations over the sensor's variance, of their variances
+  double count = 0;
+  /// Minus twice the log likelihood where the sensor's standard deviation is `noise`.
+  [[nodiscard]] double misfit(double noise) const {
+    return logs + 2 * count * std::log(noise) + squares / (noise * noise);
+  }
 };
 
 Filtered filtered(std::span<const double> t, std::span<const double> x, const WhiteJerk& jerk) {
@@ -97,7 +101,6 @@ Filtered filtered(std::span<const double> t, std::span<const double> x, const Wh
   Filtered f;
   Vector3d state{x[0], 0, 0};
   Matrix3d covariance = Vector3d{kUnknown, kUnknown / (h0 * h0), kUnknown / std::pow(h0, 4)}.asDiagonal();
-  double squares = 0, logs = 0;
   for (std::size_t k = 0; k < n; ++k) {
     if (k > 0) {
       const Matrix3d step = WhiteJerk::step(t[k] - t[k - 1]);
@@ -107,16 +110,13 @@ Filtered filtered(std::span<const double> t, std::span<const double> x, const Wh
     f.before.push_back(state);
     f.covariance_before.push_back(covariance);
     const double surprise = x[k] - state[0], variance = covariance(0, 0) + 1;
-    if (k >= 3) squares += surprise * surprise / variance, logs += std::log(variance);
+    if (k >= 3) f.squares += surprise * surprise / variance, f.logs += std::log(variance), ++f.count;
     const Vector3d gain = covariance.col(0) / variance;
     state += gain * surprise;
     covariance -= gain * covariance.row(0);
     f.after.push_back(state);
     f.covariance_after.push_back(covariance);
   }
-  const auto count = static_cast<double>(n - 3);
-  f.variance = squares / count;
-  f.misfit = logs + count * std::log(f.variance);
   return f;
 }
 
@@ -129,12 +129,14 @@ std::vector<double> without_noise(std::span<const double> time_s, std::span<cons
   if (n < kFewest || !(least_noise > 0)) return {measured.begin(), measured.end()};
   const double h = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
   Filtered likeliest;
+  double least_misfit = 0;
   for (int half_decade = -8; half_decade <= 16; ++half_decade) {
     // Of a jerk that moves the axis by so many noises in a sample.
     Filtered tried = filtered(time_s, measured, {std::pow(10, 0.5 * half_decade) / std::pow(h, 5)});
-    const bool finer_than_the_sensor = tried.variance < least_noise * least_noise && half_decade > -8;
-    if (likeliest.after.empty() || (tried.misfit < likeliest.misfit && !finer_than_the_sensor))
-      likeliest = std::move(tried);
+    const double misfit = tried.misfit(std::max(least_noise, std::sqrt(tried.squares / tried.count)));
+    if (!likeliest.after.empty() && misfit >= least_misfit) continue;
+    likeliest = std::move(tried);
+    least_misfit = misfit;
   }
   std::vector<double> smoothed(n);
   Vector3d state = likeliest.after[n - 1];

@@ -13,8 +13,8 @@ namespace {
 constexpr double kLeastAlone = 0.01, kLeastBeside = 0.03;
 constexpr int kVotes = 500;
 
-/// Largest share of the base model's error that `fitted` takes off a column beyond `before`, of the columns
-/// that what only `fitted` has acts on.
+}  // namespace
+
 double share_of_error(const Fitted& fitted, const Fitted& before, const Fitted& base) {
   double most = 0;
   for (std::size_t output = 0; output < kOutputs; ++output) {
@@ -26,6 +26,8 @@ double share_of_error(const Fitted& fitted, const Fitted& before, const Fitted& 
   }
   return most;
 }
+
+namespace {
 
 /// No block outvotes the others: an axis that slips earlier or later once makes as much of one as an effect
 /// of all of them. Twice what all but a twentieth keep to is the most that counts.

@@ -22,6 +22,10 @@ inline constexpr double kSignificant = 0.01;
 /// The same candidates, whatever their values.
 [[nodiscard]] bool same(const Effects& a, const Effects& b);
 
+/// Largest share of the base model's error in windows that `fitted` takes off a column beyond `before`, of the
+/// columns that what only `fitted` has acts on.
+[[nodiscard]] double share_of_error(const Fitted& fitted, const Fitted& before, const Fitted& base);
+
 /// Likelier beyond resampling, and nearer to what was measured by a share of the base model's error that
 /// matters.
 /// @param base without effects

@@ -108,7 +108,8 @@ class Builder {
               two_amounts("position_force", axis,
                           {free_parameter("position_force", "stiffness_vpm", -100, 100, 0.05),
                            free_parameter("position_force", "offset_v", -5, 5, 0.02)}));
-    add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), true, false);
+    // Where no weight hangs on the axis, friction that grows with the motor's force is a smaller gain.
+    if (carries_weight(axis)) add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), true, false);
     add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), true, false, true);
     add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), true, false);
     add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
@@ -122,6 +123,13 @@ class Builder {
     add_gap(axis, output, scale);
     add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), true, true);
     add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
+  }
+
+  /// By the rig file: a force that goes with the position.
+  [[nodiscard]] bool carries_weight(const std::string& axis) const {
+    return std::ranges::any_of(rig_.terms, [&](const TermSetting& term) {
+      return term.axis == axis && (term.name == "torque_ripple" || term.name == "position_force");
+    });
   }
 
   /// A drive without a command shows its sensor's errors by the swing alone.

@@ -98,6 +98,15 @@ std::string held_out_doubt(const HeldOut& held_out, const Effects& effects) {
   return "";
 }
 
+/// The verdict is "none" after all.
+void nothing_found(Diagnosis& result) {
+  result.verdict = Verdict::none;
+  result.causes.clear();
+  result.extension.clear();
+  result.ambiguous_with.clear();
+  result.sentence = said(result);
+}
+
 /// Runs to learn from and held out.
 struct Data {
   Runs train, test;
@@ -113,6 +122,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   request.progress(0.85, "what is left");
   auto [result, rival] = judge(study, found, losing, request.seed);
   result.excitation = found.excitation;
+  const bool matters = share_of_error(found.best, found.base, found.base) >= kWorthwhile;
   if (!found.best.effects.empty()) {
     request.progress(0.88, "how well the data know it");
     found.best = with_intervals(study, found.best, request.seed);
@@ -125,8 +135,17 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
     result.held_out.nats = 0.5 * (sum(before) - sum(now));
     result.held_out.likelier = block_wins(now, before, request.seed);
   }
-  if (const std::string why = held_out_doubt(result.held_out, found.best.effects); !why.empty())
-    doubt(result, why);
+  if (const std::string why = held_out_doubt(result.held_out, found.best.effects); !why.empty()) {
+    // What hardly shows in training and not at all out of it is luck; what shows in training only is an error
+    // that has another cause.
+    if (losing.empty() && result.remainder.from.empty() && !matters) {
+      found.best = found.base;
+      nothing_found(result);
+      result.held_out = held_out(study, as_measured, {}, request.seed);
+    } else {
+      doubt(result, why);
+    }
+  }
   if (result.verdict == Verdict::ambiguous) {
     request.progress(0.95, "which motion would tell them apart");
     result.next_experiment = propose_experiment(rig, found.best.effects, rival, disturbances_of(study));
