@@ -24,8 +24,9 @@ double power_w(const Parameters& p, const State& s, const Model& with, const Mod
   return rates.dot(mass_matrix(p, s) * added);
 }
 
-double friction_v(const std::vector<TermSetting>& terms, double speed_mps, double position_m = 0.5) {
-  return Model{{}, terms}.friction_v({.trolley_m = position_m, .trolley_mps = speed_mps})[kTrolley];
+double friction_v(const std::vector<TermSetting>& terms, double speed_mps, double position_m = 0.5,
+                  double drive_v = 0) {
+  return Model{{}, terms}.friction_v({.trolley_m = position_m, .trolley_mps = speed_mps}, drive_v, kTrolley);
 }
 
 std::array<double, 5> numbers(const Measurement& m) {
@@ -45,7 +46,7 @@ TEST(Terms, WithTheirDefaultsDoNothing) {
         const State s = test::random_state(random);
         const PerAxis command{1.0 - tick, -2.0 * tick, 3};
         EXPECT_EQ(with.drive_voltage(command), command);
-        EXPECT_EQ(with.friction_v(s), PerAxis{});
+        EXPECT_EQ(with.friction_v(s, {1, 1, 1}), PerAxis{});
         EXPECT_EQ(test::values(with.accelerations(s, {})), test::values(without.accelerations(s, {})));
         EXPECT_EQ(numbers(with.measure(s)), numbers(without.measure(s)));
       }
@@ -80,7 +81,7 @@ TEST(Terms, StayFiniteWithAnyParametersInTheirRanges) {
       const State s = test::random_state(random);
       InnerAccelerations own{};
       EXPECT_TRUE(finite(model.drive_voltage({in(-10, 10), in(-10, 10), in(-10, 10)})));
-      EXPECT_TRUE(finite(model.friction_v(s)));
+      EXPECT_TRUE(finite(model.friction_v(s, {1, -1, 1})));
       EXPECT_TRUE(finite(test::values(model.accelerations(s, actuation, inner, own))));
       EXPECT_TRUE(finite(own));
       EXPECT_TRUE(finite(numbers(model.measure(s))));
