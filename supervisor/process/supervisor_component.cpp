@@ -67,13 +67,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_arrived = true;
       input.demand_v = runtime::values(demand->total_v);
     }
-    if (reference != nullptr) {
-      input.reference_arrived = true;
-      for (std::size_t i = 0; i < kAxes; ++i) {
-        input.reference[i] = reference->axis[i].position;
-        input.reference_speed[i] = reference->axis[i].speed;
-      }
-    }
     input.reference_moving = is_moving(reference);
     input.bridge_restarted = restarts() > bridge_restarts_;
     bridge_restarts_ = restarts();

@@ -156,17 +156,14 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
 }
 
 /// An axis that is homed creeps, without a position; its motion is judged by the homing itself.
-Following following_now(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
+Following following_now(const Limits& limits, bool sampled, TickMemory& memory) {
   if (!sampled) return {};
   const Sample& sample = memory.sample;
   FollowingInput in{.sampled_s = sample.time_s,
                     .position = sample.position,
                     .swing_radial_rad = sample.swing_radial_rad,
                     .swing_tangential_rad = sample.swing_tangential_rad,
-                    .applied_v = sample.applied_v,
-                    .reference_arrived = input.reference_arrived,
-                    .reference = input.reference,
-                    .reference_speed = input.reference_speed};
+                    .applied_v = sample.applied_v};
   for (std::size_t i = 0; i < kAxes; ++i)
     in.free[i] = memory.machine.releasing && !memory.machine.homing && !sample.brake_closed[i];
   const Following found = judge_following(limits, in, memory.following);
@@ -254,7 +251,7 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   const GateOutput gated = run_gate(limits, input, envelope, memory);
   const double creeping_speed = creep(limits, memory);
   Inputs inputs = machine_inputs(limits, input, envelope, gated, brakes_failed, memory);
-  inputs.following = following_now(limits, input, sampled, memory);
+  inputs.following = following_now(limits, sampled, memory);
   inputs.swing_sensor_failed = swing_sensor_now(limits, sampled, memory);
 
   const bool was_ramping = memory.machine.ramping && memory.machine.state == State::stop_c1;

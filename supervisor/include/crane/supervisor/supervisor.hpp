@@ -38,8 +38,6 @@ struct TickInput {
   bool bridge_restarted = false;  ///< from here on a younger bridge speaks; its ticks begin anew
   bool demand_arrived = false;
   PerAxis demand_v{};
-  bool reference_arrived = false;
-  PerAxis reference{}, reference_speed{};  ///< where each axis is to be at this tick; read only when arrived
   bool reference_moving = false;
   bool second_writer = false;
   SelfTest self_test = SelfTest::not_started;
