@@ -75,7 +75,8 @@ double unseen_pull(const Limits& limits, std::size_t axis, const plant::State& s
   if (axis == 2 || limits.machine.swing_measured[axis]) return 0;
   const auto& p = limits.machine.crane;
   const double force_n = kLoadMost * p.load_mass_kg * p.gravity_mps2 * std::sin(limits.swing_limit_rad);
-  return axis == 0 ? force_n / p.trolley_inertia_kg : force_n * std::abs(state.trolley_m) / p.jib_inertia_kgm2;
+  return axis == 0 ? force_n / p.trolley_inertia_kg
+                   : force_n * std::abs(state.trolley_m) / p.jib_inertia_kgm2;
 }
 
 /// Largest friction of one direction of motion, V.
@@ -84,8 +85,9 @@ double friction_v(const MachineModel::Friction& friction, double speed) noexcept
 }
 
 /// Accelerations that the model allows between the oldest and the newest sample.
-Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& memory, const plant::State& state,
-                 double heaviest, double lightest, double v, double before) noexcept {
+Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& memory,
+                 const plant::State& state, double heaviest, double lightest, double v,
+                 double before) noexcept {
   const auto& [newest, middle, oldest] = memory.seen;
   const double gain = gain_of(limits, i, state);
   const double volts_v = std::max(std::abs(middle.applied_v[i]), std::abs(oldest.applied_v[i]));
@@ -94,13 +96,15 @@ Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& mem
       gain * (kGainTolerance * volts_v + kOffset_v) + kGainTolerance * drag + unseen_pull(limits, i, state);
   Interval found{std::min(heaviest, lightest) - unknown, std::max(heaviest, lightest) + unknown};
   const double slow = kSpeedShare * limits.axis[i].max_speed;  // friction of both signs below this speed
-  if (std::max(v, before) > -slow) found.low -= gain * friction_v(limits.machine.friction_positive[i], before);
-  if (std::min(v, before) < slow) found.high += gain * friction_v(limits.machine.friction_negative[i], before);
+  if (std::max(v, before) > -slow)
+    found.low -= gain * friction_v(limits.machine.friction_positive[i], before);
+  if (std::min(v, before) < slow)
+    found.high += gain * friction_v(limits.machine.friction_negative[i], before);
   return found;
 }
 
-void judge_axis(const Limits& limits, std::size_t i, const plant::State& state, double heaviest, double lightest,
-                FollowingMemory& memory, Following& found) noexcept {
+bool judge_axis(const Limits& limits, std::size_t i, const plant::State& state, double heaviest,
+                double lightest, FollowingMemory& memory) noexcept {
   const auto& [newest, middle, oldest] = memory.seen;
   const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
   const double v = (newest.position[i] - middle.position[i]) / newer_s;
@@ -111,33 +115,32 @@ void judge_axis(const Limits& limits, std::size_t i, const plant::State& state, 
   memory.slow[i] = std::max(0.0, memory.slow[i] + mps2.low * dt_s - dv);
   const double ratio = std::max(memory.fast[i], memory.slow[i]) / following_limit(limits, i, before, dt_s);
   memory.largest[i] = std::max(memory.largest[i], ratio);
-  found.once = found.once || !(ratio <= 1);
-  found.twice = found.twice || !(ratio <= 2);
+  return !(ratio <= 1);
 }
 
 }  // namespace
 
 double following_limit(const Limits& limits, std::size_t axis, double speed, double span_s) noexcept {
-  return kSpeedShare * (limits.axis[axis].max_speed + std::abs(speed)) + 2 * limits.machine.resolution[axis] / span_s;
+  return kSpeedShare * (limits.axis[axis].max_speed + std::abs(speed)) +
+         2 * limits.machine.resolution[axis] / span_s;
 }
 
-Following judge_following(const Limits& limits, const FollowingInput& input,
-                          FollowingMemory& memory) noexcept {
-  Following found;
-  if (!limits.machine.known || !(input.sampled_s > memory.seen[0].sampled_s)) return found;
+bool following_error(const Limits& limits, const FollowingInput& input, FollowingMemory& memory) noexcept {
+  if (!limits.machine.known || !(input.sampled_s > memory.seen[0].sampled_s)) return false;
   remember(input, memory);
   const bool any_free =
       std::ranges::any_of(memory.free_ticks, [](int ticks) { return ticks == kSettled_ticks; });
   if (!any_free) {
     memory.fast = memory.slow = {};
-    return found;
+    return false;
   }
   const auto state = state_of(limits, memory);
   const auto heaviest = accelerations(limits, memory, state, kLoadMost * limits.machine.crane.load_mass_kg);
   const auto lightest = accelerations(limits, memory, state, 0);
+  bool found = false;
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (limits.axis[i].present && memory.free_ticks[i] == kSettled_ticks)
-      judge_axis(limits, i, state, heaviest[i], lightest[i], memory, found);
+      found = judge_axis(limits, i, state, heaviest[i], lightest[i], memory) || found;
     else
       memory.fast[i] = memory.slow[i] = 0;
   }

@@ -47,7 +47,8 @@ PendulumMemory::Balance balance_of(const Limits& limits, const PendulumMemory& m
       ((newest.depth_m - middle.depth_m) / newer_s - (middle.depth_m - oldest.depth_m) / older_s) / dt_s;
   const double g = limits.machine.crane.gravity_mps2;
   const double pull_mps2 = std::clamp(g - sinking_mps2, 0.0, 3 * g);
-  return {.error_mps = swung + pivot + (pull_mps2 / middle.depth_m * dt_s) * middle.hanging_m, .swung_mps = swung};
+  return {.error_mps = swung + pivot + (pull_mps2 / middle.depth_m * dt_s) * middle.hanging_m,
+          .swung_mps = swung};
 }
 
 /// A direction that is not measured says nothing.
@@ -74,6 +75,34 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
   const Plane sum = memory.sum_mps + error;
   const double length = norm(sum);
   memory.sum_mps = length > unknown ? (1 - unknown / length) * sum : Plane{};
+  memory.growing_ticks = length > unknown ? std::min(memory.growing_ticks + 1, kPush_ticks + 1) : 0;
+}
+
+/// @return true when an encoder that counted before the push has stood since
+bool follow_counts(const Limits& limits, const PendulumInput& input, double span_s, PendulumMemory& memory) {
+  bool stopped = false;
+  const std::array<double, 2> swing_rad{input.radial_rad, input.tangential_rad};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const bool stands =
+        std::abs(swing_rad[i] - memory.swing_rad[i]) <= limits.machine.swing_resolution_rad[i] / 2;
+    memory.swing_rad[i] = swing_rad[i];
+    memory.counting_ticks[i] = stands ? std::max(memory.counting_ticks[i] - 1, 0) : 2 * kPush_ticks;
+    memory.standing_ticks[i] = stands && memory.push_left_s > 0 ? memory.standing_ticks[i] + 1 : 0;
+    stopped = stopped || (memory.counted_before_push[i] && memory.standing_ticks[i] >= kStands_ticks);
+  }
+  memory.push_left_s -= span_s;
+  return stopped;
+}
+
+bool was_pushed(PendulumMemory& memory) {
+  if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks) return false;
+  memory.push_left_s = kPush_s;
+  for (std::size_t i = 0; i < 2; ++i) memory.counted_before_push[i] = memory.counting_ticks[i] > 0;
+  memory.sum_mps = {};
+  memory.balances = {};
+  memory.growing_ticks = 0;
+  memory.samples = 0;
+  return true;
 }
 
 }  // namespace
@@ -105,6 +134,8 @@ bool swing_sensor_failed(const Limits& limits, const PendulumInput& input, Pendu
   const double span_s = (memory.seen[0].sampled_s - memory.seen[2].sampled_s) / 2;
   add(limits, cable_m, input.position[1], span_s, memory);
   const double ratio = norm(memory.sum_mps) / pendulum_limit(limits, cable_m, span_s);
+  if (follow_counts(limits, input, span_s, memory)) return true;
+  if (ratio > 1 && was_pushed(memory)) return false;
   memory.largest = std::max(memory.largest, ratio);
   return !(ratio <= 1);
 }

@@ -1,31 +1,26 @@
 #pragma once
 /// Following error: does each axis move as its voltage and the equations of motion say?
 ///
-/// From one sample to the next the speed v of a free axis changes by (2.16) to (2.20) under the voltages of the last
-/// two ticks. Each parameter is only known within a tolerance, so that the model gives an interval [low, high] of
-/// accelerations:
+/// From one sample to the next the speed v of a free axis changes by (2.16) to (2.20) under the voltages of
+/// the last two ticks. Each parameter is only known within a tolerance, so that the model gives an interval
+/// [low, high] of accelerations:
 ///   gain of the drive  1 +- kGainTolerance, offset +- kOffset_v
 ///   friction           0 to kFrictionMost times the rig file's, plus kFrictionExtra_v, against the motion
 ///   load               0 to kLoadMost times the rig file's
 /// What the interval does not explain is summed on each side (run_length.hpp):
 ///   fast := max(0, fast + dv - high dt),   slow := max(0, slow + low dt - dv)
-/// A sum above limit = kSpeedShare (max_speed + |v|) + noise stops the crane. noise = two counts per sample interval:
-/// the quantisation of the two speeds at the ends of the sum; that of the speeds in between cancels.
+/// A sum above limit = kSpeedShare (max_speed + |v|) + noise stops the crane. noise = two counts per sample
+/// interval: the quantisation of the two speeds at the ends of the sum; that of the speeds in between
+/// cancels.
 ///
-/// Detection time of a voltage error of e volts: limit / (gain (e - tolerances)) + two ticks. False alarms: none while
-/// the parameters are within their tolerances; for a white disturbance of kOffset_v rms beyond them the average run
-/// length is above 1e9 ticks on every rig (tests/supervisor/following_test.cpp).
+/// Detection time of a voltage error of e volts: limit / (gain (e - tolerances)) + two ticks. False alarms:
+/// none while the parameters are within their tolerances; for a white disturbance of kOffset_v rms beyond
+/// them the average run length is above 1e9 ticks on every rig (tests/supervisor/following_test.cpp).
 #include <array>
 
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {
-
-/// false = healthy
-struct Following {
-  bool once = false;   ///< beyond the limit
-  bool twice = false;  ///< beyond twice the limit
-};
 
 struct FollowingInput {
   double sampled_s = 0;
@@ -49,19 +44,24 @@ struct FollowingMemory {
   PerAxis largest{};                    ///< of sum / limit while judged: above 1 the crane is stopped
 };
 
-inline constexpr double kGainTolerance = 0.25;   ///< share of the effect of a voltage: amplifier and motor constant
-inline constexpr double kOffset_v = 0.3;         ///< of converter and amplifier
+inline constexpr double kGainTolerance =
+    0.25;                                 ///< share of the effect of a voltage: amplifier and motor constant
+inline constexpr double kOffset_v = 0.3;  ///< of converter and amplifier
 inline constexpr double kFrictionMost = 1.5;     ///< times the rig file's friction: temperature, dust, wear
 inline constexpr double kFrictionExtra_v = 0.3;  ///< of a rig whose file says nothing about friction
 inline constexpr double kLoadMost = 1.5;         ///< times the rig file's load mass
-/// Speed error that is no damage yet: an axis loses it within a quarter of its soft margin, share of max_speed.
+/// Speed error that is no damage yet: an axis loses it within a quarter of its soft margin, share of
+/// max_speed.
 inline constexpr double kSpeedShare = 0.05;
 
 /// Sum at which an axis with this speed is stopped, unit/s. @param span_s  between two samples
-[[nodiscard]] double following_limit(const Limits& limits, std::size_t axis, double speed, double span_s) noexcept;
+[[nodiscard]] double following_limit(const Limits& limits, std::size_t axis, double speed,
+                                     double span_s) noexcept;
 
-/// One sample. Nothing is judged while `limits.machine.known` is false.
-[[nodiscard]] Following judge_following(const Limits& limits, const FollowingInput& input,
-                                        FollowingMemory& memory) noexcept;
+/// One sample. @return true when an axis does not do what its drive was told; never while
+/// `limits.machine.known` is
+///         false
+[[nodiscard]] bool following_error(const Limits& limits, const FollowingInput& input,
+                                   FollowingMemory& memory) noexcept;
 
 }  // namespace crane::supervisor

@@ -23,8 +23,8 @@ struct MachineModel {
     double viscous_v = 0;  ///< V per unit/s
   };
   std::array<Friction, kAxes> friction_positive{}, friction_negative{};  ///< by the direction of motion
-  PerAxis resolution{};                  ///< of the encoders: one count, unit
-  std::array<bool, 2> swing_measured{};  ///< radial, tangential
+  PerAxis resolution{};                                                  ///< of the encoders: one count, unit
+  std::array<bool, 2> swing_measured{};                                  ///< radial, tangential
   std::array<double, 2> swing_resolution_rad{};
   bool cable_measured = false;
   double cable_m = 1;  ///< where it is not measured, > 0

@@ -1,10 +1,10 @@
 #pragma once
 /// One-sided cumulative sum, the test that the model checks of the supervisor use:
 ///   S := max(0, S + e),  alarm when S > threshold
-/// e is the part of a change of speed that the model does not explain within its tolerances, minus the tolerance.
-/// While the model holds within its tolerances, S stays below the noise of two speeds, because the noise of all
-/// samples in between cancels: there is no false alarm. The average run length says what a disturbance outside the
-/// model may be.
+/// e is the part of a change of speed that the model does not explain within its tolerances, minus the
+/// tolerance. While the model holds within its tolerances, S stays below the noise of two speeds, because the
+/// noise of all samples in between cancels: there is no false alarm. The average run length says what a
+/// disturbance outside the model may be.
 #include <cmath>
 
 namespace crane::supervisor {

@@ -1,0 +1,71 @@
+#include "campaign/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crane::campaign {
+
+double Evidence::gain() const {
+  const auto& p = bench_->setting().told.plant;
+  if (axis_ == 0) return p.trolley_gain_mps2pv;
+  if (axis_ == 2) return p.hoist_gain_mpspv / p.hoist_lag_s;
+  const double x = bench_->now().truth.position[0];
+  return p.slew_gain_radps2pv * p.jib_inertia_kgm2 / (p.jib_inertia_kgm2 + p.trolley_mass_kg * x * x);
+}
+
+double Evidence::tolerance_v(double applied_v, double speed) const {
+  constexpr double kGain = 0.25, kOffset_v = 0.3, kMost = 1.5, kExtra_v = 0.3;
+  const auto& rig = bench_->setting().told;
+  const auto& friction = rig.design.friction[axis_];
+  const double rest_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
+                                  friction.stiction_positive_v, friction.stiction_negative_v});
+  const double viscous_v = std::max(friction.viscous_positive_vspm, friction.viscous_negative_vspm);
+  const auto& truth = bench_->now().truth;
+  double load_v = 0;
+  const double weight_n = kMost * rig.plant.load_mass_kg * rig.plant.gravity_mps2;
+  if (axis_ == 0)
+    load_v = weight_n * std::sin(std::abs(truth.swing_radial_rad)) / rig.plant.trolley_inertia_kg / gain();
+  if (axis_ == 1)
+    load_v = weight_n * std::sin(std::abs(truth.swing_tangential_rad)) * truth.position[0] /
+             rig.plant.jib_inertia_kgm2 / gain();
+  if (axis_ == 2) load_v = kGain * std::abs(speed) / rig.plant.hoist_gain_mpspv;
+  return kGain * std::abs(applied_v) + kOffset_v + kMost * (rest_v + viscous_v * std::abs(speed)) + kExtra_v +
+         load_v;
+}
+
+double Evidence::visible_speed(double speed) const {
+  constexpr double kShare = 0.1, kCounts = 4;
+  const auto& rig = bench_->setting().told;
+  return kShare * (rig.drives[axis_].max_speed + std::abs(speed)) +
+         kCounts / (rig.encoders[axis_].counts_per_unit * rig.period_s);
+}
+
+bool Evidence::of_drive() {
+  const auto& truth = bench_->now().truth;
+  const double v = truth.speed[axis_];
+  const double error_v = std::abs(bench_->world().output_error_v(axis_));
+  const double excess_v = error_v - tolerance_v(truth.written_v[axis_], v);
+  const double dt_s = bench_->setting().told.period_s;
+  fast_ = truth.brake_closed[axis_] ? 0 : std::max(0.0, fast_ + gain() * excess_v * dt_s);
+  visible_ = visible_ || fast_ > visible_speed(v);
+  return visible_;
+}
+
+bool Evidence::of_standing_encoder() {
+  const auto& truth = bench_->now().truth;
+  const double dt_s = bench_->setting().told.period_s;
+  if (!started_) {
+    fast_ = std::max(truth.speed[axis_], 0.0);
+    slow_ = std::max(-truth.speed[axis_], 0.0);
+    started_ = true;
+  } else {
+    const double u = truth.written_v[axis_], unknown_v = tolerance_v(u, 0);
+    fast_ = std::max(0.0, fast_ + gain() * (u - unknown_v) * dt_s);
+    slow_ = std::max(0.0, slow_ + gain() * (-u - unknown_v) * dt_s);
+  }
+  if (truth.brake_closed[axis_]) fast_ = slow_ = 0;
+  visible_ = visible_ || std::max(fast_, slow_) > visible_speed(0);
+  return visible_;
+}
+
+}  // namespace crane::campaign
