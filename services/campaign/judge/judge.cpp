@@ -27,7 +27,8 @@ bool is_stop(crane_SupervisorState state) {
 
 bool is_controlled(const Reason& reason) {
   return reason.cause == crane_CAUSE_OPERATOR_STOP || reason.cause == crane_CAUSE_OPERATOR_DISARM ||
-         reason.cause == crane_CAUSE_IDLE || reason.cause == crane_CAUSE_SWING_LIMIT;
+         reason.cause == crane_CAUSE_IDLE || reason.cause == crane_CAUSE_SWING_LIMIT ||
+         reason.cause == crane_CAUSE_HOMED;
 }
 
 bool no_volts(const Row& row) { return row.truth.written_v == PerAxis{}; }
