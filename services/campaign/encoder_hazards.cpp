@@ -98,28 +98,9 @@ Strike counts_wrong(Bench& bench, Dice& dice) {
   return dice.pick(3) == 0 ? switch_elsewhere(bench, dice) : lost_counts(bench, dice);
 }
 
-constexpr double kSeenSwing_rad = 0.1;
-
-/// Due for an encoder that stands at an error of kSeenSwing_rad: the unexplained speed grows by g (0.1 -
-/// 0.02) - 0.25 m/s^2 beyond a zero wrong by 20 mrad and wind, and is seen at 50 mm/s and two counts of both
-/// swing encoders per four samples; five samples until the mean is full, one until the state is judged, ten
-/// for a push that is forgiven once.
-double swing_detection_ms(const Bench& bench) {
-  const auto& rig = bench.setting().told;
-  const double cable_m = bench.now().truth.position[2], ticks = 5 + 1 + 10;
-  const double noise_mps = 2 * 1.5 * cable_m / rig.encoders[3].counts_per_unit / (4 * rig.period_s);
-  const double growth_mps2 = rig.plant.gravity_mps2 * (kSeenSwing_rad - 0.02) - 0.25;
-  return std::ceil(((0.05 + noise_mps) / growth_mps2 + ticks * rig.period_s) * 100) * 10;
-}
-
-/// The largest error of the last ticks may pass zero: visible is an error that has been there for as long as
-/// is due.
-std::function<bool()> keeps_error(Bench& bench, std::size_t counter, double due_ms) {
-  return [&bench, counter, due_ticks = static_cast<int>(due_ms / 10), ticks = 0]() mutable {
-    ticks = bench.world().shown_error()[counter] > kSeenSwing_rad ? ticks + 1 : 0;
-    return ticks > due_ticks;
-  };
-}
+/// Due after the imbalance that a standing encoder shows is visible (evidence.hpp): four samples of the mean,
+/// two of a speed, and ten for a push that is forgiven once.
+constexpr double kSwingDetection_ms = 160;
 
 Strike swing_encoder(Bench& bench, Dice& dice) {
   const std::size_t counter = swing_counter(bench);
@@ -137,12 +118,14 @@ Strike swing_encoder(Bench& bench, Dice& dice) {
   };
   Strike strike{
       .expectation = {.reasons = {because(crane_CAUSE_SWING_SENSOR), latched(crane_LATCH_ENCODER_JUMP)},
-                      .detection_ms = 10},
-      .watched_s = 2,
-      .visible = keeps_error(bench, counter, swing_detection_ms(bench))};
-  // Noise is seen within the samples of the mean and a forgiven push; a mirrored swing fulfils the same
-  // equations until the trolley moves it, and has no due time.
-  if (kind == 2) strike.visible = {}, strike.expectation.detection_ms = swing_detection_ms(bench);
+                      .detection_ms = kSwingDetection_ms},
+      .watched_s = 2};
+  // Noise is seen at once. A mirrored swing fulfils the same equations until the trolley moves it, and has no
+  // due time.
+  if (kind < 2)
+    strike.visible = [zero = kind == 1, evidence = std::make_shared<SwingEvidence>(bench, counter)] {
+      return evidence->of_standing_encoder(zero ? 0 : evidence->swing_at_first());
+    };
   if (kind == 3) strike.visible = [] { return false; };
   return strike;
 }

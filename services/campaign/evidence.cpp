@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace crane::campaign {
 
@@ -65,6 +66,36 @@ bool Evidence::of_standing_encoder() {
   }
   if (truth.brake_closed[axis_]) fast_ = slow_ = 0;
   visible_ = visible_ || std::max(fast_, slow_) > visible_speed(0);
+  return visible_;
+}
+
+SwingEvidence::SwingEvidence(Bench& bench, std::size_t counter)
+    : bench_{&bench},
+      radial_{counter == 3},
+      at_first_rad_{radial_ ? bench.now().truth.swing_radial_rad : bench.now().truth.swing_tangential_rad},
+      before_mps_{carrier_mps()} {}
+
+double SwingEvidence::carrier_mps() const {
+  const auto& truth = bench_->now().truth;
+  return radial_ ? truth.speed[0] : truth.position[0] * truth.speed[1];
+}
+
+bool SwingEvidence::of_standing_encoder(double shown_rad) {
+  constexpr double kZero_rad = 0.02, kWind_mps2 = 0.25, kSpeed_mps = 0.05, kMean = 4, kCable = 0.55;
+  const auto& rig = bench_->setting().told;
+  const double g = rig.plant.gravity_mps2, dt_s = rig.period_s;
+  const double now_mps = carrier_mps();
+  // (2.11): the load hangs at -L sin(phi) along the jib and at L sin(theta) across it.
+  const double pull = (radial_ ? -1 : 1) * g * std::sin(shown_rad) * dt_s;
+  const double imbalance = now_mps - std::exchange(before_mps_, now_mps) + pull;
+  const auto& truth = bench_->now().truth;
+  const double other_rad = radial_ ? truth.swing_tangential_rad : truth.swing_radial_rad;
+  const double tolerance = (g * kZero_rad + kWind_mps2 + kCable * g * std::abs(std::sin(other_rad))) * dt_s;
+  up_ = std::max(0.0, up_ + imbalance - tolerance);
+  down_ = std::max(0.0, down_ - imbalance - tolerance);
+  const double cable_m = bench_->now().truth.position[2];
+  const double noise_mps = 2 * 1.5 * cable_m / rig.encoders[3].counts_per_unit / (kMean * dt_s);
+  visible_ = visible_ || std::max(up_, down_) > 2 * (kSpeed_mps + noise_mps);
   return visible_;
 }
 

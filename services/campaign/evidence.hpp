@@ -33,4 +33,21 @@ class Evidence {
   double fast_ = 0, slow_ = 0;
 };
 
+/// The same for a swing encoder that stands: gravity at the angle that it shows, and the acceleration of the
+/// point that carries the load, do not balance. Tolerances: a zero off by 20 mrad, a wind of 0.25 m/s^2,
+/// and a cable that is off by 55 % under the load's swing in the other direction;
+/// visible is twice 50 mm/s and two counts per four samples.
+class SwingEvidence {
+ public:
+  SwingEvidence(Bench& bench, std::size_t counter);
+  [[nodiscard]] double swing_at_first() const { return at_first_rad_; }
+  bool of_standing_encoder(double shown_rad);
+
+ private:
+  [[nodiscard]] double carrier_mps() const;
+  Bench* bench_;
+  bool radial_, visible_ = false;
+  double at_first_rad_, before_mps_, up_ = 0, down_ = 0;
+};
+
 }  // namespace crane::campaign

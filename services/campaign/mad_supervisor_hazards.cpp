@@ -112,7 +112,9 @@ Strike creeps_under_its_brake(Bench& bench) {
   bench.ask(crane_REQUEST_ESTOP);
   bench.run(0.5);
   auto moved = std::make_shared<double>(0);
-  const double speed = i == 0 ? 0.05 : i == 1 ? 0.1 : 0.02;  // slow enough to be explained by friction and load
+  const double speed = i == 0   ? 0.05
+                       : i == 1 ? 0.1
+                                : 0.02;  // slow enough to be explained by friction and load
   bench.world().spoil_inputs = [moved, i, &bench, speed](bridge::Inputs& inputs) {
     *moved += speed * bench.setting().told.period_s;
     inputs.raw_counts[i] =
@@ -142,9 +144,9 @@ Strike needs_nobody(Bench& bench, Dice& dice) {
   }
 }
 
-/// Packets under the name of the supervisor. Due once their voltage is not between 0 V and the supervisor's own, which
-/// needs no explanation: the bridge obeys in the next tick, reports it in the one after that, and two states in a row are
-/// the proof.
+/// Packets under the name of the supervisor. Due once their voltage is not between 0 V and the supervisor's
+/// own, which needs no explanation: the bridge obeys in the next tick, reports it in the one after that, and
+/// two states in a row are the proof.
 Strike forged(Bench& bench, Dice& dice) {
   constexpr double kTolerance_v = 0.2;  // converter and scale, docs/safety.md
   const std::size_t i = bench.axis();
@@ -153,14 +155,16 @@ Strike forged(Bench& bench, Dice& dice) {
   bench.mad = madness(topics::command, [i, volts_v, shows, before = 0.0](msg::Command& command) mutable {
     before += std::clamp(volts_v - before, -kRampStep_v, kRampStep_v);
     const double own_v = command.drive_v[i];
-    *shows = *shows || before < std::min(0.0, own_v) - kTolerance_v || before > std::max(0.0, own_v) + kTolerance_v;
+    *shows = *shows || before < std::min(0.0, own_v) - kTolerance_v ||
+             before > std::max(0.0, own_v) + kTolerance_v;
     command.drive_v[i] = before;
     command.brake_release[i] = command.watchdog_permission = true;
   });
-  return {
-      .expectation = {.reasons = {because(crane_CAUSE_SECOND_WRITER)}, .detection_ms = 40, .supervisor_gone = true},
-      .watched_s = 0.5,
-      .visible = [shows] { return *shows; }};
+  return {.expectation = {.reasons = {because(crane_CAUSE_SECOND_WRITER)},
+                          .detection_ms = 40,
+                          .supervisor_gone = true},
+          .watched_s = 0.5,
+          .visible = [shows] { return *shows; }};
 }
 
 constexpr std::array kOfMadSupervisors{

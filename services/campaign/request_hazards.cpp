@@ -112,10 +112,13 @@ Strike bridge_restarts(Bench& bench, Dice& dice) {
 
 void soon_idle(Setting& setting, Dice& /*dice*/) { setting.told.limits.idle_lock_s = 0.6; }
 
-/// Due: the idle time and one tick, from HOLD on; the HOLD of a crane that was idle before began before the onset.
+/// Due: the idle time and one tick, from HOLD on; the HOLD of a crane that was idle before began before the
+/// onset.
 Strike idle(Bench& bench, Dice& /*dice*/) {
   const bool holds = bench.now().status.state == crane_STATE_HOLD;
-  return {.expectation = {.reasons = {because(crane_CAUSE_IDLE)}, .may_ride_through = !holds, .detection_ms = 610},
+  return {.expectation = {.reasons = {because(crane_CAUSE_IDLE)},
+                          .may_ride_through = !holds,
+                          .detection_ms = 610},
           .visible = [&bench] { return bench.now().status.state == crane_STATE_HOLD; }};
 }
 

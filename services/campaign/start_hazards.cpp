@@ -87,7 +87,8 @@ Strike arming_fails(Bench& bench, Dice& dice) {
       const auto& drive = bench.setting().told.drives[i];
       const auto& command = bench.now().command;
       if (command.brake_release[i])
-        *moved += std::min(drive.max_speed * 0.8 * bench.setting().told.period_s, 3 * drive.brake_slip - *moved);
+        *moved +=
+            std::min(drive.max_speed * 0.8 * bench.setting().told.period_s, 3 * drive.brake_slip - *moved);
       const auto by = std::llround(*moved * encoder.counts_per_unit * encoder.sign);
       inputs.raw_counts[i] = simulator::wrap_24_bit(inputs.raw_counts[i] + by);
     };
@@ -121,8 +122,8 @@ void ask_to_home(Bench& bench) {
   bench.run(0.4);
 }
 
-/// Due: 0.11 m to the mark at 0.05 m/s, twice 0.02 m back, 0.04 m at most of approach and 0.02 m of leaving at 0.01 m/s,
-/// and half as much again for starting and stopping.
+/// Due: 0.11 m to the mark at 0.05 m/s, twice 0.02 m back, 0.04 m at most of approach and 0.02 m of leaving
+/// at 0.01 m/s, and half as much again for starting and stopping.
 Strike homing(Bench& bench, Dice& dice) {
   ask_to_home(bench);
   Strike strike{.expectation = {.detection_ms = 14'000, .position_is_false = true}, .watched_s = 16};

@@ -66,6 +66,7 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
     swung = swung + (1.0 / kMean) * balance.swung_mps;
   }
   error = measured(limits, error, slew_rad);
+  memory.swung_mps = static_cast<double>(kMean) * swung;
   const auto& [newest, middle, oldest] = memory.seen;
   const double swing_mps =
       norm((1 / (newest.sampled_s - oldest.sampled_s)) * (newest.hanging_m - oldest.hanging_m));
@@ -95,7 +96,10 @@ bool follow_counts(const Limits& limits, const PendulumInput& input, double span
 }
 
 bool was_pushed(PendulumMemory& memory) {
-  if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks) return false;
+  constexpr double kOfTheSwing = 0.5;
+  if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks ||
+      norm(memory.swung_mps) < kOfTheSwing * norm(memory.sum_mps))
+    return false;
   memory.push_left_s = kPush_s;
   for (std::size_t i = 0; i < 2; ++i) memory.counted_before_push[i] = memory.counting_ticks[i] > 0;
   memory.sum_mps = {};

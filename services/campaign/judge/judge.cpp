@@ -102,7 +102,8 @@ class Judgement {
         std::abs(truth.swing_radial_rad) > limit_rad || std::abs(truth.swing_tangential_rad) > limit_rad;
     if (beyond && !runaway_ns_) runaway_ns_ = run_.rows[k].time_ns;
     if (runaway_ns_ && ms(*runaway_ns_, run_.rows[k].time_ns) > kBound_ms && !no_volts(run_.rows[k]) &&
-        !run_.expectation.supervisor_gone && !run_.expectation.supervisor_mad && !run_.expectation.volts_by_rig)
+        !run_.expectation.supervisor_gone && !run_.expectation.supervisor_mad &&
+        !run_.expectation.volts_by_rig)
       violated(Invariant::zero_volts, k, "volts on although the load has swung beyond 1.25 times its limit");
   }
 
@@ -286,7 +287,8 @@ class Judgement {
     if (run_.expectation.volts_by_rig || (nobody_acts && !run_.expectation.communication)) return;
     const auto end_ns = run_.rows.back().time_ns;
     const double reaction_ms =
-        (run_.expectation.loses_commands ? kCommunicationBound_ms : kZeroVoltsBound_ms) + run_.expectation.acts_late_ms;
+        (run_.expectation.loses_commands ? kCommunicationBound_ms : kZeroVoltsBound_ms) +
+        run_.expectation.acts_late_ms;
     const double bound_ms = controlled ? kControlledStop_ms : reaction_ms;
     if (ms(detected_ns, zero_ns.value_or(end_ns)) > bound_ms + 1e-6)
       violated(Invariant::zero_volts, first_row_, "0 V comes late after the detection");

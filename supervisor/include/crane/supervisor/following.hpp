@@ -15,7 +15,7 @@
 ///
 /// Detection time of a voltage error of e volts: limit / (gain (e - tolerances)) + two ticks. False alarms:
 /// none while the parameters are within their tolerances; for a white disturbance of kOffset_v rms beyond
-/// them the average run length is above 1e9 ticks on every rig (tests/supervisor/following_test.cpp).
+/// them the average run length is above 1e9 ticks on every rig (tests/supervisor/model_checks_test.cpp).
 #include <array>
 
 #include "crane/supervisor/limits.hpp"

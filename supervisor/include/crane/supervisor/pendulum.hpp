@@ -12,7 +12,8 @@
 /// carries the load.
 ///
 /// A load that somebody pushes gains its speed within a sample or two, and swings as a pendulum afterwards. A
-/// sum that exceeds the limit within kPush_ticks is therefore forgiven once in kPush_s, unless a swing
+/// sum that exceeds the limit within kPush_ticks is forgiven once in kPush_s when at least
+/// half of it is a change of the swing rate, unless a swing
 /// encoder that was counting stands from then on for kStands_ticks: nobody's push brings a load to rest
 /// within a count.
 ///
@@ -20,7 +21,7 @@
 ///   (kSpeed_mps + noise) / (g (|a| - kZero_rad) - kWind_mps2) + (kMean + 2) ticks.
 /// An error smaller than kZero_rad + kWind_mps2 / g = 46 mrad is not seen. False alarms: none within the
 /// tolerances; average run length above 1e9 ticks for a white disturbance of the same size
-/// (tests/supervisor/pendulum_test.cpp).
+/// (tests/supervisor/model_checks_test.cpp).
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {
@@ -58,6 +59,7 @@ struct PendulumMemory {
   std::array<Balance, kMean> balances{};
   std::size_t next = 0;  ///< place of the next balance
   Plane sum_mps{};
+  Plane swung_mps{};                    ///< change of the swing speed within the last kMean samples
   int growing_ticks = 0;                ///< the sum has been above 0 for so long
   double push_left_s = 0;               ///< > 0: a push has been forgiven so recently
   std::array<double, 2> swing_rad{};    ///< newest, radial and tangential
