@@ -92,9 +92,12 @@ Strike arming_fails(Bench& bench, Dice& dice) {
       const auto by = std::llround(*moved * encoder.counts_per_unit * encoder.sign);
       inputs.raw_counts[i] = simulator::wrap_24_bit(inputs.raw_counts[i] + by);
     };
-    strike.expectation.reasons = {because(crane_CAUSE_STOPPING_ENVELOPE),
-                                  because(crane_CAUSE_FOLLOWING_ERROR)};
-    strike.expectation.detection_ms = 300;
+    strike.expectation.reasons = {because(crane_CAUSE_STOPPING_ENVELOPE)};
+    // Due: the ticks to `brake_slip` from the release on, and two more.
+    const auto& drive = bench.setting().told.drives[i];
+    const double way = 0.8 * drive.max_speed * bench.setting().told.period_s;
+    strike.expectation.detection_ms = 10 * std::ceil(drive.brake_slip / way) + 20;
+    strike.visible = [&bench, i] { return bench.now().command.brake_release[i]; };
   }
   bench.every_tick = [&bench, asked = false]() mutable {
     if (!asked) bench.send(crane_REQUEST_ARM);

@@ -29,6 +29,10 @@ bool opening_is_late(L limits, I in, M m) noexcept {
 constexpr const char* kCheckBrakes = "check the brakes, then restart the supervisor";
 constexpr const char* kBridgeStopped =
     "the bridge or its relay has stopped the crane: look at the bridge's events, then reset";
+constexpr const char* kTwoWriters =
+    "two processes write the same topic, or one forges commands: end one of them, give each crane its own "
+    "name or domain, or "
+    "use keys (crane up --secure)";
 constexpr const char* kBrakeSupply = "check the brake supply and its relay";
 constexpr const char* kEnvelope =
     "the axis would not have stopped before its limit, or moved while its brake opened: check target and "
@@ -53,7 +57,7 @@ constexpr std::array kRules{
     Rule{supervisor_foreign_command, Cause::second_writer, Reaction::fault, Scope::always, false,
          [](L, I in, M) noexcept { return in.foreign_command; },
          "the bridge gives a voltage that no command of the supervisor explains; the supervisor then ends",
-         "2nd state in a row", "another program forges commands on this bus: end it, or use keys (crane up --secure)"},
+         "2nd state in a row", kTwoWriters},
     Rule{supervisor_estop_input, Cause::estop_input, Reaction::estop, Scope::always, true,
          [](L, I in, M) noexcept { return in.estop_pressed; },
          "the emergency stop of the rig is pressed", "same tick", "release the emergency stop, wait a second, then reset"},
@@ -63,7 +67,7 @@ constexpr std::array kRules{
     Rule{supervisor_second_writer, Cause::second_writer, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.second_writer; },
          "a loop topic has had a second writer within the last second", "same tick; 1 tick later where another process hears it",
-         "two processes write the same topic: end one of them, or give each crane its own name or domain"},
+         kTwoWriters},
     Rule{supervisor_bridge_latched, Cause::bridge_latched, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return bridge_stopped(in) && bridge_matters(m); },
          "the bridge has latched, or the relay has dropped", "same tick", kBridgeStopped},

@@ -273,7 +273,8 @@ TEST(Reactions, EachSignalInRunHasTheCauseAndReactionOfTheTable) {  // S16
       {"swing sensor", [](Inputs& in) { in.swing_sensor_failed = true; }, Cause::swing_sensor},
       {"brake", [](Inputs& in) { in.brakes_open = false; }, Cause::brake_did_not_open},
       {"brake failed", [](Inputs& in) { in.brake_failed = true; }, Cause::brake_did_not_close},
-      {"second writer", [](Inputs& in) { in.second_writer = true; }, Cause::second_writer},
+      {"second writer", [](Inputs& in) { in.second_writer = true; }, Cause::second_writer,
+       Reaction::power_off},
       {"not homed", [](Inputs& in) { in.not_homed = true; }, Cause::not_homed},
       {"overrun", [](Inputs& in) { in.overrun = true; }, Cause::overrun}};
   for (const Expectation& row : rows) {
