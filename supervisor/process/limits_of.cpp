@@ -13,9 +13,10 @@ MachineModel machine_of(const configuration::Rig& rig) {
   MachineModel machine{.known = rig.limits.model_checks, .crane = rig.design.crane};
   for (std::size_t i = 0; i < kAxes; ++i) {
     const auto& friction = rig.design.friction[i];
-    machine.friction_v[i] = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
-                                      friction.stiction_positive_v, friction.stiction_negative_v});
-    machine.viscous_v[i] = std::max(friction.viscous_positive_vspm, friction.viscous_negative_vspm);
+    machine.friction_positive[i] = {std::max(friction.coulomb_positive_v, friction.stiction_positive_v),
+                                    friction.viscous_positive_vspm};
+    machine.friction_negative[i] = {std::max(friction.coulomb_negative_v, friction.stiction_negative_v),
+                                    friction.viscous_negative_vspm};
     machine.resolution[i] = count_of(rig.encoders[i]);
   }
   const bool load = rig.design.crane.load_mass_kg > 0;

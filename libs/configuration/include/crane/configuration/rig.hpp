@@ -79,7 +79,7 @@ struct Limits {
   double stale_after_s = 0.05;         ///< bridge: command age that stops the crane
   double demand_stale_after_s = 0.03;  ///< supervisor: time without demands that stops the crane
   double idle_lock_s = 60;             ///< HOLD without a move for so long locks the crane
-  bool model_checks = false;           ///< following error and swing encoders are judged by the model
+  bool model_checks = true;            ///< following error and swing encoders are judged by the model
 
   bool operator==(const Limits&) const = default;
 };
