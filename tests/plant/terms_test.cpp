@@ -229,6 +229,25 @@ TEST(Terms, TorqueRippleAddsToTheVoltsByPosition) {
   EXPECT_NEAR(friction_v(terms, 0, 0.25), friction_v(terms, 0, 0.05), 1e-12);
 }
 
+TEST(Terms, APositionForceIsASpringWithARestPosition) {
+  const std::vector<TermSetting> terms{
+      {"position_force", "trolley", {{"stiffness_vpm", 2}, {"offset_v", 1}}}};
+  EXPECT_NEAR(friction_v(terms, 0.1, 0.5), 0, 1e-12) << "at rest where k p = o";
+  EXPECT_NEAR(friction_v(terms, 0.1, 0.7), 0.4, 1e-12);
+  EXPECT_NEAR(friction_v(terms, -0.1, 0.7), 0.4, 1e-12) << "it does not depend on the direction";
+}
+
+/// Motor and weight work against each other in the gear: it carries both where the motor holds the weight.
+TEST(Terms, GearFrictionGrowsWithWhatMotorAndWeightLoadTheGearWith) {
+  const std::vector<TermSetting> gear{{"gear_friction", "trolley", {{"share", 0.3}}}};
+  EXPECT_NEAR(friction_v(gear, 0.1, 0, 4), 1.2, 1e-12);
+  EXPECT_NEAR(friction_v(gear, -0.1, 0, 4), -1.2, 1e-12);
+  EXPECT_NEAR(friction_v(gear, 0.1, 0, -4), 1.2, 1e-12) << "the sign of the volts does not count";
+  std::vector<TermSetting> with_weight = gear;
+  with_weight.push_back({"position_force", "trolley", {{"offset_v", -2}}});
+  EXPECT_NEAR(friction_v(with_weight, 0.1, 0, 2), 0.3 * 4 + 2, 1e-12) << "held against a weight of 2 V";
+}
+
 TEST(Terms, ADeadZoneTakesItsWidthFromEitherSide) {
   Model model{{}, {{"command_dead_zone", "trolley", {{"width_v", 0.3}}}}};
   EXPECT_EQ(model.drive_voltage({0.3, 0.1, 0})[kTrolley], 0);

@@ -1,6 +1,6 @@
 #include <Eigen/Dense>
-#include <cmath>
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
+#include <cmath>
 
 #include "crane/diagnosis/data.hpp"
 
@@ -142,7 +142,8 @@ std::vector<double> without_noise(std::span<const double> time_s, std::span<cons
   Vector3d state = likeliest.after[n - 1];
   smoothed[n - 1] = state[0];
   for (std::size_t k = n - 1; k-- > 0;) {
-    const Matrix3d back = likeliest.covariance_after[k] * WhiteJerk::step(time_s[k + 1] - time_s[k]).transpose() *
+    const Matrix3d back = likeliest.covariance_after[k] *
+                          WhiteJerk::step(time_s[k + 1] - time_s[k]).transpose() *
                           likeliest.covariance_before[k + 1].inverse();
     state = likeliest.after[k] + back * (state - likeliest.before[k + 1]);
     smoothed[k] = state[0];

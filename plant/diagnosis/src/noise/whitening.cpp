@@ -217,8 +217,8 @@ class Learning {
     return found;
   }
 
-  /// A force of some size and colour, what friction does in its measure: the likelihood has several summits, a
-  /// weak slow force with a rough sensor is one, a strong fast one with a fine sensor another.
+  /// A force of some size and colour, what friction does in its measure: the likelihood has several summits,
+  /// a weak slow force with a rough sensor is one, a strong fast one with a fine sensor another.
   void begin() {
     const Disturbance start = best_;
     const double share = start.friction;

@@ -50,7 +50,8 @@ void Course::step(const Measured& at) {
 plant::Accelerations Course::accelerations(const Measured& at) {
   const State there = half_way(at);
   plant::InnerAccelerations ignored{};
-  return model_.accelerations(there, actuation_, model_.friction_v(there, actuation_.drive_v), inner, ignored);
+  return model_.accelerations(there, actuation_, model_.friction_v(there, actuation_.drive_v), inner,
+                              ignored);
 }
 
 void Course::follow(const Measured& at) {

@@ -200,19 +200,19 @@ report::Section residual_section(const Diagnosis& diagnosis, const configuration
 
 report::Section candidates_section(const Diagnosis& diagnosis) {
   report::Section section{.title = "Candidates", .blocks = {}};
-  report::Table table{.title = "",
-                      .header = {"candidate", "gain", "p value alone", "resamples", "parameters [95 % interval]"},
-                      .rows = {}};
+  report::Table table{
+      .title = "",
+      .header = {"candidate", "gain", "p value alone", "resamples", "parameters [95 % interval]"},
+      .rows = {}};
   for (const Ranked& ranked : diagnosis.ranking) {
     if (table.rows.size() == kMostCandidates) break;
     // The score test looks at one candidate, and resampled data vote on one.
     const bool alone = ranked.label.find(" + ") == std::string::npos;
-    table.rows.push_back(
-        {{ranked.label},
-         {significant(ranked.train_gain, 4)},
-         {alone ? significant(ranked.p_value, 2) : "-"},
-         {alone ? percent(ranked.resampling_frequency) : "-"},
-         {with_intervals(ranked.parameters)}});
+    table.rows.push_back({{ranked.label},
+                          {significant(ranked.train_gain, 4)},
+                          {alone ? significant(ranked.p_value, 2) : "-"},
+                          {alone ? percent(ranked.resampling_frequency) : "-"},
+                          {with_intervals(ranked.parameters)}});
   }
   section.blocks.emplace_back(std::move(table));
   section.blocks.emplace_back(report::Paragraph{

@@ -22,8 +22,8 @@ inline constexpr double kSignificant = 0.01;
 /// The same candidates, whatever their values.
 [[nodiscard]] bool same(const Effects& a, const Effects& b);
 
-/// Largest share of the base model's error in windows that `fitted` takes off a column beyond `before`, of the
-/// columns that what only `fitted` has acts on.
+/// Largest share of the base model's error in windows that `fitted` takes off a column beyond `before`, of
+/// the columns that what only `fitted` has acts on.
 [[nodiscard]] double share_of_error(const Fitted& fitted, const Fitted& before, const Fitted& base);
 
 /// Likelier beyond resampling, and nearer to what was measured by a share of the base model's error that
@@ -37,8 +37,8 @@ inline constexpr double kSignificant = 0.01;
 /// Share of resamples of the blocks in which `now` is less than `before`; no block outvotes the others.
 [[nodiscard]] double block_wins(const Blocks& now, const Blocks& before, std::uint64_t seed);
 
-/// How often, when the blocks are resampled, each of the rivals is likelier than `best` where it would have to
-/// replace what only `best` has. The rest of the votes are for `best`.
+/// How often, when the blocks are resampled, each of the rivals is likelier than `best` where it would have
+/// to replace what only `best` has. The rest of the votes are for `best`.
 [[nodiscard]] std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
                                               std::uint64_t seed);
 

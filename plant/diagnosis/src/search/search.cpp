@@ -96,8 +96,8 @@ class Search {
     return once;
   }
 
-  /// What is left of a hypothesis without one of its effects, from the values of the whole: a part may not have
-  /// been found from the base model.
+  /// What is left of a hypothesis without one of its effects, from the values of the whole: a part may not
+  /// have been found from the base model.
   void settle_parts_of(const Fitted& given) {
     const Fitted whole = given;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
@@ -259,14 +259,15 @@ class Search {
     ranked.parameters = estimates(f);
     ranked.train_gain = sum(found_.base.deviance) - sum(f.deviance);
     if (f.effects.size() == 1)
-      ranked.p_value = p_value_[static_cast<std::size_t>(f.effects[0].candidate - study_.candidates().data())];
+      ranked.p_value =
+          p_value_[static_cast<std::size_t>(f.effects[0].candidate - study_.candidates().data())];
     found_.ranking.push_back(ranked);
   }
 
   Study& study_;
   const Request& request_;
   Hypotheses found_;
-  std::vector<Fitted> tried_;               ///< of the next size, not settled
+  std::vector<Fitted> tried_;              ///< of the next size, not settled
   std::map<std::size_t, double> p_value_;  ///< of every candidate by itself
 };
 

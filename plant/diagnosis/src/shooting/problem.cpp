@@ -236,9 +236,12 @@ void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) co
   const std::vector<double> inner = replay.inner_start_scale();
   VectorXd scale(slopes.cols());
   for (Index i = 0; i < slopes.cols(); ++i)
-    scale[i] = i >= measured ? inner[static_cast<std::size_t>(i - measured)] : i % 2 == 0 ? kKnownPosition : kKnownRate;
+    scale[i] = i >= measured ? inner[static_cast<std::size_t>(i - measured)]
+               : i % 2 == 0  ? kKnownPosition
+                             : kKnownRate;
   fit.inner_slopes = slopes.rightCols(slopes.cols() - measured);
-  const Eigen::JacobiSVD<MatrixXd> svd(slopes * scale.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<MatrixXd> svd(slopes * scale.asDiagonal(),
+                                       Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::ArrayXd told = svd.singularValues().array().square();  // information over what was known
   fit.basis = svd.matrixU() * (1 - 1 / (1 + told).sqrt()).sqrt().matrix().asDiagonal();
   fit.to_start = scale.asDiagonal() * svd.matrixV() * (told.sqrt() / (1 + told)).matrix().asDiagonal() *
@@ -393,7 +396,8 @@ VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit
   if (all > known) {
     const std::vector<double> inner = replay.inner_start_scale();
     const auto fresh = all - known;
-    const VectorXd scale = Eigen::Map<const VectorXd>(inner.data(), static_cast<Index>(inner.size())).tail(fresh);
+    const VectorXd scale =
+        Eigen::Map<const VectorXd>(inner.data(), static_cast<Index>(inner.size())).tail(fresh);
     const MatrixXd slopes = outside(start_slopes(replay, w, start, simulated, known)) * scale.asDiagonal();
     const Eigen::JacobiSVD<MatrixXd> svd(slopes, Eigen::ComputeThinU);
     const Eigen::ArrayXd told = svd.singularValues().array().square();

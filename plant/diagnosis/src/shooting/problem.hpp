@@ -21,9 +21,9 @@ struct WindowFit {
   /// Directions of the start, whitened: x - basis basis' x is x without what a start that is known before to
   /// some standard deviations makes, (I + A S^2 A')^(-1/2) x with A the slopes and S the deviations.
   Eigen::MatrixXd basis;
-  Eigen::MatrixXd inner_slopes;    ///< whitened, of the start of terms' own coordinates
-  Eigen::MatrixXd to_start;        ///< whitened residual to change of start
-  double start_price = 0;          ///< log det(I + A S^2 A')
+  Eigen::MatrixXd inner_slopes;  ///< whitened, of the start of terms' own coordinates
+  Eigen::MatrixXd to_start;      ///< whitened residual to change of start
+  double start_price = 0;        ///< log det(I + A S^2 A')
 };
 using Fits = std::vector<WindowFit>;
 

@@ -39,8 +39,7 @@ std::vector<Disturbance> UnderWay::disturbances() const {
 std::vector<Disturbance> UnderWay::disturbances_of(const Replays& crane) const {
   std::vector<Disturbance> all;
   if (drive_.empty()) return all;
-  for (const Output axis : drive_.outputs())
-    all.push_back(pieces_of(drive_.runs(), crane, axis).disturbance);
+  for (const Output axis : drive_.outputs()) all.push_back(pieces_of(drive_.runs(), crane, axis).disturbance);
   return all;
 }
 

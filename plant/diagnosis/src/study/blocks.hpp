@@ -12,8 +12,8 @@ struct Study::Slopes {
 
 /// Scores of a set of directions.
 struct BlockScores {
-  Eigen::MatrixXd by_block;   ///< block x direction: slope' weighted residual
-  Eigen::MatrixXd curvature;  ///< slope' weighted slope
+  Eigen::MatrixXd by_block;                   ///< block x direction: slope' weighted residual
+  Eigen::MatrixXd curvature;                  ///< slope' weighted slope
   std::vector<Eigen::MatrixXd> curvature_of;  ///< the same by block
   /// By direction, of all blocks.
   [[nodiscard]] Eigen::VectorXd pull() const { return by_block.colwise().sum().transpose(); }

@@ -203,7 +203,8 @@ void Study::judge_by_likelihood(Fitted& fitted) const {
     const Blocks more = left_out(block_scores(fitted.train, slopes(fitted.effects, fitted.train)));
     for (std::size_t i = 0; i < more.size(); ++i) fitted.deviance[i] += more[i];
   }
-  for (const auto& [problem, fits] : {std::pair{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}})
+  for (const auto& [problem, fits] :
+       {std::pair{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}})
     for (std::size_t i = 0; i < problem->outputs().size(); ++i) {
       const std::vector<double> squares = problem->squares_left(*fits, i);
       double& error = fitted.error[problem->outputs()[i]] = 0;

@@ -106,9 +106,7 @@ Noise Study::noise() const {
   return {train_.drive.disturbances(), train_.under_way.disturbances(), train_.load.disturbances()};
 }
 
-void Study::evaluate_base() {
-  base_train_ = evaluated(train_, replays_of(train_.runs, base_));
-}
+void Study::evaluate_base() { base_train_ = evaluated(train_, replays_of(train_.runs, base_)); }
 
 Evaluation Study::evaluated(const Body& body, const Replays& base) const {
   return summed(body, fit_of(body.drive, base), fit_of(body.load, base), body.under_way.residuals(base));

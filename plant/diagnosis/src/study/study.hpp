@@ -101,8 +101,8 @@ class Study {
   /// The same with what was learnt elsewhere, from the same runs.
   void whiten_with(const Noise& noise);
   [[nodiscard]] Noise noise() const;
-  /// The effects fitted from these values in the noise of `near`, then the noise of what they leave: enough to
-  /// tell which hypotheses are worth settled().
+  /// The effects fitted from these values in the noise of `near`, then the noise of what they leave: enough
+  /// to tell which hypotheses are worth settled().
   /// @param near of some of the effects. @pre the training data are whitened with its noise
   [[nodiscard]] Fitted screened(const Effects& effects, const Fitted& near) const;
   /// Fit and noise in turn, as long as the data become likelier. From then on the training data are whitened

@@ -64,8 +64,8 @@ bool loses_motion(const HeldOut& held_out, const std::string& column) {
   return followed_before > 0 && followed < kStillFollowed * followed_before;
 }
 
-/// Whether the error where the effects act is smaller by a share that is worth a name, in windows or over whole
-/// runs.
+/// Whether the error where the effects act is smaller by a share that is worth a name, in windows or over
+/// whole runs.
 bool worthwhile(const HeldOut& held_out, const Effects& effects) {
   const auto smaller = [&](const auto& before, const auto& after) {
     return std::ranges::any_of(before, [&](const auto& column) {
@@ -82,8 +82,7 @@ std::string held_out_doubt(const HeldOut& held_out, const Effects& effects) {
   if (effects.empty() || nothing_held_out) return "";
   if (!(held_out.likelier > kHeldOutWin))
     return "held-out runs: the extended model does not make them likelier beyond doubt";
-  if (!worthwhile(held_out, effects))
-    return "held-out runs: the extended model hardly simulates them better";
+  if (!worthwhile(held_out, effects)) return "held-out runs: the extended model hardly simulates them better";
   for (const auto& [column, motion] : held_out.whole_extended_motion)
     if (acts_on(effects, column) && motion < kStandsStill)
       return "held-out runs: " + column + " moves, and stands still in the extended model";

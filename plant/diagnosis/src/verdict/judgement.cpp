@@ -195,9 +195,8 @@ class Judgement {
     for (Ranked& ranked : result_.ranking)
       for (const auto& [candidate, share] : frequency_)
         if (candidate->label() == ranked.label) ranked.resampling_frequency = share;
-    std::stable_sort(result_.ranking.begin(), result_.ranking.end(), [](const Ranked& a, const Ranked& b) {
-      return a.train_gain > b.train_gain;
-    });
+    std::stable_sort(result_.ranking.begin(), result_.ranking.end(),
+                     [](const Ranked& a, const Ranked& b) { return a.train_gain > b.train_gain; });
   }
 
   const Study& study_;
