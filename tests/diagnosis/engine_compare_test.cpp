@@ -69,7 +69,7 @@ TEST_F(Compared, ASecondEffectHasToTakeMoreOffTheErrorThanAFirstOne) {
   fitted.effects.push_back({&other, {}});
   fitted.error[kTrolleyPosition] = 0.28;
   EXPECT_FALSE(accepted(fitted, before, base, kSeed));
-  fitted.error[kTrolleyPosition] = 0.26;
+  fitted.error[kTrolleyPosition] = 0.24;
   EXPECT_TRUE(accepted(fitted, before, base, kSeed));
 }
 

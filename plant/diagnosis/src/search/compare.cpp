@@ -10,7 +10,7 @@ namespace {
 
 /// What takes less than such a share of the base model's error off the columns that it acts on is of no
 /// consequence for the crane; beside other effects it may only make up for a form that is not exactly theirs.
-constexpr double kLeastAlone = 0.01, kLeastBeside = 0.03;
+constexpr double kLeastAlone = 0.01, kLeastBeside = 0.05;
 constexpr int kVotes = 500;
 
 }  // namespace
