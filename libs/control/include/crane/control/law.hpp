@@ -27,6 +27,7 @@ struct Measurement {
   double swing_radial_radps = 0;
   double swing_tangential_rad = 0;  ///< theta, positive: load ahead in the direction of +slew
   double swing_tangential_radps = 0;
+  Volts applied_v{};  ///< V, acts from this tick to the next
 };
 
 /// Reference of one axis: m, rad or m of cable, with its first and second derivative with respect to time in
@@ -106,6 +107,7 @@ struct Design {
   double fuzzy_point_b = 2.0 / 3;        ///< peak of PM
   double shortest_cable_length_m = 0.1;  ///< lower limit for the measured length in the laws
   double longest_cable_length_m = 100;   ///< upper limit; determines the memory of the delayed laws
+  bool swing_observer = false;           ///< the laws see the estimate of pendulum_observer.hpp
 
   bool operator==(const Design&) const = default;
 };

@@ -11,7 +11,8 @@ namespace crane::runtime {
           .swing_radial_rad = state.swing_radial_rad,
           .swing_radial_radps = state.swing_radial_radps,
           .swing_tangential_rad = state.swing_tangential_rad,
-          .swing_tangential_radps = state.swing_tangential_radps};
+          .swing_tangential_radps = state.swing_tangential_radps,
+          .applied_v = {state.applied_v[0], state.applied_v[1], state.applied_v[2]}};
 }
 
 [[nodiscard]] inline control::Reference reference(const msg::AxisReference (&axes)[control::kAxes]) {
