@@ -21,7 +21,7 @@ class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
     const auto measured = runtime::measurement(*state);
     if (!started_) law_->reset(measured);
     started_ = true;
-    const auto contribution = law_->step(measured, runtime::reference(reference->axis));
+    const auto contribution = law_->step(measured, runtime::reference(*reference));
     msg::Contribution sample{};
     sample.header = runtime::answer_to(state->header);
     runtime::assign(sample.drive_v, contribution.drive_v);

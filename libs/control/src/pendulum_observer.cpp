@@ -16,14 +16,14 @@ constexpr double kReading_rad = 1e-4;
 // Scatter of the modelled swing acceleration per tick. A cable 20 % shorter than measured changes it by
 // 0.2 rad/s2 at a swing of 5 deg. A larger value follows a wrong model closer and passes more encoder noise.
 constexpr double kModel_radps2 = 0.5;
-constexpr double kForce_rad = 0.01;         // standard deviation of the force, as an angle
-constexpr double kForceMemory_s = 20;       // time within which the force changes
-constexpr double kStartSwing = 1;           // standard deviation of swing (rad) and rate (rad/s) at the start
-constexpr double kStartOffset_rad = 0.02;   // standard deviation of the offset at the start
-constexpr double kMostAngle_rad = 1.4;      // the equations are singular at pi/2
-constexpr double kMostRate = 1e3;           // m/s, rad/s
-constexpr double kStandstill = 1e-3;        // m/s, rad/s: below, the static friction can hold a drive
-constexpr int kSubsteps = 2;                // midpoint steps per tick
+constexpr double kForce_rad = 0.01;        // standard deviation of the force, as an angle
+constexpr double kForceMemory_s = 20;      // time within which the force changes
+constexpr double kStartSwing = 1;          // standard deviation of swing (rad) and rate (rad/s) at the start
+constexpr double kStartOffset_rad = 0.02;  // standard deviation of the offset at the start
+constexpr double kMostAngle_rad = 1.4;     // the equations are singular at pi/2
+constexpr double kMostRate = 1e3;          // m/s, rad/s
+constexpr double kStandstill = 1e-3;       // m/s, rad/s: below, the static friction can hold a drive
+constexpr int kSubsteps = 2;               // midpoint steps per tick
 
 double limited(double value, double most) noexcept { return std::clamp(value, -most, most); }
 
@@ -54,7 +54,7 @@ bool sticks(const DriveFriction& f, double speed, double drive_v) noexcept {
 
 /// What acts on the crane during a tick.
 struct Drives {
-  double trolley_v, slew_v;  ///< volts with the unexplained ones
+  double trolley_v, slew_v;           ///< volts with the unexplained ones
   double radial_rad, tangential_rad;  ///< forces on the load
 };
 
@@ -66,15 +66,15 @@ plant::StateArray derivative(const Design& design, const plant::State& s, const 
   const double weight = crane.load_mass_kg * crane.gravity_mps2 * s.cable_m;
   const double trolley_v = drives.trolley_v - friction_v(design.friction[kTrolley], s.trolley_mps);
   const double slew_v = drives.slew_v - friction_v(design.friction[kSlew], s.slew_radps);
-  const auto a = plant::accelerations(
-      crane, s,
-      {.trolley_n = crane.trolley_inertia_kg * crane.trolley_gain_mps2pv * trolley_v,
-       .radial_nm = weight * drives.radial_rad,
-       .slew_nm = crane.jib_inertia_kgm2 * crane.slew_gain_radps2pv * slew_v,
-       .tangential_nm = weight * drives.tangential_rad},
-      0, locks);
-  return {s.trolley_mps,  s.radial_radps,   s.slew_radps,  s.tangential_radps,  s.cable_mps,
-          a.trolley_mps2, a.radial_radps2,  a.slew_radps2, a.tangential_radps2, 0};
+  const auto a =
+      plant::accelerations(crane, s,
+                           {.trolley_n = crane.trolley_inertia_kg * crane.trolley_gain_mps2pv * trolley_v,
+                            .radial_nm = weight * drives.radial_rad,
+                            .slew_nm = crane.jib_inertia_kgm2 * crane.slew_gain_radps2pv * slew_v,
+                            .tangential_nm = weight * drives.tangential_rad},
+                           0, locks);
+  return {s.trolley_mps,  s.radial_radps,  s.slew_radps,  s.tangential_radps,  s.cable_mps,
+          a.trolley_mps2, a.radial_radps2, a.slew_radps2, a.tangential_radps2, 0};
 }
 
 plant::State moved(const plant::State& state, const plant::StateArray& rate, double time_s) noexcept {
@@ -238,19 +238,21 @@ class ObservedLaw final : public Law {
   double period_s_;
 };
 
-std::unique_ptr<Law> observed(std::unique_ptr<Law> law, const Design& design) {
-  if (!design.swing_observer) return law;
+}  // namespace
+
+std::unique_ptr<Law> with_observer(std::unique_ptr<Law> law, const Design& design) {
+  if (dynamic_cast<const ObservedLaw*>(law.get()) != nullptr) return law;
   return std::make_unique<ObservedLaw>(std::move(law), design);
 }
 
-}  // namespace
-
 std::unique_ptr<Law> tracking_law(const Controller& controller, const Design& design) {
-  return observed(controller.make_tracking(design), design);
+  auto law = controller.make_tracking(design);
+  return design.swing_observer ? with_observer(std::move(law), design) : std::move(law);
 }
 
 std::unique_ptr<Law> anti_swing_law(const Controller& controller, const Design& design) {
-  return observed(controller.make_anti_swing(design), design);
+  auto law = controller.make_anti_swing(design);
+  return design.swing_observer ? with_observer(std::move(law), design) : std::move(law);
 }
 
 }  // namespace crane::control

@@ -63,6 +63,8 @@ class PendulumObserver {
 /// unknown force holds the load, so that wind does not displace the crane.
 [[nodiscard]] Measurement at_effect(const CraneEstimate& estimate) noexcept;
 
+/// The law behind a pendulum observer. A law that has one already stays as it is.
+[[nodiscard]] std::unique_ptr<Law> with_observer(std::unique_ptr<Law> law, const Design& design);
 /// The law of `controller`, behind a pendulum observer where the design asks for it.
 [[nodiscard]] std::unique_ptr<Law> tracking_law(const Controller& controller, const Design& design);
 [[nodiscard]] std::unique_ptr<Law> anti_swing_law(const Controller& controller, const Design& design);
