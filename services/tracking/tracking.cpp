@@ -1,5 +1,6 @@
 #include "tracking/tracking.hpp"
 
+#include "crane/control/pendulum_observer.hpp"
 #include "crane/runtime/convert.hpp"
 
 namespace crane::services {
@@ -11,7 +12,7 @@ using runtime::Context;
 class TrackingStep {
  public:
   explicit TrackingStep(const Context& context)
-      : law_{context.controller.make_tracking(context.rig.design)},
+      : law_{control::tracking_law(context.controller, context.rig.design)},
         output_{context.ports.output(topics::tracking)} {}
 
   void operator()(const msg::State& state, const control::Reference& reference, bool disputed) {
@@ -41,7 +42,7 @@ class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
 
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Reference* reference) override {
-    step_(*state, runtime::reference(reference->axis), disputed());
+    step_(*state, runtime::reference(*reference), disputed());
   }
 
  private:
@@ -59,7 +60,7 @@ class CorrectedTracking : public runtime::JoinedComponent<msg::State, msg::Refer
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Reference* reference,
                const msg::Contribution* anti_swing) override {
-    auto wanted = runtime::reference(reference->axis);
+    auto wanted = runtime::reference(*reference);
     const auto correction = runtime::reference(anti_swing->correction);
     for (std::size_t i = 0; i < control::kAxes; ++i) {
       wanted[i].position += correction[i].position;

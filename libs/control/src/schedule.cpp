@@ -31,6 +31,10 @@ Measurement bounded(const Measurement& measured) noexcept {
 Reference bounded(const Reference& reference) noexcept {
   Reference result = reference;
   for (auto& axis : result) axis = {bounded(axis.position), bounded(axis.speed), bounded(axis.acceleration)};
+  auto& swing = result.swing;
+  swing = {bounded(swing.radial_rad), bounded(swing.radial_radps), bounded(swing.tangential_rad),
+           bounded(swing.tangential_radps)};
+  for (double& volts : result.feed_forward_v) volts = bounded(volts);
   return result;
 }
 
