@@ -8,21 +8,23 @@
 namespace crane::diagnosis {
 namespace {
 
-/// What takes less than such a share of the base model's error off the columns that it acts on is of no
+/// What takes less than such a share of the error that is left off the columns that it acts on is of no
 /// consequence for the crane; beside other effects it may only make up for a form that is not exactly theirs.
-constexpr double kLeastAlone = 0.01, kLeastBeside = 0.05;
+constexpr double kLeastAlone = 0.01, kLeastBeside = 0.2;
 constexpr int kVotes = 500;
 
 }  // namespace
 
-double share_of_error(const Fitted& fitted, const Fitted& before, const Fitted& base) {
+double share_of_error(const Fitted& fitted, const Fitted& before) {
   double most = 0;
   for (std::size_t output = 0; output < kOutputs; ++output) {
     const bool acts = std::ranges::any_of(fitted.effects, [&](const Effect& effect) {
       return !has(before.effects, effect.candidate) && effect.candidate->acts_on(static_cast<Output>(output));
     });
-    if (acts && base.error[output] > 0)
-      most = std::max(most, (before.error[output] - fitted.error[output]) / base.error[output]);
+    if (!acts) continue;
+    for (const auto errors : {&Fitted::error, &Fitted::whole_error})
+      if (const double left = (before.*errors)[output]; left > 0)
+        most = std::max(most, 1 - (fitted.*errors)[output] / left);
   }
   return most;
 }
@@ -76,9 +78,9 @@ bool same(const Effects& a, const Effects& b) {
          std::all_of(a.begin(), a.end(), [&](const Effect& e) { return has(b, e.candidate); });
 }
 
-bool accepted(const Fitted& fitted, const Fitted& before, const Fitted& base, std::uint64_t seed) {
+bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed) {
   const double least = before.effects.empty() ? kLeastAlone : kLeastBeside;
-  return share_of_error(fitted, before, base) > least && possible(fitted, before, seed);
+  return share_of_error(fitted, before) > least && possible(fitted, before, seed);
 }
 
 bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {

@@ -22,15 +22,12 @@ inline constexpr double kSignificant = 0.01;
 /// The same candidates, whatever their values.
 [[nodiscard]] bool same(const Effects& a, const Effects& b);
 
-/// Largest share of the base model's error in windows that `fitted` takes off a column beyond `before`, of
-/// the columns that what only `fitted` has acts on.
-[[nodiscard]] double share_of_error(const Fitted& fitted, const Fitted& before, const Fitted& base);
+/// Largest share of the error of `before` that `fitted` takes off a column, in windows or of a swing over
+/// whole runs, of the columns that what only `fitted` has acts on.
+[[nodiscard]] double share_of_error(const Fitted& fitted, const Fitted& before);
 
-/// Likelier beyond resampling, and nearer to what was measured by a share of the base model's error that
-/// matters.
-/// @param base without effects
-[[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, const Fitted& base,
-                            std::uint64_t seed);
+/// Likelier beyond resampling, and nearer to what was measured by a share of the error that matters.
+[[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed);
 /// Likelier than `base` beyond resampling.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 

@@ -112,6 +112,20 @@ double total_loss(const Evaluation& at, Loss loss) {
   return sum;
 }
 
+/// Of the simulation, by output: mean over the windows of the rms of each.
+std::array<double, kOutputs> errors_of(const std::vector<std::pair<const Problem*, const Fits*>>& parts) {
+  std::array<double, kOutputs> errors{};
+  for (const auto& [problem, fits] : parts)
+    for (std::size_t i = 0; i < problem->outputs().size(); ++i) {
+      const std::vector<double> squares = problem->squares_left(*fits, i);
+      double& error = errors[problem->outputs()[i]];
+      for (std::size_t w = 0; w < squares.size(); ++w)
+        error += std::sqrt(squares[w] / static_cast<double>(problem->seen_rows(problem->windows()[w], i))) /
+                 static_cast<double>(squares.size());
+    }
+  return errors;
+}
+
 }  // namespace
 
 bool Study::descend(Fitted& best, Loss loss, double hopeless, std::optional<Slopes>& along) const {
@@ -203,15 +217,10 @@ void Study::judge_by_likelihood(Fitted& fitted) const {
     const Blocks more = left_out(block_scores(fitted.train, slopes(fitted.effects, fitted.train)));
     for (std::size_t i = 0; i < more.size(); ++i) fitted.deviance[i] += more[i];
   }
-  for (const auto& [problem, fits] :
-       {std::pair{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}})
-    for (std::size_t i = 0; i < problem->outputs().size(); ++i) {
-      const std::vector<double> squares = problem->squares_left(*fits, i);
-      double& error = fitted.error[problem->outputs()[i]] = 0;
-      for (std::size_t w = 0; w < squares.size(); ++w)
-        error += std::sqrt(squares[w] / static_cast<double>(problem->seen_rows(problem->windows()[w], i))) /
-                 static_cast<double>(squares.size());
-    }
+  fitted.error = errors_of({{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}});
+  if (whole_runs_.empty()) return;
+  const Fits whole = whole_runs_.fit(replays_of(train_.runs, with(fitted.effects)));
+  fitted.whole_error = errors_of({{&whole_runs_, &whole}});
 }
 
 Blocks Study::held_out_deviance(const Fitted& fitted) {

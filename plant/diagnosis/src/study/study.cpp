@@ -60,7 +60,8 @@ Study::Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
       base_{rig.plant, rig.terms},
       candidates_(candidates_for(rig, train)),
       train_(train, natural_radps_),
-      test_(test, natural_radps_) {
+      test_(test, natural_radps_),
+      whole_runs_(train, Part::load, kWholeRun, 0) {
   std::erase_if(candidates_, [&](const Candidate& candidate) {
     return std::find(excluded.begin(), excluded.end(), candidate.cause) != excluded.end();
   });

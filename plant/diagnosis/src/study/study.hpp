@@ -49,6 +49,8 @@ struct Fitted {
   Blocks deviance;
   /// Error of the simulation in windows, mean over the windows of the rms of each [m or rad].
   std::array<double, kOutputs> error{};
+  /// The same of swings over whole runs. Of drives the smallest error of friction integrates into position.
+  std::array<double, kOutputs> whole_error{};
   std::vector<double> std_dev;  ///< of all values, one effect after the other; block-robust
   Eigen::MatrixXd covariance;   ///< the same before resampling
   Eigen::VectorXd by_noise;     ///< std_dev if noise and disturbance are exactly as learnt
@@ -189,6 +191,7 @@ class Study {
   Crane base_;
   std::vector<Candidate> candidates_;
   Body train_, test_;
+  Problem whole_runs_;  ///< of the load, training
   Evaluation base_train_;
 };
 

@@ -121,7 +121,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   request.progress(0.85, "what is left");
   auto [result, rival] = judge(study, found, losing, request.seed);
   result.excitation = found.excitation;
-  const bool matters = share_of_error(found.best, found.base, found.base) >= kWorthwhile;
+  const bool matters = share_of_error(found.best, found.base) >= kWorthwhile;
   if (!found.best.effects.empty()) {
     request.progress(0.88, "how well the data know it");
     found.best = with_intervals(study, found.best, request.seed);
