@@ -235,8 +235,10 @@ TEST_F(ServerTest, ASlowViewerLosesSamplesKeepsEventsAndDelaysNobody) {
   ASSERT_EQ(channels()[event - 1].topic, "/crane/event");
   subscribe(slow, event);
   subscribe(quick, channel_of_topic(0));
-  while (metric("crane_dashboard_viewers") != "2") std::this_thread::sleep_for(std::chrono::milliseconds{10});
-  std::this_thread::sleep_for(std::chrono::seconds{1});  // both subscriptions have arrived
+  for (auto* client : {&slow, &quick}) {  // a document tells that what was subscribed before it has arrived
+    subscribe(*client, channel_of(Document::seat));
+    for (std::string message; message.empty() || message[0] != 1;) message = read(*client);
+  }
   const auto sample = sample_of(topics::state, msg::State{}, kSecond_ns);
   for (int i = 0; i < 300; ++i) {
     server_.put(std::vector<SamplePtr>(100, sample));
