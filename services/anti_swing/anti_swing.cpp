@@ -1,5 +1,6 @@
 #include "anti_swing/anti_swing.hpp"
 
+#include "crane/control/pendulum_observer.hpp"
 #include "crane/runtime/convert.hpp"
 
 namespace crane::services {
@@ -12,7 +13,7 @@ class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
  public:
   explicit AntiSwing(const Context& context)
       : JoinedComponent{context, kWaitShare, topics::state, topics::reference},
-        law_{context.controller.make_anti_swing(context.rig.design)},
+        law_{control::anti_swing_law(context.controller, context.rig.design)},
         output_{context.ports.output(topics::anti_swing)} {}
 
  protected:

@@ -50,10 +50,13 @@ struct Selection {
 /// All runs, `jobs` at a time. @param done  called for each, in any order
 void run_all(const std::vector<Tuple>& tuples, unsigned jobs, const std::function<void(const Result&)>& done);
 
-/// Result of fault-free runs: hours of virtual time, and every stop that no operator asked for.
+/// Result of fault-free runs: hours of virtual time, and every stop that no operator asked for. A move may
+/// drive a crane beyond a limit, and is then stopped for a reason that the truth confirms (judge/truth.hpp);
+/// any other stop is a false trip.
 struct FaultFree {
   double hours = 0;
-  std::vector<std::string> trips{};  ///< "setting 3, 812.4 s: FOLLOWING_ERROR"
+  std::vector<std::string> trips{};   ///< "gain_scheduling_partial on gantry, after 812.4 s: FOLLOWING_ERROR"
+  std::vector<std::string> limits{};  ///< the same: stopped at a limit that the move has really crossed
 };
 /// Moves to random targets without an end, on every rig and controller. @param hours  of virtual time
 [[nodiscard]] FaultFree run_fault_free(double hours, unsigned jobs, std::uint64_t seed);

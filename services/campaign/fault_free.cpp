@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "campaign/campaign.hpp"
+#include "campaign/judge/truth.hpp"
 #include "campaign/report.hpp"
 
 namespace crane::campaign {
@@ -30,7 +31,16 @@ stack::Wish random_move(const Setting& setting, Dice& dice) {
 struct Stretch {
   double seconds = 0;
   std::string trip;
+  bool confirmed = false;  ///< by the truth
 };
+
+/// The reason of the stop is true in the row in which the crane was stopped.
+bool is_confirmed(const Reason& reason, const Setting& setting, const std::vector<Row>& rows) {
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (rows[k].status.state >= crane_STATE_STOP_C1 || rows[k].status.state == crane_STATE_LOCKED)
+      return is_true(reason, setting.told, rows, k);
+  return false;
+}
 
 /// One crane, from power-on until it trips or its share is over.
 Stretch run_stretch(std::uint64_t number, Dice& dice) {
@@ -41,14 +51,17 @@ Stretch run_stretch(std::uint64_t number, Dice& dice) {
   const auto stopped = [&bench] {
     return bench.now().status.state >= crane_STATE_STOP_C1 || bench.now().status.state == crane_STATE_LOCKED;
   };
+  std::vector<Row> rows;
   while (stretch.seconds < kShare_s && !stopped()) {
     bench.ask(random_move(bench.setting(), dice));
     bench.run(kPause_s);
     bench.run_until([&] { return bench.now().status.state != crane_STATE_RUN; }, kLongestMove_s);
-    stretch.seconds += static_cast<double>(bench.take_rows().size()) * period_s;
+    rows = bench.take_rows();
+    stretch.seconds += static_cast<double>(rows.size()) * period_s;
   }
   if (stopped()) {
     const Reason reason{bench.now().status.cause, bench.now().state.latch_reason};
+    stretch.confirmed = is_confirmed(reason, bench.setting(), rows);
     stretch.trip = std::string{bench.setting().controller->name} + " on " + bench.setting().told.name +
                    ", after " + std::to_string(stretch.seconds) + " s: " + to_string(reason);
   }
@@ -73,7 +86,8 @@ FaultFree run_fault_free(double hours, unsigned jobs, std::uint64_t seed) {
       Dice dice{seed * 1'000'003 + number};
       const auto stretch = run_stretch(number % kSettings, dice);
       left_s -= std::max(stretch.seconds, 1.0);
-      const auto line = std::to_string(stretch.seconds) + " " + stretch.trip + "\n";
+      const auto line =
+          std::to_string(stretch.seconds) + (stretch.confirmed ? " 1 " : " 0 ") + stretch.trip + "\n";
       if (::write(::fileno(lines), line.data(), line.size()) < 0) ::_exit(1);
     }
     ::_exit(0);
@@ -84,11 +98,11 @@ FaultFree run_fault_free(double hours, unsigned jobs, std::uint64_t seed) {
   std::array<char, 512> line{};
   while (std::fgets(line.data(), line.size(), lines) != nullptr) {
     double seconds = 0;
-    int length = 0;
-    if (std::sscanf(line.data(), "%lf %n", &seconds, &length) < 1) continue;
+    int length = 0, confirmed = 0;
+    if (std::sscanf(line.data(), "%lf %d %n", &seconds, &confirmed, &length) < 2) continue;
     found.hours += seconds / 3600;
     if (line[static_cast<std::size_t>(length)] != '\0' && line[static_cast<std::size_t>(length)] != '\n')
-      found.trips.emplace_back(line.data() + length);
+      (confirmed != 0 ? found.limits : found.trips).emplace_back(line.data() + length);
   }
   std::fclose(lines);
   return found;

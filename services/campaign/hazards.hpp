@@ -53,10 +53,40 @@ struct Hazard {
 /// @return null when there is none of that number
 [[nodiscard]] const Hazard* find_hazard(int number);
 
-// One file for what strikes the processes and their bus, one for the rig and its wires, one for requests.
+// A file for each kind.
 [[nodiscard]] std::span<const Hazard> process_hazards();
-[[nodiscard]] std::span<const Hazard> rig_hazards();
-[[nodiscard]] std::span<const Hazard> operator_hazards();
+[[nodiscard]] std::span<const Hazard> encoder_hazards();
+[[nodiscard]] std::span<const Hazard> drive_hazards();
+[[nodiscard]] std::span<const Hazard> load_hazards();
+[[nodiscard]] std::span<const Hazard> brake_hazards();
+[[nodiscard]] std::span<const Hazard> mad_supervisor_hazards();
+[[nodiscard]] std::span<const Hazard> request_hazards();
+[[nodiscard]] std::span<const Hazard> start_hazards();
+
+/// The side to which the setting moves the axis of the fault.
+[[nodiscard]] double direction(const Bench& bench);
+/// A change of a coordinate as its counter shows it.
+[[nodiscard]] std::int32_t counts(const Bench& bench, std::size_t counter, double change);
+/// The counter that feels the motion of the axis most: radial for trolley and hoist, tangential for the jib.
+[[nodiscard]] std::size_t swing_counter(const Bench& bench);
+/// From now on the counter stands.
+void freeze(Bench& bench, std::size_t counter);
+/// The counter has left the truth by more than `error`, m or rad.
+[[nodiscard]] std::function<bool()> sees_error(Bench& bench, std::size_t counter, double error);
+/// A push against the load that swings it so far. @param rad  amplitude
+void push(Bench& bench, double rad);
+/// A limit switch closes where the counter says there is none.
+[[nodiscard]] Strike switch_elsewhere(Bench& bench, Dice& dice);
+/// The truth is beyond the limit that the reason names.
+[[nodiscard]] std::function<bool()> crosses(Bench& bench, Reason reason);
+inline constexpr double kClear_s =
+    1.2;  ///< longer than the second for which causes have to be clear before a reset
+/// The newest request is to be refused.
+[[nodiscard]] Strike refusal();
+/// The operator's emergency stop, until the axes stand.
+void stop_at_once(Bench& bench);
+/// What the bridge may say first when a drive or an encoder does not do what it should.
+[[nodiscard]] std::vector<Reason> drive_reasons();
 
 [[nodiscard]] inline Reason because(crane_Cause cause) { return {cause, crane_LATCH_NONE}; }
 [[nodiscard]] inline Reason latched(crane_LatchReason reason) { return {crane_CAUSE_BRIDGE_LATCHED, reason}; }

@@ -1,5 +1,6 @@
 #include "tracking/tracking.hpp"
 
+#include "crane/control/pendulum_observer.hpp"
 #include "crane/runtime/convert.hpp"
 
 namespace crane::services {
@@ -11,7 +12,7 @@ using runtime::Context;
 class TrackingStep {
  public:
   explicit TrackingStep(const Context& context)
-      : law_{context.controller.make_tracking(context.rig.design)},
+      : law_{control::tracking_law(context.controller, context.rig.design)},
         output_{context.ports.output(topics::tracking)} {}
 
   void operator()(const msg::State& state, const control::Reference& reference, bool disputed) {

@@ -9,6 +9,29 @@ namespace crane::services {
 
 using control::kAxes;
 
+namespace {
+
+control::Shaping shaping_of(control::ReferenceShape shape, control::Shaping of_rig_file) {
+  switch (shape) {
+    case control::ReferenceShape::zv:
+    case control::ReferenceShape::time_optimal:  // its moves without a plan
+      return control::Shaping::zv;
+    case control::ReferenceShape::zvd:
+      return control::Shaping::zvd;
+    case control::ReferenceShape::ei:
+      return control::Shaping::ei;
+    case control::ReferenceShape::step:
+    case control::ReferenceShape::bang_coast_bang:
+      break;
+  }
+  return of_rig_file;
+}
+
+}  // namespace
+
+Motion::Motion(const configuration::Rig& rig, control::ReferenceShape shape)
+    : rig_{rig}, shape_{shape}, shaping_{shaping_of(shape, rig.planning.shaping)} {}
+
 control::AxisReference Motion::Braking::at(double time_s) const noexcept {
   const double direction = speed < 0 ? -1 : 1;
   const double duration_s = std::abs(speed) / deceleration;
@@ -27,6 +50,7 @@ void Motion::follow(const control::Measurement& measured, std::uint64_t tick) no
   is_braking_ = false;
   excitation_.reset();
   creeping_.reset();
+  planned_.reset();
   shaper_ = {};
   start_tick_ = tick;
   for (std::size_t i = 0; i < kAxes; ++i)
@@ -48,7 +72,7 @@ control::Shaper Motion::shaper() const {
   const auto& cable = trajectory_[control::kHoist];
   const double length_m = std::clamp((cable.start + cable.target) / 2, design.shortest_cable_length_m,
                                      design.longest_cable_length_m);
-  return {rig_.planning.shaping, plant::swing_period_s(design.crane.gravity_mps2, length_m)};
+  return {shaping_, plant::swing_period_s(design.crane.gravity_mps2, length_m)};
 }
 
 void Motion::start(const MoveTarget& move, std::uint64_t tick) {
@@ -61,7 +85,49 @@ void Motion::start(const MoveTarget& move, std::uint64_t tick) {
   shaper_ = swings ? shaper() : control::Shaper{};
   is_braking_ = false;
   creeping_.reset();
+  planned_.reset();
   excitation_.reset();
+  start_tick_ = tick;
+}
+
+std::optional<control::PlanProblem> Motion::plan_for(const MoveTarget& move,
+                                                     std::uint64_t tick) const noexcept {
+  if (shape_ != control::ReferenceShape::time_optimal) return std::nullopt;
+  constexpr double kRoom = 1e-3;       // m, rad: room of a start or target at a limit
+  constexpr double kSpeedShare = 0.9;  // of max_speed, at which the supervisor stops the crane
+  const auto now = at(tick);
+  control::PlanProblem problem;
+  problem.cable_m = now[control::kHoist].position;
+  for (const auto& axis : now)
+    if (axis.speed != 0) return std::nullopt;
+  if (move.selected[control::kHoist] && move.target[control::kHoist] != problem.cable_m) return std::nullopt;
+  problem.limits.swing_rad = rig_.planning.planned_swing_rad;
+  for (std::size_t i : {control::kTrolley, control::kSlew}) {
+    const auto& drive = rig_.drives[i];
+    problem.from[i] = now[i].position;
+    problem.to[i] = move.selected[i] ? move.target[i] : now[i].position;
+    if (!drive.present) continue;
+    problem.limits.volts[i] = rig_.planning.planned_volt_share * drive.volt_limit_v;
+    problem.limits.speed[i] = kSpeedShare * drive.max_speed;
+    problem.limits.low[i] =
+        std::min({drive.low_limit + drive.soft_margin, problem.from[i] - kRoom, problem.to[i] - kRoom});
+    problem.limits.high[i] =
+        std::max({drive.high_limit - drive.soft_margin, problem.from[i] + kRoom, problem.to[i] + kRoom});
+  }
+  if (problem.from == problem.to) return std::nullopt;
+  return problem;
+}
+
+void Motion::start(const control::PlanProblem& problem, const control::Plan& plan,
+                   std::uint64_t tick) noexcept {
+  is_braking_ = false;
+  creeping_.reset();
+  excitation_.reset();
+  shaper_ = {};
+  for (std::size_t i : {control::kTrolley, control::kSlew})
+    trajectory_[i] = control::step_profile(problem.to[i], problem.to[i]);
+  trajectory_[control::kHoist] = control::step_profile(problem.cable_m, problem.cable_m);
+  planned_ = {problem, plan};
   start_tick_ = tick;
 }
 
@@ -71,6 +137,7 @@ void Motion::excite(const control::Excitation& excitation, std::uint64_t tick) {
     trajectory_[i] = control::step_profile(now[i].position, now[i].position);
   is_braking_ = false;
   creeping_.reset();
+  planned_.reset();
   shaper_ = {};
   excitation_ = excitation;
   start_tick_ = tick;
@@ -84,12 +151,14 @@ void Motion::creep(const std::array<double, kAxes>& speed, const control::Measur
   for (std::size_t i = 0; i < kAxes; ++i)
     creeping.start[i] = speed[i] != 0 ? measured.position[i] : now[i].position;
   creeping_ = creeping;
+  planned_.reset();
   start_tick_ = tick;
 }
 
 void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noexcept {
   is_braking_ = true;
   creeping_.reset();
+  planned_.reset();
   start_tick_ = tick;
   for (std::size_t i = 0; i < kAxes; ++i)
     braking_[i] = {.start = measured.position[i],
@@ -106,6 +175,8 @@ control::Reference Motion::at(std::uint64_t tick) const noexcept {
                       .acceleration = 0};
     return reference;
   }
+  if (planned_ && !is_braking_)
+    return control::reference_at(rig_.design, planned_->problem, planned_->plan, time_s(tick));
   if (!is_braking_) {
     auto reference = control::reference_at(trajectory_, time_s(tick));
     for (const auto axis : {control::kTrolley, control::kSlew})
@@ -123,8 +194,8 @@ bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) c
   constexpr double kBand = 0.01;     // largest distance from the reference, m, rad
   constexpr double kSlow = 0.01;     // largest speed, m/s, rad/s
   constexpr double kLongest_s = 20;  // longest wait; friction may hold an axis outside the band
-  const double end_s =
-      excitation_ ? excitation_->duration_s : control::duration_s(trajectory_) + shaper_.delay_s();
+  const double profile_s = planned_ ? planned_->plan.duration_s : control::duration_s(trajectory_);
+  const double end_s = excitation_ ? excitation_->duration_s : profile_s + shaper_.delay_s();
   if (time_s(tick) > end_s + kLongest_s) return true;
   const auto reference = at(tick);
   for (std::size_t i = 0; i < kAxes; ++i) {

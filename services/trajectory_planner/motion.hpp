@@ -9,6 +9,7 @@
 #include "crane/control/excitation.hpp"
 #include "crane/control/law.hpp"
 #include "crane/control/shaper.hpp"
+#include "crane/control/time_optimal.hpp"
 #include "crane/control/trajectory.hpp"
 
 namespace crane::services {
@@ -22,12 +23,18 @@ struct MoveTarget {
 class Motion {
  public:
   /// @param rig  limits of the reference per drive; must outlive the motion
-  Motion(const configuration::Rig& rig, control::ReferenceShape shape) : rig_{rig}, shape_{shape} {}
+  Motion(const configuration::Rig& rig, control::ReferenceShape shape);
 
   /// Sets the reference to the measured position, while the crane is not under control.
   void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
   /// Begins a move at `tick` from the present reference.
   void start(const MoveTarget& move, std::uint64_t tick);
+  /// The plan that this move needs when it begins from the present reference; nothing when the move is none
+  /// for a plan: another controller, the cable moves, or the reference is not at rest.
+  [[nodiscard]] std::optional<control::PlanProblem> plan_for(const MoveTarget& move,
+                                                             std::uint64_t tick) const noexcept;
+  /// Begins a planned move at `tick`.
+  void start(const control::PlanProblem& problem, const control::Plan& plan, std::uint64_t tick) noexcept;
   /// Excites one axis from `tick` on. The references of the other axes do not change.
   void excite(const control::Excitation& excitation, std::uint64_t tick);
   /// Decelerates from the measured speed with the reference acceleration until rest.
@@ -56,11 +63,17 @@ class Motion {
 
   const configuration::Rig& rig_;
   control::ReferenceShape shape_;
+  control::Shaping shaping_;  ///< that of the controller, otherwise that of the rig file
   control::Trajectory trajectory_{};
   control::Shaper shaper_;  ///< for trolley and slew; the hoist causes no swing
   std::array<Braking, control::kAxes> braking_{};
   std::optional<control::Excitation> excitation_;  ///< replaces the profile of its axis
   std::optional<Creeping> creeping_;
+  struct Planned {
+    control::PlanProblem problem;
+    control::Plan plan;
+  };
+  std::optional<Planned> planned_;  ///< replaces the profiles of trolley and slew
   bool is_braking_ = false;
   std::uint64_t start_tick_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "trajectory_planner/trajectory_planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "crane/control/reference_start.hpp"
 #include "crane/runtime/convert.hpp"
 #include "trajectory_planner/motion.hpp"
+#include "trajectory_planner/plan_worker.hpp"
 
 namespace crane::services {
 namespace {
@@ -43,7 +45,12 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       : JoinedComponent{context, kWaitShare, topics::state, topics::supervisor},
         output_{context.ports.output(topics::reference)},
         stale_after_ticks_{context.rig.ticks_in(context.rig.limits.stale_after_s)},
-        motion_{context.rig, context.controller.reference} {}
+        planning_ticks_{static_cast<std::uint64_t>(
+            std::lround(context.rig.planning.planning_time_s / context.rig.period_s))},
+        motion_{context.rig, context.controller.reference} {
+    if (context.controller.reference == control::ReferenceShape::time_optimal)
+      worker_.emplace(context.rig.design, context.clock == runtime::Clock::realtime);
+  }
 
  protected:
   /// At the first tick and after a gap, the reference of the present tick was not published during the
@@ -71,6 +78,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     const auto next = tick + 1;
     // A planner that starts beside an armed crane has no reference yet: it begins where the crane is.
     if (!published_) motion_.follow(measured, next);
+    if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) pending_.reset();
     if (supervisor_ == crane_STATE_STOP_C1) {
       if (!stopping_) motion_.stop(measured, next);
     } else if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) {
@@ -79,6 +87,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       motion_.creep(homing_speed_, measured, next);
     } else if (status != nullptr) {
       start_if_new(status->move, next);
+      begin_pending(next);
     }
     stopping_ = supervisor_ == crane_STATE_STOP_C1;
     publish(*state, next);
@@ -93,8 +102,23 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     known_moves_ = move_number_ = move.number;
     if (move.kind == crane_REQUEST_FOLLOW)
       motion_.excite(excitation_of(move), tick);
+    else if (const auto problem = worker_ ? motion_.plan_for(target_of(move), tick) : std::nullopt)
+      pending_ = Pending{target_of(move), *problem, tick + planning_ticks_, worker_->ask(*problem)};
     else
       motion_.start(target_of(move), tick);
+  }
+
+  /// Begins the awaited move: by its plan, or shaped when there is no plan in time.
+  void begin_pending(std::uint64_t tick) {
+    if (!pending_) return;
+    if (!pending_->asked) pending_->asked = worker_->ask(pending_->problem);
+    if (tick < pending_->begin_tick) return;
+    const auto result = pending_->asked ? worker_->take() : std::nullopt;
+    if (result && result->outcome == control::PlanOutcome::solved)
+      motion_.start(pending_->problem, result->plan, tick);
+    else
+      motion_.start(pending_->target, tick);
+    pending_.reset();
   }
 
   void publish(const msg::State& state, std::uint64_t tick) {
@@ -104,17 +128,26 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     const auto measured = runtime::measurement(state);
     auto reference = motion_.at(tick);
     start_.mark(measured, reference);
-    runtime::assign(sample.axis, reference);
-    for (std::size_t i = 0; i < control::kAxes; ++i) sample.start[i] = reference[i].start;
+    runtime::assign(sample, reference);
     sample.move_number = move_number_;
     sample.second_writer = disputed();
-    sample.moving = !motion_.arrived(measured, tick);
+    sample.moving = pending_ || !motion_.arrived(measured, tick);
     output_.publish(sample);
     published_ = tick;
   }
 
   runtime::Output<msg::Reference> output_;
   int stale_after_ticks_;
+  /// A move that waits for its plan.
+  struct Pending {
+    MoveTarget target;
+    control::PlanProblem problem;
+    std::uint64_t begin_tick;
+    bool asked;
+  };
+  std::uint64_t planning_ticks_;
+  std::optional<PlanWorker> worker_;  ///< only for controllers with time-optimal references
+  std::optional<Pending> pending_;
   Motion motion_;
   control::ReferenceStart start_;
   std::optional<std::uint64_t> published_;

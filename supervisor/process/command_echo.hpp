@@ -43,9 +43,12 @@ class CommandEcho {
 
   /// @return true when the bridge obeys somebody else
   [[nodiscard]] bool contradicts(const msg::State& state) noexcept {
-    in_a_row_ = first_tick_ && (unexplained_volts(state) || unexplained_brake(state)) ? in_a_row_ + 1 : 0;
+    volts_ = first_tick_ && unexplained_volts(state);
+    in_a_row_ = first_tick_ && (volts_ || unexplained_brake(state)) ? in_a_row_ + 1 : 0;
     return in_a_row_ >= kStates;
   }
+  /// Of the last contradiction: voltages; false: an open brake.
+  [[nodiscard]] bool is_of_volts() const noexcept { return volts_; }
 
  private:
   /// 0 V needs no explanation: a latched bridge gives it whatever was commanded.
@@ -80,6 +83,7 @@ class CommandEcho {
   std::array<std::optional<std::uint64_t>, 3> released_tick_{};
   std::optional<std::uint64_t> first_tick_;
   int in_a_row_ = 0;
+  bool volts_ = false;
 };
 
 }  // namespace crane::supervisor

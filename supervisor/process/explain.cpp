@@ -43,8 +43,12 @@ Inputs inputs_of(const Limits& limits, const msg::SupervisorStatus& status, cons
     const Sample sample = sample_of(*state);
     in.estop_pressed = sample.estop_pressed;
     in.envelope = envelope_of(limits, sample);
-    for (std::size_t i = kAxes; i-- > 0;)
-      if (limits.axis[i].present && sample.position_unknown[i]) in.not_homed = true, in.unhomed_axis = i;
+    in.brakes_open = true;
+    for (std::size_t i = kAxes; i-- > 0;) {
+      if (!limits.axis[i].present) continue;
+      in.brakes_open = in.brakes_open && !sample.brake_closed[i];
+      if (sample.position_unknown[i]) in.not_homed = true, in.unhomed_axis = i;
+    }
   }
   in.envelope.swing = status.swing_exceeded;
   return in;
@@ -66,7 +70,8 @@ std::vector<Explained> explain(const msg::SupervisorStatus& status, const msg::S
                   .clear_since_s = kLongAgo_s,
                   .fresh_since_s = kLongAgo_s,
                   .idle_since_s = kNow_s,
-                  .self_test_passed = true};
+                  .self_test_passed = true,
+                  .homing = std::ranges::any_of(status.homing, [](bool homing) { return homing; })};
     const auto answer = step(limits, in, memory).answers[static_cast<std::size_t>(request)];
     explained.push_back({name, answer.accepted, answer.reason});
   }

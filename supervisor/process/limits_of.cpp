@@ -1,6 +1,9 @@
 #include "crane/supervisor/component.hpp"
 
 #include <algorithm>
+#include <string>
+
+#include "crane/plant/term.hpp"
 
 namespace crane::supervisor {
 namespace {
@@ -9,15 +12,36 @@ double count_of(const configuration::Encoder& encoder) {
   return encoder.counts_per_unit > 0 ? 1 / encoder.counts_per_unit : 0;
 }
 
+/// The friction that the rig file's model has may be larger than what is compensated.
+void add_friction_of_model(const configuration::Rig& rig, MachineModel& machine) {
+  for (const plant::TermSetting& term : rig.terms) {
+    if (term.name != "drive_friction") continue;
+    const auto value = [&term](const std::string& name) {
+      const auto found = term.parameters.find(name);
+      return found == term.parameters.end() ? 0.0 : found->second;
+    };
+    const plant::Axis axis = plant::drive_axis(term.axis);
+    const auto raise = [&value](const std::string& sign, MachineModel::Friction& friction) {
+      friction.rest_v =
+          std::max({friction.rest_v, value("coulomb_" + sign + "_v"), value("stiction_" + sign + "_v")});
+      friction.viscous_v = std::max(friction.viscous_v, value("viscous_" + sign + "_vspm"));
+    };
+    raise("positive", machine.friction_positive[axis]);
+    raise("negative", machine.friction_negative[axis]);
+  }
+}
+
 MachineModel machine_of(const configuration::Rig& rig) {
   MachineModel machine{.known = rig.limits.model_checks, .crane = rig.design.crane};
   for (std::size_t i = 0; i < kAxes; ++i) {
     const auto& friction = rig.design.friction[i];
-    machine.friction_v[i] = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
-                                      friction.stiction_positive_v, friction.stiction_negative_v});
-    machine.viscous_v[i] = std::max(friction.viscous_positive_vspm, friction.viscous_negative_vspm);
+    machine.friction_positive[i] = {std::max(friction.coulomb_positive_v, friction.stiction_positive_v),
+                                    friction.viscous_positive_vspm};
+    machine.friction_negative[i] = {std::max(friction.coulomb_negative_v, friction.stiction_negative_v),
+                                    friction.viscous_negative_vspm};
     machine.resolution[i] = count_of(rig.encoders[i]);
   }
+  add_friction_of_model(rig, machine);
   const bool load = rig.design.crane.load_mass_kg > 0;
   for (std::size_t i = 0; i < 2; ++i) {
     machine.swing_resolution_rad[i] = count_of(rig.encoders[kAxes + i]);

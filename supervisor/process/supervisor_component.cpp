@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crane/plant/coordinates.hpp"
+#include "crane/protection.hpp"
 #include "crane/runtime/convert.hpp"
 #include "crane/runtime/joined_component.hpp"
 #include "crane/runtime/request_inbox.hpp"
@@ -67,13 +68,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_arrived = true;
       input.demand_v = runtime::values(demand->total_v);
     }
-    if (reference != nullptr) {
-      input.reference_arrived = true;
-      for (std::size_t i = 0; i < kAxes; ++i) {
-        input.reference[i] = reference->axis[i].position;
-        input.reference_speed[i] = reference->axis[i].speed;
-      }
-    }
     input.reference_moving = is_moving(reference);
     input.bridge_restarted = restarts() > bridge_restarts_;
     bridge_restarts_ = restarts();
@@ -83,9 +77,12 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       self_test_ = {};
       echo_.restart();
     }
-    if (realtime_ && echo_.contradicts(*state)) give_up();
     input.self_test = self_test_.step(state);
+    const bool foreign = realtime_ && protection::enabled(protection::Protection::supervisor_echo) &&
+                         echo_.contradicts(*state);
+    if (foreign) note_foreign(input);
     step(input);
+    if (foreign) give_up();
   }
 
   /// No state arrives: the bridge is dead, hung or cut off. Steps the state machine without a sample; the
@@ -140,6 +137,16 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     state_due_ns_ = now_ns + periods_ns(kRespitePeriods);
     has_respite_ = true;
     return true;
+  }
+
+  /// The status that this process publishes last names what it has seen.
+  void note_foreign(TickInput& input) const {
+    if (echo_.is_of_volts())
+      input.foreign_command = true;
+    else if (input.self_test == SelfTest::running)
+      input.self_test = SelfTest::failed;
+    else
+      input.brake_open_untold = true;
   }
 
   /// The bridge obeys packets that look like this supervisor's. No command helps; the end of this process

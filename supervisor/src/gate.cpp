@@ -11,6 +11,10 @@ namespace {
 using enum protection::Protection;
 using protection::enabled;
 
+// Weight of a clamped tick against one that is not: a demand that jumps to and fro is clamped every second
+// tick only, and stops the crane after 2 kPressure / (kPressure - 1) times as many ticks as one that is
+// clamped in each.
+constexpr int kPressure = 4;
 constexpr int kCountEnd = 1'000'000;  // counts in a row stop here: a stream may be missing for months
 
 void limit_range(const Limits& limits, PerAxis& volts_v, GateOutput& output) noexcept {
@@ -36,7 +40,7 @@ void limit_rate(const Limits& limits, GateMemory& memory, PerAxis& volts_v, Gate
     if (enabled(gate_rate)) volts_v[i] = reachable_v;
   }
   output.clamped = output.clamped || clamped;
-  memory.rate_pressure = clamped ? memory.rate_pressure + 2 : std::max(0, memory.rate_pressure - 1);
+  memory.rate_pressure = clamped ? memory.rate_pressure + kPressure : std::max(0, memory.rate_pressure - 1);
   if (memory.rate_pressure >= rate_pressure_limit(limits)) output.cause = Cause::demand_rate;
 }
 
@@ -60,7 +64,7 @@ int rate_pressure_limit(const Limits& limits) noexcept {
         std::max(reversal_ticks, 2 * axis.volt_limit_v / (axis.volt_rate_limit_vps * limits.period_s));
   }
   constexpr double kMost_ticks = 1e6;
-  return 2 * (10 + static_cast<int>(std::min(std::ceil(reversal_ticks), kMost_ticks)));
+  return kPressure * (10 + static_cast<int>(std::min(std::ceil(reversal_ticks), kMost_ticks)));
 }
 
 namespace {

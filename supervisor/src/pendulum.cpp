@@ -6,15 +6,14 @@
 namespace crane::supervisor {
 namespace {
 
-using Plane = std::array<double, 2>;
+using Plane = PendulumMemory::Plane;
 
-constexpr double kLongestGap_s = 0.1;  // without samples the observer starts anew
-constexpr double kErratic = 3;         // second differences too large, less a fifth for each that is not
-constexpr double kForgiven = 0.2;
-constexpr double kSmooth = 0.5;  // per sample: a rate that noise does not make
-constexpr double kBeyondMotion = 2;
+constexpr double kLongestGap_s = 0.1;  // without samples the sum begins anew
+constexpr double kLeastDepth = 0.2;    // of the cable: a load beside the jib is not judged by its tangent
 
 Plane operator-(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
+Plane operator+(const Plane& a, const Plane& b) { return {a[0] + b[0], a[1] + b[1]}; }
+Plane operator*(double s, const Plane& a) { return {s * a[0], s * a[1]}; }
 double norm(const Plane& a) { return std::hypot(a[0], a[1]); }
 
 /// From the frame of the jib to the ground, and back with the negative angle.
@@ -23,110 +22,126 @@ Plane turned(const Plane& a, double angle_rad) {
   return {c * a[0] - s * a[1], s * a[0] + c * a[1]};
 }
 
-struct Geometry {
-  Plane pivot_m, load_m;  ///< over ground
-  double cable_m;
-};
-
-Geometry geometry_of(const Limits& limits, const PendulumInput& input) {
+/// Depth and offsets by (2.11).
+PendulumMemory::Seen seen_of(const Limits& limits, const PendulumInput& input) {
   const double cable_m = limits.machine.cable(input.position[2]);
   const double radial = input.radial_rad, tangential = input.tangential_rad;
-  const Plane hanging{-cable_m * std::cos(tangential) * std::sin(radial),
-                      cable_m * std::sin(tangential)};  // (2.11)
-  const Plane pivot = turned({input.position[0], 0}, input.position[1]);
-  const Plane offset = turned(hanging, input.position[1]);
-  return {pivot, {pivot[0] + offset[0], pivot[1] + offset[1]}, cable_m};
+  const Plane hanging{-cable_m * std::cos(tangential) * std::sin(radial), cable_m * std::sin(tangential)};
+  return {.sampled_s = input.sampled_s,
+          .pivot_m = turned({input.position[0], 0}, input.position[1]),
+          .hanging_m = turned(hanging, input.position[1]),
+          .depth_m = std::max(cable_m * std::cos(tangential) * std::cos(radial), kLeastDepth * cable_m)};
 }
 
-void start(const PendulumInput& input, const Geometry& at, PendulumMemory& memory) {
-  const double largest = memory.largest;
-  memory = {.started = true, .sampled_s = input.sampled_s, .load_m = at.load_m, .pivot_m = at.pivot_m};
-  memory.swing_rad = memory.frozen_at_rad = {input.radial_rad, input.tangential_rad};
-  memory.largest = largest;
+/// The balance of the newest three samples. @param slew_rad  of the middle one
+PendulumMemory::Balance balance_of(const Limits& limits, const PendulumMemory& memory) {
+  const auto& [newest, middle, oldest] = memory.seen;
+  const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
+  const double dt_s = (newer_s + older_s) / 2;
+  const auto change = [&](const Plane& c, const Plane& b, const Plane& a) {
+    return (1 / newer_s) * (c - b) - (1 / older_s) * (b - a);
+  };
+  const Plane swung = change(newest.hanging_m, middle.hanging_m, oldest.hanging_m);
+  const Plane pivot = change(newest.pivot_m, middle.pivot_m, oldest.pivot_m);
+  const double sinking_mps2 =
+      ((newest.depth_m - middle.depth_m) / newer_s - (middle.depth_m - oldest.depth_m) / older_s) / dt_s;
+  const double g = limits.machine.crane.gravity_mps2;
+  const double pull_mps2 = std::clamp(g - sinking_mps2, 0.0, 3 * g);
+  return {.error_mps = swung + pivot + (pull_mps2 / middle.depth_m * dt_s) * middle.hanging_m,
+          .swung_mps = swung};
 }
 
-/// Moves the observer on by one sample. @return what it has to correct: the residual, m
-Plane observe_load(const Limits& limits, const Geometry& at, double dt_s, PendulumMemory& memory) {
-  const double cable_m = at.cable_m;
-  const Plane offset = memory.load_m - memory.pivot_m;
-  const Plane pivot_mps{(at.pivot_m[0] - memory.pivot_m[0]) / dt_s,
-                        (at.pivot_m[1] - memory.pivot_m[1]) / dt_s};
-  const double sine = std::min(norm(offset) / cable_m, 0.99);
-  const double rate_radps = norm(memory.load_mps - pivot_mps) / cable_m;
-  const double pull =
-      (limits.machine.crane.gravity_mps2 * std::sqrt(1 - sine * sine) + cable_m * rate_radps * rate_radps) /
-      cable_m;
-  constexpr double kDamping = 1;
-  const double to_place = 2 * kDamping * kObserver_radps * dt_s,
-               to_speed = kObserver_radps * kObserver_radps * dt_s;
-  Plane residual{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    memory.load_mps[i] -= pull * offset[i] * dt_s;
-    memory.load_m[i] += memory.load_mps[i] * dt_s;
-    residual[i] = at.load_m[i] - memory.load_m[i];
-    memory.load_m[i] += to_place * residual[i];
-    memory.load_mps[i] += to_speed * residual[i];
+/// A direction that is not measured says nothing.
+Plane measured(const Limits& limits, const Plane& ground, double slew_rad) {
+  Plane jib = turned(ground, -slew_rad);
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!limits.machine.swing_measured[i]) jib[i] = 0;
+  return turned(jib, slew_rad);
+}
+
+void add(const Limits& limits, double cable_m, double slew_rad, double span_s, PendulumMemory& memory) {
+  Plane error{}, swung{};
+  for (const auto& balance : memory.balances) {
+    error = error + (1.0 / kMean) * balance.error_mps;
+    swung = swung + (1.0 / kMean) * balance.swung_mps;
   }
-  memory.pivot_m = at.pivot_m;
-  return residual;
+  error = measured(limits, error, slew_rad);
+  memory.swung_mps = static_cast<double>(kMean) * swung;
+  const auto& [newest, middle, oldest] = memory.seen;
+  const double swing_mps =
+      norm((1 / (newest.sampled_s - oldest.sampled_s)) * (newest.hanging_m - oldest.hanging_m));
+  const double omega_radps = std::sqrt(limits.machine.crane.gravity_mps2 / cable_m);
+  const double unknown = kCableTolerance * norm(swung) + pendulum_drift(limits, span_s) +
+                         2 * kDamping * omega_radps * swing_mps * span_s;
+  const Plane sum = memory.sum_mps + error;
+  const double length = norm(sum);
+  memory.sum_mps = length > unknown ? (1 - unknown / length) * sum : Plane{};
+  memory.growing_ticks = length > unknown ? std::min(memory.growing_ticks + 1, kPush_ticks + 1) : 0;
 }
 
-/// Largest angular acceleration of a swing that gravity, drives and brakes can make.
-double largest_radps2(const Limits& limits, double cable_m) {
-  const auto& p = limits.machine.crane;
-  const double drive_mps2 =
-      std::max(p.trolley_gain_mps2pv * limits.axis[0].volt_limit_v, limits.axis[0].brake_deceleration);
-  return (p.gravity_mps2 + drive_mps2) / cable_m;
+/// @return true when an encoder that counted before the push has stood since
+bool follow_counts(const Limits& limits, const PendulumInput& input, double span_s, PendulumMemory& memory) {
+  bool stopped = false;
+  const std::array<double, 2> swing_rad{input.radial_rad, input.tangential_rad};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const bool stands =
+        std::abs(swing_rad[i] - memory.swing_rad[i]) <= limits.machine.swing_resolution_rad[i] / 2;
+    memory.swing_rad[i] = swing_rad[i];
+    memory.counting_ticks[i] = stands ? std::max(memory.counting_ticks[i] - 1, 0) : 2 * kPush_ticks;
+    memory.standing_ticks[i] = stands && memory.push_left_s > 0 ? memory.standing_ticks[i] + 1 : 0;
+    stopped = stopped || (memory.counted_before_push[i] && memory.standing_ticks[i] >= kStands_ticks);
+  }
+  memory.push_left_s -= span_s;
+  return stopped;
 }
 
-double judge_channel(const Limits& limits, std::size_t i, double swing_rad, double residual_rad,
-                     double largest_radps2, double dt_s, double observed_radps, PendulumMemory& memory) {
-  const double shown_radps = (swing_rad - memory.swing_rad[i]) / dt_s;
-  const bool shakes = std::abs(shown_radps - memory.shown_radps[i]) >
-                      kBeyondMotion * largest_radps2 * std::max(dt_s, limits.period_s) +
-                          4 * limits.machine.swing_resolution_rad[i] / dt_s;
-  memory.smooth_radps[i] += kSmooth * (shown_radps - memory.smooth_radps[i]);
-  memory.erratic[i] = shakes ? memory.erratic[i] + 1 : std::max(memory.erratic[i] - kForgiven, 0.0);
-  memory.shown_radps[i] = shown_radps;
-  memory.swing_rad[i] = swing_rad;
-  const bool stands =
-      std::abs(swing_rad - memory.frozen_at_rad[i]) <= 2 * limits.machine.swing_resolution_rad[i];
-  memory.frozen_ticks[i] = stands ? std::min(memory.frozen_ticks[i] + 1, kFrozen_ticks) : 0;
-  if (!stands) memory.frozen_at_rad[i] = swing_rad;
-  const double size = std::abs(swing_rad);
-  const double frozen =
-      memory.frozen_ticks[i] < kFrozen_ticks ? 0 : std::abs(residual_rad) / (kFrozen_rad + 0.05 * size);
-  const double implausible =
-      std::abs(residual_rad) /
-      (kImplausible_rad + 0.1 * size + kRate_s * std::max(observed_radps, std::abs(memory.smooth_radps[i])));
-  return std::max({frozen, implausible, memory.erratic[i] / kErratic});
+bool was_pushed(PendulumMemory& memory) {
+  constexpr double kOfTheSwing = 0.5;
+  if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks ||
+      norm(memory.swung_mps) < kOfTheSwing * norm(memory.sum_mps))
+    return false;
+  memory.push_left_s = kPush_s;
+  for (std::size_t i = 0; i < 2; ++i) memory.counted_before_push[i] = memory.counting_ticks[i] > 0;
+  memory.sum_mps = {};
+  memory.balances = {};
+  memory.growing_ticks = 0;
+  memory.samples = 0;
+  return true;
 }
 
 }  // namespace
 
+double pendulum_drift(const Limits& limits, double span_s) noexcept {
+  return (limits.machine.crane.gravity_mps2 * kZero_rad + kWind_mps2) * span_s;
+}
+
+double pendulum_limit(const Limits& limits, double cable_m, double span_s) noexcept {
+  const auto& count = limits.machine.swing_resolution_rad;
+  return kSpeed_mps + 2 * cable_m * std::hypot(count[0], count[1]) / (static_cast<double>(kMean) * span_s);
+}
+
 bool swing_sensor_failed(const Limits& limits, const PendulumInput& input, PendulumMemory& memory) noexcept {
-  if (!limits.machine.known || (memory.started && !(input.sampled_s > memory.sampled_s))) return false;
-  const auto at = geometry_of(limits, input);
-  const double dt_s = input.sampled_s - memory.sampled_s;
-  if (!memory.started || dt_s > kLongestGap_s) {
-    start(input, at, memory);
-    return false;
-  }
-  memory.sampled_s = input.sampled_s;
-  const Plane relative_mps = memory.load_mps;
-  const Plane before_m = memory.pivot_m;
-  const Plane residual = turned(observe_load(limits, at, dt_s, memory), -input.position[1]);
-  const Plane pivot_mps{(at.pivot_m[0] - before_m[0]) / dt_s, (at.pivot_m[1] - before_m[1]) / dt_s};
-  const double rate_radps = norm(relative_mps - pivot_mps) / at.cable_m;
-  const double largest = largest_radps2(limits, at.cable_m);
-  const Plane swing{input.radial_rad, input.tangential_rad};
-  double worst = 0;
-  for (std::size_t i = 0; i < 2; ++i)
-    if (limits.machine.swing_measured[i])
-      worst = std::max(worst, judge_channel(limits, i, swing[i], residual[i] / at.cable_m, largest, dt_s,
-                                            rate_radps, memory));
-  memory.largest = std::max(memory.largest, worst);
-  return worst > 1;
+  const auto& machine = limits.machine;
+  if (!machine.known || !(machine.swing_measured[0] || machine.swing_measured[1])) return false;
+  if (memory.samples > 0 && !(input.sampled_s > memory.seen[0].sampled_s)) return false;
+  if (memory.samples > 0 && input.sampled_s - memory.seen[0].sampled_s > kLongestGap_s)
+    memory = {.largest = memory.largest};
+  memory.seen[2] = memory.seen[1];
+  memory.seen[1] = memory.seen[0];
+  memory.seen[0] = seen_of(limits, input);
+  memory.samples = std::min(memory.samples + 1, kMean + 2);
+  if (memory.samples < 3) return false;
+  memory.balances[memory.next] = balance_of(limits, memory);
+  memory.next = (memory.next + 1) % kMean;
+  if (memory.samples < kMean + 2) return false;
+  const double cable_m = machine.cable(input.position[2]);
+  const double span_s = (memory.seen[0].sampled_s - memory.seen[2].sampled_s) / 2;
+  add(limits, cable_m, input.position[1], span_s, memory);
+  const double ratio = norm(memory.sum_mps) / pendulum_limit(limits, cable_m, span_s);
+  if (follow_counts(limits, input, span_s, memory)) return true;
+  if (ratio > 1 && was_pushed(memory)) return false;
+  memory.largest = std::max(memory.largest, ratio);
+  return !(ratio <= 1);
 }
 
 }  // namespace crane::supervisor

@@ -12,7 +12,7 @@ using L = const Limits&;
 using I = const Inputs&;
 using M = const Memory&;
 
-// ARMING waits for the bridge before it opens the brakes; from then on a bridge that has stopped is a cause.
+// ARMING waits for the bridge before it opens the brakes. Afterwards a stopped bridge is a cause.
 bool bridge_matters(M m) noexcept { return m.state != State::arming || m.releasing; }
 
 bool bridge_stopped(I in) noexcept { return in.bridge_latched || in.watchdog_dropped; }
@@ -28,6 +28,10 @@ bool opening_is_late(L limits, I in, M m) noexcept {
 constexpr const char* kCheckBrakes = "check the brakes, then restart the supervisor";
 constexpr const char* kBridgeStopped =
     "the bridge or its relay has stopped the crane: look at the bridge's events, then reset";
+constexpr const char* kTwoWriters =
+    "two processes write the same topic, or one forges commands: end one of them, give each crane its own "
+    "name or domain, or "
+    "use keys (crane up --secure)";
 constexpr const char* kBrakeSupply = "check the brake supply and its relay";
 constexpr const char* kEnvelope =
     "the axis would not have stopped before its limit, or moved while its brake opened: check target and "
@@ -49,6 +53,10 @@ constexpr std::array kRules{
          [](L, I in, M) noexcept { return in.self_test == SelfTest::failed; },
          "the board does not rest at 0 V with closed brakes and dropped relay for 0.1 s", "2 s",
          "look at the events of the self-test, then restart the supervisor"},
+    Rule{"supervisor_foreign_command", Cause::second_writer, Reaction::fault, Scope::always, false,
+         [](L, I in, M) noexcept { return in.foreign_command; },
+         "the bridge gives a voltage that no command of the supervisor explains; the supervisor then ends",
+         "2nd state in a row", kTwoWriters},
     Rule{"supervisor_estop_input", Cause::estop_input, Reaction::estop, Scope::always, true,
          [](L, I in, M) noexcept { return in.estop_pressed; },
          "the emergency stop of the rig is pressed", "same tick", "release the emergency stop, wait a second, then reset"},
@@ -58,7 +66,7 @@ constexpr std::array kRules{
     Rule{"supervisor_second_writer", Cause::second_writer, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.second_writer; },
          "a loop topic has had a second writer within the last second", "same tick; 1 tick later where another process hears it",
-         "two processes write the same topic: end one of them, or give each crane its own name or domain"},
+         kTwoWriters},
     Rule{"supervisor_bridge_latched", Cause::bridge_latched, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return bridge_stopped(in) && bridge_matters(m); },
          "the bridge has latched, or the relay has dropped", "same tick", kBridgeStopped},
@@ -85,10 +93,10 @@ constexpr std::array kRules{
     Rule{"supervisor_brake_closed_itself", Cause::brake_did_not_open, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return drives_active(m) && !in.brakes_open; },
          "a brake reports closed while the drives are active", "same tick", kBrakeSupply},
-    Rule{"supervisor_following_error_twice", Cause::following_error, Reaction::power_off, Scope::armed, false,
-         [](L, I in, M) noexcept { return in.following.twice; },
-         "an axis is off its reference, or off the speed its voltage explains, by twice the following limit",
-         "with `model_checks` only; no bound is proven", kFollowing},
+    Rule{"supervisor_following_error", Cause::following_error, Reaction::power_off, Scope::armed, false,
+         [](L, I in, M) noexcept { return in.following_error; },
+         "the speed of an axis differs from what its voltage explains by 5 % of `max_speed` and of the speed",
+         "30 ms beyond the tolerances of the model", kFollowing},
     Rule{"supervisor_bridge_not_ready", Cause::bridge_latched, Reaction::power_off, Scope::arming, false,
          [](L limits, I in, M m) noexcept { return match_is_late(limits, in, m) && bridge_stopped(in); },
          "bridge or relay are not ready 5 s after `arm`", "5 s", kBridgeStopped},
@@ -127,14 +135,10 @@ constexpr std::array kRules{
     Rule{"supervisor_swing_runaway", Cause::swing_limit, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.envelope.swing_runaway; },
          "the load swings farther than 1.25 times `swing_limit_rad`", "same tick", kSwing},
-    Rule{"supervisor_following_error", Cause::following_error, Reaction::ramped_stop, Scope::armed, false,
-         [](L, I in, M) noexcept { return in.following.once; },
-         "an axis is off its reference, or off the speed its voltage explains, by the following limit",
-         "with `model_checks` only; no bound is proven", kFollowing},
     Rule{"supervisor_swing_sensor", Cause::swing_sensor, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.swing_sensor_failed; },
-         "a swing encoder stands still while the pendulum must swing, shakes as no load can, or leaves the pendulum's model",
-         "with `model_checks` only; no bound is proven", "check the swing encoders and their cables, then reset"},
+         "the load that the encoders show does not move as a pendulum under the trolley that they show",
+         "250 ms for an error of 0.1 rad", "check the encoders of swing, trolley and slew, and their cables, then reset"},
     Rule{"supervisor_stop_timeout", Cause::stop_timeout, Reaction::ramped_stop, Scope::armed, false,
          [](L limits, I in, M m) noexcept {
            return m.state == State::stop_c1 && in.now_s - m.entered_s >= limits.stop_timeout_s;

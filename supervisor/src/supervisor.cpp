@@ -156,21 +156,18 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
 }
 
 /// An axis that is homed creeps, without a position; its motion is judged by the homing itself.
-Following following_now(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
-  if (!sampled) return {};
+bool following_error_now(const Limits& limits, bool sampled, TickMemory& memory) {
+  if (!sampled) return false;
   const Sample& sample = memory.sample;
   FollowingInput in{.sampled_s = sample.time_s,
                     .position = sample.position,
                     .swing_radial_rad = sample.swing_radial_rad,
                     .swing_tangential_rad = sample.swing_tangential_rad,
-                    .applied_v = sample.applied_v,
-                    .reference_arrived = input.reference_arrived,
-                    .reference = input.reference,
-                    .reference_speed = input.reference_speed};
+                    .applied_v = sample.applied_v};
   for (std::size_t i = 0; i < kAxes; ++i)
     in.free[i] = memory.machine.releasing && !memory.machine.homing && !sample.brake_closed[i];
-  const Following found = judge_following(limits, in, memory.following);
-  return drives_active(memory.machine) ? found : Following{};
+  const bool found = following_error(limits, in, memory.following);
+  return found && drives_active(memory.machine);
 }
 
 bool swing_sensor_now(const Limits& limits, bool sampled, TickMemory& memory) {
@@ -202,12 +199,13 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .bridge_latched = sample.command_stale || sample.command_invalid,
       .watchdog_dropped = sample.watchdog_dropped,
       .second_writer = input.second_writer,
+      .foreign_command = input.foreign_command,
       .bridge_restarted = input.bridge_restarted,
       .place_unclear = (unclear < kAxes),
       .unclear_axis = unclear % kAxes,
       .load_unclear = memory.restart.load_doubted,
       .overrun = limits.overruns_in_row > 0 && memory.overruns_in_row >= limits.overruns_in_row,
-      .brake_failed = brakes_failed,
+      .brake_failed = brakes_failed || input.brake_open_untold,
       .moved_while_arming =
           memory.machine.releasing && moved(limits, memory.release_position, memory.motion.position),
       .demand_near_zero = gated.near_zero,
@@ -255,7 +253,7 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   const GateOutput gated = run_gate(limits, input, envelope, memory);
   const double creeping_speed = creep(limits, memory);
   Inputs inputs = machine_inputs(limits, input, envelope, gated, brakes_failed, memory);
-  inputs.following = following_now(limits, input, sampled, memory);
+  inputs.following_error = following_error_now(limits, sampled, memory);
   inputs.swing_sensor_failed = swing_sensor_now(limits, sampled, memory);
 
   const bool was_ramping = memory.machine.ramping && memory.machine.state == State::stop_c1;

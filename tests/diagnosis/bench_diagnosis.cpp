@@ -1,92 +1,125 @@
 /// `crane bench diagnosis`: scores the diagnosis on data with hidden effects. Not a test: prints tables.
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <deque>
 #include <iostream>
+#include <map>
 #include <set>
-#include <thread>
 
+#include "mujoco_case.hpp"
 #include "score_record.hpp"
 
 namespace {
 
 using namespace crane::diagnosis::score;
 
+/// A set that takes longer has failed, s of processor.
+constexpr rlim_t kMostCpu_s = 600;
+
 struct Options {
+  std::string deck = "truth";
   std::size_t sets = 12;
   std::uint64_t first_seed = 100'000;
-  int processes = 2;
+  std::size_t processes = 2;
   std::string results = "diagnosis_score.jsonl";
   std::string only;
+  bool quiet = false;
 };
 
-std::vector<std::size_t> missing(const Options& options) {
+/// Sets of the truth have a seed each, counted from the first; those of MuJoCo have the deck's.
+std::uint64_t seed_of(const Options& options, std::size_t number) {
+  return options.deck == "truth" ? options.first_seed + number : options.first_seed;
+}
+
+std::deque<std::size_t> missing(const Options& options) {
   std::set<std::size_t> done;
   for (const Record& record : read_records(options.results)) {
-    if (record.seed != options.first_seed + record.number)
+    if (record.seed != seed_of(options, record.number) || record.deck != options.deck)
       throw std::runtime_error(options.results + ": set " + std::to_string(record.number) +
-                               " is of another --first-seed");
+                               " is of another --deck or --first-seed");
     done.insert(record.number);
   }
-  std::vector<std::size_t> todo;
+  std::deque<std::size_t> todo;
   for (std::size_t i = 0; i < options.sets; ++i)
     if (!done.contains(i)) todo.push_back(i);
   return todo;
 }
 
-/// Every `processes`-th of the sets, from the `rank`-th on.
-int work(const Options& options, const std::vector<std::size_t>& todo, int rank) {
+void append_score(const Options& options, std::size_t number) {
+  if (options.deck == "mujoco") {
+    const Record record = scored_mujoco(number, options.first_seed);
+    if (options.only.empty() || options.only == record.kind) append(options.results, record);
+    return;
+  }
+  const Set set = set_of(number, options.first_seed);
+  if (options.only.empty() || options.only == name_of(set.kind)) append(options.results, scored(set));
+}
+
+/// One process a set: a crash or an endless search costs that set and no other.
+pid_t started(const Options& options, std::size_t number) {
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("cannot start another process");
+  if (child > 0) return child;
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const rlimit most{kMostCpu_s, kMostCpu_s};
+  ::setrlimit(RLIMIT_CPU, &most);
   try {
-    for (std::size_t i = static_cast<std::size_t>(rank); i < todo.size();
-         i += static_cast<std::size_t>(options.processes)) {
-      const Set set = set_of(todo[i], options.first_seed);
-      if (options.only.empty() || options.only == name_of(set.kind)) append(options.results, scored(set));
-    }
-    return 0;
+    append_score(options, number);
+    ::_exit(0);
   } catch (const std::exception& error) {
-    std::cerr << "bench_diagnosis: " << error.what() << '\n';
-    return 1;
+    std::cerr << "bench_diagnosis: set " << number << ": " << error.what() << '\n';
+    ::_exit(1);
   }
 }
 
-/// Until all have ended; on a terminal it shows how many sets there are.
-int wait_for(const std::vector<pid_t>& workers, const Options& options) {
+Record failed(const Options& options, std::size_t number, int status) {
+  Record record;
+  record.deck = options.deck;
+  record.number = number;
+  record.seed = seed_of(options, number);
+  record.kind =
+      options.deck == "truth" ? name_of(set_of(number, options.first_seed).kind) : kind_of_mujoco(number);
+  record.multiple = 1;
+  record.judged = "failed";
+  record.verdict = record.found =
+      WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status)) : "see the error output";
+  return record;
+}
+
+/// Whoever is free takes the next set.
+int score(const Options& options) {
+  std::deque<std::size_t> todo = missing(options);
+  const std::size_t all = todo.size();
+  std::map<pid_t, std::size_t> running;
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
   int worst = 0;
-  for (std::size_t running = workers.size(); running > 0;) {
-    int status = 0;
-    const pid_t ended = ::waitpid(-1, &status, terminal ? WNOHANG : 0);
-    if (ended > 0) {
-      --running;
-      if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) worst = 1;
+  while (!todo.empty() || !running.empty()) {
+    if (!todo.empty() && running.size() < options.processes) {
+      const pid_t child = started(options, todo.front());
+      running[child] = todo.front();
+      todo.pop_front();
       continue;
     }
-    std::fprintf(stderr, "\r%zu of %zu sets ", read_records(options.results).size(), options.sets);
-    std::this_thread::sleep_for(std::chrono::seconds{1});
-  }
-  if (terminal) std::fprintf(stderr, "\n");
-  return worst;
-}
-
-int score(const Options& options) {
-  const auto todo = missing(options);
-  std::vector<pid_t> workers;
-  for (int rank = 0; rank < options.processes; ++rank) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-      ::_exit(work(options, todo, rank));
+    int status = 0;
+    const pid_t ended = ::waitpid(-1, &status, 0);
+    const auto of = running.find(ended);
+    if (of == running.end()) throw std::runtime_error("lost a process");
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+      append(options.results, failed(options, of->second, status));
+      worst = 1;
     }
-    if (child < 0) throw std::runtime_error("cannot start another process");
-    workers.push_back(child);
+    running.erase(of);
+    if (terminal) std::fprintf(stderr, "\r%zu of %zu sets ", all - todo.size() - running.size(), all);
   }
-  const int worst = wait_for(workers, options);
-  std::cout << table_of(read_records(options.results));
+  if (terminal && all > 0) std::fprintf(stderr, "\n");
+  std::cout << table_of(read_records(options.results), options.quiet);
   return worst;
 }
 
@@ -98,15 +131,22 @@ int main(int argc, char** argv) {
       "Scores the diagnosis on data with hidden effects that share no code with it, and prints the table "
       "of targets.\nEvery set is appended to the file of results as one line of JSON; sets that are "
       "there are not computed again,\nso that a long score may be interrupted, continued and lengthened."};
-  app.add_option("--sets", options.sets,
-                 "how many in all; of twelve, 3 clean, 6 single, 1 pair, 1 outside, 1 alike")
+  app.add_option("--deck", options.deck,
+                 "truth: cranes of tests/truth; mujoco: those of tests/truth_mujoco, with wide nuisance")
+      ->check(CLI::IsMember({"truth", "mujoco"}))
       ->capture_default_str();
-  app.add_option("--first-seed", options.first_seed, "of set 0; set k has the k-th after it")
+  app.add_option("--sets", options.sets,
+                 "how many in all; of twelve of the truth 3 clean, 6 single, 1 pair, 1 outside, 1 alike; of "
+                 "twenty of MuJoCo 5, 9, 2, 2, 2")
+      ->capture_default_str();
+  app.add_option("--first-seed", options.first_seed,
+                 "of set 0; set k has the k-th after it; of MuJoCo that of the deck")
       ->capture_default_str();
   app.add_option("--processes", options.processes, "sets under way at once")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   app.add_option("--results", options.results, "file of results")->capture_default_str();
+  app.add_flag("--quiet", options.quiet, "print nothing about single sets: a deck that is to stay unseen");
   app.add_option("--only", options.only, "sets of this kind only")
       ->check(CLI::IsMember({"clean", "single", "outside", "pair", "confounded"}));
   app.footer(

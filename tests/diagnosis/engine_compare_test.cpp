@@ -1,4 +1,4 @@
-/// Which hypothesis is better, from the losses of its blocks alone.
+/// Which hypothesis is better, from the deviance of its blocks and the errors of its simulation alone.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -8,126 +8,115 @@
 namespace crane::diagnosis {
 namespace {
 
-constexpr std::size_t kTrainingBlocks = 90, kHeldOutBlocks = 45;
+constexpr std::size_t kBlocks = 90;
 constexpr double kOfEach = 100;
 constexpr std::uint64_t kSeed = 1;
 
-Evaluation evaluation_of(const Blocks& blocks) {
-  Evaluation evaluation;
-  evaluation.blocks = blocks;
-  evaluation.drive_blocks = blocks.size();
-  evaluation.loss = evaluation.drive_loss = std::accumulate(blocks.begin(), blocks.end(), 0.0);
-  evaluation.load_loss = 0;
-  return evaluation;
-}
-
+/// A drive of a base model whose error is 1 m, and one effect on it.
 struct Compared : testing::Test {
-  Compared() { base.parameters = 0, fitted.parameters = 1; }
-  /// After the blocks have been set.
-  void evaluate() {
-    for (auto& [of, training, held_out] :
-         {std::tuple{&base, Blocks(kTrainingBlocks, kOfEach), Blocks(kHeldOutBlocks, kOfEach)},
-          {&fitted, train, test}}) {
-      of->train = evaluation_of(training);
-      of->test = evaluation_of(held_out);
+  Compared() {
+    effect.drive = true;
+    effect.axis = "trolley";
+    fitted.effects = {{&effect, {}}};
+    for (Fitted* of : {&base, &fitted}) {
+      of->deviance.assign(kBlocks, kOfEach);
+      of->train.drive_blocks = kBlocks;
     }
+    base.error[kTrolleyPosition] = 1;
+    fitted.error[kTrolleyPosition] = 0.8;
   }
-  Blocks train = Blocks(kTrainingBlocks, kOfEach), test = Blocks(kHeldOutBlocks, kOfEach);
+  [[nodiscard]] bool is_possible() const { return possible(fitted, base, kSeed); }
+  [[nodiscard]] bool is_accepted() const { return accepted(fitted, base, kSeed); }
+
+  Candidate effect, other;
   Fitted base, fitted;
 };
 
 TEST_F(Compared, AnEffectOfAllBlocksIsNotOutvotedByOneSlip) {
-  for (double& block : train) block -= 2;
-  for (double& block : test) block -= 2;
-  train[35] -= 120, train[44] += 170;
-  evaluate();
-  EXPECT_TRUE(possible(fitted, base, kSeed));
-  EXPECT_TRUE(accepted(fitted, base, base, kSeed));
+  for (double& block : fitted.deviance) block -= 2;
+  fitted.deviance[35] -= 120, fitted.deviance[44] += 170;
+  EXPECT_TRUE(is_possible());
+  EXPECT_TRUE(is_accepted());
 }
 
 TEST_F(Compared, OneSlipLessIsNoEffect) {
-  train[35] -= 2000, test[3] -= 200;
-  evaluate();
-  EXPECT_FALSE(possible(fitted, base, kSeed));
-  EXPECT_FALSE(accepted(fitted, base, base, kSeed));
+  fitted.deviance[35] -= 2000;
+  EXPECT_FALSE(is_possible());
+  EXPECT_FALSE(is_accepted());
 }
 
 TEST_F(Compared, AnEffectOfATenthOfTheBlocksIsOne) {
-  for (std::size_t i = 0; i < train.size(); i += 10) train[i] -= 20;
-  for (std::size_t i = 0; i < test.size(); i += 10) test[i] -= 20;
-  evaluate();
-  EXPECT_TRUE(accepted(fitted, base, base, kSeed));
+  for (std::size_t i = 0; i < kBlocks; i += 10) fitted.deviance[i] -= 20;
+  EXPECT_TRUE(is_accepted());
 }
 
-TEST_F(Compared, WhatTheHeldOutDataSpeakAgainstIsPossibleAndNotAccepted) {
-  for (double& block : train) block -= 4;
-  for (double& block : test) block += 1;
-  evaluate();
-  EXPECT_TRUE(possible(fitted, base, kSeed));
-  EXPECT_FALSE(accepted(fitted, base, base, kSeed));
+TEST_F(Compared, WhatMakesTheDataLikelierButNoErrorSmallerIsPossibleAndNotAccepted) {
+  for (double& block : fitted.deviance) block -= 4;
+  fitted.error[kTrolleyPosition] = 0.999;
+  EXPECT_TRUE(is_possible());
+  EXPECT_FALSE(is_accepted());
 }
 
-TEST_F(Compared, WhatAFewHeldOutBlocksSpeakForIsLikelyAndNotAccepted) {
-  for (double& block : train) block -= 4;
-  test[7] -= 20, test[21] += 3;
-  evaluate();
-  EXPECT_FALSE(accepted(fitted, base, base, kSeed));
-  EXPECT_TRUE(likely(fitted, base, kSeed));
+TEST_F(Compared, ASecondEffectHasToTakeMoreOffTheErrorThanAFirstOne) {
+  for (double& block : fitted.deviance) block -= 4;
+  fitted.error[kTrolleyPosition] = 0.98;
+  EXPECT_TRUE(is_accepted());
+  Fitted before = base;
+  other.drive = true;
+  other.axis = "trolley";
+  before.effects = {{&other, {}}};
+  before.error[kTrolleyPosition] = 0.3;  // a fifth of it has to go
+  fitted.effects.push_back({&other, {}});
+  fitted.error[kTrolleyPosition] = 0.25;
+  EXPECT_FALSE(accepted(fitted, before, kSeed));
+  fitted.error[kTrolleyPosition] = 0.23;
+  EXPECT_TRUE(accepted(fitted, before, kSeed));
 }
 
-TEST_F(Compared, WhatTheHeldOutDataSpeakAgainstIsNotLikely) {
-  for (double& block : train) block -= 4;
-  for (double& block : test) block += 1;
-  evaluate();
-  EXPECT_FALSE(likely(fitted, base, kSeed));
+TEST_F(Compared, OfASwingItIsEnoughToBeNearerOverWholeRuns) {
+  effect.drive = false, effect.load = true;
+  effect.axis = "radial";
+  for (double& block : fitted.deviance) block -= 4;
+  base.error[kRadialSwing] = fitted.error[kRadialSwing] = 1;
+  base.whole_error[kRadialSwing] = 2, fitted.whole_error[kRadialSwing] = 1;
+  EXPECT_TRUE(is_accepted());
 }
 
-/// Two causes of one drive; the first is the best.
+TEST_F(Compared, AnEffectIsNotJudgedByColumnsItDoesNotActOn) {
+  for (double& block : fitted.deviance) block -= 4;
+  base.error[kSlewAngle] = 1, fitted.error[kSlewAngle] = 0.1;
+  fitted.error[kTrolleyPosition] = 1;
+  EXPECT_FALSE(is_accepted());
+}
+
+/// Two causes of one drive; `fitted` is the best.
 struct Rivals : Compared {
   Rivals() {
-    for (Candidate* candidate : {&first, &second}) candidate->drive = true;
-    fitted.effects = {{&first, {}}};
-    base.effects = {{&second, {}}};
-    base.parameters = 1;
+    other.drive = true;
+    other.axis = "trolley";
+    rival = base;
+    rival.effects = {{&other, {}}};
   }
-  /// @param explained in each training block by the second
-  [[nodiscard]] double votes_for_second(double explained = 100) {
-    Fitted neither;
-    neither.train = evaluation_of(Blocks(kTrainingBlocks, kOfEach + explained));
-    return frequencies(fitted, {&base}, neither, kSeed).at(0);
-  }
-  Candidate first, second;
+  [[nodiscard]] double votes_for_rival() const { return frequencies(fitted, {&rival}, kSeed).at(0); }
+  Fitted rival;
 };
 
-TEST_F(Rivals, WhatIsBetterInTrainingWinsTheVotesWhenTheHeldOutDataAreAlike) {
-  for (double& block : train) block -= 4;
-  test[3] -= 10, test[9] += 10;
-  evaluate();
-  EXPECT_LT(votes_for_second(), 0.05);
+TEST_F(Rivals, WhatMakesEveryBlockLikelierWinsTheVotes) {
+  for (double& block : fitted.deviance) block -= 4;
+  EXPECT_EQ(votes_for_rival(), 0);
 }
 
-TEST_F(Rivals, WhatOneMoreParameterGainsInTrainingOnlyLeavesTheVotesOpen) {
-  for (double& block : train) block -= 4;
-  test[3] -= 10, test[9] += 10;
-  fitted.parameters = 2;
-  evaluate();
-  EXPECT_GT(votes_for_second(), 0.2);
+TEST_F(Rivals, WhatMakesAFewBlocksLikelierAndAsManyUnlikelierLeavesTheVotesOpen) {
+  for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] += i % 2 == 0 ? -4 : 4;
+  fitted.deviance[0] -= 4;
+  EXPECT_GT(votes_for_rival(), 0.2);
 }
 
-TEST_F(Rivals, WhatOneMoreParameterExplainsHalfAsMuchAgainWinsTheVotes) {
-  for (double& block : train) block -= 4;
-  test[3] -= 10, test[9] += 10;
-  fitted.parameters = 2;
-  evaluate();
-  EXPECT_LT(votes_for_second(8), 0.05);
-}
-
-TEST_F(Rivals, WhatOneMoreParameterGainsOutOfSampleTooWinsTheVotes) {
-  for (double& block : train) block -= 4;
-  for (double& block : test) block -= 4;
-  fitted.parameters = 2;
-  evaluate();
-  EXPECT_LT(votes_for_second(), 0.05);
+TEST_F(Rivals, AreComparedOnlyWhereTheyReplaceEachOther) {
+  fitted.train.drive_blocks = rival.train.drive_blocks = kBlocks / 2;
+  for (std::size_t i = kBlocks / 2; i < kBlocks; ++i) fitted.deviance[i] += 40;  // of the load
+  for (std::size_t i = 0; i < kBlocks / 2; ++i) fitted.deviance[i] -= 1;
+  EXPECT_EQ(votes_for_rival(), 0);
 }
 
 }  // namespace

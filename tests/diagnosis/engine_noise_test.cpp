@@ -33,26 +33,6 @@ TEST_P(NoiseOfARig, LearntFromACraneAsModelledIsWhatItLeaves) {
     EXPECT_NEAR(mean_loss(study.base_train().load), 1, 0.1);
   }
 }
-/// What leaves less of one output need not be what leaves less of another; both views of a drive go together.
-TEST(LearntNoise, IsOfEachOutputTheLikelierOne) {
-  const auto of_misfit = [](std::initializer_list<double> misfits) {
-    std::vector<Disturbance> all;
-    for (const double misfit : misfits) all.emplace_back().misfit = misfit;
-    return all;
-  };
-  const auto misfits_of = [](const std::vector<Disturbance>& all) {
-    std::vector<double> misfits;
-    misfits.reserve(all.size());
-    for (const Disturbance& one : all) misfits.push_back(one.misfit);
-    return misfits;
-  };
-  Noise likeliest{of_misfit({10, 10}), of_misfit({10, 10}), of_misfit({10, 10})};
-  likeliest.take_likelier({of_misfit({8, 12}), of_misfit({13, 7}), of_misfit({9, 11})});
-  EXPECT_EQ(misfits_of(likeliest.drive), (std::vector<double>{10, 12}));
-  EXPECT_EQ(misfits_of(likeliest.under_way), (std::vector<double>{10, 7}));
-  EXPECT_EQ(misfits_of(likeliest.load), (std::vector<double>{9, 10}));
-}
-
 INSTANTIATE_TEST_SUITE_P(OfRigs, NoiseOfARig, testing::Values("tower", "gantry", "drive_axis"),
                          [](const auto& tested) { return std::string{tested.param}; });
 

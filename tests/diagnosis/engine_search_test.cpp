@@ -14,7 +14,7 @@ namespace crane::diagnosis {
 namespace {
 
 /// What a little delay promises is a valley of its own: a fit that begins there ends at a millisecond.
-TEST(Singles, OfACommandThatComesMuchLaterBeginInTheRightValley) {
+TEST(Search, OfACommandThatComesMuchLaterBeginsInTheRightValley) {
   truth::Case request;
   request.rig = "drive_axis";
   request.seed = 3;
@@ -23,7 +23,7 @@ TEST(Singles, OfACommandThatComesMuchLaterBeginInTheRightValley) {
   const DataOfTruth data(request);
   Study study(data.rig, data.train, data.test);
   study.learn_disturbance();
-  const Fitted best = singles(study, Request{}).best;
+  const Fitted best = searched(study, {.most_effects = 1}).best;
   ASSERT_EQ(label_of(best.effects), "command_delay (trolley)");
   EXPECT_NEAR(best.effects[0].values[0], 0.105, 0.05 * 0.105);
 }

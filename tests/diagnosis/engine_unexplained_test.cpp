@@ -83,7 +83,7 @@ TEST(UnderWay, ErrorsOfTheEncoderAreUndoneAndNeverMakeTheResidualSmaller) {
   const Replays replays = replays_of(scaled, crane);
   const auto guided = replays[0].guided(kTrolleyPosition);
   for (std::size_t k = 0; k < shown.rows(); ++k)
-    ASSERT_NEAR(guided.position[k], as_it_was[0].run.measured[kTrolleyPosition][k], 1e-5) << k;
+    ASSERT_NEAR(guided.position[k], as_it_was[0].motion[kTrolleyPosition].position[k], 1e-5) << k;
   const Pieces right = pieces_of(as_it_was, replays_of(as_it_was, {rig.plant, rig.terms}), kTrolleyPosition);
   const Pieces undone = pieces_of(scaled, replays, kTrolleyPosition, right.disturbance);
   EXPECT_NEAR(undone.squares() / right.squares(), kScale * kScale, 0.01);

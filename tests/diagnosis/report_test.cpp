@@ -44,7 +44,7 @@ struct Example {
     diagnosis.held_out.gain = 0.67;
     diagnosis.held_out.gain_ci95 = {0.6, 0.7};
     diagnosis.remainder = {0.08, {"speed of the trolley"}};
-    diagnosis.ranking = {{"command_delay (trolley)", {{"delay_s", "s", 0.03, 0.001}}, 120, 60, 1e-5, 0.6}};
+    diagnosis.ranking = {{"command_delay (trolley)", {{"delay_s", "s", 0.03, 0.001}}, 120, 1e-5, 0.6}};
     diagnosis.extension = {{"command_delay", "trolley", {{"delay_s", 0.03}}}};
     for (const Output output : {kTrolleyPosition, kRadialSwing}) {
       Trace trace{run.name, kOutputNames[output], {}, run.measured[output], {}, {}};
@@ -223,8 +223,8 @@ TEST(ReportPage, WritesLargeNumbersInFull) {
 
 TEST(ReportPage, GivesOnlyACandidateAloneAShareOfTheResamples) {
   Example example;
-  example.diagnosis.ranking = {{"motor_gain (trolley)", {{"factor", "1", 1.1, 0.01}}, 9, 9, 0.5, 0.77},
-                               {"motor_gain (trolley) + jib_tilt", {}, 9, 9, 0.5, 0}};
+  example.diagnosis.ranking = {{"motor_gain (trolley)", {{"factor", "1", 1.1, 0.01}}, 9, 0.5, 0.77},
+                               {"motor_gain (trolley) + jib_tilt", {}, 9, 0.5, 0}};
   const std::string html = page_of(example);
   EXPECT_THAT(html, HasSubstr("factor 1.1 [1.08, 1.12]<")) << "a number without a unit has none";
   EXPECT_THAT(html, HasSubstr("77 %"));

@@ -28,20 +28,6 @@ std::string labels(const std::vector<Named>& all) {
   return text;
 }
 
-std::string found_in(const Diagnosis& found) {
-  std::string text = labels(found.causes);
-  for (const std::string& rival : found.ambiguous_with) text += " or " + rival;
-  if (found.verdict == Verdict::unknown && !found.remainder.from.empty())
-    text += (text.empty() ? "" : "; ") + found.remainder.from[0];
-  return text;
-}
-
-double peak_mb() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
 /// Everything but what is there left out of the library: the best that a diagnosis could have done.
 Diagnosis oracle(const SealedCase& sealed, const std::vector<HiddenEffect>& answer) {
   std::set<std::string> names;
@@ -88,6 +74,22 @@ void try_experiment(const Set& set, Record& record) {
 
 }  // namespace
 
+std::string labels_of(const std::vector<HiddenEffect>& effects) { return labels(effects); }
+
+std::string found_in(const Diagnosis& found) {
+  std::string text = labels(found.causes);
+  for (const std::string& rival : found.ambiguous_with) text += " or " + rival;
+  if (found.verdict == Verdict::unknown && !found.remainder.from.empty())
+    text += (text.empty() ? "" : "; ") + found.remainder.from[0];
+  return text;
+}
+
+double peak_mb() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
 Record scored(const Set& set) {
   Record record;
   record.number = set.number;
@@ -101,7 +103,7 @@ Record scored(const Set& set) {
     const SealedCase sealed(set.request);
     const Diagnosis found = sealed.diagnosed();
     const auto answer = sealed.answer();
-    record.hidden = labels(answer);
+    record.hidden = labels_of(answer);
     for (const HiddenEffect& effect : answer) record.causes.push_back(effect.name);
     record.judged = name_of(judge(found, answer));
     record.verdict = diagnosis::name_of(found.verdict);
@@ -123,7 +125,8 @@ Record scored(const Set& set) {
 }
 
 std::string line_of(const Record& r) {
-  const Json json{{"number", r.number},
+  const Json json{{"deck", r.deck},
+                  {"number", r.number},
                   {"seed", r.seed},
                   {"kind", r.kind},
                   {"rig", r.rig},
@@ -142,7 +145,8 @@ std::string line_of(const Record& r) {
                   {"resolved", r.resolved},
                   {"data_s", r.data_s},
                   {"runtime_s", r.runtime_s},
-                  {"peak_mb", r.peak_mb}};
+                  {"peak_mb", r.peak_mb},
+                  {"nuisance", r.nuisance}};
   return json.dump() + "\n";
 }
 
@@ -153,6 +157,8 @@ std::vector<Record> read_records(const std::filesystem::path& file) {
     const Json json = Json::parse(line, nullptr, false);
     if (json.is_discarded()) continue;
     Record r;
+    r.deck = json.value("deck", "truth");
+    r.nuisance = json.value("nuisance", r.nuisance);
     json.at("number").get_to(r.number);
     json.at("seed").get_to(r.seed);
     json.at("kind").get_to(r.kind);

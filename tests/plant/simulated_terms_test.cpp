@@ -25,6 +25,8 @@ std::vector<TermSetting> every_effect() {
       {"stribeck_friction", "slew", {{"excess_v", 0.3}}},
       {"position_dependent_friction", "trolley", {{"amplitude_v", 0.3}, {"wavelength", 0.2}}},
       {"torque_ripple", "slew", {{"amplitude_v", 0.3}, {"period", 0.14}}},
+      {"position_force", "trolley", {{"stiffness_vpm", 0.5}, {"offset_v", 0.1}}},
+      {"gear_friction", "slew", {{"share", 0.3}}},
       {"motor_gain", "trolley", {{"factor", 0.9}}},
       {"command_offset", "slew", {{"offset_v", 0.1}}},
       {"command_dead_zone", "trolley", {{"width_v", 0.2}}},

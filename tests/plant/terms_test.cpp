@@ -24,8 +24,9 @@ double power_w(const Parameters& p, const State& s, const Model& with, const Mod
   return rates.dot(mass_matrix(p, s) * added);
 }
 
-double friction_v(const std::vector<TermSetting>& terms, double speed_mps, double position_m = 0.5) {
-  return Model{{}, terms}.friction_v({.trolley_m = position_m, .trolley_mps = speed_mps})[kTrolley];
+double friction_v(const std::vector<TermSetting>& terms, double speed_mps, double position_m = 0.5,
+                  double drive_v = 0) {
+  return Model{{}, terms}.friction_v({.trolley_m = position_m, .trolley_mps = speed_mps}, drive_v, kTrolley);
 }
 
 std::array<double, 5> numbers(const Measurement& m) {
@@ -45,7 +46,7 @@ TEST(Terms, WithTheirDefaultsDoNothing) {
         const State s = test::random_state(random);
         const PerAxis command{1.0 - tick, -2.0 * tick, 3};
         EXPECT_EQ(with.drive_voltage(command), command);
-        EXPECT_EQ(with.friction_v(s), PerAxis{});
+        EXPECT_EQ(with.friction_v(s, {1, 1, 1}), PerAxis{});
         EXPECT_EQ(test::values(with.accelerations(s, {})), test::values(without.accelerations(s, {})));
         EXPECT_EQ(numbers(with.measure(s)), numbers(without.measure(s)));
       }
@@ -80,7 +81,7 @@ TEST(Terms, StayFiniteWithAnyParametersInTheirRanges) {
       const State s = test::random_state(random);
       InnerAccelerations own{};
       EXPECT_TRUE(finite(model.drive_voltage({in(-10, 10), in(-10, 10), in(-10, 10)})));
-      EXPECT_TRUE(finite(model.friction_v(s)));
+      EXPECT_TRUE(finite(model.friction_v(s, {1, -1, 1})));
       EXPECT_TRUE(finite(test::values(model.accelerations(s, actuation, inner, own))));
       EXPECT_TRUE(finite(own));
       EXPECT_TRUE(finite(numbers(model.measure(s))));
@@ -226,6 +227,25 @@ TEST(Terms, TorqueRippleAddsToTheVoltsByPosition) {
   EXPECT_NEAR(friction_v(terms, 0.1, 0), -0.5 * std::sin(0.3), 1e-12);
   EXPECT_NEAR(friction_v(terms, -0.1, 0.05), -0.5 * std::cos(0.3), 1e-12);
   EXPECT_NEAR(friction_v(terms, 0, 0.25), friction_v(terms, 0, 0.05), 1e-12);
+}
+
+TEST(Terms, APositionForceIsASpringWithARestPosition) {
+  const std::vector<TermSetting> terms{
+      {"position_force", "trolley", {{"stiffness_vpm", 2}, {"offset_v", 1}}}};
+  EXPECT_NEAR(friction_v(terms, 0.1, 0.5), 0, 1e-12) << "at rest where k p = o";
+  EXPECT_NEAR(friction_v(terms, 0.1, 0.7), 0.4, 1e-12);
+  EXPECT_NEAR(friction_v(terms, -0.1, 0.7), 0.4, 1e-12) << "it does not depend on the direction";
+}
+
+/// Motor and weight work against each other in the gear: it carries both where the motor holds the weight.
+TEST(Terms, GearFrictionGrowsWithWhatMotorAndWeightLoadTheGearWith) {
+  const std::vector<TermSetting> gear{{"gear_friction", "trolley", {{"share", 0.3}}}};
+  EXPECT_NEAR(friction_v(gear, 0.1, 0, 4), 1.2, 1e-12);
+  EXPECT_NEAR(friction_v(gear, -0.1, 0, 4), -1.2, 1e-12);
+  EXPECT_NEAR(friction_v(gear, 0.1, 0, -4), 1.2, 1e-12) << "the sign of the volts does not count";
+  std::vector<TermSetting> with_weight = gear;
+  with_weight.push_back({"position_force", "trolley", {{"offset_v", -2}}});
+  EXPECT_NEAR(friction_v(with_weight, 0.1, 0, 2), 0.3 * 4 + 2, 1e-12) << "held against a weight of 2 V";
 }
 
 TEST(Terms, ADeadZoneTakesItsWidthFromEitherSide) {

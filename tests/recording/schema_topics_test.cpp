@@ -143,16 +143,23 @@ TEST(TopicSchema, ReadsEveryFieldOfReferenceAndContribution) {
   msg::Reference r{};
   f.header(r.header);
   for (auto& axis : r.axis) f.axis(axis);
+  for (auto* values : {&r.swing_rad, &r.swing_radps})
+    for (double& value : *values) value = f.real();
+  for (double& value : r.feed_forward_v) value = f.real();
   r.moving = true;
   f.number(r.move_number);
   r.second_writer = true;
   f.number(r.crc32c);
-  EXPECT_EQ(through_the_codec(topics::reference, r), (ordered_json{{"header", expected(r.header)},
-                                                                   {"axis", expected(r.axis)},
-                                                                   {"moving", true},
-                                                                   {"move_number", r.move_number},
-                                                                   {"second_writer", true},
-                                                                   {"crc32c", r.crc32c}}));
+  EXPECT_EQ(through_the_codec(topics::reference, r),
+            (ordered_json{{"header", expected(r.header)},
+                          {"axis", expected(r.axis)},
+                          {"swing_rad", expected(r.swing_rad)},
+                          {"swing_radps", expected(r.swing_radps)},
+                          {"feed_forward_v", expected(r.feed_forward_v)},
+                          {"moving", true},
+                          {"move_number", r.move_number},
+                          {"second_writer", true},
+                          {"crc32c", r.crc32c}}));
   msg::Contribution c{};
   f.header(c.header);
   for (double& value : c.drive_v) value = f.real();

@@ -98,7 +98,7 @@ TEST(Gate, RateClampingWithoutPauseStopsTheCrane) {
     GateMemory memory;
     int ticks = 0;
     while (ticks < 1000 && pass(limits, memory, ticks % 2 == 0 ? 10 : -10).cause == Cause::none) ++ticks;
-    EXPECT_EQ(memory.rate_pressure, rate_pressure_limit(limits)) << rate_vps;
+    EXPECT_GE(memory.rate_pressure, rate_pressure_limit(limits)) << rate_vps;
     EXPECT_LT(ticks, 100) << rate_vps;
   }
 }

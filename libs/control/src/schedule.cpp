@@ -32,6 +32,10 @@ Reference bounded(const Reference& reference) noexcept {
   Reference result = reference;
   for (auto& axis : result)
     axis = {bounded(axis.position), bounded(axis.speed), bounded(axis.acceleration), bounded(axis.start)};
+  auto& swing = result.swing;
+  swing = {bounded(swing.radial_rad), bounded(swing.radial_radps), bounded(swing.tangential_rad),
+           bounded(swing.tangential_radps)};
+  for (double& volts : result.feed_forward_v) volts = bounded(volts);
   return result;
 }
 

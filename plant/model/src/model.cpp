@@ -1,5 +1,6 @@
 #include "crane/plant/model.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace crane::plant {
@@ -72,16 +73,20 @@ PerAxis Model::drive_voltage(const PerAxis& command_v) noexcept {
   return drive_v;
 }
 
-PerAxis Model::friction_v(const State& state) const noexcept {
+PerAxis Model::friction_v(const State& state, const PerAxis& drive_v) const noexcept {
   PerAxis sum{};
-  for (const auto& of_axis : drive_terms_)
-    for (const auto& term : of_axis) term->add_friction(state, sum);
+  for (const Axis axis : {kTrolley, kSlew, kHoist}) sum[axis] = friction_v(state, drive_v[axis], axis);
   return sum;
 }
 
-double Model::friction_v(const State& state, Axis axis) const noexcept {
+double Model::friction_v(const State& state, double drive_v, Axis axis) const noexcept {
   PerAxis sum{};
-  for (const auto& term : drive_terms_[axis]) term->add_friction(state, sum);
+  double carried_v = drive_v;
+  for (const auto& term : drive_terms_[axis]) {
+    term->add_friction(state, sum);
+    carried_v -= term->position_force_v(state);
+  }
+  for (const auto& term : drive_terms_[axis]) term->add_gear_friction(state, std::abs(carried_v), sum);
   return sum[axis];
 }
 
@@ -168,7 +173,7 @@ void Model::correct(const State& state, const PerAxis& unexplained, const InnerS
 
 Accelerations Model::accelerations(const State& state, const Actuation& actuation, const InnerState& inner,
                                    InnerAccelerations& inner_accelerations) const noexcept {
-  return accelerations(state, actuation, friction_v(state), inner, inner_accelerations);
+  return accelerations(state, actuation, friction_v(state, actuation.drive_v), inner, inner_accelerations);
 }
 
 Accelerations Model::accelerations(const State& state, const Actuation& actuation) const noexcept {

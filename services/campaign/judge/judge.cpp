@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/judge/truth.hpp"
+
 namespace crane::campaign {
 namespace {
 
@@ -25,7 +27,8 @@ bool is_stop(crane_SupervisorState state) {
 
 bool is_controlled(const Reason& reason) {
   return reason.cause == crane_CAUSE_OPERATOR_STOP || reason.cause == crane_CAUSE_OPERATOR_DISARM ||
-         reason.cause == crane_CAUSE_IDLE || reason.cause == crane_CAUSE_SWING_LIMIT;
+         reason.cause == crane_CAUSE_IDLE || reason.cause == crane_CAUSE_SWING_LIMIT ||
+         reason.cause == crane_CAUSE_HOMED;
 }
 
 bool no_volts(const Row& row) { return row.truth.written_v == PerAxis{}; }
@@ -82,7 +85,7 @@ class Judgement {
   /// A supervisor that sees a latch stops, too.
   void follows_latch(std::size_t k) {
     constexpr std::size_t kTicks = 3;
-    if (k < kTicks || run_.expectation.supervisor_gone) return;
+    if (k < kTicks || run_.expectation.supervisor_gone || run_.expectation.supervisor_mad) return;
     const bool latched = run_.rows[k - kTicks].state.latch_reason != crane_LATCH_NONE &&
                          run_.rows[k].state.latch_reason != crane_LATCH_NONE;
     const auto state = run_.rows[k].status.state;
@@ -99,7 +102,8 @@ class Judgement {
         std::abs(truth.swing_radial_rad) > limit_rad || std::abs(truth.swing_tangential_rad) > limit_rad;
     if (beyond && !runaway_ns_) runaway_ns_ = run_.rows[k].time_ns;
     if (runaway_ns_ && ms(*runaway_ns_, run_.rows[k].time_ns) > kBound_ms && !no_volts(run_.rows[k]) &&
-        !run_.expectation.supervisor_gone && !run_.expectation.volts_by_rig)
+        !run_.expectation.supervisor_gone && !run_.expectation.supervisor_mad &&
+        !run_.expectation.volts_by_rig)
       violated(Invariant::zero_volts, k, "volts on although the load has swung beyond 1.25 times its limit");
   }
 
@@ -178,7 +182,7 @@ class Judgement {
     const Row before = onset_ > 0 ? run_.rows[onset_ - 1] : Row{};
     for (first_row_ = onset_; first_row_ < run_.rows.size(); ++first_row_) {
       const Row& row = run_.rows[first_row_];
-      const bool stopped = is_stop(row.status.state) &&
+      const bool stopped = !run_.expectation.supervisor_mad && is_stop(row.status.state) &&
                            (!is_stop(before.status.state) || row.status.cause != before.status.cause);
       const bool latched =
           row.state.latch_reason != crane_LATCH_NONE && before.state.latch_reason == crane_LATCH_NONE;
@@ -205,7 +209,8 @@ class Judgement {
     const double detection_ms = ms(seen_ns, run_.rows[first_row_].time_ns);
     if (wanted.reasons.empty()) {
       violated(Invariant::no_false_trip, first_row_, "nothing was to stop the crane");
-    } else if (std::ranges::find(wanted.reasons, *verdict_.first) == wanted.reasons.end()) {
+    } else if (std::ranges::find(wanted.reasons, *verdict_.first) == wanted.reasons.end() &&
+               (wanted.position_is_false || !is_true(*verdict_.first, rig_, run_.rows, first_row_))) {
       violated(Invariant::right_reason, first_row_, "a wrong reason came first");
     } else if (run_.visible_ns && detection_ms > wanted.detection_ms + 1e-6) {
       violated(Invariant::right_reason, first_row_, "detected after " + std::to_string(detection_ms) + " ms");
@@ -278,20 +283,20 @@ class Judgement {
         verdict_.braked_ms = ms(since_ns, row.time_ns);
     }
     if (zero_ns) verdict_.zero_volts_ms = ms(since_ns, *zero_ns);
-    if (run_.expectation.volts_by_rig ||
-        (run_.expectation.supervisor_gone && !run_.expectation.communication))
-      return;
+    const bool nobody_acts = run_.expectation.supervisor_gone || run_.expectation.supervisor_mad;
+    if (run_.expectation.volts_by_rig || (nobody_acts && !run_.expectation.communication)) return;
     const auto end_ns = run_.rows.back().time_ns;
-    const double bound_ms = controlled                        ? kControlledStop_ms
-                            : run_.expectation.loses_commands ? kCommunicationBound_ms
-                                                              : kZeroVoltsBound_ms;
+    const double reaction_ms =
+        (run_.expectation.loses_commands ? kCommunicationBound_ms : kZeroVoltsBound_ms) +
+        run_.expectation.acts_late_ms;
+    const double bound_ms = controlled ? kControlledStop_ms : reaction_ms;
     if (ms(detected_ns, zero_ns.value_or(end_ns)) > bound_ms + 1e-6)
       violated(Invariant::zero_volts, first_row_, "0 V comes late after the detection");
     if (run_.expectation.communication && !controlled &&
         ms(run_.onset_ns, zero_ns.value_or(end_ns)) > kCommunicationBound_ms + 1e-6)
       violated(Invariant::zero_volts, first_row_, "0 V comes late after the onset");
     // Where no voltage was on, the ramp lasts all the same.
-    const bool late = ms(detected_ns, told_ns.value_or(end_ns)) > kZeroVoltsBound_ms + 1e-6;
+    const bool late = ms(detected_ns, told_ns.value_or(end_ns)) > reaction_ms + 1e-6;
     if (zero_ns && late && ms(*zero_ns, told_ns.value_or(end_ns)) > kBrakesBound_ms + 1e-6)
       violated(Invariant::brakes_told, first_row_, "the brakes are told to close late");
   }

@@ -48,7 +48,9 @@ struct Reason {
 
 /// What has to come of a fault.
 struct Expectation {
-  std::vector<Reason> reasons{};   ///< any of them is right; empty: nothing may stop the crane
+  /// Any of them is right, and beside them the limit that the truth has crossed; empty: nothing may stop the
+  /// crane.
+  std::vector<Reason> reasons{};
   bool may_ride_through = false;   ///< no stop is right, too
   double detection_ms = 0;         ///< from onset to the first reason
   bool communication = false;      ///< I2: 0 V within 70 ms of the onset
@@ -58,6 +60,9 @@ struct Expectation {
   bool refused = false;          ///< the newest request of the operator is to be refused
   double braked_by_rig_ms = 90;  ///< volts_by_rig: from onset to closed brakes: relay, coil and two ticks
   bool supervisor_gone = false;  ///< nobody follows a latch of the bridge
+  bool supervisor_mad = false;   ///< what it says is no evidence: only the bridge is judged
+  double acts_late_ms =
+      0;  ///< the bridge itself is late by so much: added to the times until volts and brakes
   /// The bridge has to find this by itself, whatever the supervisor did before; LATCH_NONE: nothing.
   crane_LatchReason latch_too = crane_LATCH_NONE;
   double latch_ms = 0;                         ///< latch_too: from the time the fault was visible

@@ -23,6 +23,7 @@ void add_stop(CLI::App& app, Action& chosen);
 void add_estop(CLI::App& app, Action& chosen);
 void add_topic(CLI::App& app, Action& chosen);
 void add_graph(CLI::App& app, Action& chosen);
+void add_dashboard(CLI::App& app, Action& chosen);
 void add_record(CLI::App& app, Action& chosen);
 void add_log(CLI::App& app, Action& chosen);
 void add_identify(CLI::App& app, Action& chosen);

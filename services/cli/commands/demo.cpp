@@ -1,5 +1,7 @@
 /// crane demo: the three maneuvers of the dissertation in real time; writes a table, and a recording and a
 /// picture of each.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -9,6 +11,7 @@
 #include "crane/bridge/component.hpp"
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/picture.hpp"
+#include "dashboard/dashboard.hpp"
 #include "experiments/realtime_session.hpp"
 #include "recorder/recorder.hpp"
 #include "stack/data_files.hpp"
@@ -27,6 +30,7 @@ struct DemoOptions {
   std::string plant = "sim";
   std::string out = "out/demo";
   double seconds_per_maneuver = 10;
+  bool dashboard = false;
 };
 
 constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
@@ -44,6 +48,12 @@ void go_to_start(experiments::RealtimeSession& session, const experiment::Scenar
     target[i] = *scenario.start[i];
   }
   if (selected[0] || selected[1] || selected[2]) session.move_to(selected, target, 12s);
+}
+
+/// Waits for Ctrl-C: the stack stays up for whoever looks at the dashboard.
+void keep_up(stack::ChildProcesses& children) {
+  std::cout << "the crane stays up for the dashboard; Ctrl-C ends it" << std::endl;
+  while (!runtime::stop_requested() && !children.ended()) ::usleep(50'000);
 }
 
 /// Records in a separate thread.
@@ -108,6 +118,8 @@ int demo(DemoOptions options) {
   observer.vendor = "fastdds";  // the loop runs on Cyclone DDS
   bus::Bus bus{runtime::bus_options(observer, "crane_demo", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
+  if (options.dashboard)
+    dashboard::launch(children, options.launch.bus, options.launch.rig, dashboard::default_options().port);
   RecorderSlot recorder;
   const auto meanwhile = [&children, &recorder] {
     if (recorder) recorder->poll();
@@ -122,9 +134,10 @@ int demo(DemoOptions options) {
     table.push_back(run_maneuver(session, bus, recorder, rig, controller, scenario, options));
   session.request({.kind = crane_REQUEST_DISARM}, "disarm");
   session.wait(300ms);
-  children.stop();
   experiment::print_table(std::cout, table);
   std::cout << "recordings, CSV files and pictures: " << options.out << '\n';
+  if (options.dashboard) keep_up(children);
+  children.stop();
   return runtime::kExitDone;
 }
 
@@ -146,8 +159,10 @@ void add_demo(CLI::App& app, Action& chosen) {
   command->add_option("--seconds", options->seconds_per_maneuver, "time measured after each move, in s")
       ->check(CLI::Range(5.0, 60.0))
       ->capture_default_str();
+  command->add_flag("--dashboard", options->dashboard,
+                    "show everything in the browser; the crane then stays up until Ctrl-C");
   runtime::add_bus_options(*command, options->launch.bus);
-  command->footer("Example: crane demo --controller delayed_1");
+  command->footer("Examples: crane demo --controller delayed_1\n          crane demo --dashboard");
   command->callback([options, &chosen] { chosen = [options] { return demo(*options); }; });
 }
 

@@ -8,6 +8,7 @@
 #include "crane/bridge/component.hpp"
 #include "crane/supervisor/component.hpp"
 #include "crane/twin/component.hpp"
+#include "dashboard/dashboard.hpp"
 #include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
@@ -25,6 +26,8 @@ struct UpOptions {
   std::vector<std::string> vendors;
   bool twin = false;
   std::string twin_rig;
+  bool dashboard = false;
+  unsigned short dashboard_port = dashboard::default_options().port;
 };
 
 /// The recorder runs on Fast DDS, so that ordinary use exercises both vendors together.
@@ -36,15 +39,23 @@ void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
   children.start("recorder", "crane", arguments);
 }
 
+/// What the crane does without when a process outside the control loop has ended; empty: the process is part
+/// of the loop.
+std::string goes_without(const std::string& process) {
+  if (process == "recorder") return "a recording";
+  if (process == "twin") return "its twin";
+  return process == "dashboard" ? "its dashboard" : "";
+}
+
 /// Waits for Ctrl-C. @return false when a process of the control loop has ended by itself
 bool watch(stack::ChildProcesses& children) {
   while (!runtime::stop_requested()) {
     if (const auto ended = children.ended()) {
-      const bool in_loop = ended->name != "recorder" && ended->name != "twin";
-      const std::string without = ended->name == "twin" ? "its twin" : "a recording";
+      const auto without = goes_without(ended->name);
       std::cerr << "crane up: " << stack::describe(*ended)
-                << (in_loop ? "; stopping the others" : "; the crane continues without " + without) << '\n';
-      if (in_loop) return false;
+                << (without.empty() ? "; stopping the others" : "; the crane continues without " + without)
+                << '\n';
+      if (without.empty()) return false;
     }
     ::usleep(50'000);
   }
@@ -73,6 +84,8 @@ int up(UpOptions options) {
   stack::launch(children, loop, options.launch);
   if (specs.size() > loop.size()) stack::launch_twin(children, twin_rig, options.launch);
   if (!options.record.empty()) start_recorder(children, options);
+  if (options.dashboard)
+    dashboard::launch(children, options.launch.bus, options.launch.rig, options.dashboard_port);
   stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
   if (options.launch.clock == "lockstep")
     stack::OperatorClient{bus, "crane_up", experiments::unique_first_id()}.send(
@@ -105,6 +118,10 @@ void add_up(CLI::App& app, Action& chosen) {
                     "run a live twin with the rig file: publishes crane/twin, and an event at a deviation");
   command->add_option("--twin-rig", options->twin_rig,
                       "run a live twin with another rig file, for example extended.toml of crane diagnose");
+  command->add_flag("--dashboard", options->dashboard,
+                    "serve a page that shows and operates this crane (docs/dashboard.md)");
+  command->add_option("--dashboard-port", options->dashboard_port, "port of --dashboard")
+      ->capture_default_str();
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   command->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")
@@ -113,7 +130,8 @@ void add_up(CLI::App& app, Action& chosen) {
   command->add_flag("--verbose", options->launch.verbose, "processes log every detail");
   runtime::add_bus_options(*command, options->launch.bus);
   command->footer(
-      "Examples: crane up --rig virginia_tech_tower --record run.mcap\n"
+      "Examples: crane up --dashboard                             (then open http://127.0.0.1:8765/)\n"
+      "          crane up --rig virginia_tech_tower --record run.mcap\n"
       "          crane up --plant hardware --rig emulated_servo_to_go     (docs/hardware.md)");
   command->callback([options, &chosen] { chosen = [options] { return up(*options); }; });
 }

@@ -9,9 +9,11 @@
 
 namespace crane::protection {
 
-// Supervisor: gate, requests and brakes; its rules have their names in supervisor/src/rules.cpp. Bridge:
-// checks in the order of hardware_bridge/src/checks.cpp. Bus: seal and writer binding.
+// Supervisor: echo of the commands, gate, requests and brakes; its rules have their names in
+// supervisor/src/rules.cpp. Bridge: checks in the order of hardware_bridge/src/checks.cpp. Bus: seal and
+// writer binding.
 #define CRANE_PROTECTIONS(X)   \
+  X(supervisor_echo)           \
   X(gate_range)                \
   X(gate_rate)                 \
   X(gate_block_outwards)       \

@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
+#include <cmath>
 
 #include "crane/diagnosis/data.hpp"
 
@@ -61,7 +62,94 @@ std::vector<double> bends_of(std::span<const double> t, std::span<const double> 
   return bend;
 }
 
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Position, speed and acceleration from sample to sample, in sensor noises; the jerk is white.
+struct WhiteJerk {
+  double variance_ps5 = 0;  ///< of the jerk, over the sensor's
+
+  [[nodiscard]] static Matrix3d step(double h) {
+    Matrix3d f;
+    f << 1, h, 0.5 * h * h, 0, 1, h, 0, 0, 1;
+    return f;
+  }
+  [[nodiscard]] Matrix3d added(double h) const {
+    const double h2 = h * h, h3 = h2 * h, h4 = h3 * h, h5 = h4 * h;
+    Matrix3d q;
+    q << h5 / 20, h4 / 8, h3 / 6, h4 / 8, h3 / 3, h2 / 2, h3 / 6, h2 / 2, h;
+    return variance_ps5 * q;
+  }
+};
+
+/// What a filter knows at every sample, before and after it.
+struct Filtered {
+  std::vector<Vector3d> before, after;
+  std::vector<Matrix3d> covariance_before, covariance_after;
+  double squares = 0, logs = 0;  ///< of the innovations over the sensor's variance, of their variances
+  double count = 0;
+  /// Minus twice the log likelihood where the sensor's standard deviation is `noise`.
+  [[nodiscard]] double misfit(double noise) const {
+    return logs + 2 * count * std::log(noise) + squares / (noise * noise);
+  }
+};
+
+Filtered filtered(std::span<const double> t, std::span<const double> x, const WhiteJerk& jerk) {
+  constexpr double kUnknown = 1e8;  // variance of the start, over the sensor's and what it makes in a sample
+  const std::size_t n = t.size();
+  const double h0 = (t[n - 1] - t[0]) / static_cast<double>(n - 1);
+  Filtered f;
+  Vector3d state{x[0], 0, 0};
+  Matrix3d covariance = Vector3d{kUnknown, kUnknown / (h0 * h0), kUnknown / std::pow(h0, 4)}.asDiagonal();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k > 0) {
+      const Matrix3d step = WhiteJerk::step(t[k] - t[k - 1]);
+      state = step * state;
+      covariance = step * covariance * step.transpose() + jerk.added(t[k] - t[k - 1]);
+    }
+    f.before.push_back(state);
+    f.covariance_before.push_back(covariance);
+    const double surprise = x[k] - state[0], variance = covariance(0, 0) + 1;
+    if (k >= 3) f.squares += surprise * surprise / variance, f.logs += std::log(variance), ++f.count;
+    const Vector3d gain = covariance.col(0) / variance;
+    state += gain * surprise;
+    covariance -= gain * covariance.row(0);
+    f.after.push_back(state);
+    f.covariance_after.push_back(covariance);
+  }
+  return f;
+}
+
 }  // namespace
+
+std::vector<double> without_noise(std::span<const double> time_s, std::span<const double> measured,
+                                  double least_noise) {
+  constexpr std::size_t kFewest = 8;
+  const std::size_t n = time_s.size();
+  if (n < kFewest || !(least_noise > 0)) return {measured.begin(), measured.end()};
+  const double h = (time_s[n - 1] - time_s[0]) / static_cast<double>(n - 1);
+  Filtered likeliest;
+  double least_misfit = 0;
+  for (int half_decade = -8; half_decade <= 16; ++half_decade) {
+    // Of a jerk that moves the axis by so many noises in a sample.
+    Filtered tried = filtered(time_s, measured, {std::pow(10, 0.5 * half_decade) / std::pow(h, 5)});
+    const double misfit = tried.misfit(std::max(least_noise, std::sqrt(tried.squares / tried.count)));
+    if (!likeliest.after.empty() && misfit >= least_misfit) continue;
+    likeliest = std::move(tried);
+    least_misfit = misfit;
+  }
+  std::vector<double> smoothed(n);
+  Vector3d state = likeliest.after[n - 1];
+  smoothed[n - 1] = state[0];
+  for (std::size_t k = n - 1; k-- > 0;) {
+    const Matrix3d back = likeliest.covariance_after[k] *
+                          WhiteJerk::step(time_s[k + 1] - time_s[k]).transpose() *
+                          likeliest.covariance_before[k + 1].inverse();
+    state = likeliest.after[k] + back * (state - likeliest.before[k + 1]);
+    smoothed[k] = state[0];
+  }
+  return smoothed;
+}
 
 Motion spline_of(std::span<const double> time_s, std::span<const double> measured, double period_s,
                  std::size_t rows) {

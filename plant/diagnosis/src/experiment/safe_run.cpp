@@ -65,9 +65,9 @@ class FollowedMotion {
     const double error = wanted.position - plant::position(state_, axis);
     const double error_rate = wanted.speed - plant::speed(state_, axis);
     const double gain = axis == kTrolley ? rig_.plant.trolley_gain_mps2pv : rig_.plant.slew_gain_radps2pv;
-    const double volt =
-        (wanted.acceleration + kLoop_radps * kLoop_radps * error + 2 * kLoop_radps * error_rate) / gain +
-        model_.friction_v(moving, axis);
+    const double moving_v =
+        (wanted.acceleration + kLoop_radps * kLoop_radps * error + 2 * kLoop_radps * error_rate) / gain;
+    const double volt = moving_v + model_.friction_v(moving, moving_v, axis);
     const double most = kVoltShare * rig_.drives[axis].volt_limit_v;
     return std::clamp(volt, -most, most);
   }
@@ -75,13 +75,13 @@ class FollowedMotion {
   /// Semi-implicit; friction, steep around standstill, by its slope.
   void step(double h) {
     constexpr double kSmall = 1e-4;
-    const plant::PerAxis friction = model_.friction_v(state_);
+    const plant::PerAxis friction = model_.friction_v(state_, actuation_.drive_v);
     plant::InnerAccelerations inner{};
     const plant::Accelerations a = model_.accelerations(state_, actuation_, friction, inner_, inner);
     plant::PerAxis drive{a.trolley_mps2, a.slew_radps2, 0};
     State faster = state_;
     faster.trolley_mps += kSmall, faster.slew_radps += kSmall;
-    const plant::PerAxis more = model_.friction_v(faster);
+    const plant::PerAxis more = model_.friction_v(faster, actuation_.drive_v);
     const plant::PerAxis gain{rig_.plant.trolley_gain_mps2pv, rig_.plant.slew_gain_radps2pv, 0};
     for (const Axis axis : {kTrolley, kSlew})
       drive[axis] /= 1 + h * gain[axis] * std::max(0.0, more[axis] - friction[axis]) / kSmall;

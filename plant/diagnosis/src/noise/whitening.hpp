@@ -8,6 +8,7 @@
 /// units of their standard deviation (Kalman, J. Basic Eng. 82 (1960) 35). The numbers are found by maximum
 /// likelihood from the residuals themselves.
 #include <Eigen/Dense>
+#include <cmath>
 #include <vector>
 
 namespace crane::diagnosis {
@@ -53,6 +54,10 @@ class Whitener {
   Whitener(const Disturbance& disturbance, const Passage& passage);
   /// W x with W^T W the inverse covariance of the residual, to each column of x.
   void apply(Eigen::Ref<Eigen::MatrixXd> x) const;
+  /// Of the innovation of a row; 0 where nothing was measured.
+  [[nodiscard]] double log_variance(std::size_t row) const {
+    return rows_[row].inverse_sd > 0 ? -2 * std::log(rows_[row].inverse_sd) : 0;
+  }
 
  private:
   struct Row {

@@ -50,7 +50,8 @@ void Course::step(const Measured& at) {
 plant::Accelerations Course::accelerations(const Measured& at) {
   const State there = half_way(at);
   plant::InnerAccelerations ignored{};
-  return model_.accelerations(there, actuation_, model_.friction_v(there), inner, ignored);
+  return model_.accelerations(there, actuation_, model_.friction_v(there, actuation_.drive_v), inner,
+                              ignored);
 }
 
 void Course::follow(const Measured& at) {
@@ -120,7 +121,7 @@ plant::PerAxis Course::move_drives(const State& middle, const plant::InnerState&
     State moving = middle;
     const auto friction_at = [&](double speed) {
       rate_of(moving, axis) = speed;
-      return model_.friction_v(moving, static_cast<plant::Axis>(axis));
+      return model_.friction_v(moving, actuation_.drive_v[axis], static_cast<plant::Axis>(axis));
     };
     const FrictionStep done = friction_step(rate_of(state, axis), pull, gain_[axis][axis], h_, friction_at);
     friction[axis] = done.friction;

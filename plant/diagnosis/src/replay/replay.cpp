@@ -45,34 +45,45 @@ int smoothing_half_width(double period_s) {
 
 namespace {
 
-/// Through the values at their own times.
-Motion spline_through(const Run& run, Output output) {
+/// What was seen of an output, at its own times.
+struct Seen {
+  Seen(const Run& run, Output output) {
+    for (std::size_t row = 0; row < run.rows(); ++row)
+      if (run.seen(output, row)) {
+        time_s.push_back(run.instant_s(row));
+        values.push_back(run.measured[output][row]);
+      }
+  }
   std::vector<double> time_s, values;
-  for (std::size_t row = 0; row < run.rows(); ++row)
-    if (run.seen(output, row)) {
-      time_s.push_back(run.instant_s(row));
-      values.push_back(run.measured[output][row]);
-    }
-  return spline_of(time_s, values, run.period_s, run.rows());
+};
+
+/// A drive moves the load by its acceleration: a coarse encoder's steps would shake it.
+void follow_drive(const Run& run, Output drive, PreparedRun& prepared) {
+  const Seen seen(run, drive);
+  const std::vector<double> smoothed = without_noise(seen.time_s, seen.values, prepared.least_noise[drive]);
+  prepared.motion[drive] = run.regular(drive) ? spline(smoothed, run.period_s)
+                                              : spline_of(seen.time_s, smoothed, run.period_s, run.rows());
+  prepared.on_grid[drive] = prepared.motion[drive].position;
 }
 
 }  // namespace
 
 std::vector<double> measured_on_grid(const Run& run, Output output) {
-  return run.regular(output) ? run.measured[output] : spline_through(run, output).position;
+  if (run.regular(output)) return run.measured[output];
+  const Seen seen(run, output);
+  return spline_of(seen.time_s, seen.values, run.period_s, run.rows()).position;
 }
 
 PreparedRun prepare(Run run, const configuration::Rig& rig) {
   PreparedRun prepared;
+  prepared.least_noise = noise_of_counts(run, rig);
   for (const Output output : kAllOutputs) {
     if (!run.has(output)) continue;
-    const bool drive = output == kTrolleyPosition || output == kSlewAngle;
-    if (run.regular(output) || !drive) {
+    if (output == kTrolleyPosition || output == kSlewAngle) {
+      follow_drive(run, output, prepared);
+    } else {
       prepared.on_grid[output] = measured_on_grid(run, output);
       prepared.motion[output] = motion_of(output, prepared.on_grid[output], run.period_s);
-    } else {
-      prepared.motion[output] = spline_through(run, output);
-      prepared.on_grid[output] = prepared.motion[output].position;
     }
   }
   prepared.cable = smooth(run.cable_m, run.period_s, smoothing_half_width(run.period_s));
@@ -80,7 +91,6 @@ PreparedRun prepare(Run run, const configuration::Rig& rig) {
     prepared.half_way[inner ? 1 : 0] =
         half_way_through_steps(prepared.motion, prepared.cable, steps_in(run.period_s, inner), run.period_s);
   prepared.kind = rig.kind;
-  prepared.least_noise = noise_of_counts(run, rig);
   prepared.run = std::move(run);
   return prepared;
 }
@@ -115,6 +125,19 @@ std::vector<double> Replay::measured_start(Part part, std::size_t first) const {
     start.push_back(parts_->inner_at[first][i].rate);
   }
   return start;
+}
+
+std::vector<double> Replay::inner_start_scale() const {
+  std::vector<double> scale;
+  for (const std::size_t i : parts_->ringing) {
+    double position = 0, rate = 0;
+    for (const plant::InnerState& at : parts_->inner_at)
+      position += at[i].position * at[i].position, rate += at[i].rate * at[i].rate;
+    const auto rows = static_cast<double>(parts_->inner_at.size());
+    scale.push_back(std::sqrt(position / rows));
+    scale.push_back(std::sqrt(rate / rows));
+  }
+  return scale;
 }
 
 /// Outputs of a window at the rows' own instants: inside the step that an instant falls into the acceleration

@@ -33,7 +33,6 @@ ordered_json candidates_json(const std::vector<Ranked>& ranking) {
     json.push_back({{"label", ranked.label},
                     {"parameters", parameters},
                     {"train_gain", ranked.train_gain},
-                    {"test_gain", ranked.test_gain},
                     {"p_value", ranked.p_value},
                     {"resampling_frequency", ranked.resampling_frequency}});
   }
@@ -50,7 +49,9 @@ ordered_json held_out_json(const HeldOut& held_out) {
           {"whole_held_value_rms", held_out.whole_held_value_rms},
           {"whole_extended_motion", held_out.whole_extended_motion},
           {"gain", held_out.gain},
-          {"gain_ci95", held_out.gain_ci95}};
+          {"gain_ci95", held_out.gain_ci95},
+          {"nats", held_out.nats},
+          {"likelier", held_out.likelier}};
 }
 
 ordered_json excitation_json(const std::vector<Visibility>& excitation) {

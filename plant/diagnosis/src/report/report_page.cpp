@@ -200,26 +200,24 @@ report::Section residual_section(const Diagnosis& diagnosis, const configuration
 
 report::Section candidates_section(const Diagnosis& diagnosis) {
   report::Section section{.title = "Candidates", .blocks = {}};
-  report::Table table{.title = "",
-                      .header = {"candidate", "training gain", "held-out gain", "p value alone", "resamples",
-                                 "parameters [95 % interval]"},
-                      .rows = {}};
+  report::Table table{
+      .title = "",
+      .header = {"candidate", "gain", "p value alone", "resamples", "parameters [95 % interval]"},
+      .rows = {}};
   for (const Ranked& ranked : diagnosis.ranking) {
     if (table.rows.size() == kMostCandidates) break;
     // The score test looks at one candidate, and resampled data vote on one.
     const bool alone = ranked.label.find(" + ") == std::string::npos;
-    table.rows.push_back(
-        {{ranked.label},
-         {significant(ranked.train_gain, 4)},
-         {significant(ranked.test_gain, 4), ranked.test_gain > 0 ? Tone::neutral : Tone::muted},
-         {alone ? significant(ranked.p_value, 2) : "-"},
-         {alone ? percent(ranked.resampling_frequency) : "-"},
-         {with_intervals(ranked.parameters)}});
+    table.rows.push_back({{ranked.label},
+                          {significant(ranked.train_gain, 4)},
+                          {alone ? significant(ranked.p_value, 2) : "-"},
+                          {alone ? percent(ranked.resampling_frequency) : "-"},
+                          {with_intervals(ranked.parameters)}});
   }
   section.blocks.emplace_back(std::move(table));
   section.blocks.emplace_back(report::Paragraph{
-      "Gains are decreases of the whitened sum of squares, in units of one noise variance: the "
-      "error that the judgement goes by. P value alone: of the candidate's score with nothing "
+      "Gains are decreases of minus twice the log likelihood of the training data, each block of "
+      "two seconds left out of the fit. P value alone: of the candidate's score with nothing "
       "else in the model. Resamples: how often resampled data pick the candidate."});
   return section;
 }

@@ -16,34 +16,28 @@ inline constexpr double kSignificant = 0.01;
 /// "command_delay (trolley) + payload_mass"
 [[nodiscard]] std::string label_of(const Effects& effects);
 
-/// Number of blocks, training and held out.
-[[nodiscard]] std::size_t blocks(const Fitted& fitted);
-
-/// By training and held-out loss with a price for the parameters.
+/// By the likelihood of the training data, each block left out of the fit.
 [[nodiscard]] bool less(const Fitted& a, const Fitted& b);
 
 /// The same candidates, whatever their values.
 [[nodiscard]] bool same(const Effects& a, const Effects& b);
 
-/// Better in training by a share of what was left that matters, by more than the form of what `before` has on
-/// the same axis may be off, and out of sample beyond doubt.
-/// @param base without effects
-[[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, const Fitted& base,
-                            std::uint64_t seed);
-/// Better than `base` in training and held-out data together, beyond resampling.
+/// Largest share of the error of `before` that `fitted` takes off a column, in windows or of a swing over
+/// whole runs, of the columns that what only `fitted` has acts on.
+[[nodiscard]] double share_of_error(const Fitted& fitted, const Fitted& before);
+
+/// Likelier beyond resampling, and nearer to what was measured by a share of the error that matters.
+[[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed);
+/// Likelier than `base` beyond resampling.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 
-/// Better by a share that matters, in training or held-out data, and in all beyond doubt; the held-out data
-/// agree, but may be too few to prove it.
-[[nodiscard]] bool likely(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
+/// Share of resamples of the blocks in which `now` is less than `before`; no block outvotes the others.
+[[nodiscard]] double block_wins(const Blocks& now, const Blocks& before, std::uint64_t seed);
 
-/// How often, when the blocks are resampled, each of the rivals does better than `best` where it would have
-/// to replace what only `best` has; of a rival with fewer parameters, which explains nine tenths as much of
-/// the training data, the held-out blocks alone suffice: what more parameters gain there has to hold out of
-/// sample. The rest of the votes are for `best`.
-/// @param base without effects
+/// How often, when the blocks are resampled, each of the rivals is likelier than `best` where it would have
+/// to replace what only `best` has. The rest of the votes are for `best`.
 [[nodiscard]] std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
-                                              const Fitted& base, std::uint64_t seed);
+                                              std::uint64_t seed);
 
 [[nodiscard]] std::vector<Estimate> estimates(const Fitted& fitted);
 

@@ -53,6 +53,13 @@ double gain_of(const Compared& c, const std::vector<std::vector<std::size_t>>* p
   return before > 0 ? 1 - std::sqrt(after / before) : 0;
 }
 
+/// Whether any of the effects changes an output by itself; of no effects all are asked for.
+bool acts_on(const Effects& effects, Output output) {
+  return effects.empty() || std::any_of(effects.begin(), effects.end(), [&](const Effect& effect) {
+           return effect.candidate->acts_on(output);
+         });
+}
+
 /// Mean squares of measured - first measured value by window, for one output.
 std::vector<double> held_value_squares(const Problem& problem, std::size_t output) {
   std::vector<double> result;
@@ -132,13 +139,16 @@ HeldOut held_out(const Study& study, const Study& as_measured, const Effects& ef
     const PlainFits before{*as_it_was, study.base()}, after{*problem, extended}, trained{*learned, extended};
     for (std::size_t o = 0; o < problem->outputs().size(); ++o) {
       const std::string name = kOutputNames[problem->outputs()[o]];
-      compared.before.push_back(before.mean_squares(o));
-      compared.after.push_back(after.mean_squares(o));
-      compared.noise.push_back(std::max(learned->runs()[0].least_noise[problem->outputs()[o]],
-                                        std::sqrt(mean(trained.mean_squares(o)))));
-      result.baseline_rms[name] = std::sqrt(mean(compared.before.back()));
-      result.extended_rms[name] = std::sqrt(mean(compared.after.back()));
-      result.noise[name] = compared.noise.back();
+      std::vector<double> then = before.mean_squares(o), now = after.mean_squares(o);
+      result.baseline_rms[name] = std::sqrt(mean(then));
+      result.extended_rms[name] = std::sqrt(mean(now));
+      result.noise[name] = std::max(learned->runs()[0].least_noise[problem->outputs()[o]],
+                                    std::sqrt(mean(trained.mean_squares(o))));
+      if (acts_on(effects, problem->outputs()[o])) {
+        compared.before.push_back(std::move(then));
+        compared.after.push_back(std::move(now));
+        compared.noise.push_back(result.noise[name]);
+      }
       result.held_value_rms[name] = std::sqrt(mean(held_value_squares(*problem, o)));
     }
   }

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "search/compare.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
-constexpr std::size_t kRefitted = 8;
-constexpr std::size_t kPaired = 5;
-constexpr std::size_t kExtensions = 6;
-/// Singles that may take the place of one of several effects.
-constexpr std::size_t kExchanged = 2;
-/// A rival whose training loss will stay this much above the best one's does not win a resample.
-constexpr double kHopeless = 30;
-/// Flipping the signs of fewer blocks proves nothing about what is left beside a fitted effect.
-constexpr std::size_t kFewBlocks = 60;
+/// Candidates that are fitted beside the base model, and beside each hypothesis of a beam.
+constexpr std::size_t kFirst = 10, kExtensions = 5;
+/// Hypotheses of a size that are extended. What is best alone need not be best beside another effect.
+constexpr std::size_t kBeam = 2;
+/// Of the single effects, those all of whose pairs are fitted: two may explain together what neither does.
+constexpr std::size_t kPaired = 3;
+/// Hypotheses of a size that are settled: the likeliest, before their fits know their own noise.
+constexpr std::size_t kSettled = 4;
 
 /// Half of them those that promise the largest share, half the surest ones: a large effect is as uneven from
 /// block to block as it is large, and in a rough residual luck promises much.
@@ -36,95 +36,183 @@ std::vector<Score> strongest(const ScoreTable& scores, std::size_t count) {
 
 class Search {
  public:
-  Search(const Study& study, const Request& request) : study_(study), request_(request) {
-    found_.base.train = study.base_train();
-    found_.base.test = study.base_test();
+  Search(Study& study, const Request& request) : study_(study), request_(request) {
+    found_.base = found_.best = study.bare();
   }
 
-  Hypotheses singles() {
-    request_.progress(0.1, "scores of all candidates");
-    const ScoreTable scores = study_.score({}, found_.base.train, request_.seed);
-    found_.detection_p_value = scores.p_value;
-    found_.excitation = scores.excitation;
-    fit_singles(scores);
-    choose();
-    return std::move(found_);
-  }
-
-  Hypotheses singles_again(const Hypotheses& before) {
-    found_.detection_p_value = before.detection_p_value;
-    double least = std::numeric_limits<double>::infinity();
-    const auto add = [&](const Effects& effects, double p_value) {
-      found_.singles.push_back(study_.fit(effects, least + kHopeless));
-      least = std::min(least, found_.singles.back().train.loss);
-      rank(found_.singles.back(), p_value);
-    };
-    for (std::size_t i = 0; i < before.singles.size(); ++i)
-      add(before.singles[i].effects, before.ranking[i].p_value);
-    const ScoreTable scores = study_.score({}, found_.base.train, request_.seed);
-    found_.excitation = scores.excitation;
-    for (const Score& score : strongest(scores, kRefitted))
-      if (const Effects effects = begin({}, score); !fitted_alone(effects)) add(effects, score.p_value);
-    choose();
-    return std::move(found_);
-  }
-
-  Hypotheses extended(const Hypotheses& singles) {
-    found_ = singles;
-    if (!found_.best.effects.empty() && found_.proven) extend();
-    return std::move(found_);
+  Hypotheses run() {
+    request_.progress(0.05, "scores of all candidates");
+    extend(found_.base, kFirst);
+    Hypotheses& found = found_;
+    std::vector<Fitted> level = settle();
+    if (level.empty()) return finished();
+    if (accept_one_of(level)) {
+      // In the noise of the best one the others begin nearer.
+      extend(base_in(found.best.noise), kFirst);
+      level = with(std::move(level), settle());
+      accept_one_of(level);
+      while (level.front().effects.size() < request_.most_effects) {
+        const std::size_t size = level.front().effects.size();
+        if (size == 1) try_pairs(level);
+        for (std::size_t i = 0; i < std::min(kBeam, level.size()); ++i) {
+          request_.progress(share_done(size, i), "is there another effect?");
+          const double luck = extend(level[i], kExtensions);
+          if (i == 0 && luck > kSignificant && found.best.deviance.size() >= kFewBlocks) break;
+        }
+        level = settle();
+        if (level.empty()) break;
+        settle_parts_of(level.front());
+        if (!accept_one_of(level)) break;
+      }
+    }
+    while (found.best.effects.size() > 1 && drop_one()) {
+    }
+    return finished();
   }
 
  private:
-  void choose() {
-    found_.all = found_.singles;
-    found_.best = best_accepted(found_.singles, found_.base);
-    found_.proven = true;
-    if (!found_.best.effects.empty() || found_.detection_p_value > kSignificant) return;
-    for (const Fitted& single : found_.singles)
-      if ((found_.proven || less(single, found_.best)) && likely(single, found_.base, request_.seed))
-        found_.best = single, found_.proven = false;
+  Hypotheses finished() {
+    Hypotheses& found = found_;
+    study_.whiten_with(found.best.noise);
+    found.base.train = study_.base_train();
+    for (const Fitted& fitted : found.all) rank(fitted);
+    return std::move(found_);
   }
 
-  /// `before` when none is accepted in its place.
-  [[nodiscard]] Fitted best_accepted(const std::vector<Fitted>& fitted, const Fitted& before) const {
-    const Fitted* best = nullptr;
-    for (const Fitted& one : fitted)
-      if ((best == nullptr || less(one, *best)) && accepted(one, before, found_.base, request_.seed))
-        best = &one;
-    return best == nullptr ? before : *best;
+  /// The base model in another noise.
+  [[nodiscard]] Fitted base_in(const Noise& noise) {
+    study_.whiten_with(noise);
+    return study_.bare();
   }
 
-  /// What has been evaluated of some of the effects.
-  [[nodiscard]] const Evaluation& near(const Effects& effects) const {
-    const Effects& known = found_.best.effects;
-    const bool all = std::all_of(known.begin(), known.end(),
-                                 [&](const Effect& effect) { return has(effects, effect.candidate); });
-    return all && !known.empty() ? found_.best.train : found_.base.train;
+  /// Likeliest first.
+  static std::vector<Fitted> with(std::vector<Fitted> level, const std::vector<Fitted>& more) {
+    level.insert(level.end(), more.begin(), more.end());
+    std::sort(level.begin(), level.end(), less);
+    std::vector<Fitted> once;
+    for (const Fitted& fitted : level)
+      if (std::ranges::none_of(once, [&](const Fitted& f) { return same(f.effects, fitted.effects); }))
+        once.push_back(fitted);
+    return once;
   }
 
-  [[nodiscard]] Effects best_start(const std::vector<Effects>& starts) const {
+  /// What is left of a hypothesis without one of its effects, from the values of the whole: a part may not
+  /// have been found from the base model.
+  void settle_parts_of(const Fitted& given) {
+    const Fitted whole = given;
+    for (std::size_t i = 0; i < whole.effects.size(); ++i) {
+      Effects rest = whole.effects;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      study_.whiten_with(whole.noise);
+      Fitted fitted = study_.settled(study_.screened(rest, study_.bare()));
+      keep(fitted);
+      if (rest.size() == found_.best.effects.size()) accept(fitted);
+    }
+  }
+
+  /// Flipping the signs of fewer blocks proves nothing about what is left beside a fitted effect.
+  static constexpr std::size_t kFewBlocks = 60;
+
+  [[nodiscard]] double share_done(std::size_t size, std::size_t i) const {
+    const double level = static_cast<double>(size) + static_cast<double>(i) / static_cast<double>(kBeam);
+    return 0.2 + 0.6 * level / static_cast<double>(request_.most_effects);
+  }
+
+  /// Fits what scores best beside `there`. @return how likely luck makes the largest score
+  double extend(const Fitted& given, std::size_t count) {
+    const Fitted there = given;  // `all` grows
+    study_.whiten_training(there.noise);
+    const ScoreTable scores = study_.score(there.effects, there.train, request_.seed + there.effects.size());
+    if (there.effects.empty()) {
+      found_.detection_p_value = scores.p_value;
+      found_.excitation = scores.excitation;
+      for (const Score& score : scores.best) p_value_[score.candidate] = score.p_value;
+    }
+    if (!there.effects.empty() && scores.p_value > kSignificant) return scores.p_value;
+    for (const Score& score : strongest(scores, count)) {
+      const Effects start = begin(there, score);
+      if (!there.effects.empty() && known(start)) continue;
+      if (there.effects.empty())
+        request_.progress(0.1, "fit of " + study_.candidates()[score.candidate].label());
+      tried_.push_back(study_.screened(with_fresh_wave(start, there), there));
+    }
+    return scores.p_value;
+  }
+
+  void try_pairs(const std::vector<Fitted>& singles) {
+    study_.whiten_training(found_.base.noise);
+    for (std::size_t i = 0; i < std::min(kPaired, singles.size()); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const Effects pair{singles[i].effects[0], singles[j].effects[0]};
+        if (!known(pair)) tried_.push_back(study_.screened(pair, found_.base));
+      }
+  }
+
+  /// The likeliest of those that were tried, settled. @return likeliest first
+  std::vector<Fitted> settle() {
+    std::sort(tried_.begin(), tried_.end(),
+              [](const Fitted& a, const Fitted& b) { return a.misfit < b.misfit; });
+    tried_.resize(std::min(tried_.size(), kSettled));
+    std::vector<Fitted> level;
+    for (const Fitted& tried : tried_) level.push_back(study_.settled(tried));
+    tried_.clear();
+    std::sort(level.begin(), level.end(), less);
+    for (const Fitted& fitted : level) keep(fitted);
+    return level;
+  }
+
+  /// Of the same effects the likelier fit stays.
+  void keep(const Fitted& fitted) {
+    const auto known = std::find_if(found_.all.begin(), found_.all.end(),
+                                    [&](const Fitted& f) { return same(f.effects, fitted.effects); });
+    if (known == found_.all.end())
+      found_.all.push_back(fitted);
+    else if (less(fitted, *known))
+      *known = fitted;
+  }
+
+  [[nodiscard]] bool known(const Effects& effects) const {
+    const auto is_there = [&](const Fitted& fitted) { return same(fitted.effects, effects); };
+    return std::any_of(found_.all.begin(), found_.all.end(), is_there) ||
+           std::any_of(tried_.begin(), tried_.end(), is_there);
+  }
+
+  /// Of as many effects the likelier hypothesis is the better one; more of them have to be worth it.
+  bool accept(const Fitted& fitted) {
+    const bool as_many = fitted.effects.size() == found_.best.effects.size();
+    if (as_many && !less(fitted, found_.best)) return false;
+    if (!accepted(fitted, as_many ? found_.base : found_.best, request_.seed)) return false;
+    found_.best = fitted;
+    return true;
+  }
+
+  /// The likeliest that can be accepted.
+  bool accept_one_of(const std::vector<Fitted>& level) {
+    return std::ranges::any_of(level, [&](const Fitted& fitted) { return accept(fitted); });
+  }
+
+  /// The one of the starts that leaves least beside `near`, of some of its effects.
+  [[nodiscard]] Effects best_start(const std::vector<Effects>& starts, const Fitted& near) const {
     if (starts.size() == 1) return starts[0];
     const Effects* best = &starts[0];
     double least = std::numeric_limits<double>::infinity();
     for (const Effects& start : starts)
-      if (const double loss = study_.train(start, near(start)).loss; loss < least)
-        least = loss, best = &start;
+      if (const double loss = study_.train(start, near.train).loss; loss < least) least = loss, best = &start;
     return *best;
   }
 
   /// `score`'s candidate beside what is there already, with those of its starts that do best.
-  [[nodiscard]] Effects begin(const Effects& there, const Score& score) const {
+  [[nodiscard]] Effects begin(const Fitted& there, const Score& score) const {
     std::vector<Effects> starts;
     for (const std::vector<double>& values : score.starts) {
-      starts.push_back(there);
+      starts.push_back(there.effects);
       starts.back().push_back({&study_.candidates()[score.candidate], values});
     }
-    return best_start(starts);
+    return best_start(starts, there);
   }
 
   /// A wave goes over other places when the axis is elsewhere than its sensor says.
-  [[nodiscard]] Effects with_fresh_wave(const Effects& effects) const {
+  [[nodiscard]] Effects with_fresh_wave(const Effects& effects, const Fitted& there) const {
     std::vector<Effects> starts{effects};
     for (std::size_t i = 0; i < effects.size(); ++i) {
       const Candidate& wave = *effects[i].candidate;
@@ -140,145 +228,50 @@ class Search {
         starts.back()[i].values = wave.begin(shape, shape.amounts);
       }
     }
-    return best_start(starts);
-  }
-
-  [[nodiscard]] bool fitted_alone(const Effects& effects) const {
-    return std::any_of(found_.singles.begin(), found_.singles.end(),
-                       [&](const Fitted& single) { return same(single.effects, effects); });
-  }
-
-  void fit_singles(const ScoreTable& scores) {
-    const std::vector<Score> order = strongest(scores, kRefitted);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      request_.progress(0.15 + 0.3 * static_cast<double>(i) / kRefitted,
-                        "fit of " + study_.candidates()[order[i].candidate].label());
-      found_.singles.push_back(study_.fit(begin({}, order[i]), found_.base.train.loss));
-      rank(found_.singles.back(), order[i].p_value);
-    }
-  }
-
-  void rank(const Fitted& f, double p_value) {
-    Ranked ranked;
-    ranked.label = label_of(f.effects);
-    ranked.parameters = estimates(f);
-    ranked.train_gain = found_.base.train.loss - f.train.loss;
-    ranked.test_gain = found_.base.test.loss - f.test.loss;
-    ranked.p_value = p_value;
-    const auto known = std::find_if(found_.ranking.begin(), found_.ranking.end(),
-                                    [&](const Ranked& r) { return r.label == ranked.label; });
-    if (known == found_.ranking.end())
-      found_.ranking.push_back(ranked);
-    else if (ranked.train_gain > known->train_gain)
-      ranked.p_value = known->p_value, *known = ranked;
-  }
-
-  /// Forward from the best, pairs of the best singles beside it.
-  void extend() {
-    for (std::size_t effects = 2; effects <= request_.most_effects; ++effects) {
-      request_.progress(0.45 + 0.2 * static_cast<double>(effects - 2), "is there another effect?");
-      const ScoreTable scores = study_.score(found_.best.effects, found_.best.train, request_.seed + effects);
-      if (scores.p_value > kSignificant && blocks(found_.best) >= kFewBlocks) return;
-      std::vector<Effects> tries;
-      for (const Score& score : strongest(scores, kExtensions))
-        tries.push_back(begin(found_.best.effects, score));
-      if (effects == 2) add_pairs(tries);
-      const Fitted before = found_.best;
-      found_.best = best_accepted(fits_of(tries), before);
-      if (found_.best.effects.size() < effects) return;
-      std::vector<Fitted> fitted = fits_of(exchanges());
-      fitted.push_back(found_.best);
-      found_.best = best_accepted(fitted, before);
-      while (found_.best.effects.size() > 1 && drop_one()) {
-      }
-      if (found_.best.effects.size() < effects) return;
-    }
+    return best_start(starts, there);
   }
 
   /// Leaves out what the others have made superfluous. @return whether there was one
   bool drop_one() {
-    std::vector<Effects> tries;
-    for (std::size_t i = 0; i < found_.best.effects.size(); ++i) {
-      tries.push_back(found_.best.effects);
-      tries.back().erase(tries.back().begin() + static_cast<std::ptrdiff_t>(i));
-    }
+    const Fitted whole = found_.best;
     const Fitted* dropped = nullptr;
-    const std::vector<Fitted> fitted = fits_of(tries);
-    for (const Fitted& fewer : fitted)
-      if (!accepted(found_.best, fewer, found_.base, request_.seed) &&
-          (dropped == nullptr || less(fewer, *dropped)))
-        dropped = &fewer;
+    std::vector<Fitted> fewer;
+    for (std::size_t i = 0; i < whole.effects.size(); ++i) {
+      Effects rest = whole.effects;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      const auto fitted = std::find_if(found_.all.begin(), found_.all.end(),
+                                       [&](const Fitted& f) { return same(f.effects, rest); });
+      if (fitted == found_.all.end()) study_.whiten_training(found_.base.noise);
+      fewer.push_back(fitted != found_.all.end() ? *fitted
+                                                 : study_.settled(study_.screened(rest, found_.base)));
+    }
+    for (const Fitted& one : fewer)
+      if (!accepted(whole, one, request_.seed) && (dropped == nullptr || less(one, *dropped))) dropped = &one;
     if (dropped == nullptr) return false;
     found_.best = *dropped;
     return true;
   }
 
-  /// One of the best effects in another one's place: what was best alone need not be best beside the others.
-  [[nodiscard]] std::vector<Effects> exchanges() const {
-    std::vector<const Fitted*> singles;
-    for (const Fitted& single : found_.singles) singles.push_back(&single);
-    std::sort(singles.begin(), singles.end(), [](const Fitted* a, const Fitted* b) { return less(*a, *b); });
-    std::vector<Effects> all;
-    for (std::size_t i = 0; i < found_.best.effects.size(); ++i) {
-      std::size_t exchanged = 0;
-      for (const Fitted* single : singles) {
-        const Candidate& other = *single->effects[0].candidate;
-        const Candidate& replaced = *found_.best.effects[i].candidate;
-        if (has(found_.best.effects, &other) || other.drive != replaced.drive || other.load != replaced.load)
-          continue;
-        if (++exchanged > kExchanged) break;
-        all.push_back(found_.best.effects);
-        all.back()[i] = single->effects[0];
-      }
-    }
-    std::erase_if(all, [&](const Effects& tried) {
-      return std::any_of(found_.all.begin(), found_.all.end(),
-                         [&](const Fitted& known) { return same(known.effects, tried); });
-    });
-    return all;
+  void rank(const Fitted& f) {
+    Ranked ranked;
+    ranked.label = label_of(f.effects);
+    ranked.parameters = estimates(f);
+    ranked.train_gain = sum(found_.base.deviance) - sum(f.deviance);
+    if (f.effects.size() == 1)
+      ranked.p_value =
+          p_value_[static_cast<std::size_t>(f.effects[0].candidate - study_.candidates().data())];
+    found_.ranking.push_back(ranked);
   }
 
-  void add_pairs(std::vector<Effects>& tries) const {
-    std::vector<Effect> helpful;
-    for (const Fitted& single : found_.singles)
-      if (single.train.loss < found_.base.train.loss && helpful.size() < kPaired)
-        helpful.push_back(single.effects[0]);
-    for (std::size_t i = 0; i < helpful.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        const Effects pair{helpful[i], helpful[j]};
-        if (std::none_of(tries.begin(), tries.end(), [&](const Effects& known) { return same(known, pair); }))
-          tries.push_back(pair);
-      }
-  }
-
-  /// Fits that cannot come near the best of those before are given up.
-  std::vector<Fitted> fits_of(const std::vector<Effects>& tries) {
-    std::vector<Fitted> fitted;
-    double least = found_.best.train.loss;
-    for (const Effects& effects : tries) {
-      fitted.push_back(study_.fit(with_fresh_wave(effects), least + kHopeless, near(effects)));
-      least = std::min(least, fitted.back().train.loss);
-      rank(fitted.back(), 1);
-      found_.all.push_back(fitted.back());
-    }
-    return fitted;
-  }
-
-  const Study& study_;
+  Study& study_;
   const Request& request_;
   Hypotheses found_;
+  std::vector<Fitted> tried_;              ///< of the next size, not settled
+  std::map<std::size_t, double> p_value_;  ///< of every candidate by itself
 };
 
 }  // namespace
 
-Hypotheses singles(const Study& study, const Request& request) { return Search(study, request).singles(); }
-
-Hypotheses singles_again(const Study& study, const Request& request, const Hypotheses& before) {
-  return Search(study, request).singles_again(before);
-}
-
-Hypotheses extended(const Study& study, const Request& request, const Hypotheses& singles) {
-  return Search(study, request).extended(singles);
-}
+Hypotheses searched(Study& study, const Request& request) { return Search(study, request).run(); }
 
 }  // namespace crane::diagnosis

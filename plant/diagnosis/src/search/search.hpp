@@ -1,5 +1,7 @@
 #pragma once
-/// Which hypotheses are fitted.
+/// Which hypotheses are fitted. Each is judged by the likelihood of the training data in the noise that it
+/// leaves itself: in the noise that the bare model leaves, which holds the effect as a disturbance, hardly
+/// any hypothesis is told from another one.
 #include <cstdint>
 #include <vector>
 
@@ -10,22 +12,16 @@ namespace crane::diagnosis {
 
 /// Everything that was fitted.
 struct Hypotheses {
-  Fitted base, best;  ///< best: without effects when none was accepted or likely
-  /// The best was accepted; otherwise it is likely, and the held-out data are too few to prove it.
-  bool proven = true;
-  std::vector<Fitted> singles, all;
+  Fitted base, best;        ///< best: without effects when none was accepted
+  std::vector<Fitted> all;  ///< without the base
   std::vector<Ranked> ranking;
   double detection_p_value = 1;
-  std::vector<Visibility> excitation;  ///< in the noise that was learnt last
+  std::vector<Visibility> excitation;
 };
 
-/// Scores of all candidates and fits of the best.
-[[nodiscard]] Hypotheses singles(const Study& study, const Request& request);
-
-/// Those of `before` once more, after the disturbance was learnt anew, and beside them what scores well now.
-[[nodiscard]] Hypotheses singles_again(const Study& study, const Request& request, const Hypotheses& before);
-
-/// Pairs of the singles, and one effect more as long as it helps.
-[[nodiscard]] Hypotheses extended(const Study& study, const Request& request, const Hypotheses& singles);
+/// Forward from the base model: at every size the likeliest hypotheses are extended by what scores best
+/// beside them (beam search). From then on the study is whitened with the noise of the best one.
+/// @pre study.learn_disturbance()
+[[nodiscard]] Hypotheses searched(Study& study, const Request& request);
 
 }  // namespace crane::diagnosis

@@ -98,13 +98,11 @@ VectorXd left_of(const PreparedRun& run, const Replay::Guided& drive, Output axi
   const std::vector<double>&shown = run.motion[axis].position, &true_position = drive.position;
   const std::size_t last = first + row_count - 1;
   const double scale = (shown[last] - shown[first]) / (true_position[last] - true_position[first]);
-  if (run.run.regular(axis)) return scale * (Eigen::Map<const VectorXd>(&true_position[first], rows) - way);
   VectorXd left = VectorXd::Zero(rows);
   for (std::size_t k = 0; k < row_count; ++k) {
     if (!run.run.seen(axis, first + k)) continue;
-    const double undone = true_position[first + k] - shown[first + k];  // what the sensor's errors made
-    left[static_cast<Index>(k)] =
-        scale * (run.run.measured[axis][first + k] + undone - way[static_cast<Index>(k)]);
+    const double noise = run.run.measured[axis][first + k] - shown[first + k];
+    left[static_cast<Index>(k)] = noise + scale * (true_position[first + k] - way[static_cast<Index>(k)]);
   }
   return left;
 }

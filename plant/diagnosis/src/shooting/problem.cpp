@@ -27,9 +27,8 @@ constexpr double kStartFound = 0.1;
 /// The same of a plain residual, as a share of it.
 constexpr double kPlainStartFound = 1e-4;
 constexpr int kLearningRounds = 3;
-/// A start direction that changes the window less than this share of the strongest one cannot be solved for:
-/// the speed of an axis that sticks is forgotten at once.
-constexpr double kLeastSlope = 0.001;
+/// How well a measurement knows a start by itself, generously: positions [m or rad] and rates [per s].
+constexpr double kKnownPosition = 0.1, kKnownRate = 1;
 /// Largest correction of a start in the first round [m or rad, per s]: the measurement usually knows it
 /// better. Of a swing, each round that helps doubles the largest correction of the next one (trust region).
 constexpr double kMostPosition = 0.01, kMostRate = 0.1;
@@ -83,8 +82,7 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
   }
 }
 
-std::vector<std::vector<VectorXd>> Problem::residuals(const Replays& crane) const {
-  const Fits fits = fit(crane);
+std::vector<std::vector<VectorXd>> Problem::residuals(const Fits& fits) const {
   std::vector<std::vector<VectorXd>> result(outputs_.size());
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     const VectorXd left =
@@ -114,13 +112,21 @@ void Problem::learn_disturbance(const Replays& crane) {
   disturbances_.clear();
   // After the first time with starts that were solved for with what was learnt before.
   for (int round = 0; round < kLearningRounds; ++round) {
-    const std::vector<std::vector<VectorXd>> plain = residuals(crane);
+    const std::vector<std::vector<VectorXd>> plain = residuals(fit(crane));
     std::vector<Disturbance> learned;
     for (std::size_t output = 0; output < outputs_.size(); ++output)
       learned.push_back(learn(plain[output], passages_[output], runs_[0].least_noise[outputs_[output]],
                               disturbances_.empty() ? Disturbance{} : disturbances_[output]));
     whiten_with(std::move(learned));
   }
+}
+
+std::vector<Disturbance> Problem::disturbances_of(const Fits& fits) const {
+  const std::vector<std::vector<VectorXd>> plain = residuals(fits);
+  std::vector<Disturbance> learned;
+  for (std::size_t output = 0; output < outputs_.size(); ++output)
+    learned.push_back(learn(plain[output], passages_[output], runs_[0].least_noise[outputs_[output]]));
+  return learned;
 }
 
 Problem Problem::plain() const {
@@ -224,24 +230,29 @@ VectorXd Problem::near_start(const WindowFit& at, const VectorXd& measured) cons
 void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
   fit.simulated = simulate(replay, windows_[at], fit.start);
   MatrixXd slopes = start_slopes(replay, at, fit.start, fit.simulated, 0);
-  // By what a believable change of each does. A coordinate of a term's own is in a length of its own: what it
-  // changes counts against the rest in shape.
+  // Numbers of the start are known before to these standard deviations: what the measurement says, and of a
+  // term's own coordinates where the measured motion of the whole run has brought them.
   const Index measured = bare_start();
+  const std::vector<double> inner = replay.inner_start_scale();
   VectorXd scale(slopes.cols());
-  for (Index i = 0; i < measured; ++i) scale[i] = i % 2 == 0 ? kMostPosition : kMostRate;
-  const double strongest =
-      (slopes.leftCols(measured) * scale.head(measured).asDiagonal()).colwise().norm().maxCoeff();
-  for (Index i = measured; i < slopes.cols(); ++i) {
-    const double norm = slopes.col(i).norm();
-    scale[i] = norm > 0 ? strongest / norm : 1;
-  }
-  slopes = slopes * scale.asDiagonal();
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes.rows(), slopes.cols());
-  qr.setThreshold(kLeastSlope);
-  qr.compute(slopes);
-  fit.basis = qr.householderQ() * MatrixXd::Identity(slopes.rows(), qr.rank());
-  fit.to_start = scale.asDiagonal() * qr.solve(MatrixXd(fit.basis)) * fit.basis.transpose();
-  fit.freedom = static_cast<double>(slopes.cols() - measured);
+  for (Index i = 0; i < slopes.cols(); ++i)
+    scale[i] = i >= measured ? inner[static_cast<std::size_t>(i - measured)]
+               : i % 2 == 0  ? kKnownPosition
+                             : kKnownRate;
+  fit.inner_slopes = slopes.rightCols(slopes.cols() - measured);
+  const Eigen::JacobiSVD<MatrixXd> svd(slopes * scale.asDiagonal(),
+                                       Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::ArrayXd told = svd.singularValues().array().square();  // information over what was known
+  fit.basis = svd.matrixU() * (1 - 1 / (1 + told).sqrt()).sqrt().matrix().asDiagonal();
+  fit.to_start = scale.asDiagonal() * svd.matrixV() * (told.sqrt() / (1 + told)).matrix().asDiagonal() *
+                 svd.matrixU().transpose();
+  fit.start_price = told.log1p().sum();
+}
+
+void Problem::take_start_out(WindowFit& fit) const {
+  const Index inner = fit.inner_slopes.cols();
+  if (inner > 0) fit.residual += fit.inner_slopes * (fit.start - fit.measured_start).tail(inner);
+  fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
 }
 
 /// Rounds with the directions there are, as long as they help: around standstill they may not.
@@ -319,12 +330,26 @@ void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) co
   linearise(replay, at, fit);
   fit.residual = target - fit.simulated;
   whiten(at, fit.residual);
-  fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
+  take_start_out(fit);
 }
 
 Fits Problem::fit(const Replays& crane) const {
   Fits fits(windows_.size());
   parallel_for(windows_.size(), [&](std::size_t w) { fit_start(crane[windows_[w].run], w, fits[w]); });
+  return fits;
+}
+
+Fits Problem::fit_again(const Replays& crane, const Fits& near) const {
+  Fits fits = near;
+  parallel_for(windows_.size(), [&](std::size_t w) {
+    const Replay& replay = crane[windows_[w].run];
+    if (static_cast<std::size_t>(fits[w].start.size()) != replay.start_size(part_))
+      return fit_start(replay, w, fits[w]);
+    const VectorXd target = measured(windows_[w]), begin = fits[w].start;
+    fits[w] = fit_from(replay, w, target, begin);
+    fits[w].measured_start = measured_start(replay, windows_[w]);
+    take_start_out(fits[w]);
+  });
   return fits;
 }
 
@@ -341,7 +366,7 @@ Fits Problem::fit_near(const Replays& crane, const Fits& near) const {
     fit.measured_start = moved;
     fit.simulated = simulate(replay, window, fit.start);
     settle_start(replay, w, target, fit);
-    fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
+    take_start_out(fit);
   });
   return fits;
 }
@@ -369,15 +394,17 @@ VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit
   whiten(w, change);
   change = outside(change);
   if (all > known) {
-    MatrixXd slopes = outside(start_slopes(replay, w, start, simulated, known));
-    slopes.colwise().normalize();
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(slopes.rows(), slopes.cols());
-    qr.setThreshold(kLeastSlope);
-    qr.compute(slopes);
-    const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(slopes.rows(), qr.rank());
+    const std::vector<double> inner = replay.inner_start_scale();
+    const auto fresh = all - known;
+    const VectorXd scale =
+        Eigen::Map<const VectorXd>(inner.data(), static_cast<Index>(inner.size())).tail(fresh);
+    const MatrixXd slopes = outside(start_slopes(replay, w, start, simulated, known)) * scale.asDiagonal();
+    const Eigen::JacobiSVD<MatrixXd> svd(slopes, Eigen::ComputeThinU);
+    const Eigen::ArrayXd told = svd.singularValues().array().square();
+    const MatrixXd basis = svd.matrixU() * (1 - 1 / (1 + told).sqrt()).sqrt().matrix().asDiagonal();
     change -= basis * (basis.transpose() * change).eval();
-    own_gain = (basis.transpose() * weights_of(at.residual).cwiseProduct(at.residual)).squaredNorm() -
-               kStartPrice * static_cast<double>(all - known);
+    const VectorXd pull = svd.matrixU().transpose() * weights_of(at.residual).cwiseProduct(at.residual);
+    own_gain = (pull.array().square() * told / (1 + told)).sum() - told.log1p().sum();
   }
   return change;
 }

@@ -18,15 +18,14 @@ struct WindowFit {
   Eigen::VectorXd measured_start;  ///< what the crane's sensors make of the measurement
   Eigen::VectorXd simulated;       ///< outputs one after the other, lead left out, not whitened
   Eigen::VectorXd residual;        ///< measured - simulated, whitened, projected
-  Eigen::MatrixXd basis;           ///< orthonormal directions of the start, whitened
-  Eigen::MatrixXd to_start;        ///< whitened residual to change of start
-  double freedom = 0;              ///< directions of the start that the bare crane does not have
+  /// Directions of the start, whitened: x - basis basis' x is x without what a start that is known before to
+  /// some standard deviations makes, (I + A S^2 A')^(-1/2) x with A the slopes and S the deviations.
+  Eigen::MatrixXd basis;
+  Eigen::MatrixXd inner_slopes;  ///< whitened, of the start of terms' own coordinates
+  Eigen::MatrixXd to_start;      ///< whitened residual to change of start
+  double start_price = 0;        ///< log det(I + A S^2 A')
 };
 using Fits = std::vector<WindowFit>;
-
-/// A direction of the start that only the extended crane has takes one noise variance out of a window by
-/// luck; more in coloured residuals.
-inline constexpr double kStartPrice = 2;
 
 /// Length of a window that is its run.
 inline constexpr double kWholeRun = std::numeric_limits<double>::infinity();
@@ -46,15 +45,24 @@ class Problem {
 
   /// Learns noise and disturbance per output from the residuals of a crane and whitens with them from now on.
   void learn_disturbance(const Replays& crane);
+  /// Noise and disturbance of what `fits` leave, by output, whatever was learnt before.
+  [[nodiscard]] std::vector<Disturbance> disturbances_of(const Fits& fits) const;
   /// Whitens with these, by output, from now on.
   void whiten_with(std::vector<Disturbance> disturbances);
   [[nodiscard]] const Whitener& whitener(std::size_t output, std::size_t window) const {
     return whiteners_[output][window];
   }
+  /// Of the innovation of a row of a window, rows counted output by output.
+  [[nodiscard]] double log_variance(std::size_t window, std::size_t row) const {
+    const std::size_t rows = windows_[window].rows;
+    return whiteners_[row / rows][window].log_variance(row % rows);
+  }
   [[nodiscard]] const std::vector<Disturbance>& disturbances() const { return disturbances_; }
 
   /// Solves for the starts from the measured ones.
   [[nodiscard]] Fits fit(const Replays& crane) const;
+  /// The same from the starts of `near`: another noise, or values that differ little.
+  [[nodiscard]] Fits fit_again(const Replays& crane, const Fits& near) const;
   /// Solves for the starts with the directions of `near`, a crane that differs little; as fit() where it has
   /// other coordinates.
   [[nodiscard]] Fits fit_near(const Replays& crane, const Fits& near) const;
@@ -79,7 +87,7 @@ class Problem {
 
  private:
   /// Residuals [output][window], not whitened, of starts that were solved for with what is known.
-  [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Replays& crane) const;
+  [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Fits& fits) const;
   /// Numbers of a start that every crane has.
   [[nodiscard]] Eigen::Index bare_start() const { return static_cast<Eigen::Index>(2 * outputs_.size()); }
   [[nodiscard]] Eigen::VectorXd simulate(const Replay& replay, const Window& window,
@@ -94,6 +102,8 @@ class Problem {
   [[nodiscard]] Eigen::VectorXd measured_start(const Replay& replay, const Window& window) const;
   [[nodiscard]] Eigen::VectorXd near_start(const WindowFit& at, const Eigen::VectorXd& measured) const;
   void linearise(const Replay& replay, std::size_t window, WindowFit& fit) const;
+  /// Of the residual at the start: the start is one that was likely before, plus a change that is not seen.
+  void take_start_out(WindowFit& fit) const;
   void settle_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
                     WindowFit& fit) const;
   void fit_start(const Replay& replay, std::size_t window, WindowFit& fit) const;

@@ -36,10 +36,28 @@ std::vector<Disturbance> UnderWay::disturbances() const {
   return all;
 }
 
+std::vector<Disturbance> UnderWay::disturbances_of(const Replays& crane) const {
+  std::vector<Disturbance> all;
+  if (drive_.empty()) return all;
+  for (const Output axis : drive_.outputs()) all.push_back(pieces_of(drive_.runs(), crane, axis).disturbance);
+  return all;
+}
+
 void UnderWay::find_windows() {
   windows_.clear();
   for (const Pieces& axis : axes_)
     for (const Piece& piece : axis.all) windows_.push_back(window_of(drive_.windows(), piece));
+}
+
+std::vector<double> UnderWay::log_variances() const {
+  std::vector<double> all;
+  for (const Pieces& axis : axes_)
+    for (const Piece& piece : axis.all) {
+      double sum = 0;
+      for (std::size_t row = 0; row < piece.rows; ++row) sum += piece.whitener.log_variance(row);
+      all.push_back(sum);
+    }
+  return all;
 }
 
 std::vector<Eigen::VectorXd> UnderWay::residuals(const Replays& crane) const {

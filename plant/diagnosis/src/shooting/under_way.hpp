@@ -15,6 +15,8 @@ class UnderWay {
   /// Whitens with these, by output of the drives, from now on. @param crane any of these runs
   void whiten_with(const std::vector<Disturbance>& disturbances, const Replays& crane);
   [[nodiscard]] std::vector<Disturbance> disturbances() const;
+  /// Of what another crane leaves, by output of the drives, whatever was learnt before.
+  [[nodiscard]] std::vector<Disturbance> disturbances_of(const Replays& crane) const;
 
   /// Whitened residual of every piece, without what its start can make.
   [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const Replays& crane) const;
@@ -22,6 +24,8 @@ class UnderWay {
   [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane,
                                                     const std::vector<Eigen::VectorXd>& at,
                                                     double step) const;
+  /// Of the innovations of every piece, summed.
+  [[nodiscard]] std::vector<double> log_variances() const;
   /// Of every piece the window of the drives' replay that it belongs to.
   [[nodiscard]] const std::vector<std::size_t>& windows() const { return windows_; }
 

@@ -37,6 +37,7 @@ BlockScores block_scores(const Problem& problem, const Fits& fits,
   const std::size_t blocks = visit_blocks(problem, 0, [](auto...) {});
   scores.by_block = MatrixXd::Zero(static_cast<Index>(blocks), static_cast<Index>(directions));
   scores.curvature = MatrixXd::Zero(static_cast<Index>(directions), static_cast<Index>(directions));
+  scores.curvature_of.assign(blocks, scores.curvature);
   std::vector<VectorXd> weights;
   for (const WindowFit& fit : fits) weights.push_back(weights_of(fit.residual, loss));
   for (std::size_t i = 0; i < directions; ++i) {
@@ -47,11 +48,15 @@ BlockScores block_scores(const Problem& problem, const Fits& fits,
     });
     for (std::size_t j = 0; j <= i; ++j) {
       if (slopes[j].empty()) continue;
-      double product = 0;
-      for (std::size_t w = 0; w < fits.size(); ++w)
-        product += slopes[i][w].dot(weights[w].cwiseProduct(slopes[j][w]));
-      scores.curvature(static_cast<Index>(i), static_cast<Index>(j)) = product;
-      scores.curvature(static_cast<Index>(j), static_cast<Index>(i)) = product;
+      const auto row = static_cast<Index>(i), column = static_cast<Index>(j);
+      visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index k) {
+        scores.curvature_of[block](row, column) += slopes[i][w][k] * weights[w][k] * slopes[j][w][k];
+      });
+      for (MatrixXd& of_block : scores.curvature_of) {
+        of_block(column, row) = of_block(row, column);
+        scores.curvature(row, column) += of_block(row, column);
+      }
+      scores.curvature(column, row) = scores.curvature(row, column);
     }
   }
   return scores;
@@ -69,8 +74,11 @@ void add_scores(const std::vector<std::size_t>& blocks, const std::vector<Vector
       for (std::size_t j = 0; j <= i; ++j) {
         if (slopes[j].empty()) continue;
         const auto row = static_cast<Index>(j);
-        scores.curvature(row, column) += weighted.dot(slopes[j][k]);
-        scores.curvature(column, row) = scores.curvature(row, column);
+        const double product = weighted.dot(slopes[j][k]);
+        for (MatrixXd* curvature : {&scores.curvature, &scores.curvature_of[blocks[k]]}) {
+          (*curvature)(row, column) += product;
+          (*curvature)(column, row) = (*curvature)(row, column);
+        }
       }
     }
   }
@@ -83,7 +91,18 @@ BlockScores joined(const BlockScores& a, const BlockScores& b) {
   if (a.by_block.size() > 0) both.by_block.topRows(a.by_block.rows()) = a.by_block;
   if (b.by_block.size() > 0) both.by_block.bottomRows(b.by_block.rows()) = b.by_block;
   both.curvature = a.curvature + b.curvature;
+  both.curvature_of = a.curvature_of;
+  both.curvature_of.insert(both.curvature_of.end(), b.curvature_of.begin(), b.curvature_of.end());
   return both;
+}
+
+Blocks left_out(const BlockScores& at) {
+  Blocks cost(static_cast<std::size_t>(at.by_block.rows()), 0.0);
+  for (std::size_t block = 0; block < cost.size(); ++block) {
+    const VectorXd pull = at.by_block.row(static_cast<Index>(block)).transpose();
+    cost[block] = 2 * pull.dot(solve(at.curvature - at.curvature_of[block], pull));
+  }
+  return cost;
 }
 
 VectorXd solve(const MatrixXd& h, const VectorXd& g) {
@@ -92,12 +111,20 @@ VectorXd solve(const MatrixXd& h, const VectorXd& g) {
   return regular.ldlt().solve(g);
 }
 
+Blocks log_variances_of(const Problem& problem) {
+  Blocks blocks(visit_blocks(problem, 0, [](auto...) {}), 0.0);
+  visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index row) {
+    blocks[block] += problem.log_variance(w, static_cast<std::size_t>(row));
+  });
+  return blocks;
+}
+
 double sum(const Blocks& blocks) { return std::accumulate(blocks.begin(), blocks.end(), 0.0); }
 
 Blocks blocks_of(const Problem& problem, const Fits& fits) {
   Blocks blocks(visit_blocks(problem, 0, [](auto...) {}), 0.0);
   visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index row) {
-    const double price = kStartPrice * fits[w].freedom / static_cast<double>(fits[w].residual.size());
+    const double price = fits[w].start_price / static_cast<double>(fits[w].residual.size());
     blocks[block] += loss_of(fits[w].residual[row]) + price;
   });
   return blocks;

@@ -32,6 +32,9 @@ KnownFriction known_friction(const configuration::Rig& rig, const std::string& a
   return known;
 }
 
+/// A support that travels less [m or rad] shows nothing of its sensor.
+constexpr double kResting = 0.005;
+
 class Builder {
  public:
   Builder(const configuration::Rig& rig, const std::vector<PreparedRun>& runs) : rig_(rig), runs_(runs) {}
@@ -48,7 +51,7 @@ class Builder {
     for (const auto& [axis, output, scale] :
          {std::tuple{"trolley", kTrolleyPosition, 1.0}, std::tuple{"slew", kSlewAngle, 2.0}}) {
       if (driven(output)) add_axis(axis, output, scale);
-      if (!driven(output) && measured(output)) add_support_sensor(axis);
+      if (!driven(output) && measured(output) && travelled(output) > kResting) add_support_sensor(axis);
     }
     driven_ = driven(kTrolleyPosition) || driven(kSlewAngle);
     radial_ = load && measured(kRadialSwing), tangential_ = load && measured(kTangentialSwing);
@@ -101,6 +104,12 @@ class Builder {
                        excesses));
     add_tight_spots(axis, output);
     add_ripple(axis, output);
+    add_force(GoesWith::position,
+              two_amounts("position_force", axis,
+                          {free_parameter("position_force", "stiffness_vpm", -100, 100, 0.05),
+                           free_parameter("position_force", "offset_v", -5, 5, 0.02)}));
+    // Where no weight hangs on the axis, friction that grows with the motor's force is a smaller gain.
+    if (carries_weight(axis)) add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), true, false);
     add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), true, false, true);
     add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), true, false);
     add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
@@ -114,6 +123,13 @@ class Builder {
     add_gap(axis, output, scale);
     add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), true, true);
     add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
+  }
+
+  /// By the rig file: a force that goes with the position.
+  [[nodiscard]] bool carries_weight(const std::string& axis) const {
+    return std::ranges::any_of(rig_.terms, [&](const TermSetting& term) {
+      return term.axis == axis && (term.name == "torque_ripple" || term.name == "position_force");
+    });
   }
 
   /// A drive without a command shows its sensor's errors by the swing alone.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "study/blocks.hpp"
@@ -28,6 +29,9 @@ constexpr double kFirstStep = 0.15, kLastStep = 0.1, kLonger = 1.5, kShorter = 0
 /// After so many rounds a fit that is still this many times what the slopes promise away is given up.
 constexpr int kLeastRounds = 1;
 constexpr double kPromise = 4;
+/// Fit and noise in turn, at most, and the decrease of the deviance that asks for another turn.
+constexpr int kMostNoiseRounds = 3;
+constexpr double kWorthARound = 2;
 
 struct Flat {
   std::vector<const FreeParameter*> parameters;
@@ -103,9 +107,23 @@ double total_loss(const Evaluation& at, Loss loss) {
   if (loss == Loss::robust) return at.loss;
   double sum = 0;
   for (const Fits* fits : {&at.drive, &at.load})
-    for (const WindowFit& fit : *fits) sum += fit.residual.squaredNorm() + kStartPrice * fit.freedom;
+    for (const WindowFit& fit : *fits) sum += fit.residual.squaredNorm() + fit.start_price;
   for (const VectorXd& residual : at.under_way) sum += residual.squaredNorm();
   return sum;
+}
+
+/// Of the simulation, by output: mean over the windows of the rms of each.
+std::array<double, kOutputs> errors_of(const std::vector<std::pair<const Problem*, const Fits*>>& parts) {
+  std::array<double, kOutputs> errors{};
+  for (const auto& [problem, fits] : parts)
+    for (std::size_t i = 0; i < problem->outputs().size(); ++i) {
+      const std::vector<double> squares = problem->squares_left(*fits, i);
+      double& error = errors[problem->outputs()[i]];
+      for (std::size_t w = 0; w < squares.size(); ++w)
+        error += std::sqrt(squares[w] / static_cast<double>(problem->seen_rows(problem->windows()[w], i))) /
+                 static_cast<double>(squares.size());
+    }
+  return errors;
 }
 
 }  // namespace
@@ -180,6 +198,78 @@ void Study::step_around(Fitted& best, double Evaluation::*loss) const {
   }
 }
 
+Blocks Study::deviance_of(const Body& body, const Evaluation& at) {
+  Blocks deviance = at.blocks;
+  const auto add = [&deviance](std::size_t first, const Blocks& more) {
+    for (std::size_t i = 0; i < more.size(); ++i) deviance[first + i] += more[i];
+  };
+  add(0, log_variances_of(body.drive));
+  const std::vector<double> of_pieces = body.under_way.log_variances();
+  for (std::size_t i = 0; i < of_pieces.size(); ++i) deviance[body.under_way.windows()[i]] += of_pieces[i];
+  add(at.drive_blocks, log_variances_of(body.load));
+  return deviance;
+}
+
+void Study::judge_by_likelihood(Fitted& fitted) const {
+  fitted.noise = noise();
+  fitted.deviance = deviance_of(train_, fitted.train);
+  if (!fitted.effects.empty()) {
+    const Blocks more = left_out(block_scores(fitted.train, slopes(fitted.effects, fitted.train)));
+    for (std::size_t i = 0; i < more.size(); ++i) fitted.deviance[i] += more[i];
+  }
+  fitted.error = errors_of({{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}});
+  if (whole_runs_.empty()) return;
+  const Fits whole = whole_runs_.fit(replays_of(train_.runs, with(fitted.effects)));
+  fitted.whole_error = errors_of({{&whole_runs_, &whole}});
+}
+
+Blocks Study::held_out_deviance(const Fitted& fitted) {
+  whiten_test(fitted.noise);
+  return deviance_of(test_, evaluated(test_, replays_of(test_.runs, with(fitted.effects))));
+}
+
+Fitted Study::bare() const {
+  Fitted base;
+  base.train = base_train_;
+  judge_by_likelihood(base);
+  return base;
+}
+
+Noise Study::noise_of(const Fitted& fitted) const {
+  Noise noise;
+  if (!train_.drive.empty()) noise.drive = train_.drive.disturbances_of(fitted.train.drive);
+  if (!train_.load.empty()) noise.load = train_.load.disturbances_of(fitted.train.load);
+  noise.under_way = train_.under_way.disturbances_of(replays_of(train_.runs, with(fitted.effects)));
+  return noise;
+}
+
+Fitted Study::screened(const Effects& effects, const Fitted& near) const {
+  Fitted fitted = fit(effects, near.train.loss - kLeastGain, near.train);
+  fitted.noise = noise_of(fitted);
+  for (const auto* of : {&fitted.noise.drive, &fitted.noise.under_way, &fitted.noise.load})
+    for (const Disturbance& disturbance : *of) fitted.misfit += disturbance.misfit;
+  return fitted;
+}
+
+Fitted Study::settled(const Fitted& screened) {
+  Fitted best = screened, last = screened;
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMostNoiseRounds; ++round) {
+    const Noise noise = round == 0 ? screened.noise : noise_of(last);
+    whiten_training(noise);
+    last = fit(last.effects, std::numeric_limits<double>::infinity(), evaluated_again(last));
+    judge_by_likelihood(last);
+    last.misfit = screened.misfit;
+    const double gained = least - sum(last.deviance);
+    if (!(gained > 0)) break;
+    best = last;
+    least -= gained;
+    if (gained < kWorthARound) break;
+  }
+  whiten_training(best.noise);
+  return best;
+}
+
 Fitted Study::fit(Effects effects, double hopeless) const {
   return fit(std::move(effects), hopeless, base_train_);
 }
@@ -211,7 +301,7 @@ Fitted Study::fit(Effects effects, double hopeless, const Evaluation& near) cons
   for (const double variance : best.covariance.diagonal())
     best.std_dev.push_back(std::sqrt(std::max(0.0, variance)));
   best.parameters = best.std_dev.size();
-  best.test = test(best.effects);
+  best.noise = noise();
   return best;
 }
 

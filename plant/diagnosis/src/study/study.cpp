@@ -54,21 +54,14 @@ Effects moved(Effects effects, const VectorXd& step) {
   return effects;
 }
 
-void Noise::take_likelier(const Noise& other) {
-  for (std::size_t i = 0; i < drive.size(); ++i)
-    if (other.drive[i].misfit + other.under_way[i].misfit < drive[i].misfit + under_way[i].misfit)
-      drive[i] = other.drive[i], under_way[i] = other.under_way[i];
-  for (std::size_t i = 0; i < load.size(); ++i)
-    if (other.load[i].misfit < load[i].misfit) load[i] = other.load[i];
-}
-
 Study::Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded)
     : natural_radps_{diagnosis::natural_radps(rig)},
       base_{rig.plant, rig.terms},
       candidates_(candidates_for(rig, train)),
       train_(train, natural_radps_),
-      test_(test, natural_radps_) {
+      test_(test, natural_radps_),
+      whole_runs_(train, Part::load, kWholeRun, 0) {
   std::erase_if(candidates_, [&](const Candidate& candidate) {
     return std::find(excluded.begin(), excluded.end(), candidate.cause) != excluded.end();
   });
@@ -93,10 +86,20 @@ void Study::learn_disturbance(const Effects& effects) {
   evaluate_base();
 }
 
-void Study::whiten_with(const Noise& noise) {
+void Study::whiten_training(const Noise& noise) {
   if (!train_.drive.empty()) train_.drive.whiten_with(noise.drive);
   if (!train_.load.empty()) train_.load.whiten_with(noise.load);
   train_.under_way.whiten_with(noise.under_way, replays_of(train_.runs, base_));
+}
+
+void Study::whiten_test(const Noise& noise) {
+  if (!test_.drive.empty()) test_.drive.whiten_with(noise.drive);
+  if (!test_.load.empty()) test_.load.whiten_with(noise.load);
+  test_.under_way.whiten_with(noise.under_way, replays_of(test_.runs, base_));
+}
+
+void Study::whiten_with(const Noise& noise) {
+  whiten_training(noise);
   evaluate_base();
 }
 
@@ -104,18 +107,19 @@ Noise Study::noise() const {
   return {train_.drive.disturbances(), train_.under_way.disturbances(), train_.load.disturbances()};
 }
 
-void Study::evaluate_base() {
-  const Noise noise = this->noise();
-  if (!test_.drive.empty()) test_.drive.whiten_with(noise.drive);
-  if (!test_.load.empty()) test_.load.whiten_with(noise.load);
-  const Replays base_train = replays_of(train_.runs, base_), base_test = replays_of(test_.runs, base_);
-  test_.under_way.whiten_with(noise.under_way, base_test);
-  base_train_ = evaluated(train_, base_train);
-  base_test_ = evaluated(test_, base_test);
-}
+void Study::evaluate_base() { base_train_ = evaluated(train_, replays_of(train_.runs, base_)); }
 
 Evaluation Study::evaluated(const Body& body, const Replays& base) const {
   return summed(body, fit_of(body.drive, base), fit_of(body.load, base), body.under_way.residuals(base));
+}
+
+Evaluation Study::evaluated_again(const Fitted& fitted) const {
+  const Replays crane = replays_of(train_.runs, with(fitted.effects));
+  const auto again = [&crane](const Problem& problem, const Fits& near) {
+    return problem.empty() ? Fits{} : problem.fit_again(crane, near);
+  };
+  return summed(train_, again(train_.drive, fitted.train.drive), again(train_.load, fitted.train.load),
+                train_.under_way.residuals(crane));
 }
 
 Evaluation Study::evaluate(const Body& body, const Effects& effects, const Evaluation& near) const {
@@ -134,7 +138,6 @@ Evaluation Study::train(const Effects& effects) const { return train(effects, ba
 Evaluation Study::train(const Effects& effects, const Evaluation& near) const {
   return evaluate(train_, effects, near);
 }
-Evaluation Study::test(const Effects& effects) const { return evaluate(test_, effects, base_test_); }
 
 double Study::add_slope(const Crane& crane, const Evaluation& at, double step, ShowsIn parts,
                         Slopes& slopes) const {

@@ -35,9 +35,22 @@ struct Evaluation {
   double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
 };
 
+/// Noise and disturbance: by output of the drives, of the same along the measured motion, and of the load.
+struct Noise {
+  std::vector<Disturbance> drive, under_way, load;
+};
+
 struct Fitted {
   Effects effects;
-  Evaluation train, test;
+  Evaluation train;
+  Noise noise;        ///< of what it leaves
+  double misfit = 0;  ///< minus twice the log likelihood of that, the starts of windows left free
+  /// Minus twice the log likelihood of the training data by block, each as if it was left out of the fit.
+  Blocks deviance;
+  /// Error of the simulation in windows, mean over the windows of the rms of each [m or rad].
+  std::array<double, kOutputs> error{};
+  /// The same of swings over whole runs. Of drives the smallest error of friction integrates into position.
+  std::array<double, kOutputs> whole_error{};
   std::vector<double> std_dev;  ///< of all values, one effect after the other; block-robust
   Eigen::MatrixXd covariance;   ///< the same before resampling
   Eigen::VectorXd by_noise;     ///< std_dev if noise and disturbance are exactly as learnt
@@ -68,14 +81,6 @@ struct ScoreTable {
   double p_value = 1;  ///< that the largest of all comes from nothing, by flipping the signs of blocks
 };
 
-/// Noise and disturbance: by output of the drives, of the same along the measured motion, and of the load.
-struct Noise {
-  std::vector<Disturbance> drive, under_way, load;
-
-  /// Of each output what makes its residual likelier; both views of a drive are of one crane.
-  void take_likelier(const Noise& other);
-};
-
 struct BlockScores;
 
 class Study {
@@ -98,15 +103,26 @@ class Study {
   /// The same with what was learnt elsewhere, from the same runs.
   void whiten_with(const Noise& noise);
   [[nodiscard]] Noise noise() const;
+  /// The effects fitted from these values in the noise of `near`, then the noise of what they leave: enough
+  /// to tell which hypotheses are worth settled().
+  /// @param near of some of the effects. @pre the training data are whitened with its noise
+  [[nodiscard]] Fitted screened(const Effects& effects, const Fitted& near) const;
+  /// Fit and noise in turn, as long as the data become likelier. From then on the training data are whitened
+  /// with the noise of the result.
+  [[nodiscard]] Fitted settled(const Fitted& screened);
+  /// The base model in its own noise. @pre learn_disturbance() was the last call
+  [[nodiscard]] Fitted bare() const;
+  /// Whitens the training data with the noise of a fit from now on.
+  void whiten_training(const Noise& noise);
+  /// Minus twice the log likelihood of the held-out data by block, in the noise of a fit.
+  [[nodiscard]] Blocks held_out_deviance(const Fitted& fitted);
 
   /// The base model.
   [[nodiscard]] const Evaluation& base_train() const { return base_train_; }
-  [[nodiscard]] const Evaluation& base_test() const { return base_test_; }
   /// Only the parts that `effects` show in are simulated again.
   [[nodiscard]] Evaluation train(const Effects& effects) const;
   /// @param near of some of the effects: where the starts of the windows begin
   [[nodiscard]] Evaluation train(const Effects& effects, const Evaluation& near) const;
-  [[nodiscard]] Evaluation test(const Effects& effects) const;
   /// Does one more effect explain what `at` leaves? @param seed of the sign flips
   [[nodiscard]] ScoreTable score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const;
   /// Shapes of a candidate; those of a wave are the strongest in the force that is missing beside the
@@ -159,15 +175,24 @@ class Study {
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
   /// Around the base crane.
   [[nodiscard]] Evaluation evaluated(const Body& body, const Replays& base) const;
+  /// The training data around a fit in another noise.
+  [[nodiscard]] Evaluation evaluated_again(const Fitted& fitted) const;
   /// @pre the training data are whitened
   void evaluate_base();
   [[nodiscard]] Evaluation evaluate(const Body& body, const Effects& effects, const Evaluation& near) const;
+  [[nodiscard]] Noise noise_of(const Fitted& fitted) const;
+  /// Minus twice the log likelihood by block in the present noise.
+  [[nodiscard]] static Blocks deviance_of(const Body& body, const Evaluation& at);
+  void whiten_test(const Noise& noise);
+  /// Sets noise and deviance in the present noise.
+  void judge_by_likelihood(Fitted& fitted) const;
 
   double natural_radps_;
   Crane base_;
   std::vector<Candidate> candidates_;
   Body train_, test_;
-  Evaluation base_train_, base_test_;
+  Problem whole_runs_;  ///< of the load, training
+  Evaluation base_train_;
 };
 
 /// Every value moved by its number of `step`, within its bounds: rounding must not carry it beyond.

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "crane/diagnosis/moment.hpp"
+#include "replay/standstill.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -76,6 +77,20 @@ Runs prepared(std::vector<Run> runs, const configuration::Rig& rig) {
   Runs all;
   for (Run& run : runs) all.push_back(prepare(std::move(run), rig));
   return all;
+}
+
+void hold_resting_drives(Runs& train, Runs& test) {
+  constexpr double kLeastMoving_s = 0.15;  // of a piece between two rests (shooting/pieces.cpp)
+  for (const Output drive : {kTrolleyPosition, kSlewAngle}) {
+    const auto moves = [drive](const PreparedRun& run) {
+      const std::vector<double>& rate = run.motion[drive].rate;
+      const auto rows = std::ranges::count_if(rate, [](double v) { return std::abs(v) >= kStands; });
+      return static_cast<double>(rows) * run.run.period_s >= kLeastMoving_s;
+    };
+    if (std::ranges::any_of(train, moves)) continue;
+    for (Runs* runs : {&train, &test})
+      for (PreparedRun& run : *runs) run.run.commanded[drive] = false;
+  }
 }
 
 void require_excitation(const Runs& train, const Runs& test, const configuration::Rig& rig) {

@@ -153,7 +153,7 @@ class Judgement {
       if (fitted.effects.size() == best_.effects.size() && !same(fitted.effects, best_.effects) &&
           possible(fitted, all_.base, seed_))
         equals.push_back(&fitted);
-    const std::vector<double> picked = frequencies(best_, equals, all_.base, seed_);
+    const std::vector<double> picked = frequencies(best_, equals, seed_);
     double left = 1;
     for (std::size_t r = 0; r < equals.size(); ++r) {
       left -= picked[r];
@@ -169,12 +169,8 @@ class Judgement {
     for (const auto& [candidate, share] : frequency_)
       if (share >= kRunnerUp && !has(best_.effects, candidate)) rivals.push_back(candidate);
     result_.verdict = !clear && !rivals.empty() ? Verdict::ambiguous
-                      : !all_.proven            ? Verdict::unknown
                       : known                   ? Verdict::parameter
                                                 : Verdict::named;
-    auto& from = result_.remainder.from;
-    if (result_.verdict == Verdict::unknown)
-      from.insert(from.begin(), "held-out runs: too little in them to prove a cause");
     if (result_.verdict != Verdict::ambiguous) return;
     std::sort(rivals.begin(), rivals.end(),
               [&](const Candidate* a, const Candidate* b) { return frequency_[a] > frequency_[b]; });
@@ -199,9 +195,8 @@ class Judgement {
     for (Ranked& ranked : result_.ranking)
       for (const auto& [candidate, share] : frequency_)
         if (candidate->label() == ranked.label) ranked.resampling_frequency = share;
-    std::stable_sort(result_.ranking.begin(), result_.ranking.end(), [](const Ranked& a, const Ranked& b) {
-      return a.train_gain + a.test_gain > b.train_gain + b.test_gain;
-    });
+    std::stable_sort(result_.ranking.begin(), result_.ranking.end(),
+                     [](const Ranked& a, const Ranked& b) { return a.train_gain > b.train_gain; });
   }
 
   const Study& study_;

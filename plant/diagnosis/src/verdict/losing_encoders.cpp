@@ -41,11 +41,11 @@ std::string note(const LosingEncoder& encoder) {
   return text.str();
 }
 
-void rank(const Cause& cause, double train_gain, double test_gain, std::vector<Ranked>& ranking) {
+void rank(const Cause& cause, double train_gain, std::vector<Ranked>& ranking) {
   const std::string label = cause.name + " (" + cause.axis + ")";
   std::erase_if(ranking, [&](const Ranked& smooth) { return smooth.label == label; });
   ranking.insert(ranking.begin(),
-                 {label, cause.parameters, train_gain, test_gain, cause.p_value, cause.resampling_frequency});
+                 {label, cause.parameters, train_gain, cause.p_value, cause.resampling_frequency});
 }
 
 }  // namespace
@@ -54,7 +54,6 @@ void name_losing(const std::vector<LosingEncoder>& losing, const Study& study, c
                  Diagnosis& diagnosis) {
   if (losing.empty()) return;
   const double train_gain = as_measured.base_train().loss - study.base_train().loss;
-  const double test_gain = as_measured.base_test().loss - study.base_test().loss;
   std::vector<Cause> causes;
   std::vector<plant::TermSetting> terms;
   for (const LosingEncoder& jumping : losing) {
@@ -65,7 +64,7 @@ void name_losing(const std::vector<LosingEncoder>& losing, const Study& study, c
                       .p_value = 0,
                       .resampling_frequency = 1});
     terms.push_back({kTerm, axis_of(encoder.axis), {{"rate", encoder.rate}, {"jump", encoder.jump}}});
-    rank(causes.back(), train_gain, test_gain, diagnosis.ranking);
+    rank(causes.back(), train_gain, diagnosis.ranking);
     diagnosis.notes.push_back(note(encoder));
   }
   diagnosis.causes.insert(diagnosis.causes.begin(), causes.begin(), causes.end());

@@ -15,7 +15,10 @@ class TorqueRipple final : public Term {
         wave_number_(2 * std::numbers::pi / s.parameters.at("period")) {}
 
   void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
-    friction_v[axis_] -= amplitude_v_ * std::sin(wave_number_ * position(state, axis_) + phase_rad_);
+    friction_v[axis_] -= position_force_v(state);
+  }
+  [[nodiscard]] double position_force_v(const State& state) const noexcept override {
+    return amplitude_v_ * std::sin(wave_number_ * position(state, axis_) + phase_rad_);
   }
 
  private:

@@ -21,7 +21,7 @@ struct GateMemory {
   PerAxis last_v{};        ///< what reached the drives on the tick before
   int missing_in_row = 0;  ///< ticks in a row without a usable demand
   int invalid_in_row = 0;  ///< arrived and rejected, in a row
-  int rate_pressure = 0;   ///< +2 per tick clamped in rate, -1 per tick not
+  int rate_pressure = 0;   ///< +4 per tick clamped in rate, -1 per tick not
   std::uint64_t clamped_count = 0;
   std::uint64_t rejected_count = 0;
   std::uint64_t missing_count = 0;

@@ -19,10 +19,13 @@ using AxisLimits = control::DriveLimits;
 struct MachineModel {
   bool known = false;  ///< false: neither following error nor swing encoders are judged
   plant::Parameters crane{};
-  PerAxis friction_v{};                  ///< largest friction at rest, or Coulomb friction, V
-  PerAxis viscous_v{};                   ///< largest viscous friction, V per unit/s
-  PerAxis resolution{};                  ///< of the encoders: one count, unit
-  std::array<bool, 2> swing_measured{};  ///< radial, tangential
+  struct Friction {
+    double rest_v = 0;     ///< the larger of stiction and Coulomb friction, V
+    double viscous_v = 0;  ///< V per unit/s
+  };
+  std::array<Friction, kAxes> friction_positive{}, friction_negative{};  ///< by the direction of motion
+  PerAxis resolution{};                                                  ///< of the encoders: one count, unit
+  std::array<bool, 2> swing_measured{};                                  ///< radial, tangential
   std::array<double, 2> swing_resolution_rad{};
   bool cable_measured = false;
   double cable_m = 1;  ///< where it is not measured, > 0

@@ -20,12 +20,13 @@ struct Inputs {
   Cause gate_cause = Cause::none;  ///< none, demand_stale, demand_invalid, demand_rate
   EnvelopeInput measured{};        ///< for rules that compare a measured value with a limit
   Envelope envelope{};
-  Following following{};
+  bool following_error = false;      ///< see following.hpp
   bool swing_sensor_failed = false;  ///< see pendulum.hpp
   bool estop_pressed = false;
   bool bridge_latched = false;    ///< the bridge holds 0 V and closed brakes by itself
   bool watchdog_dropped = false;  ///< the relay has removed the brake supply
   bool second_writer = false;
+  bool foreign_command = false;   ///< the bridge gives voltages that nobody here has commanded
   bool bridge_restarted = false;  ///< another bridge writes crane/state; it is not tested yet
   bool place_unclear =
       false;  ///< since that restart: an axis may stand elsewhere, and the reset does not confirm it

@@ -38,10 +38,10 @@ struct TickInput {
   bool bridge_restarted = false;  ///< from here on a younger bridge speaks; its ticks begin anew
   bool demand_arrived = false;
   PerAxis demand_v{};
-  bool reference_arrived = false;
-  PerAxis reference{}, reference_speed{};  ///< where each axis is to be at this tick; read only when arrived
   bool reference_moving = false;
   bool second_writer = false;
+  bool foreign_command = false;    ///< the bridge gives voltages that this supervisor has not commanded
+  bool brake_open_untold = false;  ///< a brake is open long after it was told to close
   SelfTest self_test = SelfTest::not_started;
   Requests requests{};
   std::size_t home_axis = 0;  ///< whom Request::home is about, < kAxes

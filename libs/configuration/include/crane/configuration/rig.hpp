@@ -88,6 +88,9 @@ struct Start {
 struct Planning {
   bool limits_jerk = false;  ///< S-curve instead of bang-coast-bang
   control::Shaping shaping = control::Shaping::none;
+  double planned_swing_rad = 0.17453292519943295;  ///< largest swing of a time-optimal plan
+  double planned_volt_share = 0.95;  ///< share of the volts that a plan uses; the rest is left for tracking
+  double planning_time_s = 0.05;     ///< a plan begins so long after its request
 
   bool operator==(const Planning&) const = default;
 };

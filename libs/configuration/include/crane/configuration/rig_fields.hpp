@@ -261,7 +261,7 @@ inline constexpr std::array<Field<Rig>, 1> kControllerFields{{
      .choices_text = "a name of [`registered.def`](../libs/control/src/laws/registered.def)"},
 }};
 
-inline constexpr std::array<Field<Planning>, 2> kPlanningFields{{
+inline constexpr std::array<Field<Planning>, 5> kPlanningFields{{
     {.key = "trajectory",
      .member = Choice<Planning>{[] {
                                   return std::vector<std::string>{"bang_coast_bang", "s_curve"};
@@ -277,6 +277,23 @@ inline constexpr std::array<Field<Planning>, 2> kPlanningFields{{
          [](const Planning& planning) { return static_cast<std::size_t>(planning.shaping); },
          [](Planning& planning, std::size_t i) { planning.shaping = static_cast<control::Shaping>(i); }},
      .meaning = "impulses that the planned references of trolley and slew are convolved with"},
+    {.key = "planned_swing_rad",
+     .member = &Planning::planned_swing_rad,
+     .range = Range::closed(0.001, 1),
+     .unit = "rad",
+     .meaning = "`time_optimal`: largest swing of a plan",
+     .default_text = "10°"},
+    {.key = "planned_volt_share",
+     .member = &Planning::planned_volt_share,
+     .range = Range::closed(0.1, 1),
+     .meaning = "`time_optimal`: share of `volt_limit_v` that a plan uses; tracking has the rest"},
+    {.key = "planning_time_s",
+     .member = &Planning::planning_time_s,
+     .range = Range::closed(0, 10),
+     .unit = "s",
+     .meaning =
+         "`time_optimal`: a plan begins so long after its request; without a plan by then, the move is "
+         "shaped (`zv`)"},
 }};
 
 /// Calls visit(path, fields, section, unit) for every section that the rig has, with "" as path of the root

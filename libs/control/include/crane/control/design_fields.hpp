@@ -22,7 +22,7 @@ inline constexpr fields::Range kFrictionVolts = fields::Range::closed(0, 1000);
 /// (3.42): critically damped.
 [[nodiscard]] double critical_derivative(const Design& design);
 
-inline constexpr std::array<fields::Field<Design>, 17> kDesignFields{{
+inline constexpr std::array<fields::Field<Design>, 18> kDesignFields{{
     {.key = "cable_length_m",
      .member = &Design::cable_length_m,
      .range = plant::kCableLengths,
@@ -102,6 +102,10 @@ inline constexpr std::array<fields::Field<Design>, 17> kDesignFields{{
      .range = fields::Range::closed(1e-3, 100),
      .unit = "m",
      .meaning = "guard of the 1/x gains of the slew axis"},
+    {.key = "swing_observer",
+     .member = &Design::swing_observer,
+     .meaning = "the laws see the crane as the pendulum observer predicts it for the time when their command "
+                "acts, instead of filtered and differentiated measurements"},
 }};
 
 inline constexpr std::array<fields::Field<DriveFriction>, 9> kFrictionFields{{

@@ -27,6 +27,7 @@ struct Measurement {
   double swing_radial_radps = 0;
   double swing_tangential_rad = 0;  ///< theta, positive: load ahead in the direction of +slew
   double swing_tangential_radps = 0;
+  Volts applied_v{};  ///< V, acts from this tick to the next
 };
 
 /// Reference of one axis: m, rad or m of cable, with its first and second derivative with respect to time in
@@ -35,7 +36,18 @@ struct AxisReference {
   double position = 0, speed = 0, acceleration = 0;
   double start = 0;  ///< measured position of the axis when `position` last changed (reference_start.hpp)
 };
-using Reference = std::array<AxisReference, kAxes>;
+
+/// Planned swing of the load (signs of Measurement).
+struct SwingReference {
+  double radial_rad = 0, radial_radps = 0, tangential_rad = 0, tangential_radps = 0;
+};
+
+/// Reference of all axes, indexed by axis. A plan adds the swing and the volts that belong to its motion, at
+/// the time when the command of the tick acts; other references leave them 0.
+struct Reference : std::array<AxisReference, kAxes> {
+  SwingReference swing;
+  Volts feed_forward_v{};  ///< V, without the compensation of friction
+};
 
 /// Output of one law in one tick.
 struct Contribution {
@@ -57,8 +69,12 @@ class Law {
 
 /// Shape of the reference of trolley and slew.
 enum class ReferenceShape {
-  step,            ///< the reference jumps to the target
-  bang_coast_bang  ///< constant acceleration, constant speed, constant deceleration
+  step,             ///< the reference jumps to the target
+  bang_coast_bang,  ///< constant acceleration, constant speed, constant deceleration
+  zv,               ///< bang_coast_bang through the input shaper of this name (shaper.hpp)
+  zvd,
+  ei,
+  time_optimal  ///< plan of time_optimal.hpp, or bang_coast_bang through zv when there is none
 };
 
 /// Friction estimate of one drive in volts (b/K_m, c/K_m) for the compensation (3.1)-(3.5).
@@ -107,6 +123,7 @@ struct Design {
   double fuzzy_point_b = 2.0 / 3;        ///< peak of PM
   double shortest_cable_length_m = 0.1;  ///< lower limit for the measured length in the laws
   double longest_cable_length_m = 100;   ///< upper limit; determines the memory of the delayed laws
+  bool swing_observer = false;           ///< the laws see the estimate of pendulum_observer.hpp
 
   bool operator==(const Design&) const = default;
 };

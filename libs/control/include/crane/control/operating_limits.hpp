@@ -10,7 +10,7 @@ struct OperatingLimits {
   double stale_after_s = 0.05;         ///< bridge: age of the command that stops the crane, s
   double demand_stale_after_s = 0.03;  ///< supervisor: time without a demand that stops the crane, s
   double idle_lock_s = 60;             ///< time in HOLD without a move that locks the crane, s
-  bool model_checks = false;  ///< true: following error and swing encoders are compared with the model
+  bool model_checks = true;  ///< true: following error and swing encoders are compared with the model
 
   bool operator==(const OperatingLimits&) const = default;
 };

@@ -11,7 +11,8 @@ namespace crane::runtime {
           .swing_radial_rad = state.swing_radial_rad,
           .swing_radial_radps = state.swing_radial_radps,
           .swing_tangential_rad = state.swing_tangential_rad,
-          .swing_tangential_radps = state.swing_tangential_radps};
+          .swing_tangential_radps = state.swing_tangential_radps,
+          .applied_v = {state.applied_v[0], state.applied_v[1], state.applied_v[2]}};
 }
 
 [[nodiscard]] inline control::Reference reference(const msg::AxisReference (&axes)[control::kAxes]) {
@@ -23,13 +24,29 @@ namespace crane::runtime {
 
 [[nodiscard]] inline control::Reference reference(const msg::Reference& sample) {
   control::Reference result = reference(sample.axis);
-  for (std::size_t i = 0; i < control::kAxes; ++i) result[i].start = sample.start[i];
+  result.swing = {sample.swing_rad[0], sample.swing_radps[0], sample.swing_rad[1], sample.swing_radps[1]};
+  for (std::size_t i = 0; i < control::kAxes; ++i) {
+    result[i].start = sample.start[i];
+    result.feed_forward_v[i] = sample.feed_forward_v[i];
+  }
   return result;
 }
 
 inline void assign(msg::AxisReference (&axes)[control::kAxes], const control::Reference& reference) {
   for (std::size_t i = 0; i < control::kAxes; ++i)
     axes[i] = {reference[i].position, reference[i].speed, reference[i].acceleration};
+}
+
+inline void assign(msg::Reference& sample, const control::Reference& reference) {
+  assign(sample.axis, reference);
+  sample.swing_rad[0] = reference.swing.radial_rad;
+  sample.swing_rad[1] = reference.swing.tangential_rad;
+  sample.swing_radps[0] = reference.swing.radial_radps;
+  sample.swing_radps[1] = reference.swing.tangential_radps;
+  for (std::size_t i = 0; i < control::kAxes; ++i) {
+    sample.start[i] = reference[i].start;
+    sample.feed_forward_v[i] = reference.feed_forward_v[i];
+  }
 }
 
 inline void assign(double (&field)[control::kAxes], const std::array<double, control::kAxes>& values) {

@@ -36,7 +36,8 @@ struct Cause {
 struct Ranked {
   std::string label;
   std::vector<Estimate> parameters;
-  double train_gain = 0, test_gain = 0;  ///< decrease of the whitened loss, in units of one noise variance
+  /// Decrease of minus twice the log likelihood of the training data, each block left out of the fit.
+  double train_gain = 0;
   double p_value = 1, resampling_frequency = 0;
 };
 
@@ -51,8 +52,11 @@ struct HeldOut {
   std::map<std::string, double> held_value_rms, whole_held_value_rms;
   /// Share of the measured motion over whole runs that the extended model makes: 0 where it stands still.
   std::map<std::string, double> whole_extended_motion;
-  double gain = 0;  ///< 1 - extended / baseline, noise-weighted
+  double gain = 0;  ///< 1 - extended / baseline, noise-weighted, over the columns that the causes act on
   std::array<double, 2> gain_ci95{0, 0};
+  /// How much likelier the extended model makes the held-out data than the base model, each in the noise that
+  /// it was fitted in [nats], and the share of resamples of the blocks in which it does.
+  double nats = 0, likelier = 0;
 };
 
 /// What is left after the extended model, and what it goes with.

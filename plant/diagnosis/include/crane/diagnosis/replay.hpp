@@ -71,6 +71,8 @@ class Replay {
   /// measured motion of the whole run has brought them, and in a replay of the load go where it brings them:
   /// what the motors' measured speed shows of impacts has corrected that.
   [[nodiscard]] std::size_t start_size(Part part) const;
+  /// How far those of the inner coordinates go along the measured motion, rms over the run.
+  [[nodiscard]] std::vector<double> inner_start_scale() const;
   /// What the measurement says about them at row `first`.
   [[nodiscard]] std::vector<double> measured_start(Part part, std::size_t first) const;
   /// Rows first ... first + rows - 1 from `start` at the grid's row `first`, each at its own instant; `out`

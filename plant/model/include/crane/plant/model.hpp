@@ -43,8 +43,9 @@ class Model {
   [[nodiscard]] PerAxis drive_voltage(const PerAxis& command_v) noexcept;
 
   /// Friction of the drives, the sum over the drive terms [V].
-  [[nodiscard]] PerAxis friction_v(const State& state) const noexcept;
-  [[nodiscard]] double friction_v(const State& state, Axis axis) const noexcept;
+  /// @param drive_v  output of the amplifiers [V]: friction in a gear grows with the force it carries
+  [[nodiscard]] PerAxis friction_v(const State& state, const PerAxis& drive_v) const noexcept;
+  [[nodiscard]] double friction_v(const State& state, double drive_v, Axis axis) const noexcept;
 
   /// Decrease of the accelerations of trolley and slew per volt of friction: [accelerated axis][axis with
   /// friction].

@@ -48,6 +48,14 @@ class Term {
   /// Drive terms: adds friction, in volts of the amplifier (F / K_m). A positive value opposes a positive
   /// speed.
   virtual void add_friction(const State& /*state*/, PerAxis& /*friction_v*/) const noexcept {}
+  /// Drive terms: force that depends on the position only, in volts of the amplifier, positive along the
+  /// axis. A term that has one subtracts it in add_friction.
+  [[nodiscard]] virtual double position_force_v(const State& /*state*/) const noexcept { return 0; }
+  /// Drive terms: adds friction that grows with the force in the gear.
+  /// @param carried_v  |V - P|, V the output of the amplifier, P the sum of the forces that depend on the
+  ///   position [V]: where P is a weight, motor and weight work against each other in the gear
+  virtual void add_gear_friction(const State& /*state*/, double /*carried_v*/,
+                                 PerAxis& /*friction_v*/) const noexcept {}
   /// Load terms: adds generalised forces of the load.
   virtual void add_force(const Parameters& /*crane*/, const State& /*state*/,
                          Forces& /*sum*/) const noexcept {}

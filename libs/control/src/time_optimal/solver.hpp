@@ -1,0 +1,68 @@
+#pragma once
+/// Interior point method of the time-optimal plan (time_optimal.hpp). The iterate:
+///   T, volts of every interval, states at every end of an interval; the gaps between the end of one interval
+///   and the start of the next close as the iterations converge (multiple shooting).
+/// A Newton step solves, with ds, du, dT the changes, Sigma the curvature of the barriers:
+///   minimise sum of barriers + T + effort,  ds(k+1) = A ds(k) + B du(k) + d dT + gap(k),  end state reached
+/// by a Riccati recursion over (ds, dT). The curvature of the equations is left out: time-optimal volts lie
+/// on their limits, so that the linearised problem has its solution in a corner.
+#include "tower.hpp"
+
+namespace crane::control::time_optimal {
+
+struct Bounded {
+  double low_dual = 0, high_dual = 0;  ///< multipliers of both bounds
+};
+
+class Solver {
+ public:
+  Solver(const Design& design, const PlanProblem& problem) noexcept;
+  [[nodiscard]] PlanResult solve(const Plan* warm) noexcept;
+
+ private:
+  static constexpr int kIntervals = kPlanIntervals;
+  static constexpr int kAugmented = kStates + 1;  // ds and dT
+  using Augmented = Eigen::Matrix<double, kAugmented, kAugmented>;
+  using AugmentedVector = Eigen::Matrix<double, kAugmented, 1>;
+
+  struct Iterate {
+    double duration_s = 0;
+    std::array<State, kIntervals + 1> state;
+    std::array<Control, kIntervals> volts;
+  };
+  /// Quality of an iterate.
+  struct Merit {
+    double gaps = 0;     ///< sum of the absolute gaps
+    double barrier = 0;  ///< objective with the barriers
+  };
+
+  void guess(const Plan* warm) noexcept;
+  void centre_duals() noexcept;
+  /// Moves towards the shortest duration. @return false when the iterate is lost
+  [[nodiscard]] bool search(int& iterations) noexcept;
+  void fix_duration(double factor) noexcept;
+  [[nodiscard]] bool close_gaps(int& iterations) noexcept;
+  void linearise() noexcept;
+  [[nodiscard]] Merit merit(const Iterate& at) const noexcept;
+  void find_step() noexcept;
+  [[nodiscard]] double longest_step() const noexcept;
+  [[nodiscard]] bool take_step() noexcept;
+  void update_duals(double share) noexcept;
+
+  Tower tower_;
+  State from_, to_, low_, high_;
+  Control volt_limit_;
+  double barrier_ = 0;  ///< mu
+  bool fixed_ = false;  ///< the duration is fixed; only the gaps are left
+  double share_ = 1;    ///< share of the last step that was taken
+  Iterate at_, change_, trial_;
+  std::array<Step, kIntervals> steps_;
+  std::array<State, kIntervals> gaps_;
+  std::array<std::array<Bounded, kStates>, kIntervals + 1> state_duals_;
+  std::array<std::array<Bounded, kControls>, kIntervals> volt_duals_;
+  std::array<Eigen::Matrix<double, kControls, kAugmented>, kIntervals> feedback_;
+  std::array<Control, kIntervals> feed_forward_;
+  State end_dual_ = State::Zero();
+};
+
+}  // namespace crane::control::time_optimal

@@ -1,0 +1,41 @@
+#include "crane/plant/term.hpp"
+#include "terms/smooth_sign.hpp"
+
+namespace crane::plant {
+namespace {
+
+class GearFriction final : public Term {
+ public:
+  explicit GearFriction(const TermSetting& s)
+      : axis_(drive_axis(s.axis)),
+        share_(s.parameters.at("share")),
+        smoothing_speed_(s.parameters.at("smoothing_speed")) {}
+
+  void add_gear_friction(const State& state, double carried_v, PerAxis& friction_v) const noexcept override {
+    friction_v[axis_] += share_ * carried_v * smooth_sign(speed(state, axis_), smoothing_speed_);
+  }
+
+ private:
+  Axis axis_;
+  double share_, smoothing_speed_;
+};
+
+}  // namespace
+
+TermKind gear_friction() {
+  return {.name = "gear_friction",
+          .equation = "f = mu |V - P| tanh(v/v_s), P: sum of the forces that depend on the position",
+          .source =
+              "friction of gear teeth grows with the force that they carry (M. Duclusaud et al., Extended "
+              "friction models for the physics simulation of servo actuators, ICRA 2025, model M3)",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"share", "1", 0, 0, 0.95, "mu, share of the carried force"},
+                         {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+                          "v_s, width of the step at v = 0"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<GearFriction>(s);
+          }};
+}
+
+}  // namespace crane::plant

@@ -1,0 +1,40 @@
+#include "crane/plant/term.hpp"
+
+namespace crane::plant {
+namespace {
+
+class PositionForce final : public Term {
+ public:
+  explicit PositionForce(const TermSetting& s)
+      : axis_(drive_axis(s.axis)),
+        stiffness_vpm_(s.parameters.at("stiffness_vpm")),
+        offset_v_(s.parameters.at("offset_v")) {}
+
+  void add_friction(const State& state, PerAxis& friction_v) const noexcept override {
+    friction_v[axis_] -= position_force_v(state);
+  }
+  [[nodiscard]] double position_force_v(const State& state) const noexcept override {
+    return offset_v_ - stiffness_vpm_ * position(state, axis_);
+  }
+
+ private:
+  Axis axis_;
+  double stiffness_vpm_, offset_v_;
+};
+
+}  // namespace
+
+TermKind position_force() {
+  return {.name = "position_force",
+          .equation = "f = k p - o: the drive gets V - k p + o, a spring at rest at p = o / k",
+          .source = "a cable, hose or spring that pulls the axis back (k > 0), or an unbalanced axis",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"stiffness_vpm", "V/m or V/rad", 0, -1000, 1000, "k / K_m"},
+                         {"offset_v", "V", 0, -10, 10, "o / K_m, force at position 0"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<PositionForce>(s);
+          }};
+}
+
+}  // namespace crane::plant

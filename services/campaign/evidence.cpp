@@ -1,0 +1,102 @@
+#include "campaign/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace crane::campaign {
+
+double Evidence::gain() const {
+  const auto& p = bench_->setting().told.plant;
+  if (axis_ == 0) return p.trolley_gain_mps2pv;
+  if (axis_ == 2) return p.hoist_gain_mpspv / p.hoist_lag_s;
+  const double x = bench_->now().truth.position[0];
+  return p.slew_gain_radps2pv * p.jib_inertia_kgm2 / (p.jib_inertia_kgm2 + p.trolley_mass_kg * x * x);
+}
+
+double Evidence::tolerance_v(double applied_v, double speed) const {
+  constexpr double kGain = 0.25, kOffset_v = 0.3, kMost = 1.5, kExtra_v = 0.3;
+  const auto& rig = bench_->setting().told;
+  const auto& friction = rig.design.friction[axis_];
+  const double rest_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
+                                  friction.stiction_positive_v, friction.stiction_negative_v});
+  const double viscous_v = std::max(friction.viscous_positive_vspm, friction.viscous_negative_vspm);
+  const auto& truth = bench_->now().truth;
+  double load_v = 0;
+  const double weight_n = kMost * rig.plant.load_mass_kg * rig.plant.gravity_mps2;
+  if (axis_ == 0)
+    load_v = weight_n * std::sin(std::abs(truth.swing_radial_rad)) / rig.plant.trolley_inertia_kg / gain();
+  if (axis_ == 1)
+    load_v = weight_n * std::sin(std::abs(truth.swing_tangential_rad)) * truth.position[0] /
+             rig.plant.jib_inertia_kgm2 / gain();
+  if (axis_ == 2) load_v = kGain * std::abs(speed) / rig.plant.hoist_gain_mpspv;
+  return kGain * std::abs(applied_v) + kOffset_v + kMost * (rest_v + viscous_v * std::abs(speed)) + kExtra_v +
+         load_v;
+}
+
+double Evidence::visible_speed(double speed) const {
+  constexpr double kShare = 0.1, kCounts = 4;
+  const auto& rig = bench_->setting().told;
+  return kShare * (rig.drives[axis_].max_speed + std::abs(speed)) +
+         kCounts / (rig.encoders[axis_].counts_per_unit * rig.period_s);
+}
+
+bool Evidence::of_drive() {
+  const auto& truth = bench_->now().truth;
+  const double v = truth.speed[axis_];
+  const double error_v = std::abs(bench_->world().output_error_v(axis_));
+  const double excess_v = error_v - tolerance_v(truth.written_v[axis_], v);
+  const double dt_s = bench_->setting().told.period_s;
+  fast_ = truth.brake_closed[axis_] ? 0 : std::max(0.0, fast_ + gain() * excess_v * dt_s);
+  visible_ = visible_ || fast_ > visible_speed(v);
+  return visible_;
+}
+
+bool Evidence::of_standing_encoder() {
+  const auto& truth = bench_->now().truth;
+  const double dt_s = bench_->setting().told.period_s;
+  if (!started_) {
+    fast_ = std::max(truth.speed[axis_], 0.0);
+    slow_ = std::max(-truth.speed[axis_], 0.0);
+    started_ = true;
+  } else {
+    const double u = truth.written_v[axis_], unknown_v = tolerance_v(u, 0);
+    fast_ = std::max(0.0, fast_ + gain() * (u - unknown_v) * dt_s);
+    slow_ = std::max(0.0, slow_ + gain() * (-u - unknown_v) * dt_s);
+  }
+  if (truth.brake_closed[axis_]) fast_ = slow_ = 0;
+  visible_ = visible_ || std::max(fast_, slow_) > visible_speed(0);
+  return visible_;
+}
+
+SwingEvidence::SwingEvidence(Bench& bench, std::size_t counter)
+    : bench_{&bench},
+      radial_{counter == 3},
+      at_first_rad_{radial_ ? bench.now().truth.swing_radial_rad : bench.now().truth.swing_tangential_rad},
+      before_mps_{carrier_mps()} {}
+
+double SwingEvidence::carrier_mps() const {
+  const auto& truth = bench_->now().truth;
+  return radial_ ? truth.speed[0] : truth.position[0] * truth.speed[1];
+}
+
+bool SwingEvidence::of_standing_encoder(double shown_rad) {
+  constexpr double kZero_rad = 0.02, kWind_mps2 = 0.25, kSpeed_mps = 0.05, kMean = 4, kCable = 0.55;
+  const auto& rig = bench_->setting().told;
+  const double g = rig.plant.gravity_mps2, dt_s = rig.period_s;
+  const double now_mps = carrier_mps();
+  // (2.11): the load hangs at -L sin(phi) along the jib and at L sin(theta) across it.
+  const double pull = (radial_ ? -1 : 1) * g * std::sin(shown_rad) * dt_s;
+  const double imbalance = now_mps - std::exchange(before_mps_, now_mps) + pull;
+  const auto& truth = bench_->now().truth;
+  const double other_rad = radial_ ? truth.swing_tangential_rad : truth.swing_radial_rad;
+  const double tolerance = (g * kZero_rad + kWind_mps2 + kCable * g * std::abs(std::sin(other_rad))) * dt_s;
+  up_ = std::max(0.0, up_ + imbalance - tolerance);
+  down_ = std::max(0.0, down_ - imbalance - tolerance);
+  const double cable_m = bench_->now().truth.position[2];
+  const double noise_mps = 2 * 1.5 * cable_m / rig.encoders[3].counts_per_unit / (kMean * dt_s);
+  visible_ = visible_ || std::max(up_, down_) > 2 * (kSpeed_mps + noise_mps);
+  return visible_;
+}
+
+}  // namespace crane::campaign

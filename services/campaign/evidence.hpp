@@ -1,0 +1,53 @@
+#pragma once
+/// From when on a fault of a drive or an encoder can be told from a rig within its tolerances, by the truth.
+/// The tolerances are those that docs/safety.md promises: gain 25 %, offset 0.3 V, friction 0 to 1.5 times
+/// the rig file's and 0.3 V, load 0 to 1.5 times. What lies beyond them is an unexplained speed. A detection
+/// is due 30 ms (hazard 20) after the unexplained speed has reached 10 % of max_speed, of the speed, and four
+/// counts a tick: from then on a check whose own limit is half of that has had its evidence for a sample or
+/// more.
+#include <cstddef>
+
+#include "campaign/bench.hpp"
+
+namespace crane::campaign {
+
+inline constexpr double kDriveDetection_ms = 30;     ///< hazard 20 of docs/safety.md
+inline constexpr double kEncoderDetection_ms = 100;  ///< hazard 16 and 19
+
+/// Sums the unexplained speed of one axis tick by tick. To be asked once a tick, after it.
+class Evidence {
+ public:
+  Evidence(Bench& bench, std::size_t axis) : bench_{&bench}, axis_{axis} {}
+  /// The drive gets other volts than the bridge has written. @return true from the visible instant on
+  bool of_drive();
+  /// The encoder of the axis has stood since the first call. @return the same
+  bool of_standing_encoder();
+
+ private:
+  [[nodiscard]] double gain() const;
+  [[nodiscard]] double tolerance_v(double applied_v, double speed) const;
+  [[nodiscard]] double visible_speed(double speed) const;
+  Bench* bench_;
+  std::size_t axis_;
+  bool started_ = false, visible_ = false;
+  double fast_ = 0, slow_ = 0;
+};
+
+/// The same for a swing encoder that stands: gravity at the angle that it shows, and the acceleration of the
+/// point that carries the load, do not balance. Tolerances: a zero off by 20 mrad, a wind of 0.25 m/s^2,
+/// and a cable that is off by 55 % under the load's swing in the other direction;
+/// visible is twice 50 mm/s and two counts per four samples.
+class SwingEvidence {
+ public:
+  SwingEvidence(Bench& bench, std::size_t counter);
+  [[nodiscard]] double swing_at_first() const { return at_first_rad_; }
+  bool of_standing_encoder(double shown_rad);
+
+ private:
+  [[nodiscard]] double carrier_mps() const;
+  Bench* bench_;
+  bool radial_, visible_ = false;
+  double at_first_rad_, before_mps_, up_ = 0, down_ = 0;
+};
+
+}  // namespace crane::campaign

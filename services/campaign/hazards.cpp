@@ -1,0 +1,96 @@
+/// The list of all hazards, and what several of them share.
+#include "campaign/hazards.hpp"
+
+#include "campaign/judge/truth.hpp"
+#include "campaign/traffic.hpp"
+
+namespace crane::campaign {
+
+double direction(const Bench& bench) {
+  return bench.setting().target[bench.axis()] >= bench.setting().told.start.position[bench.axis()] ? 1 : -1;
+}
+
+std::int32_t counts(const Bench& bench, std::size_t counter, double change) {
+  const auto& encoder = bench.setting().told.encoders[counter];
+  return static_cast<std::int32_t>(std::llround(change * encoder.counts_per_unit * encoder.sign));
+}
+
+std::size_t swing_counter(const Bench& bench) { return bench.axis() == 1 ? 4 : 3; }
+
+void freeze(Bench& bench, std::size_t counter) {
+  auto at = std::make_shared<std::optional<std::int32_t>>();
+  bench.world().spoil_inputs = [at, counter](bridge::Inputs& inputs) {
+    if (!*at) *at = inputs.raw_counts[counter];
+    inputs.raw_counts[counter] = **at;
+  };
+}
+
+std::function<bool()> sees_error(Bench& bench, std::size_t counter, double error) {
+  return [&bench, counter, error] { return bench.world().shown_error()[counter] > error; };
+}
+
+std::function<bool()> crosses(Bench& bench, Reason reason) {
+  return [&bench, reason] {
+    return is_true(reason, bench.setting().told, bench.rows(), bench.rows().size() - 1);
+  };
+}
+
+/// A push against the load that swings it so far. @param rad  amplitude
+void push(Bench& bench, double rad) {
+  const double cable_m = bench.now().truth.position[2];
+  const double rate_radps = std::sqrt(2 * 9.81 / cable_m * (1 - std::cos(rad)));
+  const bool radial = swing_counter(bench) == 3;
+  bench.world().board().kick(radial ? rate_radps : 0, radial ? 0 : rate_radps);
+}
+
+/// A limit switch closes where the counter says there is none.
+Strike switch_elsewhere(Bench& bench, Dice& dice) {
+  const std::size_t i = bench.axis();
+  const bool high = dice.pick(2) == 0;
+  bench.world().spoil_inputs = [i, high](bridge::Inputs& inputs) {
+    (high ? inputs.limit_high : inputs.limit_low)[i] = true;
+  };
+  const auto& drive = bench.setting().told.drives[i];
+  const double x = bench.now().truth.position[i];
+  const bool near =
+      high ? x > drive.high_limit - 1.2 * drive.soft_margin : x < drive.low_limit + 1.2 * drive.soft_margin;
+  std::vector<Reason> reasons{latched(crane_LATCH_LOST_COUNTS)};
+  if (near) reasons.push_back(because(crane_CAUSE_LIMIT_SWITCH));
+  return {.expectation = {.reasons = reasons, .detection_ms = 10}};
+}
+
+Strike refusal() { return {.expectation = {.refused = true}, .watched_s = 0.3}; }
+
+void stop_at_once(Bench& bench) {
+  bench.ask(crane_REQUEST_ESTOP);
+  bench.run(0.3);
+}
+
+std::vector<Reason> drive_reasons() {
+  return {because(crane_CAUSE_FOLLOWING_ERROR), latched(crane_LATCH_DRIVE_RESPONSE),
+          latched(crane_LATCH_ENCODER_FROZEN)};
+}
+
+namespace {
+std::vector<Hazard> every_hazard() {
+  std::vector<Hazard> all;
+  for (const auto part : {process_hazards(), encoder_hazards(), drive_hazards(), load_hazards(),
+                          brake_hazards(), mad_supervisor_hazards(), request_hazards(), start_hazards()})
+    all.insert(all.end(), part.begin(), part.end());
+  std::ranges::sort(all, {}, &Hazard::number);
+  return all;
+}
+}  // namespace
+
+std::span<const Hazard> hazards() {
+  static const std::vector<Hazard> kAll = every_hazard();
+  return kAll;
+}
+
+const Hazard* find_hazard(int number) {
+  const auto all = hazards();
+  const auto found = std::ranges::find(all, number, &Hazard::number);
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace crane::campaign

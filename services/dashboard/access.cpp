@@ -1,0 +1,83 @@
+#include "dashboard/access.hpp"
+
+#include <openssl/crypto.h>
+#include <openssl/rand.h>
+#include <openssl/sha.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/ip/address.hpp>
+#include <stdexcept>
+
+namespace crane::dashboard {
+namespace {
+
+/// "127.0.0.1:8765" -> "127.0.0.1", "[::1]:8765" -> "::1"
+std::string_view without_port(std::string_view host) {
+  if (host.starts_with('[')) {
+    const auto end = host.find(']');
+    return end == std::string_view::npos ? std::string_view{} : host.substr(1, end - 1);
+  }
+  return host.substr(0, host.rfind(':'));
+}
+
+bool is_address(std::string_view text) {
+  boost::system::error_code error;
+  boost::asio::ip::make_address(std::string{text}, error);
+  return !error;
+}
+
+bool same_origin(const Visitor& visitor) {
+  return visitor.origin == "http://" + std::string{visitor.host} ||
+         visitor.origin == "https://" + std::string{visitor.host};
+}
+
+}  // namespace
+
+bool host_allowed(const AccessRules& rules, const Visitor& visitor) {
+  const auto name = without_port(visitor.host);
+  return name == "localhost" || is_address(name) ||
+         std::ranges::find(rules.host_names, name) != rules.host_names.end();
+}
+
+bool may_look(const AccessRules& rules, const Visitor& visitor) {
+  if (!host_allowed(rules, visitor)) return false;
+  return visitor.origin.empty() || same_origin(visitor) ||
+         std::ranges::find(rules.other_origins, visitor.origin) != rules.other_origins.end();
+}
+
+std::string why_not_operate(const AccessRules& rules, const Visitor& visitor) {
+  if (rules.read_only) return "this dashboard was started with --read-only: nobody operates through it";
+  const bool own_page =
+      visitor.fetched.empty() || visitor.fetched == "same-origin" || visitor.fetched == "none";
+  if (!host_allowed(rules, visitor) || (!visitor.origin.empty() && !same_origin(visitor)) || !own_page)
+    return "the request comes from another page than the dashboard's own";
+  if (visitor.loop_back) return "";
+  if (rules.token.empty())
+    return "from another computer this dashboard is read-only: start it with --operator-token FILE";
+  if (visitor.token.empty()) return "from another computer the operator token is needed";
+  return equal_in_constant_time(rules.token, visitor.token) ? "" : "the operator token is wrong";
+}
+
+bool equal_in_constant_time(std::string_view a, std::string_view b) {
+  std::array<std::array<unsigned char, SHA256_DIGEST_LENGTH>, 2>
+      digest{};  // equal length, whatever the texts
+  SHA256(reinterpret_cast<const unsigned char*>(a.data()), a.size(), digest[0].data());
+  SHA256(reinterpret_cast<const unsigned char*>(b.data()), b.size(), digest[1].data());
+  return CRYPTO_memcmp(digest[0].data(), digest[1].data(), SHA256_DIGEST_LENGTH) == 0;
+}
+
+std::string random_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1)
+    throw std::runtime_error("no random numbers: OpenSSL cannot read the system's source");
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const auto byte : bytes) {
+    text += kDigits[byte >> 4U];
+    text += kDigits[byte & 15U];
+  }
+  return text;
+}
+
+}  // namespace crane::dashboard

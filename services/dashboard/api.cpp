@@ -1,0 +1,165 @@
+#include "dashboard/api.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "crane/runtime/process.hpp"
+#include "dashboard/page_files.hpp"
+#include "dashboard/request_text.hpp"
+#include "stack/stack.hpp"
+#include "stack/wiring_graph.hpp"
+
+namespace crane::dashboard {
+namespace {
+
+using nlohmann::ordered_json;
+
+ApiAnswer json_answer(const ordered_json& json, unsigned status = 200) {
+  return {.status = status, .body = text_of(json)};
+}
+ApiAnswer problem(unsigned status, const std::string& what) { return json_answer({{"error", what}}, status); }
+
+/// "topic=crane/state&from=1" as pairs; later ones win.
+std::map<std::string, std::string, std::less<>> parameters_of(std::string_view query) {
+  std::map<std::string, std::string, std::less<>> parameters;
+  while (!query.empty()) {
+    const auto end = std::min(query.find('&'), query.size());
+    const auto pair = query.substr(0, end);
+    const auto equals = std::min(pair.find('='), pair.size());
+    parameters[std::string{pair.substr(0, equals)}] = pair.substr(std::min(equals + 1, pair.size()));
+    query.remove_prefix(std::min(end + 1, query.size()));
+  }
+  return parameters;
+}
+
+template <class Number>
+Number number_of(const std::string& text, const char* name) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size())
+    throw BadRequest(std::string{name} + ": must be a whole number");
+  return number;
+}
+
+std::size_t topic_index(const std::string& name) {
+  const auto found = std::ranges::find(topics::kAll, name, &topics::Description::name);
+  if (found == topics::kAll.end())
+    throw BadRequest("topic: no topic has the name '" + name.substr(0, 64) + "'");
+  return static_cast<std::size_t>(found - topics::kAll.begin());
+}
+
+}  // namespace
+
+Api::Api(Model& model, const AccessRules& rules, std::function<void(const stack::Wish&, Answered)> send,
+         std::function<ServerCounts()> counts)
+    : model_{model}, rules_{rules}, send_{std::move(send)}, counts_{std::move(counts)} {}
+
+void Api::handle(const ApiRequest& request, Answer answer) {
+  try {
+    if (!may_look(rules_, request.visitor))
+      answer(problem(403, "this dashboard answers its own pages only: open it by its address"));
+    else if (request.method == "POST")
+      post(request, std::move(answer));
+    else if (request.method == "GET" || request.method == "HEAD")
+      answer(get(request));
+    else
+      answer(problem(405, "GET, HEAD or POST is expected"));
+  } catch (const BadRequest& error) {
+    answer(problem(400, error.what()));
+  }
+}
+
+ApiAnswer Api::get(const ApiRequest& request) {
+  const std::string_view target{request.target};
+  const auto path = target.substr(0, target.find('?'));
+  const auto query = path.size() < target.size() ? target.substr(path.size() + 1) : std::string_view{};
+  if (const auto* file = find_page_file(path))
+    return {.status = 200, .media_type = std::string{file->media_type}, .body = "", .file = file->bytes};
+  if (path == "/metrics")
+    return {.status = 200,
+            .media_type = "text/plain; version=0.0.4",
+            .body = metrics(model_, counts_(), runtime::monotonic_ns())};
+  if (path == "/api/about") return about(request.visitor);
+  if (path == "/api/situation") return {.body = model_.text(Document::situation)};
+  if (path == "/api/traffic") return {.body = model_.text(Document::traffic)};
+  if (path == "/api/faults") return {.body = model_.text(Document::faults)};
+  if (path == "/api/operator") return {.body = model_.text(Document::seat)};
+  if (path == "/api/graph") return json_answer(stack::wiring_json(stack::all_components()));
+  if (path == "/api/idl") return {.media_type = "text/plain", .body = std::string{topics::idl_text()}};
+  if (path == "/api/history") return history(query);
+  return problem(404, "nothing is at this path; docs/dashboard.md lists the paths");
+}
+
+ApiAnswer Api::about(const Visitor& visitor) const {
+  const auto& about = model_.about();
+  const auto why_not = why_not_operate(rules_, visitor);
+  return json_answer({{"version", about.version},
+                      {"crane", about.crane},
+                      {"domain", about.domain},
+                      {"rig", about.rig.empty() ? ordered_json(nullptr) : ordered_json::parse(about.rig)},
+                      {"may_operate", why_not.empty()},
+                      {"why_not", why_not},
+                      {"token_helps", !visitor.loop_back && !rules_.token.empty() && !rules_.read_only}});
+}
+
+ApiAnswer Api::history(std::string_view query) const {
+  auto parameters = parameters_of(query);
+  const auto topic = topic_index(parameters["topic"]);
+  ApiAnswer answer{.media_type = "application/octet-stream", .body = ""};
+  if (parameters.contains("fault")) {
+    const auto* fault = model_.faults().find(number_of<std::uint64_t>(parameters["fault"], "fault"));
+    if (fault == nullptr || !fault->moment.contains(topic))
+      return problem(404, "no data are kept of this fault");
+    answer.body = packed(fault->moment.at(topic));
+    return answer;
+  }
+  constexpr std::int64_t kEver_ns = std::numeric_limits<std::int64_t>::max();
+  const auto from_ns = parameters.contains("from") ? number_of<std::int64_t>(parameters["from"], "from") : 0;
+  const auto to_ns = parameters.contains("to") ? number_of<std::int64_t>(parameters["to"], "to") : kEver_ns;
+  answer.body = packed(model_.history().between(topic, from_ns, to_ns));
+  return answer;
+}
+
+void Api::post(const ApiRequest& request, Answer answer) {
+  // A form of a foreign page can send text/plain; it cannot send this type without asking first.
+  if (!request.content_type.starts_with("application/json"))
+    return answer(problem(415, "content type application/json is expected"));
+  if (const auto why_not = why_not_operate(rules_, request.visitor); !why_not.empty())
+    return answer(problem(403, why_not));
+  const auto now_ns = runtime::monotonic_ns();
+  if (request.target == "/api/operator/take") return answer(take_seat(request));
+  if (request.target == "/api/operator/renew")
+    return answer(model_.seat().renew(request.seat_key, now_ns)
+                      ? json_answer({{"held", true}})
+                      : problem(409, "another one has the controls, or the time ran out"));
+  if (request.target == "/api/operator/release") {
+    const bool held = model_.seat().release(request.seat_key, now_ns);
+    return answer(json_answer({{"held", false}, {"released", held}}));
+  }
+  if (request.target == "/api/request") return this->request(request, std::move(answer));
+  answer(problem(404, "nothing takes a POST at this path; docs/dashboard.md lists the paths"));
+}
+
+ApiAnswer Api::take_seat(const ApiRequest& request) {
+  const auto body = nlohmann::json::parse(request.body, nullptr, false);
+  const bool named = body.is_object() && body.contains("name") && body["name"].is_string();
+  auto key = random_token();
+  if (!model_.seat().take(named ? body["name"].get<std::string>() : "operator", key, runtime::monotonic_ns()))
+    return problem(
+        409, *model_.seat().holder(runtime::monotonic_ns()) +
+                 " has the controls; they become free when released, or 10 s after the other page is gone");
+  return json_answer({{"seat", key}});
+}
+
+void Api::request(const ApiRequest& request, Answer answer) {
+  const auto wish = wish_of_text(request.body);
+  if (!is_stop(wish.kind) && !model_.seat().renew(request.seat_key, runtime::monotonic_ns()))
+    return answer(problem(409, "take the controls first: one operator at a time"));
+  send_(wish, [answer = std::move(answer)](const Reply& reply) {
+    answer(json_answer({{"accepted", reply.accepted}, {"reason", reply.reason}}));
+  });
+}
+
+}  // namespace crane::dashboard

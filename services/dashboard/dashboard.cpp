@@ -1,0 +1,135 @@
+#include "dashboard/dashboard.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/ip/address.hpp>
+#include <boost/system/system_error.hpp>
+#include <iostream>
+#include <thread>
+
+#include "crane/configuration/rig.hpp"
+#include "dashboard/observer.hpp"
+#include "dashboard/rig_text.hpp"
+#include "dashboard/server.hpp"
+#include "dashboard/token_file.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::dashboard {
+namespace {
+
+void check_address(const std::string& listen) {
+  boost::system::error_code error;
+  boost::asio::ip::make_address(listen, error);
+  if (error)
+    throw configuration::ConfigurationError({"--listen " + listen + ": must be an address of this computer"});
+}
+
+std::unique_ptr<Server> open_server(const Options& options, About about, AccessRules rules,
+                                    std::function<void(const stack::Wish&, Answered)> send) {
+  try {
+    return std::make_unique<Server>(options.listen, options.port, std::move(about), std::move(rules),
+                                    std::move(send));
+  } catch (const boost::system::system_error& error) {
+    throw std::runtime_error("dashboard: cannot open " + address_of(options.listen, options.port) + ": " +
+                             error.code().message() + "; choose another --port or --listen");
+  }
+}
+
+}  // namespace
+
+Options default_options() {
+  Options options;
+  options.bus.vendor = "fastdds";  // as all tools: ordinary use exercises both vendors together
+  return options;
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--listen", options.listen,
+                 "address to serve on; 0.0.0.0: all, then everybody who reaches this computer may look")
+      ->capture_default_str();
+  app.add_option("--port", options.port, "port of pages, viewers, /api and /metrics; 0: any free port")
+      ->capture_default_str();
+  app.add_option(
+      "--operator-token", options.token_file,
+      "file with the token that operators on other computers give; it is made when it does not exist");
+  app.add_flag("--read-only", options.read_only, "nobody operates through this dashboard");
+  app.add_option(
+      "--host-name", options.host_names,
+      "name under which browsers open this dashboard, beside its addresses and localhost (repeatable)");
+  app.add_option("--allow-origin", options.other_origins,
+                 "origin of another page that may look: https://app.foxglove.dev (repeatable)");
+  app.add_option("--rig", options.rig, "rig file or name: soft limits and planned paths are then drawn");
+  app.add_option("--parent", options.parent, "process id that this process ends with")->group("");
+  runtime::add_bus_options(app, options.bus);
+}
+
+std::string address_of(const std::string& listen, unsigned short port) {
+  const auto shown = listen == "0.0.0.0" ? std::string{"localhost"} : listen;
+  const bool six = shown.find(':') != std::string::npos;
+  return "http://" + (six ? "[" + shown + "]" : shown) + ":" + std::to_string(port) + "/";
+}
+
+int run(const Options& options) {
+  runtime::install_stop_signals();
+  if (options.parent != 0) runtime::die_with(options.parent);
+  check_address(options.listen);
+  AccessRules rules{.token = options.token_file.empty() ? "" : read_or_make_token(options.token_file),
+                    .host_names = options.host_names,
+                    .other_origins = options.other_origins,
+                    .read_only = options.read_only};
+  About about{.version = CRANE_VERSION, .crane = options.bus.crane, .domain = options.bus.domain, .rig = ""};
+  if (!options.rig.empty()) about.rig = rig_text(configuration::load_rig(stack::find_rig(options.rig)));
+
+  const auto source = options.read_only ? crane_SOURCE_MONITOR : crane_SOURCE_OPERATOR;
+  bus::Bus bus{runtime::bus_options(options.bus, "crane_dashboard", source, runtime::random_epoch())};
+  std::unique_ptr<Server> server;
+  Observer observer{bus, !options.read_only,
+                    [&server](std::vector<SamplePtr> samples) { server->put(std::move(samples)); }};
+  server = open_server(options, std::move(about), std::move(rules),
+                       [&server, &observer](const stack::Wish& wish, const Answered& answered) {
+                         const auto back = [&server, answered](Reply reply) {
+                           server->post([answered, reply = std::move(reply)] { answered(reply); });
+                         };
+                         if (!observer.ask(wish, back))
+                           answered({false, "too many requests at once: try again"});
+                       });
+  std::cout << "dashboard: " << address_of(options.listen, server->port()) << std::endl;
+  std::jthread network{[&server] { server->run(); }};
+  while (!runtime::stop_requested()) observer.poll();
+  server->stop();
+  return runtime::kExitDone;
+}
+
+void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig,
+            unsigned short port) {
+  bus.vendor = default_options().bus.vendor;
+  auto arguments = runtime::arguments(bus);
+  arguments.insert(arguments.end(),
+                   {"--rig", rig, "--port", std::to_string(port), "--parent", std::to_string(::getpid())});
+  children.start("dashboard", "crane_dashboard", arguments);
+}
+
+int main_of(int argc, char** argv) {
+  CLI::App app{
+      "Serves the dashboard of a crane: pages, live data for viewers, /api and /metrics on one port.",
+      "crane_dashboard"};
+  auto options = default_options();
+  add_options(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? runtime::kExitDone : runtime::kExitBadInput;
+  }
+  try {
+    return run(options);
+  } catch (const configuration::ConfigurationError& error) {
+    std::cerr << error.what() << '\n';
+    return runtime::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "crane_dashboard: " << error.what() << '\n';
+    return runtime::kExitFailed;
+  }
+}
+
+}  // namespace crane::dashboard

@@ -1,0 +1,37 @@
+#pragma once
+/// The dashboard as a program: `crane_dashboard`, and the command `crane dashboard`.
+#include <string>
+#include <vector>
+
+#include "crane/runtime/process.hpp"
+#include "stack/child_processes.hpp"
+
+namespace crane::dashboard {
+
+struct Options {
+  std::string listen = "127.0.0.1";
+  unsigned short port = 8765;  ///< where viewers of foxglove.websocket.v1 look first; 0: any free port
+  std::string token_file;
+  std::vector<std::string> host_names, other_origins;
+  bool read_only = false;
+  std::string rig;  ///< name or path of a rig file; empty: unknown
+  int parent = 0;   ///< process that this one ends with; 0: none
+  runtime::BusOptions bus;
+};
+[[nodiscard]] Options default_options();
+void add_options(CLI::App& app, Options& options);
+
+/// Runs until a stop signal. @return exit code. @throws ConfigurationError, std::runtime_error
+int run(const Options& options);
+
+/// Starts crane_dashboard as a child, on the vendor of the tools; it prints its address when it serves.
+void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig,
+            unsigned short port);
+
+/// main() of crane_dashboard.
+int main_of(int argc, char** argv);
+
+/// "http://127.0.0.1:8765/"
+[[nodiscard]] std::string address_of(const std::string& listen, unsigned short port);
+
+}  // namespace crane::dashboard

@@ -1,0 +1,34 @@
+#pragma once
+/// The newest samples of every topic, bounded by age and by bytes.
+#include <array>
+#include <deque>
+
+#include "dashboard/sample.hpp"
+
+namespace crane::dashboard {
+
+class History {
+ public:
+  static constexpr std::int64_t kLongest_ns = 120'000'000'000;
+  /// Of one topic: 120 s of crane/state at 100 Hz need 6 MB, of all topics 40 MB.
+  static constexpr std::size_t kLargestTopic_bytes = 8U << 20U;
+
+  void add(SamplePtr sample);
+  /// Samples of a topic that arrived in [from_ns, to_ns] (Sample::log_time_ns), oldest first.
+  [[nodiscard]] std::vector<SamplePtr> between(std::size_t topic, std::int64_t from_ns,
+                                               std::int64_t to_ns) const;
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  struct Line {
+    std::deque<SamplePtr> samples;
+    std::size_t bytes = 0;
+  };
+  std::array<Line, topics::kAll.size()> lines_;
+};
+
+/// For the page: of every sample the log time (int64), the number of bytes (uint32) and the CDR bytes, all
+/// little endian.
+[[nodiscard]] std::string packed(const std::vector<SamplePtr>& samples);
+
+}  // namespace crane::dashboard

@@ -1,0 +1,143 @@
+#include "dashboard/http_session.hpp"
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <nlohmann/json.hpp>
+
+#include "dashboard/viewer_session.hpp"
+
+namespace crane::dashboard {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using beast::error_code;
+
+std::string text_of(beast::string_view view) { return {view.data(), view.size()}; }
+std::string_view view_of(beast::string_view view) { return {view.data(), view.size()}; }
+
+std::string_view bearer_of(std::string_view authorization) {
+  constexpr std::string_view kBearer = "Bearer ";
+  return authorization.starts_with(kBearer) ? authorization.substr(kBearer.size()) : std::string_view{};
+}
+
+/// The page loads from this server only, cannot be put into a frame of another page, and its scripts are
+/// files.
+constexpr const char* kContentRules =
+    "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+class HttpSession : public std::enable_shared_from_this<HttpSession> {
+ public:
+  HttpSession(boost::asio::ip::tcp::socket socket, Server& server, std::vector<ConnectionCount> counts)
+      : stream_{std::move(socket)}, server_{server}, counts_{std::move(counts)} {
+    error_code ignored;
+    loop_back_ = stream_.socket().remote_endpoint(ignored).address().is_loopback();
+  }
+
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(kLongestHeader_bytes);
+    parser_->body_limit(kLongestBody_bytes);
+    stream_.expires_after(kRequestPatience);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](error_code error, std::size_t) { self->was_read(error); });
+  }
+
+ private:
+  void was_read(error_code error) {
+    if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
+    if (error == http::error::header_limit) return refuse(431, "the header is longer than 8192 bytes");
+    if (error == http::error::body_limit) return refuse(413, "the body is longer than 4096 bytes");
+    if (error && error.category() == http::make_error_code(http::error::bad_method).category())
+      return refuse(400, "this is no HTTP request");
+    if (error) return close();
+    if (beast::websocket::is_upgrade(parser_->get())) return upgrade();
+    answer();
+  }
+
+  [[nodiscard]] Visitor visitor() const {
+    const auto& request = parser_->get();
+    const bool passed_on = request.count("X-Forwarded-For") > 0 || request.count("Forwarded") > 0;
+    return {.loop_back = loop_back_ && !passed_on,
+            .host = view_of(request[http::field::host]),
+            .origin = view_of(request[http::field::origin]),
+            .fetched = view_of(request["Sec-Fetch-Site"]),
+            .token = bearer_of(view_of(request[http::field::authorization]))};
+  }
+
+  void upgrade() {
+    if (!may_look(server_.rules(), visitor())) {
+      server_.refuse();
+      return refuse(403, "this dashboard answers its own pages only; --allow-origin permits others");
+    }
+    stream_.expires_never();
+    start_viewer_session(stream_.release_socket(), parser_->release(), server_, std::move(counts_));
+  }
+
+  void answer() {
+    const auto& request = parser_->get();
+    const ApiRequest api{.method = text_of(request.method_string()),
+                         .target = text_of(request.target()),
+                         .content_type = text_of(request[http::field::content_type]),
+                         .body = request.body(),
+                         .seat_key = text_of(request["X-Crane-Seat"]),
+                         .visitor = visitor()};
+    stream_.expires_never();  // the supervisor answers within 2 s, and RequestDesk if it does not
+    server_.api().handle(api, [self = shared_from_this(), head = request.method() == http::verb::head,
+                               keep = request.keep_alive()](ApiAnswer answer) {
+      if (answer.status == 403) self->server_.refuse();
+      self->send(std::move(answer), keep, head);
+    });
+  }
+
+  void refuse(unsigned status, const char* what) {
+    send({.status = status, .body = nlohmann::json{{"error", what}}.dump()}, false, false);
+  }
+
+  void send(ApiAnswer answer, bool keep, bool head_only) {
+    answer_ = std::move(answer);
+    const auto bytes = answer_.file.empty() ? std::string_view{answer_.body} : answer_.file;
+    response_.emplace();
+    response_->result(answer_.status);
+    response_->version(11);
+    response_->keep_alive(keep);
+    response_->set(http::field::content_type, answer_.media_type);
+    response_->set(http::field::cache_control, answer_.file.empty() ? "no-store" : "no-cache");
+    response_->set(http::field::x_frame_options, "DENY");
+    response_->set("X-Content-Type-Options", "nosniff");
+    response_->set("Referrer-Policy", "no-referrer");
+    response_->set("Content-Security-Policy", kContentRules);
+    if (!head_only) response_->body() = {bytes.data(), bytes.size()};
+    response_->content_length(bytes.size());
+    stream_.expires_after(kRequestPatience * 3);  // a slow client may load the page for so long
+    http::async_write(stream_, *response_, [self = shared_from_this(), keep](error_code error, std::size_t) {
+      if (error || !keep) return self->close();
+      self->read();
+    });
+  }
+
+  void close() {
+    error_code ignored;
+    stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+  }
+
+  beast::tcp_stream stream_;
+  Server& server_;
+  std::vector<ConnectionCount> counts_;
+  bool loop_back_ = false;
+  beast::flat_buffer buffer_{kLongestHeader_bytes + kLongestBody_bytes};
+  std::optional<http::request_parser<http::string_body>> parser_;
+  ApiAnswer answer_;
+  std::optional<http::response<http::span_body<const char>>> response_;
+};
+
+}  // namespace
+
+void start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
+                        std::vector<ConnectionCount> counts) {
+  std::make_shared<HttpSession>(std::move(socket), server, std::move(counts))->read();
+}
+
+}  // namespace crane::dashboard

@@ -1,0 +1,14 @@
+#pragma once
+/// One HTTP connection: requests one after the other, each within bounds; a WebSocket begins as one.
+#include <boost/asio/ip/tcp.hpp>
+#include <vector>
+
+#include "dashboard/server.hpp"
+
+namespace crane::dashboard {
+
+/// Keeps itself alive until the connection ends.
+void start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
+                        std::vector<ConnectionCount> counts);
+
+}  // namespace crane::dashboard

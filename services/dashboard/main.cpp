@@ -1,0 +1,3 @@
+#include "dashboard/dashboard.hpp"
+
+int main(int argc, char** argv) { return crane::dashboard::main_of(argc, argv); }

@@ -1,0 +1,20 @@
+#pragma once
+/// The figures of the dashboard in the text format of Prometheus.
+#include <string>
+
+#include "dashboard/model.hpp"
+
+namespace crane::dashboard {
+
+/// What the server counts about itself.
+struct ServerCounts {
+  std::size_t viewers = 0, connections = 0;
+  std::uint64_t dropped_messages = 0;  ///< samples that slow clients did not get
+  std::uint64_t given_up_clients = 0;
+  std::uint64_t lost_samples = 0;  ///< samples that this process was too busy to take over
+  std::uint64_t refused_requests = 0;
+};
+
+[[nodiscard]] std::string metrics(const Model& model, const ServerCounts& counts, std::int64_t now_ns);
+
+}  // namespace crane::dashboard

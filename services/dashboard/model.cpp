@@ -1,0 +1,37 @@
+#include "dashboard/model.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace crane::dashboard {
+
+void Model::add(const SamplePtr& sample) {
+  history_.add(sample);
+  traffic_.add(*sample);
+  situation_.add(*sample);
+  faults_.add(*sample);
+}
+
+std::vector<Document> Model::poll(std::int64_t now_ns, std::int64_t log_now_ns) {
+  std::vector<Document> changed;
+  const auto update = [&](Document document, const nlohmann::ordered_json& json) {
+    if (replace(document, json)) changed.push_back(document);
+  };
+  update(Document::situation, situation_.json(now_ns));
+  if (traffic_.poll(now_ns)) update(Document::traffic, traffic_.json(now_ns));
+  if (faults_.poll(now_ns, log_now_ns, traffic_, history_) || text(Document::faults).empty())
+    update(Document::faults, faults_.json());
+  const auto holder = seat_.holder(now_ns);
+  update(Document::seat,
+         {{"operator", holder ? nlohmann::ordered_json(*holder) : nlohmann::ordered_json(nullptr)}});
+  return changed;
+}
+
+bool Model::replace(Document document, const nlohmann::ordered_json& json) {
+  auto text = text_of(json);
+  auto& kept = documents_[static_cast<std::size_t>(document)];
+  if (text == kept) return false;
+  kept = std::move(text);
+  return true;
+}
+
+}  // namespace crane::dashboard

@@ -1,0 +1,54 @@
+#pragma once
+/// Everything the dashboard knows, fed sample by sample. Used by one thread, that of the network.
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "dashboard/fault_timeline.hpp"
+#include "dashboard/foxglove.hpp"
+#include "dashboard/history.hpp"
+#include "dashboard/operator_seat.hpp"
+#include "dashboard/situation.hpp"
+#include "dashboard/traffic.hpp"
+
+namespace crane::dashboard {
+
+/// What the dashboard was started with.
+struct About {
+  std::string version, crane;
+  std::uint32_t domain = 0;
+  std::string rig;  ///< JSON text of the rig's geometry; empty: unknown
+};
+
+class Model {
+ public:
+  explicit Model(About about) : about_{std::move(about)} {}
+
+  void add(const SamplePtr& sample);
+  /// Brings the documents up to date. @return those that have changed
+  [[nodiscard]] std::vector<Document> poll(std::int64_t now_ns, std::int64_t log_now_ns);
+  /// JSON text of a document.
+  [[nodiscard]] const std::string& text(Document document) const {
+    return documents_[static_cast<std::size_t>(document)];
+  }
+
+  [[nodiscard]] const About& about() const { return about_; }
+  [[nodiscard]] const History& history() const { return history_; }
+  [[nodiscard]] const Traffic& traffic() const { return traffic_; }
+  [[nodiscard]] const Situation& situation() const { return situation_; }
+  [[nodiscard]] const FaultTimeline& faults() const { return faults_; }
+  [[nodiscard]] OperatorSeat& seat() { return seat_; }
+
+ private:
+  bool replace(Document document, const nlohmann::ordered_json& json);
+
+  About about_;
+  History history_;
+  Traffic traffic_;
+  Situation situation_;
+  FaultTimeline faults_;
+  OperatorSeat seat_;
+  std::array<std::string, kDocuments> documents_;
+};
+
+}  // namespace crane::dashboard

@@ -1,0 +1,140 @@
+// The operator's desk: takes and keeps the controls, sends requests, says what was answered and why.
+import { REQUESTS, element } from "./words.js";
+
+const RENEW_MS = 3000;
+
+export class Desk extends EventTarget {
+  about = { may_operate: false, why_not: "" };
+  situation = null;
+  holder = null;
+  #key = sessionStorage.getItem("crane-seat") ?? "";
+  #token = sessionStorage.getItem("crane-token") ?? "";
+
+  constructor() {
+    super();
+    setInterval(() => { if (this.#key) this.#renew(); }, RENEW_MS);
+  }
+
+  get mine() { return this.#key !== ""; }
+
+  async #post(path, body = {}) {
+    const headers = { "Content-Type": "application/json", "X-Crane-Seat": this.#key };
+    if (this.#token) headers.Authorization = "Bearer " + this.#token;
+    try {
+      const answer = await fetch(path, { method: "POST", headers, body: JSON.stringify(body) });
+      return { ok: answer.ok, status: answer.status, ...(await answer.json()) };
+    } catch {
+      return { ok: false, status: 0, error: "the dashboard does not answer" };
+    }
+  }
+
+  async load() {
+    const headers = this.#token ? { Authorization: "Bearer " + this.#token } : {};
+    try {
+      this.about = await (await fetch("/api/about", { headers })).json();
+      if (this.#key) await this.#renew();
+    } catch { /* the banner says that the dashboard does not answer */ }
+    this.#changed();
+  }
+
+  async useToken(token) {
+    this.#token = token;
+    sessionStorage.setItem("crane-token", token);
+    await this.load();
+  }
+
+  async take(name) {
+    const answer = await this.#post("/api/operator/take", { name });
+    if (answer.ok) this.#keep(answer.seat);
+    else this.say(answer.error, "bad");
+    this.#changed();
+  }
+
+  async release() {
+    await this.#post("/api/operator/release");
+    this.#keep("");
+    this.#changed();
+  }
+
+  async #renew() {
+    const answer = await this.#post("/api/operator/renew");
+    if (answer.status !== 409 && answer.status !== 403) return; // a lost connection keeps the key
+    this.#keep("");
+    this.say("the controls were lost: take them again", "bad");
+    this.#changed();
+  }
+
+  #keep(key) {
+    this.#key = key;
+    key ? sessionStorage.setItem("crane-seat", key) : sessionStorage.removeItem("crane-seat");
+  }
+
+  /** @param body {kind, ...}; see docs/dashboard.md. @returns true when the supervisor accepted */
+  async ask(body) {
+    const name = REQUESTS[body.kind];
+    this.say(name + " …", "");
+    const answer = await this.#post("/api/request", body);
+    const refused = answer.error ?? (answer.accepted ? "" : answer.reason);
+    this.say(refused ? `${name} refused: ${refused}` : `${name} accepted`, refused ? "bad" : "good");
+    return !refused;
+  }
+
+  say(text, kind) {
+    this.message = { text, kind };
+    this.dispatchEvent(new Event("message"));
+  }
+
+  answerTo(request) {
+    if (!this.situation?.heard) return { accepted: false, reason: "no supervisor is heard" };
+    return this.situation.answers.find((answer) => answer.request === request) ?? { accepted: false, reason: "" };
+  }
+
+  update(change) {
+    Object.assign(this, change);
+    this.#changed();
+  }
+  #changed() { this.dispatchEvent(new Event("change")); }
+}
+
+/** The lines about who operates. */
+export function drawSeat(desk, into) {
+  const key = JSON.stringify([desk.mine, desk.holder, desk.about]);
+  if (into.dataset.key === key) return; // keeps what is being typed
+  into.dataset.key = key;
+  into.replaceChildren();
+  if (!desk.about.may_operate) {
+    into.append(element("p", {}, desk.about.why_not ? "You watch: " + desk.about.why_not + "." : "You watch."));
+    if (!desk.about.token_helps) return;
+    const form = element("form", { className: "seat" }, element("input", { type: "password", placeholder: "operator token", autocomplete: "off", ariaLabel: "Operator token" }), element("button", { type: "submit" }, "Use token"));
+    form.onsubmit = (event) => { event.preventDefault(); desk.useToken(form.querySelector("input").value); };
+    into.append(form);
+  } else if (desk.mine) {
+    into.append(element("p", {}, element("b", {}, "You operate."), " The others watch."), element("button", { type: "button", id: "release", onclick: () => desk.release() }, "Release controls"));
+  } else if (desk.holder) {
+    into.append(element("p", {}, element("b", {}, desk.holder), " operates. You watch."));
+  } else {
+    into.append(element("p", {}, "Nobody operates."), element("button", { type: "button", id: "take", className: "primary", onclick: () => desk.take(localStorage.getItem("crane-operator") ?? "operator") }, "Take controls"));
+  }
+}
+
+/** The buttons, and under them why some are refused. */
+export function drawRequests(desk, into) {
+  const allowed = desk.about.may_operate && desk.mine;
+  const kinds = ["reset", "arm", "home", "hold", "stop", "disarm"];
+  const titles = { hold: "Hold here" };
+  const reasons = new Map();
+  const buttons = kinds.map((kind) => {
+    const answer = desk.answerTo(kind === "hold" ? "move" : kind);
+    if (!answer.accepted && answer.reason && kind !== "hold")
+      reasons.set(answer.reason, [...(reasons.get(answer.reason) ?? []), REQUESTS[kind]]);
+    const enabled = answer.accepted && (kind === "stop" ? desk.about.may_operate : allowed);
+    const button = element("button", { type: "button", id: "ask-" + kind, disabled: !enabled, title: answer.accepted ? "" : answer.reason }, titles[kind] ?? REQUESTS[kind]);
+    if (enabled && (kind === "reset" || (kind === "arm" && !desk.answerTo("move").accepted))) button.className = desk.situation?.state === "READY" ? (kind === "arm" ? "primary" : "") : kind === "reset" && desk.situation?.state !== "HOLD" && desk.situation?.state !== "RUN" ? "primary" : "";
+    button.onclick = () => desk.dispatchEvent(new CustomEvent("ask", { detail: kind }));
+    return element("li", {}, button);
+  });
+  const moves = desk.answerTo("move");
+  if (!moves.accepted && moves.reason) reasons.set(moves.reason, [...(reasons.get(moves.reason) ?? []), "Move"]);
+  const why = [...reasons].map(([reason, names]) => element("li", { className: "why" }, element("b", {}, names.join(", ")), element("span", {}, reason)));
+  into.replaceChildren(...buttons, ...why);
+}

@@ -1,0 +1,136 @@
+// The connection to the dashboard: subscribes, decodes, connects anew. Messages are those of
+// foxglove.websocket.v1, many in one frame (crane.batch.v1, docs/dashboard.md).
+import { Decoder, parseIdl } from "./cdr.js";
+
+const RETRY_MS = [200, 500, 1000, 2000];
+
+export class Link extends EventTarget {
+  #socket = null;
+  #attempt = 0;
+  #listeners = new Map(); // topic -> Set of functions (sample)
+  #channels = new Map(); // topic -> channel
+  #idl = null;
+  decoders = new Map(); // topic -> Decoder
+  state = "connecting"; // "live", "lost"
+  ready = new Promise((known) => { this.known = known; }); // the channels are known
+  bytes = 0;
+
+  constructor(url) {
+    super();
+    this.url = url;
+    this.#connect();
+  }
+
+  get topics() { return [...this.#channels.values()].filter((c) => c.encoding === "cdr").map((c) => c.topic.slice(1)); }
+  get idl() { return this.#idl; }
+
+  /** Calls `listener` with every sample of "crane/state" or document of "dashboard/faults" from now on. */
+  listen(topic, listener) {
+    if (!this.#listeners.has(topic)) {
+      this.#listeners.set(topic, new Set());
+      this.#subscribe(topic);
+    }
+    this.#listeners.get(topic).add(listener);
+    return () => {
+      const set = this.#listeners.get(topic);
+      set?.delete(listener);
+      if (set?.size !== 0) return;
+      this.#listeners.delete(topic);
+      this.#send({ op: "unsubscribe", subscriptionIds: [this.#channels.get("/" + topic)?.id].filter(Boolean) });
+    };
+  }
+
+  #connect() {
+    this.#socket = new WebSocket(this.url, "crane.batch.v1");
+    this.#socket.binaryType = "arraybuffer";
+    this.#socket.onopen = () => { this.#attempt = 0; };
+    this.#socket.onmessage = ({ data }) => this.#take(data);
+    this.#socket.onclose = () => {
+      this.#change("lost");
+      setTimeout(() => this.#connect(), RETRY_MS[Math.min(this.#attempt++, RETRY_MS.length - 1)]);
+    };
+  }
+
+  #change(state) {
+    if (state === this.state) return;
+    this.state = state;
+    this.dispatchEvent(new Event("change"));
+  }
+
+  #send(message) {
+    if (this.#socket.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(message));
+  }
+
+  #subscribe(topic) {
+    const channel = this.#channels.get("/" + topic);
+    if (channel) this.#send({ op: "subscribe", subscriptions: [{ id: channel.id, channelId: channel.id }] });
+  }
+
+  #take(frame) {
+    this.bytes += frame.byteLength;
+    const view = new DataView(frame);
+    for (let at = 0; at + 5 <= frame.byteLength;) {
+      const kind = view.getUint8(at), length = view.getUint32(at + 1, true);
+      if (kind === 1) this.#text(JSON.parse(new TextDecoder().decode(new Uint8Array(frame, at + 5, length))));
+      else this.#message(new DataView(frame, at + 5, length));
+      at += 5 + length;
+    }
+  }
+
+  #text(message) {
+    if (message.op === "advertise") {
+      this.#channels = new Map(message.channels.map((channel) => [channel.topic, channel]));
+      this.byId = new Map(message.channels.map((channel) => [channel.id, channel]));
+      const described = message.channels.find((channel) => channel.schemaEncoding === "omgidl");
+      this.#idl = parseIdl(described.schema);
+      for (const channel of message.channels)
+        if (channel.encoding === "cdr") this.decoders.set(channel.topic.slice(1), new Decoder(this.#idl, channel.schemaName));
+      for (const topic of this.#listeners.keys()) this.#subscribe(topic);
+      this.known();
+      this.#change("live");
+    } else if (message.op === "status") {
+      console.warn("dashboard:", message.message);
+    }
+  }
+
+  #message(view) {
+    if (view.getUint8(0) !== 1) return; // the time: samples have their own
+    const channel = this.byId.get(view.getUint32(1, true));
+    const topic = channel?.topic.slice(1);
+    const listeners = this.#listeners.get(topic);
+    if (!listeners) return;
+    const payload = new DataView(view.buffer, view.byteOffset + 13, view.byteLength - 13);
+    const sample = channel.encoding === "json"
+      ? JSON.parse(new TextDecoder().decode(payload))
+      : this.sampleOf(topic, Number(view.getBigUint64(5, true)) * 1e-9, payload);
+    for (const listener of listeners) {
+      try {
+        listener(sample);
+      } catch (error) { // one view that fails must not take the frame from the others
+        console.error(topic, error);
+      }
+    }
+  }
+
+  /** {time_s (arrival, s since 1970), values (in the order of the decoder's columns), get(path)} */
+  sampleOf(topic, time_s, payload) {
+    const decoder = this.decoders.get(topic);
+    const values = decoder.decode(payload);
+    return { time_s, values, get: (path) => values[decoder.index.get(path)] };
+  }
+
+  /** Samples that the dashboard still has. @param more  "&from=..&to=.." [ns since 1970] or "&fault=3" */
+  async history(topic, more = "") {
+    await this.ready;
+    const answer = await fetch(`/api/history?topic=${topic}${more}`).catch(() => null); // the banner says that it is lost
+    if (!answer?.ok) return [];
+    const data = await answer.arrayBuffer();
+    const view = new DataView(data), samples = [];
+    for (let at = 0; at + 12 <= data.byteLength;) {
+      const length = view.getUint32(at + 8, true);
+      samples.push(this.sampleOf(topic, Number(view.getBigInt64(at, true)) * 1e-9, new DataView(data, at + 12, length)));
+      at += 12 + length;
+    }
+    return samples;
+  }
+}

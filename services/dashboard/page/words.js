@@ -1,0 +1,39 @@
+// What the names of the interface mean to a person.
+
+export const STATES = {
+  BOOT: ["Starting", "attention"], SELFTEST: ["Self-test", "attention"], LOCKED: ["Locked", "attention"], READY: ["Ready", "calm"],
+  ARMING: ["Arming", "calm"], HOLD: ["Holding", "good"], RUN: ["Moving", "good"], STOP_C1: ["Stopping", "stop"],
+  STOP_C0: ["Power off", "stop"], ESTOP: ["Emergency stop", "stop"], FAULT: ["Fault", "stop"],
+};
+
+/** "SWING_LIMIT" -> "Swing limit", "LATCH_encoder_jump" -> "Latch encoder jump" */
+export function plain(name) {
+  const words = name.replace(/_/g, " ").toLowerCase().replace("estop", "emergency stop");
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+/** Comment of an enumerator in the IDL: "brakes closed; ends with a reset" -> sentence. */
+export function meaningOf(idl, enumeration, name) {
+  const text = idl?.enums.get(enumeration)?.find((entry) => entry.name === name)?.meaning ?? "";
+  return text && text.charAt(0).toUpperCase() + text.slice(1) + (/[.)]$/.test(text) ? "" : ".");
+}
+
+export const REQUESTS = { reset: "Reset", arm: "Arm", disarm: "Disarm", home: "Home", move: "Move", stop: "Stop", estop: "Software stop" };
+
+export const AXES = [
+  { key: "trolley", label: "Trolley", unit: "m", factor: 1, digits: 3, field: "trolley_m", state: "trolley_position_m", speed: "trolley_speed_mps", speedUnit: "m/s" },
+  { key: "slew", label: "Slew", unit: "°", factor: 180 / Math.PI, digits: 1, field: "slew_rad", state: "slew_angle_rad", speed: "slew_speed_radps", speedUnit: "°/s" },
+  { key: "hoist", label: "Cable", unit: "m", factor: 1, digits: 3, field: "hoist_m", state: "cable_length_m", speed: "cable_speed_mps", speedUnit: "m/s" },
+];
+
+export function element(name, properties = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(properties)) {
+    if (key === "dataset") Object.assign(made.dataset, value);
+    else if (key.startsWith("--")) made.style.setProperty(key, value);
+    else if (key in made) made[key] = value;
+    else made.setAttribute(key, value);
+  }
+  made.append(...children.filter((child) => child !== null && child !== undefined));
+  return made;
+}

@@ -1,0 +1,40 @@
+#pragma once
+/// Sends the requests of the page on crane/request and waits for the supervisor's answers, without blocking.
+/// Used by the thread of the bus.
+#include <functional>
+#include <list>
+
+#include "stack/operator_client.hpp"
+
+namespace crane::dashboard {
+
+struct Reply {
+  bool accepted = false;
+  std::string reason;  ///< why not
+};
+using Answered = std::function<void(Reply)>;
+
+class RequestDesk {
+ public:
+  explicit RequestDesk(bus::Bus& bus);
+
+  void send(const stack::Wish& wish, Answered answered);
+  /// Takes answers, repeats stops, and gives up what is not answered in time.
+  void poll(std::int64_t now_ns);
+
+ private:
+  struct Pending {
+    stack::Wish wish;
+    Answered answered;
+    std::vector<std::uint64_t> ids;
+    std::int64_t sent_ns = 0, repeat_ns = 0;
+    bool done = false;
+  };
+  void advance(Pending& pending, std::int64_t now_ns);
+  [[nodiscard]] std::optional<Reply> take_reply(const Pending& pending);
+
+  stack::OperatorClient client_;
+  std::list<Pending> pending_;
+};
+
+}  // namespace crane::dashboard

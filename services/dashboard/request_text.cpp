@@ -1,0 +1,95 @@
+#include "dashboard/request_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "crane/plant/coordinates.hpp"
+
+namespace crane::dashboard {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::pair<const char*, crane_RequestKind>, 7> kKinds{{{"reset", crane_REQUEST_RESET},
+                                                                           {"arm", crane_REQUEST_ARM},
+                                                                           {"disarm", crane_REQUEST_DISARM},
+                                                                           {"stop", crane_REQUEST_STOP},
+                                                                           {"estop", crane_REQUEST_ESTOP},
+                                                                           {"home", crane_REQUEST_HOME},
+                                                                           {"move", crane_REQUEST_MOVE}}};
+constexpr std::array<const char*, plant::kAxes> kTargets{"trolley_m", "slew_rad", "hoist_m"};
+
+void refuse_unknown(const json& body, const std::vector<std::string>& known) {
+  for (const auto& [key, value] : body.items())
+    if (std::ranges::find(known, key) == known.end())
+      throw BadRequest(key.substr(0, 64) + ": this kind of request has no such field");
+}
+
+void read_move(const json& body, stack::Wish& wish) {
+  refuse_unknown(body, {"kind", kTargets[0], kTargets[1], kTargets[2]});
+  for (std::size_t i = 0; i < kTargets.size(); ++i) {
+    const auto found = body.find(kTargets[i]);
+    if (found == body.end()) continue;
+    if (!found->is_number() || !std::isfinite(found->get<double>()))
+      throw BadRequest(std::string{kTargets[i]} + ": must be a finite number");
+    wish.selected[i] = true;
+    wish.target[i] = found->get<double>();
+  }
+  if (std::ranges::none_of(wish.selected, [](bool selected) { return selected; }))
+    throw BadRequest("move: give trolley_m, slew_rad or hoist_m");
+}
+
+void read_home(const json& body, stack::Wish& wish) {
+  refuse_unknown(body, {"kind", "axis"});
+  const auto names = plant::drive_names();
+  const auto axis = body.find("axis");
+  const auto found = axis != body.end() && axis->is_string()
+                         ? std::ranges::find(names, axis->get<std::string>())
+                         : names.end();
+  if (found == names.end()) throw BadRequest("axis: must be trolley, slew or hoist");
+  wish.selected[static_cast<std::size_t>(found - names.begin())] = true;
+}
+
+void read_reset(const json& body, stack::Wish& wish) {
+  refuse_unknown(body, {"kind", "confirm_positions"});
+  const auto confirm = body.find("confirm_positions");
+  if (confirm == body.end()) return;
+  if (!confirm->is_boolean()) throw BadRequest("confirm_positions: must be true or false");
+  wish.selected.fill(confirm->get<bool>());
+}
+
+}  // namespace
+
+stack::Wish wish_of_text(std::string_view text) {
+  constexpr int kDeepest = 2;
+  const auto body = json::parse(
+      text,
+      [](int depth, json::parse_event_t, json&) {
+        if (depth > kDeepest) throw BadRequest("the body is nested too deeply");
+        return true;
+      },
+      false);
+  if (!body.is_object()) throw BadRequest("a JSON object is expected");
+  const auto kind = body.find("kind");
+  const auto found = kind != body.end() && kind->is_string()
+                         ? std::ranges::find(kKinds, kind->get<std::string>(),
+                                             [](const auto& k) { return std::string{k.first}; })
+                         : kKinds.end();
+  if (found == kKinds.end()) throw BadRequest("kind: must be reset, arm, disarm, stop, estop, home or move");
+  stack::Wish wish{.kind = found->second};
+  if (wish.kind == crane_REQUEST_MOVE)
+    read_move(body, wish);
+  else if (wish.kind == crane_REQUEST_HOME)
+    read_home(body, wish);
+  else if (wish.kind == crane_REQUEST_RESET)
+    read_reset(body, wish);
+  else
+    refuse_unknown(body, {"kind"});
+  return wish;
+}
+
+bool is_stop(crane_RequestKind kind) { return kind == crane_REQUEST_STOP || kind == crane_REQUEST_ESTOP; }
+
+}  // namespace crane::dashboard

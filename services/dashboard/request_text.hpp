@@ -1,0 +1,23 @@
+#pragma once
+/// The body of POST /api/request as a request of an operator. Pure.
+#include <stdexcept>
+#include <string_view>
+
+#include "stack/operator_client.hpp"
+
+namespace crane::dashboard {
+
+/// what() names the field, the value and the rule.
+class BadRequest : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// {"kind": "reset" (with "confirm_positions"), "arm", "disarm", "stop", "estop", "home" (with "axis") or
+/// "move" (with "trolley_m", "slew_rad", "hoist_m")}. @throws BadRequest
+[[nodiscard]] stack::Wish wish_of_text(std::string_view body);
+
+/// Stop and emergency stop: everyone who may operate may stop, also without the seat.
+[[nodiscard]] bool is_stop(crane_RequestKind kind);
+
+}  // namespace crane::dashboard

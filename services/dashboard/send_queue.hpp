@@ -1,0 +1,50 @@
+#pragma once
+/// What waits to be sent to one client, and what is given up when the client is slow. Pure: no sockets.
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace crane::dashboard {
+
+using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+enum class Keep : std::uint8_t {
+  may_drop,  ///< a sample of every tick: dropped while the client is slow, and counted
+  newest,    ///< a document that replaces the one before: only the newest of its channel waits
+  always     ///< an event, a reply, an answer to the client: never dropped
+};
+
+struct Outgoing {
+  std::uint32_t channel = 0;  ///< names the document of Keep::newest
+  Keep keep = Keep::always;
+  bool binary = true;
+  std::string head;  ///< differs from client to client
+  Bytes payload;     ///< shared by all clients; may be null
+
+  [[nodiscard]] std::size_t bytes() const { return head.size() + (payload ? payload->size() : 0); }
+};
+
+class SendQueue {
+ public:
+  /// Waiting bytes above which samples are dropped: about 3 s of all topics at 100 Hz.
+  static constexpr std::size_t kDropAbove_bytes = 1U << 20U;
+  /// Waiting bytes at which the client is given up: it then connects anew and gets every document again.
+  static constexpr std::size_t kGiveUpAbove_bytes = 4U << 20U;
+
+  /// @return false when the client has to be given up
+  [[nodiscard]] bool put(Outgoing message);
+  [[nodiscard]] bool empty() const { return waiting_.empty(); }
+  [[nodiscard]] Outgoing take();
+
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+  [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  std::deque<Outgoing> waiting_;
+  std::size_t bytes_ = 0;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace crane::dashboard

@@ -1,0 +1,126 @@
+#include "dashboard/server.hpp"
+
+#include <boost/asio/post.hpp>
+#include <iostream>
+
+#include "crane/runtime/process.hpp"
+#include "dashboard/http_session.hpp"
+#include "dashboard/viewer_session.hpp"
+
+namespace crane::dashboard {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+}  // namespace
+
+std::int64_t log_now_ns() {
+  static const auto kWallMinusMonotonic_ns =
+      std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count() -
+      runtime::monotonic_ns();
+  return runtime::monotonic_ns() + kWallMinusMonotonic_ns;
+}
+
+Server::Server(const std::string& address, unsigned short port, About about, AccessRules rules,
+               std::function<void(const stack::Wish&, Answered)> send)
+    : acceptor_{context_},
+      timer_{context_},
+      retry_{context_},
+      rules_{std::move(rules)},
+      model_{std::move(about)},
+      api_{model_, rules_, std::move(send), [this] { return counts(); }} {
+  const tcp::endpoint endpoint{asio::ip::make_address(address), port};
+  acceptor_.open(endpoint.protocol());
+  acceptor_.set_option(tcp::acceptor::reuse_address{true});
+  acceptor_.bind(endpoint);
+  acceptor_.listen(static_cast<int>(kMostConnections));
+}
+
+unsigned short Server::port() const { return acceptor_.local_endpoint().port(); }
+
+void Server::run() {
+  accept();
+  beat();
+  while (!context_.stopped()) {
+    try {
+      context_.run();
+    } catch (const std::exception& error) {  // costs the connection whose handler threw, not the dashboard
+      std::cerr << "crane dashboard: a connection failed: " << error.what() << '\n';
+    }
+  }
+}
+
+void Server::stop() { context_.stop(); }
+
+void Server::post(std::function<void()> work) { asio::post(context_, std::move(work)); }
+
+void Server::put(std::vector<SamplePtr> samples) {
+  if (inbox_.put(std::move(samples))) asio::post(context_, [this] { take_samples(); });
+}
+
+void Server::take_samples() {
+  for (const auto& batch : inbox_.take_all())
+    for (const auto& sample : batch) {
+      model_.add(sample);
+      for (const auto& viewer : std::vector(viewers_.begin(), viewers_.end())) viewer->send_sample(sample);
+    }
+}
+
+void Server::accept() {
+  acceptor_.async_accept([this](error_code error, tcp::socket socket) {
+    if (!error) welcome(std::move(socket));
+    if (!error) return accept();
+    // No descriptor is free, for example: try again later, do not spin.
+    retry_.expires_after(std::chrono::milliseconds{200});
+    retry_.async_wait([this](error_code) { accept(); });
+  });
+}
+
+void Server::welcome(tcp::socket socket) {
+  error_code error;
+  const bool foreign = !socket.remote_endpoint(error).address().is_loopback();
+  if (error || *connections_ >= kMostConnections ||
+      (foreign && *foreign_connections_ >= kMostForeignConnections))
+    return;
+  std::vector<ConnectionCount> counts;
+  counts.emplace_back(connections_);
+  if (foreign) counts.emplace_back(foreign_connections_);
+  start_http_session(std::move(socket), *this, std::move(counts));
+}
+
+void Server::beat() {
+  const auto now_ns = runtime::monotonic_ns();
+  const auto log_ns = log_now_ns();
+  for (const auto document : model_.poll(now_ns, log_ns)) {
+    const auto& text = model_.text(document);
+    const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end());
+    for (const auto& viewer : std::vector(viewers_.begin(), viewers_.end()))
+      viewer->send_document(document, bytes, log_ns);
+  }
+  for (const auto& viewer : std::vector(viewers_.begin(), viewers_.end())) {
+    viewer->send_time(log_ns);
+    viewer->flush();
+  }
+  timer_.expires_after(kFramePeriod);
+  timer_.async_wait([this](error_code error) {
+    if (!error) beat();
+  });
+}
+
+void Server::leave(const std::shared_ptr<ViewerSession>& viewer) {
+  counts_.dropped_messages += viewer->dropped();
+  viewers_.erase(viewer);
+}
+
+ServerCounts Server::counts() const {
+  auto result = counts_;
+  result.viewers = viewers_.size();
+  result.connections = *connections_;
+  result.lost_samples = inbox_.refused();
+  for (const auto& viewer : viewers_) result.dropped_messages += viewer->dropped();
+  return result;
+}
+
+}  // namespace crane::dashboard

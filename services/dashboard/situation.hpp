@@ -1,0 +1,31 @@
+#pragma once
+/// In which state the crane is, why, what to do about it, and what the supervisor would answer now.
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+
+#include "dashboard/sample.hpp"
+
+namespace crane::dashboard {
+
+class Situation {
+ public:
+  /// Silence after which what was heard counts no more; the supervisor publishes every tick.
+  static constexpr std::int64_t kSilent_ns = 1'000'000'000;
+
+  void add(const Sample& sample);
+  /// Changes only when something changes that an operator acts on.
+  [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
+
+  [[nodiscard]] const std::optional<msg::SupervisorStatus>& supervisor() const { return supervisor_; }
+  [[nodiscard]] const std::optional<msg::State>& state() const { return state_; }
+
+ private:
+  std::optional<msg::SupervisorStatus> supervisor_;
+  std::optional<msg::State> state_;
+  std::int64_t supervisor_ns_ = 0, state_ns_ = 0;  ///< monotonic arrival
+};
+
+/// JSON text; bytes of the bus that are no UTF-8 are replaced.
+[[nodiscard]] std::string text_of(const nlohmann::ordered_json& json);
+
+}  // namespace crane::dashboard

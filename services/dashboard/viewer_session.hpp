@@ -1,0 +1,58 @@
+#pragma once
+/// One WebSocket: a viewer that speaks foxglove.websocket.v1, or the page, which gets the same messages many
+/// in a frame.
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <map>
+
+#include "dashboard/server.hpp"
+
+namespace crane::dashboard {
+
+class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
+ public:
+  using UpgradeRequest = boost::beast::http::request<boost::beast::http::string_body>;
+  ViewerSession(boost::asio::ip::tcp::socket socket, Server& server, std::vector<ConnectionCount> counts);
+
+  void accept(UpgradeRequest request);
+  void send_sample(const SamplePtr& sample);
+  void send_document(Document document, const Bytes& text, std::int64_t time_ns);
+  void send_time(std::int64_t time_ns);
+  /// Sends what waits. The page's frames leave with the beat of the server, those of a viewer at once.
+  void flush();
+  [[nodiscard]] std::uint64_t dropped() const { return queue_.dropped(); }
+
+ private:
+  void accepted();
+  void read();
+  void was_read(std::size_t bytes);
+  void obey(const ClientMessage& message);
+  void subscribe(const Subscribe& subscribe);
+  void send_text(std::string text);
+  void put(Outgoing message);
+  void write();
+  void end();
+
+  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  Server& server_;
+  std::vector<ConnectionCount> counts_;
+  UpgradeRequest request_;
+  bool batches_ = false;  ///< kPageProtocol
+  bool open_ = false, writing_ = false;
+  boost::beast::flat_buffer buffer_{kLongestMessage_bytes + 1};
+  SendQueue queue_;
+  Outgoing sending_;
+  std::string batch_;
+  std::map<std::uint32_t, std::uint32_t> subscriptions_;  ///< channel -> number that the client chose
+  std::int64_t allowance_from_ns_ = 0;
+  int messages_ = 0;  ///< of the client, since allowance_from_ns_
+};
+
+void start_viewer_session(boost::asio::ip::tcp::socket socket, ViewerSession::UpgradeRequest request,
+                          Server& server, std::vector<ConnectionCount> counts);
+
+}  // namespace crane::dashboard

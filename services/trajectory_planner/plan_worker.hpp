@@ -1,0 +1,39 @@
+#pragma once
+/// Solves time-optimal plans outside the control loop. In real time a thread of ordinary priority solves, and
+/// the loop never waits for it: take() returns nothing while the thread is busy. In lockstep, ask() solves at
+/// once, so that runs repeat bit for bit.
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "crane/control/time_optimal.hpp"
+
+namespace crane::services {
+
+class PlanWorker {
+ public:
+  PlanWorker(const control::Design& design, bool own_thread);
+  ~PlanWorker();
+  PlanWorker(const PlanWorker&) = delete;
+  PlanWorker& operator=(const PlanWorker&) = delete;
+
+  /// Begins a plan. A plan that is still being solved is abandoned. @return false when the thread holds the
+  /// lock: ask again
+  bool ask(const control::PlanProblem& problem);
+  /// The plan of the last ask(), once.
+  [[nodiscard]] std::optional<control::PlanResult> take();
+
+ private:
+  void work();
+
+  control::Design design_;
+  std::mutex mutex_;  ///< held only to copy a problem or a plan
+  std::condition_variable wake_;
+  std::optional<control::PlanProblem> problem_;
+  std::optional<control::PlanResult> result_;
+  bool ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace crane::services

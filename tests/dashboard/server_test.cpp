@@ -1,0 +1,272 @@
+// The server on a real socket of the loop-back, without a bus: what good, bad, slow and many clients get.
+#include "dashboard/server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "samples.hpp"
+
+namespace crane::dashboard {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+using nlohmann::json;
+
+/// A dashboard whose supervisor accepts everything but "arm".
+class ServerTest : public testing::Test {
+ protected:
+  explicit ServerTest(AccessRules rules = {})
+      : server_{
+            "127.0.0.1",
+            0,
+            {.version = "0", .crane = "test", .domain = 0, .rig = ""},
+            std::move(rules),
+            [this](const stack::Wish& wish, const Answered& answered) {
+              ++asked_;
+              answered({wish.kind != crane_REQUEST_ARM, wish.kind == crane_REQUEST_ARM ? "not READY" : ""});
+            }} {}
+  ~ServerTest() override { server_.stop(); }
+
+  tcp::socket connect() {
+    tcp::socket socket{context_};
+    socket.connect({asio::ip::make_address("127.0.0.1"), server_.port()});
+    // A test that waits for an answer which does not come fails; it does not hang.
+    const timeval patience{.tv_sec = 10, .tv_usec = 0};
+    ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    return socket;
+  }
+
+  using Response = http::response<http::string_body>;
+  Response exchange(http::request<http::string_body> request) {
+    auto socket = connect();
+    if (request.count(http::field::host) == 0) request.set(http::field::host, "127.0.0.1:8765");
+    request.prepare_payload();
+    http::write(socket, request);
+    beast::flat_buffer buffer;
+    http::response_parser<http::string_body> parser;
+    parser.body_limit(8U << 20U);
+    if (request.method() == http::verb::head) parser.skip(true);
+    http::read(socket, buffer, parser);
+    return parser.release();
+  }
+  Response get(const std::string& target) { return exchange({http::verb::get, target, 11}); }
+  Response post(const std::string& target, const json& body, const std::string& seat = "") {
+    http::request<http::string_body> request{http::verb::post, target, 11, body.dump()};
+    request.set(http::field::content_type, "application/json");
+    request.set("X-Crane-Seat", seat);
+    return exchange(request);
+  }
+  std::string metric(const std::string& name) {
+    const auto text = get("/metrics").body();
+    const auto at = text.find("\n" + name + " ");
+    return at == std::string::npos
+               ? ""
+               : text.substr(at + name.size() + 2, text.find('\n', at + 1) - at - name.size() - 2);
+  }
+
+  /// Sends bytes as they are, and reads until the server ends the connection.
+  std::string raw(const std::string& bytes) {
+    auto socket = connect();
+    boost::system::error_code error;
+    asio::write(socket, asio::buffer(bytes), error);
+    socket.shutdown(tcp::socket::shutdown_send, error);
+    std::string answer;
+    asio::read(socket, asio::dynamic_buffer(answer), error);
+    return answer;
+  }
+
+  using Viewer = beast::websocket::stream<tcp::socket>;
+  Viewer view(std::string_view protocol, const std::string& origin = "") {
+    Viewer viewer{connect()};
+    viewer.set_option(beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
+      request.set(http::field::sec_websocket_protocol, beast::string_view{protocol.data(), protocol.size()});
+      if (!origin.empty()) request.set(http::field::origin, origin);
+    }));
+    viewer.handshake("127.0.0.1:" + std::to_string(server_.port()), "/");
+    return viewer;
+  }
+  static std::string read(Viewer& viewer) {
+    beast::flat_buffer buffer;
+    viewer.read(buffer);
+    return beast::buffers_to_string(buffer.data());
+  }
+  static void subscribe(Viewer& viewer, std::uint32_t channel) {
+    viewer.text(true);
+    viewer.write(asio::buffer(
+        json{{"op", "subscribe"}, {"subscriptions", {{{"id", channel}, {"channelId", channel}}}}}.dump()));
+  }
+
+  asio::io_context context_;
+  std::atomic<int> asked_{0};
+  Server server_;
+  std::jthread thread_{[this] { server_.run(); }};
+};
+
+TEST_F(ServerTest, ServesThePageWithItsRules) {
+  const auto page = get("/");
+  EXPECT_EQ(page.result_int(), 200U);
+  EXPECT_EQ(page[http::field::content_type], "text/html");
+  EXPECT_EQ(page["X-Frame-Options"], "DENY");
+  EXPECT_NE(page["Content-Security-Policy"].find("default-src 'none'"), beast::string_view::npos);
+  EXPECT_GT(get("/vendor/three/three.core.min.js").body().size(), 300'000U);
+}
+
+TEST_F(ServerTest, NoPathLeadsOutOfThePage) {
+  for (const auto* path : {"/../../etc/passwd", "/..%2f..%2fetc/passwd", "//etc/passwd", "/style.css/..",
+                           "/./style.css", "/style.css%00", "/page/style.css", "/vendor", "/vendor/"})
+    EXPECT_EQ(get(path).result_int(), 404U) << path;
+}
+
+TEST_F(ServerTest, OneOperatesAndEverybodyMayStop) {
+  EXPECT_EQ(post("/api/request", {{"kind", "reset"}}).result_int(), 409U);
+  const auto seat =
+      json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();
+  EXPECT_EQ(post("/api/operator/take", {{"name", "Bob"}}).result_int(), 409U);
+  EXPECT_TRUE(json::parse(post("/api/request", {{"kind", "reset"}}, seat).body())["accepted"].get<bool>());
+  EXPECT_EQ(json::parse(post("/api/request", {{"kind", "arm"}}, seat).body())["reason"], "not READY");
+  EXPECT_EQ(post("/api/request", {{"kind", "reset"}}, "guessed").result_int(), 409U);
+  EXPECT_TRUE(json::parse(post("/api/request", {{"kind", "estop"}}).body())["accepted"].get<bool>());
+  EXPECT_EQ(asked_, 3);
+  EXPECT_EQ(post("/api/operator/release", json::object(), seat).result_int(), 200U);
+  EXPECT_EQ(post("/api/operator/take", {{"name", "Bob"}}).result_int(), 200U);
+}
+
+TEST_F(ServerTest, AForeignPageCannotOperate) {
+  http::request<http::string_body> request{http::verb::post, "/api/request", 11, R"({"kind":"estop"})"};
+  request.set(http::field::content_type, "application/json");
+  request.set(http::field::origin, "http://evil.example");
+  EXPECT_EQ(exchange(request).result_int(), 403U);
+  request.erase(http::field::origin);
+  request.set(http::field::content_type, "text/plain");  // what a form can send without asking
+  EXPECT_EQ(exchange(request).result_int(), 415U);
+  request.set(http::field::content_type, "application/json");
+  request.set(http::field::host, "evil.example");
+  EXPECT_EQ(exchange(request).result_int(), 403U);
+  request.set(http::field::host, "127.0.0.1");
+  request.set("X-Forwarded-For", "192.0.2.1");  // a proxy on this computer passes on a foreign request
+  EXPECT_EQ(exchange(request).result_int(), 403U);
+  EXPECT_EQ(asked_, 0);
+  EXPECT_THROW((void)view(kViewerProtocol, "http://evil.example"), boost::system::system_error);
+}
+
+TEST_F(ServerTest, BoundsHeadersAndBodies) {
+  http::request<http::string_body> request{http::verb::get, "/", 11};
+  request.set("X-Long", std::string(kLongestHeader_bytes, 'a'));
+  EXPECT_EQ(exchange(request).result_int(), 431U);
+  EXPECT_EQ(post("/api/request", {{"kind", std::string(kLongestBody_bytes, 'a')}}).result_int(), 413U);
+  EXPECT_EQ(get("/" + std::string(5000, 'a')).result_int(), 404U);
+  EXPECT_EQ(get("/api/history?topic=crane/nothing").result_int(), 400U);
+  EXPECT_EQ(get("/api/history?topic=crane/state&from=1e5").result_int(), 400U);
+  EXPECT_EQ(get("/api/history?topic=crane/state&fault=99999999999999999999").result_int(), 400U);
+}
+
+TEST_F(ServerTest, StaysUpUnderMutatedHttpAndWebSocketBytes) {
+  const std::string request =
+      "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: "
+      "Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+      "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nContent-Length: 0\r\n\r\n";
+  // A masked text frame, a ping, a frame that says it is 2^63 bytes long.
+  const std::string frames = std::string("\x81\x82\1\2\3\4zx", 8) + std::string("\x89\x80\1\2\3\4", 6) +
+                             std::string("\x82\xff\xff\xff\xff\xff\xff\xff\xff\xff", 10);
+  std::mt19937 random{3};
+  std::uniform_int_distribution<int> byte{0, 255};
+  for (int i = 0; i < 400; ++i) {
+    std::string bytes = i % 2 == 0 ? request : request + frames;
+    std::uniform_int_distribution<std::size_t> where{i % 4 == 3 ? request.size() : 0, bytes.size() - 1};
+    for (int n = 0; n <= i % 5; ++n) bytes[where(random)] = static_cast<char>(byte(random));
+    (void)raw(bytes);
+  }
+  EXPECT_EQ(get("/api/about").result_int(), 200U);
+  EXPECT_EQ(metric("crane_dashboard_viewers"), "0");
+}
+
+TEST_F(ServerTest, BoundsItsConnectionsAndFreesThem) {
+  {
+    std::vector<tcp::socket> many;
+    for (std::size_t i = 0; i < kMostConnections; ++i) many.push_back(connect());
+    auto beyond = connect();
+    char byte = 0;
+    boost::system::error_code error;
+    beyond.read_some(asio::buffer(&byte, 1), error);
+    EXPECT_TRUE(error == asio::error::eof || error == asio::error::connection_reset) << error.message();
+  }
+  for (int i = 0; i < 100; ++i) {
+    try {
+      if (get("/api/about").result_int() == 200U) return;
+    } catch (const boost::system::system_error&) {  // the others are not closed yet
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  FAIL() << "the connections were not freed";
+}
+
+TEST_F(ServerTest, AViewerGetsChannelsSamplesAndDocuments) {
+  auto viewer = view(kViewerProtocol);
+  EXPECT_EQ(json::parse(read(viewer))["op"], "serverInfo");
+  EXPECT_EQ(json::parse(read(viewer))["channels"].size(), channels().size());
+  subscribe(viewer, channel_of_topic(0));
+  subscribe(viewer, channel_of(Document::seat));  // its document tells that both have arrived
+  std::string message;
+  while (message.empty() || message[0] != 1) message = read(viewer);
+  EXPECT_EQ(json::parse(message.substr(13))["operator"], nullptr);
+  const auto sample = sample_of(topics::state, msg::State{}, kSecond_ns);
+  server_.put({sample});
+  message.clear();
+  while (message.empty() || message[0] != 1) message = read(viewer);
+  EXPECT_EQ(message.substr(13), std::string(sample->cdr.begin(), sample->cdr.end()));
+}
+
+TEST_F(ServerTest, ASlowViewerLosesSamplesKeepsEventsAndDelaysNobody) {
+  auto slow = view(kViewerProtocol), quick = view(kPageProtocol);
+  subscribe(slow, channel_of_topic(0));
+  const auto event = static_cast<std::uint32_t>(channels().size() - kDocuments - 1);  // crane/event
+  ASSERT_EQ(channels()[event - 1].topic, "/crane/event");
+  subscribe(slow, event);
+  subscribe(quick, channel_of_topic(0));
+  for (auto* client : {&slow, &quick}) {  // a document tells that what was subscribed before it has arrived
+    subscribe(*client, channel_of(Document::seat));
+    for (std::string message; message.empty() || message[0] != 1;) message = read(*client);
+  }
+  const auto sample = sample_of(topics::state, msg::State{}, kSecond_ns);
+  for (int i = 0; i < 300; ++i) {
+    server_.put(std::vector<SamplePtr>(100, sample));
+    if (i % 20 == 0) (void)read(quick);
+  }
+  server_.put({sample_of(topics::event, msg::Event{}, kSecond_ns)});
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(get("/api/about").result_int(), 200U);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds{2});
+  EXPECT_NE(metric("crane_dashboard_dropped_messages_total"), "0");
+  bool heard = false;
+  for (int i = 0; i < 40'000 && !heard; ++i) {
+    const auto message = read(slow);
+    heard = message.size() > 5 && message[0] == 1 && static_cast<unsigned char>(message[1]) == event;
+  }
+  EXPECT_TRUE(heard);
+}
+
+TEST_F(ServerTest, AClientThatFloodsMessagesIsEnded) {
+  auto viewer = view(kViewerProtocol);
+  boost::system::error_code error;
+  for (int i = 0; i < 10'000 && !error; ++i) viewer.write(asio::buffer(std::string_view{"{}"}), error);
+  while (!error) {
+    beast::flat_buffer buffer;
+    viewer.read(buffer, error);
+  }
+  EXPECT_EQ(get("/api/about").result_int(), 200U);
+}
+
+}  // namespace
+}  // namespace crane::dashboard

@@ -1,0 +1,119 @@
+// What the supervisor's checks cost in one tick of a crane that moves: gate, envelope, following error, swing
+// encoders. The counter `allocations` is per tick.
+#include <benchmark/benchmark.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+
+#include "crane/configuration/rig.hpp"
+#include "crane/supervisor/component.hpp"
+#include "crane/supervisor/supervisor.hpp"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+}
+
+// Not inlined: the compiler would pair malloc with the library's own delete.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc{};
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+
+namespace {
+
+using namespace crane::supervisor;
+
+constexpr double kTick_s = 0.01;
+
+Limits tower() {
+  return limits_of(crane::configuration::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml"));
+}
+
+/// A crane whose axes and load move; positions are of no consequence for the time.
+Sample sample_at(double time_s) {
+  const double s = std::sin(time_s);
+  return {.time_s = time_s,
+          .position = {0.7 + 0.3 * s, 0.5 * s, 1},
+          .swing_radial_rad = 0.1 * s,
+          .swing_tangential_rad = 0.1 * s,
+          .applied_v = {2 * s, s, 0}};
+}
+
+void count(benchmark::State& run, std::size_t before) {
+  run.counters["allocations"] = benchmark::Counter(static_cast<double>(allocations.load() - before),
+                                                   benchmark::Counter::kAvgIterations);
+}
+
+void gate_envelope_following_error(benchmark::State& run) {
+  const Limits limits = tower();
+  GateMemory gate_memory;
+  FollowingMemory following;
+  double time_s = 1;
+  const std::size_t before = allocations;
+  for (auto _ : run) {
+    time_s += kTick_s;
+    const Sample sample = sample_at(time_s);
+    const Envelope envelope = check_envelope(limits, {.position = sample.position, .speed = {0.3, 0.5, 0}});
+    benchmark::DoNotOptimize(gate(limits,
+                                  {.arrived = true,
+                                   .demand_v = sample.applied_v,
+                                   .armed = true,
+                                   .block_positive = envelope.block_positive,
+                                   .block_negative = envelope.block_negative},
+                                  gate_memory));
+    benchmark::DoNotOptimize(following_error(limits,
+                                             {.sampled_s = time_s,
+                                              .position = sample.position,
+                                              .swing_radial_rad = sample.swing_radial_rad,
+                                              .swing_tangential_rad = sample.swing_tangential_rad,
+                                              .applied_v = sample.applied_v,
+                                              .free = {true, true, true}},
+                                             following));
+  }
+  count(run, before);
+}
+BENCHMARK(gate_envelope_following_error)->Unit(benchmark::kMicrosecond);
+
+void swing_encoders(benchmark::State& run) {
+  const Limits limits = tower();
+  PendulumMemory memory;
+  double time_s = 1;
+  const std::size_t before = allocations;
+  for (auto _ : run) {
+    time_s += kTick_s;
+    const Sample sample = sample_at(time_s);
+    benchmark::DoNotOptimize(swing_sensor_failed(limits,
+                                                 {.sampled_s = time_s,
+                                                  .position = sample.position,
+                                                  .radial_rad = sample.swing_radial_rad,
+                                                  .tangential_rad = sample.swing_tangential_rad},
+                                                 memory));
+  }
+  count(run, before);
+}
+BENCHMARK(swing_encoders)->Unit(benchmark::kMicrosecond);
+
+void whole_step(benchmark::State& run) {
+  const Limits limits = tower();
+  TickMemory memory;
+  TickInput input{.state_arrived = true, .demand_arrived = true, .self_test = SelfTest::passed};
+  memory.machine.state = State::run;
+  memory.machine.releasing = true;
+  const std::size_t before = allocations;
+  for (auto _ : run) {
+    input.now_s += kTick_s;
+    input.sample = sample_at(input.now_s);
+    input.demand_v = input.sample.applied_v;
+    memory.machine.state = State::run;  // whatever these samples amount to
+    benchmark::DoNotOptimize(step(limits, input, memory));
+  }
+  count(run, before);
+}
+BENCHMARK(whole_step)->Unit(benchmark::kMicrosecond);
+
+}  // namespace

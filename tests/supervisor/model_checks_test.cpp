@@ -1,0 +1,191 @@
+// The checks that compare the crane with its model: what they tolerate, what they find, and how seldom they
+// are wrong.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "crane/configuration/rig.hpp"
+#include "crane/supervisor/component.hpp"
+#include "crane/supervisor/following.hpp"
+#include "crane/supervisor/pendulum.hpp"
+#include "crane/supervisor/run_length.hpp"
+
+namespace crane::supervisor {
+namespace {
+
+constexpr double kTick_s = 0.01;
+constexpr double kRarely_ticks = 1e9;  // 116 days of an armed crane
+
+Limits limits_of_rig(const std::string& name) {
+  return limits_of(configuration::load_rig(std::string{CRANE_RIGS} + "/" + name + ".toml"));
+}
+
+TEST(AverageRunLength, IsThatOfASimulatedSum) {
+  constexpr double kDrift = 0.25, kThreshold = 4;
+  std::mt19937_64 random{1};
+  std::normal_distribution<double> noise;
+  double ticks = 0;
+  constexpr int kAlarms = 400;
+  for (int alarm = 0; alarm < kAlarms; ++alarm)
+    for (double sum = 0; sum <= kThreshold; ++ticks) sum = std::max(0.0, sum + noise(random) - kDrift);
+  EXPECT_NEAR(ticks / kAlarms, average_run_length(kDrift, 1, kThreshold), 0.15 * ticks / kAlarms);
+}
+
+/// The disturbance: white, as large as the margin that the model leaves for an offset.
+TEST(AverageRunLength, OfEachModelCheckIsAbove1e9TicksOnEachRig) {
+  for (const char* name : {"virginia_tech_tower", "gantry", "emulated_servo_to_go", "drive_axis"}) {
+    const Limits limits = limits_of_rig(name);
+    const auto& p = limits.machine.crane;
+    const PerAxis gain{p.trolley_gain_mps2pv, p.slew_gain_radps2pv, p.hoist_gain_mpspv / p.hoist_lag_s};
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      if (!limits.axis[i].present) continue;
+      const double drift = gain[i] * kOffset_v * kTick_s;
+      EXPECT_GT(average_run_length(drift, drift, kSpeedShare * limits.axis[i].max_speed), kRarely_ticks)
+          << name << ", axis " << i;
+    }
+    const double drift = pendulum_drift(limits, kTick_s);
+    EXPECT_GT(average_run_length(drift, drift, kSpeed_mps), kRarely_ticks) << name;
+  }
+}
+
+/// A trolley without load whose drive gives `given` volts for `told` ones.
+class Trolley : public testing::Test {
+ protected:
+  Trolley() { limits_.machine.crane.load_mass_kg = 0; }
+  /// @return ticks until a following error, 0: none
+  int drive(double told_v, double given_v, int ticks, double gain = 1, bool encoder_stands = false) {
+    for (int tick = 1; tick <= ticks; ++tick) {
+      time_s_ += kTick_s;
+      position_ += speed_ * kTick_s + acceleration(given_v, gain) * kTick_s * kTick_s / 2;
+      speed_ += acceleration(given_v, gain) * kTick_s;
+      if (!encoder_stands) shown_ = position_;
+      const bool found = following_error(
+          limits_, {.sampled_s = time_s_, .position = {shown_, 0, 1}, .applied_v = {told_v}, .free = {true}},
+          memory_);
+      if (found) return tick;
+    }
+    return 0;
+  }
+  double acceleration(double volts_v, double gain) const {
+    const auto& friction =
+        speed_ > 0 ? limits_.machine.friction_positive[0] : limits_.machine.friction_negative[0];
+    const double most_v = friction.rest_v + friction.viscous_v * std::abs(speed_);
+    const double side = speed_ != 0 ? std::copysign(1, speed_) : std::copysign(1, volts_v);
+    const double net_v = volts_v - side * most_v;
+    if (speed_ == 0 && std::abs(volts_v) <= most_v) return 0;
+    return gain * limits_.machine.crane.trolley_gain_mps2pv * net_v;
+  }
+
+  Limits limits_ = limits_of_rig("virginia_tech_tower");
+  FollowingMemory memory_;
+  double time_s_ = 1, position_ = 0.5, speed_ = 0, shown_ = 0.5;
+};
+
+TEST_F(Trolley, ThatObeysIsNoFollowingErrorWithinTheToleranceOfItsGain) {
+  for (const double gain : {0.8, 1.0, 1.25}) {
+    memory_ = {};
+    speed_ = 0, shown_ = position_ = 0.5;
+    EXPECT_EQ(drive(0, 0, 20, gain), 0);
+    EXPECT_EQ(drive(5, 5, 20, gain), 0) << gain;
+    EXPECT_EQ(drive(3, 3, 50, gain), 0) << gain;
+  }
+}
+
+TEST_F(Trolley, WhoseConverterIsStuckIsFoundBeforeItIsFast) {
+  ASSERT_EQ(drive(0, 0, 20), 0);
+  const int ticks = drive(0, 10, 50);
+  ASSERT_GT(ticks, 0);
+  EXPECT_LE(ticks, 4);
+  EXPECT_LT(std::abs(speed_), 0.75);
+}
+
+TEST_F(Trolley, WhoseDriveHasTheWrongSignIsFoundWithinFiveTicks) {
+  ASSERT_EQ(drive(0, 0, 20), 0);
+  const int ticks = drive(5, -5, 50);
+  EXPECT_GT(ticks, 0);
+  EXPECT_LE(ticks, 5);
+}
+
+TEST_F(Trolley, WhoseEncoderStopsWhileItMovesIsFoundInTheNextTicks) {
+  ASSERT_EQ(drive(0, 0, 20), 0);
+  ASSERT_EQ(drive(5, 5, 20), 0);
+  const int ticks = drive(5, 5, 50, 1, true);
+  EXPECT_GT(ticks, 0);
+  EXPECT_LE(ticks, 2);
+}
+
+/// A pendulum under a trolley that stands.
+class Load : public testing::Test {
+ protected:
+  /// @return ticks until its encoders are found to have failed, 0: never
+  template <class Show>
+  int swing(int ticks, Show show) {
+    const double omega2 = 9.81 / cable_m_;
+    constexpr int kSteps = 100;
+    for (int tick = 1; tick <= ticks; ++tick) {
+      for (int step = 0; step < kSteps; ++step) {
+        rate_ -= omega2 * std::sin(angle_) * kTick_s / kSteps;
+        angle_ += rate_ * kTick_s / kSteps;
+      }
+      time_s_ += kTick_s;
+      const double count = limits_.machine.swing_resolution_rad[0];
+      const double shown = std::round(show(angle_) / count) * count;
+      if (swing_sensor_failed(limits_,
+                              {.sampled_s = time_s_, .position = {0.5, 0, measured_m_}, .radial_rad = shown},
+                              memory_))
+        return tick;
+    }
+    return 0;
+  }
+  static double as_it_is(double angle) { return angle; }
+
+  Limits limits_ = limits_of_rig("virginia_tech_tower");
+  PendulumMemory memory_;
+  double time_s_ = 1, angle_ = 0.3, rate_ = 0, cable_m_ = 1, measured_m_ = 1;
+};
+
+TEST_F(Load, ThatSwingsIsNoFailureHoweverItBegan) { EXPECT_EQ(swing(6000, as_it_is), 0); }
+
+TEST_F(Load, OnACableThatIsHalfOrOneAndAHalfTimesAsLongIsNoFailure) {
+  for (const double ratio : {0.5, 1.5}) {
+    memory_ = {};
+    cable_m_ = ratio, angle_ = 0.3, rate_ = 0;
+    EXPECT_EQ(swing(3000, as_it_is), 0) << ratio;
+  }
+}
+
+TEST_F(Load, WithAZeroThatIsOffBy20MradIsNoFailure) {
+  EXPECT_EQ(swing(3000, [](double angle) { return angle + 0.02; }), 0);
+}
+
+TEST_F(Load, ThatSomebodyPushesIsNoFailure) {
+  ASSERT_EQ(swing(100, as_it_is), 0);
+  rate_ += 0.5;
+  EXPECT_EQ(swing(1000, as_it_is), 0);
+  rate_ -= 0.6;
+  EXPECT_EQ(swing(1000, as_it_is), 0);
+}
+
+TEST_F(Load, WhoseEncoderStandsIsFoundWhateverItShows) {
+  for (int begin = 60; begin < 160; begin += 7) {
+    memory_ = {};
+    angle_ = 0.3, rate_ = 0;
+    ASSERT_EQ(swing(begin, as_it_is), 0);
+    const double stands = angle_;
+    const int ticks = swing(100, [stands](double) { return stands; });
+    EXPECT_GT(ticks, 0) << begin;
+    EXPECT_LE(ticks, 30) << begin << ", at " << stands << " rad";
+  }
+}
+
+TEST_F(Load, WhoseEncoderShakesIsFound) {
+  std::mt19937_64 random{1};
+  std::uniform_real_distribution<double> noise{-0.08, 0.08};
+  ASSERT_EQ(swing(100, as_it_is), 0);
+  const int ticks = swing(100, [&](double angle) { return angle + noise(random); });
+  EXPECT_GT(ticks, 0);
+  EXPECT_LE(ticks, 20);
+}
+
+}  // namespace
+}  // namespace crane::supervisor

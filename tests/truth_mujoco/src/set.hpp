@@ -1,0 +1,44 @@
+#pragma once
+/// One set of a deck: a rig, its nuisance, its faults, and the runs that a laboratory would hand over.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fault.hpp"
+#include "run.hpp"
+#include "visible.hpp"
+
+namespace mujoco_truth {
+
+enum class SetKind { clean, single, pair, confounded, outside };
+[[nodiscard]] const char* name_of(SetKind kind);
+
+struct Deck {
+  std::string name = "dev";
+  std::uint64_t seed = 1;
+};
+
+struct Scored {
+  Fault fault;
+  double wanted = 0, size = 0;  ///< in units of what the data hide (visible.hpp)
+  std::vector<Column> columns;
+};
+
+struct Set {
+  std::size_t number = 0;
+  SetKind kind = SetKind::clean;
+  Rig rig;
+  Nuisance nuisance;
+  double swing_reached_rad = 0;
+  std::vector<Scored> faults;
+  std::vector<std::string>
+      alike;  ///< faults of the library whose change these data hardly tell from the first one's
+  std::vector<Run> train, test;
+};
+
+[[nodiscard]] SetKind kind_of_set(std::size_t number);
+/// The set of that number; the same for everybody. @param alike also look for what is alike, which takes
+/// longer
+[[nodiscard]] Set made(const Deck& deck, std::size_t number, bool alike);
+
+}  // namespace mujoco_truth
