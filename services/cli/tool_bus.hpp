@@ -26,9 +26,7 @@ namespace crane::cli {
 [[nodiscard]] std::string where_and_remedy(bus::Bus& bus);
 
 /// Calls `poll` after each arrival of a sample, and at least every 20 ms, until it returns true.
-/// @return false at the timeout or after a stop signal. @throws bus::Error at the timeout when a program of
-/// this
-///   crane has messages of another version
+/// @return false at the timeout or after a stop signal
 bool wait_until(bus::Bus& bus, double timeout_s, const std::function<bool()>& poll);
 
 }  // namespace crane::cli

@@ -11,7 +11,7 @@ namespace {
 
 class Problems {
  public:
-  /// `ok` has to be false for NaN.
+  /// @pre `ok` is false for NaN
   void require(bool ok, const std::string& name, double value, const std::string& rule) {
     if (!ok) found_.push_back(fields::complaint(name, value, rule));
   }
@@ -83,7 +83,7 @@ void check_common(const Limits& limits, Problems& problems) {
                    "at least one must be present");
 }
 
-// Rules that relate several values; they need each value to be in its range.
+// Rules that relate several values. @pre each value is in its range
 void check_margins(const Limits& limits, Problems& problems) {
   for (std::size_t i = 0; i < kAxes; ++i) {
     const AxisLimits& axis = limits.axis[i];
