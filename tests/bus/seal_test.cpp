@@ -23,7 +23,7 @@ std::vector<std::uint8_t> sealed_sample(const topics::Description& topic, Random
   return sample;
 }
 
-TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeItAndOfTheTopicsName) {
+TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeItOfTheTopicsNameAndOfTheVersion) {
   Random random{kSealSeed};
   for (const auto& topic : topics::kAll) {
     const auto sample = sealed_sample(topic, random);
@@ -36,6 +36,8 @@ TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeItAndOfTheTopicsName) {
     std::memcpy(&carried, bytes.data() + bytes.size() - 4, 4);
     bytes.resize(bytes.size() - 4);
     bytes.insert(bytes.end(), topic.name.begin(), topic.name.end());
+    for (int i = 0; i < 4; ++i)  // the version in little endian
+      bytes.push_back(static_cast<std::uint8_t>(crane_MESSAGES_VERSION >> (8 * i)));
     EXPECT_EQ(carried, crc32c_portable(bytes)) << topic.name;
     EXPECT_TRUE(intact(topic, sample.data())) << topic.name;
   }

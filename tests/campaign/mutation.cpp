@@ -171,8 +171,8 @@ int check_all(std::uint64_t first_seed, std::uint64_t most_seeds, unsigned jobs)
   }
   for (const auto name : declared)
     if (std::ranges::find(all, name, &Need::protection) == all.end()) std::cout << name << ": NO HAZARD\n";
-  std::cout << caught << " of " << all.size() << " protections are needed by the campaign; " << declared.size()
-            << " are declared\n";
+  std::cout << caught << " of " << all.size() << " protections are needed by the campaign; "
+            << declared.size() << " are declared\n";
   return caught == declared.size() ? 0 : 1;
 }
 
