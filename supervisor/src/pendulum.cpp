@@ -17,7 +17,7 @@ Plane operator+(const Plane& a, const Plane& b) { return {a[0] + b[0], a[1] + b[
 Plane operator*(double s, const Plane& a) { return {s * a[0], s * a[1]}; }
 double norm(const Plane& a) { return std::hypot(a[0], a[1]); }
 
-/// Rotates from the frame of the jib to the ground; with the negative angle back.
+/// From the frame of the jib to the ground, and back with the negative angle.
 Plane turned(const Plane& a, double angle_rad) {
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
   return {c * a[0] - s * a[1], s * a[0] + c * a[1]};

@@ -15,7 +15,7 @@ constexpr std::uint16_t kCounterRegisters = 0x10;  // data at offsets 0, 1, 4, 5
 
 bool is_counter(std::uint16_t offset) { return offset < kCounterRegisters; }
 bool is_control(std::uint16_t offset) { return (offset & 2U) != 0; }
-std::size_t channel_of(std::uint16_t offset) { return (offset >> 2U) << 1U | (offset & 1U); }
+std::size_t channel_of(std::uint16_t offset) { return (std::size_t{offset} >> 2U) << 1U | (offset & 1U); }
 
 bool counts(const CardState::Counter& counter) {
   constexpr std::uint8_t kInputsEnabled = 0x08, kTimesFour = 0x03;

@@ -5,16 +5,17 @@
 /// r: horizontal position of the load, p: of the trolley, z: height of the load relative to the jib, h: its
 /// depth below the jib. All of them are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
-/// contains no drive, no friction and no load mass. The mean of e over kMean samples is reduced by the
-/// tolerances (kCableTolerance of the change of the swing rate, a zero error of kZero_rad, wind of
-/// kWind_mps2, a damping ratio of kDamping) and summed as a vector (run_length.hpp). A sum longer than
-/// kSpeed_mps plus the quantisation of the swing rate means that a swing encoder has failed, or the encoder
-/// of an axis that moves the suspension of the load.
+/// needs no drive, no friction and no load mass. The mean of e over kMean samples is reduced by what is not
+/// known (kCableTolerance of the change of the swing rate, a zero wrong by kZero_rad, wind of kWind_mps2, a
+/// damping ratio of kDamping) and summed as a vector (run_length.hpp). A sum longer than kSpeed_mps and the
+/// quantisation of the swing rate means that a swing encoder has failed, or the encoder of the axis that
+/// carries the load.
 ///
-/// A push of a person gives the load its speed within one or two samples; afterwards the load is a pendulum
-/// again. Therefore a sum that exceeds the limit within kPush_ticks is set back once in kPush_s when at least
-/// half of it is a change of the swing rate. This does not apply when a swing encoder that counted before the
-/// push stands for kStands_ticks from then on: a push does not bring a load to rest within a count.
+/// A load that somebody pushes gains its speed within a sample or two, and swings as a pendulum afterwards. A
+/// sum that exceeds the limit within kPush_ticks is forgiven once in kPush_s when at least
+/// half of it is a change of the swing rate, unless a swing
+/// encoder that was counting stands from then on for kStands_ticks: nobody's push brings a load to rest
+/// within a count.
 ///
 /// Detection time of a swing encoder that has stopped and has the error a, rad:
 ///   (kSpeed_mps + noise) / (g (|a| - kZero_rad) - kWind_mps2) + (kMean + 2) ticks.
