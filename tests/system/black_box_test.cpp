@@ -60,7 +60,7 @@ class BlackBox : public testing::Test {
   recording::TemporaryDirectory directory;
   std::filesystem::path kept = directory / "kept";
   std::string crane = crane_name();
-  ProgramRun up{program(), with_bus({"up", "--priority", "0", "--black-box", kept.string()}, crane)};
+  ProgramRun up{program(), with_bus({"up", "--black-box", kept.string()}, crane)};
 };
 
 TEST_F(BlackBox, RecordsAStopWithTheRigFileAndTheProcesses) {
