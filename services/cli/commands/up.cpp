@@ -62,15 +62,16 @@ std::string goes_without(const std::string& process) {
 }
 
 /// Waits for Ctrl-C. @return false when a process of the control loop has ended by itself
-bool watch(stack::ChildProcesses& children, runtime::Node& node) {
+bool watch(stack::ChildProcesses& children, std::optional<runtime::Node>& node) {
   while (!runtime::stop_requested()) {
     if (const auto ended = children.ended()) {
       const auto without = goes_without(ended->name);
       std::cerr << "crane up: " << stack::describe(*ended)
                 << (without.empty() ? "; stopping the others" : "; the crane continues without " + without)
                 << '\n';
-      node.error("process_ended", stack::describe(*ended),
-                 without.empty() ? "look at the output of `crane up`, and start the stack anew" : "");
+      if (node)
+        node->error("process_ended", stack::describe(*ended),
+                    without.empty() ? "look at the output of `crane up`, and start the stack anew" : "");
       if (without.empty()) return false;
     }
     ::usleep(50'000);
@@ -111,7 +112,8 @@ int up(UpOptions options) {
             << "', domain " << options.launch.bus.domain << ", " << options.launch.clock << ")\n"
             << "next: crane status, crane reset, crane arm, crane move --trolley 0.8; Ctrl-C ends it"
             << std::endl;
-  runtime::Node node{bus, {"crane_up", ""}};
+  std::optional<runtime::Node> node;  // with keys, the role operator may not write crane/node
+  if (options.launch.bus.secure.empty()) node.emplace(bus, runtime::NodeIdentity{"crane_up", ""});
   const bool orderly = watch(children, node);
   children.stop();
   return orderly ? runtime::kExitDone : runtime::kExitFailed;
