@@ -89,7 +89,8 @@ function(crane_test name)
   if(ARG_SERIAL)
     math(EXPR ARG_TIMEOUT "3 * ${ARG_TIMEOUT}")  # as often as tests/real_time runs a test
   endif()
-  list(APPEND properties TIMEOUT ${ARG_TIMEOUT})
+  # What a stack of a test records of its stops does not mix with what the user's cranes have recorded.
+  list(APPEND properties TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 

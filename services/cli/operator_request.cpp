@@ -30,9 +30,12 @@ class Conversation {
   }
 
   void find_listeners(double timeout_s) {
-    if (!wait_until(bus_, timeout_s, [this] { return found(); }))
-      throw NoAnswer((heard_supervisor_ && !heard_planner() ? "no trajectory planner" : "no supervisor") +
-                     where_and_remedy(bus_));
+    if (wait_until(bus_, timeout_s, [this] { return found(); })) return;
+    if (heard_supervisor_ && heard_planner() && probe_at_ns_ > 0)
+      throw NoAnswer("the supervisor did not answer within " + std::to_string(static_cast<int>(timeout_s)) +
+                     " s: check that its ticks advance (crane status)");
+    throw NoAnswer((heard_supervisor_ && !heard_planner() ? "no trajectory planner" : "no supervisor") +
+                   where_and_remedy(bus_));
   }
 
   Answer exchange(double timeout_s) {
@@ -57,16 +60,22 @@ class Conversation {
  private:
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }
 
-  /// Several processes read crane/request. The supervisor is identified by a sample of crane/supervisor, the
-  /// planner by a sample of crane/reference. The receiver must be matched on crane/request and crane/reply.
-  /// Each process creates its writer of crane/reply before the writer of its identifying topic, so that the
-  /// reply cannot be missed.
+  /// Several processes read crane/request: the plant, the supervisor, recorders, dashboards. A request that
+  /// may not be repeated is sent when the supervisor has answered a probe, and the planner is heard.
   bool found() {
+    constexpr std::int64_t kProbeEvery_ns = 50'000'000;
     while (supervisor_.take()) heard_supervisor_ = true;
     while (planner_ && planner_->take()) heard_reference_ = true;
     if (client_.listeners() == 0 || client_.answerers() == 0) return false;
-    return may_be_repeated(wish_.kind) ||
-           (heard_supervisor_ && heard_planner() && client_.listeners() >= client_.answerers());
+    if (may_be_repeated(wish_.kind)) return true;
+    if (!heard_supervisor_ || !heard_planner()) return false;
+    client_.receive();
+    if (client_.take_reply(stack::OperatorClient::kProbe, crane_SOURCE_SUPERVISOR)) return true;
+    if (const auto now_ns = runtime::monotonic_ns(); now_ns >= probe_at_ns_) {
+      client_.probe();
+      probe_at_ns_ = now_ns + kProbeEvery_ns;
+    }
+    return false;
   }
 
   std::optional<Answer> take_answer() {
@@ -84,6 +93,7 @@ class Conversation {
   std::optional<bus::Subscriber<msg::Reference>> planner_;
   bool heard_supervisor_ = false;
   bool heard_reference_ = false;
+  std::int64_t probe_at_ns_ = 0;
   std::vector<std::uint64_t> sent_;
 };
 

@@ -93,9 +93,13 @@ void FaultTimeline::add_event(const Sample& sample, const msg::Event& event) {
   // one counts by its arrival, as the samples of all other topics: the clock of another host may differ a
   // little.
   constexpr std::int64_t kLive_ns = 2'000'000'000;
+  // `crane up` looks every 50 ms whether its processes run: the end comes before the stop that follows from
+  // it.
+  constexpr std::int64_t kNoticed_ns = 60'000'000;
+  const std::int64_t earlier_ns = std::string_view{event.code} == "process_ended" ? kNoticed_ns : 0;
   const bool live = std::abs(sample.log_time_ns - sample.source_time_ns) < kLive_ns;
-  put({live ? sample.log_time_ns : sample.source_time_ns, event.header.tick, kind, event.node, event.code,
-       event.what, event.remedy, std::string{event.node} + "/" + event.code, true});
+  put({(live ? sample.log_time_ns : sample.source_time_ns) - earlier_ns, event.header.tick, kind, event.node,
+       event.code, event.what, event.remedy, std::string{event.node} + "/" + event.code, true});
 }
 
 void FaultTimeline::put(Note note) {

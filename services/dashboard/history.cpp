@@ -16,7 +16,7 @@ std::size_t cost_of(const Sample& sample) { return sample.cdr.size() + kOverhead
 
 void History::add(SamplePtr sample) {
   auto& line = lines_[sample->topic];
-  const auto oldest_ns = sample->log_time_ns - kLongest_ns;
+  const auto oldest_ns = sample->log_time_ns - longest_ns_;
   line.bytes += cost_of(*sample);
   line.samples.push_back(std::move(sample));
   while (!line.samples.empty() &&

@@ -13,6 +13,8 @@ class History {
   /// Of one topic: 120 s of crane/state at 100 Hz need 6 MB, of all topics 40 MB.
   static constexpr std::size_t kLargestTopic_bytes = 8U << 20U;
 
+  explicit History(std::int64_t longest_ns = kLongest_ns) : longest_ns_{longest_ns} {}
+
   void add(SamplePtr sample);
   /// Samples of a topic that arrived in [from_ns, to_ns] (Sample::log_time_ns), oldest first.
   [[nodiscard]] std::vector<SamplePtr> between(std::size_t topic, std::int64_t from_ns,
@@ -24,6 +26,7 @@ class History {
     std::deque<SamplePtr> samples;
     std::size_t bytes = 0;
   };
+  std::int64_t longest_ns_;
   std::array<Line, topics::kAll.size()> lines_;
 };
 

@@ -63,7 +63,8 @@ experiment::ComparedRun simulate(const PlannedRun& plan) {
                               .scenario_description = plan.scenario.description,
                               .stopped_because = "",
                               .metrics = {},
-                              .samples = {}};
+                              .samples = {},
+                              .least_settling_time_s = plan.scenario.least_settling_time_s};
   const auto started = experiment::changed_by(experiment::started_by(plan.rig, plan.scenario), plan.variant);
   TickLog log{std::nullopt};
   try {

@@ -41,6 +41,14 @@ std::uint64_t OperatorClient::send(const Wish& wish) {
   return request.id;
 }
 
+void OperatorClient::probe() {
+  msg::Request request{};
+  request.id = kProbe;
+  runtime::assign(request.client, client_);
+  request.kind = crane_REQUEST_MOVE;  // of no axis: it would be refused with any id
+  (void)requests_.publish(request);
+}
+
 void OperatorClient::receive() {
   while (const auto reply = replies_.take())
     if (client_ == reply->client) received_.push_back(*reply);

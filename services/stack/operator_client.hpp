@@ -36,6 +36,10 @@ class OperatorClient {
   [[nodiscard]] int answerers() const { return replies_.matched(); }
   /// @return id of the request
   std::uint64_t send(const Wish& wish);
+  /// Sends a request that is always refused, because its id is 0 (kProbe). The reply proves that requests
+  /// reach the supervisor and replies reach this client; other readers of crane/request do not reply.
+  void probe();
+  static constexpr std::uint64_t kProbe = 0;
   /// Takes the replies that have arrived.
   void receive();
   /// Removes and returns the first reply to `id` from `source`. A scheduled request has two replies;

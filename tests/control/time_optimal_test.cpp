@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <random>
 
 #include "planned_crane.hpp"
+#include "time_optimal/tower.hpp"
 
 namespace crane::control {
 namespace {
@@ -23,6 +25,80 @@ PlanProblem problem_of(const TestMove& move, double volts) {
   problem.limits = {
       .volts = {volts, volts}, .low = {0.19, -2.74}, .high = {1.31, 2.74}, .speed = {1.35, 3.15}};
   return problem;
+}
+
+/// A design, a state and volts from the whole range in which plans are made.
+struct RandomCase {
+  Design design;
+  double cable_m;
+  PlanState state;
+  PlanVolts volts;
+
+  explicit RandomCase(std::mt19937& random) {
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    auto& p = design.crane;
+    p.load_mass_kg = between(0.1, 10), p.trolley_inertia_kg = between(5, 40);
+    p.trolley_mass_kg = between(0.5, 5), p.jib_inertia_kgm2 = between(2, 20);
+    p.slewed_share = between(0, 1), p.thrown_share = between(0, 1);
+    design.friction = tower_with_friction().design.friction;
+    cable_m = between(0.3, 1.5);
+    state << between(0.2, 1.3), between(-1, 1), between(-3, 3), between(-1, 1), between(-1.3, 1.3),
+        between(-3, 3), between(-3, 3), between(-3, 3);
+    volts << between(-10, 10), between(-10, 10);
+  }
+};
+
+PlanState rate_of(const RandomCase& at) {
+  time_optimal::Flow flow;
+  time_optimal::flow({at.design, at.cable_m}, at.state, at.volts, false, flow);
+  return flow.rate;
+}
+
+TEST(TimeOptimalTower, AcceleratesAsThePlantDoes) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 10'000; ++i) {
+    const RandomCase at(random);
+    const auto& s = at.state;
+    const plant::State state{s[0], s[1], s[2], s[3], at.cable_m, s[4], s[5], s[6], s[7], 0};
+    const auto& p = at.design.crane;
+    const auto driving_v = [&](plant::Axis axis, double volts, double speed) {
+      return volts - time_optimal::smooth_friction(at.design.friction[axis], speed).volts;
+    };
+    const auto wanted = plant::accelerations(
+        p, state,
+        {.trolley_n = p.trolley_inertia_kg * p.trolley_gain_mps2pv * driving_v(kTrolley, at.volts[0], s[4]),
+         .slew_nm = p.jib_inertia_kgm2 * p.slew_gain_radps2pv * driving_v(kSlew, at.volts[1], s[6])},
+        0);
+    PlanState rate;
+    rate << s.tail<4>(), wanted.trolley_mps2, wanted.radial_radps2, wanted.slew_radps2,
+        wanted.tangential_radps2;
+    // The plant eliminates the swing, the planner inverts M: they differ by rounding.
+    constexpr double kRounding = 1e-10;
+    EXPECT_LT((rate_of(at) - rate).norm(), kRounding * (1 + rate.norm())) << "case " << i;
+  }
+}
+
+TEST(TimeOptimalTower, HasTheDerivativesOfItsAccelerations) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 1'000; ++i) {
+    const RandomCase at(random);
+    time_optimal::Flow flow;
+    time_optimal::flow({at.design, at.cable_m}, at.state, at.volts, true, flow);
+    constexpr double kStep = 1e-5, kTruncation = 1e-5;  // central difference: error of the order of kStep^2
+    for (int column = 0; column < kPlanStates + 2; ++column) {
+      const auto moved = [&](double by) {
+        RandomCase to = at;
+        (column < kPlanStates ? to.state[column] : to.volts[column - kPlanStates]) += by;
+        return rate_of(to);
+      };
+      const PlanState slope = (moved(kStep) - moved(-kStep)) / (2 * kStep);
+      const PlanState exact = column < kPlanStates ? PlanState{flow.by_state.col(column)}
+                                                   : PlanState{flow.by_control.col(column - kPlanStates)};
+      EXPECT_LT((exact - slope).norm(), kTruncation * (1 + exact.norm())) << "case " << i << ", " << column;
+    }
+  }
 }
 
 TEST(TimeOptimalPlan, TakesHardlyLongerThanTheBoundWithoutFriction) {

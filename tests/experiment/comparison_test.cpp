@@ -78,6 +78,16 @@ TEST(Comparison, MarkdownSetsControllersAgainstVariants) {
                                      "| q          |     - | OVERSPEED, at 3 \"m/s\" |"}));
 }
 
+TEST(Comparison, SetsTimesInRelationToTheLeastTimeOfTheScenario) {
+  EXPECT_THAT(markdown(), Not(HasSubstr("least time")));
+  auto runs = kRuns;
+  for (auto& run : runs) run.least_settling_time_s = 1.7;
+  std::ostringstream out;
+  write_comparison_summary(out, runs);
+  EXPECT_THAT(out.str(), HasSubstr("## m1: settling time / least time of 1.700 s"));
+  EXPECT_THAT(split_lines(out.str()), testing::Contains("| p          |  2.00 |                  2.06 |"));
+}
+
 TEST(Comparison, PageOverlaysAllControllersOfAScenarioAndVariant) {
   const auto page = comparison_page(kRuns, "rig");
   ASSERT_EQ(page.sections.size(), 3U);

@@ -51,6 +51,20 @@ TEST(Variant, ChangesTheTrueCableAndLoadAndNotWhatControllersBelieve) {
   EXPECT_DOUBLE_EQ(changed_by(original, "heavy_load+known_load").design.crane.load_mass_kg, 3);
 }
 
+TEST(Variant, ChangesTheTrueFrictionAndNotItsCompensation) {
+  auto original = tower_with_friction();
+  original.terms.front().parameters = {
+      {"coulomb_positive_v", 1}, {"viscous_positive_vspm", 2}, {"smoothing_speed", 3}};
+  const auto rig = changed_by(original, "friction_plus_20");
+  const auto& changed = rig.terms.front().parameters;
+  EXPECT_DOUBLE_EQ(changed.at("coulomb_positive_v"), 1.2);
+  EXPECT_DOUBLE_EQ(changed.at("viscous_positive_vspm"), 2.4);
+  EXPECT_EQ(changed.at("smoothing_speed"), 3);
+  EXPECT_EQ(rig.design.friction, original.design.friction);
+  EXPECT_DOUBLE_EQ(
+      changed_by(original, "friction_minus_20").terms.front().parameters.at("coulomb_positive_v"), 0.8);
+}
+
 TEST(Variant, PartsAreAppliedFromLeftToRight) {
   const auto rig = changed_by(tower_with_friction(), "long_cable+known_cable+slow_reference+no_compensation");
   EXPECT_DOUBLE_EQ(rig.start.position[plant::kHoist], 1.5);

@@ -1,6 +1,10 @@
-// A monitor on another host: two network namespaces joined by a veth pair, the loop on Cyclone DDS in one,
-// the tools on Fast DDS in the other, found by multicast and by unicast peers only.
+// A monitor or a dashboard on another host: two network namespaces joined by a veth pair, the loop on Cyclone
+// DDS in one, the tools on Fast DDS in the other, found by multicast and by unicast peers only.
+#include <arpa/inet.h>
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sched.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -62,9 +66,11 @@ class TwoHosts {
 
   [[nodiscard]] bool ok() const { return ok_; }
   [[nodiscard]] const std::string& near() const { return near_; }
+  [[nodiscard]] const std::string& far() const { return far_; }
   [[nodiscard]] Answer on_far(const std::string& arguments) const {
     return run("ip netns exec " + far_ + " " + (program_directory() / "crane").string() + " " + arguments);
   }
+  void unplug_far() const { run("ip -n " + far_ + " link set cf" + std::to_string(::getpid()) + " down"); }
   static constexpr const char* kNear = "10.77.0.1";
   static constexpr const char* kFar = "10.77.0.2";
 
@@ -73,37 +79,87 @@ class TwoHosts {
   bool ok_ = false;
 };
 
-/// `crane up` on the near host; ended by Ctrl-C, as its user does.
-class StackOnNearHost {
+/// A `crane` command that goes on on one of the hosts; ended by Ctrl-C, as its user does.
+class Running {
  public:
-  StackOnNearHost(const TwoHosts& hosts, const std::vector<std::string>& bus) {
-    std::vector<std::string> arguments{
-        "ip", "netns",      "exec", hosts.near(), (program_directory() / "crane").string(),
-        "up", "--priority", "0"};
-    arguments.insert(arguments.end(), bus.begin(), bus.end());
-    pid_ = ::fork();
-    if (pid_ != 0) return;
+  Running(const std::string& host, const std::vector<std::string>& command) {
+    std::vector<std::string> arguments{"ip", "netns", "exec", host, (program_directory() / "crane").string()};
+    arguments.insert(arguments.end(), command.begin(), command.end());
     std::vector<char*> argv;
     for (auto& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ != 0) return;
     ::execvp("ip", argv.data());
     ::_exit(127);
   }
-  ~StackOnNearHost() {
+  ~Running() {
     ::kill(pid_, SIGINT);
     ::waitpid(pid_, nullptr, 0);
   }
-  StackOnNearHost(const StackOnNearHost&) = delete;
-  StackOnNearHost& operator=(const StackOnNearHost&) = delete;
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
 
  private:
   pid_t pid_ = 0;
 };
 
+std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// Whole HTTP answer of a server, asked from a host; empty: no answer.
+std::string ask(const std::string& host, const char* address, std::uint16_t port,
+                const std::string& request) {
+  std::string answer;
+  std::thread{[&] {  // a thread of its own, because setns() moves the thread
+    const int space = ::open(("/run/netns/" + host).c_str(), O_RDONLY | O_CLOEXEC);
+    if (space < 0 || ::setns(space, CLONE_NEWNET) != 0) return;
+    ::close(space);
+    const int connection = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(port);
+    ::inet_pton(AF_INET, address, &to.sin_addr);
+    std::array<char, 4096> buffer{};
+    if (::connect(connection, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0 &&
+        ::send(connection, request.data(), request.size(), MSG_NOSIGNAL) ==
+            static_cast<ssize_t>(request.size()))
+      for (ssize_t n = 0; (n = ::recv(connection, buffer.data(), buffer.size(), 0)) > 0;)
+        answer.append(buffer.data(), static_cast<std::size_t>(n));
+    ::close(connection);
+  }}
+      .join();
+  return answer;
+}
+
+constexpr std::uint16_t kPort = 8765;
+
+std::string get(const std::string& path, const char* address, const std::string& more = "") {
+  return "GET " + path + " HTTP/1.1\r\nHost: " + address + "\r\nConnection: close\r\n" + more + "\r\n";
+}
+std::string post(const std::string& path, const char* address, const std::string& body) {
+  return "POST " + path + " HTTP/1.1\r\nHost: " + address +
+         "\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: " +
+         std::to_string(body.size()) + "\r\n\r\n" + body;
+}
+
+/// Asks until the answer contains `wanted`. @return the last answer
+std::string ask_until(const std::string& host, const char* address, const std::string& request,
+                      const std::string& wanted) {
+  constexpr int kTries = 300;
+  std::string answer;
+  for (int i = 0; i < kTries && answer.find(wanted) == std::string::npos; ++i) {
+    if (i > 0) std::this_thread::sleep_for(100ms);
+    answer = ask(host, address, kPort, request);
+  }
+  return answer;
+}
+
 struct Discovery {
   std::string name;
-  std::vector<std::string> stack_options;
-  std::string tool_options;
+  std::vector<std::string> stack_options, tool_options;
   bool secured = false;
 };
 
@@ -118,16 +174,19 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
     }
   }
   [[nodiscard]] std::string keys() const { return (directory / "keys").string(); }
+  /// Options of a command that only listens.
   [[nodiscard]] std::string tool_options() const {
-    return GetParam().tool_options + (GetParam().secured ? " --secure " + keys() : "");
+    std::string text;
+    for (const auto& option : GetParam().tool_options) text += " " + option;
+    return text + (GetParam().secured ? " --secure " + keys() : "");
   }
-  [[nodiscard]] std::vector<std::string> stack_options() const {
-    auto options = GetParam().stack_options;
-    if (GetParam().secured)
-      options.insert(options.end(), {"--secure", keys()});
-    else
-      options.emplace_back("--insecure");
-    return options;
+  /// Options of a command that writes, too.
+  [[nodiscard]] std::vector<std::string> writing(const std::vector<std::string>& options) const {
+    return joined(options, GetParam().secured ? std::vector<std::string>{"--secure", keys()}
+                                              : std::vector<std::string>{"--insecure"});
+  }
+  [[nodiscard]] std::vector<std::string> up() const {
+    return writing(joined({"up", "--priority", "0"}, GetParam().stack_options));
   }
   /// Until the stack has come up the tool says that nobody is there, or sees the first of its processes only.
   Answer patiently(const std::string& command, const std::vector<std::string>& wanted = {}) {
@@ -146,7 +205,7 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
 };
 
 TEST_P(FromAnotherHost, StatusAndTopicsAreSeen) {
-  const StackOnNearHost stack{hosts, stack_options()};
+  const Running stack{hosts.near(), up()};
   const auto status = patiently("status --json", {"supervisor", "friction_compensation", "cyclone"});
   ASSERT_EQ(status.exit_code, 0) << status.output;
   const auto json = nlohmann::json::parse(status.output);
@@ -162,15 +221,65 @@ TEST_P(FromAnotherHost, StatusAndTopicsAreSeen) {
   EXPECT_THAT(rate.output, testing::HasSubstr("lost"));
 }
 
+TEST_P(FromAnotherHost, ADashboardOfItsOwnShowsTheCraneAndStopsIt) {
+  const Running stack{hosts.near(), up()};
+  const Running dashboard{hosts.far(), writing(joined({"dashboard"}, GetParam().tool_options))};
+  constexpr const char* kHere = "127.0.0.1";
+  EXPECT_THAT(ask_until(hosts.far(), kHere, get("/", kHere), "200 OK"), testing::HasSubstr("<title>"));
+  EXPECT_THAT(ask_until(hosts.far(), kHere, get("/api/situation", kHere), "\"LOCKED\""),
+              testing::HasSubstr("\"LOCKED\""));
+  EXPECT_THAT(ask(hosts.far(), kHere, kPort, post("/api/request", kHere, R"({"kind":"estop"})")),
+              testing::HasSubstr(R"("accepted":true)"));
+  EXPECT_THAT(ask_until(hosts.far(), kHere, get("/api/situation", kHere), "\"OPERATOR_ESTOP\""),
+              testing::HasSubstr("\"ESTOP\""));
+}
+
+TEST_P(FromAnotherHost, ThePageOfTheCranesHostShowsAndStopsWithTheTokenOnly) {
+  const auto token = directory / "token";
+  const Running stack{hosts.near(), up()};
+  const Running dashboard{
+      hosts.near(),
+      writing(joined({"dashboard", "--listen", TwoHosts::kNear, "--operator-token", token.string()},
+                     GetParam().stack_options))};
+  const auto from_far = [&](const std::string& request, const std::string& wanted) {
+    return ask_until(hosts.far(), TwoHosts::kNear, request, wanted);
+  };
+  EXPECT_THAT(from_far(get("/api/situation", TwoHosts::kNear), "\"LOCKED\""),
+              testing::HasSubstr("\"LOCKED\""));
+  EXPECT_THAT(from_far(get("/api/about", TwoHosts::kNear), "may_operate"),
+              testing::HasSubstr(R"("may_operate":false)"));
+  EXPECT_THAT(from_far(post("/api/request", TwoHosts::kNear, R"({"kind":"estop"})"), "HTTP"),
+              testing::HasSubstr("403"));
+  auto key = recording::contents_of(token);
+  while (!key.empty() && key.back() == '\n') key.pop_back();
+  EXPECT_THAT(
+      from_far(get("/api/about", TwoHosts::kNear, "Authorization: Bearer " + key + "\r\n"), "may_operate"),
+      testing::HasSubstr(R"("may_operate":true)"));
+}
+
+TEST(AnotherHost, WithoutCarrierIsNamedAndRefused) {
+  if (::geteuid() != 0) GTEST_SKIP() << "network namespaces need root";
+  const TwoHosts hosts;
+  ASSERT_TRUE(hosts.ok());
+  hosts.unplug_far();
+  for (const std::string vendor : {"cyclone", "fastdds"}) {
+    const auto refused =
+        hosts.on_far("status --domain 84 --dds " + vendor + " --interface " + TwoHosts::kFar);
+    EXPECT_EQ(refused.exit_code, 1) << refused.output;
+    EXPECT_THAT(refused.output, testing::HasSubstr("the interface of 10.77.0.2 is down or has no carrier"));
+  }
+}
+
 using WithKeys = FromAnotherHost;
 
 TEST_P(WithKeys, AnOperatorIsObeyedAndAHostWithoutKeysHearsNothing) {
-  const StackOnNearHost stack{hosts, stack_options()};
+  const Running stack{hosts.near(), up()};
   const auto status = patiently("status --json", {"LOCKED"});
   ASSERT_EQ(status.exit_code, 0) << status.output;
   const auto reset = patiently("reset");
   EXPECT_EQ(reset.exit_code, 0) << reset.output;
-  const auto without = hosts.on_far("status --dds fastdds " + GetParam().tool_options);
+  const auto without =
+      hosts.on_far("status --dds fastdds --domain 83 --interface " + std::string{TwoHosts::kFar});
   EXPECT_EQ(without.exit_code, 1) << without.output;
   EXPECT_THAT(without.output, testing::HasSubstr("--secure"));
 }
@@ -182,21 +291,16 @@ TEST_P(WithKeys, AStackOnAnOpenNetworkIsRefusedWithoutThem) {
               testing::AllOf(testing::HasSubstr("crane keys make"), testing::HasSubstr("--insecure")));
 }
 
-const Discovery kSecured{"secured",
-                         {"--domain", "83", "--interface", TwoHosts::kNear},
-                         std::string{"--domain 83 --interface "} + TwoHosts::kFar,
-                         true};
+std::vector<std::string> on(const char* domain, const char* address) {
+  return {"--domain", domain, "--interface", address};
+}
+const Discovery kSecured{"secured", on("83", TwoHosts::kNear), on("83", TwoHosts::kFar), true};
+const Discovery kMulticast{"by_multicast", on("81", TwoHosts::kNear), on("81", TwoHosts::kFar)};
+const Discovery kPeers{"by_unicast_peers", joined(on("82", TwoHosts::kNear), {"--peer", TwoHosts::kFar}),
+                       joined(on("82", TwoHosts::kFar), {"--peer", TwoHosts::kNear})};
 INSTANTIATE_TEST_SUITE_P(Secured, WithKeys, testing::Values(kSecured),
                          [](const auto& discovery) { return discovery.param.name; });
-INSTANTIATE_TEST_SUITE_P(Discovery, FromAnotherHost,
-                         testing::Values(Discovery{"by_multicast",
-                                                   {"--domain", "81", "--interface", TwoHosts::kNear},
-                                                   std::string{"--domain 81 --interface "} + TwoHosts::kFar},
-                                         Discovery{"by_unicast_peers",
-                                                   {"--domain", "82", "--interface", TwoHosts::kNear,
-                                                    "--peer", TwoHosts::kFar},
-                                                   std::string{"--domain 82 --interface "} + TwoHosts::kFar +
-                                                       " --peer " + TwoHosts::kNear}),
+INSTANTIATE_TEST_SUITE_P(Discovery, FromAnotherHost, testing::Values(kMulticast, kPeers, kSecured),
                          [](const auto& discovery) { return discovery.param.name; });
 
 }  // namespace

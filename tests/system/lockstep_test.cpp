@@ -92,6 +92,29 @@ TEST_F(Lockstep, AnotherScenarioGivesOtherBytes) {
   EXPECT_FALSE(contents_of(files / "run.csv") == contents_of(run("other") / "run.csv"));
 }
 
+/// A law and a variant of the rig under which processes have to give the bytes of one process.
+struct Law {
+  const char *controller, *variant;
+};
+
+class LawInLockstep : public Lockstep, public testing::WithParamInterface<Law> {};
+
+TEST_P(LawInLockstep, GivesTheSameBytesInOneProcessAsInMany) {
+  options_.controller = GetParam().controller;
+  options_.variant = GetParam().variant;
+  expect_same_bytes(run_in_process(), run("processes"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, LawInLockstep,
+                         testing::Values(Law{"lqr", ""}, Law{"lqr", "observer"}, Law{"shaped_zv", ""},
+                                         Law{"shaped_zvd", ""}, Law{"shaped_ei", ""},
+                                         Law{"shaped_ei", "observer"}, Law{"time_optimal", ""},
+                                         Law{"time_optimal", "observer"}, Law{"fuzzy_printed", "observer"}),
+                         [](const auto& law) {
+                           return std::string{law.param.controller} +
+                                  (*law.param.variant != 0 ? "_observer" : "");
+                         });
+
 /// Settling times of the full nonlinear model by an independent simulation of the same design.
 struct Figures {
   std::string rig, controller, scenario;

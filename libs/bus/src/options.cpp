@@ -1,10 +1,13 @@
 #include <arpa/inet.h>
 #include <ifaddrs.h>
+#include <net/if.h>
 #include <netdb.h>
 #include <netinet/in.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <thread>
 
 #include "back_end.hpp"
 
@@ -18,14 +21,36 @@ std::string text_of(const sockaddr* address) {
   return text.data();
 }
 
-std::vector<std::string> addresses_of_this_host() {
+/// @param flags  of the interface, all of them set: IFF_UP, IFF_RUNNING
+std::vector<std::string> addresses_of_this_host(unsigned flags = 0) {
   std::vector<std::string> found;
   ifaddrs* list = nullptr;
   if (getifaddrs(&list) != 0) return found;
   for (const ifaddrs* i = list; i != nullptr; i = i->ifa_next)
-    if (i->ifa_addr != nullptr && i->ifa_addr->sa_family == AF_INET) found.push_back(text_of(i->ifa_addr));
+    if (i->ifa_addr != nullptr && i->ifa_addr->sa_family == AF_INET && (i->ifa_flags & flags) == flags)
+      found.push_back(text_of(i->ifa_addr));
   freeifaddrs(list);
   return found;
+}
+
+/// A participant on an interface without carrier hears nothing, also when the carrier comes later: the
+/// vendors look at the interfaces once. After power-on the carrier comes some seconds after the address.
+void await_carrier(const Options& options, std::vector<std::string>& problems) {
+  constexpr std::chrono::seconds kPatience{5};
+  constexpr std::chrono::milliseconds kPause{50};
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  for (const auto& wanted : options.interfaces)
+    for (;;) {
+      const auto running = addresses_of_this_host(IFF_UP | IFF_RUNNING);
+      if (std::find(running.begin(), running.end(), wanted) != running.end()) break;
+      if (std::chrono::steady_clock::now() > give_up) {
+        problems.push_back(
+            "interfaces: the interface of " + wanted +
+            " is down or has no carrier: plug in its cable, set it up (ip link), and start again");
+        break;
+      }
+      std::this_thread::sleep_for(kPause);
+    }
 }
 
 std::string joined(const std::vector<std::string>& parts, const char* separator) {
@@ -55,6 +80,7 @@ void check_interfaces(const Options& options, std::vector<std::string>& problems
     if (std::find(here.begin(), here.end(), wanted) == here.end())
       problems.push_back("interfaces: " + wanted + " is not an address of this host; it has " +
                          joined(here, ", "));
+  if (problems.empty()) await_carrier(options, problems);
 }
 
 }  // namespace

@@ -26,9 +26,16 @@ std::string csv_cell(const nlohmann::ordered_json& value) {
   return value.is_number_float() ? recording::shortest(value.get<double>()) : value.dump();
 }
 
-std::string settling_cell(const ComparedRun& run) {
+/// @param unit_s  time that counts as 1
+std::string settling_cell(const ComparedRun& run, double unit_s) {
   if (!run.stopped_because.empty()) return run.stopped_because;
-  return run.metrics && run.metrics->settling_time_s ? fixed(*run.metrics->settling_time_s, 2) : "-";
+  return run.metrics && run.metrics->settling_time_s ? fixed(*run.metrics->settling_time_s / unit_s, 2) : "-";
+}
+
+std::optional<double> least_time_of(std::span<const ComparedRun> runs, const std::string& scenario) {
+  for (const ComparedRun& run : runs)
+    if (run.scenario == scenario) return run.least_settling_time_s;
+  return std::nullopt;
 }
 
 /// Escapes '|', which would end the cell.
@@ -95,7 +102,7 @@ std::vector<const ComparedRun*> runs_of(std::span<const ComparedRun> runs, const
   return found;
 }
 
-TextTable settling_table(std::span<const ComparedRun> runs, const std::string& scenario) {
+TextTable settling_table(std::span<const ComparedRun> runs, const std::string& scenario, double unit_s) {
   TextTable table{.header = {"controller"}, .rows = {}};
   std::vector<std::string> columns;
   for (const std::string& variant : distinct(runs, &ComparedRun::variant))
@@ -108,7 +115,7 @@ TextTable settling_table(std::span<const ComparedRun> runs, const std::string& s
       const auto found = runs_of(runs, scenario, variant);
       const auto run = std::find_if(found.begin(), found.end(),
                                     [&](const ComparedRun* r) { return r->controller == controller; });
-      row.push_back(run == found.end() ? "" : settling_cell(**run));
+      row.push_back(run == found.end() ? "" : settling_cell(**run, unit_s));
       any = any || run != found.end();
     }
     if (any) table.rows.push_back(std::move(row));
@@ -173,6 +180,10 @@ void write_comparison_summary(std::ostream& out, std::span<const ComparedRun> ru
   for (const std::string& scenario : distinct(runs, &ComparedRun::scenario)) {
     out << "## " << scenario << ": settling time [s]\n\n";
     write_markdown(out, settling_table(runs, scenario));
+    const auto least_s = least_time_of(runs, scenario);
+    if (!least_s) continue;
+    out << "## " << scenario << ": settling time / least time of " << fixed(*least_s, 3) << " s\n\n";
+    write_markdown(out, settling_table(runs, scenario, *least_s));
   }
 }
 

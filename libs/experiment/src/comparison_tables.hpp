@@ -24,9 +24,10 @@ struct TextTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
 };
-/// Settling times; rows are controllers, columns are variants. "-": not settled; a cause such as "OVERSPEED":
-/// stopped.
-[[nodiscard]] TextTable settling_table(std::span<const ComparedRun> runs, const std::string& scenario);
+/// Settling times in `unit_s`; rows are controllers, columns are variants. "-": not settled; a cause such as
+/// "OVERSPEED": stopped.
+[[nodiscard]] TextTable settling_table(std::span<const ComparedRun> runs, const std::string& scenario,
+                                       double unit_s = 1);
 /// One row per run, one column per figure; the last column has the cause of a stop.
 [[nodiscard]] TextTable figures_table(const std::vector<const ComparedRun*>& runs);
 

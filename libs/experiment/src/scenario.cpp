@@ -219,6 +219,8 @@ Scenario parse_scenario(const std::string& text, const std::string& file, const 
   if (root.has("load_mass_kg")) scenario.load_mass_kg = root.number("load_mass_kg", kLoads);
   scenario.cable_length_offset_m =
       root.number("cable_length_offset_m", kPositions, scenario.cable_length_offset_m);
+  if (root.has("least_settling_time_s"))
+    scenario.least_settling_time_s = root.number("least_settling_time_s", Range::above(0, kTimes.high));
   read_defaults(root, scenario);
   read_start(root, rig, scenario);
   read_moves(root, rig, scenario);

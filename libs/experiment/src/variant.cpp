@@ -52,6 +52,17 @@ void forward_gain(Rig& rig) {
   rig.design.full_feedback_gain_pm = tenths / 10.0;
 }
 
+/// Scales the true friction of every drive; the compensation keeps the values of the rig file.
+void scale_friction(Rig& rig, double ratio) {
+  for (auto& term : rig.terms) {
+    const plant::TermKind* kind = plant::find_term(term.name);
+    if (kind == nullptr || kind->acts_on != plant::ActsOn::drive) continue;
+    for (auto& [name, value] : term.parameters)
+      if (name.starts_with("coulomb_") || name.starts_with("viscous_") || name.starts_with("excess_"))
+        value *= ratio;
+  }
+}
+
 constexpr std::size_t kDefaultVariants = 8;
 const std::vector<Variant> kVariants{
     {"ideal", "plant without friction and other terms, no compensation",
@@ -71,6 +82,14 @@ const std::vector<Variant> kVariants{
      [](Rig& rig) { rig.plant.load_mass_kg *= 0.5; }},
     {"heavy_load", "the true load is 50 % heavier than in the rig file",
      [](Rig& rig) { rig.plant.load_mass_kg *= 1.5; }},
+    {"cable_minus_20", "the true cable is 20 % shorter than measured",
+     [](Rig& rig) { stretch_cable(rig, 0.8); }},
+    {"cable_plus_20", "the true cable is 20 % longer than measured",
+     [](Rig& rig) { stretch_cable(rig, 1.2); }},
+    {"friction_minus_20", "the true friction of the drives is 20 % lower than compensated",
+     [](Rig& rig) { scale_friction(rig, 0.8); }},
+    {"friction_plus_20", "the true friction of the drives is 20 % higher than compensated",
+     [](Rig& rig) { scale_friction(rig, 1.2); }},
     {"as_is", "the rig file without changes", [](Rig&) {}},
     {"known_load", "the controllers use the true load mass",
      [](Rig& rig) { rig.design.crane.load_mass_kg = rig.plant.load_mass_kg; }},

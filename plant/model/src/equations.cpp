@@ -3,98 +3,40 @@
 #include <cmath>
 
 #include "crane/plant/matrices.hpp"
+#include "crane/plant/motion_terms.hpp"
 
 namespace crane::plant {
 namespace {
 
 // Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes (equations.hpp).
 
-/// Elements of M(q). M24 = 0.
-struct Mass {
-  double m11, m12, m13, m14, m22, m23, m33, m34, m44;
-};
-
 /// A vector with the components (x, phi, gamma, theta).
 struct Column {
   double x, phi, gamma, theta;
 };
 
-/// Sines, cosines and rates that the equations use more than once.
-struct Angles {
-  explicit Angles(const State& s)
-      : sf(std::sin(s.radial_rad)),
-        cf(std::cos(s.radial_rad)),
-        st(std::sin(s.tangential_rad)),
-        ct(std::cos(s.tangential_rad)) {}
-  double sf, cf, st, ct;  // sin and cos of phi, of theta
-};
+using Mass = motion::Mass<double>;
+using Angles = motion::Angles<double>;
 
 /// Without a load the swing has no influence on the drives; the angles are then 0.
-Angles angles_of(const Parameters& p, const State& s) { return Angles(p.load_mass_kg > 0 ? s : State{}); }
-
-Mass mass(const Parameters& p, const State& s, const Angles& a) {
-  const double m = p.load_mass_kg, l = s.cable_m, x = s.trolley_m;
-  const double ml = m * l, ml2 = ml * l;
-  const double horizontal =
-      1 - a.cf * a.cf * a.ct * a.ct;  // squared horizontal component of the cable's unit vector
-  return {.m11 = p.trolley_inertia_kg + m,
-          .m12 = -ml * a.cf * a.ct,
-          .m13 = -ml * a.st,
-          .m14 = ml * a.sf * a.st,
-          .m22 = ml2 * a.ct * a.ct,
-          .m23 = ml2 * a.cf * a.st * a.ct,
-          .m33 = p.jib_inertia_kgm2 + p.slewed_share * p.trolley_mass_kg * x * x +
-                 m * (x * x - 2 * l * x * a.sf * a.ct + l * l * horizontal),
-          .m34 = ml * (x * a.ct - l * a.sf),
-          .m44 = ml2};
+Angles angles_of(const Parameters& p, const State& s) {
+  return p.load_mass_kg > 0 ? Angles{s.radial_rad, s.tangential_rad} : Angles{0, 0};
 }
 
-/// h1 of (2.17)
-double trolley_bias(const Parameters& p, const State& s, const Angles& a, double cable_mps2) {
-  const double m = p.load_mass_kg, ml = m * s.cable_m;
-  const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
-  return ml * a.sf * a.ct * (f * f + g * g + t * t) -
-         (p.thrown_share * p.trolley_mass_kg + m) * s.trolley_m * g * g + 2 * ml * a.st * a.cf * f * t -
-         2 * ml * a.ct * g * t - 2 * m * s.cable_mps * (a.cf * a.ct * f + a.st * g - a.sf * a.st * t) -
-         m * a.sf * a.ct * cable_mps2;
+Mass mass(const Parameters& p, const State& s) {
+  return motion::mass(p, angles_of(p, s), s.trolley_m, s.cable_m);
 }
 
-/// h2 of (2.18), multiplied by m L cos(theta)
-double radial_bias(const Parameters& p, const State& s, const Angles& a) {
-  const double l = s.cable_m;
-  const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
-  return p.load_mass_kg * l * a.ct *
-         (p.gravity_mps2 * a.sf + (s.trolley_m - l * a.sf * a.ct) * a.cf * g * g +
-          2 * l * a.cf * a.ct * g * t - 2 * l * a.st * f * t +
-          2 * s.cable_mps * (a.ct * f + a.cf * a.st * g));
-}
-
-/// h3 of (2.19)
-double slew_bias(const Parameters& p, const State& s, const Angles& a, double cable_mps2) {
-  const double m = p.load_mass_kg, l = s.cable_m, x = s.trolley_m, ml = m * l, ml2 = ml * l;
-  const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
-  const double horizontal = 1 - a.cf * a.cf * a.ct * a.ct;
-  const double coriolis =
-      2 * g * s.trolley_mps * ((p.slewed_share * p.trolley_mass_kg + m) * x - ml * a.sf * a.ct) +
-      2 * ml * g * f * a.cf * a.ct * (l * a.sf * a.ct - x) +
-      2 * ml * g * t * a.st * (l * a.cf * a.cf * a.ct + x * a.sf);
-  const double hoisting =
-      2 * m * s.cable_mps *
-          (g * (l * horizontal - x * a.sf * a.ct) + t * (x * a.ct - l * a.sf) + l * f * a.cf * a.st * a.ct) +
-      m * x * a.st * cable_mps2;
-  const double swinging =
-      -ml2 * f * f * a.sf * a.st * a.ct - 2 * ml2 * f * t * a.st * a.st * a.cf - ml * x * a.st * t * t;
-  return coriolis + hoisting + swinging;
-}
-
-/// h4 of (2.20), multiplied by m L
-double tangential_bias(const Parameters& p, const State& s, const Angles& a) {
-  const double l = s.cable_m;
-  const double f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
-  return p.load_mass_kg * l *
-         (p.gravity_mps2 * a.cf * a.st + 2 * s.trolley_mps * g * a.ct + l * f * f * a.st * a.ct -
-          2 * l * f * g * a.cf * a.ct * a.ct - g * g * a.st * (l * a.cf * a.cf * a.ct + s.trolley_m * a.sf) +
-          2 * s.cable_mps * (t - a.sf * g));
+motion::Motion<double> motion_of(const Parameters& p, const State& s, double cable_mps2) {
+  return {.angles = angles_of(p, s),
+          .trolley_m = s.trolley_m,
+          .trolley_mps = s.trolley_mps,
+          .radial_radps = s.radial_radps,
+          .slew_radps = s.slew_radps,
+          .tangential_radps = s.tangential_radps,
+          .cable_m = s.cable_m,
+          .cable_mps = s.cable_mps,
+          .cable_mps2 = cable_mps2};
 }
 
 /// Solves M q = r for the free coordinates. It eliminates the two swing equations, which do not couple (M24 =
@@ -133,13 +75,14 @@ Column solve(const Mass& m, const Column& r, const Locks& locks) {
 Accelerations accelerations(const Parameters& p, const State& s, const Forces& forces, double cable_mps2,
                             const Locks& locks) noexcept {
   const double hoisting = locks.axis[kHoist] ? locks.acceleration[kHoist] : cable_mps2;
-  const Angles angles = angles_of(p, s);
+  const auto at = motion_of(p, s, hoisting);
+  constexpr auto kMoving = motion::Cable::moving;
   Column right{};  // the equations of locked coordinates are not used
-  if (!locks.axis[kTrolley]) right.x = forces.trolley_n - trolley_bias(p, s, angles, hoisting);
-  if (!locks.radial) right.phi = forces.radial_nm - radial_bias(p, s, angles);
-  if (!locks.axis[kSlew]) right.gamma = forces.slew_nm - slew_bias(p, s, angles, hoisting);
-  if (!locks.tangential) right.theta = forces.tangential_nm - tangential_bias(p, s, angles);
-  const Column q = solve(mass(p, s, angles), right, locks);
+  if (!locks.axis[kTrolley]) right.x = forces.trolley_n - motion::trolley_bias<kMoving>(p, at);
+  if (!locks.radial) right.phi = forces.radial_nm - motion::radial_bias<kMoving>(p, at);
+  if (!locks.axis[kSlew]) right.gamma = forces.slew_nm - motion::slew_bias<kMoving>(p, at);
+  if (!locks.tangential) right.theta = forces.tangential_nm - motion::tangential_bias<kMoving>(p, at);
+  const Column q = solve(mass(p, s), right, locks);
   return {.trolley_mps2 = q.x,
           .radial_radps2 = q.phi,
           .slew_radps2 = q.gamma,
@@ -149,7 +92,7 @@ Accelerations accelerations(const Parameters& p, const State& s, const Forces& f
 
 SwingResponse swing_response(const Parameters& p, const State& s, double trolley_mps2, double slew_radps2,
                              const Locks& locks) noexcept {
-  const Mass m = mass(p, s, angles_of(p, s));
+  const Mass m = mass(p, s);
   SwingResponse response;
   if (!locks.radial && m.m22 > 0)
     response.radial_radps2 = -(m.m12 * trolley_mps2 + m.m23 * slew_radps2) / m.m22;
@@ -159,7 +102,7 @@ SwingResponse swing_response(const Parameters& p, const State& s, double trolley
 }
 
 DriveResponse drive_response(const Parameters& p, const State& s, const Locks& locks) noexcept {
-  const Mass m = mass(p, s, angles_of(p, s));
+  const Mass m = mass(p, s);
   Locks held = locks;
   held.acceleration = {};
   const Column by_force = solve(m, {.x = 1, .phi = 0, .gamma = 0, .theta = 0}, held),
@@ -168,7 +111,7 @@ DriveResponse drive_response(const Parameters& p, const State& s, const Locks& l
 }
 
 double cable_tension_n(const Parameters& p, const State& s, const Accelerations& q) noexcept {
-  const Angles a{s};
+  const Angles a{s.radial_rad, s.tangential_rad};
   const double l = s.cable_m, f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
   // horizontal components of the cable's unit vector in the jib frame, and their rates
   const double ex = -a.ct * a.sf, ey = a.st;
@@ -181,8 +124,8 @@ double cable_tension_n(const Parameters& p, const State& s, const Accelerations&
 }
 
 State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& locks) noexcept {
-  const Angles a{s};
-  const Mass m = mass(p, s, a);
+  const Angles a{s.radial_rad, s.tangential_rad};
+  const Mass m = motion::mass(p, a, s.trolley_m, s.cable_m);
   const double lost = speed(s, axis);
   Column impulse{};  // M_fs q'_s with s the stopped coordinate
   if (axis == kTrolley) {
@@ -209,7 +152,7 @@ State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& loc
 }
 
 Eigen::Matrix4d mass_matrix(const Parameters& p, const State& s) noexcept {
-  const Mass m = mass(p, s, angles_of(p, s));
+  const Mass m = mass(p, s);
   Eigen::Matrix4d matrix;
   matrix << m.m11, m.m12, m.m13, m.m14,  //
       m.m12, m.m22, m.m23, 0,            //
@@ -219,7 +162,7 @@ Eigen::Matrix4d mass_matrix(const Parameters& p, const State& s) noexcept {
 }
 
 Eigen::Matrix<double, 3, 4> load_jacobian(const State& s) noexcept {
-  const Angles a{s};
+  const Angles a{s.radial_rad, s.tangential_rad};
   const double l = s.cable_m;
   Eigen::Matrix<double, 3, 4> j;
   j << 1, -l * a.ct * a.cf, -l * a.st, l * a.st * a.sf,  //
@@ -229,7 +172,7 @@ Eigen::Matrix<double, 3, 4> load_jacobian(const State& s) noexcept {
 }
 
 Eigen::Vector3d load_velocity_mps(const State& s) noexcept {
-  const Angles a{s};
+  const Angles a{s.radial_rad, s.tangential_rad};
   const Eigen::Vector4d rates{s.trolley_mps, s.radial_radps, s.slew_radps, s.tangential_radps};
   const Eigen::Vector3d along_cable{-a.ct * a.sf, a.st, -a.ct * a.cf};
   return load_jacobian(s) * rates + along_cable * s.cable_mps;

@@ -24,6 +24,8 @@ void add_estop(CLI::App& app, Action& chosen);
 void add_topic(CLI::App& app, Action& chosen);
 void add_graph(CLI::App& app, Action& chosen);
 void add_dashboard(CLI::App& app, Action& chosen);
+void add_black_box(CLI::App& app, Action& chosen);
+void add_review(CLI::App& app, Action& chosen);
 void add_record(CLI::App& app, Action& chosen);
 void add_log(CLI::App& app, Action& chosen);
 void add_identify(CLI::App& app, Action& chosen);

@@ -4,8 +4,10 @@
 #include <limits>
 #include <memory>
 
+#include "black_box/black_box.hpp"
 #include "cli/commands/commands.hpp"
 #include "crane/bridge/component.hpp"
+#include "crane/runtime/node.hpp"
 #include "crane/supervisor/component.hpp"
 #include "crane/twin/component.hpp"
 #include "dashboard/dashboard.hpp"
@@ -23,6 +25,8 @@ struct UpOptions {
   std::string rig = "virginia_tech_tower";
   std::string plant = "sim";
   std::string record;
+  std::filesystem::path black_box = black_box::default_directory();
+  bool no_black_box = false;
   std::vector<std::string> vendors;
   bool twin = false;
   std::string twin_rig;
@@ -39,22 +43,35 @@ void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
   children.start("recorder", "crane", arguments);
 }
 
+void start_black_box(stack::ChildProcesses& children, const UpOptions& options) {
+  auto bus = options.launch.bus;
+  bus.vendor = black_box::default_options().bus.vendor;
+  auto arguments = runtime::arguments(bus);
+  arguments.insert(arguments.begin(), {"black-box", "--out", options.black_box.string(), "--rig",
+                                       options.launch.rig, "--parent", std::to_string(::getpid())});
+  children.start("black_box", "crane", arguments);
+}
+
 /// What the crane does without when a process outside the control loop has ended; empty: the process is part
 /// of the loop.
 std::string goes_without(const std::string& process) {
   if (process == "recorder") return "a recording";
+  if (process == "black_box") return "its black box";
   if (process == "twin") return "its twin";
   return process == "dashboard" ? "its dashboard" : "";
 }
 
 /// Waits for Ctrl-C. @return false when a process of the control loop has ended by itself
-bool watch(stack::ChildProcesses& children) {
+bool watch(stack::ChildProcesses& children, std::optional<runtime::Node>& node) {
   while (!runtime::stop_requested()) {
     if (const auto ended = children.ended()) {
       const auto without = goes_without(ended->name);
       std::cerr << "crane up: " << stack::describe(*ended)
                 << (without.empty() ? "; stopping the others" : "; the crane continues without " + without)
                 << '\n';
+      if (node)
+        node->error("process_ended", stack::describe(*ended),
+                    without.empty() ? "look at the output of `crane up`, and start the stack anew" : "");
       if (without.empty()) return false;
     }
     ::usleep(50'000);
@@ -84,6 +101,7 @@ int up(UpOptions options) {
   stack::launch(children, loop, options.launch);
   if (specs.size() > loop.size()) stack::launch_twin(children, twin_rig, options.launch);
   if (!options.record.empty()) start_recorder(children, options);
+  if (!options.no_black_box) start_black_box(children, options);
   if (options.dashboard)
     dashboard::launch(children, options.launch.bus, options.launch.rig, options.dashboard_port);
   stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
@@ -94,7 +112,9 @@ int up(UpOptions options) {
             << "', domain " << options.launch.bus.domain << ", " << options.launch.clock << ")\n"
             << "next: crane status, crane reset, crane arm, crane move --trolley 0.8; Ctrl-C ends it"
             << std::endl;
-  const bool orderly = watch(children);
+  std::optional<runtime::Node> node;  // with keys, the role operator may not write crane/node
+  if (options.launch.bus.secure.empty()) node.emplace(bus, runtime::NodeIdentity{"crane_up", ""});
+  const bool orderly = watch(children, node);
   children.stop();
   return orderly ? runtime::kExitDone : runtime::kExitFailed;
 }
@@ -114,6 +134,11 @@ void add_up(CLI::App& app, Action& chosen) {
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
   command->add_option("--record", options->record, "record every topic to this MCAP file");
+  command
+      ->add_option("--black-box", options->black_box,
+                   "directory of the recordings around stops, faults and trips")
+      ->capture_default_str();
+  command->add_flag("--no-black-box", options->no_black_box, "record no stop");
   command->add_flag("--twin", options->twin,
                     "run a live twin with the rig file: publishes crane/twin, and an event at a deviation");
   command->add_option("--twin-rig", options->twin_rig,

@@ -7,6 +7,7 @@ export class Desk extends EventTarget {
   about = { may_operate: false, why_not: "" };
   situation = null;
   holder = null;
+  waiting = new Set(); // requests without an answer yet
   #key = sessionStorage.getItem("crane-seat") ?? "";
   #token = sessionStorage.getItem("crane-token") ?? "";
 
@@ -73,7 +74,11 @@ export class Desk extends EventTarget {
   async ask(body) {
     const name = REQUESTS[body.kind];
     this.say(name + " …", "");
+    this.waiting.add(body.kind);
+    this.#changed();
     const answer = await this.#post("/api/request", body);
+    this.waiting.delete(body.kind);
+    this.#changed();
     const refused = answer.error ?? (answer.accepted ? "" : answer.reason);
     this.say(refused ? `${name} refused: ${refused}` : `${name} accepted`, refused ? "bad" : "good");
     return !refused;
@@ -117,24 +122,27 @@ export function drawSeat(desk, into) {
   }
 }
 
-/** The buttons, and under them why some are refused. */
+const KINDS = { reset: "Reset", arm: "Arm", home: "Home", hold: "Hold here", stop: "Stop", disarm: "Disarm" };
+const URGENT = new Set(["stop", "disarm"]); // may be asked for again while the answer is awaited
+
+/** The buttons, and under them why some are refused. A button stays the same element: a click ends on the element on which it began. */
 export function drawRequests(desk, into) {
+  if (!into.childElementCount)
+    for (const [kind, title] of Object.entries(KINDS))
+      into.append(element("li", {}, element("button", { type: "button", id: "ask-" + kind, onclick: () => desk.dispatchEvent(new CustomEvent("ask", { detail: kind })) }, title)));
   const allowed = desk.about.may_operate && desk.mine;
-  const kinds = ["reset", "arm", "home", "hold", "stop", "disarm"];
-  const titles = { hold: "Hold here" };
+  const next = { LOCKED: "reset", READY: "arm", HOLD: "", RUN: "" }[desk.situation?.state] ?? "reset";
   const reasons = new Map();
-  const buttons = kinds.map((kind) => {
+  for (const kind of Object.keys(KINDS)) {
     const answer = desk.answerTo(kind === "hold" ? "move" : kind);
-    if (!answer.accepted && answer.reason && kind !== "hold")
-      reasons.set(answer.reason, [...(reasons.get(answer.reason) ?? []), REQUESTS[kind]]);
-    const enabled = answer.accepted && (kind === "stop" ? desk.about.may_operate : allowed);
-    const button = element("button", { type: "button", id: "ask-" + kind, disabled: !enabled, title: answer.accepted ? "" : answer.reason }, titles[kind] ?? REQUESTS[kind]);
-    if (enabled && (kind === "reset" || (kind === "arm" && !desk.answerTo("move").accepted))) button.className = desk.situation?.state === "READY" ? (kind === "arm" ? "primary" : "") : kind === "reset" && desk.situation?.state !== "HOLD" && desk.situation?.state !== "RUN" ? "primary" : "";
-    button.onclick = () => desk.dispatchEvent(new CustomEvent("ask", { detail: kind }));
-    return element("li", {}, button);
-  });
-  const moves = desk.answerTo("move");
-  if (!moves.accepted && moves.reason) reasons.set(moves.reason, [...(reasons.get(moves.reason) ?? []), "Move"]);
+    const button = into.querySelector("#ask-" + kind);
+    const free = URGENT.has(kind) || !desk.waiting.has(kind === "hold" ? "move" : kind);
+    button.disabled = !(answer.accepted && free && (kind === "stop" ? desk.about.may_operate : allowed));
+    button.title = answer.accepted ? "" : answer.reason;
+    button.className = !button.disabled && kind === next ? "primary" : "";
+    if (!answer.accepted && answer.reason) reasons.set(answer.reason, [...(reasons.get(answer.reason) ?? []), kind === "hold" ? "Move" : REQUESTS[kind]]);
+  }
   const why = [...reasons].map(([reason, names]) => element("li", { className: "why" }, element("b", {}, names.join(", ")), element("span", {}, reason)));
-  into.replaceChildren(...buttons, ...why);
+  for (const line of into.querySelectorAll(".why")) line.remove();
+  into.append(...why);
 }

@@ -39,7 +39,7 @@ export class NetworkView {
       text(p.controller.replace(/_/g, " ")), text(p.vendor), number(p.pid), text(p.silent ? "silent" : p.phase, p.silent),
       number(p.ticks), number(p.lost, p.lost > 0), number(p.late), number(p.rejected, p.rejected > 0), number(p.foreign, p.foreign > 0),
       number(p.step_mean_us.toFixed(0) + " µs"), number(p.step_max_us.toFixed(0) + " µs")]));
-    find("process-table").replaceChildren(header(head, 2), element("tbody", {}, ...rows));
+    find("process-table").replaceChildren(header(head, ["Controller", "DDS", "State"]), element("tbody", {}, ...rows));
   }
 
   #drawTopics({ topics, delay_bounds_us: bounds }) {
@@ -54,7 +54,7 @@ export class NetworkView {
         element("td", {}, t.every_tick && t.samples ? element("span", { className: "histogram", title: t.delay_histogram.map((n, i) => `${i ? bounds[i - 1] : 0}–${bounds[i] ?? "∞"} µs: ${n}`).join("\n") },
           ...t.delay_histogram.map((n) => element("i", { "--h": (100 * Math.log1p(n) / Math.log1p(most)).toFixed(0) + "%" }))) : "")]);
     });
-    find("topic-table").replaceChildren(header(head, 1), element("tbody", {}, ...rows));
+    find("topic-table").replaceChildren(header(head, ["Written by"]), element("tbody", {}, ...rows));
   }
 
   #drawGraph() {
@@ -82,7 +82,7 @@ const milliseconds = (us) => us < 1000 ? us.toFixed(0) + " µs" : (us / 1000).to
 const row = (cells) => element("tr", {}, ...cells);
 const text = (value, bad = false) => element("td", { className: "text" + (bad ? " bad" : "") }, value || "—");
 const number = (value, bad = false) => element("td", { className: bad ? "bad" : "" }, String(value));
-const header = (names, texts) => element("thead", {}, element("tr", {}, ...names.map((name, i) => element("th", { className: i > 0 && i <= texts ? "text" : "" }, name))));
+const header = (names, texts) => element("thead", {}, element("tr", {}, ...names.map((name) => element("th", { className: texts.includes(name) ? "text" : "" }, name))));
 
 function node(name, attributes, ...children) {
   const made = document.createElementNS(SVG, name);

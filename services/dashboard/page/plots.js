@@ -13,6 +13,10 @@ const PRESETS = {
   Speeds: [["crane/state", "trolley_speed_mps"], ["crane/state", "slew_speed_radps"], ["crane/reference", "axis[0].speed"], ["crane/reference", "axis[1].speed"]],
 };
 const BY_SOURCE = { measured: "measured", reference: "reference", predicted: "predicted" };
+// By unit: decimals of a shown value (about one count of the encoders), and the smallest range of an axis, so that counts do not fill a plot.
+const DECIMALS = { m: 4, "m/s": 4, "°": 3, "°/s": 2, V: 3 };
+const LEAST_RANGE = { m: 0.02, "m/s": 0.02, "°": 1, "°/s": 1, V: 1 };
+const rounded = (value, unit) => Number(unit in DECIMALS ? value.toFixed(DECIMALS[unit]) : value.toPrecision(4)).toString();
 const FURTHER = ["attention", "good", "target", "stop", "crane", "accent"];
 
 class Plot {
@@ -59,9 +63,9 @@ class Plot {
       ...this.signals.map((signal) => {
         signal.shown = element("span", { className: "value" });
         return element("span", { className: "chip" }, element("i", { "--c": `var(--${signal.tone})` }), signal.label, signal.shown, signal.unit ? " " + signal.unit : "", element("button", { type: "button", title: "Remove", ariaLabel: "Remove " + signal.label, onclick: (event) => { event.stopPropagation(); this.remove(signal); } }, "×"));
-      }), element("span", { className: "spacer" }), element("button", { type: "button", title: "Remove this plot", ariaLabel: "Remove this plot", onclick: (event) => { event.stopPropagation(); this.view.drop(this); } }, "×"));
+      }), element("button", { type: "button", className: "drop", title: "Remove this plot", ariaLabel: "Remove this plot", onclick: (event) => { event.stopPropagation(); this.view.drop(this); } }, "×"));
     if (!this.signals.length) return;
-    const axis = (unit, i) => ({ scale: unit || "none", side: i ? 1 : 3, label: unit, labelSize: 18, size: 54, stroke: colour("muted"), font: "12px Plex", labelFont: "12px Plex", grid: { show: i === 0, stroke: colour("line"), width: 1 }, ticks: { stroke: colour("line"), width: 1 } });
+    const axis = (unit, i) => ({ scale: unit || "none", side: i ? 1 : 3, label: unit, labelSize: 18, size: 54, space: 26, stroke: colour("muted"), font: "12px Plex", labelFont: "12px Plex", grid: { show: i === 0, stroke: colour("line"), width: 1 }, ticks: { stroke: colour("line"), width: 1 } });
     this.chart = new uPlot({
       ...this.#size(),
       ms: 1,
@@ -87,7 +91,7 @@ class Plot {
     const at = chart.cursor.idx;
     this.#drawn.forEach((signal, i) => {
       const value = at == null ? this.#last(chart.data?.[i + 1] ?? []) : chart.data[i + 1]?.[at];
-      signal.shown.textContent = value == null || Number.isNaN(value) ? "—" : Number(value.toPrecision(4)).toString();
+      signal.shown.textContent = value == null || Number.isNaN(value) ? "—" : rounded(value, signal.unit);
     });
   }
   #last(values) {
@@ -124,7 +128,7 @@ class Plot {
       for (const value of this.chart.data[i + 1] ?? []) if (value != null && Number.isFinite(value)) { if (value < min) min = value; if (value > max) max = value; }
     });
     if (min > max) return { min: -1, max: 1 };
-    const room = Math.max((max - min) * 0.08, 1e-3);
+    const room = Math.max((max - min) * 0.08, ((LEAST_RANGE[unit] ?? 2e-3) - (max - min)) / 2);
     return { min: min - room, max: max + room };
   }
 }

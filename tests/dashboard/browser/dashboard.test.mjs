@@ -60,7 +60,8 @@ test("the operator takes the controls, arms and moves; the load moves and the nu
   await until("READY", async () => (await state()) === "READY");
   assert.match(await page.textContent("#requests"), /Move/);
   await until("armed", async () => {
-    if (await page.isEnabled("#ask-arm")) await page.click("#ask-arm"); // refused until the streams are complete for a second
+    // Refused until the streams are complete for a second. The button waits for the answer; a click does not wait for the button.
+    await page.evaluate(() => document.querySelector("#ask-arm").click());
     return (await state()) === "HOLD";
   });
   await page.fill("#target-trolley", "0.9");

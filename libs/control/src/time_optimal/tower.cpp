@@ -1,12 +1,15 @@
 #include "tower.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+
+#include "crane/plant/motion_terms.hpp"
 
 namespace crane::control::time_optimal {
 namespace {
 
-// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes, with the errata of docs/equations.md.
+namespace motion = plant::motion;
 
 /// A number with its derivatives by x, phi, theta, x', phi', gamma', theta'.
 struct Dual {
@@ -25,46 +28,37 @@ Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slop
 Dual operator*(const Dual& a, const Dual& b) {
   return {a.value * b.value, a.slope * b.value + b.slope * a.value};
 }
+// Without these a constant would be multiplied as a Dual with slope 0.
+Dual operator+(double a, const Dual& b) { return {a + b.value, b.slope}; }
+Dual operator-(double a, const Dual& b) { return {a - b.value, -b.slope}; }
+Dual operator*(double a, const Dual& b) { return {a * b.value, b.slope * a}; }
 Dual sin(const Dual& a) { return {std::sin(a.value), a.slope * std::cos(a.value)}; }
 Dual cos(const Dual& a) { return {std::cos(a.value), a.slope * -std::sin(a.value)}; }
 
-/// The equations (2.17) to (2.20) at constant length, M(q) q'' + h = F, for doubles and duals.
+/// M(q) and h at constant length; `input(i)` is the number of state i.
 template <class Number>
 struct Equations {
-  Number m12, m13, m14, m22, m23, m33, m34;
-  double m11, m44;
-  Number h1, h2, h3, h4;
+  motion::Mass<Number> m;
+  std::array<Number, 4> h;
 
-  Equations(const plant::Parameters& p, double l, const Number& x, const Number& f, const Number& t,
-            const Number& dx, const Number& df, const Number& dg, const Number& dt) {
-    using std::cos, std::sin;
-    const double m = p.load_mass_kg, ml = m * l, ml2 = ml * l, g = p.gravity_mps2,
-                 moved = p.trolley_mass_kg + m;
-    const Number sf = sin(f), cf = cos(f), st = sin(t), ct = cos(t);
-    const Number sfct = sf * ct, cfct = cf * ct;
-    m11 = p.trolley_inertia_kg + m;
-    m44 = ml2;
-    m12 = -ml * cfct;
-    m13 = -ml * st;
-    m14 = ml * (sf * st);
-    m22 = ml2 * (ct * ct);
-    m23 = ml2 * (cfct * st);
-    m33 = p.jib_inertia_kgm2 + moved * (x * x) - 2 * ml * (x * sfct) + ml2 * (1.0 - cfct * cfct);
-    m34 = ml * (x * ct - l * sf);
-    const Number reach = l * (cf * cf * ct) + x * sf;  // of the load's centrifugal force
-    const Number dg2 = dg * dg, df2 = df * df, dt2 = dt * dt;
-    h1 = ml * (sfct * (df2 + dg2 + dt2)) - moved * (x * dg2) + 2 * ml * (st * cf * df * dt) -
-         2 * ml * (ct * dg * dt);
-    h2 = ml * (ct * (g * sf + (x - l * sfct) * cf * dg2 + 2 * l * (cfct * dg * dt) - 2 * l * (st * df * dt)));
-    h3 = 2.0 * (dg * dx * (moved * x - ml * sfct)) + 2 * ml * (dg * df * cfct * (l * sfct - x)) +
-         2 * ml * (dg * dt * st * reach) - ml2 * (df2 * sfct * st) - 2 * ml2 * (df * dt * st * st * cf) -
-         ml * (x * st * dt2);
-    h4 = ml * (g * (cf * st) + 2.0 * (dx * dg * ct) + l * (df2 * st * ct) - 2 * l * (df * dg * cf * ct * ct) -
-               dg2 * st * reach);
+  template <class Input>
+  Equations(const Tower& tower, const Input& input) {
+    const plant::Parameters& p = tower.design.crane;
+    const motion::Motion<Number> at{.angles = {input(1), input(3)},
+                                    .trolley_m = input(0),
+                                    .trolley_mps = input(4),
+                                    .radial_radps = input(5),
+                                    .slew_radps = input(6),
+                                    .tangential_radps = input(7),
+                                    .cable_m = tower.cable_m};
+    constexpr auto kFixed = motion::Cable::fixed;
+    m = motion::mass(p, at.angles, at.trolley_m, at.cable_m);
+    h = {motion::trolley_bias<kFixed>(p, at), motion::radial_bias<kFixed>(p, at),
+         motion::slew_bias<kFixed>(p, at), motion::tangential_bias<kFixed>(p, at)};
   }
 };
 
-Eigen::Matrix4d mass_matrix(const Equations<double>& e) {
+Eigen::Matrix4d matrix_of(const motion::Mass<double>& e) {
   Eigen::Matrix4d m;
   m << e.m11, e.m12, e.m13, e.m14,  //
       e.m12, e.m22, e.m23, 0,       //
@@ -73,19 +67,24 @@ Eigen::Matrix4d mass_matrix(const Equations<double>& e) {
   return m;
 }
 
+/// The state of each input of Dual; the slew angle is none, because the equations do not depend on it.
+constexpr std::array<int, Dual::kInputs> kStateOfInput{0, 1, 3, 4, 5, 6, 7};
+
 /// Derivatives of M(q) a + h by the inputs of Dual, at constant a.
 Eigen::Matrix<double, 4, Dual::kInputs> residual_slope(const Tower& tower, const State& s,
                                                        const Eigen::Vector4d& a) {
-  const auto input = [&](int state, int index) { return Dual::input(s[state], index); };
-  const Equations<Dual> e(tower.design.crane, tower.cable_m, input(0, 0), input(1, 1), input(3, 2),
-                          input(4, 3), input(5, 4), input(6, 5), input(7, 6));
+  const Equations<Dual> e(tower, [&](int state) {
+    const auto input = std::find(kStateOfInput.begin(), kStateOfInput.end(), state) - kStateOfInput.begin();
+    return Dual::input(s[state], static_cast<int>(input));
+  });
+  const auto& m = e.m;
   Eigen::Matrix<double, 4, Dual::kInputs> slope;
-  slope.row(0) = (e.m12.slope * a[1] + e.m13.slope * a[2] + e.m14.slope * a[3] + e.h1.slope).transpose();
-  slope.row(1) = (e.m12.slope * a[0] + e.m22.slope * a[1] + e.m23.slope * a[2] + e.h2.slope).transpose();
+  slope.row(0) = (m.m12.slope * a[1] + m.m13.slope * a[2] + m.m14.slope * a[3] + e.h[0].slope).transpose();
+  slope.row(1) = (m.m12.slope * a[0] + m.m22.slope * a[1] + m.m23.slope * a[2] + e.h[1].slope).transpose();
   slope.row(2) =
-      (e.m13.slope * a[0] + e.m23.slope * a[1] + e.m33.slope * a[2] + e.m34.slope * a[3] + e.h3.slope)
+      (m.m13.slope * a[0] + m.m23.slope * a[1] + m.m33.slope * a[2] + m.m34.slope * a[3] + e.h[2].slope)
           .transpose();
-  slope.row(3) = (e.m14.slope * a[0] + e.m34.slope * a[2] + e.h4.slope).transpose();
+  slope.row(3) = (m.m14.slope * a[0] + m.m34.slope * a[2] + e.h[3].slope).transpose();
   return slope;
 }
 
@@ -110,10 +109,10 @@ void flow(const Tower& tower, const State& s, const Control& volts, bool derivat
   const Friction slew = smooth_friction(tower.design.friction[kSlew], s[6]);
   const double trolley_npv = p.trolley_inertia_kg * p.trolley_gain_mps2pv;
   const double slew_nmpv = p.jib_inertia_kgm2 * p.slew_gain_radps2pv;
-  const Equations<double> e(p, tower.cable_m, s[0], s[1], s[3], s[4], s[5], s[6], s[7]);
-  const Eigen::Matrix4d inverse = mass_matrix(e).inverse();
-  const Eigen::Vector4d force{trolley_npv * (volts[0] - trolley.volts) - e.h1, -e.h2,
-                              slew_nmpv * (volts[1] - slew.volts) - e.h3, -e.h4};
+  const Equations<double> e(tower, [&](int state) { return s[state]; });
+  const Eigen::Matrix4d inverse = matrix_of(e.m).inverse();
+  const Eigen::Vector4d force{trolley_npv * (volts[0] - trolley.volts) - e.h[0], -e.h[1],
+                              slew_nmpv * (volts[1] - slew.volts) - e.h[2], -e.h[3]};
   const Eigen::Vector4d a = inverse * force;
   result.rate << s.tail<4>(), a;
   if (!derivatives) return;
@@ -123,9 +122,8 @@ void flow(const Tower& tower, const State& s, const Control& volts, bool derivat
   slope = -(inverse * slope).eval();
   result.by_state.setZero();
   result.by_state.topRightCorner<4, 4>().setIdentity();
-  constexpr std::array<int, Dual::kInputs> kColumn{0, 1, 3, 4, 5, 6, 7};
   for (int i = 0; i < Dual::kInputs; ++i)
-    result.by_state.col(kColumn[static_cast<std::size_t>(i)]).tail<4>() = slope.col(i);
+    result.by_state.col(kStateOfInput[static_cast<std::size_t>(i)]).tail<4>() = slope.col(i);
   result.by_control.setZero();
   result.by_control.col(0).tail<4>() = inverse.col(0) * trolley_npv;
   result.by_control.col(1).tail<4>() = inverse.col(2) * slew_nmpv;

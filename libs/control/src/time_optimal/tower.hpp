@@ -1,6 +1,6 @@
 #pragma once
-/// The equations of motion of the tower at constant cable length, with exact first derivatives. Values agree
-/// with plant::accelerations() (time_optimal_test.cpp).
+/// The equations of motion of the tower at constant cable length, with exact first derivatives. The
+/// terms are those of the plant (plant/motion_terms.hpp).
 #include <Eigen/Core>
 
 #include "crane/control/time_optimal.hpp"

@@ -18,8 +18,9 @@ struct ComparedRun {
   std::string scenario_description;
   /// Cause with which the supervisor stopped the crane or refused to start; empty: the run is complete.
   std::string stopped_because;
-  std::optional<Metrics> metrics;  ///< nothing when the run ended before its last move or kick
-  std::vector<Sample> samples;     ///< all samples up to the end of the run
+  std::optional<Metrics> metrics;                 ///< nothing when the run ended before its last move or kick
+  std::vector<Sample> samples;                    ///< all samples up to the end of the run
+  std::optional<double> least_settling_time_s{};  ///< of the scenario
 };
 
 /// Writes CSV with the text columns scenario, variant, controller, stopped_because, followed by the keys of
@@ -29,7 +30,8 @@ void write_comparison_csv(std::ostream& out, std::span<const ComparedRun> runs);
 /// The same data as an array of objects; missing figures are null.
 [[nodiscard]] nlohmann::ordered_json comparison_json(std::span<const ComparedRun> runs);
 
-/// Writes for each scenario a table of settling times; rows are controllers, columns are variants.
+/// Writes for each scenario a table of settling times, and one of their ratios to the least time when the
+/// scenario has one; rows are controllers, columns are variants.
 void write_comparison_summary(std::ostream& out, std::span<const ComparedRun> runs);
 /// Writes the summary and the figures of every run.
 void write_comparison_markdown(std::ostream& out, std::span<const ComparedRun> runs);

@@ -42,6 +42,8 @@ struct Scenario {
   std::vector<Move> moves;                                ///< in order of time
   std::vector<Excitation> excitations;                    ///< in order of time
   std::vector<Kick> kicks;                                ///< in order of time
+  /// Least time from rest to rest that the drives permit, for comparison; nothing: unknown.
+  std::optional<double> least_settling_time_s;
   std::optional<double> load_mass_kg;  ///< true load mass; the controllers use the value of the rig file
   double cable_length_offset_m = 0;    ///< true minus measured cable length
   // Defaults, which the command line can override.

@@ -1,0 +1,141 @@
+#include "black_box/black_box.hpp"
+
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+
+#include "black_box/moment_file.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/runtime/node.hpp"
+#include "dashboard/observer.hpp"
+#include "dashboard/server.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::black_box {
+namespace {
+
+Origin origin_of(const Options& options) {
+  utsname host{};
+  ::uname(&host);
+  Origin origin{.crane = {{"crane", options.bus.crane},
+                          {"domain", std::to_string(options.bus.domain)},
+                          {"version", CRANE_VERSION},
+                          {"recorded_by", "black box"},
+                          {"host", host.nodename},
+                          {"kernel", std::string{host.sysname} + " " + host.release + " " + host.machine},
+                          {"cores", std::to_string(std::thread::hardware_concurrency())},
+                          {"log_time", "arrival, ns since 1970"},
+                          {"publish_time", "writer's clock, ns since 1970"},
+                          {"sequence", "tick"}},
+                .rig_name = "",
+                .rig_text = ""};
+  if (options.rig.empty()) return origin;
+  const auto file = stack::find_rig(options.rig);
+  origin.rig_name = file.filename().string();
+  origin.rig_text = configuration::file_text(file);
+  return origin;
+}
+
+/// "tracking" -> "0.1.0, cyclone, delayed_1, process 4711, start 123456": with the start-up number, the
+/// random seed of the process.
+recording::Metadata processes_of(const dashboard::Traffic& traffic) {
+  recording::Metadata processes;
+  for (const auto& [number, heard] : traffic.nodes()) {
+    const auto& node = heard.status;
+    processes[node.name] = std::string{node.version} + ", " + node.vendor +
+                           (*node.controller != 0 ? ", " + std::string{node.controller} : "") + ", process " +
+                           std::to_string(node.pid) + ", start " + std::to_string(node.header.epoch);
+  }
+  return processes;
+}
+
+constexpr std::int64_t kLinger_ns = 200'000'000;
+
+/// Writes in a thread of its own, so that a slow disk delays no sample.
+class Writer {
+ public:
+  Writer(const Options& options, Origin origin) : options_{options}, origin_{std::move(origin)} {}
+
+  void write(Moment moment, recording::Metadata processes) {
+    thread_ = std::jthread{[this, moment = std::move(moment), processes = std::move(processes)] {
+      try {
+        const auto file = write_moment(options_.directory, moment, origin_, processes);
+        std::cout << "black box: " + file.string() + "\n" << std::flush;
+        keep_newest(options_.directory, options_.files);
+      } catch (const recording::WriteError& error) {
+        std::cerr << "black box: " + std::string{error.what()} + "; free space or name another --out\n";
+      }
+    }};
+  }
+
+ private:
+  const Options& options_;
+  Origin origin_;
+  std::jthread thread_;  ///< a new one waits for the old one
+};
+
+}  // namespace
+
+std::filesystem::path default_directory() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  const std::filesystem::path base = state != nullptr && *state != 0 ? std::filesystem::path{state}
+                                     : home != nullptr && *home != 0
+                                         ? std::filesystem::path{home} / ".local/state"
+                                         : std::filesystem::temp_directory_path();
+  return base / "crane" / "black_box";
+}
+
+Options default_options() {
+  Options options;
+  options.directory = default_directory();
+  options.bus.vendor = "fastdds";  // as all tools: ordinary use exercises both vendors together
+  return options;
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--out", options.directory, "directory of the recordings")->capture_default_str();
+  app.add_option("--files", options.files, "number of recordings that are kept; older ones are deleted")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--rig", options.rig, "rig file or name, attached to each recording");
+  app.add_option("--parent", options.parent, "process id that this process ends with")->group("");
+  runtime::add_bus_options(app, options.bus);
+}
+
+int run(const Options& options) {
+  runtime::install_stop_signals();
+  if (options.parent != 0) runtime::die_with(options.parent);
+  std::error_code error;
+  std::filesystem::create_directories(options.directory, error);
+  if (error || ::access(options.directory.c_str(), W_OK) != 0)
+    throw configuration::ConfigurationError(
+        {"--out = " + options.directory.string() + ": must be a directory that this user can write"});
+  Writer writer{options, origin_of(options)};
+  bus::Bus bus{
+      runtime::bus_options(options.bus, "crane_black_box", crane_SOURCE_RECORDER, runtime::random_epoch())};
+  Moments moments{dashboard::log_now_ns()};
+  dashboard::Observer observer{bus, false, [&moments](const std::vector<SamplePtr>& samples) {
+                                 for (const auto& sample : samples) moments.add(sample);
+                               }};
+  const auto keep = [&](bool ends) {
+    if (auto moment = moments.poll(runtime::monotonic_ns(), dashboard::log_now_ns(), ends))
+      writer.write(*std::move(moment), processes_of(moments.traffic()));
+  };
+  while (!runtime::stop_requested()) {
+    observer.poll();
+    keep(false);
+  }
+  // What has been said until now may still be on its way. That the others end, too, is no fault.
+  const auto asked_ns = dashboard::log_now_ns();
+  moments.ignore_what_begins_after(asked_ns);
+  while (dashboard::log_now_ns() < asked_ns + kLinger_ns) observer.poll();
+  keep(true);
+  return runtime::kExitDone;
+}
+
+}  // namespace crane::black_box

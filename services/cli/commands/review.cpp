@@ -1,0 +1,44 @@
+/// crane review: what happened in a recording.
+#include "review/review.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct ReviewOptions {
+  std::filesystem::path file, out;
+};
+
+int run(const ReviewOptions& options) {
+  try {
+    const auto found = review::review(options.file);
+    for (const auto& line : review::sentences(found)) std::cout << line << '\n';
+    auto out = options.out;
+    if (out.empty()) out = std::filesystem::path{options.file}.replace_extension("html");
+    report::write_html(out, review::page_of(found));
+    std::cout << "page: " << out.string() << '\n';
+    return runtime::kExitDone;
+  } catch (const recording::ReadError& error) {
+    std::cerr << "crane: " << error.what() << '\n';
+    return runtime::kExitBadInput;
+  }
+}
+
+}  // namespace
+
+void add_review(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<ReviewOptions>();
+  auto* command =
+      app.add_subcommand("review", "Say what happened in a recording, first cause first, and write a page");
+  command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(CLI::ExistingFile);
+  command->add_option("--out", options->out, "page to write; default: FILE with the extension .html");
+  command->footer("Example: crane review ~/.local/state/crane/black_box/20261125T035501Z_SWING_LIMIT.mcap");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,172 @@
+#include "review/review.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace crane::review {
+namespace {
+
+using dashboard::Note;
+using dashboard::Sample;
+
+constexpr double kDegPerRad = 180 / std::numbers::pi;
+constexpr std::int64_t kYear2000_ns = 946'684'800'000'000'000;  // recordings of simulations begin at 0
+
+std::size_t topic_index(const std::string& name) {
+  const auto found = std::ranges::find(topics::kAll, name, &topics::Description::name);
+  return static_cast<std::size_t>(found - topics::kAll.begin());
+}
+
+/// Every topic begins with its header: little endian, without gaps.
+msg::Header header_of(recording::Bytes cdr) {
+  constexpr std::size_t kEncapsulation_bytes = 4;
+  msg::Header header{};
+  std::uint32_t source = 0;
+  const auto* at = cdr.data() + kEncapsulation_bytes;
+  std::memcpy(&header.tick, at, 8);
+  std::memcpy(&header.sample_time_ns, at + 8, 8);
+  std::memcpy(&source, at + 16, 4);
+  std::memcpy(&header.epoch, at + 20, 4);
+  header.source = static_cast<crane_Source>(source);
+  return header;
+}
+
+/// Reads sample by sample what a dashboard would have heard.
+class Reader {
+ public:
+  explicit Reader(Review& review) : review_{review} {}
+
+  void add(const recording::Message& message) {
+    constexpr std::size_t kLeast_bytes = 28;
+    const auto topic = topic_index(message.channel->topic);
+    if (topic == topics::kAll.size() || message.data.size() < kLeast_bytes) return;
+    const Sample sample{.topic = topic,
+                        .header = header_of(message.data),
+                        .source_time_ns = message.publish_time_ns,
+                        .arrival_time_ns = message.log_time_ns,
+                        .written_time_ns = message.publish_time_ns,
+                        .log_time_ns = message.log_time_ns,
+                        .cdr = {message.data.begin(), message.data.end()}};
+    poll_until(sample.log_time_ns);
+    traffic_.add(sample);
+    timeline_.add(sample);
+    add_status(sample);
+    if (msg::Reference reference; dashboard::decode(topics::reference, sample, reference))
+      reference_ = reference;
+    if (msg::State state; dashboard::decode(topics::state, sample, state)) add_state(sample, state);
+  }
+
+  void finish() {
+    constexpr std::int64_t kLastWindow_ns = 2'000'000'000;
+    traffic_.poll(review_.end_ns + kLastWindow_ns);
+    review_.faults = {timeline_.faults().begin(), timeline_.faults().end()};
+    for (std::size_t i = 0; i < topics::kAll.size(); ++i) review_.topics.push_back(traffic_.topic(i));
+  }
+
+ private:
+  void poll_until(std::int64_t now_ns) {
+    constexpr std::int64_t kEvery_ns = 100'000'000;
+    if (polled_ns_ == 0) polled_ns_ = now_ns;
+    for (; polled_ns_ + kEvery_ns <= now_ns; polled_ns_ += kEvery_ns)
+      (void)timeline_.poll(polled_ns_, polled_ns_, traffic_, history_);
+  }
+
+  void add_status(const Sample& sample) {
+    msg::SupervisorStatus status;
+    if (!dashboard::decode(topics::supervisor, sample, status)) return;
+    status_ = status;
+    auto& phases = review_.phases;
+    if (phases.empty() || phases.back().state != status.state || phases.back().cause != status.cause)
+      phases.push_back({sample.log_time_ns, sample.header.tick, status.state, status.cause});
+  }
+
+  void add_state(const Sample& sample, const msg::State& state) {
+    const double time_s = static_cast<double>(sample.log_time_ns - review_.begin_ns) * 1e-9;
+    auto& curves = review_.curves;
+    const double period_s = curves.time_s.empty() ? 0 : time_s - curves.time_s.back();
+    curves.time_s.push_back(time_s);
+    const std::array position{state.trolley_position_m, state.slew_angle_rad, state.cable_length_m},
+        speed{state.trolley_speed_mps, state.slew_speed_radps, state.cable_speed_mps},
+        scale{1.0, kDegPerRad, 1.0};
+    const bool armed = status_.state == crane_STATE_HOLD || status_.state == crane_STATE_RUN;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double wanted = reference_.header.epoch != 0 ? reference_.axis[i].position : NAN;
+      curves.position[i].push_back(position[i] * scale[i]);
+      curves.reference[i].push_back(armed ? wanted * scale[i] : NAN);
+      curves.volts[i].push_back(state.applied_v[i]);
+      auto& axis = review_.axes[i];
+      axis.largest_speed = std::max(axis.largest_speed, std::abs(speed[i]) * scale[i]);
+      axis.largest_volts = std::max(axis.largest_volts, std::abs(state.applied_v[i]));
+      if (armed && !std::isnan(wanted))
+        axis.largest_error = std::max(axis.largest_error, std::abs(wanted - position[i]) * scale[i]);
+      constexpr double kAtLimit = 0.999;  // one count of a 12 bit converter below it
+      if (status_.volt_limit_v[i] > 0 && std::abs(state.applied_v[i]) >= kAtLimit * status_.volt_limit_v[i])
+        axis.saturated_s += period_s;
+    }
+    curves.radial_deg.push_back(state.swing_radial_rad * kDegPerRad);
+    curves.tangential_deg.push_back(state.swing_tangential_rad * kDegPerRad);
+    review_.largest_radial_deg = std::max(review_.largest_radial_deg, std::abs(curves.radial_deg.back()));
+    review_.largest_tangential_deg =
+        std::max(review_.largest_tangential_deg, std::abs(curves.tangential_deg.back()));
+  }
+
+  Review& review_;
+  dashboard::Traffic traffic_;
+  dashboard::History history_;  ///< stays empty: the file is the history
+  dashboard::FaultTimeline timeline_;
+  msg::Reference reference_{};
+  msg::SupervisorStatus status_{};
+  std::int64_t polled_ns_ = 0;
+};
+
+void require_this_version(const recording::McapReader& reader, const std::filesystem::path& file) {
+  for (const auto& channel : reader.channels()) {
+    if (topic_index(channel.topic) == topics::kAll.size()) continue;
+    const auto* schema = reader.find_schema(channel.schema_id);
+    if (schema == nullptr || schema->text != topics::idl_text())
+      throw recording::ReadError(
+          file.string() + ": " + channel.topic +
+          " has the message types of another version: review it with the `crane` of that "
+          "version, or export it (crane log export csv)");
+  }
+}
+
+}  // namespace
+
+const dashboard::Fault* Review::first_stop() const {
+  for (const auto kind : {Note::Kind::fault, Note::Kind::order})
+    for (const auto& fault : faults)  // in the order of time
+      if (std::ranges::find(fault.notes, kind, &Note::kind) != fault.notes.end()) return &fault;
+  return nullptr;
+}
+
+const Note* Review::first_cause() const {
+  const auto* stop = first_stop();
+  if (stop == nullptr) return nullptr;
+  for (const auto kind : {Note::Kind::fault, Note::Kind::order})
+    for (const auto& note : stop->notes)
+      if (note.kind == kind) return &note;
+  return nullptr;
+}
+
+Review review(const std::filesystem::path& file) {
+  recording::McapReader reader{file};
+  require_this_version(reader, file);
+  Review result;
+  result.file = file.string();
+  result.begin_ns = reader.first_time_ns();
+  result.end_ns = reader.last_time_ns();
+  result.wall_clock = result.begin_ns > kYear2000_ns;
+  Reader samples{result};
+  reader.for_each({}, [&samples](const recording::Message& message) {
+    samples.add(message);
+    return true;
+  });
+  samples.finish();
+  result.problems = reader.problems();
+  return result;
+}
+
+}  // namespace crane::review

@@ -1,0 +1,55 @@
+#include "black_box/moment_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include "../dashboard/samples.hpp"
+#include "../recording/temporary_directory.hpp"
+#include "crane/recording/mcap_reader.hpp"
+
+namespace crane::black_box {
+namespace {
+
+using dashboard::kSecond_ns;
+
+Moment a_moment() {
+  constexpr std::int64_t kAt_ns = 1'795'579'498 * kSecond_ns;
+  Moment moment{.from_ns = kAt_ns - kSecond_ns, .until_ns = kAt_ns + kSecond_ns, .first = {}, .samples = {}};
+  moment.first.at_ns = kAt_ns;
+  moment.first.what = "LATCH_encoder jump";
+  moment.samples = {dashboard::status_at(kAt_ns, crane_STATE_STOP_C0, crane_CAUSE_BRIDGE_LATCHED, 7)};
+  return moment;
+}
+
+TEST(MomentFile, HasSamplesTriggerProcessesAndTheRigFile) {
+  const recording::TemporaryDirectory directory;
+  const auto file =
+      write_moment(directory / "", a_moment(),
+                   {.crane = {{"version", "1"}}, .rig_name = "rig.toml", .rig_text = "name = 1"},
+                   {{"supervisor", "1, cyclone"}});
+  EXPECT_EQ(file.filename(), "20261125T040458Z_LATCH_encoder_jump.mcap");
+  EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
+  EXPECT_EQ(recording::check(file).messages, 1U);
+  recording::McapReader reader{file};
+  ASSERT_EQ(reader.attachments().size(), 1U);
+  EXPECT_EQ(reader.attachments()[0].name, "rig.toml");
+  const auto metadata = reader.metadata();
+  ASSERT_EQ(metadata.size(), 3U);
+  EXPECT_EQ(metadata[1].entries.at("first_cause"), "LATCH_encoder jump");
+  EXPECT_EQ(metadata[2].entries.at("supervisor"), "1, cyclone");
+}
+
+TEST(MomentFile, OnlyTheNewestOfItsOwnFilesStay) {
+  const recording::TemporaryDirectory directory;
+  for (const auto* name : {"20260101T000000Z_A.mcap", "20260102T000000Z_B.mcap", "20260103T000000Z_C.mcap",
+                           "20250101T000000Z_C.html", "run.mcap"})
+    recording::put_contents(directory / name, "");
+  keep_newest(directory / "", 2);
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator{directory / ""})
+    left.push_back(entry.path().filename());
+  EXPECT_THAT(left, testing::UnorderedElementsAre("20260102T000000Z_B.mcap", "20260103T000000Z_C.mcap",
+                                                  "20250101T000000Z_C.html", "run.mcap"));
+}
+
+}  // namespace
+}  // namespace crane::black_box

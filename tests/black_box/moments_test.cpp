@@ -1,0 +1,128 @@
+#include "black_box/moments.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../dashboard/samples.hpp"
+
+namespace crane::black_box {
+namespace {
+
+using dashboard::kSecond_ns;
+using dashboard::status_at;
+
+/// A supervisor at 10 Hz whose state is told by the test.
+class Crane {
+ public:
+  explicit Crane(std::int64_t started_ns = 0) : moments{started_ns}, now_ns_{started_ns} {}
+
+  void run(double seconds, crane_SupervisorState state, crane_Cause cause) {
+    for (int i = 0; i < static_cast<int>(seconds * 10); ++i) {
+      now_ns_ += kSecond_ns / 10;
+      moments.add(status_at(now_ns_, state, cause));
+      if (auto moment = moments.poll(now_ns_, now_ns_)) kept.push_back(*std::move(moment));
+      most_bytes = std::max(most_bytes, moments.bytes());
+    }
+  }
+  void work(double seconds) { run(seconds, crane_STATE_HOLD, crane_CAUSE_NONE); }
+  void trip(double seconds, crane_Cause cause = crane_CAUSE_SWING_LIMIT) {
+    run(seconds, crane_STATE_STOP_C0, cause);
+  }
+
+  Moments moments;
+  std::vector<Moment> kept;
+  std::size_t most_bytes = 0;
+
+ private:
+  std::int64_t now_ns_;
+};
+
+TEST(Moments, ATripIsKeptFrom10SecondsBeforeTo5After) {
+  Crane crane;
+  crane.work(30);
+  crane.trip(10);
+  ASSERT_EQ(crane.kept.size(), 1U);
+  const auto& moment = crane.kept[0];
+  EXPECT_EQ(moment.first.what, "SWING_LIMIT");
+  const auto trip_ns = 30 * kSecond_ns + kSecond_ns / 10;
+  EXPECT_EQ(moment.samples.front()->log_time_ns, trip_ns - 10 * kSecond_ns);
+  EXPECT_EQ(moment.samples.back()->log_time_ns, trip_ns + 5 * kSecond_ns);
+  EXPECT_EQ(moment.samples.size(), 151U);
+}
+
+TEST(Moments, OverlappingTripsAreOneMoment) {
+  Crane crane;
+  crane.work(30);
+  crane.trip(3.5);
+  crane.work(1);
+  crane.trip(10, crane_CAUSE_OVERSPEED);
+  ASSERT_EQ(crane.kept.size(), 1U);
+  EXPECT_EQ(crane.kept[0].faults, 2U);
+  EXPECT_EQ(crane.kept[0].first.what, "SWING_LIMIT");
+  EXPECT_EQ(crane.kept[0].samples.size(), 151U + 45U);
+}
+
+TEST(Moments, TripsThatAreFarApartAreTwo) {
+  Crane crane;
+  crane.work(30);
+  crane.trip(10);
+  crane.work(20);
+  crane.trip(10, crane_CAUSE_OVERSPEED);
+  ASSERT_EQ(crane.kept.size(), 2U);
+  EXPECT_EQ(crane.kept[1].first.what, "OVERSPEED");
+}
+
+TEST(Moments, TheEndOfAWorkAsPlannedIsNoStop) {
+  Crane crane;
+  crane.work(5);
+  for (const auto cause : {crane_CAUSE_OPERATOR_DISARM, crane_CAUSE_IDLE, crane_CAUSE_HOMED}) {
+    crane.trip(10, cause);
+    crane.work(5);
+  }
+  EXPECT_TRUE(crane.kept.empty());
+  crane.trip(10, crane_CAUSE_OPERATOR_STOP);
+  EXPECT_EQ(crane.kept.size(), 1U);
+}
+
+TEST(Moments, ACraneThatTripsWithoutAnEndGivesAFileAMinuteAndBoundedMemory) {
+  Crane crane;
+  for (int i = 0; i < 600; ++i) {
+    crane.trip(1, i % 2 == 0 ? crane_CAUSE_SWING_LIMIT : crane_CAUSE_OVERSPEED);
+    crane.work(1);
+  }
+  EXPECT_GE(crane.kept.size(), 18U);
+  EXPECT_LE(crane.kept.size(), 25U);
+  for (const auto& moment : crane.kept) EXPECT_LE(moment.until_ns - moment.from_ns, Moments::kLongest_ns);
+  Crane quiet;
+  quiet.work(static_cast<double>(Moments::kKept_ns / kSecond_ns) + 1);
+  EXPECT_LE(crane.most_bytes, quiet.most_bytes + 1000);
+}
+
+TEST(Moments, WhatWaitsIsGivenAtTheEndAndTheEndItselfIsNoFault) {
+  Crane crane;
+  crane.work(20);
+  crane.trip(1);
+  EXPECT_TRUE(crane.kept.empty());
+  EXPECT_TRUE(crane.moments.poll(21 * kSecond_ns, 21 * kSecond_ns, true).has_value());
+
+  Crane ended;
+  ended.work(20);
+  ended.moments.ignore_what_begins_after(20 * kSecond_ns);
+  ended.trip(1, crane_CAUSE_STATE_STALE);
+  EXPECT_FALSE(ended.moments.poll(21 * kSecond_ns, 21 * kSecond_ns, true).has_value());
+}
+
+TEST(Moments, WhatHappenedBeforeTheStartIsNotKept) {
+  Crane crane{100 * kSecond_ns};
+  msg::Event event{};
+  event.severity = crane_SEVERITY_ERROR;
+  runtime::assign(event.code, "latched");
+  auto old =
+      std::make_shared<dashboard::Sample>(*dashboard::sample_of(topics::event, event, 101 * kSecond_ns));
+  old->source_time_ns = 50 * kSecond_ns;  // its writer has kept it for late joiners
+  crane.moments.add(old);
+  crane.work(20);
+  EXPECT_TRUE(crane.kept.empty());
+}
+
+}  // namespace
+}  // namespace crane::black_box
