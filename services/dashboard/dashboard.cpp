@@ -1,5 +1,6 @@
 #include "dashboard/dashboard.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,9 @@
 
 namespace crane::dashboard {
 namespace {
+
+/// However many clients keep it busy, a loop without real-time priority has the processor before it.
+constexpr int kNiceness = 10;
 
 void check_address(const std::string& listen) {
   boost::system::error_code error;
@@ -72,6 +76,7 @@ std::string address_of(const std::string& listen, unsigned short port) {
 
 int run(const Options& options) {
   runtime::install_stop_signals();
+  ::setpriority(PRIO_PROCESS, 0, kNiceness);
   if (options.parent != 0) runtime::die_with(options.parent);
   check_address(options.listen);
   AccessRules rules{.token = options.token_file.empty() ? "" : read_or_make_token(options.token_file),
