@@ -61,7 +61,7 @@ void Api::handle(const ApiRequest& request, Answer answer) {
     if (!may_look(rules_, request.visitor))
       answer(problem(403, "this dashboard answers its own pages only: open it by its address"));
     else if (request.method == "POST")
-      post(request, std::move(answer));
+      post(request, answer);  // a copy: what is thrown from there is answered below
     else if (request.method == "GET" || request.method == "HEAD")
       answer(get(request));
     else

@@ -47,7 +47,8 @@ void Server::run() {
     try {
       context_.run();
     } catch (const std::exception& error) {  // costs the connection whose handler threw, not the dashboard
-      std::cerr << "crane dashboard: a connection failed: " << error.what() << '\n';
+      if (++failures_ <= kMostFailuresTold)
+        std::cerr << "crane dashboard: a connection failed: " << error.what() << '\n';
     }
   }
 }

@@ -74,6 +74,8 @@ class Server {
   std::shared_ptr<ConnectionLimits> limits_ = std::make_shared<ConnectionLimits>();
   ServerCounts counts_;
   std::string session_id_ = random_token();
+  static constexpr std::uint64_t kMostFailuresTold = 20;  ///< a stranger does not fill a disk with messages
+  std::uint64_t failures_ = 0;
 };
 
 }  // namespace crane::dashboard

@@ -83,6 +83,17 @@ TEST_F(ServerTest, OfManyWhoTakeTheControlsAtOnceOneGetsThem) {
   EXPECT_EQ(taken, 1);
 }
 
+TEST_F(ServerTest, WhatIsNoRequestIsAnsweredWithAReason) {
+  for (const auto& body : {json::array(), json(nullptr), json{{"kind", 1e300}},
+                           json{{"kind", "arm"}, {"tick", 1}}, json{{"kind", "move"}, {"trolley_m", "far"}},
+                           json::parse(std::string(500, '[') + std::string(500, ']'))}) {
+    const auto answer = post("/api/request", body);
+    EXPECT_EQ(answer.result_int(), 400U);
+    EXPECT_NE(answer.body().find("error"), std::string::npos);
+  }
+  EXPECT_EQ(asked_, 0);
+}
+
 TEST_F(ServerTest, AReleasedSeatDoesNotOperateAnyMore) {
   const auto take = [&] {
     return json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();

@@ -59,7 +59,7 @@ class DashboardKeeper {
   }
   /// @return whether it runs again
   bool start_again() {
-    constexpr std::int64_t kShortest_ns = 2'000'000'000;
+    constexpr std::int64_t kShortest_ns = 1'000'000'000;
     if (runtime::monotonic_ns() - started_ns_ < kShortest_ns) return false;
     start();
     return true;
