@@ -81,16 +81,14 @@ double SwingEvidence::carrier_mps() const {
 }
 
 bool SwingEvidence::of_standing_encoder(double shown_rad) {
-  constexpr double kZero_rad = 0.02, kWind_mps2 = 0.25, kSpeed_mps = 0.05, kMean = 4, kCable = 0.55;
+  constexpr double kZero_rad = 0.02, kWind_mps2 = 0.25, kSpeed_mps = 0.05, kMean = 4;
   const auto& rig = bench_->setting().told;
   const double g = rig.plant.gravity_mps2, dt_s = rig.period_s;
   const double now_mps = carrier_mps();
   // (2.11): the load hangs at -L sin(phi) along the jib and at L sin(theta) across it.
   const double pull = (radial_ ? -1 : 1) * g * std::sin(shown_rad) * dt_s;
   const double imbalance = now_mps - std::exchange(before_mps_, now_mps) + pull;
-  const auto& truth = bench_->now().truth;
-  const double other_rad = radial_ ? truth.swing_tangential_rad : truth.swing_radial_rad;
-  const double tolerance = (g * kZero_rad + kWind_mps2 + kCable * g * std::abs(std::sin(other_rad))) * dt_s;
+  const double tolerance = (g * kZero_rad + kWind_mps2) * dt_s;
   up_ = std::max(0.0, up_ + imbalance - tolerance);
   down_ = std::max(0.0, down_ - imbalance - tolerance);
   const double cable_m = bench_->now().truth.position[2];

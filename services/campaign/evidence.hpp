@@ -34,8 +34,7 @@ class Evidence {
 };
 
 /// The same for a swing encoder that stands: gravity at the angle that it shows, and the acceleration of the
-/// point that carries the load, do not balance. Tolerances: a zero off by 20 mrad, a wind of 0.25 m/s^2,
-/// and a cable that is off by 55 % under the load's swing in the other direction;
+/// point that carries the load, do not balance. Tolerances: a zero off by 20 mrad and a wind of 0.25 m/s^2;
 /// visible is twice 50 mm/s and two counts per four samples.
 class SwingEvidence {
  public:
