@@ -54,9 +54,9 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--port", options.port, "port of pages, viewers, /api and /metrics; 0: any free port")
       ->capture_default_str();
-  app.add_option(
-      "--operator-token", options.token_file,
-      "file with the token that operators on other computers give; it is made when it does not exist");
+  app.add_option("--operator-token", options.token_file,
+                 "file with the token that every operator gives, on this computer, too; it is made when it "
+                 "does not exist");
   app.add_flag("--read-only", options.read_only, "nobody operates through this dashboard");
   app.add_option(
       "--host-name", options.host_names,
