@@ -81,6 +81,7 @@ class Stretch {
 
   void run() {
     if (!bench_.prepare(Moment::armed_idle)) return fail("never armed");
+    (void)bench_.take_rows();  // LOCKED after power-on is no trip
     while (seconds_ < kShare_s && trip_.empty()) {
       operate();
       const auto rows = bench_.take_rows();
