@@ -20,7 +20,7 @@ struct FieldReader {
   const Field<Section>& field;
   Section& section;
   std::string key;
-  bool required;
+  bool required = false;
 
   void number(double& value) const {
     if (field.derived != nullptr) value = field.derived(section);

@@ -108,7 +108,7 @@ Table RunTable::table(std::int64_t zero_time_ns) const {
     row.begin();
     canonical_cells(row, *of.state,
                     static_cast<double>(of.state->header.sample_time_ns - zero_time_ns) / 1e9);
-    const auto reference = [&of](std::size_t axis) {
+    const auto reference = [&of = of](std::size_t axis) {
       return of.reference ? of.reference->axis[axis].position : kMissing;
     };
     row.cell("trolley_reference_m", reference(0));

@@ -146,7 +146,7 @@ class Decoder {
 void flatten_into(const ordered_json& value, const std::string& name, std::vector<Leaf>& leaves) {
   if (value.is_object()) {
     for (const auto& [key, member] : value.items())
-      flatten_into(member, name.empty() ? key : name + "." + key, leaves);
+      flatten_into(member, name.empty() ? key : std::string{name}.append(".").append(key), leaves);
   } else if (value.is_array()) {
     for (std::size_t i = 0; i < value.size(); ++i)
       flatten_into(value[i], name + "[" + std::to_string(i) + "]", leaves);

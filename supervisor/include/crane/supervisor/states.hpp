@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 
 namespace crane::supervisor {
 
@@ -32,11 +33,13 @@ enum class Cause : std::uint8_t {
 #include "crane/causes.def"
 #undef CRANE_CAUSE
 };
-#define CRANE_CAUSE(name, text) +1
-inline constexpr std::size_t kCauses = 0
+inline constexpr std::size_t kCauses =
+    std::initializer_list<Cause>{
+#define CRANE_CAUSE(name, text) Cause::name,
 #include "crane/causes.def"
-    ;
 #undef CRANE_CAUSE
+    }
+        .size();
 
 /// Why an axis has not been homed.
 enum class HomingFailure : std::uint8_t {
