@@ -251,10 +251,14 @@ double unexplained_v(const LastLineParameters& parameters, const Moment& moment,
   return (gained - most_v * (most_v > 0 ? axis.gain_high : axis.gain_low)) / axis.gain_high;
 }
 
+/// An axis that moves under a brake which was told to close is the matter of braked_motion: what moves it
+/// there is its load, and its drive has 0 V.
 bool drive_response(const LastLineParameters& parameters, const Moment& moment) noexcept {
   constexpr double kMargin_v = 2.5;
   constexpr std::size_t kInRow = 3;
   return any_axis(parameters, [&](std::size_t i, const AxisLine& /*axis*/) {
+    for (std::size_t age = 0; age < kInRow; ++age)
+      if (age < moment.history->size() && !(*moment.history)[age].released[i]) return false;
     for (std::size_t age = 0; age < kInRow; ++age)
       if (!(unexplained_v(parameters, moment, i, age) > kMargin_v)) return false;
     return true;

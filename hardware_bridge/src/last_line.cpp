@@ -50,7 +50,7 @@ Outputs LastLine::decide(const std::optional<CommandView>& command, std::uint64_
 }
 
 void LastLine::observe(std::uint64_t tick, const Seen& seen) noexcept {
-  History::Entry entry{tick, seen, {}};
+  History::Entry entry{tick, seen, given_.brake_release, {}};
   for (std::size_t i = 0; i < kDrives; ++i) {
     entry.free[i] = given_.brake_release[i] && !seen.brake_closed[i];
     if (parameters_.axis[i].present) follow_brake(i, tick, seen);

@@ -53,6 +53,28 @@ Strike brake_stays_open(Bench& bench, Dice& dice) {
   return strike;
 }
 
+void worn_brake(Setting& setting, Dice& /*dice*/) {
+  setting.wired.drives[setting.axis].brake_deceleration = 0.05;
+}
+
+/// The axis slides on under its closed brake, and the bridge does not tell that it has latched. Due: 100 ms
+/// (hazard 24) after the axis has gone too far.
+Strike slides_untold(Bench& bench, Dice& /*dice*/) {
+  constexpr double kBound_ms = 100;
+  bench.mad = madness(topics::state, [](msg::State& state) {
+    state.latch_reason = crane_LATCH_NONE;
+    state.command_invalid = state.command_stale = state.watchdog_dropped = false;
+  });
+  bench.ask(crane_REQUEST_ESTOP);
+  return {.expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_CLOSE)},
+                          .detection_ms = kBound_ms,
+                          .cause_too = crane_CAUSE_BRAKE_DID_NOT_CLOSE,
+                          .too_ms = kBound_ms,
+                          .brakes_are_broken = true},
+          .watched_s = 1.5,
+          .visible = slips(bench, bench.axis())};
+}
+
 /// Due where the brake reports it: its closing time and two ticks; while it opens, 0.2 s and two ticks. Where
 /// it does not: as for a drive that does not move its axis (evidence.hpp).
 Strike brake_closes(Bench& bench, Dice& dice) {
@@ -87,6 +109,10 @@ Strike inputs_pressed(Bench& bench, Dice& dice) {
 constexpr std::array kOfBrakes{
     Hazard{.number = 24, .name = "brake fails to close", .prepare = broken_brake, .strike = brake_stays_open},
     Hazard{.number = 25, .name = "brake fails to open", .strike = brake_closes},
+    Hazard{.number = 45,
+           .name = "worn brake, bridge that is silent",
+           .prepare = worn_brake,
+           .strike = slides_untold},
     Hazard{.number = 31, .name = "e-stop and limit switches", .strike = inputs_pressed},
 };
 

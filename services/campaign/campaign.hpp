@@ -58,7 +58,8 @@ struct FaultFree {
   std::vector<std::string> trips{};   ///< "gain_scheduling_partial on gantry, after 812.4 s: FOLLOWING_ERROR"
   std::vector<std::string> limits{};  ///< the same: stopped at a limit that the move has really crossed
 };
-/// Moves to random targets without an end, on every rig and controller. @param hours  of virtual time
+/// Moves to random targets without an end, some of them interrupted by the next one, by a stop or a disarm,
+/// on every rig and controller. @param hours  of virtual time
 [[nodiscard]] FaultFree run_fault_free(double hours, unsigned jobs, std::uint64_t seed);
 
 }  // namespace crane::campaign

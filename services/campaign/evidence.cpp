@@ -73,28 +73,42 @@ SwingEvidence::SwingEvidence(Bench& bench, std::size_t counter)
     : bench_{&bench},
       radial_{counter == 3},
       at_first_rad_{radial_ ? bench.now().truth.swing_radial_rad : bench.now().truth.swing_tangential_rad},
-      before_mps_{carrier_mps()} {}
+      before_{bench.now().truth} {}
 
-double SwingEvidence::carrier_mps() const {
-  const auto& truth = bench_->now().truth;
-  return radial_ ? truth.speed[0] : truth.position[0] * truth.speed[1];
+SwingEvidence::Place SwingEvidence::place_of(const Truth& truth, double shown_rad) const {
+  const double radial = radial_ ? shown_rad : truth.swing_radial_rad;
+  const double tangential = radial_ ? truth.swing_tangential_rad : shown_rad;
+  const double cable_m = truth.position[2];
+  const std::complex<double> jib = std::polar(1.0, truth.position[1]);
+  return {
+      .trolley_m = truth.position[0] * jib,
+      .load_m = cable_m * jib * std::complex{-std::cos(tangential) * std::sin(radial), std::sin(tangential)},
+      .depth_m = cable_m * std::cos(tangential) * std::cos(radial)};
 }
 
 bool SwingEvidence::of_standing_encoder(double shown_rad) {
   constexpr double kZero_rad = 0.02, kWind_mps2 = 0.25, kSpeed_mps = 0.05, kMean = 4, kCable = 0.55;
   const auto& rig = bench_->setting().told;
-  const double g = rig.plant.gravity_mps2, dt_s = rig.period_s;
-  const double now_mps = carrier_mps();
-  // (2.11): the load hangs at -L sin(phi) along the jib and at L sin(theta) across it.
-  const double pull = (radial_ ? -1 : 1) * g * std::sin(shown_rad) * dt_s;
-  const double imbalance = now_mps - std::exchange(before_mps_, now_mps) + pull;
   const auto& truth = bench_->now().truth;
-  const double other_rad = radial_ ? truth.swing_tangential_rad : truth.swing_radial_rad;
-  const double tolerance = (g * kZero_rad + kWind_mps2 + kCable * g * std::abs(std::sin(other_rad))) * dt_s;
-  up_ = std::max(0.0, up_ + imbalance - tolerance);
-  down_ = std::max(0.0, down_ - imbalance - tolerance);
-  const double cable_m = bench_->now().truth.position[2];
-  const double noise_mps = 2 * 1.5 * cable_m / rig.encoders[3].counts_per_unit / (kMean * dt_s);
+  const double g = rig.plant.gravity_mps2, dt_s = rig.period_s;
+  if (older_) {
+    const Place a = place_of(*older_, shown_rad), b = place_of(before_, shown_rad),
+                c = place_of(truth, shown_rad);
+    const auto swung = (c.load_m - 2.0 * b.load_m + a.load_m) / dt_s;
+    const auto carried = (c.trolley_m - 2.0 * b.trolley_m + a.trolley_m) / dt_s;
+    const double sinking_mps2 = (c.depth_m - 2 * b.depth_m + a.depth_m) / (dt_s * dt_s);
+    const auto imbalance = swung + carried + (g - sinking_mps2) / b.depth_m * dt_s * b.load_m;
+    // Along the direction of the encoder: the jib, or across it.
+    const auto to_encoder =
+        std::polar(1.0, -before_.position[1]) * (radial_ ? std::complex{1.0} : std::complex{0.0, -1.0});
+    const double seen = (imbalance * to_encoder).real();
+    const double tolerance =
+        (g * kZero_rad + kWind_mps2) * dt_s + kCable * std::abs((swung * to_encoder).real());
+    up_ = std::max(0.0, up_ + seen - tolerance);
+    down_ = std::max(0.0, down_ - seen - tolerance);
+  }
+  older_ = std::exchange(before_, truth);
+  const double noise_mps = 2 * 1.5 * truth.position[2] / rig.encoders[3].counts_per_unit / (kMean * dt_s);
   visible_ = visible_ || std::max(up_, down_) > 2 * (kSpeed_mps + noise_mps);
   return visible_;
 }

@@ -75,6 +75,9 @@ void freeze(Bench& bench, std::size_t counter);
 [[nodiscard]] std::function<bool()> sees_error(Bench& bench, std::size_t counter, double error);
 /// A push against the load that swings it so far. @param rad  amplitude
 void push(Bench& bench, double rad);
+/// The swing asks for a stop: beyond its limit, and in a controlled stop, which damps it anyway, beyond 1.25
+/// times its limit.
+[[nodiscard]] std::function<bool()> swings_too_far(const Bench& bench);
 /// A limit switch closes where the counter says there is none.
 [[nodiscard]] Strike switch_elsewhere(Bench& bench, Dice& dice);
 /// The truth is beyond the limit that the reason names.

@@ -6,25 +6,28 @@
 namespace crane::campaign {
 namespace {
 
-/// Due: 20 ms after the swing exceeds its limit. In a controlled stop the same swing changes nothing: what is
-/// due then is the stop at 1.25 times the limit.
+/// Due: 20 ms after the swing exceeds its limit.
 Strike swing_limit(Bench& bench, Dice& dice) {
-  constexpr double kRunaway = 1.25;
-  const bool stopping = bench.now().status.state == crane_STATE_STOP_C1;
-  const double limit_rad = bench.setting().told.limits.swing_limit_rad;
-  const double due_rad = stopping ? kRunaway * limit_rad : limit_rad;
-  push(bench, limit_rad * dice.between(1.15, 1.7));
+  auto due = swings_too_far(bench);
+  push(bench, bench.setting().told.limits.swing_limit_rad * dice.between(1.15, 1.7));
   return {.expectation = {.reasons = {because(crane_CAUSE_SWING_LIMIT)}, .detection_ms = 20},
           .watched_s = 2,
-          .visible = [&bench, due_rad] {
-            const auto& truth = bench.now().truth;
-            return std::max(std::abs(truth.swing_radial_rad), std::abs(truth.swing_tangential_rad)) > due_rad;
-          }};
+          .visible = std::move(due)};
 }
 
 constexpr std::array kOfLoads{Hazard{.number = 23, .name = "swing limit", .strike = swing_limit}};
 
 }  // namespace
+
+std::function<bool()> swings_too_far(const Bench& bench) {
+  constexpr double kRunaway = 1.25;
+  const bool stopping = bench.now().status.state == crane_STATE_STOP_C1;
+  const double limit_rad = bench.setting().told.limits.swing_limit_rad * (stopping ? kRunaway : 1);
+  return [&bench, limit_rad] {
+    const auto& truth = bench.now().truth;
+    return std::max(std::abs(truth.swing_radial_rad), std::abs(truth.swing_tangential_rad)) > limit_rad;
+  };
+}
 
 std::span<const Hazard> load_hazards() { return kOfLoads; }
 

@@ -120,12 +120,16 @@ Strike creeps_under_its_brake(Bench& bench) {
     inputs.raw_counts[i] =
         simulator::wrap_24_bit(std::int64_t{inputs.raw_counts[i]} + counts(bench, i, *moved));
   };
-  return {.expectation = {.reasons = {latched(crane_LATCH_BRAKED_MOTION)},
-                          .detection_ms = 20,
-                          .position_is_false = true,
-                          .supervisor_mad = true},
-          .watched_s = 1.5,
-          .visible = sees_error(bench, i, bench.setting().told.drives[i].brake_slip)};
+  return {
+      .expectation = {.reasons = {latched(crane_LATCH_BRAKED_MOTION)},
+                      .detection_ms = 20,
+                      .position_is_false = true,
+                      .supervisor_mad = true,
+                      .latch_too = crane_LATCH_BRAKED_MOTION,
+                      .too_ms = 20,
+                      .brakes_are_broken = true},  // the run goes on although the crane was stopped before
+      .watched_s = 1.5,
+      .visible = sees_error(bench, i, bench.setting().told.drives[i].brake_slip)};
 }
 
 Strike needs_nobody(Bench& bench, Dice& dice) {

@@ -218,7 +218,7 @@ Strike corrupted(Bench& bench, Dice& dice) {
   if (seldom)
     return {.expectation = {.reasons = {because(crane_CAUSE_SWING_LIMIT)}, .detection_ms = 20},
             .watched_s = 0.6,
-            .visible = crosses(bench, because(crane_CAUSE_SWING_LIMIT))};
+            .visible = swings_too_far(bench)};
   auto strike = lost(topic);  // a bit between two fields is no part of the sample: some arrive intact
   strike.expectation.communication = false;
   strike.expectation.detection_ms = 300;

@@ -32,6 +32,11 @@ bool same_origin(const Visitor& visitor) {
          visitor.origin == "https://" + std::string{visitor.host};
 }
 
+/// What a browser says that no page of another origin can say.
+bool is_own_page(const Visitor& visitor) {
+  return visitor.fetched.empty() || visitor.fetched == "same-origin" || visitor.fetched == "none";
+}
+
 }  // namespace
 
 bool host_allowed(const AccessRules& rules, const Visitor& visitor) {
@@ -42,21 +47,34 @@ bool host_allowed(const AccessRules& rules, const Visitor& visitor) {
 
 bool may_look(const AccessRules& rules, const Visitor& visitor) {
   if (!host_allowed(rules, visitor)) return false;
-  return visitor.origin.empty() || same_origin(visitor) ||
-         std::ranges::find(rules.other_origins, visitor.origin) != rules.other_origins.end();
+  if (std::ranges::find(rules.other_origins, visitor.origin) != rules.other_origins.end()) return true;
+  return (visitor.origin.empty() || same_origin(visitor)) &&
+         (is_own_page(visitor) || visitor.fetched_for == "document");
 }
 
 std::string why_not_operate(const AccessRules& rules, const Visitor& visitor) {
   if (rules.read_only) return "this dashboard was started with --read-only: nobody operates through it";
-  const bool own_page =
-      visitor.fetched.empty() || visitor.fetched == "same-origin" || visitor.fetched == "none";
-  if (!host_allowed(rules, visitor) || (!visitor.origin.empty() && !same_origin(visitor)) || !own_page)
+  if (!host_allowed(rules, visitor) || (!visitor.origin.empty() && !same_origin(visitor)) ||
+      !is_own_page(visitor))
     return "the request comes from another page than the dashboard's own";
-  if (visitor.loop_back) return "";
   if (rules.token.empty())
-    return "from another computer this dashboard is read-only: start it with --operator-token FILE";
-  if (visitor.token.empty()) return "from another computer the operator token is needed";
-  return equal_in_constant_time(rules.token, visitor.token) ? "" : "the operator token is wrong";
+    return visitor.loop_back
+               ? ""
+               : "from another computer this dashboard is read-only: start it with --operator-token FILE";
+  if (visitor.token.empty()) return "the operator token is needed";
+  return guesses(rules, visitor) ? "the operator token is wrong" : "";
+}
+
+std::string why_not_stop(const AccessRules& rules, const Visitor& visitor) {
+  if (!visitor.loop_back || rules.read_only) return why_not_operate(rules, visitor);
+  AccessRules without_token = rules;
+  without_token.token.clear();
+  return why_not_operate(without_token, visitor);
+}
+
+bool guesses(const AccessRules& rules, const Visitor& visitor) {
+  return !rules.token.empty() && !visitor.token.empty() &&
+         !equal_in_constant_time(rules.token, visitor.token);
 }
 
 bool equal_in_constant_time(std::string_view a, std::string_view b) {

@@ -61,7 +61,7 @@ void Api::handle(const ApiRequest& request, Answer answer) {
     if (!may_look(rules_, request.visitor))
       answer(problem(403, "this dashboard answers its own pages only: open it by its address"));
     else if (request.method == "POST")
-      post(request, std::move(answer));
+      post(request, answer);  // a copy: what is thrown from there is answered below
     else if (request.method == "GET" || request.method == "HEAD")
       answer(get(request));
     else
@@ -101,7 +101,8 @@ ApiAnswer Api::about(const Visitor& visitor) const {
                       {"rig", about.rig.empty() ? ordered_json(nullptr) : ordered_json::parse(about.rig)},
                       {"may_operate", why_not.empty()},
                       {"why_not", why_not},
-                      {"token_helps", !visitor.loop_back && !rules_.token.empty() && !rules_.read_only}});
+                      {"may_stop", why_not_stop(rules_, visitor).empty()},
+                      {"token_helps", !rules_.token.empty() && !rules_.read_only}});
 }
 
 ApiAnswer Api::history(std::string_view query) const {
@@ -126,8 +127,10 @@ void Api::post(const ApiRequest& request, Answer answer) {
   // A form of a foreign page can send text/plain; it cannot send this type without asking first.
   if (!request.content_type.starts_with("application/json"))
     return answer(problem(415, "content type application/json is expected"));
-  if (const auto why_not = why_not_operate(rules_, request.visitor); !why_not.empty())
-    return answer(problem(403, why_not));
+  const bool stops = request.target == "/api/request" && is_stop(wish_of_text(request.body).kind);
+  const auto why_not =
+      stops ? why_not_stop(rules_, request.visitor) : why_not_operate(rules_, request.visitor);
+  if (!why_not.empty()) return answer(problem(403, why_not));
   const auto now_ns = runtime::monotonic_ns();
   if (request.target == "/api/operator/take") return answer(take_seat(request));
   if (request.target == "/api/operator/renew")

@@ -1,5 +1,6 @@
 #include "dashboard/dashboard.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,9 @@
 
 namespace crane::dashboard {
 namespace {
+
+/// However many clients keep it busy, a loop without real-time priority has the processor before it.
+constexpr int kNiceness = 10;
 
 void check_address(const std::string& listen) {
   boost::system::error_code error;
@@ -50,9 +54,9 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--port", options.port, "port of pages, viewers, /api and /metrics; 0: any free port")
       ->capture_default_str();
-  app.add_option(
-      "--operator-token", options.token_file,
-      "file with the token that operators on other computers give; it is made when it does not exist");
+  app.add_option("--operator-token", options.token_file,
+                 "file with the token that every operator gives, on this computer, too; it is made when it "
+                 "does not exist");
   app.add_flag("--read-only", options.read_only, "nobody operates through this dashboard");
   app.add_option(
       "--host-name", options.host_names,
@@ -72,6 +76,7 @@ std::string address_of(const std::string& listen, unsigned short port) {
 
 int run(const Options& options) {
   runtime::install_stop_signals();
+  ::setpriority(PRIO_PROCESS, 0, kNiceness);
   if (options.parent != 0) runtime::die_with(options.parent);
   check_address(options.listen);
   AccessRules rules{.token = options.token_file.empty() ? "" : read_or_make_token(options.token_file),

@@ -30,8 +30,8 @@ constexpr const char* kContentRules =
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
-  HttpSession(boost::asio::ip::tcp::socket socket, Server& server, std::vector<ConnectionCount> counts)
-      : stream_{std::move(socket)}, server_{server}, counts_{std::move(counts)} {
+  HttpSession(boost::asio::ip::tcp::socket socket, Server& server, std::unique_ptr<Admission> admission)
+      : stream_{std::move(socket)}, server_{server}, admission_{std::move(admission)} {
     error_code ignored;
     loop_back_ = stream_.socket().remote_endpoint(ignored).address().is_loopback();
   }
@@ -53,6 +53,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (error && error.category() == http::make_error_code(http::error::bad_method).category())
       return refuse(400, "this is no HTTP request");
     if (error) return close();
+    if (guesses(server_.rules(), visitor())) return answer_guess();
     if (beast::websocket::is_upgrade(parser_->get())) return upgrade();
     answer();
   }
@@ -64,6 +65,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
             .host = view_of(request[http::field::host]),
             .origin = view_of(request[http::field::origin]),
             .fetched = view_of(request["Sec-Fetch-Site"]),
+            .fetched_for = view_of(request["Sec-Fetch-Dest"]),
             .token = bearer_of(view_of(request[http::field::authorization]))};
   }
 
@@ -73,7 +75,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return refuse(403, "this dashboard answers its own pages only; --allow-origin permits others");
     }
     stream_.expires_never();
-    start_viewer_session(stream_.release_socket(), parser_->release(), server_, std::move(counts_));
+    start_viewer_session(stream_.release_socket(), parser_->release(), server_, std::move(admission_));
   }
 
   void answer() {
@@ -92,11 +94,25 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     });
   }
 
+  /// A guess costs time, whatever it asked for, and tells nothing before that.
+  void answer_guess() {
+    stream_.expires_never();
+    server_.refuse();
+    guess_.expires_after(kGuessDelay);
+    guess_.async_wait(
+        [self = shared_from_this()](error_code) { self->refuse(403, "the operator token is wrong"); });
+  }
+
   void refuse(unsigned status, const char* what) {
     send({.status = status, .body = nlohmann::json{{"error", what}}.dump()}, false, false);
   }
 
   void send(ApiAnswer answer, bool keep, bool head_only) {
+    if (!admission_->reserve(answer.body.size())) {
+      answer = {.status = 503,
+                .body = R"({"error":"too many answers wait for clients that do not read them"})"};
+      keep = false;
+    }
     answer_ = std::move(answer);
     const auto bytes = answer_.file.empty() ? std::string_view{answer_.body} : answer_.file;
     response_.emplace();
@@ -125,7 +141,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   beast::tcp_stream stream_;
   Server& server_;
-  std::vector<ConnectionCount> counts_;
+  std::unique_ptr<Admission> admission_;
+  boost::asio::steady_timer guess_{stream_.get_executor()};
   bool loop_back_ = false;
   beast::flat_buffer buffer_{kLongestHeader_bytes + kLongestBody_bytes};
   std::optional<http::request_parser<http::string_body>> parser_;
@@ -136,8 +153,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 }  // namespace
 
 void start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
-                        std::vector<ConnectionCount> counts) {
-  std::make_shared<HttpSession>(std::move(socket), server, std::move(counts))->read();
+                        std::unique_ptr<Admission> admission) {
+  std::make_shared<HttpSession>(std::move(socket), server, std::move(admission))->read();
 }
 
 }  // namespace crane::dashboard

@@ -9,6 +9,6 @@ namespace crane::dashboard {
 
 /// Keeps itself alive until the connection ends.
 void start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
-                        std::vector<ConnectionCount> counts);
+                        std::unique_ptr<Admission> admission);
 
 }  // namespace crane::dashboard

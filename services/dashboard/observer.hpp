@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "dashboard/connection_limits.hpp"
 #include "dashboard/inbox.hpp"
 #include "dashboard/request_desk.hpp"
 #include "dashboard/sample.hpp"
@@ -31,7 +32,7 @@ class Observer {
   Deliver deliver_;
   std::vector<bus::CdrSubscriber> readers_;
   std::optional<RequestDesk> desk_;
-  Inbox<Asked> asked_{16};
+  Inbox<Asked> asked_{kMostConnections};  ///< one of each connection at most: none is refused
 };
 
 }  // namespace crane::dashboard

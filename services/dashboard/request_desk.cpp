@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "crane/runtime/process.hpp"
 #include "dashboard/request_text.hpp"
 #include "experiments/realtime_session.hpp"
@@ -19,43 +22,65 @@ RequestDesk::RequestDesk(bus::Bus& bus)
     : client_{bus, "dashboard " + std::to_string(::getpid()), experiments::unique_first_id()} {}
 
 void RequestDesk::send(const stack::Wish& wish, Answered answered) {
+  if (is_stop(wish.kind)) {
+    if (auto* same = same_stop(wish.kind)) return same->answered.push_back(std::move(answered));
+  } else if (std::ranges::count_if(pending_, [](const Pending& p) {
+               return !p.done && !is_stop(p.wish.kind);
+             }) >= static_cast<std::ptrdiff_t>(kMostWaiting)) {
+    return answered({false, "too many requests wait for the supervisor: try again"});
+  }
   const auto now_ns = runtime::monotonic_ns();
-  pending_.push_back(
-      {.wish = wish, .answered = std::move(answered), .ids = {}, .sent_ns = now_ns, .repeat_ns = now_ns});
+  pending_.push_back({.wish = wish, .answered = {}, .ids = {}, .sent_ns = now_ns, .repeat_ns = now_ns});
+  pending_.back().answered.push_back(std::move(answered));
   advance(pending_.back(), now_ns);
+}
+
+RequestDesk::Pending* RequestDesk::same_stop(crane_RequestKind kind) {
+  const auto found =
+      std::ranges::find_if(pending_, [&](const Pending& p) { return !p.done && p.wish.kind == kind; });
+  return found == pending_.end() ? nullptr : &*found;
 }
 
 void RequestDesk::poll(std::int64_t now_ns) {
   client_.receive();
   for (auto& pending : pending_) advance(pending, now_ns);
-  // An answered request stays until its time is over: the answers to its repetitions are taken, too.
-  std::erase_if(pending_, [&](const Pending& pending) { return now_ns - pending.sent_ns > kPatience_ns; });
+  // An answered stop stays for as long as answers to its repetitions may come.
+  std::erase_if(pending_, [&](const Pending& pending) {
+    return (pending.done && pending.ids.empty()) || now_ns - pending.sent_ns > kPatience_ns;
+  });
 }
 
 void RequestDesk::advance(Pending& pending, std::int64_t now_ns) {
-  while (const auto reply = take_reply(pending)) {
-    if (!pending.done) pending.answered(*reply);
-    pending.done = true;
-  }
+  const auto finish = [&pending](const Reply& reply) {
+    if (!std::exchange(pending.done, true))
+      for (const auto& answered : pending.answered) answered(reply);
+  };
+  while (const auto reply = take_reply(pending)) finish(*reply);
   if (pending.done) return;
-  if (now_ns - pending.sent_ns > kPatience_ns) {
-    pending.answered(
-        {false, client_.listeners() == 0
-                    ? "no supervisor is found: start a stack with `crane up`"
-                    : "the supervisor did not answer within 2 s: look whether its ticks advance"});
-    pending.done = true;
-    return;
-  }
+  if (now_ns - pending.sent_ns > kPatience_ns)
+    return finish({false, client_.listeners() == 0
+                              ? "no supervisor is found: start a stack with `crane up`"
+                              : "the supervisor did not answer within 2 s: look whether its ticks advance"});
   const bool due = pending.ids.empty() || (is_stop(pending.wish.kind) && now_ns >= pending.repeat_ns);
-  if (!due || (pending.ids.empty() && client_.listeners() == 0)) return;
-  pending.ids.push_back(client_.send(pending.wish));
-  pending.repeat_ns = now_ns + kRepeat_ns;
+  if (due && (!pending.ids.empty() || client_.listeners() > 0)) publish(pending, now_ns);
 }
 
-std::optional<Reply> RequestDesk::take_reply(const Pending& pending) {
-  for (const auto id : pending.ids)
-    if (const auto reply = client_.take_reply(id, crane_SOURCE_SUPERVISOR))
+/// What the middleware refuses is tried again with the next poll, until the time for an answer is over.
+void RequestDesk::publish(Pending& pending, std::int64_t now_ns) {
+  try {
+    pending.ids.push_back(client_.send(pending.wish));
+    pending.repeat_ns = now_ns + kRepeat_ns;
+  } catch (const bus::Error&) {
+    pending.repeat_ns = now_ns;
+  }
+}
+
+std::optional<Reply> RequestDesk::take_reply(Pending& pending) {
+  for (auto id = pending.ids.begin(); id != pending.ids.end(); ++id)
+    if (const auto reply = client_.take_reply(*id, crane_SOURCE_SUPERVISOR)) {
+      pending.ids.erase(id);
       return Reply{reply->accepted, reply->reason};
+    }
   return std::nullopt;
 }
 

@@ -18,6 +18,9 @@ class RequestDesk {
  public:
   explicit RequestDesk(bus::Bus& bus);
 
+  /// Requests that wait for an answer. Stops do not count: those of one kind are one request.
+  static constexpr std::size_t kMostWaiting = 16;
+
   void send(const stack::Wish& wish, Answered answered);
   /// Takes answers, repeats stops, and gives up what is not answered in time.
   void poll(std::int64_t now_ns);
@@ -25,13 +28,15 @@ class RequestDesk {
  private:
   struct Pending {
     stack::Wish wish;
-    Answered answered;
-    std::vector<std::uint64_t> ids;
+    std::vector<Answered> answered;  ///< of all who ask for the same stop
+    std::vector<std::uint64_t> ids;  ///< of the request and its repetitions, until they are answered
     std::int64_t sent_ns = 0, repeat_ns = 0;
     bool done = false;
   };
   void advance(Pending& pending, std::int64_t now_ns);
-  [[nodiscard]] std::optional<Reply> take_reply(const Pending& pending);
+  void publish(Pending& pending, std::int64_t now_ns);
+  [[nodiscard]] std::optional<Reply> take_reply(Pending& pending);
+  [[nodiscard]] Pending* same_stop(crane_RequestKind kind);
 
   stack::OperatorClient client_;
   std::list<Pending> pending_;

@@ -47,7 +47,8 @@ void Server::run() {
     try {
       context_.run();
     } catch (const std::exception& error) {  // costs the connection whose handler threw, not the dashboard
-      std::cerr << "crane dashboard: a connection failed: " << error.what() << '\n';
+      if (++failures_ <= kMostFailuresTold)
+        std::cerr << "crane dashboard: a connection failed: " << error.what() << '\n';
     }
   }
 }
@@ -70,8 +71,10 @@ void Server::take_samples() {
 
 void Server::accept() {
   acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-    if (!error) welcome(std::move(socket));
-    if (!error) return accept();
+    if (!error) {
+      accept();  // before anything that may throw: the next one is welcome whatever becomes of this one
+      return welcome(std::move(socket));
+    }
     // No descriptor is free, for example: try again later, do not spin.
     retry_.expires_after(std::chrono::milliseconds{200});
     retry_.async_wait([this](error_code) { accept(); });
@@ -80,17 +83,17 @@ void Server::accept() {
 
 void Server::welcome(tcp::socket socket) {
   error_code error;
-  const bool foreign = !socket.remote_endpoint(error).address().is_loopback();
-  if (error || *connections_ >= kMostConnections ||
-      (foreign && *foreign_connections_ >= kMostForeignConnections))
-    return;
-  std::vector<ConnectionCount> counts;
-  counts.emplace_back(connections_);
-  if (foreign) counts.emplace_back(foreign_connections_);
-  start_http_session(std::move(socket), *this, std::move(counts));
+  const auto address = socket.remote_endpoint(error).address();
+  if (error) return;
+  if (auto admission = Admission::ask(limits_, address.to_string(), !address.is_loopback()))
+    start_http_session(std::move(socket), *this, std::move(admission));
 }
 
 void Server::beat() {
+  timer_.expires_after(kFramePeriod);  // before anything that may throw
+  timer_.async_wait([this](error_code error) {
+    if (!error) beat();
+  });
   const auto now_ns = runtime::monotonic_ns();
   const auto log_ns = log_now_ns();
   for (const auto document : model_.poll(now_ns, log_ns)) {
@@ -103,10 +106,6 @@ void Server::beat() {
     viewer->send_time(log_ns);
     viewer->flush();
   }
-  timer_.expires_after(kFramePeriod);
-  timer_.async_wait([this](error_code error) {
-    if (!error) beat();
-  });
 }
 
 void Server::leave(const std::shared_ptr<ViewerSession>& viewer) {
@@ -117,7 +116,7 @@ void Server::leave(const std::shared_ptr<ViewerSession>& viewer) {
 ServerCounts Server::counts() const {
   auto result = counts_;
   result.viewers = viewers_.size();
-  result.connections = *connections_;
+  result.connections = limits_->open();
   result.lost_samples = inbox_.refused();
   for (const auto& viewer : viewers_) result.dropped_messages += viewer->dropped();
   return result;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "dashboard/api.hpp"
+#include "dashboard/connection_limits.hpp"
 #include "dashboard/inbox.hpp"
 
 namespace crane::dashboard {
@@ -17,14 +18,13 @@ class ViewerSession;
 /// ns since 1970 by the monotonic clock: a change of the system clock causes no jump.
 [[nodiscard]] std::int64_t log_now_ns();
 
-/// The bounds of the server.
-inline constexpr std::size_t kMostConnections = 64;
-/// Of them for other computers, so that a flood from there leaves room for the operator at the rig.
-inline constexpr std::size_t kMostForeignConnections = 48;
+/// The bounds of the server, beside those of connection_limits.hpp.
 inline constexpr std::uint32_t kLongestHeader_bytes = 8192;
 inline constexpr std::uint64_t kLongestBody_bytes = 4096;
 inline constexpr std::chrono::seconds kRequestPatience{10};  ///< for a whole request; also between two
-inline constexpr std::chrono::seconds kViewerPatience{20};   ///< a silent viewer is pinged, then given up
+/// A wrong token is answered so late, and holds its connection for as long: at most 64 guesses a second.
+inline constexpr std::chrono::milliseconds kGuessDelay{1000};
+inline constexpr std::chrono::seconds kViewerPatience{20};  ///< a silent viewer is pinged, then given up
 /// Period of the frames that the page gets, and of the documents.
 inline constexpr std::chrono::milliseconds kFramePeriod{33};
 
@@ -71,24 +71,11 @@ class Server {
   Inbox<std::vector<SamplePtr>> inbox_{kMostBatches};
   static constexpr std::size_t kMostBatches = 1000;  ///< some seconds of the bus
   std::set<std::shared_ptr<ViewerSession>> viewers_;
-  std::shared_ptr<std::size_t> connections_ = std::make_shared<std::size_t>(0);
-  std::shared_ptr<std::size_t> foreign_connections_ = std::make_shared<std::size_t>(0);
+  std::shared_ptr<ConnectionLimits> limits_ = std::make_shared<ConnectionLimits>();
   ServerCounts counts_;
   std::string session_id_ = random_token();
-};
-
-/// Counts a connection as long as it lives.
-class ConnectionCount {
- public:
-  explicit ConnectionCount(std::shared_ptr<std::size_t> count) : count_{std::move(count)} { ++*count_; }
-  ~ConnectionCount() {
-    if (count_) --*count_;
-  }
-  ConnectionCount(ConnectionCount&&) noexcept = default;
-  ConnectionCount& operator=(ConnectionCount&&) = delete;
-
- private:
-  std::shared_ptr<std::size_t> count_;
+  static constexpr std::uint64_t kMostFailuresTold = 20;  ///< a stranger does not fill a disk with messages
+  std::uint64_t failures_ = 0;
 };
 
 }  // namespace crane::dashboard

@@ -40,8 +40,8 @@ Keep keep_of(const topics::Description& topic) { return topic.every_tick ? Keep:
 }  // namespace
 
 ViewerSession::ViewerSession(boost::asio::ip::tcp::socket socket, Server& server,
-                             std::vector<ConnectionCount> counts)
-    : socket_{std::move(socket)}, server_{server}, counts_{std::move(counts)} {
+                             std::unique_ptr<Admission> admission)
+    : socket_{std::move(socket)}, server_{server}, admission_{std::move(admission)} {
   error_code ignored;
   auto& tcp = socket_.next_layer().socket();
   tcp.set_option(boost::asio::ip::tcp::no_delay{true}, ignored);
@@ -63,6 +63,9 @@ void ViewerSession::accept(UpgradeRequest request) {
                    beast::string_view{chosen.data(), chosen.size()});
   }));
   socket_.read_message_max(kLongestMessage_bytes);
+  socket_.control_callback([this](websocket::frame_type kind, beast::string_view) {
+    if (kind == websocket::frame_type::ping && !spend_allowance()) end();
+  });
   socket_.async_accept(request_, [self = shared_from_this()](error_code error) {
     if (!error) self->accepted();
   });
@@ -85,16 +88,20 @@ void ViewerSession::read() {
   });
 }
 
-void ViewerSession::was_read(std::size_t bytes) {
-  const auto data = buffer_.data();
-  const std::string_view text{static_cast<const char*>(data.data()), std::min(bytes, data.size())};
+bool ViewerSession::spend_allowance() {
   const auto now_ns = runtime::monotonic_ns();
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   if (now_ns - allowance_from_ns_ > kSecond_ns) {
     allowance_from_ns_ = now_ns;
     messages_ = 0;
   }
-  if (++messages_ > kMostMessages_ps) return end();
+  return ++messages_ <= kMostMessages_ps;
+}
+
+void ViewerSession::was_read(std::size_t bytes) {
+  const auto data = buffer_.data();
+  const std::string_view text{static_cast<const char*>(data.data()), std::min(bytes, data.size())};
+  if (!spend_allowance()) return end();
   try {
     if (!socket_.got_text()) throw ProtocolError("the dashboard takes no binary messages");
     obey(parse_client_message(text));
@@ -214,8 +221,9 @@ void ViewerSession::end() {
 }
 
 void start_viewer_session(boost::asio::ip::tcp::socket socket, ViewerSession::UpgradeRequest request,
-                          Server& server, std::vector<ConnectionCount> counts) {
-  std::make_shared<ViewerSession>(std::move(socket), server, std::move(counts))->accept(std::move(request));
+                          Server& server, std::unique_ptr<Admission> admission) {
+  std::make_shared<ViewerSession>(std::move(socket), server, std::move(admission))
+      ->accept(std::move(request));
 }
 
 }  // namespace crane::dashboard

@@ -16,7 +16,7 @@ namespace crane::dashboard {
 class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
  public:
   using UpgradeRequest = boost::beast::http::request<boost::beast::http::string_body>;
-  ViewerSession(boost::asio::ip::tcp::socket socket, Server& server, std::vector<ConnectionCount> counts);
+  ViewerSession(boost::asio::ip::tcp::socket socket, Server& server, std::unique_ptr<Admission> admission);
 
   void accept(UpgradeRequest request);
   void send_sample(const SamplePtr& sample);
@@ -28,6 +28,7 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
 
  private:
   void accepted();
+  [[nodiscard]] bool spend_allowance();
   void read();
   void was_read(std::size_t bytes);
   void obey(const ClientMessage& message);
@@ -39,7 +40,7 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   Server& server_;
-  std::vector<ConnectionCount> counts_;
+  std::unique_ptr<Admission> admission_;
   UpgradeRequest request_;
   bool batches_ = false;  ///< kPageProtocol
   bool open_ = false, writing_ = false;
@@ -49,10 +50,10 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
   std::string batch_;
   std::map<std::uint32_t, std::uint32_t> subscriptions_;  ///< channel -> number that the client chose
   std::int64_t allowance_from_ns_ = 0;
-  int messages_ = 0;  ///< of the client, since allowance_from_ns_
+  int messages_ = 0;  ///< of the client, since allowance_from_ns_; its pings count, too
 };
 
 void start_viewer_session(boost::asio::ip::tcp::socket socket, ViewerSession::UpgradeRequest request,
-                          Server& server, std::vector<ConnectionCount> counts);
+                          Server& server, std::unique_ptr<Admission> admission);
 
 }  // namespace crane::dashboard

@@ -15,7 +15,17 @@ constexpr double kLeastDepth =
 Plane operator-(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
 Plane operator+(const Plane& a, const Plane& b) { return {a[0] + b[0], a[1] + b[1]}; }
 Plane operator*(double s, const Plane& a) { return {s * a[0], s * a[1]}; }
+double dot(const Plane& a, const Plane& b) { return a[0] * b[0] + a[1] * b[1]; }
 double norm(const Plane& a) { return std::hypot(a[0], a[1]); }
+
+/// The part of `a` along `direction` is shortened by `by`, at most to nothing; the part across it stays.
+Plane shortened_along(const Plane& direction, double by, const Plane& a) {
+  const double length = norm(direction);
+  if (!(length > 0)) return a;
+  const Plane unit = (1 / length) * direction;
+  const double along = dot(a, unit);
+  return a - std::copysign(std::min(std::abs(along), by), along) * unit;
+}
 
 /// From the frame of the jib to the ground, and back with the negative angle.
 Plane turned(const Plane& a, double angle_rad) {
@@ -72,9 +82,8 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
   const double swing_mps =
       norm((1 / (newest.sampled_s - oldest.sampled_s)) * (newest.hanging_m - oldest.hanging_m));
   const double omega_radps = std::sqrt(limits.machine.crane.gravity_mps2 / cable_m);
-  const double unknown = kCableTolerance * norm(swung) + pendulum_drift(limits, span_s) +
-                         2 * kDamping * omega_radps * swing_mps * span_s;
-  const Plane sum = memory.sum_mps + error;
+  const double unknown = pendulum_drift(limits, span_s) + 2 * kDamping * omega_radps * swing_mps * span_s;
+  const Plane sum = shortened_along(swung, kCableTolerance * norm(swung), memory.sum_mps + error);
   const double length = norm(sum);
   memory.sum_mps = length > unknown ? (1 - unknown / length) * sum : Plane{};
   memory.growing_ticks = length > unknown ? std::min(memory.growing_ticks + 1, kPush_ticks + 1) : 0;
@@ -98,8 +107,10 @@ bool follow_counts(const Limits& limits, const PendulumInput& input, double span
 
 bool was_pushed(PendulumMemory& memory) {
   constexpr double kOfTheSwing = 0.5;
-  if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks ||
-      norm(memory.swung_mps) < kOfTheSwing * norm(memory.sum_mps))
+  const double length = norm(memory.sum_mps);
+  // A swing in another direction than the sum is no push that explains it.
+  const double swung = dot(memory.swung_mps, memory.sum_mps) / length;
+  if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks || !(swung >= kOfTheSwing * length))
     return false;
   memory.push_left_s = kPush_s;
   for (std::size_t i = 0; i < 2; ++i) memory.counted_before_push[i] = memory.counting_ticks[i] > 0;

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -95,7 +96,7 @@ std::vector<Need> needs() {
           {reset_place_unclear, {35}},
           {reset_load_unclear, {35}},
           {arm_fresh_time, {32}},
-          {brake_slip, {24, 41}},
+          {brake_slip, {45}},
           {brake_report, {24}},
           {bridge_second_writer, {9}},
           {bridge_command_stale, {3}},
@@ -113,10 +114,19 @@ std::vector<Need> needs() {
           {bridge_drive_response, {41}},
           {bridge_latch_is_kept, {15, 41}},
           {bus_checksum, {8}},
-          {bus_checksum_of_topic, {8}},
           {bus_source, {32}},
           {bus_one_writer, {9}}};
 }
+
+/// Of a protection that the runs cannot need, because another one finds the same: the test that needs it.
+struct Elsewhere {
+  std::string_view protection;
+  const char* test;
+};
+/// No two loop topics of one type have the same writer, so that a sample on the wrong topic has a wrong
+/// source, too.
+constexpr std::array kElsewhere{
+    Elsewhere{"bus_checksum_of_topic", "Intact.IsFalseOnAnotherTopicOfTheSameType"}};
 
 bool fails(const Result& result) { return result.violations != 0 || result.crashed || !result.prepared; }
 
@@ -169,11 +179,16 @@ int check_all(std::uint64_t first_seed, std::uint64_t most_seeds, unsigned jobs)
     std::cout << need.protection << ": " << (result ? describe(*result) : std::string{"NOT CAUGHT"})
               << std::endl;
   }
+  const auto elsewhere = [](std::string_view name) {
+    return std::ranges::any_of(kElsewhere, [&](const Elsewhere& one) { return one.protection == name; });
+  };
+  for (const Elsewhere& one : kElsewhere) std::cout << one.protection << ": " << one.test << '\n';
   for (const auto name : declared)
-    if (std::ranges::find(all, name, &Need::protection) == all.end()) std::cout << name << ": NO HAZARD\n";
-  std::cout << caught << " of " << all.size() << " protections are needed by the campaign; "
-            << declared.size() << " are declared\n";
-  return caught == declared.size() ? 0 : 1;
+    if (!elsewhere(name) && std::ranges::find(all, name, &Need::protection) == all.end())
+      std::cout << name << ": NO HAZARD\n";
+  std::cout << caught << " of " << all.size() << " protections are needed by the campaign, "
+            << kElsewhere.size() << " by a test; " << declared.size() << " are declared\n";
+  return caught + kElsewhere.size() == declared.size() ? 0 : 1;
 }
 
 int run_campaign(const Selection& selection, unsigned jobs) {

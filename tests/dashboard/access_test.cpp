@@ -10,11 +10,34 @@ const AccessRules kRules{.token = "0123456789abcdef",
                          .other_origins = {"https://app.foxglove.dev"},
                          .read_only = false};
 const Visitor kAtTheRig{
-    .loop_back = true, .host = "127.0.0.1:8765", .origin = "", .fetched = "", .token = ""};
+    .loop_back = true, .host = "127.0.0.1:8765", .origin = "", .fetched = "", .token = "0123456789abcdef"};
 
-TEST(Access, TheRigsOwnComputerLooksAndOperatesWithoutAToken) {
-  EXPECT_TRUE(may_look(kRules, kAtTheRig));
-  EXPECT_EQ(why_not_operate(kRules, kAtTheRig), "");
+TEST(Access, TheRigsOwnComputerLooksAndOperatesWhereNoTokenWasChosen) {
+  auto rules = kRules;
+  rules.token = "";
+  auto visitor = kAtTheRig;
+  visitor.token = "";
+  EXPECT_TRUE(may_look(rules, visitor));
+  EXPECT_EQ(why_not_operate(rules, visitor), "");
+}
+
+TEST(Access, AChosenTokenIsNeededAtTheRigTooButNotForAStop) {
+  auto visitor = kAtTheRig;
+  EXPECT_EQ(why_not_operate(kRules, visitor), "");
+  for (const auto* token : {"", "0123456789abcdeg"}) {
+    visitor.token = token;
+    EXPECT_NE(why_not_operate(kRules, visitor), "");
+    EXPECT_EQ(why_not_stop(kRules, visitor), "");
+    EXPECT_EQ(guesses(kRules, visitor), *token != '\0');
+  }
+  visitor.loop_back = false;
+  EXPECT_NE(why_not_stop(kRules, visitor), "");
+}
+
+TEST(Access, APageElsewhereStopsNothing) {
+  auto visitor = kAtTheRig;
+  visitor.origin = "http://evil.example";
+  EXPECT_NE(why_not_stop(kRules, visitor), "");
 }
 
 TEST(Access, AForeignNameForThisComputerIsRefusedAlsoWithAFittingOrigin) {

@@ -9,6 +9,7 @@
 
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
+#include "stranger.hpp"
 
 namespace crane::system_test {
 namespace {
@@ -16,64 +17,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint32_t kDomain = 65;
-
-/// Takes the newest sample of one topic, spoils it and publishes it again, as the writer it was heard from.
-template <class T>
-class Stranger {
- public:
-  Stranger(const runtime::BusOptions& options, const topics::Topic<T>& topic, void (*spoil)(T&),
-           int epoch_ahead)
-      : ear_{runtime::bus_options(options, "stranger", crane_SOURCE_MONITOR, 0)},
-        heard_{ear_.subscriber(topic)} {
-    const auto end = std::chrono::steady_clock::now() + 5s;
-    std::optional<T> sample;
-    while (!sample && std::chrono::steady_clock::now() < end) {
-      ear_.wait(10ms);
-      sample = heard_.take();
-    }
-    if (!sample) throw std::runtime_error("the stranger hears nothing");
-    forged_ = *sample;
-    spoil(forged_);
-    mouth_.emplace(runtime::bus_options(options, "stranger", forged_.header.source,
-                                        forged_.header.epoch + static_cast<std::uint32_t>(epoch_ahead)));
-    writer_.emplace(mouth_->publisher(topic));
-  }
-  /// Publishes the forged sample for the tick of now and the next one.
-  void speak() {
-    while (const auto sample = heard_.take()) forged_.header.tick = sample->header.tick;
-    for (int ahead = 0; ahead < 2; ++ahead, ++forged_.header.tick) EXPECT_TRUE(writer_->publish(forged_));
-  }
-
- private:
-  bus::Bus ear_;
-  bus::Subscriber<T> heard_;
-  std::optional<bus::Bus> mouth_;
-  std::optional<bus::Publisher<T>> writer_;
-  T forged_{};
-};
-
-void full_speed(double (&drive_v)[3]) {
-  for (double& v : drive_v) v = 5;
-}
-void open_and_push(msg::Command& command) {
-  full_speed(command.drive_v);
-  for (bool& release : command.brake_release) release = true;
-  command.watchdog_permission = true;
-}
-void push(msg::Contribution& contribution) { full_speed(contribution.drive_v); }
-void ask_for_all(msg::Demand& demand) { full_speed(demand.total_v); }
-void far_away(msg::Reference& reference) { reference.axis[0].position += 1; }
-void elsewhere(msg::State& state) {
-  state.trolley_position_m += 0.3;
-  for (bool& closed : state.brake_closed) closed = false;
-}
-void armed(msg::SupervisorStatus& status) {
-  status.state = crane_STATE_RUN;
-  status.move.number += 1;
-  status.move.kind = crane_REQUEST_MOVE;
-  status.move.selected[0] = true;
-  status.move.target[0] = 1.2;
-}
 
 struct Attack {
   const char* topic;
@@ -104,13 +47,7 @@ class StrangerTest : public testing::TestWithParam<Attack> {
           },
           duration);
     };
-    if (topic == "command") run(topics::command, open_and_push);
-    if (topic == "demand") run(topics::demand, ask_for_all);
-    if (topic == "tracking") run(topics::tracking, push);
-    if (topic == "anti_swing") run(topics::anti_swing, push);
-    if (topic == "reference") run(topics::reference, far_away);
-    if (topic == "state") run(topics::state, elsewhere);
-    if (topic == "supervisor") run(topics::supervisor, armed);
+    with_forgery_of(topic, run);
   }
   /// States of the real plant: those that say what its own encoders count.
   [[nodiscard]] std::vector<msg::State> honest_states() const {

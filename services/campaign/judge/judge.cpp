@@ -54,7 +54,7 @@ class Judgement {
     find_first_reason();
     right_reason();
     refusal();
-    latch_of_its_own();
+    each_by_itself();
     nothing_outwards();
     stop_times();
     return std::move(verdict_);
@@ -238,14 +238,26 @@ class Judgement {
           run_.accepted ? "a request was accepted that has to be refused" : "a request was not answered");
   }
 
-  void latch_of_its_own() {
+  /// What bridge and supervisor each have to find, although the other one has stopped the crane.
+  void each_by_itself() {
     const auto& wanted = run_.expectation;
-    if (wanted.latch_too == crane_LATCH_NONE || !run_.visible_ns) return;
-    for (std::size_t k = onset_; k < run_.rows.size(); ++k)
-      if (run_.rows[k].state.latch_reason == wanted.latch_too &&
-          ms(*run_.visible_ns, run_.rows[k].time_ns) <= wanted.latch_ms)
-        return;
-    violated(Invariant::right_reason, run_.rows.size() - 1, "the bridge has not found it by itself");
+    if (wanted.latch_too != crane_LATCH_NONE &&
+        !seen_in_time([&](const Row& row) { return row.state.latch_reason == wanted.latch_too; }))
+      violated(Invariant::right_reason, run_.rows.size() - 1, "the bridge has not found it by itself");
+    if (wanted.cause_too != crane_CAUSE_NONE &&
+        !seen_in_time([&](const Row& row) { return row.status.cause == wanted.cause_too; }))
+      violated(Invariant::right_reason, run_.rows.size() - 1, "the supervisor has not found it by itself");
+  }
+
+  /// @return true when nothing was to be seen, or it was not due before the end
+  template <class Shows>
+  [[nodiscard]] bool seen_in_time(const Shows& shows) const {
+    const double bound_ms = run_.expectation.too_ms + 1e-6;
+    if (!run_.visible_ns || run_.rows.empty() || ms(*run_.visible_ns, run_.rows.back().time_ns) < bound_ms)
+      return true;
+    return std::any_of(
+        run_.rows.begin() + static_cast<std::ptrdiff_t>(onset_), run_.rows.end(),
+        [&](const Row& row) { return shows(row) && ms(*run_.visible_ns, row.time_ns) <= bound_ms; });
   }
 
   void nothing_outwards() {

@@ -65,7 +65,9 @@ struct Expectation {
       0;  ///< the bridge itself is late by so much: added to the times until volts and brakes
   /// The bridge has to find this by itself, whatever the supervisor did before; LATCH_NONE: nothing.
   crane_LatchReason latch_too = crane_LATCH_NONE;
-  double latch_ms = 0;                         ///< latch_too: from the time the fault was visible
+  /// The same for the supervisor, whatever the bridge did before; CAUSE_NONE: nothing.
+  crane_Cause cause_too = crane_CAUSE_NONE;
+  double too_ms = 0;  ///< latch_too and cause_too: from the time the fault was visible
   std::optional<std::size_t> outwards_axis{};  ///< after STOPPING_ENVELOPE no voltage drives this axis ...
   double outwards = 1;                         ///< ... to this side
   bool brakes_are_broken = false;              ///< I3 and I4 say nothing about a brake that does not close

@@ -97,10 +97,12 @@ int run_many(const CampaignOptions& options) {
 
 int run_free(const CampaignOptions& options) {
   const auto found = run_fault_free(options.fault_free_h, options.jobs, options.first_seed);
-  std::cout << found.hours << " h of virtual time without a fault, " << found.trips.size()
-            << " false trips\n";
+  std::cout << found.hours << " h of virtual time without a fault (seed " << options.first_seed << "), "
+            << found.trips.size() << " false trips\n";
   for (const auto& line : found.trips) std::cout << line;
-  std::cout << found.limits.size() << " stops at a limit that a move has crossed\n";
+  std::cout << found.limits.size()
+            << " stops that the truth confirms: a move has crossed a limit, or a controller does not come to "
+               "rest\n";
   for (const auto& line : found.limits) std::cout << line;
   return found.trips.empty() ? 0 : 1;
 }

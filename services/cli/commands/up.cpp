@@ -61,11 +61,39 @@ std::string goes_without(const std::string& process) {
   return process == "dashboard" ? "its dashboard" : "";
 }
 
+/// Starts the dashboard, and starts it anew when it has ended, unless it ended as soon as it had begun: it
+/// would do so again.
+class DashboardKeeper {
+ public:
+  DashboardKeeper(stack::ChildProcesses& children, const UpOptions& options)
+      : children_{children}, options_{options} {}
+  void start() {
+    dashboard::launch(children_, options_.launch.bus, options_.launch.rig, options_.dashboard_port);
+    started_ns_ = runtime::monotonic_ns();
+  }
+  /// @return whether it runs again
+  bool start_again() {
+    constexpr std::int64_t kShortest_ns = 1'000'000'000;
+    if (runtime::monotonic_ns() - started_ns_ < kShortest_ns) return false;
+    start();
+    return true;
+  }
+
+ private:
+  stack::ChildProcesses& children_;
+  const UpOptions& options_;
+  std::int64_t started_ns_ = 0;
+};
+
 /// Waits for Ctrl-C. @return false when a process of the control loop has ended by itself
-bool watch(stack::ChildProcesses& children, std::optional<runtime::Node>& node) {
+bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::optional<runtime::Node>& node) {
   while (!runtime::stop_requested()) {
     if (const auto ended = children.ended()) {
       const auto without = goes_without(ended->name);
+      if (ended->name == "dashboard" && dashboard.start_again()) {
+        std::cerr << "crane up: " << stack::describe(*ended) << "; it is started anew\n";
+        continue;
+      }
       std::cerr << "crane up: " << stack::describe(*ended)
                 << (without.empty() ? "; stopping the others" : "; the crane continues without " + without)
                 << '\n';
@@ -102,8 +130,8 @@ int up(UpOptions options) {
   if (specs.size() > loop.size()) stack::launch_twin(children, twin_rig, options.launch);
   if (!options.record.empty()) start_recorder(children, options);
   if (!options.no_black_box) start_black_box(children, options);
-  if (options.dashboard)
-    dashboard::launch(children, options.launch.bus, options.launch.rig, options.dashboard_port);
+  DashboardKeeper dashboard{children, options};
+  if (options.dashboard) dashboard.start();
   stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
   if (options.launch.clock == "lockstep")
     stack::OperatorClient{bus, "crane_up", experiments::unique_first_id()}.send(
@@ -114,7 +142,7 @@ int up(UpOptions options) {
             << std::endl;
   std::optional<runtime::Node> node;  // with keys, the role operator may not write crane/node
   if (options.launch.bus.secure.empty()) node.emplace(bus, runtime::NodeIdentity{"crane_up", ""});
-  const bool orderly = watch(children, node);
+  const bool orderly = watch(children, dashboard, node);
   children.stop();
   return orderly ? runtime::kExitDone : runtime::kExitFailed;
 }

@@ -91,7 +91,8 @@ class History {
   struct Entry {
     std::uint64_t tick = 0;
     Seen seen;
-    std::array<bool, kDrives> free{};  ///< true: the brake is commanded open and reports open
+    std::array<bool, kDrives> released{};  ///< true: the brake is commanded open
+    std::array<bool, kDrives> free{};      ///< true: it is commanded open and reports open
   };
   static constexpr std::size_t kLength = 32;
 

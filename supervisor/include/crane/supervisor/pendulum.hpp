@@ -5,15 +5,16 @@
 /// r: horizontal position of the load, p: of the trolley, z: height of the load relative to the jib, h: its
 /// depth below the jib. All of them are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
-/// needs no drive, no friction and no load mass. The mean of e over kMean samples is reduced by what is not
-/// known (kCableTolerance of the change of the swing rate, a zero wrong by kZero_rad, wind of kWind_mps2, a
-/// damping ratio of kDamping) and summed as a vector (run_length.hpp). A sum longer than kSpeed_mps and the
-/// quantisation of the swing rate means that a swing encoder has failed, or the encoder of the axis that
-/// carries the load.
+/// needs no drive, no friction and no load mass. The mean of e over kMean samples is summed as a vector and
+/// reduced by what is not known (run_length.hpp): a zero wrong by kZero_rad, wind of kWind_mps2 and a damping
+/// ratio of kDamping in any direction; a cable that is k times the measured one leaves e = (1 - k) dr', so
+/// that kCableTolerance of the change of the swing rate dr' counts along dr' only. A sum longer than
+/// kSpeed_mps and the quantisation of the swing rate means that a swing encoder has failed, or the encoder of
+/// the axis that carries the load.
 ///
 /// A load that somebody pushes gains its speed within a sample or two, and swings as a pendulum afterwards. A
 /// sum that exceeds the limit within kPush_ticks is forgiven once in kPush_s when at least
-/// half of it is a change of the swing rate, unless a swing
+/// half of it is a change of the swing rate in the same direction, unless a swing
 /// encoder that was counting stands from then on for kStands_ticks: nobody's push brings a load to rest
 /// within a count.
 ///

@@ -1,0 +1,191 @@
+// What an attacker tries against the dashboard: guessed tokens, two operators at once, pages of other
+// origins, other names for this computer, floods, clients that do not read.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <future>
+
+#include "dashboard/connection_limits.hpp"
+#include "samples.hpp"
+#include "server_fixture.hpp"
+
+namespace crane::dashboard {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
+
+class WithToken : public ServerTest {
+ protected:
+  WithToken() : ServerTest{{.token = kToken, .host_names = {}, .other_origins = {}, .read_only = false}} {}
+  Response ask(const std::string& target, const json& body, const std::string& token) {
+    http::request<http::string_body> request{http::verb::post, target, 11, body.dump()};
+    request.set(http::field::content_type, "application/json");
+    if (!token.empty()) request.set(http::field::authorization, "Bearer " + token);
+    return exchange(request);
+  }
+};
+
+TEST_F(WithToken, NobodyOperatesWithoutItAlsoNotThroughAProxyThatDoesNotNameItself) {
+  EXPECT_EQ(ask("/api/operator/take", json::object(), "").result_int(), 403U);
+  EXPECT_EQ(ask("/api/request", {{"kind", "arm"}}, "").result_int(), 403U);
+  EXPECT_EQ(ask("/api/operator/take", json::object(), kToken).result_int(), 200U);
+  EXPECT_EQ(asked_, 0);
+}
+
+TEST_F(WithToken, TheRigsOwnComputerMayStopWithoutIt) {
+  EXPECT_EQ(ask("/api/request", {{"kind", "estop"}}, "").result_int(), 200U);
+  http::request<http::string_body> request{http::verb::post, "/api/request", 11, R"({"kind":"estop"})"};
+  request.set(http::field::content_type, "application/json");
+  request.set("X-Forwarded-For", "192.0.2.1");
+  EXPECT_EQ(exchange(request).result_int(), 403U);
+  EXPECT_EQ(asked_, 1);
+}
+
+TEST_F(WithToken, AGuessIsAnsweredLateAndDelaysNobodyElse) {
+  constexpr int kGuesses = 30;
+  const auto begin = Clock::now();
+  std::vector<std::future<std::pair<unsigned, Clock::duration>>> guesses;
+  for (int i = 0; i < kGuesses; ++i)
+    guesses.push_back(std::async(std::launch::async, [&, i] {
+      http::request<http::string_body> request{http::verb::get, "/api/about", 11};
+      request.set(http::field::authorization, "Bearer " + std::string(31, 'a') + static_cast<char>('A' + i));
+      const auto status = exchange(request).result_int();
+      return std::pair{status, Clock::now() - begin};
+    }));
+  EXPECT_EQ(ask("/api/operator/take", json::object(), kToken).result_int(), 200U);
+  EXPECT_LT(Clock::now() - begin, kGuessDelay);
+  for (auto& guess : guesses) EXPECT_GE(guess.get().second, kGuessDelay);
+}
+
+TEST_F(WithToken, AGuessThatHangsUpKeepsItsConnectionForAsLong) {
+  const auto begin = Clock::now();
+  for (std::size_t i = 0; i < kMostConnections; ++i) {
+    auto socket = connect();
+    asio::write(socket,
+                asio::buffer(std::string{"GET /api/about HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: "
+                                         "Bearer guess\r\n\r\n"}));
+  }
+  const std::string answer = raw("GET /api/about HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n");
+  EXPECT_TRUE(answer.empty() || Clock::now() - begin >= kGuessDelay) << answer.substr(0, 80);
+}
+
+TEST_F(ServerTest, OfManyWhoTakeTheControlsAtOnceOneGetsThem) {
+  std::vector<std::future<unsigned>> operators;
+  for (int i = 0; i < 16; ++i)
+    operators.push_back(std::async(std::launch::async, [&, i] {
+      return post("/api/operator/take", {{"name", std::to_string(i)}}).result_int();
+    }));
+  int taken = 0;
+  for (auto& one : operators) taken += one.get() == 200U ? 1 : 0;
+  EXPECT_EQ(taken, 1);
+}
+
+TEST_F(ServerTest, WhatIsNoRequestIsAnsweredWithAReason) {
+  for (const auto& body : {json::array(), json(nullptr), json{{"kind", 1e300}},
+                           json{{"kind", "arm"}, {"tick", 1}}, json{{"kind", "move"}, {"trolley_m", "far"}},
+                           json::parse(std::string(500, '[') + std::string(500, ']'))}) {
+    const auto answer = post("/api/request", body);
+    EXPECT_EQ(answer.result_int(), 400U);
+    EXPECT_NE(answer.body().find("error"), std::string::npos);
+  }
+  EXPECT_EQ(asked_, 0);
+}
+
+TEST_F(ServerTest, AReleasedSeatDoesNotOperateAnyMore) {
+  const auto take = [&] {
+    return json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();
+  };
+  const auto stale = take();
+  post("/api/operator/release", json::object(), stale);
+  const auto fresh = take();
+  EXPECT_EQ(post("/api/request", {{"kind", "arm"}}, stale).result_int(), 409U);
+  EXPECT_EQ(post("/api/operator/renew", json::object(), stale).result_int(), 409U);
+  EXPECT_FALSE(
+      json::parse(post("/api/operator/release", json::object(), stale).body())["released"].get<bool>());
+  EXPECT_EQ(post("/api/operator/renew", json::object(), fresh).result_int(), 200U);
+  EXPECT_EQ(asked_, 0);
+}
+
+TEST_F(ServerTest, APageElsewhereLoadsNothingButMayLinkToThePage) {
+  http::request<http::string_body> request{http::verb::get, "/api/history?topic=crane/state", 11};
+  request.set("Sec-Fetch-Dest", "image");
+  for (const auto* site : {"cross-site", "same-site"}) {
+    request.set("Sec-Fetch-Site", site);
+    EXPECT_EQ(exchange(request).result_int(), 403U) << site;
+  }
+  request.target("/");
+  request.set("Sec-Fetch-Dest", "iframe");
+  EXPECT_EQ(exchange(request).result_int(), 403U);
+  request.set("Sec-Fetch-Dest", "document");
+  EXPECT_EQ(exchange(request).result_int(), 200U);
+}
+
+TEST_F(ServerTest, AForeignNameForThisComputerGetsNoWebSocket) {
+  Viewer viewer{connect()};
+  viewer.set_option(beast::websocket::stream_base::decorator([](beast::websocket::request_type& request) {
+    request.set(http::field::origin, "http://evil.example:8765");
+  }));
+  EXPECT_THROW(viewer.handshake("evil.example:8765", "/"), boost::system::system_error);
+}
+
+long resident_kb() {
+  std::ifstream file{"/proc/self/statm"};
+  long all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * (::sysconf(_SC_PAGESIZE) / 1024);
+}
+
+TEST_F(ServerTest, ClientsThatAskForTheHistoryAndDoNotReadDoNotFillTheMemory) {
+  auto viewer = view(kViewerProtocol);
+  subscribe(viewer, channel_of(Document::situation));
+  const auto sample = sample_of(topics::state, msg::State{}, log_now_ns());
+  const auto count = History::kLargestTopic_bytes / sample->cdr.size();
+  for (std::size_t i = 0; i < count; i += 1000) server_.put(std::vector<SamplePtr>(1000, sample));
+  while (get("/api/history?topic=crane/state").body().size() < History::kLargestTopic_bytes / 2) {
+  }
+  const auto before_kb = resident_kb();
+  std::vector<tcp::socket> idle;
+  std::string busy;
+  for (std::size_t i = 0; i < kMostConnections - 8; ++i) {
+    idle.push_back(connect());
+    asio::write(
+        idle.back(),
+        asio::buffer(std::string{"GET /api/history?topic=crane/state HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"}));
+    busy = raw(
+        "GET /api/about HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n");  // it has been answered
+  }
+  EXPECT_NE(busy.find("200 OK"), std::string::npos);
+  EXPECT_LT(resident_kb() - before_kb, static_cast<long>(2 * kMostAnswers_bytes / 1024));
+  std::string refused(12, '\0');
+  asio::read(idle.back(), asio::buffer(refused));
+  EXPECT_EQ(refused, "HTTP/1.1 503");
+}
+
+TEST_F(ServerTest, AViewerThatFloodsPingsIsEnded) {
+  auto viewer = view(kViewerProtocol);
+  boost::system::error_code error;
+  for (int i = 0; i < 100'000 && !error; ++i) viewer.ping({}, error);
+  EXPECT_TRUE(error);
+  EXPECT_EQ(get("/api/about").result_int(), 200U);
+}
+
+TEST(ConnectionLimits, OneAddressDoesNotTakeThePlacesOfTheOthers) {
+  ConnectionLimits limits;
+  std::size_t admitted = 0;
+  for (std::size_t i = 0; i < kMostConnections; ++i) admitted += limits.admit("192.0.2.7", true) ? 1 : 0;
+  EXPECT_EQ(admitted, kMostOfOneAddress);
+  EXPECT_TRUE(limits.admit("192.0.2.8", true));
+  for (int host = 9; host < 40; ++host)
+    while (limits.admit("192.0.2." + std::to_string(host), true)) {
+    }
+  EXPECT_EQ(limits.open(), kMostForeignConnections);
+  EXPECT_TRUE(limits.admit("127.0.0.1", false));
+  limits.release("192.0.2.7", true);
+  EXPECT_TRUE(limits.admit("192.0.2.7", true));
+}
+
+}  // namespace
+}  // namespace crane::dashboard

@@ -1,0 +1,79 @@
+// Floods of requests on their way to the supervisor, over the memory bus.
+#include "dashboard/request_desk.hpp"
+
+#include <gtest/gtest.h>
+
+#include "crane/runtime/process.hpp"
+
+namespace crane::dashboard {
+namespace {
+
+class Desk : public testing::Test {
+ protected:
+  static bus::Options on(const std::shared_ptr<bus::MemoryNetwork>& network, const char* name,
+                         crane_Source source) {
+    bus::Options options;
+    options.vendor = bus::Vendor::memory;
+    options.network = network;
+    options.participant = name;
+    options.source = source;
+    return options;
+  }
+  std::vector<msg::Request> take_all() {
+    std::vector<msg::Request> all;
+    while (const auto request = requests_.take()) all.push_back(*request);
+    return all;
+  }
+  void answer(const msg::Request& request, bool accepted) {
+    msg::Reply reply{};
+    reply.request_id = request.id;
+    std::copy(std::begin(request.client), std::end(request.client), std::begin(reply.client));
+    reply.accepted = accepted;
+    ASSERT_TRUE(replies_.publish(reply));
+  }
+
+  std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
+  bus::Bus supervisor_{on(network_, "supervisor", crane_SOURCE_SUPERVISOR)};
+  bus::Subscriber<msg::Request> requests_ = supervisor_.subscriber(topics::request);
+  bus::Publisher<msg::Reply> replies_ = supervisor_.publisher(topics::reply);
+  bus::Bus bus_{on(network_, "dashboard", crane_SOURCE_OPERATOR)};
+  RequestDesk desk_{bus_};
+};
+
+TEST_F(Desk, AThousandStopsAtOnceAreOneRequestAndAllAreAnswered) {
+  int answered = 0;
+  for (int i = 0; i < 1000; ++i)
+    desk_.send({.kind = crane_REQUEST_ESTOP},
+               [&](const Reply& reply) { answered += reply.accepted ? 1 : 0; });
+  const auto sent = take_all();
+  ASSERT_EQ(sent.size(), 1U);
+  answer(sent.front(), true);
+  desk_.poll(runtime::monotonic_ns());
+  EXPECT_EQ(answered, 1000);
+}
+
+TEST_F(Desk, AStopIsSentWhileManyOtherRequestsWait) {
+  int refused = 0;
+  for (int i = 0; i < 1000; ++i)
+    desk_.send({.kind = crane_REQUEST_RESET}, [&](const Reply& reply) { refused += reply.accepted ? 0 : 1; });
+  EXPECT_EQ(take_all().size(), RequestDesk::kMostWaiting);
+  EXPECT_EQ(refused, 1000 - static_cast<int>(RequestDesk::kMostWaiting));
+  desk_.send({.kind = crane_REQUEST_ESTOP}, [](const Reply&) {});
+  const auto sent = take_all();
+  ASSERT_EQ(sent.size(), 1U);
+  EXPECT_EQ(sent.front().kind, crane_REQUEST_ESTOP);
+}
+
+TEST_F(Desk, WhatWasAnsweredMakesRoomAtOnce) {
+  int accepted = 0;
+  for (int i = 0; i < 1000; ++i) {
+    desk_.send({.kind = crane_REQUEST_RESET},
+               [&](const Reply& reply) { accepted += reply.accepted ? 1 : 0; });
+    for (const auto& request : take_all()) answer(request, true);
+    desk_.poll(runtime::monotonic_ns());
+  }
+  EXPECT_EQ(accepted, 1000);
+}
+
+}  // namespace
+}  // namespace crane::dashboard

@@ -1,0 +1,292 @@
+/// Strangers at the dashboard of a running crane: floods, requests without the token, a killed dashboard. The
+/// loop does not notice, nothing moves, and the operator with the token is heard.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <thread>
+
+#include "../recording/temporary_directory.hpp"
+#include "../system/running_stack.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::hostile {
+namespace {
+
+using namespace std::chrono_literals;
+namespace asio = boost::asio;
+namespace http = boost::beast::http;
+namespace websocket = boost::beast::websocket;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+constexpr std::uint32_t kDomain = 67;
+constexpr const char* kRig = "virginia_tech_tower";
+constexpr double kStill_m = 0.01;
+/// A computer that is busy with other work loses ticks by itself; three in a row stop the crane, which has to
+/// hold.
+constexpr double kLostShare = 0.01;
+constexpr std::size_t kJoiningProcesses = 5;  ///< that join samples of a tick
+/// 8 MB of history for each of the busy topics, 32 MB of answers, 4 MB for each viewer, and what libraries
+/// take.
+constexpr long kLargest_kb = 400 * 1024;
+
+unsigned short free_port() {
+  asio::io_context context;
+  return tcp::acceptor{context, {asio::ip::make_address("127.0.0.1"), 0}}.local_endpoint().port();
+}
+
+class Client {
+ public:
+  explicit Client(unsigned short port) : port_{port} {}
+  /// Throws when the dashboard cannot be reached. @return status; 0: it hung up
+  unsigned ask(http::request<http::string_body> request) {
+    boost::beast::tcp_stream stream{context_};
+    stream.connect(tcp::endpoint{asio::ip::make_address("127.0.0.1"), port_});
+    if (request.count(http::field::host) == 0) request.set(http::field::host, "127.0.0.1");
+    request.prepare_payload();
+    error_code error;
+    http::write(stream, request, error);
+    boost::beast::flat_buffer buffer;
+    http::response_parser<http::string_body> parser;
+    parser.body_limit(16U << 20U);
+    http::read(stream, buffer, parser, error);
+    body_ = error ? "" : parser.get().body();
+    return error ? 0 : parser.get().result_int();
+  }
+  unsigned get(const std::string& target) { return ask({http::verb::get, target, 11}); }
+  unsigned post(const std::string& target, const std::string& body, const std::string& token,
+                const std::string& seat = "") {
+    http::request<http::string_body> request{http::verb::post, target, 11, body};
+    request.set(http::field::content_type, "application/json");
+    if (!token.empty()) request.set(http::field::authorization, "Bearer " + token);
+    request.set("X-Crane-Seat", seat);
+    return ask(std::move(request));
+  }
+  [[nodiscard]] const std::string& body() const { return body_; }
+  /// @return whether the dashboard answers within `patience`
+  bool answers(std::chrono::milliseconds patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (std::chrono::steady_clock::now() < end) try {
+        if (get("/api/about") == 200) return true;
+      } catch (const boost::system::system_error&) {
+        std::this_thread::sleep_for(20ms);
+      }
+    return false;
+  }
+
+ private:
+  asio::io_context context_;
+  unsigned short port_;
+  std::string body_;
+};
+
+/// Attackers, with the lowest priority: what counts is the work that they make for others.
+class Attackers {
+ public:
+  explicit Attackers(unsigned short port) : port_{port} {
+    for (const auto* target :
+         {"/api/history?topic=crane/state", "/metrics", "/vendor/three/three.core.min.js"})
+      start([this, target] { Client{port_}.get(target); });
+    for (const auto* body :
+         {R"({"kind":"arm"})", R"({"kind":"move","trolley_m":1})", "[[[[[[[[[[[[[[[[", "{\"kind\":1e999}"})
+      start([this, body] { Client{port_}.post("/api/request", body, ""); });
+    start([this] { Client{port_}.post("/api/operator/take", "{}", "guess"); });
+    start([this] { trickle(); });
+    start([this] { ping(); });
+    start([this] { garbage(); });
+  }
+  ~Attackers() { stop_ = true; }
+  [[nodiscard]] std::size_t attempts() const { return attempts_; }
+
+ private:
+  template <class Attack>
+  void start(Attack attack) {
+    threads_.emplace_back([this, attack] {
+      ::setpriority(PRIO_PROCESS, 0, 19);
+      while (!stop_) try {
+          ++attempts_;
+          attack();
+        } catch (const boost::system::system_error&) {  // refused or ended, as it should be
+        }
+    });
+  }
+  tcp::socket connected() {
+    tcp::socket socket{context_};
+    socket.connect({asio::ip::make_address("127.0.0.1"), port_});
+    return socket;
+  }
+  /// Ten requests that never end.
+  void trickle() {
+    std::vector<tcp::socket> slow;
+    for (int i = 0; i < 10; ++i) slow.push_back(connected());
+    for (int i = 0; i < 20 && !stop_; ++i) {
+      for (auto& socket : slow) asio::write(socket, asio::buffer("GET / HTTP/1.1\r\nX: ", i == 0 ? 19 : 1));
+      std::this_thread::sleep_for(100ms);
+    }
+  }
+  void ping() {
+    websocket::stream<tcp::socket> viewer{connected()};
+    viewer.handshake("127.0.0.1", "/");
+    while (!stop_) viewer.ping({});
+  }
+  /// A text frame of 2^63 bytes, continued by nothing but empty frames.
+  void garbage() {
+    websocket::stream<tcp::socket> viewer{connected()};
+    viewer.handshake("127.0.0.1", "/");
+    asio::write(viewer.next_layer(), asio::buffer(std::string("\x01\x80\0\0\0\0", 6)));
+    for (int i = 0; i < 100'000 && !stop_; ++i)
+      asio::write(viewer.next_layer(), asio::buffer(std::string("\x00\x80\0\0\0\0", 6)));
+    asio::write(viewer.next_layer(),
+                asio::buffer(std::string("\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 10)));
+  }
+
+  asio::io_context context_;
+  unsigned short port_;
+  std::atomic<bool> stop_{false};
+  std::atomic<std::size_t> attempts_{0};
+  std::vector<std::jthread> threads_;
+};
+
+class DashboardAttack : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto arguments = runtime::arguments(stack_.bus_options());
+    arguments[1] = "fastdds";
+    arguments.insert(arguments.end(),
+                     {"--port", std::to_string(port_), "--operator-token", (directory_ / "token").string()});
+    stack_.children().start("dashboard", "crane_dashboard", arguments);
+    ASSERT_TRUE(client_.answers(10s));
+    std::getline(std::ifstream{directory_ / "token"}, token_);
+  }
+  [[nodiscard]] crane_SupervisorState state() const { return stack_.observer().statuses().back().state; }
+  [[nodiscard]] long resident_kb() {
+    std::ifstream file{"/proc/" + std::to_string(*stack_.children().pid_of("dashboard")) + "/statm"};
+    long all = 0, resident = 0;
+    file >> all >> resident;
+    return resident * (::sysconf(_SC_PAGESIZE) / 1024);
+  }
+  [[nodiscard]] std::uint64_t lost_ticks() const {
+    std::uint64_t sum = 0;
+    for (const auto& [name, node] : stack_.observer().nodes()) sum += node.lost_ticks;
+    return sum;
+  }
+
+  recording::TemporaryDirectory directory_;
+  system_test::RunningStack stack_{kDomain, kRig};
+  unsigned short port_ = free_port();
+  Client client_{port_};
+  std::string token_;
+};
+
+TEST_F(DashboardAttack, AFloodDoesNotReachTheLoopAndTheOperatorIsHeard) {
+  stack_.session().arm();
+  stack_.listen(1s);
+  stack_.forget();
+  const auto lost_before = lost_ticks();
+  {
+    Attackers attackers{port_};
+    stack_.listen(5s);
+    std::cout << attackers.attempts() << " attempts, dashboard " << resident_kb() / 1024 << " MB\n";
+    EXPECT_GT(attackers.attempts(), 100U);
+    EXPECT_LT(resident_kb(), kLargest_kb);
+    const auto& states = stack_.observer().states();
+    const auto lost = lost_ticks() - lost_before;
+    std::cout << lost << " ticks lost by all processes, " << states.back().overruns - states.front().overruns
+              << " overruns, in " << states.size() << " ticks\n";
+    EXPECT_LT(static_cast<double>(lost), kLostShare * static_cast<double>(states.size() * kJoiningProcesses));
+    EXPECT_NEAR(states.back().trolley_position_m, states.front().trolley_position_m, kStill_m);
+    for (const auto& status : stack_.observer().statuses()) ASSERT_EQ(status.state, crane_STATE_HOLD);
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(client_.post("/api/request", R"({"kind":"estop"})", token_), 200U);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
+  }
+  EXPECT_TRUE(stack_.until([this] { return state() == crane_STATE_ESTOP; }, 2s));
+  EXPECT_TRUE(client_.answers(2s));
+}
+
+TEST_F(DashboardAttack, WithoutTheTokenNothingIsAskedOfTheSupervisor) {
+  stack_.listen(1500ms);
+  stack_.forget();
+  const std::string guess(token_.size(), '0');
+  for (const auto* kind : {R"({"kind":"reset"})", R"({"kind":"arm"})", R"({"kind":"home","axis":"trolley"})",
+                           R"({"kind":"move","trolley_m":1})", R"({"kind":"disarm"})"}) {
+    EXPECT_EQ(client_.post("/api/request", kind, ""), 403U) << kind;
+    EXPECT_EQ(client_.post("/api/request", kind, guess), 403U) << kind;
+    EXPECT_EQ(client_.post("/api/request", kind, token_), 409U) << kind;  // without the controls
+    for (const auto& [field, value] : {std::pair{"Host", "evil.example"},
+                                       {"Origin", "http://evil.example"},
+                                       {"Sec-Fetch-Site", "cross-site"}}) {
+      http::request<http::string_body> request{http::verb::post, "/api/request", 11, kind};
+      request.set(http::field::content_type, "application/json");
+      request.set(http::field::authorization, "Bearer " + token_);
+      request.set(field, value);
+      EXPECT_EQ(client_.ask(std::move(request)), 403U) << kind << field;
+    }
+  }
+  stack_.listen(500ms);
+  for (const auto& status : stack_.observer().statuses()) ASSERT_EQ(status.state, crane_STATE_LOCKED);
+  EXPECT_EQ(client_.post("/api/operator/take", "{}", token_), 200U);
+  const auto at = client_.body().find("\":\"") + 3;
+  const auto seat = client_.body().substr(at, client_.body().find('"', at) - at);
+  EXPECT_EQ(client_.post("/api/request", R"({"kind":"reset"})", token_, seat), 200U);
+  EXPECT_TRUE(stack_.until([this] { return state() == crane_STATE_READY; }, 3s));
+}
+
+/// Process ids of the children of a process.
+std::vector<pid_t> children_of(pid_t parent) {
+  const auto text = std::to_string(parent);
+  std::ifstream file{"/proc/" + text + "/task/" + text + "/children"};
+  std::vector<pid_t> all;
+  for (pid_t pid = 0; file >> pid;) all.push_back(pid);
+  return all;
+}
+
+std::string program_of(pid_t pid) {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/" + std::to_string(pid) + "/exe", ignored).filename();
+}
+
+TEST(DashboardOfAStack, IsStartedAnewWhenItIsKilledAndTheCraneGoesOn) {
+  const auto port = free_port();
+  stack::ChildProcesses children;
+  children.start(
+      "up", "crane",
+      {"up", "--rig", kRig, "--domain", std::to_string(kDomain), "--crane", system_test::crane_name(),
+       "--priority", "0", "--dashboard", "--dashboard-port", std::to_string(port)});
+  Client client{port};
+  ASSERT_TRUE(client.answers(15s));
+  const auto answered = std::chrono::steady_clock::now();
+  const auto up = *children.pid_of("up");
+  const auto dashboard_of = [&] {
+    const auto all = children_of(up);
+    const auto found = std::ranges::find(all, "crane_dashboard", program_of);
+    return found == all.end() ? 0 : *found;
+  };
+  const auto heard = [&] {
+    return client.get("/api/situation") == 200 && client.body().find("\"LOCKED\"") != std::string::npos;
+  };
+  const auto end = std::chrono::steady_clock::now() + 15s;
+  while (!heard() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(100ms);
+  ASSERT_TRUE(heard());
+  std::this_thread::sleep_until(answered + 1s);  // a dashboard that ends sooner is not started anew
+  const auto killed = dashboard_of();
+  ASSERT_GT(killed, 0);
+  ::kill(killed, SIGKILL);
+  EXPECT_TRUE(client.answers(10s));
+  EXPECT_NE(dashboard_of(), killed);
+  EXPECT_FALSE(children.ended());
+}
+
+}  // namespace
+}  // namespace crane::hostile

@@ -1,0 +1,136 @@
+#include "recorded_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "crane/bus/cdr.hpp"
+#include "crane/recording/mcap_reader.hpp"
+
+namespace crane::system_test {
+namespace {
+
+using campaign::Row;
+
+constexpr std::size_t kEncapsulation_bytes = 4;
+/// A 12-bit converter of +-10 V shows a command to half of this.
+constexpr double kConverterStep_v = 20.0 / 4096;
+/// A request acts within so many ticks: a lost one is repeated by its reliable writer.
+constexpr std::size_t kTakesEffect_ticks = 100;
+
+template <class T>
+bool decode(const topics::Topic<T>& topic, const recording::Message& message, T& out) {
+  if (message.channel->topic != topic.description.name || message.data.size() < kEncapsulation_bytes)
+    return false;
+  return bus::CdrCodec::of(*topic.description.descriptor)
+      .decode(message.data.subspan(kEncapsulation_bytes), false, &out);
+}
+
+/// Newest sample of each tick.
+template <class Heard>
+auto by_tick(const std::vector<Heard>& heard, std::int64_t until_ns, std::int64_t onset_ns,
+             bool nobody_else) {
+  std::map<std::uint64_t, decltype(Heard::sample)> result;
+  std::uint32_t trusted = 0;
+  for (const auto& [log_ns, sample] : heard) {
+    if (log_ns > until_ns) break;
+    if (log_ns < onset_ns || nobody_else) trusted = sample.header.epoch;
+    if (sample.header.epoch == trusted) result[sample.header.tick] = sample;
+  }
+  return result;
+}
+
+template <class Map>
+typename Map::mapped_type newest(const Map& map, std::uint64_t tick) {
+  const auto next = map.upper_bound(tick);
+  return next == map.begin() ? typename Map::mapped_type{} : std::prev(next)->second;
+}
+
+/// What the bridge asked the board for: the command that it names, where the volts that act are those of it.
+void fill_outputs(Row& row, const std::map<std::uint64_t, msg::Command>& commands) {
+  const auto found = commands.find(row.state.applied_command_tick);
+  const bool latched = row.state.latch_reason != crane_LATCH_NONE;
+  for (std::size_t i = 0; i < campaign::kAxes; ++i) {
+    const double acts_v = row.state.applied_v[i];
+    row.truth.converter_v[i] = row.truth.written_v[i] = acts_v;
+    if (found == commands.end() || latched) continue;
+    if (std::abs(acts_v - found->second.drive_v[i]) <= kConverterStep_v / 2)
+      row.truth.written_v[i] = found->second.drive_v[i];
+    row.truth.brake_release[i] = found->second.brake_release[i];
+  }
+}
+
+void fill_truth(Row& row, const Row* before) {
+  const auto& state = row.state;
+  row.truth.position = {state.trolley_position_m, state.slew_angle_rad, state.cable_length_m};
+  row.truth.swing_radial_rad = state.swing_radial_rad;
+  row.truth.swing_tangential_rad = state.swing_tangential_rad;
+  for (std::size_t i = 0; i < campaign::kAxes; ++i) {
+    row.truth.brake_closed[i] = state.brake_closed[i];
+    if (before != nullptr && row.time_ns > before->time_ns)
+      row.truth.speed[i] = (row.truth.position[i] - before->truth.position[i]) * 1e9 /
+                           static_cast<double>(row.time_ns - before->time_ns);
+  }
+}
+
+}  // namespace
+
+Recorded::Recorded(const std::filesystem::path& file) {
+  recording::McapReader reader{file};
+  reader.for_each({}, [this](const recording::Message& message) {
+    Heard<msg::State> state{message.log_time_ns, {}};
+    Heard<msg::Command> command{message.log_time_ns, {}};
+    Heard<msg::SupervisorStatus> status{message.log_time_ns, {}};
+    Heard<msg::Request> request{message.log_time_ns, {}};
+    if (decode(topics::state, message, state.sample)) states_.push_back(state);
+    if (decode(topics::command, message, command.sample)) commands_.push_back(command);
+    if (decode(topics::supervisor, message, status.sample)) statuses_.push_back(status);
+    if (decode(topics::request, message, request.sample)) requests_.push_back(request);
+    return true;
+  });
+}
+
+/// When the recorder heard the first state that was sampled at that time or later.
+std::int64_t Recorded::log_time_of(std::int64_t monotonic_ns) const {
+  const auto found = std::ranges::find_if(states_, [monotonic_ns](const auto& heard) {
+    return heard.sample.header.sample_time_ns >= monotonic_ns;
+  });
+  return found == states_.end() ? std::numeric_limits<std::int64_t>::max() : found->log_ns;
+}
+
+std::vector<Row> Recorded::rows(std::int64_t from_ns, std::int64_t onset_ns, std::int64_t until_ns,
+                                bool nobody_else) const {
+  const auto onset_log_ns = log_time_of(onset_ns), until_log_ns = log_time_of(until_ns);
+  const auto states = by_tick(states_, until_log_ns, onset_log_ns, nobody_else);
+  const auto commands = by_tick(commands_, until_log_ns, onset_log_ns, nobody_else);
+  const auto statuses = by_tick(statuses_, until_log_ns, onset_log_ns, nobody_else);
+  std::vector<Row> rows;
+  for (const auto& [tick, state] : states) {
+    const auto time_ns = state.header.sample_time_ns;
+    if (time_ns < from_ns || time_ns > until_ns) continue;
+    Row row;
+    row.time_ns = time_ns;
+    row.state = state;
+    row.command = newest(commands, tick);
+    row.status = newest(statuses, tick);
+    fill_truth(row, rows.empty() ? nullptr : &rows.back());
+    fill_outputs(row, commands);
+    rows.push_back(row);
+  }
+  for (const auto& [log_ns, request] : requests_) {
+    const auto heard_ns = log_ns;
+    const auto at =
+        std::ranges::find_if(states_, [heard_ns](const auto& heard) { return heard.log_ns >= heard_ns; });
+    if (at == states_.end()) break;
+    const auto row = std::ranges::lower_bound(rows, at->sample.header.sample_time_ns, {}, &Row::time_ns);
+    const auto first = std::max<std::ptrdiff_t>(row - rows.begin() - 1, 0);
+    for (std::size_t k = static_cast<std::size_t>(first);
+         k < rows.size() && k < static_cast<std::size_t>(first) + kTakesEffect_ticks; ++k) {
+      rows[k].reset_asked = rows[k].reset_asked || request.kind == crane_REQUEST_RESET;
+      rows[k].arm_asked = rows[k].arm_asked || request.kind == crane_REQUEST_ARM;
+    }
+  }
+  return rows;
+}
+
+}  // namespace crane::system_test

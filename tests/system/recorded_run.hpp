@@ -1,0 +1,36 @@
+#pragma once
+/// Rows for the judge of the fault campaign from the recording of real processes: what the recorder heard,
+/// and nothing that supervisor or bridge computed for the test.
+#include <filesystem>
+
+#include "campaign/judge/judge.hpp"
+
+namespace crane::system_test {
+
+/// Samples of a recording, by tick.
+class Recorded {
+ public:
+  /// @throws recording::ReadError
+  explicit Recorded(const std::filesystem::path& file);
+  /// The ticks whose state was sampled within [from_ns, until_ns] of CLOCK_MONOTONIC. Of each topic the
+  /// samples of the writers that were heard before `onset_ns` count, and those of later ones when
+  /// `nobody_else`.
+  [[nodiscard]] std::vector<campaign::Row> rows(std::int64_t from_ns, std::int64_t onset_ns,
+                                                std::int64_t until_ns, bool nobody_else) const;
+  [[nodiscard]] std::size_t states() const { return states_.size(); }
+
+ private:
+  template <class T>
+  struct Heard {
+    std::int64_t log_ns = 0;
+    T sample{};
+  };
+  [[nodiscard]] std::int64_t log_time_of(std::int64_t monotonic_ns) const;
+
+  std::vector<Heard<msg::State>> states_;
+  std::vector<Heard<msg::Command>> commands_;
+  std::vector<Heard<msg::SupervisorStatus>> statuses_;
+  std::vector<Heard<msg::Request>> requests_;
+};
+
+}  // namespace crane::system_test
