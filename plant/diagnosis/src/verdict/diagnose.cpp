@@ -185,8 +185,8 @@ Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::v
   if (losing.empty()) {
     result = diagnosed(rig, as_measured, as_measured, losing, request);
   } else {
-    Data mended{prepared(put_back(std::move(train), losing), rig),
-                prepared(put_back(std::move(test), losing), rig)};
+    Data mended{prepared(put_back(std::move(train), losing, rig), rig),
+                prepared(put_back(std::move(test), losing, rig), rig)};
     hold_resting_drives(mended.train, mended.test);
     Study study(rig, mended.train, mended.test, request.excluded);
     result = diagnosed(rig, study, as_measured, losing, request);
