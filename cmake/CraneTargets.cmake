@@ -93,9 +93,15 @@ function(crane_test name)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 
-# crane_benchmark(NAME SOURCES ... LINK ...): Google Benchmark program in bin/, not a test.
+# crane_benchmark(NAME [OWN_MAIN] SOURCES ... LINK ...): program in bin/ that measures, not a test. The target benchmarks builds all
+#   of them. Google Benchmark has the main(); OWN_MAIN: the program has its own.
+add_custom_target(benchmarks)
 function(crane_benchmark name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK} benchmark::benchmark benchmark::benchmark_main)
+  cmake_parse_arguments(ARG "OWN_MAIN" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} EXCLUDE_FROM_ALL ${ARG_SOURCES})
+  add_dependencies(benchmarks ${name})
+  target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK})
+  if(NOT ARG_OWN_MAIN)
+    target_link_libraries(${name} PRIVATE benchmark::benchmark benchmark::benchmark_main)
+  endif()
 endfunction()

@@ -20,7 +20,7 @@ std::vector<runtime::Read> bridge_reads() {
 }
 
 std::vector<runtime::Write> bridge_writes() {
-  return {{&topics::state.description, "what the rig measures, and the voltage that acts"},
+  return {{&topics::state.description, "measurements, switches, brakes, and the voltage that acts"},
           {&topics::reply.description, "answers to requests"}};
 }
 

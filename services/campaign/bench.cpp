@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "crane/bridge/bridge.hpp"
+#include "crane/bus/seal.hpp"
 #include "crane/runtime/in_process.hpp"
 #include "stack/stack.hpp"
 
@@ -54,7 +55,7 @@ void Bench::carry(const topics::Description& topic, const void* sample, const bu
     copy_.resize(topic.descriptor->m_size / sizeof(std::max_align_t) + 1);
     std::memcpy(copy_.data(), sample, topic.descriptor->m_size);
     if (mad(topic, copy_.data())) {
-      bus::detail::seal(topic, copy_.data(), header.source, header.epoch);
+      bus::seal(topic, copy_.data(), header.source, header.epoch);
       sample = copy_.data();
     }
   }

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "cli/sample_json.hpp"
+#include "crane/recording/run_table.hpp"
 
 namespace crane::cli {
 namespace {
@@ -111,6 +112,7 @@ ordered_json describe(recording::McapReader& recording, const std::filesystem::p
                       {"last_time_ns", recording.last_time_ns()},
                       {"duration_s", duration_s},
                       {"messages", messages}};
+  if (const auto version = recording::messages_version(recording)) result["messages_version"] = *version;
   result["topics"] = ordered_json::array();
   for (const auto& channel : recording.channels()) {
     const auto* schema = recording.find_schema(channel.schema_id);

@@ -32,7 +32,7 @@ class Conversation {
   void find_listeners(double timeout_s) {
     if (!wait_until(bus_, timeout_s, [this] { return found(); }))
       throw NoAnswer((heard_supervisor_ && !heard_planner() ? "no trajectory planner" : "no supervisor") +
-                     where_and_remedy(bus_.options()));
+                     where_and_remedy(bus_));
   }
 
   Answer exchange(double timeout_s) {

@@ -19,6 +19,11 @@ std::string where_and_remedy(const bus::Options& options) {
          "differ from the stack's";
 }
 
+std::string where_and_remedy(bus::Bus& bus) {
+  const auto others = bus.other_versions();
+  return others.empty() ? where_and_remedy(bus.options()) : ": " + bus::refusal(others.front());
+}
+
 bool wait_until(bus::Bus& bus, double timeout_s, const std::function<bool()>& poll) {
   constexpr std::int64_t kLongest_ns = 20'000'000;  // matched endpoints and signals do not wake Bus::wait()
   const auto end_ns = runtime::monotonic_ns() + static_cast<std::int64_t>(timeout_s * 1e9);

@@ -22,6 +22,8 @@ namespace crane::cli {
 
 /// End of an error message: " for crane 'crane' in domain 0 on 127.0.0.1 …: remedy".
 [[nodiscard]] std::string where_and_remedy(const bus::Options& options);
+/// The same, or the program of this crane whose messages have another version.
+[[nodiscard]] std::string where_and_remedy(bus::Bus& bus);
 
 /// Calls `poll` after each arrival of a sample, and at least every 20 ms, until it returns true.
 /// @return false at the timeout or after a stop signal

@@ -26,16 +26,16 @@ class RefusedPolicy {
   std::string policy_;
 };
 
-std::string why_silent(const bus::Bus& bus, const bus::CdrSubscriber& subscriber,
-                       const RefusedPolicy& refused) {
+std::string why_silent(bus::Bus& bus, const bus::CdrSubscriber& subscriber, const RefusedPolicy& refused) {
   const std::string name{subscriber.topic().name};
+  if (const auto others = bus.other_versions(); !others.empty())
+    return name + ": " + bus::refusal(others.front());
   if (const auto rejected = subscriber.counts().rejected; rejected > 0)
-    return name + ": all " + std::to_string(rejected) +
-           " samples had a wrong CRC; check that both sides have the same version";
+    return name + ": all " + std::to_string(rejected) + " samples had a wrong CRC; check the network";
   if (const auto policy = refused.get(); !policy.empty())
     return name + ": a writer exists, but its quality of service does not match (" + policy +
-           "); check that both sides have the same version";
-  if (subscriber.matched() == 0) return name + ": no writer found" + where_and_remedy(bus.options());
+           "); check --clock and the releases of both sides";
+  if (subscriber.matched() == 0) return name + ": no writer found" + where_and_remedy(bus);
   return name + ": " + std::to_string(subscriber.matched()) + " writers, but no sample: " +
          (subscriber.topic().every_tick ? "the clock master makes no ticks (crane status)"
                                         : "the topic is written only at events");

@@ -44,7 +44,7 @@ RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& ri
     bus.wait(std::chrono::milliseconds{20});
     if (const auto ended = children.ended()) throw RunError(stack::describe(*ended));
   };
-  return run_scenario(bus, pump, rig, scenario, log, options.twin.has_value());
+  return run_scenario(bus, pump, rig, scenario, log, specs);
 }
 
 /// Lockstep needs a simulated or emulated crane: a real crane does not wait for commands, and its start is
@@ -75,11 +75,13 @@ RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components, co
                           const control::Controller& controller, const experiment::Scenario& scenario,
                           TickLog& log, const configuration::Rig* twin) {
   runtime::InProcessStack stack{components, rig, controller};
-  if (twin != nullptr) stack.add(twin::twin_spec(), *twin, controller);
+  std::vector<runtime::ComponentSpec> all{components.begin(), components.end()};
+  if (twin != nullptr) all.push_back(twin::twin_spec());
+  if (twin != nullptr) stack.add(all.back(), *twin, controller);
   bus::Bus bus{runtime::memory_options(stack.network(), "crane_run", crane_SOURCE_OPERATOR)};
   // When an answer never arrives, the timeout of the run ends the wait.
   return run_scenario(
-      bus, [&stack] { stack.pump(); }, rig, scenario, log, twin != nullptr);
+      bus, [&stack] { stack.pump(); }, rig, scenario, log, all);
 }
 
 nlohmann::ordered_json to_json(const ExperimentResult& result) {

@@ -1,8 +1,8 @@
 #include "experiments/lockstep_run.hpp"
 
 #include <algorithm>
-
 #include <cmath>
+#include <map>
 
 #include "crane/runtime/process.hpp"
 #include "crane/supervisor/states.hpp"
@@ -31,21 +31,60 @@ Collected collect_from(bus::Bus& bus) {
                    runtime::loop_reader(bus, topics::supervisor, input)};
 }
 
+/// The topics of Collected. Their samples are read as structs; those of every other loop topic as bytes.
+const std::array kCollected{&topics::state.description,     &topics::reference.description,
+                            &topics::tracking.description,  &topics::anti_swing.description,
+                            &topics::demand.description,    &topics::command.description,
+                            &topics::supervisor.description};
+
+/// Samples of one loop topic outside the control loop, for example crane/twin.
+class OtherTopic {
+ public:
+  OtherTopic(bus::Bus& bus, const topics::Description& topic)
+      : reader_{bus.cdr_subscriber(topic, runtime::loop_endpoint(runtime::Clock::lockstep))} {}
+
+  /// @return the sample of the tick; nothing when it has not arrived yet
+  [[nodiscard]] std::optional<OtherSample> find(std::uint64_t tick) {
+    std::vector<std::uint8_t> cdr;
+    while (const auto header = reader_.take(cdr)) samples_[header->tick] = cdr;
+    const auto found = samples_.find(tick);
+    if (found == samples_.end()) return std::nullopt;
+    return OtherSample{&reader_.topic(), found->second};
+  }
+  void forget(std::uint64_t tick) { samples_.erase(samples_.begin(), samples_.upper_bound(tick)); }
+
+ private:
+  bus::CdrSubscriber reader_;
+  std::map<std::uint64_t, std::vector<std::uint8_t>> samples_;
+};
+
+/// One reader for every loop topic that the components write and that is not collected.
+std::vector<OtherTopic> other_topics(bus::Bus& bus, std::span<const runtime::ComponentSpec> components) {
+  const auto is_written = [components](const topics::Description& topic) {
+    return std::ranges::any_of(components, [&](const auto& component) {
+      return std::ranges::any_of(component.writes,
+                                 [&](const auto& write) { return write.topic->name == topic.name; });
+    });
+  };
+  std::vector<OtherTopic> others;
+  for (const auto& topic : topics::kAll)
+    if (topic.every_tick && is_written(topic) &&
+        std::ranges::none_of(kCollected, [&](const auto* known) { return known->name == topic.name; }))
+      others.emplace_back(bus, topic);
+  return others;
+}
+
 class LockstepRun {
  public:
   LockstepRun(bus::Bus& bus, const Pump& pump, const configuration::Rig& rig, const Scenario& scenario,
-              TickLog& log, bool with_twin)
+              TickLog& log, std::span<const runtime::ComponentSpec> components)
       : pump_{pump},
         rig_{rig},
         scenario_{scenario},
         log_{log},
         operator_{bus, "crane_run", 1},
-        collected_{collect_from(bus)} {
-    if (with_twin)
-      twins_.emplace(
-          runtime::loop_reader(bus, topics::twin, runtime::loop_endpoint(runtime::Clock::lockstep)),
-          kEveryTick);
-  }
+        collected_{collect_from(bus)},
+        others_{other_topics(bus, components)} {}
 
   RunOutcome execute() {
     until([this] { return operator_.listeners() >= kListeners && operator_.answerers() >= kListeners; },
@@ -88,12 +127,11 @@ class LockstepRun {
   /// Takes the complete ticks. @return true when there was at least one
   bool collect() {
     bool any = false;
-    while (twin_is_there() && collected_.poll(0) == runtime::JoinResult::complete) {
-      const Tick tick{collected_.get<0>(), collected_.get<1>(),
-                      collected_.get<2>(), collected_.get<3>(),
-                      collected_.get<4>(), collected_.get<5>(),
-                      collected_.get<6>(), twins_ ? twins_->find(collected_.tick()) : nullptr};
-      log_.add(tick);
+    while (others_arrived() && collected_.poll(0) == runtime::JoinResult::complete) {
+      const Tick tick{collected_.get<0>(), collected_.get<1>(), collected_.get<2>(), collected_.get<3>(),
+                      collected_.get<4>(), collected_.get<5>(), collected_.get<6>()};
+      log_.add(tick, other_samples_);
+      for (auto& other : others_) other.forget(collected_.tick());
       collected_tick_ = collected_.tick();
       clock_master_ = tick.state->header.source;
       if (!stopped()) cause_ = tick.supervisor->cause;
@@ -103,12 +141,15 @@ class LockstepRun {
     return any;
   }
 
-  /// The twin publishes after the loop; a tick is complete only with the sample of the twin.
-  bool twin_is_there() {
-    if (!twins_) return true;
-    runtime::JoinCounts ignored;
-    (void)twins_->drain(collected_.next_tick(), 0, ignored);
-    return twins_->find(collected_.next_tick()) != nullptr;
+  /// Observers publish after the loop; a tick is complete only with their samples.
+  bool others_arrived() {
+    other_samples_.clear();
+    for (auto& other : others_) {
+      const auto sample = other.find(collected_.next_tick());
+      if (!sample) return false;
+      other_samples_.push_back(*sample);
+    }
+    return true;
   }
 
   void advance_to(std::uint64_t tick) {
@@ -204,7 +245,8 @@ class LockstepRun {
   TickLog& log_;
   stack::OperatorClient operator_;
   Collected collected_;
-  std::optional<runtime::TickInput<msg::Twin>> twins_;
+  std::vector<OtherTopic> others_;
+  std::vector<OtherSample> other_samples_;
   RunOutcome outcome_;
   std::vector<Verdict> verdicts_;
   std::optional<std::uint64_t> collected_tick_;
@@ -217,8 +259,9 @@ class LockstepRun {
 }  // namespace
 
 RunOutcome run_scenario(bus::Bus& bus, const Pump& pump, const configuration::Rig& rig,
-                        const Scenario& scenario, TickLog& log, bool with_twin) {
-  return LockstepRun{bus, pump, rig, scenario, log, with_twin}.execute();
+                        const Scenario& scenario, TickLog& log,
+                        std::span<const runtime::ComponentSpec> components) {
+  return LockstepRun{bus, pump, rig, scenario, log, components}.execute();
 }
 
 }  // namespace crane::experiments

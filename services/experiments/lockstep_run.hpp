@@ -2,6 +2,7 @@
 /// Runs a scenario in lockstep: reset, arm, moves and kicks at exact ticks; collects every tick. A stack of
 /// processes and an in-process stack give the same result, bit for bit.
 #include <functional>
+#include <span>
 #include <string>
 
 #include "crane/experiment/scenario.hpp"
@@ -30,10 +31,10 @@ struct RunOutcome {
 /// continue
 using Pump = std::function<void()>;
 
-/// @param bus        bus of the operator, not of the control loop
-/// @param with_twin  true: a twin runs, and its samples are collected
+/// @param bus         bus of the operator, not of the control loop
+/// @param components  of the stack; every loop topic that they write is recorded in every tick
 [[nodiscard]] RunOutcome run_scenario(bus::Bus& bus, const Pump& pump, const configuration::Rig& rig,
                                       const experiment::Scenario& scenario, TickLog& log,
-                                      bool with_twin = false);
+                                      std::span<const runtime::ComponentSpec> components);
 
 }  // namespace crane::experiments

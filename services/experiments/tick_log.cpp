@@ -31,7 +31,7 @@ void TickLog::write(const topics::Topic<T>& topic, const T& sample, std::int64_t
                    std::span{bytes_}.first(kPlainCdrLittleEndian.size() + size));
 }
 
-void TickLog::add(const Tick& tick) {
+void TickLog::add(const Tick& tick, std::span<const OtherSample> others) {
   const auto number = tick.state->header.tick;
   const auto time_ns = tick.state->header.sample_time_ns;
   if (number > 0 && period_ns_ == 0) period_ns_ = time_ns - last_time_ns_;
@@ -48,7 +48,9 @@ void TickLog::add(const Tick& tick) {
   write(topics::demand, *tick.demand, time_ns, number);
   write(topics::command, *tick.command, time_ns, number);
   write(topics::supervisor, *tick.supervisor, time_ns, number);
-  if (tick.twin != nullptr) write(topics::twin, *tick.twin, time_ns, number);
+  for (const auto& other : others)
+    writer_->message(channels_[index_of(*other.topic)], static_cast<std::uint32_t>(number), time_ns, time_ns,
+                     other.cdr);
 }
 
 void TickLog::close() {

@@ -3,6 +3,7 @@
 /// the run.
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "crane/recording/mcap_writer.hpp"
 #include "crane/recording/run_table.hpp"
@@ -18,14 +19,20 @@ struct Tick {
   const msg::Demand* demand = nullptr;
   const msg::Command* command = nullptr;
   const msg::SupervisorStatus* supervisor = nullptr;
-  const msg::Twin* twin = nullptr;  ///< null: no twin runs
+};
+
+/// A sample of any other loop topic, as plain CDR with its encapsulation header.
+struct OtherSample {
+  const topics::Description* topic;
+  std::span<const std::uint8_t> cdr;
 };
 
 class TickLog {
  public:
   /// @param recording  MCAP file; nothing: table only. @throws recording::WriteError
   explicit TickLog(const std::optional<std::filesystem::path>& recording);
-  void add(const Tick& tick);  ///< @throws recording::WriteError
+  /// @throws recording::WriteError
+  void add(const Tick& tick, std::span<const OtherSample> others = {});
   void close();
   /// Rows from tick `zero_tick` on, where time_s is 0.
   [[nodiscard]] recording::Table table(std::uint64_t zero_tick) const;

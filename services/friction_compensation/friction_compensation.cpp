@@ -44,7 +44,7 @@ runtime::ComponentSpec friction_compensation_spec() {
   return {
       .name = "friction_compensation",
       .program = "crane_friction_compensation",
-      .summary = "Adds the contributions of both laws and the estimated friction.",
+      .summary = "Friction compensation: adds the volts of both laws and the estimated friction.",
       .source = crane_SOURCE_FRICTION,
       .runs_controller = false,
       .reads = {{&topics::state.description, "speeds of the axes"},

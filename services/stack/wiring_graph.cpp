@@ -65,6 +65,15 @@ std::string_view name_of(topics::Qos qos) {
   return "";
 }
 
+/// The topics between a request and the volts, which the README shows.
+bool is_on_command_path(const Description& topic) {
+  return std::ranges::any_of(
+      std::array{&topics::request.description, &topics::supervisor.description,
+                 &topics::reference.description, &topics::state.description, &topics::tracking.description,
+                 &topics::anti_swing.description, &topics::demand.description, &topics::command.description},
+      [&topic](const Description* listed) { return names(listed, topic); });
+}
+
 /// Short name of a topic: "crane/anti_swing" -> "anti_swing".
 std::string short_name(const Description& topic) {
   const std::string name{topic.name};
@@ -80,7 +89,7 @@ std::string node_of(std::string_view component) {
   return component == "hardware_bridge" ? "plant" : std::string{component};
 }
 
-std::vector<Arrow> arrows_of(const std::vector<ComponentSpec>& components) {
+std::vector<Arrow> arrows_of(const std::vector<ComponentSpec>& components, Extent extent) {
   std::vector<Arrow> arrows;
   const auto add = [&arrows](Arrow arrow) {
     const bool known = std::ranges::any_of(arrows, [&](const Arrow& other) {
@@ -90,6 +99,7 @@ std::vector<Arrow> arrows_of(const std::vector<ComponentSpec>& components) {
   };
   for (const auto& reader : components)
     for (const auto& read : reader.reads) {
+      if (extent == Extent::command_path && !is_on_command_path(*read.topic)) continue;
       if (names(read.topic, topics::request.description))
         add({"operator", node_of(reader.name), short_name(*read.topic)});
       for (const auto& writer : components)
@@ -135,19 +145,36 @@ std::string component_table(const std::vector<ComponentSpec>& components) {
   return table;
 }
 
-std::string wiring_mermaid(const std::vector<ComponentSpec>& components) {
+std::string wiring_mermaid(const std::vector<ComponentSpec>& components, Extent extent) {
   std::string chart =
       "flowchart LR\n  plant[\"plant or hardware_bridge<br/>(clock master)\"]\n  operator((operator "
       "tools))\n";
-  for (const auto& arrow : arrows_of(components))
+  for (const auto& arrow : arrows_of(components, extent))
     chart += "  " + arrow.from + " -- " + arrow.topic + " --> " + arrow.to + "\n";
   return chart;
+}
+
+std::string wiring_document(const std::vector<ComponentSpec>& components) {
+  return "<!-- crane graph --format markdown > docs/wiring.md -->\n"
+         "# Wiring\n\n"
+         "Every component declares the topics that it reads and writes (`ComponentSpec`). This page is made "
+         "from "
+         "these declarations;\na test fails when it differs.\n\n"
+         "## Diagram\n\n```mermaid\n" +
+         wiring_mermaid(components) +
+         "```\n\n"
+         "## Topics\n\n\"Monitors\" are the recorder and the tools. They may read every topic. They write no "
+         "topic "
+         "of the control loop.\n[idl/README.md](../idl/README.md) explains the qualities of service.\n\n" +
+         wiring_table(components) +
+         "\n## Components\n\nEvery component also writes `crane/node` and `crane/event`.\n\n" +
+         component_table(components);
 }
 
 std::string wiring_dot(const std::vector<ComponentSpec>& components) {
   std::string graph =
       "digraph crane {\n  rankdir=LR;\n  plant [label=\"plant or hardware_bridge\\n(clock master)\"];\n";
-  for (const auto& arrow : arrows_of(components))
+  for (const auto& arrow : arrows_of(components, Extent::all))
     graph += "  " + arrow.from + " -> " + arrow.to + " [label=\"" + arrow.topic + "\"];\n";
   return graph + "}\n";
 }

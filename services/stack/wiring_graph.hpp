@@ -16,8 +16,16 @@ namespace crane::stack {
 [[nodiscard]] std::string wiring_table(const std::vector<runtime::ComponentSpec>& components);
 /// Markdown: the topics that each component reads and writes, with the purpose.
 [[nodiscard]] std::string component_table(const std::vector<runtime::ComponentSpec>& components);
+/// Topics of a diagram.
+enum class Extent {
+  all,
+  command_path  ///< the topics between a request and the volts
+};
 /// Mermaid flow chart: components are nodes, topics are arrows.
-[[nodiscard]] std::string wiring_mermaid(const std::vector<runtime::ComponentSpec>& components);
+[[nodiscard]] std::string wiring_mermaid(const std::vector<runtime::ComponentSpec>& components,
+                                         Extent extent = Extent::all);
+/// The text of docs/wiring.md: the diagram of all topics and both tables.
+[[nodiscard]] std::string wiring_document(const std::vector<runtime::ComponentSpec>& components);
 /// Diagram for Graphviz.
 [[nodiscard]] std::string wiring_dot(const std::vector<runtime::ComponentSpec>& components);
 [[nodiscard]] nlohmann::ordered_json wiring_json(const std::vector<runtime::ComponentSpec>& components);

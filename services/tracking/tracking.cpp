@@ -79,19 +79,20 @@ bool corrects_reference(const control::Controller& controller) { return controll
 }  // namespace
 
 runtime::ComponentSpec tracking_spec() {
-  return {.name = "tracking",
-          .program = "crane_tracking",
-          .summary = "Tracking law: volts that make trolley, slew and hoist follow their reference.",
-          .source = crane_SOURCE_TRACKING,
-          .runs_controller = true,
-          .reads = {{&topics::state.description, "positions and speeds of the axes"},
-                    {&topics::reference.description, "where each axis is to be"},
-                    {&topics::anti_swing.description, "correction of the reference", corrects_reference}},
-          .writes = {{&topics::tracking.description, "volts that keep the axes on their reference"}},
-          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
-            if (context.controller.corrects_reference) return std::make_unique<CorrectedTracking>(context);
-            return std::make_unique<Tracking>(context);
-          }};
+  return {
+      .name = "tracking",
+      .program = "crane_tracking",
+      .summary = "Tracking law: volts that make trolley, slew and hoist follow their reference.",
+      .source = crane_SOURCE_TRACKING,
+      .runs_controller = true,
+      .reads = {{&topics::state.description, "positions and speeds of the axes"},
+                {&topics::reference.description, "position, speed and acceleration that each axis must have"},
+                {&topics::anti_swing.description, "correction of the reference", corrects_reference}},
+      .writes = {{&topics::tracking.description, "volts that keep the axes on their reference"}},
+      .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+        if (context.controller.corrects_reference) return std::make_unique<CorrectedTracking>(context);
+        return std::make_unique<Tracking>(context);
+      }};
 }
 
 }  // namespace crane::services

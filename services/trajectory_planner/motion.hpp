@@ -29,8 +29,8 @@ class Motion {
   void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
   /// Begins a move at `tick` from the present reference.
   void start(const MoveTarget& move, std::uint64_t tick);
-  /// The plan that this move needs when it begins from the present reference; nothing when the move is none
-  /// for a plan: another controller, the cable moves, or the reference is not at rest.
+  /// Problem of the time-optimal plan for this move from the present reference. Nothing when the move is not
+  /// planned: the controller uses no plans, the cable moves, or the reference is not at rest.
   [[nodiscard]] std::optional<control::PlanProblem> plan_for(const MoveTarget& move,
                                                              std::uint64_t tick) const noexcept;
   /// Begins a planned move at `tick`.

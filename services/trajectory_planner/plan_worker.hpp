@@ -18,10 +18,10 @@ class PlanWorker {
   PlanWorker(const PlanWorker&) = delete;
   PlanWorker& operator=(const PlanWorker&) = delete;
 
-  /// Begins a plan. A plan that is still being solved is abandoned. @return false when the thread holds the
-  /// lock: ask again
+  /// Begins to solve a problem; drops the result of the problem before. @return false when the thread holds
+  /// the lock: call again at the next tick
   bool ask(const control::PlanProblem& problem);
-  /// The plan of the last ask(), once.
+  /// The result of the last ask(), once; nothing while it is being solved.
   [[nodiscard]] std::optional<control::PlanResult> take();
 
  private:

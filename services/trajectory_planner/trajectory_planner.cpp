@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "crane/control/reference_start.hpp"
 #include "crane/runtime/convert.hpp"
 #include "trajectory_planner/motion.hpp"
 #include "trajectory_planner/plan_worker.hpp"
@@ -124,10 +125,13 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     msg::Reference sample{};
     sample.header = runtime::answer_to(state.header);
     sample.header.tick = tick;
-    runtime::assign(sample, motion_.at(tick));
+    const auto measured = runtime::measurement(state);
+    auto reference = motion_.at(tick);
+    start_.mark(measured, reference);
+    runtime::assign(sample, reference);
     sample.move_number = move_number_;
     sample.second_writer = disputed();
-    sample.moving = pending_ || !motion_.arrived(runtime::measurement(state), tick);
+    sample.moving = pending_ || !motion_.arrived(measured, tick);
     output_.publish(sample);
     published_ = tick;
   }
@@ -145,6 +149,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   std::optional<PlanWorker> worker_;  ///< only for controllers with time-optimal references
   std::optional<Pending> pending_;
   Motion motion_;
+  control::ReferenceStart start_;
   std::optional<std::uint64_t> published_;
   crane_SupervisorState supervisor_ = crane_STATE_BOOT;
   std::array<double, control::kAxes> homing_speed_{};
@@ -165,9 +170,9 @@ runtime::ComponentSpec trajectory_planner_spec() {
       .summary = "Trajectory planner: steps, bang-coast-bang or S-curve moves, with optional input shaping.",
       .source = crane_SOURCE_PLANNER,
       .runs_controller = true,
-      .reads = {{&topics::state.description, "where the axes are when a move begins"},
+      .reads = {{&topics::state.description, "positions of the axes at the start of a move"},
                 {&topics::supervisor.description, "safety state, and the move that was accepted"}},
-      .writes = {{&topics::reference.description, "where each axis is to be at the next tick"}},
+      .writes = {{&topics::reference.description, "reference of each axis for the next tick"}},
       .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
         return std::make_unique<TrajectoryPlanner>(context);
       }};

@@ -1,6 +1,6 @@
 #pragma once
-/// Times of another host's clock in local time. The bridge stamps its samples with its own monotonic clock,
-/// which may have begun at any time; the supervisor judges silence by its own.
+/// Converts times of another host's clock to local time. The bridge stamps its samples with its monotonic
+/// clock, which has an arbitrary origin; the supervisor measures silence with its own clock.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -9,10 +9,11 @@ namespace crane::supervisor {
 
 class ClockOffset {
  public:
-  /// Local time of `remote_ns`. @param now_ns  local time at which a sample stamped `remote_ns` is here
+  /// @return local time of `remote_ns`. @param now_ns  local time at which the sample stamped `remote_ns`
+  /// arrived
   ///
-  /// The offset is the smallest difference seen: that of the sample that travelled fastest. It may grow by
-  /// kDrift_ns a call, so that clocks that run apart do not make every later sample look late.
+  /// The offset is the smallest difference so far, which belongs to the fastest sample. It grows by at most
+  /// kDrift_ns per call, so that the drift of the clocks does not make later samples appear late.
   [[nodiscard]] std::int64_t local_ns(std::int64_t remote_ns, std::int64_t now_ns) {
     const auto difference_ns = now_ns - remote_ns;
     offset_ns_ = offset_ns_ ? std::min(*offset_ns_ + kDrift_ns, difference_ns) : difference_ns;
@@ -20,7 +21,7 @@ class ClockOffset {
   }
 
  private:
-  /// 100 ppm of a period of 10 ms: twice what the quartz of a computer is off by.
+  /// 100 ppm of a period of 10 ms: twice the error of the quartz of a computer.
   static constexpr std::int64_t kDrift_ns = 1000;
   std::optional<std::int64_t> offset_ns_;
 };

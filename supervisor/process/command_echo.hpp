@@ -1,7 +1,7 @@
 #pragma once
-/// Whether the bridge does what this supervisor told it. A packet that carries the GUID of the supervisor's
-/// writer is its own for everything above the middleware; but the bridge says with every state which voltage
-/// acts and which command that was. Pure.
+/// Checks that the bridge executes the commands of this supervisor. A forged packet with the GUID of the
+/// supervisor's writer is indistinguishable from a true one above the middleware. Every state, however,
+/// contains the voltage that acts and the tick of its command. Pure.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -13,14 +13,16 @@ namespace crane::supervisor {
 
 class CommandEcho {
  public:
-  /// A converter of 12 bits over 20 V gives steps of 5 mV; a rig's scale may be off by a percent of 10 V.
+  /// A 12-bit converter with a range of 20 V has steps of 5 mV; the scale of a rig may have an error of 1 %
+  /// of 10 V.
   static constexpr double kTolerance_v = 0.1;
-  /// The supervisor's own commands that are remembered: more than a command may be old (stale_after_ticks).
+  /// Number of stored commands: more than the largest permitted age of a command (stale_after_ticks).
   static constexpr std::size_t kRemembered = 64;
-  /// States in a row. One is never enough to end a process.
+  /// Number of contradicting states in a row that end the supervisor.
   static constexpr int kStates = 2;
-  /// A brake that is open for so long after the last release was closed by nobody, or opened by somebody
-  /// else. Longer than the supervisor takes to name a brake that does not close (closing time and 0.11 s).
+  /// Longest time from the last release command to a closed brake. An open brake after this time has not
+  /// closed, or another program has opened it. Longer than the detection of a brake that does not close
+  /// (closing time and 0.11 s).
   static constexpr std::uint64_t kBrake_ticks = 50;
 
   /// @param present  axes that have a drive
@@ -38,20 +40,20 @@ class CommandEcho {
       if (command.brake_release[i]) released_tick_[i] = command.header.tick;
     }
   }
-  /// A new bridge counts its ticks anew.
+  /// Call after a restart of the bridge, whose ticks start at 0.
   void restart() noexcept { *this = CommandEcho{present_}; }
 
-  /// @return true when the bridge obeys somebody else
+  /// @return true when the bridge executes commands of another program
   [[nodiscard]] bool contradicts(const msg::State& state) noexcept {
     volts_ = first_tick_ && unexplained_volts(state);
     in_a_row_ = first_tick_ && (volts_ || unexplained_brake(state)) ? in_a_row_ + 1 : 0;
     return in_a_row_ >= kStates;
   }
-  /// Of the last contradiction: voltages; false: an open brake.
+  /// True when the last contradiction was a voltage; false: an open brake.
   [[nodiscard]] bool is_of_volts() const noexcept { return volts_; }
 
  private:
-  /// 0 V needs no explanation: a latched bridge gives it whatever was commanded.
+  /// Range of the commanded volts of one tick. It includes 0 V, which a latched bridge always outputs.
   struct Commanded {
     std::uint64_t tick = 0;
     bool used = false;
@@ -59,7 +61,7 @@ class CommandEcho {
   };
   [[nodiscard]] bool unexplained_volts(const msg::State& state) const noexcept {
     const auto tick = state.applied_command_tick;
-    if (tick < *first_tick_) return false;  // of the supervisor before this one
+    if (tick < *first_tick_) return false;  // command of an earlier supervisor
     const auto& own = commands_[tick % kRemembered];
     for (std::size_t i = 0; i < 3; ++i) {
       const double v = state.applied_v[i];

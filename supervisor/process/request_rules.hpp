@@ -1,5 +1,5 @@
 #pragma once
-/// What a request has to be before the state machine is asked about it.
+/// Checks of a request before the state machine gets it.
 #include <optional>
 #include <string>
 
@@ -9,13 +9,13 @@
 
 namespace crane::supervisor {
 
-/// Nothing: the supervisor does not act on this kind.
+/// @return nothing for a kind that the supervisor does not process
 [[nodiscard]] std::optional<Request> request_of(crane_RequestKind kind);
-/// A move, or a reference to follow.
+/// True for a move, and for a reference to follow.
 [[nodiscard]] bool moves_axes(const msg::Request& request);
-/// Why the axes, targets or sines of this request are not allowed; empty when they are.
+/// @return why axes, targets or sines of the request are not permitted; empty when they are permitted
 [[nodiscard]] std::string problem_of(const msg::Request& request, const Limits& limits);
-/// The axis that it is to home. @pre problem_of() is empty
+/// Axis of a homing request. @pre problem_of() is empty
 [[nodiscard]] std::size_t home_axis_of(const msg::Request& request);
 
 }  // namespace crane::supervisor

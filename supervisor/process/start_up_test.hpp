@@ -1,6 +1,6 @@
 #pragma once
-/// Before anything may be armed: the board answers with 0 V, every brake closed and the watchdog relay open,
-/// for a while without a break.
+/// Self-test of the board at the start: several states in a row must show 0 V, all brakes closed and the
+/// watchdog relay open. The crane cannot be armed before.
 #include "crane/supervisor/state_machine.hpp"
 #include "crane/topics.hpp"
 
@@ -8,7 +8,7 @@ namespace crane::supervisor {
 
 class StartUpTest {
  public:
-  /// @param state  of this tick; null: none came
+  /// @param state  state of this tick; null: none arrived
   SelfTest step(const msg::State* state);
 
  private:

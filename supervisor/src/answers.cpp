@@ -58,7 +58,7 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
   return kAccepted;
 }
 
-/// What arming and homing have in common: the brakes are about to be opened.
+/// Common conditions of arming and homing, which both open brakes.
 Answer answer_release(const Limits& limits, const Inputs& in, const Memory& m) {
   switch (m.state) {
     case State::ready:

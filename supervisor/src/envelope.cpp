@@ -4,7 +4,7 @@
 
 namespace crane::supervisor {
 
-// Every comparison is written so that NaN makes it a violation.
+// Every comparison treats NaN as a violation.
 Envelope check_envelope(const Limits& limits, const EnvelopeInput& input) noexcept {
   Envelope found;
   for (std::size_t i = 0; i < kAxes; ++i) {

@@ -8,7 +8,7 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr int kSettled_ticks = 5;  // both voltages and all three samples belong to an open brake
+constexpr int kSettled_ticks = 5;  // with open brake: three samples and the two voltages before them
 
 struct Interval {
   double low, high;
@@ -23,7 +23,7 @@ void remember(const FollowingInput& input, FollowingMemory& memory) noexcept {
     memory.free_ticks[i] = input.free[i] ? std::min(memory.free_ticks[i] + 1, kSettled_ticks) : 0;
 }
 
-/// The middle sample with the mean rates around it.
+/// The middle one of three samples, with mean rates.
 plant::State state_of(const Limits& limits, const FollowingMemory& memory) noexcept {
   const auto& [newest, middle, oldest] = memory.seen;
   const double span_s = newest.sampled_s - oldest.sampled_s;
@@ -42,7 +42,7 @@ plant::State state_of(const Limits& limits, const FollowingMemory& memory) noexc
   return s;
 }
 
-/// What the mean voltage of the last two ticks makes of each axis without friction.
+/// Acceleration of each axis under the mean voltage of the last two ticks, without friction.
 PerAxis accelerations(const Limits& limits, const FollowingMemory& memory, const plant::State& state,
                       double load_kg) noexcept {
   plant::Parameters p = limits.machine.crane;
@@ -61,7 +61,7 @@ PerAxis accelerations(const Limits& limits, const FollowingMemory& memory, const
   return {found.trolley_mps2, found.slew_radps2, found.cable_mps2};
 }
 
-/// Acceleration per volt of an axis whose load hangs loose.
+/// Acceleration per volt of an axis without the force of the load.
 double gain_of(const Limits& limits, std::size_t axis, const plant::State& state) noexcept {
   const auto& p = limits.machine.crane;
   if (axis == 0) return p.trolley_gain_mps2pv;
@@ -70,7 +70,7 @@ double gain_of(const Limits& limits, std::size_t axis, const plant::State& state
   return p.slew_gain_radps2pv * jib / (jib + p.trolley_mass_kg * state.trolley_m * state.trolley_m);
 }
 
-/// A load whose swing nobody measures pulls as far as the swing limit lets it.
+/// Largest force of a load whose swing is not measured: that at the swing limit.
 double unseen_pull(const Limits& limits, std::size_t axis, const plant::State& state) noexcept {
   if (axis == 2 || limits.machine.swing_measured[axis]) return 0;
   const auto& p = limits.machine.crane;
@@ -84,7 +84,7 @@ double friction_v(const MachineModel::Friction& friction, double speed) noexcept
   return kFrictionMost * (friction.rest_v + friction.viscous_v * std::abs(speed)) + kFrictionExtra_v;
 }
 
-/// Accelerations that the model allows between the oldest and the newest sample.
+/// Accelerations that the model permits between the oldest and the newest sample.
 Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& memory,
                  const plant::State& state, double heaviest, double lightest, double v,
                  double before) noexcept {
@@ -95,7 +95,8 @@ Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& mem
   const double unknown =
       gain * (kGainTolerance * volts_v + kOffset_v) + kGainTolerance * drag + unseen_pull(limits, i, state);
   Interval found{std::min(heaviest, lightest) - unknown, std::max(heaviest, lightest) + unknown};
-  const double slow = kSpeedShare * limits.axis[i].max_speed;  // friction of both signs below this speed
+  const double slow =
+      kSpeedShare * limits.axis[i].max_speed;  // below this speed friction can have both signs
   if (std::max(v, before) > -slow)
     found.low -= gain * friction_v(limits.machine.friction_positive[i], before);
   if (std::min(v, before) < slow)

@@ -11,11 +11,11 @@ namespace {
 using enum protection::Protection;
 using protection::enabled;
 
-// Weight of a clamped tick against one that is not: a demand that jumps to and fro is clamped every second
-// tick only, and stops the crane after 2 kPressure / (kPressure - 1) times as many ticks as one that is
-// clamped in each.
+// Weight of a tick with limited rate relative to one without. A demand that jumps to and fro has limited rate
+// in every second tick only; it stops the crane after 2 kPressure / (kPressure - 1) times as many ticks as a
+// demand with limited rate in every tick.
 constexpr int kPressure = 4;
-constexpr int kCountEnd = 1'000'000;  // counts in a row stop here: a stream may be missing for months
+constexpr int kCountEnd = 1'000'000;  // upper end of the counters: a stream can be missing for months
 
 void limit_range(const Limits& limits, PerAxis& volts_v, GateOutput& output) noexcept {
   for (std::size_t i = 0; i < kAxes; ++i) {
@@ -44,7 +44,7 @@ void limit_rate(const Limits& limits, GateMemory& memory, PerAxis& volts_v, Gate
   if (memory.rate_pressure >= rate_pressure_limit(limits)) output.cause = Cause::demand_rate;
 }
 
-// No usable demand in this tick: hold what was sent last, for a while.
+// No usable demand in this tick: hold the last output for a limited time.
 void judge_freshness(const Limits& limits, GateMemory& memory, GateOutput& output) noexcept {
   output.stale = memory.missing_in_row >= limits.demand_stale_after_ticks;
   if (memory.invalid_in_row >= limits.demand_invalid_in_row) {

@@ -8,16 +8,17 @@ namespace {
 
 using control::Mark;
 
-constexpr double kMargin = 1.1;          // times the travel: scales may be a little wrong
-constexpr double kStill_s = 1;           // without getting on by ...
-constexpr double kShareOfSpeed = 0.005;  // ... this share of the way asked for: a drive breaks loose slowly
-constexpr double kLongestBack = 4;       // times back_off
-constexpr double kWrongWay = 2;     // times back_off; it comes from the other direction and turns round first
-constexpr int kTicksToBeFound = 5;  // by the bridge, after the mark was seen here
+constexpr double kMargin = 1.1;          // longest search / travel of the axis, for errors of scale
+constexpr double kStill_s = 1;           // longest time without progress
+constexpr double kShareOfSpeed = 0.005;  // progress: share of the commanded way; a drive breaks loose slowly
+constexpr double kLongestBack = 4;       // longest way back / back_off
+constexpr double kWrongWay =
+    2;  // longest motion in the wrong direction / back_off, while the axis turns round
+constexpr int kTicksToBeFound = 5;  // ticks from the active mark until the bridge reports it as found
 
 struct Leg {
   double direction = 0, speed = 0;
-  double longest = 0;  // way that it may take
+  double longest = 0;  // longest way, unit
   HomingFailure too_long = HomingFailure::none;
 };
 
@@ -28,7 +29,7 @@ Leg leg_of(const AxisLimits& axis, HomingPhase phase) {
   const double to_mark = homing.direction();
   switch (phase) {
     case HomingPhase::leave_at_first:
-      // Below a mark of its own an axis may be far from it.
+      // A separate mark is active over a part of the travel, which can be long.
       return {-to_mark, homing.speed, homing.mark == Mark::input ? travel : back, HomingFailure::mark_stuck};
     case HomingPhase::search:
       return {to_mark, homing.speed, travel, HomingFailure::mark_not_found};
@@ -49,7 +50,7 @@ void begin(HomingPhase phase, const HomingInput& in, HomingMemory& m) {
   m.from = m.opened_at = m.seen_at = in.position;
 }
 
-/// The way back ends `back_off` beyond the place where the switch has opened.
+/// True when the axis is `back_off` beyond the position at which the switch opened.
 bool off_the_mark(const AxisLimits& axis, const Leg& leg, const HomingInput& in, HomingMemory& m) {
   if (in.mark_active) m.opened_at = in.position;
   return !in.mark_active && leg.direction * (in.position - m.opened_at) >= axis.homing.back_off;

@@ -11,7 +11,7 @@ namespace {
 
 class Problems {
  public:
-  /// `ok` has to be false for NaN.
+  /// @pre `ok` is false for NaN
   void require(bool ok, const std::string& name, double value, const std::string& rule) {
     if (!ok) found_.push_back(fields::complaint(name, value, rule));
   }
@@ -61,7 +61,7 @@ void check_axis(const std::string& prefix, const AxisLimits& axis, Problems& pro
 
 void check_common(const Limits& limits, Problems& problems) {
   problems.in_range("period_s", limits.period_s, plant::kPeriods);
-  problems.in_range("swing_limit_rad", limits.swing_limit_rad, control::kSwingLimits);
+  problems.check<control::OperatingLimits>(limits, control::kOperatingLimitFields, "");
   problems.at_least("swing_runaway_ratio", limits.swing_runaway_ratio, 1);
   problems.at_least("state_stale_after_ticks", limits.state_stale_after_ticks, 1);
   problems.at_least("demand_stale_after_ticks", limits.demand_stale_after_ticks, 1);
@@ -78,13 +78,12 @@ void check_common(const Limits& limits, Problems& problems) {
   problems.positive("arm_volt_limit_v", limits.arm_volt_limit_v);
   problems.positive("brake_test_time_s", limits.brake_test_time_s);
   problems.positive("brake_report_time_s", limits.brake_report_time_s);
-  problems.in_range("idle_lock_s", limits.idle_lock_s, control::kIdleTimes);
   problems.at_least("creeping_ratio", limits.creeping_ratio, 1);
   problems.require(std::ranges::any_of(limits.axis, &AxisLimits::present), "axis", 0,
                    "at least one must be present");
 }
 
-// Rules that relate several values; they need each value to be in its range.
+// Rules that relate several values. @pre each value is in its range
 void check_margins(const Limits& limits, Problems& problems) {
   for (std::size_t i = 0; i < kAxes; ++i) {
     const AxisLimits& axis = limits.axis[i];

@@ -8,8 +8,9 @@ namespace {
 
 using Plane = PendulumMemory::Plane;
 
-constexpr double kLongestGap_s = 0.1;  // without samples the sum begins anew
-constexpr double kLeastDepth = 0.2;    // of the cable: a load beside the jib is not judged by its tangent
+constexpr double kLongestGap_s = 0.1;  // a longer time without samples clears the sum
+constexpr double kLeastDepth =
+    0.2;  // share of the cable; a higher load is not checked, its tangent is too large
 
 Plane operator-(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
 Plane operator+(const Plane& a, const Plane& b) { return {a[0] + b[0], a[1] + b[1]}; }
@@ -33,7 +34,7 @@ PendulumMemory::Seen seen_of(const Limits& limits, const PendulumInput& input) {
           .depth_m = std::max(cable_m * std::cos(tangential) * std::cos(radial), kLeastDepth * cable_m)};
 }
 
-/// The balance of the newest three samples. @param slew_rad  of the middle one
+/// Balance of the newest three samples. @param slew_rad  angle of the jib in the middle sample
 PendulumMemory::Balance balance_of(const Limits& limits, const PendulumMemory& memory) {
   const auto& [newest, middle, oldest] = memory.seen;
   const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
@@ -51,7 +52,7 @@ PendulumMemory::Balance balance_of(const Limits& limits, const PendulumMemory& m
           .swung_mps = swung};
 }
 
-/// A direction that is not measured says nothing.
+/// A direction that is not measured contributes nothing.
 Plane measured(const Limits& limits, const Plane& ground, double slew_rad) {
   Plane jib = turned(ground, -slew_rad);
   for (std::size_t i = 0; i < 2; ++i)
@@ -79,7 +80,7 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
   memory.growing_ticks = length > unknown ? std::min(memory.growing_ticks + 1, kPush_ticks + 1) : 0;
 }
 
-/// @return true when an encoder that counted before the push has stood since
+/// @return true when an encoder that counted before the push has not counted since
 bool follow_counts(const Limits& limits, const PendulumInput& input, double span_s, PendulumMemory& memory) {
   bool stopped = false;
   const std::array<double, 2> swing_rad{input.radial_rad, input.tangential_rad};

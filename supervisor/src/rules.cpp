@@ -8,12 +8,11 @@
 namespace crane::supervisor {
 namespace {
 
-using enum protection::Protection;
 using L = const Limits&;
 using I = const Inputs&;
 using M = const Memory&;
 
-// ARMING waits for the bridge before it opens the brakes; from then on a bridge that has stopped is a cause.
+// ARMING waits for the bridge before it opens the brakes. Afterwards a stopped bridge is a cause.
 bool bridge_matters(M m) noexcept { return m.state != State::arming || m.releasing; }
 
 bool bridge_stopped(I in) noexcept { return in.bridge_latched || in.watchdog_dropped; }
@@ -46,135 +45,135 @@ constexpr const char* kResetArm = "reset, then arm";
 
 // clang-format off
 constexpr std::array kRules{
-    Rule{supervisor_brake_did_not_close, Cause::brake_did_not_close, Reaction::fault, Scope::past_self_test, false,
+    Rule{"supervisor_brake_did_not_close", Cause::brake_did_not_close, Reaction::fault, Scope::past_self_test, false,
          [](L, I in, M) noexcept { return in.brake_failed; },
          "an axis under a brake told to close is farther than twice its stopping distance plus `brake_slip`, or the brake "
          "does not report closed within its closing time plus 110 ms", "same tick", kCheckBrakes},
-    Rule{supervisor_selftest_failed, Cause::selftest_failed, Reaction::fault, Scope::selftest, false,
+    Rule{"supervisor_selftest_failed", Cause::selftest_failed, Reaction::fault, Scope::selftest, false,
          [](L, I in, M) noexcept { return in.self_test == SelfTest::failed; },
          "the board does not rest at 0 V with closed brakes and dropped relay for 0.1 s", "2 s",
          "look at the events of the self-test, then restart the supervisor"},
-    Rule{supervisor_foreign_command, Cause::second_writer, Reaction::fault, Scope::always, false,
+    Rule{"supervisor_foreign_command", Cause::second_writer, Reaction::fault, Scope::always, false,
          [](L, I in, M) noexcept { return in.foreign_command; },
          "the bridge gives a voltage that no command of the supervisor explains; the supervisor then ends",
          "2nd state in a row", kTwoWriters},
-    Rule{supervisor_estop_input, Cause::estop_input, Reaction::estop, Scope::always, true,
+    Rule{"supervisor_estop_input", Cause::estop_input, Reaction::estop, Scope::always, true,
          [](L, I in, M) noexcept { return in.estop_pressed; },
          "the emergency stop of the rig is pressed", "same tick", "release the emergency stop, wait a second, then reset"},
-    Rule{supervisor_operator_estop, Cause::operator_estop, Reaction::estop, Scope::always, false,
+    Rule{"supervisor_operator_estop", Cause::operator_estop, Reaction::estop, Scope::always, false,
          [](L, I in, M) noexcept { return asked(in, Request::estop); },
          "request `estop`", "same tick", "find out why it was stopped, then reset"},
-    Rule{supervisor_second_writer, Cause::second_writer, Reaction::power_off, Scope::armed, true,
+    Rule{"supervisor_second_writer", Cause::second_writer, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.second_writer; },
          "a loop topic has had a second writer within the last second", "same tick; 1 tick later where another process hears it",
          kTwoWriters},
-    Rule{supervisor_bridge_latched, Cause::bridge_latched, Reaction::power_off, Scope::armed, false,
+    Rule{"supervisor_bridge_latched", Cause::bridge_latched, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return bridge_stopped(in) && bridge_matters(m); },
          "the bridge has latched, or the relay has dropped", "same tick", kBridgeStopped},
-    Rule{supervisor_not_homed, Cause::not_homed, Reaction::power_off, Scope::armed, false,
+    Rule{"supervisor_not_homed", Cause::not_homed, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return in.not_homed && !m.homing; },
          "the position of an axis has become unknown", "same tick",
          "the position of an axis is not known: reset, then `crane home` (with --axis for one of them)"},
-    Rule{supervisor_homing_failed, Cause::homing_failed, Reaction::power_off, Scope::armed, false,
+    Rule{"supervisor_homing_failed", Cause::homing_failed, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept {
            return m.homing && m.state == State::run && in.homing_failure != HomingFailure::none;
          },
          "homing has ended without a position", "same tick",
          "`crane status` and the events say why; remove the cause, reset, then `crane home`"},
-    Rule{supervisor_position_limit, Cause::position_limit, Reaction::power_off, Scope::armed, true,
+    Rule{"supervisor_position_limit", Cause::position_limit, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.envelope.position; },
          "an axis is beyond a hard limit", "same tick", "bring the axis back inside its limits by hand"},
-    Rule{supervisor_limit_switch, Cause::limit_switch, Reaction::power_off, Scope::armed, true,
+    Rule{"supervisor_limit_switch", Cause::limit_switch, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.envelope.limit_switch; },
          "a limit switch is pressed", "same tick", "bring the axis off its limit switch by hand"},
-    Rule{supervisor_overspeed, Cause::overspeed, Reaction::power_off, Scope::armed, false,
+    Rule{"supervisor_overspeed", Cause::overspeed, Reaction::power_off, Scope::armed, false,
          [](L, I in, M) noexcept { return in.envelope.overspeed; },
          "an axis is faster than `max_speed`, or its encoder jumps", "same tick",
          "check encoder, amplifier and the controller's gains"},
-    Rule{supervisor_brake_closed_itself, Cause::brake_did_not_open, Reaction::power_off, Scope::armed, false,
+    Rule{"supervisor_brake_closed_itself", Cause::brake_did_not_open, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return drives_active(m) && !in.brakes_open; },
          "a brake reports closed while the drives are active", "same tick", kBrakeSupply},
-    Rule{supervisor_following_error, Cause::following_error, Reaction::power_off, Scope::armed, false,
+    Rule{"supervisor_following_error", Cause::following_error, Reaction::power_off, Scope::armed, false,
          [](L, I in, M) noexcept { return in.following_error; },
          "the speed of an axis differs from what its voltage explains by 5 % of `max_speed` and of the speed",
          "30 ms beyond the tolerances of the model", kFollowing},
-    Rule{supervisor_bridge_not_ready, Cause::bridge_latched, Reaction::power_off, Scope::arming, false,
+    Rule{"supervisor_bridge_not_ready", Cause::bridge_latched, Reaction::power_off, Scope::arming, false,
          [](L limits, I in, M m) noexcept { return match_is_late(limits, in, m) && bridge_stopped(in); },
          "bridge or relay are not ready 5 s after `arm`", "5 s", kBridgeStopped},
-    Rule{supervisor_no_match, Cause::demand_rate, Reaction::ramped_stop, Scope::arming, false,
+    Rule{"supervisor_no_match", Cause::demand_rate, Reaction::ramped_stop, Scope::arming, false,
          [](L limits, I in, M m) noexcept { return match_is_late(limits, in, m) && !bridge_stopped(in); },
          "no demand of at most 2.5 V on each axis within 5 s after `arm`", "5 s", kDemandJumps},
-    Rule{supervisor_moved_while_arming, Cause::stopping_envelope, Reaction::ramped_stop, Scope::arming, false,
+    Rule{"supervisor_moved_while_arming", Cause::stopping_envelope, Reaction::ramped_stop, Scope::arming, false,
          [](L, I in, M m) noexcept { return m.releasing && in.moved_while_arming; },
          "an axis moves more than `brake_slip` while the brakes open", "same tick", kEnvelope},
-    Rule{supervisor_brake_did_not_open, Cause::brake_did_not_open, Reaction::power_off, Scope::arming, false,
+    Rule{"supervisor_brake_did_not_open", Cause::brake_did_not_open, Reaction::power_off, Scope::arming, false,
          [](L limits, I in, M m) noexcept { return opening_is_late(limits, in, m) && !in.brakes_open; },
          "a brake reports closed 0.2 s after it was told to open", "0.2 s", kBrakeSupply},
-    Rule{supervisor_state_stale, Cause::state_stale, Reaction::ramped_stop, Scope::armed, true,
+    Rule{"supervisor_state_stale", Cause::state_stale, Reaction::ramped_stop, Scope::armed, true,
          [](L, I in, M) noexcept { return in.state_stale; },
          "`crane/state` is missing for `state_stale_after_ticks` steps", "3rd step in a row",
          "no crane/state arrives: check that the bridge or the simulated plant runs"},
-    Rule{supervisor_demand_stale, Cause::demand_stale, Reaction::ramped_stop, Scope::armed, false,
+    Rule{"supervisor_demand_stale", Cause::demand_stale, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.gate_cause == Cause::demand_stale; },
          "`crane/demand` is missing for `demand_stale_after_ticks` ticks", "3rd tick in a row",
          "no crane/demand arrives: check planner, tracking, anti_swing and friction_compensation"},
-    Rule{supervisor_demand_invalid, Cause::demand_invalid, Reaction::ramped_stop, Scope::armed, false,
+    Rule{"supervisor_demand_invalid", Cause::demand_invalid, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.gate_cause == Cause::demand_invalid; },
          "a demand is not finite, or more than 20 times the limit of a drive", "3rd tick in a row",
          "a controller publishes values that are not finite, or absurdly large: check its gains and inputs"},
-    Rule{supervisor_demand_rate, Cause::demand_rate, Reaction::ramped_stop, Scope::armed, false,
+    Rule{"supervisor_demand_rate", Cause::demand_rate, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.gate_cause == Cause::demand_rate; },
          "the gate clamps the rate of the demand tick after tick",
          "12 ticks in a row; more if `volt_rate_limit_vps` is low", kDemandJumps},
-    Rule{supervisor_overrun, Cause::overrun, Reaction::ramped_stop, Scope::armed, false,
+    Rule{"supervisor_overrun", Cause::overrun, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.overrun; },
          "ticks of the bridge are late by more than half a period", "3rd tick in a row",
          "the computer is too busy: give the stack real-time priority"},
-    Rule{supervisor_stopping_envelope, Cause::stopping_envelope, Reaction::ramped_stop, Scope::armed, false,
+    Rule{"supervisor_stopping_envelope", Cause::stopping_envelope, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.envelope.stopping; },
          "an axis would not stop before a hard limit; no voltage outwards from then on", "same tick", kEnvelope},
-    Rule{supervisor_swing_runaway, Cause::swing_limit, Reaction::ramped_stop, Scope::armed, false,
+    Rule{"supervisor_swing_runaway", Cause::swing_limit, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.envelope.swing_runaway; },
          "the load swings farther than 1.25 times `swing_limit_rad`", "same tick", kSwing},
-    Rule{supervisor_swing_sensor, Cause::swing_sensor, Reaction::ramped_stop, Scope::armed, false,
+    Rule{"supervisor_swing_sensor", Cause::swing_sensor, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.swing_sensor_failed; },
          "the load that the encoders show does not move as a pendulum under the trolley that they show",
          "250 ms for an error of 0.1 rad", "check the encoders of swing, trolley and slew, and their cables, then reset"},
-    Rule{supervisor_stop_timeout, Cause::stop_timeout, Reaction::ramped_stop, Scope::armed, false,
+    Rule{"supervisor_stop_timeout", Cause::stop_timeout, Reaction::ramped_stop, Scope::armed, false,
          [](L limits, I in, M m) noexcept {
            return m.state == State::stop_c1 && in.now_s - m.entered_s >= limits.stop_timeout_s;
          },
          "a controlled stop has not ended within 8 s", "8 s",
          "the controllers did not bring the crane to rest in time: check them, then reset"},
-    Rule{supervisor_swing_limit, Cause::swing_limit, Reaction::controlled_stop, Scope::armed, true,
+    Rule{"supervisor_swing_limit", Cause::swing_limit, Reaction::controlled_stop, Scope::armed, true,
          [](L, I in, M) noexcept { return in.envelope.swing; },
          "the load swings farther than `swing_limit_rad`", "same tick", kSwing},
-    Rule{supervisor_operator_stop, Cause::operator_stop, Reaction::controlled_stop, Scope::armed, false,
+    Rule{"supervisor_operator_stop", Cause::operator_stop, Reaction::controlled_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return asked(in, Request::stop); }, "request `stop`", "same tick", kResetArm},
-    Rule{supervisor_operator_disarm, Cause::operator_disarm, Reaction::controlled_stop, Scope::armed, false,
+    Rule{"supervisor_operator_disarm", Cause::operator_disarm, Reaction::controlled_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return asked(in, Request::disarm); }, "request `disarm`", "same tick", kResetArm},
-    Rule{supervisor_homed, Cause::homed, Reaction::controlled_stop, Scope::armed, false,
+    Rule{"supervisor_homed", Cause::homed, Reaction::controlled_stop, Scope::armed, false,
          [](L, I in, M m) noexcept { return m.homing && m.state == State::run && in.homed; },
          "homing has found and left the mark", "same tick", "the axis has found its mark: reset, then arm"},
-    Rule{supervisor_idle, Cause::idle, Reaction::controlled_stop, Scope::armed, false,
+    Rule{"supervisor_idle", Cause::idle, Reaction::controlled_stop, Scope::armed, false,
          [](L limits, I in, M m) noexcept {
            return m.state == State::hold && in.now_s - m.idle_since_s >= limits.idle_lock_s;
          },
          "HOLD without a move for `idle_lock_s`", "same tick", kResetArm},
-    Rule{supervisor_bridge_restarted, Cause::bridge_restarted, Reaction::none, Scope::restart, false,
+    Rule{"supervisor_bridge_restarted", Cause::bridge_restarted, Reaction::none, Scope::restart, false,
          [](L, I in, M) noexcept { return in.bridge_restarted; },
          "another bridge writes `crane/state`: SELFTEST, then LOCKED", "first state of the new bridge",
          "the positions are those of a new bridge: look where the axes stand, then reset"},
 };
 // clang-format on
 
-/// A rule's id is its place in the table: the list of protections begins with the rules.
-constexpr bool ids_are_places() {
+constexpr bool names_differ() {
   for (std::size_t i = 0; i < kRules.size(); ++i)
-    if (static_cast<std::size_t>(kRules[i].id) != i) return false;
+    for (std::size_t k = 0; k < i; ++k)
+      if (kRules[i].name == kRules[k].name) return false;
   return true;
 }
-static_assert(ids_are_places());
+static_assert(names_differ());
 
 constexpr bool every_cause_has_a_rule() {
   for (std::size_t cause = 0; cause < kCauses; ++cause)
@@ -222,14 +221,14 @@ std::span<const Rule> rules() noexcept { return kRules; }
 
 Finding worst_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept {
   for (const Rule& rule : kRules)
-    if (protection::enabled(rule.id) && in_scope(rule.scope, m) && rule.holds(limits, in, m))
+    if (protection::enabled(rule.name) && in_scope(rule.scope, m) && rule.holds(limits, in, m))
       return {rule.cause, rule.reaction};
   return {};
 }
 
 Cause blocking_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept {
   for (const Rule& rule : kRules)
-    if (rule.blocks && protection::enabled(rule.id) && rule.holds(limits, in, m)) return rule.cause;
+    if (rule.blocks && protection::enabled(rule.name) && rule.holds(limits, in, m)) return rule.cause;
   return Cause::none;
 }
 

@@ -5,7 +5,7 @@
 namespace crane::supervisor {
 namespace {
 
-// What the present state already amounts to: only a severer reaction changes it.
+// Severity of the present state: only a severer reaction changes it.
 Reaction severity(const Memory& m) {
   switch (m.state) {
     case State::stop_c1:
@@ -41,7 +41,7 @@ void react(Finding finding, const Inputs& in, Memory& m) {
     case Reaction::controlled_stop:
       enter(State::stop_c1, finding.cause, in, m);
       m.ramping = false;
-      if (was_arming) start_ramp(m);  // the drives are not active yet: nothing to bring to rest
+      if (was_arming) start_ramp(m);  // the drives are not active yet: no motion to stop
       return;
     case Reaction::ramped_stop:
       enter(State::stop_c1, finding.cause, in, m);
@@ -64,7 +64,7 @@ bool accepted(const Answers& answers, Request request) {
   return answers[static_cast<std::size_t>(request)].accepted;
 }
 
-/// What the self-test has shown of the last bridge says nothing about this one. ESTOP and FAULT stay.
+/// The self-test of the old bridge does not hold for a new one. ESTOP and FAULT remain.
 void begin_anew(const Inputs& in, Memory& m) {
   m.self_test_passed = false;
   m.clear_since_s = m.fresh_since_s = in.now_s;
@@ -102,7 +102,7 @@ void step_arming(const Inputs& in, Memory& m) {
 }
 
 void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, Memory& m) {
-  if (m.homing) return;  // ends by a cause: homed, failed, or any other
+  if (m.homing) return;  // homing ends by a cause: homed, failed, or any other
   if (m.state == State::hold && (accepted(answers, Request::move) || in.reference_moving)) {
     enter(State::run, Cause::none, in, m);
     m.maneuver_seen = false;
@@ -112,7 +112,7 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   }
   if (m.state != State::run) return;
   m.maneuver_seen = m.maneuver_seen || in.reference_moving;
-  // A move that the planner never begins ends as well, after the time other signals get to settle.
+  // A move that the planner does not begin ends after the settling time of other signals.
   const bool never_began = !m.maneuver_seen && in.now_s - m.entered_s >= limits.clear_time_s;
   if ((m.maneuver_seen && !in.reference_moving) || never_began) {
     enter(State::hold, Cause::none, in, m);
@@ -194,8 +194,7 @@ Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
   if (blocking_cause(limits, in, m) != Cause::none || m.state == State::boot) m.clear_since_s = in.now_s;
   if (in.state_stale || in.demand_stale || m.state == State::boot) m.fresh_since_s = in.now_s;
 
-  if (in.bridge_restarted && protection::enabled(protection::Protection::supervisor_bridge_restarted))
-    begin_anew(in, m);
+  if (in.bridge_restarted && protection::enabled("supervisor_bridge_restarted")) begin_anew(in, m);
   const Finding finding = worst_cause(limits, in, m);
   if (finding.reaction > severity(m)) react(finding, in, m);
   const Answers answers = answer_all(limits, in, m);

@@ -3,36 +3,11 @@
 namespace crane::supervisor {
 namespace {
 
-// In the order of the enumeration.
-constexpr std::array<const char*, kCauses> kCauseNames{"NONE",
-                                                       "START",
-                                                       "OPERATOR_STOP",
-                                                       "OPERATOR_DISARM",
-                                                       "OPERATOR_ESTOP",
-                                                       "ESTOP_INPUT",
-                                                       "IDLE",
-                                                       "STATE_STALE",
-                                                       "DEMAND_STALE",
-                                                       "DEMAND_INVALID",
-                                                       "DEMAND_RATE",
-                                                       "BRIDGE_LATCHED",
-                                                       "POSITION_LIMIT",
-                                                       "STOPPING_ENVELOPE",
-                                                       "LIMIT_SWITCH",
-                                                       "OVERSPEED",
-                                                       "SWING_LIMIT",
-                                                       "BRAKE_DID_NOT_CLOSE",
-                                                       "BRAKE_DID_NOT_OPEN",
-                                                       "SECOND_WRITER",
-                                                       "OVERRUN",
-                                                       "SELFTEST_FAILED",
-                                                       "STOP_TIMEOUT",
-                                                       "NOT_HOMED",
-                                                       "HOMED",
-                                                       "HOMING_FAILED",
-                                                       "BRIDGE_RESTARTED",
-                                                       "FOLLOWING_ERROR",
-                                                       "SWING_SENSOR"};
+constexpr std::array<const char*, kCauses> kCauseNames{
+#define CRANE_CAUSE(name, text) text,
+#include "crane/causes.def"
+#undef CRANE_CAUSE
+};
 
 constexpr std::array<const char*, kStates> kStateNames{
     "BOOT", "SELFTEST", "LOCKED", "READY", "ARMING", "HOLD", "RUN", "STOP_C1", "STOP_C0", "ESTOP", "FAULT"};

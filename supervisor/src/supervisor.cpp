@@ -6,7 +6,7 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr int kCounterEnd = 1'000'000;  // counts in a row stop here: a stream may be missing for months
+constexpr int kCounterEnd = 1'000'000;  // upper end of the counters: a stream can be missing for months
 
 bool all_finite(const Sample& sample) {
   return std::isfinite(sample.time_s) &&
@@ -14,7 +14,7 @@ bool all_finite(const Sample& sample) {
          std::isfinite(sample.swing_radial_rad) && std::isfinite(sample.swing_tangential_rad);
 }
 
-/// What has been seen so far was seen by another bridge.
+/// All samples so far are those of the old bridge.
 void take_over_bridge(const Limits& limits, const TickInput& input, TickMemory& memory) {
   if (!input.bridge_restarted) return;
   AxisFlags known{};
@@ -30,7 +30,7 @@ void take_over_bridge(const Limits& limits, const TickInput& input, TickMemory& 
   memory.overruns_in_row = 0;
 }
 
-// @return true when a usable sample has come in this tick
+// @return true when a usable sample has arrived in this tick
 bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memory) {
   if (!input.state_arrived || !all_finite(input.sample)) {
     memory.state_missing_in_row = std::min(memory.state_missing_in_row + 1, kCounterEnd);
@@ -44,7 +44,7 @@ bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memor
       rename_place(i, input.sample.position[i], memory.motion, memory.brakes);
   memory.sample = input.sample;
   observe(limits, input.now_s, input.sample.time_s, input.sample.position, memory.motion);
-  for (std::size_t i = 0; i < kAxes; ++i)  // an axis without a zero is homed, whatever was thought of it
+  for (std::size_t i = 0; i < kAxes; ++i)  // homing replaces a doubtful position
     if (memory.sample.position_unknown[i]) memory.restart.doubted[i] = false;
   watch_load(limits, input.now_s, memory.sample.swing_radial_rad, memory.sample.swing_tangential_rad,
              memory.restart);
@@ -55,7 +55,7 @@ bool is_homing(const TickMemory& memory, std::size_t axis) {
   return memory.machine.homing && memory.homing_axis == axis;
 }
 
-/// Brakes of axes that take no part stay closed.
+/// True when the brake of the axis opens. Brakes of all other axes stay closed.
 bool takes_part(const Limits& limits, const TickMemory& memory, std::size_t axis) {
   return limits.axis[axis].present && (!memory.machine.homing || memory.homing_axis == axis);
 }
@@ -73,7 +73,7 @@ AxisFlags unclear_axes(const TickInput& input, const TickMemory& memory) {
   return unclear;
 }
 
-/// kAxes: none
+/// @return index of the first set flag; kAxes: none
 std::size_t first_of(const AxisFlags& flags) {
   return static_cast<std::size_t>(std::ranges::find(flags, true) - flags.begin());
 }
@@ -92,7 +92,7 @@ bool every_brake_closed(const Limits& limits, const TickMemory& memory) {
   return true;
 }
 
-/// Creeping on while the axis is homed; otherwise the next homing begins anew. @return speed of the reference
+/// One tick of homing, while an axis is homed. @return speed of the reference, unit/s
 double creep(const Limits& limits, TickMemory& memory) {
   if (!memory.machine.homing || memory.machine.state != State::run) return 0;
   const std::size_t i = memory.homing_axis;
@@ -114,17 +114,17 @@ bool moved(const Limits& limits, const PerAxis& from, const PerAxis& to) {
   return false;
 }
 
-Envelope envelope_now(const Limits& limits, const TickMemory& memory) {
-  return check_envelope(limits, {.position = memory.motion.position,
-                                 .speed = memory.motion.speed,
-                                 .swing_radial_rad = memory.sample.swing_radial_rad,
-                                 .swing_tangential_rad = memory.sample.swing_tangential_rad,
-                                 .limit_low = memory.sample.limit_low,
-                                 .limit_high = memory.sample.limit_high,
-                                 .unknown = unknown_axes(limits, memory)});
+EnvelopeInput measured_now(const Limits& limits, const TickMemory& memory) {
+  return {.position = memory.motion.position,
+          .speed = memory.motion.speed,
+          .swing_radial_rad = memory.sample.swing_radial_rad,
+          .swing_tangential_rad = memory.sample.swing_tangential_rad,
+          .limit_low = memory.sample.limit_low,
+          .limit_high = memory.sample.limit_high,
+          .unknown = unknown_axes(limits, memory)};
 }
 
-// Before the self-test has passed the brakes' anchor follows the axes.
+// Until the self-test has passed, the stored position of the brakes follows the axes.
 bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
   const State state = memory.machine.state;
   if (memory.machine.releasing || state == State::boot || state == State::selftest)
@@ -133,7 +133,7 @@ bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, Ti
   return brake_failed(limits, input.now_s, memory.motion, memory.sample.brake_closed, memory.brakes);
 }
 
-/// While an axis is homed nothing is asked of the others, and of it no more than creeping takes.
+/// While an axis is homed, the other axes get 0 V, and its volts are limited to those of creeping.
 PerAxis demand_of(const Limits& limits, const TickInput& input, const TickMemory& memory) {
   PerAxis demand_v = input.demand_v;
   if (!memory.machine.homing || !std::ranges::all_of(demand_v, [](double v) { return std::isfinite(v); }))
@@ -155,7 +155,7 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
   return gate(limits, in, memory.gate);
 }
 
-/// An axis that is homed creeps, without a position; its motion is judged by the homing itself.
+/// The homed axis has no known position and is excluded; step_homing() checks its motion.
 bool following_error_now(const Limits& limits, bool sampled, TickMemory& memory) {
   if (!sampled) return false;
   const Sample& sample = memory.sample;
@@ -193,6 +193,7 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .state_stale = !memory.motion.started || memory.state_missing_in_row >= limits.state_stale_after_ticks,
       .demand_stale = gated.stale,
       .gate_cause = gated.cause,
+      .measured = measured_now(limits, memory),
       .envelope = envelope,
       .estop_pressed = sample.estop_pressed,
       .bridge_latched = sample.command_stale || sample.command_invalid,
@@ -247,7 +248,7 @@ StatusFlags flags_of(const Inputs& in, const GateOutput& gated, State state) {
 TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory) noexcept {
   take_over_bridge(limits, input, memory);
   const bool sampled = take_sample(limits, input, memory);
-  const Envelope envelope = envelope_now(limits, memory);
+  const Envelope envelope = check_envelope(limits, measured_now(limits, memory));
   const bool brakes_failed = watch_brakes(limits, input, sampled, memory);
   const GateOutput gated = run_gate(limits, input, envelope, memory);
   const double creeping_speed = creep(limits, memory);

@@ -28,7 +28,7 @@ TEST_P(AntiSwingComponent, PublishesWhatItsLawGivesTickByTick) {
     bench_.publish(topics::reference, crane_SOURCE_PLANNER, reference);
     bench_.step();
     if (k == 1) law->reset(runtime::measurement(state));
-    const auto expected = law->step(runtime::measurement(state), runtime::reference(reference.axis));
+    const auto expected = law->step(runtime::measurement(state), runtime::reference(reference));
     const auto sample = output_.take();
     ASSERT_TRUE(sample) << "tick " << k;
     EXPECT_EQ(runtime::values(sample->drive_v), expected.drive_v) << "tick " << k;

@@ -5,6 +5,7 @@
 
 #include "crane/bus/bus.hpp"
 #include "crane/bus/cdr.hpp"
+#include "crane/bus/seal.hpp"
 #include "crc32c.hpp"
 
 namespace {
@@ -17,7 +18,7 @@ msg::State state() {
   msg::State sample{};
   sample.header.tick = 1234;
   sample.slew_angle_rad = 0.5;
-  bus::detail::seal(kTopic, &sample, crane_SOURCE_PLANT, 1);
+  bus::seal(kTopic, &sample, crane_SOURCE_PLANT, 1);
   return sample;
 }
 
@@ -59,13 +60,13 @@ BENCHMARK(crc<bus::crc32c_portable>)->Name("crc32c_boost");
 
 void seal(benchmark::State& run) {
   auto sample = state();
-  while (run.KeepRunning()) bus::detail::seal(kTopic, &sample, crane_SOURCE_PLANT, 1);
+  while (run.KeepRunning()) bus::seal(kTopic, &sample, crane_SOURCE_PLANT, 1);
 }
 BENCHMARK(seal);
 
 void intact(benchmark::State& run) {
   const auto sample = state();
-  while (run.KeepRunning()) benchmark::DoNotOptimize(bus::detail::intact(kTopic, &sample));
+  while (run.KeepRunning()) benchmark::DoNotOptimize(bus::intact(kTopic, &sample));
 }
 BENCHMARK(intact);
 

@@ -5,6 +5,7 @@
 
 #include "crane/bus/bus.hpp"
 #include "crane/bus/cdr.hpp"
+#include "crane/bus/seal.hpp"
 #include "random_sample.hpp"
 
 namespace crane::bus {
@@ -48,7 +49,7 @@ void expect_round_trip(const topics::Topic<T>& topic, Bus& from, Bus& to) {
     T sample{};
     std::memcpy(&sample, testing::random_sample(codec, random).data(), sizeof sample);
     ASSERT_TRUE(writer.publish(sample));
-    detail::seal(topic.description, &sample, from.options().source, from.options().epoch);
+    seal(topic.description, &sample, from.options().source, from.options().epoch);
     const auto taken = reader.take();
     ASSERT_TRUE(taken) << topic.description.name;
     ASSERT_EQ(testing::encoded(codec, &*taken), testing::encoded(codec, &sample)) << topic.description.name;
@@ -58,9 +59,11 @@ void expect_round_trip(const topics::Topic<T>& topic, Bus& from, Bus& to) {
 TEST_F(Memory, CarriesEveryTopicUnchanged) {
   Bus a = bus();
   Bus b = bus();
-#define CRANE_EXPECT_ROUND_TRIP(variable, ...) expect_round_trip(topics::variable, a, b);
-  CRANE_TOPICS(CRANE_EXPECT_ROUND_TRIP)
-#undef CRANE_EXPECT_ROUND_TRIP
+#define CRANE_MESSAGE(type)
+#define CRANE_TOPIC(variable, ...) expect_round_trip(topics::variable, a, b);
+#include "crane/topics.def"
+#undef CRANE_TOPIC
+#undef CRANE_MESSAGE
 }
 
 TEST_F(Memory, KeepsEverySampleInOrderUntilItIsTaken) {
@@ -244,7 +247,7 @@ TEST_F(Memory, HandsOutTheBytesThatRecordingsStore) {
   EXPECT_EQ(header->source, crane_SOURCE_PLANT);
   EXPECT_EQ(header->epoch, 3U);
   EXPECT_EQ(info.source_time_ns, sample.header.sample_time_ns);
-  detail::seal(topics::state.description, &sample, a.options().source, a.options().epoch);
+  seal(topics::state.description, &sample, a.options().source, a.options().epoch);
   auto expected = testing::encoded(CdrCodec::of(crane_CraneState_desc), &sample);
   expected.insert(expected.begin(), {0, 1, 0, 0});
   EXPECT_EQ(cdr, expected);

@@ -4,6 +4,7 @@
 
 #include "crane/bus/bus.hpp"
 #include "crane/bus/cdr.hpp"
+#include "crane/bus/seal.hpp"
 #include "crc32c.hpp"
 #include "random_sample.hpp"
 
@@ -18,11 +19,11 @@ constexpr std::uint64_t kSealSeed = 90125;
 
 std::vector<std::uint8_t> sealed_sample(const topics::Description& topic, Random& random) {
   auto sample = random_sample(CdrCodec::of(*topic.descriptor), random);
-  detail::seal(topic, sample.data(), crane_SOURCE_SUPERVISOR, 42);
+  seal(topic, sample.data(), crane_SOURCE_SUPERVISOR, 42);
   return sample;
 }
 
-TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeItAndOfTheTopicsName) {
+TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeItOfTheTopicsNameAndOfTheVersion) {
   Random random{kSealSeed};
   for (const auto& topic : topics::kAll) {
     const auto sample = sealed_sample(topic, random);
@@ -35,8 +36,10 @@ TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeItAndOfTheTopicsName) {
     std::memcpy(&carried, bytes.data() + bytes.size() - 4, 4);
     bytes.resize(bytes.size() - 4);
     bytes.insert(bytes.end(), topic.name.begin(), topic.name.end());
+    for (int i = 0; i < 4; ++i)  // the version in little endian
+      bytes.push_back(static_cast<std::uint8_t>(crane_MESSAGES_VERSION >> (8 * i)));
     EXPECT_EQ(carried, crc32c_portable(bytes)) << topic.name;
-    EXPECT_TRUE(detail::intact(topic, sample.data())) << topic.name;
+    EXPECT_TRUE(intact(topic, sample.data())) << topic.name;
   }
 }
 
@@ -56,23 +59,23 @@ TEST(Seal, IsTheSameWhateverThePaddingHolds) {
   };
   fill(a);
   fill(b);
-  detail::seal(topics::command.description, &a, crane_SOURCE_SUPERVISOR, 1);
-  detail::seal(topics::command.description, &b, crane_SOURCE_SUPERVISOR, 1);
+  seal(topics::command.description, &a, crane_SOURCE_SUPERVISOR, 1);
+  seal(topics::command.description, &b, crane_SOURCE_SUPERVISOR, 1);
   EXPECT_EQ(a.crc32c, b.crc32c);
 }
 
 TEST(Intact, IsFalseForASampleOfZeros) {  // what the Fast DDS back end makes of a payload it cannot decode
   for (const auto& topic : topics::kAll) {
     const std::vector<std::uint8_t> zeros(topic.descriptor->m_size, 0);
-    EXPECT_FALSE(detail::intact(topic, zeros.data())) << topic.name;
+    EXPECT_FALSE(intact(topic, zeros.data())) << topic.name;
   }
 }
 
 TEST(Intact, IsFalseOnAnotherTopicOfTheSameType) {
   Random random{kSealSeed};
   const auto sample = sealed_sample(topics::tracking.description, random);
-  EXPECT_TRUE(detail::intact(topics::tracking.description, sample.data()));
-  EXPECT_FALSE(detail::intact(topics::anti_swing.description, sample.data()));
+  EXPECT_TRUE(intact(topics::tracking.description, sample.data()));
+  EXPECT_FALSE(intact(topics::anti_swing.description, sample.data()));
 }
 
 TEST(Intact, IsFalseAfterAnyFieldChanged) {
@@ -83,7 +86,7 @@ TEST(Intact, IsFalseAfterAnyFieldChanged) {
     for (const auto& field : codec.fields()) {
       auto changed = sample;
       changed[field.offset] = static_cast<std::uint8_t>(changed[field.offset] ^ 1U);
-      EXPECT_FALSE(detail::intact(topic, changed.data())) << topic.name << " at offset " << field.offset;
+      EXPECT_FALSE(intact(topic, changed.data())) << topic.name << " at offset " << field.offset;
     }
   }
 }
@@ -92,7 +95,7 @@ TEST(Intact, IsFalseAfterAnyFieldChanged) {
 bool handed_out(const topics::Description& topic, std::span<const std::uint8_t> payload,
                 std::vector<std::uint8_t>& sample) {
   return CdrCodec::of(*topic.descriptor).decode(payload, false, sample.data()) &&
-         detail::intact(topic, sample.data());
+         intact(topic, sample.data());
 }
 
 TEST(Intact, NoTruncatedPayloadIsHandedOut) {

@@ -14,14 +14,15 @@
 
 #include "campaign/report.hpp"
 #include "crane/protection.hpp"
+#include "crane/supervisor/rules.hpp"
 
 namespace {
-std::optional<crane::protection::Protection> switched_off;
+std::string switched_off;  // empty: none
 }
 
 namespace crane::protection {
 inline namespace mutated {
-bool enabled(Protection protection) noexcept { return switched_off != protection; }
+bool enabled(std::string_view rule) noexcept { return switched_off != rule; }
 }  // namespace mutated
 }  // namespace crane::protection
 
@@ -32,47 +33,58 @@ using namespace crane::campaign;
 
 /// Where a protection is needed: hazards, and how many seeds are enough.
 struct Need {
-  protection::Protection protection;
+  Need(std::string_view rule, std::vector<int> where) : protection{rule}, hazards{std::move(where)} {}
+  Need(protection::Protection one, std::vector<int> where)
+      : Need{protection::kNames[static_cast<std::size_t>(one)], std::move(where)} {}
+  std::string_view protection;
   std::vector<int> hazards;
   std::uint64_t seeds = 12;
 };
 
+/// The rules of the supervisor, and everything in protection::kNames.
+std::vector<std::string_view> all_protections() {
+  std::vector<std::string_view> names;
+  for (const auto& rule : supervisor::rules()) names.push_back(rule.name);
+  names.insert(names.end(), protection::kNames.begin(), protection::kNames.end());
+  return names;
+}
+
 std::vector<Need> needs() {
   using enum protection::Protection;
-  return {{supervisor_brake_did_not_close, {24}},
-          {supervisor_selftest_failed, {34}},
-          {supervisor_foreign_command, {43}},
-          {supervisor_estop_input, {31}},
-          {supervisor_operator_estop, {37}},
-          {supervisor_second_writer, {9, 10}},
-          {supervisor_bridge_latched, {15}},
-          {supervisor_not_homed, {42}},
-          {supervisor_homing_failed, {39}},
-          {supervisor_position_limit, {33}},
-          {supervisor_limit_switch, {32}},
-          {supervisor_overspeed, {15}},
-          {supervisor_brake_closed_itself, {25}},
-          {supervisor_bridge_not_ready, {40}},
-          {supervisor_no_match, {40}},
-          {supervisor_moved_while_arming, {40}},
-          {supervisor_brake_did_not_open, {25}},
-          {supervisor_state_stale, {4}},
-          {supervisor_demand_stale, {1}},
-          {supervisor_demand_invalid, {6}},
-          {supervisor_demand_rate, {7}},
-          {supervisor_overrun, {27}},
-          {supervisor_stopping_envelope, {22}},
-          {supervisor_swing_runaway, {23}},
-          {supervisor_following_error, {20}},
-          {supervisor_swing_sensor, {18}},
-          {supervisor_stop_timeout, {38}},
-          {supervisor_swing_limit, {23}},
-          {supervisor_operator_stop, {37}},
-          {supervisor_operator_disarm, {37}},
-          {supervisor_homed, {39}},
-          {supervisor_idle, {36}},
-          {supervisor_bridge_restarted, {35}},
-          {supervisor_echo, {43}},
+  return {{"supervisor_brake_did_not_close", {24}},
+          {"supervisor_selftest_failed", {34}},
+          {"supervisor_foreign_command", {43}},
+          {"supervisor_estop_input", {31}},
+          {"supervisor_operator_estop", {37}},
+          {"supervisor_second_writer", {9, 10}},
+          {"supervisor_bridge_latched", {15}},
+          {"supervisor_not_homed", {42}},
+          {"supervisor_homing_failed", {39}},
+          {"supervisor_position_limit", {33}},
+          {"supervisor_limit_switch", {32}},
+          {"supervisor_overspeed", {15}},
+          {"supervisor_brake_closed_itself", {25}},
+          {"supervisor_bridge_not_ready", {40}},
+          {"supervisor_no_match", {40}},
+          {"supervisor_moved_while_arming", {40}},
+          {"supervisor_brake_did_not_open", {25}},
+          {"supervisor_state_stale", {4}},
+          {"supervisor_demand_stale", {1}},
+          {"supervisor_demand_invalid", {6}},
+          {"supervisor_demand_rate", {7}},
+          {"supervisor_overrun", {27}},
+          {"supervisor_stopping_envelope", {22}},
+          {"supervisor_swing_runaway", {23}},
+          {"supervisor_following_error", {20}},
+          {"supervisor_swing_sensor", {18}},
+          {"supervisor_stop_timeout", {38}},
+          {"supervisor_swing_limit", {23}},
+          {"supervisor_operator_stop", {37}},
+          {"supervisor_operator_disarm", {37}},
+          {"supervisor_homed", {39}},
+          {"supervisor_idle", {36}},
+          {"supervisor_bridge_restarted", {35}},
+          {"supervisor_echo", {43}},
           {gate_range, {44}},
           {gate_rate, {7}},
           {gate_block_outwards, {22}},
@@ -118,7 +130,7 @@ class Sound {
     std::vector<Tuple> missing;
     for (const auto& tuple : wanted)
       if (!passes_.contains(tuple)) missing.push_back(tuple);
-    const auto without = std::exchange(switched_off, std::nullopt);
+    const auto without = std::exchange(switched_off, std::string{});
     run_all(missing, jobs_, [this](const Result& result) { passes_[result.tuple] = !fails(result); });
     switched_off = without;
   }
@@ -149,19 +161,19 @@ int check_all(std::uint64_t first_seed, std::uint64_t most_seeds, unsigned jobs)
   Sound sound{jobs};
   std::size_t caught = 0;
   const auto all = needs();
+  const auto declared = all_protections();
   for (const auto& need : all) {
     switched_off = need.protection;
     const auto result = caught_by(need, first_seed, most_seeds, jobs, sound);
-    const char* name = protection::kNames[static_cast<std::size_t>(need.protection)];
     if (result) ++caught;
-    std::cout << name << ": " << (result ? describe(*result) : std::string{"NOT CAUGHT"}) << std::endl;
+    std::cout << need.protection << ": " << (result ? describe(*result) : std::string{"NOT CAUGHT"})
+              << std::endl;
   }
-  for (std::size_t i = 0; i < protection::kProtections; ++i)
-    if (std::ranges::find(all, static_cast<protection::Protection>(i), &Need::protection) == all.end())
-      std::cout << protection::kNames[i] << ": NO HAZARD\n";
+  for (const auto name : declared)
+    if (std::ranges::find(all, name, &Need::protection) == all.end()) std::cout << name << ": NO HAZARD\n";
   std::cout << caught << " of " << all.size() << " protections are needed by the campaign; "
-            << protection::kProtections << " are declared\n";
-  return caught == protection::kProtections ? 0 : 1;
+            << declared.size() << " are declared\n";
+  return caught == declared.size() ? 0 : 1;
 }
 
 int run_campaign(const Selection& selection, unsigned jobs) {
@@ -189,8 +201,12 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", jobs, "processes that work at the same time");
   CLI11_PARSE(app, argc, argv);
   if (without.empty()) return check_all(seed, seeds, jobs);
-  for (std::size_t i = 0; i < protection::kProtections; ++i)
-    if (without == protection::kNames[i]) switched_off = static_cast<protection::Protection>(i);
+  const auto names = all_protections();
+  if (std::ranges::find(names, without) == names.end()) {
+    std::cerr << without << " is no protection\n";
+    return 2;
+  }
+  switched_off = without;
   Selection selection{.hazards = hazards, .moments = {}, .first_seed = seed, .seeds = seeds};
   if (const auto named = moment_named(moment)) selection.moments = {*named};
   return run_campaign(selection, jobs);

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "crane/control/gain_scheduling.hpp"
+#include "crane/control/reference_start.hpp"
 #include "crane/control/shaper.hpp"
 #include "crane/control/trajectory.hpp"
 
@@ -42,7 +43,7 @@ Measurement random_measurement(std::mt19937& random, auto number) {
 
 Reference random_reference(std::mt19937& random, auto number) {
   Reference r;
-  for (auto& axis : r) axis = {number(random), number(random), number(random)};
+  for (auto& axis : r) axis = {number(random), number(random), number(random), number(random)};
   return r;
 }
 
@@ -196,13 +197,14 @@ TEST(References, NeverAllocate) {
   const auto profile = limited_profile(0, 1, {0.5, 1, 10});
   const Shaper shaper(Shaping::ei, 2);
   Design design;
-  ForwardGain gain(design);
+  ReferenceStart start;
   double sum = 0;
   const long before = allocations;
   for (int k = 0; k < 1000; ++k) {
     Reference reference;
     reference[kTrolley] = shaper.at(profile, 0.005 * k);
-    sum += reference[kTrolley].position + gain.step(design, {}, reference).trolley;
+    start.mark({}, reference);
+    sum += reference[kTrolley].position + forward_gains(design, reference).trolley;
   }
   EXPECT_EQ(allocations - before, 0);
   EXPECT_GT(sum, 0);

@@ -83,10 +83,12 @@ double settling_time_s(const Controller& controller, const Design& design, const
   tracking->reset(ideal(state));
   anti_swing->reset(ideal(state));
   double settled_since = 0;
+  ReferenceStart start;
   for (int k = 0; k < 2000; ++k) {
     const double t = k * design.period_s;
     Reference reference = reference_at(wanted, t);
     const auto measured = ideal(state);
+    start.mark(measured, reference);
     const Contribution swing_part = anti_swing->step(measured, reference);
     for (std::size_t i = 0; i < kAxes; ++i) {
       reference[i].position += swing_part.correction[i].position;

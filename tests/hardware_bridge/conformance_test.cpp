@@ -1,4 +1,5 @@
 // What every board has to keep, whatever the software above it does. One suite for all of them.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -226,6 +227,12 @@ TEST_P(Conformance, ShowsAMarkBelowItsPlaceAndCountsAnAxisWithoutAZeroFromTheFar
                   rig.drives[i].high_limit, 1e-4)
           << "nothing may tell where axis " << i << " stands";
   }
+}
+
+TEST(ConformanceSuite, CoversTheDriverOfEveryBoardOfARigFile) {
+  std::vector<std::string> covered;
+  for (const auto& kind : all_boards()) covered.insert(covered.end(), kind.covers.begin(), kind.covers.end());
+  for (const auto& board : board_kinds()) EXPECT_THAT(covered, testing::Contains(board.name));
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, Conformance, testing::ValuesIn(all_boards()),

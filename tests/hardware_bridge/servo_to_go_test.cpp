@@ -284,7 +284,7 @@ TEST_F(Card, ACounterThatDoesNotKeepItsValueIsNamedAndTheCardIsSafe) {
                   if (access.port == 0x208) state_.counters[4].preset = {};  // channel 4 too
                 });
               }),
-              AllOf(HasSubstr("counter 4"), HasSubstr("does not keep"), HasSubstr("0x2a5a5a")));
+              AllOf(HasSubstr("counter 4"), HasSubstr("does not hold"), HasSubstr("0x2a5a5a")));
   EXPECT_THAT(plug_.codes, testing::Each(0x1000));
 }
 

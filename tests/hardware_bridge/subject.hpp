@@ -3,15 +3,16 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "comedi_stand_in.hpp"
-#include "crane/boards/comedi.hpp"
 #include "crane/boards/emulated_board.hpp"
 #include "crane/emulated_rig/wired_rig.hpp"
 #include "crane/simulator/component.hpp"
 #include "crane/simulator/simulated_board.hpp"
 
 namespace crane::bridge::test {
+
+using emulated_rig::WiredRig;
 
 inline constexpr std::int64_t kTick_ns = 10'000'000;
 
@@ -91,36 +92,20 @@ class CardSubject final : public Subject {
   std::unique_ptr<ServoToGo> board_;
 };
 
-/// The comedi driver on a stand-in of its library.
-class ComediSubject final : public Subject {
- public:
-  explicit ComediSubject(const configuration::Rig& rig)
-      : device_{rig}, board_{std::make_unique<Comedi>(rig)} {}
-  Board& board() override { return *board_; }
-  simulator::SimulatedBoard& crane() override { return device_.rig().crane(); }
-  std::array<double, kDrives> amplifier_v() override { return device_.rig().drive_v(); }
-  void close() override { board_.reset(); }
-  void pass(std::int64_t duration_ns) override {
-    device_.rig().advance_to(device_.rig().now_ns() + duration_ns);
-  }
-
- private:
-  ComediStandIn device_;
-  std::unique_ptr<Comedi> board_;
-};
-
+/// A board of the conformance suite.
 struct Kind {
   const char* name;
+  std::vector<const char*> covers;  ///< names of the rig file whose driver this is
   std::function<std::unique_ptr<Subject>(const configuration::Rig&)> make;
   friend std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
 };
 
-/// Every board there is. A new driver joins the suite here.
-inline std::vector<Kind> all_boards() {
-  return {{"simulated", [](const auto& rig) { return std::make_unique<SimulatedSubject>(rig); }},
-          {"comedi", [](const auto& rig) { return std::make_unique<ComediSubject>(rig); }},
-          {"servo_to_go_model_1", [](const auto& rig) { return std::make_unique<CardSubject>(rig, 1); }},
-          {"servo_to_go_model_2", [](const auto& rig) { return std::make_unique<CardSubject>(rig, 2); }}};
-}
+/// Every subject, in alphabetical order.
+std::vector<Kind> all_boards();
+
+/// Adds a subject to the suite: one file in subjects/ for each driver.
+struct RegisteredSubject {
+  explicit RegisteredSubject(Kind kind);
+};
 
 }  // namespace crane::bridge::test

@@ -13,6 +13,7 @@
 
 #include "../system/program_run.hpp"
 #include "../system/running_stack.hpp"
+#include "crane/bus/seal.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::hostile {
@@ -251,7 +252,7 @@ class BareWriter {
   void speak(const msg::Command& last) {
     auto command = last;
     open_and_push(command, last.header.tick + 1);
-    bus::detail::seal(topics::command.description, &command, last.header.source, last.header.epoch);
+    bus::seal(topics::command.description, &command, last.header.source, last.header.epoch);
     if (bare_.disposes)
       dds_dispose(writer_, &command);
     else

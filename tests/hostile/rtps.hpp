@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crane/bus/cdr.hpp"
+#include "crane/bus/seal.hpp"
 #include "crane/topics.hpp"
 
 namespace crane::hostile {
@@ -51,7 +52,7 @@ template <class T>
     Found<T> found{submessage, {}};
     const auto body = payload.subspan(kEncapsulationBytes);
     if (bus::CdrCodec::of(*topic.description.descriptor).decode(body, false, &found.sample) &&
-        bus::detail::intact(topic.description, &found.sample))
+        bus::intact(topic.description, &found.sample))
       return found;
   }
   return std::nullopt;
@@ -60,7 +61,7 @@ template <class T>
 /// as it is in `sample`.
 template <class T>
 void replace(Bytes& message, const Submessage& data, const topics::Topic<T>& topic, T sample) {
-  bus::detail::seal(topic.description, &sample, sample.header.source, sample.header.epoch);
+  bus::seal(topic.description, &sample, sample.header.source, sample.header.epoch);
   (void)bus::CdrCodec::of(*topic.description.descriptor)
       .encode(&sample, payload_of(message, data).subspan(4));
 }

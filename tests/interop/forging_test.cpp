@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "../bus/random_sample.hpp"
+#include "crane/bus/seal.hpp"
 #include "forging_writer.hpp"
 #include "stage.hpp"
 
@@ -16,7 +17,7 @@ class Forging : public ::testing::TestWithParam<Vendor> {};
 std::vector<std::uint8_t> payload_of(const topics::Description& topic, Random& random) {
   const CdrCodec& codec = CdrCodec::of(*topic.descriptor);
   auto sample = random_sample(codec, random);
-  detail::seal(topic, sample.data(), crane_SOURCE_PLANT, 1);
+  seal(topic, sample.data(), crane_SOURCE_PLANT, 1);
   auto payload = encoded(codec, sample.data());
   payload.insert(payload.begin(), {0, 1, 0, 0});
   return payload;

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "../bus/random_sample.hpp"
+#include "crane/bus/seal.hpp"
 #include "stage.hpp"
 
 namespace crane::bus::testing {
@@ -33,7 +34,7 @@ void expect_unchanged(const topics::Topic<T>& topic, Bus& from, Bus& to) {
     SampleInfo info;
     const auto taken = next(to, reader, &info);
     ASSERT_TRUE(taken) << topic.description.name << ", seed " << kSeed << ", sample " << i;
-    detail::seal(topic.description, &sample, crane_SOURCE_PLANT, 11);  // as publish() does
+    seal(topic.description, &sample, crane_SOURCE_PLANT, 11);  // as publish() does
     auto expected = encoded(codec, &sample);
     ASSERT_EQ(encoded(codec, &*taken), expected) << topic.description.name << ", seed " << kSeed;
     EXPECT_EQ(taken->header.source, crane_SOURCE_PLANT);
@@ -49,10 +50,12 @@ void expect_unchanged(const topics::Topic<T>& topic, Bus& from, Bus& to) {
   EXPECT_EQ(reader.counts().rejected, 0U);
 }
 
-#define CRANE_TEST_TOPIC(variable, ...) \
+#define CRANE_MESSAGE(type)
+#define CRANE_TOPIC(variable, ...) \
   TEST_P(Samples, ArriveUnchangedOn_##variable) { expect_unchanged(topics::variable, from, to); }
-CRANE_TOPICS(CRANE_TEST_TOPIC)
-#undef CRANE_TEST_TOPIC
+#include "crane/topics.def"
+#undef CRANE_MESSAGE
+#undef CRANE_TOPIC
 
 msg::State state(std::uint64_t tick) {
   msg::State sample{};

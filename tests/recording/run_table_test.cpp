@@ -102,6 +102,29 @@ TEST(RunTable, IsTheSameFromARecordingAsFromTheSamples) {
   }
 }
 
+TEST(RunTable, IsRefusedForMessagesOfAnotherVersionWithBothVersions) {
+  const TemporaryDirectory directory;
+  for (const char* version : {"1", "2"}) {
+    McapWriter writer{directory / version};
+    std::string text{topics::idl_text()};
+    const std::string own = "MESSAGES_VERSION = " + std::to_string(crane_MESSAGES_VERSION) + ";";
+    text.replace(text.find(own), own.size(), std::string{"MESSAGES_VERSION = "} + version + "0;");
+    (void)writer.channel(writer.schema("crane::CraneState", "omgidl", text), "crane/state", "cdr");
+    writer.close();
+    McapReader reader{directory / version};
+    EXPECT_EQ(messages_version(reader), std::stoul(version) * 10);
+    try {
+      (void)run_table(reader);
+      ADD_FAILURE() << "read";
+    } catch (const SchemaError& error) {
+      EXPECT_THAT(error.what(),
+                  testing::AllOf(testing::HasSubstr("messages of version " + std::string{version} + "0"),
+                                 testing::HasSubstr("this program reads version " +
+                                                    std::to_string(crane_MESSAGES_VERSION))));
+    }
+  }
+}
+
 TEST(RunTable, SaysThatAPayloadDoesNotFitItsSchema) {
   const TemporaryDirectory directory;
   McapWriter writer{directory / "a.mcap"};

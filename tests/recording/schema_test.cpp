@@ -150,10 +150,18 @@ TEST(Schema, NamesTheLineOfWhatItDoesNotUnderstand) {
   EXPECT_THAT(schema_error("@final struct A { sequence<uint8> a; };"),
               HasSubstr("type sequence is not known"));
   EXPECT_EQ(schema_error("@final struct A {"), "line 1: expected a name, found ''");
-  EXPECT_EQ(schema_error("module m {"), "line 1: expected module, enum or struct, found ''");
+  EXPECT_EQ(schema_error("module m {"), "line 1: expected module, enum, const or struct, found ''");
   EXPECT_EQ(schema_error("/* no end"), "line 1: the comment has no end");
-  EXPECT_EQ(schema_error("union U;"), "line 1: expected module, enum or struct, found 'union'");
+  EXPECT_EQ(schema_error("union U;"), "line 1: expected module, enum, const or struct, found 'union'");
   EXPECT_EQ(schema_error("#pragma x"), "line 1: unexpected '#'");
+}
+
+TEST(Schema, ReadsConstants) {
+  const Schema schema{"const uint32 A = 3; module m { const uint32 B = 4; @final struct S { uint8 a; }; };"};
+  EXPECT_EQ(schema.constant("A"), 3U);
+  EXPECT_EQ(schema.constant("m::B"), 4U);
+  EXPECT_EQ(schema.constant("B"), std::nullopt);
+  EXPECT_THAT(schema_error("const uint32 A = x;"), HasSubstr("line 1: expected a size"));
 }
 
 TEST(Schema, SurvivesEveryPrefixOfTheTopicsText) {

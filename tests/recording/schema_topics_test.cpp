@@ -143,6 +143,7 @@ TEST(TopicSchema, ReadsEveryFieldOfReferenceAndContribution) {
   msg::Reference r{};
   f.header(r.header);
   for (auto& axis : r.axis) f.axis(axis);
+  for (double& value : r.start) value = f.real();
   for (auto* values : {&r.swing_rad, &r.swing_radps})
     for (double& value : *values) value = f.real();
   for (double& value : r.feed_forward_v) value = f.real();
@@ -153,6 +154,7 @@ TEST(TopicSchema, ReadsEveryFieldOfReferenceAndContribution) {
   EXPECT_EQ(through_the_codec(topics::reference, r),
             (ordered_json{{"header", expected(r.header)},
                           {"axis", expected(r.axis)},
+                          {"start", expected(r.start)},
                           {"swing_rad", expected(r.swing_rad)},
                           {"swing_radps", expected(r.swing_radps)},
                           {"feed_forward_v", expected(r.feed_forward_v)},

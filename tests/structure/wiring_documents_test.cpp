@@ -2,6 +2,7 @@
 // makes the right text.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -28,31 +29,17 @@ std::string output_of(const std::string& command, const std::string& file) {
   return text.substr(from + begin.size(), text.find("<!-- end -->", from) - from - begin.size());
 }
 
-/// The same for "crane graph --format FORMAT", without the fence of a diagram.
-std::string generated_part(const std::string& file, const std::string& format) {
-  const auto text = text_of(file);
-  const auto begin = "<!-- crane graph --format " + format + " -->\n";
-  const auto from = text.find(begin);
-  if (from == std::string::npos) return "no " + begin + " in " + file;
-  auto part = text.substr(from + begin.size(), text.find("<!-- end -->", from) - from - begin.size());
-  const std::string fence = "```mermaid\n";
-  if (part.rfind(fence, 0) == 0) part = part.substr(fence.size(), part.rfind("```") - fence.size());
-  return part;
+TEST(Documents, ShowTheWiringAsTheComponentsDeclareIt) {
+  const auto right = wiring_document(all_components());
+  const auto copy = std::filesystem::path{testing::TempDir()} / "wiring.md";
+  std::ofstream{copy} << right;
+  EXPECT_EQ(text_of("docs/wiring.md"), right) << "put " << copy << " there";
 }
 
-TEST(Documents, ShowTheTopicsAsTheComponentsDeclareThem) {
-  EXPECT_EQ(generated_part("idl/README.md", "topics"), wiring_table(all_components()))
-      << "put the output of `crane graph --format topics` there";
-}
-
-TEST(Documents, ShowWhatEachComponentReadsAndWrites) {
-  EXPECT_EQ(generated_part("docs/architecture.md", "components"), component_table(all_components()))
-      << "put the output of `crane graph --format components` there";
-}
-
-TEST(Documents, ShowTheDiagramOfTheWiring) {
-  EXPECT_EQ(generated_part("README.md", "mermaid"), wiring_mermaid(all_components()))
-      << "put the output of `crane graph --format mermaid` there";
+TEST(Documents, ShowTheDiagramOfTheCommandPath) {
+  EXPECT_EQ(output_of("crane graph --command-path", "README.md"),
+            "```mermaid\n" + wiring_mermaid(all_components(), Extent::command_path) + "```\n")
+      << "put the output of `crane graph --command-path` there";
 }
 
 TEST(Documents, ShowTheRulesThatTheSupervisorRuns) {

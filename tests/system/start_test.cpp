@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "../recording/temporary_directory.hpp"
+#include "crane/bus/bus.hpp"
 #include "program_run.hpp"
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
@@ -151,6 +152,33 @@ TEST_F(Start, AFullDiskEndsARunWithOneLine) {
     EXPECT_THAT(ended.errors, HasSubstr("recording.mcap: cannot write: No space left on device")) << way;
     EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
     EXPECT_THAT(processes_with(crane_name()), IsEmpty()) << way;
+  }
+}
+
+/// A program of another release in the same crane.
+bus::Bus program_of_another_version(bus::Vendor vendor) {
+  return bus::Bus{{.vendor = vendor,
+                   .domain = kDomain,
+                   .crane = crane_name(),
+                   .participant = "crane_supervisor",
+                   .source = crane_SOURCE_SUPERVISOR,
+                   .epoch = 7,
+                   .messages_version = crane_MESSAGES_VERSION + 1}};
+}
+
+TEST_F(Start, BesideAProgramWithMessagesOfAnotherVersionIsRefusedAndBothVersionsAreNamed) {
+  const auto own = std::to_string(crane_MESSAGES_VERSION), other = std::to_string(crane_MESSAGES_VERSION + 1);
+  for (const auto vendor : {bus::Vendor::cyclone, bus::Vendor::fastdds}) {
+    const auto stranger = program_of_another_version(vendor);
+    const auto plant = run_program(stack::program_directory() / "crane_plant",
+                                   on_this_crane({"--rig", stack::find_rig("virginia_tech_tower").string()}));
+    EXPECT_EQ(plant.exit_code, kFailed);
+    EXPECT_THAT(plant.errors, HasSubstr("crane_supervisor has messages of version " + other +
+                                        ", this program has version " + own));
+    EXPECT_EQ(lines_in(plant.errors), 1U) << plant.errors;
+    const auto status = crane({"status"});
+    EXPECT_EQ(status.exit_code, kFailed);
+    EXPECT_THAT(status.errors, HasSubstr("crane_supervisor has messages of version " + other));
   }
 }
 

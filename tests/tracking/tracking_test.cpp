@@ -31,7 +31,7 @@ TEST(TrackingComponent, PublishesTheVoltsOfItsLawForTheSameTick) {
   const auto sample = output.take();
   ASSERT_TRUE(sample);
   EXPECT_EQ(sample->header.tick, 7u);
-  EXPECT_EQ(runtime::values(sample->drive_v), law_volts(bench, state, runtime::reference(reference.axis)));
+  EXPECT_EQ(runtime::values(sample->drive_v), law_volts(bench, state, runtime::reference(reference)));
   EXPECT_NE(sample->drive_v[control::kTrolley], 0);
 }
 
@@ -60,7 +60,7 @@ TEST(TrackingComponent, AddsTheCorrectionOfTheAntiSwingLawToTheReference) {
   bench.step();
   const auto sample = output.take();
   ASSERT_TRUE(sample);
-  auto wanted = runtime::reference(reference_at(1, 0.02).axis);
+  auto wanted = runtime::reference(reference_at(1, 0.02));
   wanted[control::kTrolley].speed = 0.1;
   wanted[control::kTrolley].acceleration = 0.3;
   EXPECT_EQ(runtime::values(sample->drive_v), law_volts(bench, state, wanted));

@@ -67,7 +67,7 @@ class TwinProcess : public testing::Test {
       while (const auto event = events.take()) events_.push_back(*event);
       while (const auto twin = twins.take()) twins_.push_back(*twin);
     };
-    const auto outcome = experiments::run_scenario(bus, pump, started, scenario, log, true);
+    const auto outcome = experiments::run_scenario(bus, pump, started, scenario, log, specs);
     pump();
     EXPECT_TRUE(outcome.completed) << outcome.stopped_because;
     children.stop();

@@ -8,10 +8,12 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "crane/boards/registry.hpp"
+
 namespace crane::bridge {
 namespace {
 
-constexpr double kNeeded_v = 9.9;  // ranges of calibrated boards end a little below 10 V
+constexpr double kNeeded_v = 9.9;  // the range of a calibrated board ends a little below 10 V
 constexpr int kFirstOutputLine = 16;
 constexpr lsampl_t k24Bits = 0xFFFFFF;
 
@@ -50,7 +52,7 @@ Comedi::Comedi(const configuration::Rig& rig) : wiring_{rig.wiring}, lines_{rig}
     if (lines_.present(i)) find_converter(i, as_index(rig.drives[i].dac_channel));
   make_safe();
   find_lines();
-  make_safe();  // what the outputs showed before they were outputs
+  make_safe();  // the lines may have any level when they become outputs
   for (const auto& counter : counters_) start_counter(counter);
 }
 
@@ -98,7 +100,7 @@ void Comedi::find_lines() {
     require_channel(subdevice, as_index(channel), key);
     const bool fixed = ::comedi_get_subdevice_type(handle_.device, as_index(subdevice)) != COMEDI_SUBD_DIO;
     if (!fixed && ::comedi_dio_config(handle_.device, as_index(subdevice), as_index(channel), direction) < 0)
-      fail(std::string{key} + ": channel " + std::to_string(channel) + " does not take its direction");
+      fail(std::string{key} + ": channel " + std::to_string(channel) + " does not accept its direction");
   };
   const auto input = [&](int line) {
     direct(wiring_.input_subdevice, line, COMEDI_INPUT, "input_subdevice");
@@ -129,21 +131,21 @@ void Comedi::start_counter(const Counter& counter) {
                                 NI_GPCT_COUNTING_MODE_QUADRATURE_X4_BITS) < 0 ||
       ::comedi_arm_channel(handle_.device, subdevice, counter.channel, NI_GPCT_ARM_IMMEDIATE) < 0)
     fail(label + " does not count quadrature: use another board");
-  // Last: some drivers take every configuration for a new count.
+  // The preset comes last: some drivers reset the count at every configuration.
   const auto wanted = static_cast<lsampl_t>(counter.start_counts) & k24Bits;
   lsampl_t found = 0;
   if (::comedi_data_write(handle_.device, subdevice, counter.channel, 0, AREF_GROUND, wanted) < 0 ||
       ::comedi_data_read(handle_.device, subdevice, counter.channel, 0, AREF_GROUND, &found) < 0)
     fail(label + " does not answer");
-  // An encoder that moves meanwhile changes the last bits only.
+  // An encoder that moves meanwhile changes the lowest bits only.
   constexpr std::int32_t kTolerance_counts = 0x1000;
   if (std::abs(counts_of_24_bits(found - wanted)) > kTolerance_counts)
-    fail(label + " does not keep what it is given: use another channel, or another board");
+    fail(label + " does not hold a written value: use another channel, or another board");
 }
 
 Inputs Comedi::read() {
   std::array<lsampl_t, kCounters> values{};
-  std::array<lsampl_t, 2> lines{0, 0};  // writes nothing, reads all
+  std::array<lsampl_t, 2> lines{0, 0};  // writes no line, reads all lines
   std::array<comedi_insn, kCounters + 1> instructions{};
   unsigned count = 0;
   for (const auto& counter : counters_) {
@@ -173,7 +175,7 @@ unsigned Comedi::code(const Converter& converter, double voltage_v) const noexce
   return ::comedi_from_phys(std::clamp(finite_v, range.min, range.max), &range, converter.largest);
 }
 
-/// Not comedi_to_phys: to it the first and the last code are out of range, and no number.
+/// comedi_to_phys() is not used: it returns NaN for the first and the last code.
 double Comedi::voltage_v(const Converter& converter, unsigned code) const noexcept {
   return converter.low_v + code * (converter.high_v - converter.low_v) / converter.largest;
 }
@@ -194,7 +196,7 @@ std::array<double, kDrives> Comedi::write(const Outputs& outputs) {
   return given_v;
 }
 
-/// Whatever fails, the rest is tried.
+/// Sets every output, also after one has failed.
 void Comedi::make_safe() noexcept {
   for (const auto& converter : converters_)
     ::comedi_data_write(handle_.device, as_index(wiring_.analog_output_subdevice), converter.channel,
@@ -202,6 +204,10 @@ void Comedi::make_safe() noexcept {
   unsigned bits = 0;
   if (output_mask_ != 0)
     ::comedi_dio_bitfield2(handle_.device, as_index(wiring_.output_subdevice), output_mask_, &bits, 0);
+}
+
+std::unique_ptr<Board> make_comedi_board(const configuration::Rig& rig, const bus::Options& /*bus*/) {
+  return std::make_unique<Comedi>(rig);
 }
 
 }  // namespace crane::bridge

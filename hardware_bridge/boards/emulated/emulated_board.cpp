@@ -1,5 +1,8 @@
 #include "crane/boards/emulated_board.hpp"
 
+#include "crane/boards/linked_rig.hpp"
+#include "crane/boards/registry.hpp"
+
 namespace crane::bridge {
 namespace {
 
@@ -21,6 +24,12 @@ Inputs EmulatedBoard::read() {
 bool EmulatedBoard::kick(double radial_radps, double tangential_radps) {
   rig_->kick(radial_radps, tangential_radps);
   return true;
+}
+
+/// The crane at the plugs of the emulated card is a separate process, crane_emulated_rig.
+std::unique_ptr<Board> make_emulated_board(const configuration::Rig& rig, const bus::Options& bus) {
+  return std::make_unique<EmulatedBoard>(
+      rig, std::make_unique<LinkedRig>(shared_lines_name(bus.crane, bus.domain)));
 }
 
 }  // namespace crane::bridge

@@ -15,7 +15,7 @@ constexpr std::uint16_t kCounterRegisters = 0x10;  // data at offsets 0, 1, 4, 5
 
 bool is_counter(std::uint16_t offset) { return offset < kCounterRegisters; }
 bool is_control(std::uint16_t offset) { return (offset & 2U) != 0; }
-std::size_t channel_of(std::uint16_t offset) { return (offset >> 2U) << 1U | (offset & 1U); }
+std::size_t channel_of(std::uint16_t offset) { return (std::size_t{offset} >> 2U) << 1U | (offset & 1U); }
 
 bool counts(const CardState::Counter& counter) {
   constexpr std::uint8_t kInputsEnabled = 0x08, kTimesFour = 0x03;
@@ -81,11 +81,11 @@ void EmulatedServoToGo::out_16(std::uint16_t port, std::uint16_t value) noexcept
   out_8(static_cast<std::uint16_t>(port + 1), static_cast<std::uint8_t>(value >> 8U));
 }
 
-/// Bits 7 and 6: 0 act, 1 input control, 2 output control, 3 quadrature.
+/// Bits 7 and 6: 0 command, 1 input control, 2 output control, 3 quadrature.
 void EmulatedServoToGo::command_counter(std::size_t channel, std::uint8_t command) noexcept {
   auto& counter = state_.counters[channel];
   if (command >> 6U == 0) return act_on_counter(counter, channel, command);
-  const auto kept = value(channel);  // a change of mode changes who moves the value, not the value
+  const auto kept = value(channel);  // a change of mode keeps the value
   if (command >> 6U == 1) counter.input_control = command;
   if (command >> 6U == 3) counter.quadrature = command;
   set_value(channel, kept);
@@ -135,7 +135,7 @@ std::uint8_t EmulatedServoToGo::board_test() noexcept {
 
 void EmulatedServoToGo::command_timer(std::uint8_t command) noexcept {
   if (command >> 6U != 0) return;  // timers 1 and 2 only divide
-  state_.timer_period_ns = 0;      // any mode word stops it until a count is written
+  state_.timer_period_ns = 0;      // a mode word stops the timer until a count is written
   state_.timer_0_high_next = false;
   state_.timer_0_loadable = command == kTimer0Periodic;
 }

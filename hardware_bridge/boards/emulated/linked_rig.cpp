@@ -12,16 +12,16 @@ using runtime::monotonic_ns;
 using Role = SharedFile::Role;
 
 constexpr std::int64_t kPatience_ns = 5'000'000'000;
-constexpr std::int64_t kSilence_ns = 500'000'000;  // longer than a rig that runs stays without a step
+constexpr std::int64_t kSilence_ns = 500'000'000;  // a running rig makes a step much more often
 
-/// The file of a rig that runs; nothing while there is none.
+/// The shared file of a running rig; nothing when no rig runs.
 std::unique_ptr<SharedFile> find(const std::string& name, SharedLines*& lines) {
   if (!SharedFile::exists(name)) return nullptr;
   auto file = std::make_unique<SharedFile>(name);
   if (file->size() < sizeof(SharedLines)) return nullptr;
   auto* found = static_cast<SharedLines*>(file->map(sizeof(SharedLines)));
   if (found->ready != SharedLines::kReady) return nullptr;
-  if (SharedFile probe{name}; probe.take(Role::rig)) return nullptr;  // left behind by a rig that has died
+  if (SharedFile probe{name}; probe.take(Role::rig)) return nullptr;  // the rig that created it has ended
   lines = found;
   return file;
 }
@@ -33,7 +33,7 @@ LinkedRig::LinkedRig(const std::string& name) {
   while (!(file_ = find(name, lines_))) {
     if (monotonic_ns() > give_up_ns || runtime::stop_requested())
       throw BoardError(
-          "the emulated rig of this crane is not there: start crane_emulated_rig with the same --crane "
+          "the emulated rig of this crane does not run: start crane_emulated_rig with the same --crane "
           "and --domain, or use `crane up --plant hardware`");
     std::this_thread::sleep_for(std::chrono::milliseconds{10});
   }

@@ -43,7 +43,7 @@ ServoToGo::ServoToGo(const configuration::Rig& rig, std::unique_ptr<PortIo> port
   make_safe();
   ports_->out_8(at(kDirectionAbc), kAbInCOut);
   ports_->out_8(at(kDirectionD), kDOut);
-  make_safe();  // what the outputs showed before they were outputs
+  make_safe();  // the lines may have any level when they become outputs
   stop_timer();
   for (const auto& counter : counters_)
     if (counter.used) start_counter(counter);
@@ -80,17 +80,18 @@ void ServoToGo::start_counter(const Counter& counter) {
   const auto control = at(counter_control(counter.channel));
   for (const auto command : {kMasterReset, kInputControl, kOutputControl, kQuadrature, kZero})
     ports_->out_8(control, command);
-  // An encoder that moves meanwhile changes the last bits only.
+  // An encoder that moves meanwhile changes the lowest bits only.
   constexpr std::int32_t kTolerance_counts = 0x1000;
   for (const std::int32_t pattern : {0x2A5A5A, -0x2A5A5A}) {
     preset(counter.channel, pattern);
     ports_->out_8(control, kLatch);
     const auto found = latched(counter.channel);
     if (std::abs(found - pattern) <= kTolerance_counts) continue;
-    throw BoardError(
-        "counter " + std::to_string(counter.channel) + " of the Servo-to-Go board at " + hex(base_) +
-        " does not keep what it is given (" + hex(static_cast<unsigned>(pattern) & 0xFFFFFFU) + " became " +
-        hex(static_cast<unsigned>(found) & 0xFFFFFFU) + "): use another channel, or another card");
+    throw BoardError("counter " + std::to_string(counter.channel) + " of the Servo-to-Go board at " +
+                     hex(base_) + " does not hold a written value (" +
+                     hex(static_cast<unsigned>(pattern) & 0xFFFFFFU) + " was read back as " +
+                     hex(static_cast<unsigned>(found) & 0xFFFFFFU) +
+                     "): use another channel, or another card");
   }
   preset(counter.channel, counter.start_counts);
 }

@@ -56,7 +56,7 @@ class Calibrating {
       if (answer == "n" || answer == "no") return false;
     }
   }
-  /// Nothing when the answer is empty.
+  /// @return nothing when the answer is empty
   std::optional<double> number(const std::string& question, double low) {
     while (true) {
       const auto answer = ask(question);
@@ -67,7 +67,7 @@ class Calibrating {
         if (end == answer.size() && std::isfinite(value) && value > low) return value;
       } catch (const std::logic_error&) {
       }
-      options_.say("a number is wanted, in SI units, without the unit");
+      options_.say("enter a number in SI units, without the unit");
     }
   }
 
@@ -82,7 +82,7 @@ class Calibrating {
     return fits;
   }
 
-  /// The encoders' zero is where the load hangs now: it has to hang still.
+  /// The zero of the swing encoders is the present angle of the load: the load must hang at rest.
   void settle() {
     while (true) {
       const auto fits = swings();
@@ -93,18 +93,18 @@ class Calibrating {
       if (settled && offset_rad <= kSettled_rad) return;
       if (settled)
         throw std::runtime_error(
-            "the load hangs still, " + with_unit(offset_rad, "rad") +
+            "the load hangs at rest " + with_unit(offset_rad, "rad") +
             " from the zero of its encoders, because it swung when the board was opened: "
             "start crane hw calibrate again");
       if (!yes("the load swings by " + with_unit(swing_rad, "rad") + ", at most " +
-               with_unit(kSettled_rad, "rad") + " is still: steady it by hand; try again?"))
+               with_unit(kSettled_rad, "rad") + " counts as rest: steady it by hand; try again?"))
         throw Ended("the load did not come to rest; nothing written");
     }
   }
 
   void calibrate_axis(std::size_t i) {
     const std::string name{coordinate_name(i)};
-    options_.say("brake of " + name);
+    options_.say("testing the brake of " + name);
     require_brake(i);
     options_.say(name + " moves");
     const auto before = swings();
@@ -126,11 +126,11 @@ class Calibrating {
         bring_up::run(session_, {.axis = i, .drive_v = drive_v, .distance = kStandstill, .duration_s = 0.1});
     for (std::size_t k = 0; k < kDrives; ++k)
       if (std::abs(jog.moved[k]) > kStandstill)
-        throw std::runtime_error("the brake of " + std::string{coordinate_name(i)} + " gave way at " +
-                                 with_unit(drive_v, "V") + ": crane hw selftest says more");
+        throw std::runtime_error("the brake of " + std::string{coordinate_name(i)} + " slipped at " +
+                                 with_unit(drive_v, "V") + ": crane hw selftest finds the cause");
   }
 
-  /// Pushes grow until the axis has come half the distance.
+  /// Pushes grow until the axis has moved half the distance.
   Record push(std::size_t i) {
     Record motion;
     const double largest_v = std::min(options_.largest_v, rig_.drives[i].volt_limit_v);
@@ -140,26 +140,27 @@ class Calibrating {
       const auto jog = bring_up::run(session_, plan);
       motion.insert(motion.end(), jog.record.begin(), jog.record.end());
       if (jog.limit)
-        throw std::runtime_error(std::string{coordinate_name(i)} +
-                                 " has reached a limit switch: start farther inside");
+        throw std::runtime_error(
+            std::string{coordinate_name(i)} +
+            " has reached a limit switch: move it away from the limit switch and start again");
       if (std::abs(jog.moved[i]) > options_.distance[i] / 2) return motion;
     }
     throw std::runtime_error("the counter of " + std::string{coordinate_name(i)} +
                              " does not follow its drive at " + with_unit(largest_v, "V") +
-                             ": crane hw selftest says what is wrong");
+                             ": crane hw selftest finds the fault");
   }
 
   void ask_scale(std::size_t i, std::int64_t counts) {
     const auto magnitude = std::abs(static_cast<double>(counts));
     const auto unit = coordinate_unit(i);
-    const auto distance =
-        number("how far did it move, in " + std::string{unit} + "? By the rig file " +
-                   with_unit(magnitude / rig_.encoders[i].counts_per_unit, unit) + "; empty: that is right",
-               0);
+    const auto distance = number("how far did it move, in " + std::string{unit} + "? The rig file says " +
+                                     with_unit(magnitude / rig_.encoders[i].counts_per_unit, unit) +
+                                     "; press Enter if that is right",
+                                 0);
     if (distance) found_.counts_per_unit[i] = magnitude / *distance;
   }
 
-  /// Which way the load's encoder counts: it stays behind.
+  /// Sign of the swing encoder: the load stays behind when the axis moves.
   void judge_swing(std::size_t i, const Record& motion, const std::array<SwingFit, kSwings>& before,
                    const std::array<SwingFit, kSwings>& after) {
     const auto swing = swing_of(rig_, i);
@@ -172,11 +173,12 @@ class Calibrating {
         expected_swing(motion, i, lever, rig_.start.position[plant::kHoist], frequency_radps_);
     const double share = share_of(expected, before[swing - kDrives], after[swing - kDrives]);
     if (std::abs(share) < 0.4)
-      throw std::runtime_error("the encoder of " + std::string{coordinate_name(swing)} +
-                               " does not see the load stay behind: crane hw selftest says what is wrong");
+      throw std::runtime_error(
+          "the encoder of " + std::string{coordinate_name(swing)} +
+          " does not show that the load stays behind: crane hw selftest finds the fault");
     if (share < 0) found_.encoder_sign[swing] = -rig_.encoders[swing].sign;
-    options_.say(std::string{coordinate_name(swing)} + " sees " + with_unit(std::abs(share), "") +
-                 "times the swing that its scale and the cable's length let expect");
+    options_.say(std::string{coordinate_name(swing)} + " shows " + with_unit(std::abs(share), "") +
+                 "times the swing that follows from its scale and the cable length");
   }
 
   void ask_position(std::size_t i, std::int64_t counts) {
@@ -184,8 +186,8 @@ class Calibrating {
     const double here = rig_.start.position[i] +
                         static_cast<double>(counts) * found_.encoder_sign[i] / found_.counts_per_unit[i];
     const auto measured =
-        number("where does the " + std::string{coordinate_name(i)} + " stand now, in " + std::string{unit} +
-                   "? By its encoder " + with_unit(here, unit) + "; empty: that is right",
+        number("where is the " + std::string{coordinate_name(i)} + " now, in " + std::string{unit} +
+                   "? Its encoder shows " + with_unit(here, unit) + "; press Enter if that is right",
                -1e3);
     found_.position[i] = measured.value_or(here);
   }

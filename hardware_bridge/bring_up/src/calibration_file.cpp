@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using configuration::ConfigurationError;
 
-/// Reads back as the same number, and as a floating one.
+/// Text that is read back as the same floating-point number.
 std::string exact(double value) {
   std::array<char, 40> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -27,7 +27,7 @@ std::string text_of(const configuration::Rig& rig, const Calibration& calibratio
   for (std::size_t i = 0; i < kDrives; ++i)
     if (rig.drives[i].present)
       out << "\n[drive." << coordinate_name(i) << "]\nsign = " << calibration.drive_sign[i]
-          << "  # which way a positive voltage moves it\n";
+          << "  # direction of motion at a positive voltage\n";
   for (std::size_t i = 0; i < kCounters; ++i) {
     if (rig.encoders[i].counts_per_unit <= 0) continue;
     const auto unit = coordinate_unit(i);
@@ -35,7 +35,8 @@ std::string text_of(const configuration::Rig& rig, const Calibration& calibratio
         << "\ncounts_per_" << unit << " = " << exact(calibration.counts_per_unit[i]) << "  # counts per "
         << unit << '\n';
   }
-  out << "\n[start]  # where the crane stood then, load at rest; encoders are incremental\n";
+  out << "\n[start]  # position of the crane at the calibration, load at rest; the encoders are "
+         "incremental\n";
   for (std::size_t i = 0; i < kDrives; ++i)
     if (rig.drives[i].present)
       out << plant::kCoordinates[i].column << " = " << exact(calibration.position[i]) << "  # "

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFirstPush_v = 1, kMorePush_v = 0.5;
 constexpr std::array<double, kDrives> kPushDistance{0.03, 0.1,
-                                                    0.02};  // m, rad, m: enough for the load to show
+                                                    0.02};  // m, rad, m: large enough for a visible swing
 constexpr double kSwingSeen_rad = 0.015;
 
 class Gathering {
@@ -70,7 +70,7 @@ class Gathering {
     push(i);
   }
 
-  /// Both ways, short: a brake that is open lets it go a few centimetres.
+  /// Pushes the axis in both directions, briefly: behind an open brake it moves a few centimetres.
   void push_against_brake(std::size_t i) {
     auto& axis = evidence_.axis[i];
     axis.push_v = std::min(3.0, largest_v(i));
@@ -87,7 +87,7 @@ class Gathering {
     }
   }
 
-  /// Pushes grow until something moves; the load is watched before and after.
+  /// Pushes grow until an axis moves. The swing is measured before and after.
   void push(std::size_t i) {
     const auto before = swings();
     Record motion;
@@ -133,7 +133,7 @@ class Gathering {
     return false;
   }
 
-  /// The load does what it did not do before.
+  /// Swing that the push has added.
   [[nodiscard]] bool swing_seen(const Sample& now, const std::array<SwingFit, kSwings>& before) const {
     for (std::size_t k = 0; k < kSwings; ++k)
       if (std::abs(now.coordinate[kDrives + k] - before[k].at(now.time_s, frequency_radps_)) > kSwingSeen_rad)
@@ -180,14 +180,14 @@ class Gathering {
            (swing_of(rig_, i) == 0 || std::max(axis.swung_rad[0], axis.swung_rad[1]) <= kNoSwing_rad);
   }
 
-  /// Drives that seem dead may move each other's axes: once more with the brakes of all of them open.
+  /// Two drives that seem dead may be swapped: repeats the push with the brakes of all such axes open.
   void try_unlocked() {
     std::array<bool, kDrives> still{};
     for (std::size_t i = 0; i < kDrives; ++i) still[i] = rig_.drives[i].present && stood_still(i);
     if (std::count(still.begin(), still.end(), true) < 2) return;
     for (std::size_t i = 0; i < kDrives; ++i) {
       if (!still[i]) continue;
-      options_.progress("whom the drive of " + std::string{coordinate_name(i)} + " moves");
+      options_.progress("axis that the drive of " + std::string{coordinate_name(i)} + " moves");
       for (double drive_v = std::min(kFirstPush_v, largest_v(i)); drive_v <= largest_v(i);
            drive_v += kMorePush_v) {
         const auto jog = bring_up::run(
@@ -206,7 +206,8 @@ class Gathering {
   double frequency_radps_;
   Evidence evidence_;
   std::array<SwingFit, kDrives> counter_fits_;  ///< of the drives' counters, while everything is braked
-  bool counters_swing_ = false;  ///< then what they show is no motion, and nothing more is to learn
+  bool counters_swing_ =
+      false;  ///< true: a drive's counter shows the swing, so that further pushes give no evidence
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ class Judgement {
       findings_.push_back({fault, std::move(subject), std::move(text)});
   }
 
-  /// A swapped swing encoder is not dead, too.
+  /// A swing encoder that is swapped is not reported as dead, too.
   void drop_explained() {
     const auto swapped = [this](const std::string& name) {
       return std::any_of(findings_.begin(), findings_.end(), [&](const Finding& known) {
@@ -60,19 +60,19 @@ class Judgement {
               std::to_string(rig_.wiring.estop_input));
     if (evidence_.relay_closed_at_rest)
       add(Fault::relay_stuck, "relay",
-          "the watchdog relay is closed although its output rests: nothing would close the brakes when the "
-          "computer dies; look at the relay and its contact (input line " +
+          "the watchdog relay is closed although its output does not toggle: the brakes would stay open "
+          "when the computer fails; check the relay and its contact (input line " +
               std::to_string(rig_.wiring.relay_closed_input) + ")");
     else if (!evidence_.relay_closed)
       add(Fault::relay_dead, "relay",
           "the watchdog relay does not close while output line " +
               std::to_string(rig_.wiring.watchdog_output) +
-              " toggles: look at the charge pump and the relay's contact (input line " +
+              " toggles: check the charge pump and the relay's contact (input line " +
               std::to_string(rig_.wiring.relay_closed_input) + ")");
     else if (!evidence_.relay_dropped)
       add(Fault::relay_stuck, "relay",
           "the watchdog relay does not drop within " + text_of(evidence_.relay_limit_s, "s") +
-              " after its output has stopped: nothing would close the brakes when the computer dies");
+              " after its output has stopped: the brakes would stay open when the computer fails");
   }
 
   void judge_brake(std::size_t i) {
@@ -88,11 +88,12 @@ class Judgement {
     if (!axis.held)
       add(axis.closed_in_use ? Fault::brake_slips : Fault::brake_open, name,
           "the brake of " + name + (axis.closed_in_use ? " does not hold: " : " does not close: ") +
-              "it gave way by " + text_of(axis.slipped, coordinate_unit(i)) + " at " +
+              "it slipped by " + text_of(axis.slipped, coordinate_unit(i)) + " at " +
               text_of(axis.push_v, "V") + " with output line " + output + " off");
     else if (!axis.closed_at_rest || !axis.closed_in_use)
       add(Fault::brake_contact, name,
-          "the contact of the brake of " + name + " says open, yet the brake holds: look at input line " +
+          "the contact of the brake of " + name +
+              " reports open although the brake holds: check input line " +
               std::to_string(rig_.wiring.drives[i].brake_closed_input));
     else
       judge_opening(i);
@@ -118,7 +119,7 @@ class Judgement {
       add(Fault::brake_shut, name,
           "the brake of " + name + " does not open with output line " +
               std::to_string(rig_.wiring.drives[i].brake_release_output) +
-              " on: look at its 24 V supply, its coil and its contact (input line " +
+              " on: check its 24 V supply, its coil and its contact (input line " +
               std::to_string(rig_.wiring.drives[i].brake_closed_input) + ")");
   }
 
@@ -138,7 +139,7 @@ class Judgement {
       judge_standstill(i);
   }
 
-  /// Its own counter moved: the right way?
+  /// The counter of the axis changed. Checks its direction.
   void judge_direction(std::size_t i) {
     const auto& axis = evidence_.axis[i];
     const bool outward = axis.moved[i] > 0;
@@ -152,20 +153,22 @@ class Judgement {
     if (load < 0) return add_encoder_sign(i);
     add(Fault::drive_or_encoder_sign, named(i),
         named(i) +
-            " counts backwards: either its drive or its encoder is the wrong way round; see which way it "
-            "moves (crane hw jog) and change sign in [drive." +
+            " counts backwards: either its drive or its encoder has the wrong sign; find the direction "
+            "with crane hw jog and change sign in [drive." +
             named(i) + "] or [encoder." + named(i) + "]");
   }
   void add_swing_sign(std::size_t i, std::size_t swing) {
     add_sign(Fault::swing_sign, swing, "encoder",
-             "counts the wrong way: the load stays behind a motion of the " + named(i) + "; swap A and B");
+             "counts in the wrong direction: the load stays behind a motion of the " + named(i) +
+                 "; swap A and B");
   }
   void add_drive_sign(std::size_t i) {
     add_sign(Fault::drive_sign, i, "drive",
-             "moves it the wrong way, its encoder is right; swap the motor's leads");
+             "moves the axis in the wrong direction, its encoder is right; swap the motor's leads");
   }
   void add_encoder_sign(std::size_t i) {
-    add_sign(Fault::encoder_sign, i, "encoder", "counts the wrong way, its drive is right; swap A and B");
+    add_sign(Fault::encoder_sign, i, "encoder",
+             "counts in the wrong direction, its drive is right; swap A and B");
   }
   /// @param part  of the coordinate: drive or encoder
   void add_sign(Fault fault, std::size_t i, const std::string& part, const std::string& what) {
@@ -181,11 +184,11 @@ class Judgement {
         rig_.measures(other) && axis.swung_rad[other - kDrives] > kClearShare * std::abs(axis.expected_rad);
     if (other_swings) return add_swapped_encoders(swing, other);
     add(Fault::swing_dead, named(swing),
-        "the encoder of " + named(swing) + " does not see the load swing after a motion of the " + named(i) +
-            ": look at its 5 V supply and at counter " + std::to_string(rig_.encoders[swing].channel));
+        "the encoder of " + named(swing) + " does not show the swing of the load after a motion of the " +
+            named(i) + ": check its 5 V supply and counter " + std::to_string(rig_.encoders[swing].channel));
   }
 
-  /// A drive's counter that shows the load.
+  /// The counter of a drive that shows the swing of the load.
   [[nodiscard]] std::optional<std::size_t> counter_that_swings(std::size_t i) const {
     if (swing_of(rig_, i) == 0) return {};
     for (std::size_t k = 0; k < kDrives; ++k)
@@ -198,7 +201,7 @@ class Judgement {
     const auto& axis = evidence_.axis[i];
     for (std::size_t k = 0; k < kDrives; ++k)
       if (k != i && std::abs(axis.moved[k]) > kStandstill) return k;
-    for (std::size_t k = 0; k < kSwings; ++k)  // a load comes back, a motor does not
+    for (std::size_t k = 0; k < kSwings; ++k)  // a load swings back, a motor stays
       if (std::abs(axis.shifted_rad[k]) > 2 * kNoSwing_rad) return kDrives + k;
     return {};
   }
@@ -210,7 +213,7 @@ class Judgement {
             std::to_string(rig_.encoders[high].channel) + ")");
   }
 
-  /// No counter followed.
+  /// No counter changed.
   void judge_standstill(std::size_t i) {
     const auto& axis = evidence_.axis[i];
     const auto name = named(i);
@@ -232,11 +235,11 @@ class Judgement {
       return add(Fault::drive_dead, name,
                  "the drive of " + name + " is dead: neither counter nor load moves at " +
                      text_of(axis.push_v, "V") + " on analog output " + output +
-                     " with its brake open; look at amplifier and motor");
+                     " with its brake open; check amplifier and motor");
     add(Fault::drive_or_encoder_dead, name,
         "the drive or the encoder of " + name + " is dead: counter " + counter + " does not move at " +
             text_of(axis.push_v, "V") + " on analog output " + output +
-            " with its brake open; see whether it moves");
+            " with its brake open; check whether the axis moves");
   }
 
   const configuration::Rig& rig_;

@@ -1,6 +1,6 @@
 #pragma once
-/// The list of all topics, one line each. Bus, recorder and `crane topic` iterate over this list. A new topic
-/// needs a struct in crane.idl and one line here.
+/// All topics. Bus, recorder and `crane topic` iterate over them. A topic is a struct in crane.idl with a
+/// line "topic NAME: ..." above it; idl/topics.cmake writes crane/topics.def from these lines.
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -8,20 +8,12 @@
 #include "crane.h"  // generated from crane.idl by idlc
 
 namespace crane::msg {
-using Header = crane_Header;
-using State = crane_CraneState;
-using AxisReference = crane_AxisReference;
-using Reference = crane_Reference;
-using Contribution = crane_Contribution;
-using Demand = crane_Demand;
-using Command = crane_Command;
-using SupervisorStatus = crane_SupervisorStatus;
-using Request = crane_Request;
-using Reply = crane_Reply;
-using NodeStatus = crane_NodeStatus;
-using Event = crane_Event;
-using AcceptedMove = crane_AcceptedMove;
-using Twin = crane_Twin;
+#define CRANE_MESSAGE(type) using type = crane_##type;
+#define CRANE_TOPIC(...)
+#include "crane/topics.def"
+#undef CRANE_MESSAGE
+#undef CRANE_TOPIC
+using State = CraneState;
 }  // namespace crane::msg
 
 namespace crane::topics {
@@ -65,32 +57,20 @@ struct Topic {
   Description description;
 };
 
-// variable, IDL type, name, quality of service, every tick, writers
-#define CRANE_TOPICS(X)                                                                          \
-  X(state, CraneState, "crane/state", loop, true, only(crane_SOURCE_PLANT, crane_SOURCE_BRIDGE)) \
-  X(reference, Reference, "crane/reference", loop, true, only(crane_SOURCE_PLANNER))             \
-  X(tracking, Contribution, "crane/tracking", loop, true, only(crane_SOURCE_TRACKING))           \
-  X(anti_swing, Contribution, "crane/anti_swing", loop, true, only(crane_SOURCE_ANTI_SWING))     \
-  X(demand, Demand, "crane/demand", loop, true, only(crane_SOURCE_FRICTION))                     \
-  X(command, Command, "crane/command", loop, true, only(crane_SOURCE_SUPERVISOR))                \
-  X(supervisor, SupervisorStatus, "crane/supervisor", loop, true, only(crane_SOURCE_SUPERVISOR)) \
-  X(request, Request, "crane/request", script, false, only(crane_SOURCE_OPERATOR))               \
-  X(reply, Reply, "crane/reply", script, false,                                                  \
-    only(crane_SOURCE_SUPERVISOR, crane_SOURCE_PLANT, crane_SOURCE_BRIDGE))                      \
-  X(node, NodeStatus, "crane/node", status, false, kProcesses)                                   \
-  X(event, Event, "crane/event", log, false, kProcesses)                                         \
-  X(twin, Twin, "crane/twin", loop, true, only(crane_SOURCE_TWIN))
-
-#define CRANE_DECLARE_TOPIC(variable, type, name, qos, every_tick, writers) \
-  inline const Topic<crane_##type> variable{                                \
+#define CRANE_MESSAGE(type)
+#define CRANE_TOPIC(variable, type, name, qos, every_tick, writers) \
+  inline const Topic<crane_##type> variable{                        \
       Description{name, "crane::" #type, &crane_##type##_desc, Qos::qos, every_tick, writers}};
-CRANE_TOPICS(CRANE_DECLARE_TOPIC)
-#undef CRANE_DECLARE_TOPIC
+#include "crane/topics.def"
+#undef CRANE_TOPIC
 
-#define CRANE_LIST_TOPIC(variable, type, name, qos, every_tick, writers) variable.description,
 /// All topics, in the order in which one tick writes them.
-inline const std::array kAll{CRANE_TOPICS(CRANE_LIST_TOPIC)};
-#undef CRANE_LIST_TOPIC
+inline const std::array kAll{
+#define CRANE_TOPIC(variable, type, name, qos, every_tick, writers) variable.description,
+#include "crane/topics.def"
+#undef CRANE_TOPIC
+};
+#undef CRANE_MESSAGE
 
 /// Text of crane.idl. Recordings contain it as their schema; the tools read field names from it.
 std::string_view idl_text();

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "crane/bus/bus.hpp"
+#include "endpoint.hpp"
 
 namespace crane::bus {
 
@@ -71,6 +71,7 @@ class BackEnd : public std::enable_shared_from_this<BackEnd> {
   virtual ~BackEnd() = default;
   virtual std::unique_ptr<detail::Writer> writer(const topics::Description&, const EndpointOptions&) = 0;
   virtual std::unique_ptr<detail::Reader> reader(const topics::Description&, const EndpointOptions&) = 0;
+  virtual std::vector<OtherVersion> other_versions() { return {}; }
 };
 
 /// `options.peers` are IPv4 addresses here. @throws Error

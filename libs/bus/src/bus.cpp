@@ -63,56 +63,27 @@ Bus& Bus::operator=(Bus&&) noexcept = default;
 bool Bus::wait(std::chrono::nanoseconds timeout) { return state_->doorbell->wait(timeout); }
 const Options& Bus::options() const { return state_->options; }
 
-std::unique_ptr<detail::Writer> Bus::make_writer(const topics::Description& topic,
-                                                 const EndpointOptions& endpoint) {
+UntypedPublisher Bus::make_publisher(const topics::Description& topic, const EndpointOptions& endpoint) {
   require_sealable(topic);
-  if (!state_->options.credentials) return state_->back_end->writer(topic, endpoint);
   try {
-    return state_->back_end->writer(topic, endpoint);
+    return {topic, state_->back_end->writer(topic, endpoint), state_->options};
   } catch (const Error& error) {
+    if (!state_->options.credentials) throw;
     throw Error{std::string{error.what()} + "; may the role of " +
                 state_->options.credentials->identity_certificate +
                 " write this topic? `crane keys show DIR` lists what each role may write"};
   }
 }
 
-std::unique_ptr<detail::Reader> Bus::make_reader(const topics::Description& topic,
-                                                 const EndpointOptions& endpoint) {
+UntypedSubscriber Bus::make_subscriber(const topics::Description& topic, const EndpointOptions& endpoint) {
   require_sealable(topic);
-  return state_->back_end->reader(topic, endpoint);
+  return {topic, state_->back_end->reader(topic, endpoint), state_->options};
 }
 
 CdrSubscriber Bus::cdr_subscriber(const topics::Description& topic, const EndpointOptions& endpoint) {
-  return {topic, make_reader(topic, endpoint)};
+  return CdrSubscriber{make_subscriber(topic, endpoint)};
 }
 
-CdrSubscriber::CdrSubscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader)
-    : topic_{&topic}, reader_{std::move(reader)}, sample_(CdrCodec::of(*topic.descriptor).sample_bytes()) {}
-
-std::optional<msg::Header> CdrSubscriber::take(std::vector<std::uint8_t>& cdr, SampleInfo* info) {
-  constexpr std::array<std::uint8_t, 4> kPlainLittleEndian{0, 1, 0, 0};
-  const CdrCodec& codec = CdrCodec::of(*topic_->descriptor);
-  SampleInfo local;
-  while (reader_->take(sample_.data(), local)) {
-    if (local.valid && !detail::intact(*topic_, sample_.data())) {
-      ++counts_.rejected;
-      continue;
-    }
-    if (!local.valid && info == nullptr) continue;
-    if (info != nullptr) *info = local;
-    cdr.clear();
-    if (local.valid) {
-      ++counts_.taken;
-      cdr.resize(kPlainLittleEndian.size() + codec.max_encoded_bytes());
-      std::memcpy(cdr.data(), kPlainLittleEndian.data(), kPlainLittleEndian.size());
-      const auto body = std::span{cdr}.subspan(kPlainLittleEndian.size());
-      cdr.resize(kPlainLittleEndian.size() + codec.encode(sample_.data(), body));
-    }
-    msg::Header header{};
-    std::memcpy(&header, sample_.data(), sizeof header);
-    return header;
-  }
-  return std::nullopt;
-}
+std::vector<OtherVersion> Bus::other_versions() { return state_->back_end->other_versions(); }
 
 }  // namespace crane::bus

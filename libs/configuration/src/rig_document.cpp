@@ -59,7 +59,8 @@ struct FieldText {
   Text operator()(const AxisSet<Section>&) const { return {"of `trolley`, `slew`, `hoist`", {}}; }
   Text operator()(const Choice<Section>& choice) const {
     const auto names = choice.names();
-    return {listed_in_code(names, ", "), '`' + names[choice.get(initial)] + '`'};
+    return {field.choices_text.empty() ? listed_in_code(names, ", ") : std::string{field.choices_text},
+            '`' + names[choice.get(initial)] + '`'};
   }
 };
 
@@ -118,10 +119,19 @@ SectionTable terms_table() {
   return {"model.terms", rows};
 }
 
+SectionTable boards_table() {
+  std::string rows = "| `board` | meaning |\n|---|---|\n";
+#define CRANE_BOARD(name, meaning) rows += "| `" #name "` | " meaning " |\n";
+#include "crane/configuration/boards.def"
+#undef CRANE_BOARD
+  return {"board", rows + "| `simulated` | no hardware: for the simulated plant only |\n"};
+}
+
 }  // namespace
 
 std::vector<SectionTable> section_tables() {
   return {terms_table(),
+          boards_table(),
           section_table("rig", kRigFields),
           section_table("plant", plant::kParameterFields),
           section_table("drive", kDriveFields, control::kDriveLimitFields),
@@ -130,7 +140,7 @@ std::vector<SectionTable> section_tables() {
           section_table("wiring", kWiringFields),
           section_table("wiring of a drive", kDriveLineFields),
           section_table("sensing", kSensingFields),
-          section_table("limits", kLimitFields),
+          section_table("limits", control::kOperatingLimitFields),
           section_table("start", kStartFields),
           section_table("controller", kControllerFields, kPlanningFields, control::kDesignFields),
           section_table("controller.friction", control::kFrictionFields)};

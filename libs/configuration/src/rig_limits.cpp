@@ -4,7 +4,7 @@ namespace crane::configuration {
 
 void read_limits(TomlTable& root, Rig& rig) {
   TomlTable table = root.table("limits");
-  read_section(table, kLimitFields, rig.limits, &rig);
+  read_section(table, control::kOperatingLimitFields, rig.limits, &rig);
 }
 
 void read_start(TomlTable& root, Rig& rig) {

@@ -9,7 +9,14 @@ std::string shortest_number(double value) {
   return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
 }
 
-std::vector<std::string> board_names() { return {"simulated", "servo_to_go", "comedi", "emulated"}; }
+std::vector<std::string> board_names() {
+  return {
+      "simulated",
+#define CRANE_BOARD(name, meaning) #name,
+#include "crane/configuration/boards.def"
+#undef CRANE_BOARD
+  };
+}
 
 std::vector<std::string> controller_names() {
   std::vector<std::string> names;

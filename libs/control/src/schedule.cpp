@@ -30,7 +30,8 @@ Measurement bounded(const Measurement& measured) noexcept {
 
 Reference bounded(const Reference& reference) noexcept {
   Reference result = reference;
-  for (auto& axis : result) axis = {bounded(axis.position), bounded(axis.speed), bounded(axis.acceleration)};
+  for (auto& axis : result)
+    axis = {bounded(axis.position), bounded(axis.speed), bounded(axis.acceleration), bounded(axis.start)};
   auto& swing = result.swing;
   swing = {bounded(swing.radial_rad), bounded(swing.radial_radps), bounded(swing.tangential_rad),
            bounded(swing.tangential_radps)};

@@ -81,9 +81,20 @@ class Parser {
     }
     if (accept("module")) return module();
     if (accept("enum")) return enumeration();
-    if (!accept("struct")) fail("expected module, enum or struct, found '" + std::string{peek()} + "'");
+    if (accept("const")) return constant();
+    if (!accept("struct"))
+      fail("expected module, enum, const or struct, found '" + std::string{peek()} + "'");
     if (!final) fail("the struct must be @final: other layouts are not supported");
     structure();
+  }
+
+  /// const uint32 NAME = NUMBER;
+  void constant() {
+    expect("uint32");
+    const std::string name = scoped(word());
+    expect("=");
+    types_.constants[name] = count();
+    expect(";");
   }
 
   void module() {

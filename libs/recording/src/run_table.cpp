@@ -125,7 +125,22 @@ Table RunTable::table(std::int64_t zero_time_ns) const {
   return result;
 }
 
+std::optional<std::uint32_t> messages_version(const McapReader& recording) {
+  for (const auto& channel : recording.channels()) {
+    const SchemaRecord* record = recording.find_schema(channel.schema_id);
+    if (record != nullptr && record->encoding == "omgidl" && record->name.starts_with("crane::"))
+      return Schema{record->text}.constant("crane::MESSAGES_VERSION");
+  }
+  return std::nullopt;
+}
+
 Table run_table(McapReader& recording) {
+  const auto version = messages_version(recording);
+  if (version.value_or(crane_MESSAGES_VERSION) != crane_MESSAGES_VERSION)
+    throw SchemaError("the recording has messages of version " + std::to_string(*version) +
+                      ", this program reads version " + std::to_string(crane_MESSAGES_VERSION) +
+                      ": make the table with the release that recorded it, or decode single topics with "
+                      "`crane log export --topic`");
   RunTable run;
   std::map<std::uint16_t, Schema> schemas;
   Selection selection;

@@ -180,6 +180,12 @@ Schema::Schema(std::string_view idl_text) {
   types_ = std::move(types);
 }
 
+std::optional<std::uint32_t> Schema::constant(std::string_view name) const {
+  const auto found = types_->constants.find(name);
+  if (found == types_->constants.end()) return std::nullopt;
+  return found->second;
+}
+
 bool Schema::contains(std::string_view type) const { return types_->structures.contains(type); }
 
 std::vector<std::string> Schema::types() const { return types_->order; }

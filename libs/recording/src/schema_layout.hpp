@@ -51,6 +51,7 @@ struct Structure {
 struct IdlTypes {
   std::map<std::string, Structure, std::less<>> structures;  ///< stable addresses; fields point to them
   std::map<std::string, Enumeration, std::less<>> enumerations;
+  std::map<std::string, std::uint32_t, std::less<>> constants;  ///< by full name
   std::vector<std::string> order;  ///< names of the structures in the order of the text
 
   /// @throws SchemaError

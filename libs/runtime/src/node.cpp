@@ -15,7 +15,8 @@ constexpr std::int64_t kBeatPeriod_ns = 1'000'000'000;
 }
 
 Node::Node(bus::Bus& bus, NodeIdentity identity)
-    : identity_{std::move(identity)},
+    : bus_{&bus},
+      identity_{std::move(identity)},
       status_{bus.publisher(topics::node)},
       events_{bus.publisher(topics::event)} {
   report_.node = static_cast<std::uint32_t>(bus.options().source);
@@ -94,15 +95,24 @@ void Node::report_drops(std::int64_t now_ns, const Ports& ports) {
           "`crane reset`");
   told_dispute_ = disputed;
   if (now_ns < next_beat_ns_) return;
+  report_other_versions();
   if (ports.rejected() > told_rejected_)
     warning("samples_rejected",
             std::to_string(ports.rejected() - told_rejected_) + " samples had a wrong CRC and were dropped",
-            "check that all processes of this domain have the same version, and check the network");
+            "check the network");
   if (ports.refused() > told_refused_)
     error("samples_not_sent", std::to_string(ports.refused() - told_refused_) + " samples could not be sent",
           "check the load of this computer and its network interface");
   told_rejected_ = ports.rejected();
   told_refused_ = ports.refused();
+}
+
+void Node::report_other_versions() {
+  const auto others = bus_->other_versions();
+  for (std::size_t i = told_versions_; i < others.size(); ++i)
+    error("other_version", bus::refusal(others[i], bus_->options().messages_version),
+          "its samples are dropped: end it");
+  told_versions_ = others.size();
 }
 
 void Node::stopping() {

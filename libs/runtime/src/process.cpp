@@ -130,6 +130,11 @@ std::uint32_t random_epoch() {
   return std::uniform_int_distribution<std::uint32_t>{1}(device);
 }
 
+void refuse_other_version(bus::Bus& bus) {
+  const auto others = bus.other_versions();
+  if (!others.empty()) throw bus::Error(bus::refusal(others.front(), bus.options().messages_version));
+}
+
 void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes) {
   std::vector<bus::CdrSubscriber> probes;
   for (const auto& write : writes)
@@ -138,6 +143,7 @@ void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes) {
   const auto end_ns = monotonic_ns() + std::chrono::nanoseconds{kSoleWriterLook}.count();
   while (monotonic_ns() < end_ns && !stop_requested()) {
     bus.wait(std::chrono::milliseconds{10});
+    refuse_other_version(bus);
     for (const auto& probe : probes)
       if (probe.matched() > 0)
         throw bus::Error("another process already writes " + std::string{probe.topic().name} + " of crane '" +

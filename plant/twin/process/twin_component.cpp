@@ -106,7 +106,7 @@ class TwinComponent : public runtime::Component {
 runtime::ComponentSpec twin_spec() {
   return {.name = "twin",
           .program = "crane_twin",
-          .summary = "The live twin: predicts the sensor values with the model and reports deviations.",
+          .summary = "Live twin: predicts the sensor values with the model and reports deviations.",
           .source = crane_SOURCE_TWIN,
           .runs_controller = false,
           .reads = {{&topics::state.description, "counts, speeds and the voltage that acts"}},

@@ -9,9 +9,10 @@
 namespace crane::cli {
 namespace {
 
-int draw(const std::string& format) {
+int draw(const std::string& format, stack::Extent extent) {
   const auto components = stack::all_components();
-  if (format == "mermaid") std::cout << stack::wiring_mermaid(components);
+  if (format == "mermaid") std::cout << stack::wiring_mermaid(components, extent);
+  if (format == "markdown") std::cout << stack::wiring_document(components);
   if (format == "dot") std::cout << stack::wiring_dot(components);
   if (format == "json") std::cout << stack::wiring_json(components).dump(2) << '\n';
   if (format == "topics") std::cout << stack::wiring_table(components);
@@ -26,12 +27,21 @@ void add_graph(CLI::App& app, Action& chosen) {
   auto* command = app.add_subcommand(
       "graph", "Show the wiring of a stack: the topics that each process reads and writes, with the purpose");
   command
-      ->add_option("--format", *format,
-                   "mermaid or dot: a diagram; topics or components: a table; json: for other programs")
-      ->check(CLI::IsMember({"mermaid", "dot", "json", "topics", "components"}))
+      ->add_option(
+          "--format", *format,
+          "mermaid or dot: a diagram; topics or components: a table; markdown: the page docs/wiring.md; "
+          "json: for other programs")
+      ->check(CLI::IsMember({"mermaid", "dot", "json", "topics", "components", "markdown"}))
       ->capture_default_str();
+  auto command_path = std::make_shared<bool>(false);
+  command->add_flag("--command-path", *command_path,
+                    "mermaid: only the topics between a request and the volts");
   command->footer("Example: crane graph --format dot | dot -Tsvg > wiring.svg");
-  command->callback([format, &chosen] { chosen = [format] { return draw(*format); }; });
+  command->callback([format, command_path, &chosen] {
+    chosen = [format, command_path] {
+      return draw(*format, *command_path ? stack::Extent::command_path : stack::Extent::all);
+    };
+  });
 }
 
 }  // namespace crane::cli

@@ -104,7 +104,7 @@ int home(const HomeOptions& options) {
   Watch watch{bus};
   constexpr double kFind_s = 5;
   if (!watch.until(kFind_s, [](const auto&, const auto&) { return true; }))
-    throw NoAnswer("no sample of crane/supervisor or crane/state received" + where_and_remedy(bus.options()));
+    throw NoAnswer("no sample of crane/supervisor or crane/state received" + where_and_remedy(bus));
   const auto axes = axes_to_home(options, watch.state());
   if (axes.empty()) std::cout << "home: the position of every axis is known\n";
   bool first = true;

@@ -21,6 +21,14 @@ struct LogOptions {
 };
 using Shared = std::shared_ptr<LogOptions>;
 
+/// The topics of a recording are decoded by the types that the recording itself carries.
+void note_other_version(const McapReader& recording) {
+  const auto version = recording::messages_version(recording);
+  if (version.value_or(crane_MESSAGES_VERSION) != crane_MESSAGES_VERSION)
+    std::cerr << "the recording has messages of version " << *version << ", this program has version "
+              << crane_MESSAGES_VERSION << ": fields and units are those of the recording\n";
+}
+
 void print_problems(const std::vector<std::string>& problems) {
   for (const auto& problem : problems) std::cerr << problem << '\n';
 }
@@ -47,6 +55,7 @@ int info(const LogOptions& options) {
   for (const auto& attachment : found["attachments"])
     std::cout << "attachment " << attachment["name"].get<std::string>() << ", " << attachment["bytes"]
               << " bytes\n";
+  note_other_version(recording);
   print_problems(recording.problems());
   return runtime::kExitDone;
 }
@@ -84,6 +93,7 @@ void to_output(const std::filesystem::path& out, const Write& write) {
 
 int export_csv(const LogOptions& options) {
   McapReader recording{options.file};
+  if (!options.topic.empty()) note_other_version(recording);
   to_output(options.out, [&](std::ostream& out) {
     options.topic.empty() ? recording::write_csv(out, recording::run_table(recording))
                           : write_topic_csv(out, recording, options.topic);
@@ -94,6 +104,7 @@ int export_csv(const LogOptions& options) {
 
 int export_json(const LogOptions& options) {
   McapReader recording{options.file};
+  note_other_version(recording);
   to_output(options.out, [&](std::ostream& out) { write_json_lines(out, recording, options.topic); });
   print_problems(recording.problems());
   return runtime::kExitDone;

@@ -62,8 +62,7 @@ int explain(const ExplainOptions& options) {
   } else if (options.live) {
     auto bus = open_bus(options.bus);
     const auto snapshot = listen(bus, options.timeout_s);
-    if (!snapshot.supervisor)
-      throw std::runtime_error("no supervisor heard" + where_and_remedy(bus.options()));
+    if (!snapshot.supervisor) throw std::runtime_error("no supervisor heard" + where_and_remedy(bus));
     explain_present(snapshot);
   } else {
     std::cout << supervisor::rule_table();

@@ -79,7 +79,7 @@ int list(const TopicLsOptions& options) {
   options.json ? print_json(lines) : print_table(lines);
   for (const auto& line : lines)
     if (line.subscriber.matched() > 0) return runtime::kExitDone;
-  throw std::runtime_error("no topic has a writer" + where_and_remedy(bus.options()));
+  throw std::runtime_error("no topic has a writer" + where_and_remedy(bus));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
-/// What a new writer of crane/command may ask for: nothing, for a while. A supervisor asks for nothing for
-/// longer than that (self-test, then a reset that wants its causes clear for 1 s), so a real one never
-/// notices. A program that reaches the bridge before the supervisor does, or after it died, and commands at
-/// once, moves nothing; meanwhile discovery shows the second writer. Pure.
+/// Quiet time of a new writer of crane/command: the bridge obeys the writer after it has requested no volts,
+/// no open brake, no homing and no watchdog permission for kQuiet_s. A supervisor is quiet for longer
+/// (self-test, then 1 s without a cause before a reset). A program that commands at once moves nothing, also
+/// when no supervisor runs; discovery shows the second writer within the quiet time. Pure.
 #include <cstdint>
 #include <optional>
 
@@ -12,14 +12,14 @@ namespace crane::bridge {
 
 class Probation {
  public:
-  /// Quiet time that a writer has to keep: half of the least that a supervisor keeps, and several times what
-  /// discovery of a second process on the same host takes (0.05 to 0.15 s).
+  /// Half of the shortest quiet time of a supervisor, and at least three times the duration of the discovery
+  /// of a second process on the same host (0.05 to 0.15 s).
   static constexpr double kQuiet_s = 0.5;
 
   explicit Probation(double period_s) : quiet_ticks_{static_cast<std::uint64_t>(kQuiet_s / period_s)} {}
 
-  /// `command` as far as its writer is believed: without volts, releases and permission until it has asked
-  /// for none of them for kQuiet_s. @param new_writer  the first command of this writer
+  /// @return `command`; during the quiet time of its writer a command without volts, releases, homing and
+  ///   permission. @param new_writer  true: the first command of this writer
   [[nodiscard]] CommandView believed(const CommandView& command, bool new_writer) noexcept {
     if (new_writer) since_tick_.reset();
     const bool asks = command.watchdog_permission || command.drive_v != CommandView{}.drive_v ||
@@ -33,7 +33,7 @@ class Probation {
  private:
   std::uint64_t quiet_ticks_;
   std::optional<std::uint64_t>
-      since_tick_;  ///< of the first command, or of the last one that asked too early
+      since_tick_;  ///< start of the quiet time: first command, or last request within the quiet time
 };
 
 }  // namespace crane::bridge

@@ -2,6 +2,7 @@
 #include <memory>
 #include <utility>
 
+#include "announcement.hpp"
 #include "cyclone/domain.hpp"
 #include "cyclone/security.hpp"
 
@@ -180,12 +181,17 @@ class CycloneReader final : public detail::Reader {
 class CycloneBackEnd final : public BackEnd {
  public:
   CycloneBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell)
-      : domain_{options}, doorbell_{std::move(doorbell)} {
+      : domain_{options}, doorbell_{std::move(doorbell)}, census_{options.messages_version, options.crane} {
     const QosPointer qos{dds_create_qos()};
     dds_qset_entity_name(qos.get(), options.participant.c_str());
+    const std::string announced = announcement(options);
+    dds_qset_userdata(qos.get(), announced.data(), announced.size());
     if (options.credentials) cyclone::secure(*qos, *options.credentials);
     participant_ = checked_entity(dds_create_participant(options.domain, qos.get(), nullptr),
                                   "cannot create participant in domain " + std::to_string(options.domain));
+    participants_ =
+        checked_entity(dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr),
+                       "cannot read the participants of the domain");
     const char* partition = options.crane.c_str();
     const QosPointer group{dds_create_qos()};
     dds_qset_partition(group.get(), 1, &partition);
@@ -212,6 +218,25 @@ class CycloneBackEnd final : public BackEnd {
                                            topic.descriptor->m_size);
   }
 
+  std::vector<OtherVersion> other_versions() override {
+    for (;;) {
+      void* sample[1] = {nullptr};
+      dds_sample_info_t info{};
+      if (dds_take(participants_, sample, &info, 1, 1) != 1) return census_.others();
+      const auto* participant = static_cast<const dds_builtintopic_participant_t*>(sample[0]);
+      Census::Key key{};
+      std::memcpy(key.data(), participant->key.v, key.size());
+      void* data = nullptr;
+      std::size_t size = 0;
+      if (info.instance_state != DDS_IST_ALIVE)
+        census_.forget(key);
+      else if (info.valid_data && dds_qget_userdata(participant->qos, &data, &size) && data != nullptr)
+        census_.note(key, {static_cast<const char*>(data), size});
+      if (data != nullptr) dds_free(data);
+      dds_return_loan(participants_, sample, 1);
+    }
+  }
+
  private:
   std::unique_ptr<Endpoint> endpoint(const topics::Description& topic, const EndpointOptions& options) {
     return std::make_unique<Endpoint>(shared_from_this(), participant_, topic, options, doorbell_);
@@ -219,7 +244,9 @@ class CycloneBackEnd final : public BackEnd {
 
   cyclone::Domain domain_;
   std::shared_ptr<Doorbell> doorbell_;
+  Census census_;
   dds_entity_t participant_ = 0;
+  dds_entity_t participants_ = 0;  ///< built-in reader of what was discovered
   dds_entity_t publisher_ = 0;
   dds_entity_t subscriber_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/log/Log.hpp>
 
 #include <mutex>
@@ -10,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "announcement.hpp"
 #include "discovery.hpp"
 #include "fastdds/endpoints.hpp"
 #include "fastdds/security.hpp"
@@ -83,6 +85,8 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.wire_protocol().participant_id = number;
   qos.name(options.participant);
+  const std::string announced = announcement(options);
+  qos.user_data().setValue({announced.begin(), announced.end()});
   auto& builtin = qos.wire_protocol().builtin;
   builtin.discovery_config.leaseDuration = duration(10s);
   builtin.discovery_config.leaseDuration_announcementperiod = duration(2500ms);
@@ -135,14 +139,37 @@ struct ParticipantDeleter {
   }
 };
 
+/// Notes what the participants announce, on a thread of Fast DDS.
+class Discovery final : public dds::DomainParticipantListener {
+ public:
+  explicit Discovery(const Options& options) : census_{options.messages_version, options.crane} {}
+
+  void on_participant_discovery(dds::DomainParticipant* /*own*/,
+                                fastrtps::rtps::ParticipantDiscoveryInfo&& found) override {
+    Census::Key key{};
+    std::copy_n(std::begin(found.info.m_guid.guidPrefix.value), 12, key.begin());
+    std::copy_n(std::begin(found.info.m_guid.entityId.value), 4, key.begin() + 12);
+    using Info = fastrtps::rtps::ParticipantDiscoveryInfo;
+    if (found.status == Info::REMOVED_PARTICIPANT || found.status == Info::DROPPED_PARTICIPANT)
+      return census_.forget(key);
+    const auto& data = found.info.m_userData.getValue();
+    census_.note(key, std::string{data.begin(), data.end()});
+  }
+  [[nodiscard]] std::vector<OtherVersion> others() const { return census_.others(); }
+
+ private:
+  Census census_;
+};
+
 class FastBackEnd final : public BackEnd {
  public:
-  FastBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell) : doorbell_{std::move(doorbell)} {
+  FastBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell)
+      : doorbell_{std::move(doorbell)}, discovery_{options} {
     switch_intraprocess_delivery_off();
     report_to_vendor_log();
     auto* factory = dds::DomainParticipantFactory::get_instance();
     participant_.reset(factory->create_participant(options.domain, participant_qos(options, number_.value()),
-                                                   nullptr, dds::StatusMask::none()));
+                                                   &discovery_, dds::StatusMask::none()));
     if (!participant_) {
       number_.keep();
       throw Error{"Fast DDS: cannot create participant in domain " + std::to_string(options.domain) + " on " +
@@ -169,6 +196,8 @@ class FastBackEnd final : public BackEnd {
                                 doorbell_);
   }
 
+  std::vector<OtherVersion> other_versions() override { return discovery_.others(); }
+
  private:
   dds::Topic& topic(const topics::Description& description) {
     const std::string name{description.name};
@@ -182,6 +211,7 @@ class FastBackEnd final : public BackEnd {
   }
 
   std::shared_ptr<Doorbell> doorbell_;
+  Discovery discovery_;       // as long as the participant
   ParticipantNumber number_;  // released after the participant is deleted
   std::unique_ptr<dds::DomainParticipant, ParticipantDeleter> participant_;
   dds::Publisher* publisher_ = nullptr;

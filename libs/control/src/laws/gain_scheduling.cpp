@@ -36,16 +36,14 @@ class PartialGains {
 
 class FullGains {
  public:
-  explicit FullGains(const Design& design) : design_(design), forward_gain_(design) {}
+  explicit FullGains(const Design& design) : design_(design) {}
   [[nodiscard]] TowerGains step(const Measurement& measured, const Reference& reference) noexcept {
-    const ForwardGains forward = forward_gain_.step(design_, measured, reference);
-    return full_state_gains(design_, schedule(design_, measured), forward);
+    return full_state_gains(design_, schedule(design_, measured), forward_gains(design_, reference));
   }
-  void reset() noexcept { forward_gain_.reset(); }
+  void reset() noexcept {}
 
  private:
   Design design_;
-  ForwardGain forward_gain_;
 };
 
 template <typename TickGains>
@@ -166,24 +164,13 @@ double available_control_v(const Design& design, plant::Axis axis, bool positive
   return design.volt_limit_v[axis] - friction.factor * friction_v;
 }
 
-ForwardGain::ForwardGain(const Design& design) noexcept {
-  gain_.fill(design.full_feedback_gain_pm);
-  reset();
-}
-
-void ForwardGain::reset() noexcept { target_.fill(std::numeric_limits<double>::quiet_NaN()); }
-
-ForwardGains ForwardGain::step(const Design& design, const Measurement& measured,
-                               const Reference& reference) noexcept {
-  for (const plant::Axis axis : {kTrolley, kSlew}) {
-    const double target = reference[axis].position;
-    if (target == target_[axis]) continue;
-    const double distance = target - measured.position[axis];
-    target_[axis] = target;
-    gain_[axis] = forward_gain_within(available_control_v(design, axis, distance > 0), distance,
-                                      design.full_feedback_gain_pm);
-  }
-  return {gain_[kTrolley], gain_[kSlew]};
+ForwardGains forward_gains(const Design& design, const Reference& reference) noexcept {
+  const auto gain = [&](plant::Axis axis) {
+    const double distance = reference[axis].position - reference[axis].start;
+    return forward_gain_within(available_control_v(design, axis, distance > 0), distance,
+                               design.full_feedback_gain_pm);
+  };
+  return {gain(kTrolley), gain(kSlew)};
 }
 
 std::unique_ptr<Law> make_partial_tracking(const Design& design) {

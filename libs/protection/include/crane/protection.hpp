@@ -5,76 +5,45 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace crane::protection {
 
-// Supervisor: rules in the order of supervisor/src/rules.cpp, then gate, requests and brakes. Bridge: checks
-// in the order of hardware_bridge/src/checks.cpp. Bus: seal and writer binding.
-#define CRANE_PROTECTIONS(X)        \
-  X(supervisor_brake_did_not_close) \
-  X(supervisor_selftest_failed)     \
-  X(supervisor_foreign_command)     \
-  X(supervisor_estop_input)         \
-  X(supervisor_operator_estop)      \
-  X(supervisor_second_writer)       \
-  X(supervisor_bridge_latched)      \
-  X(supervisor_not_homed)           \
-  X(supervisor_homing_failed)       \
-  X(supervisor_position_limit)      \
-  X(supervisor_limit_switch)        \
-  X(supervisor_overspeed)           \
-  X(supervisor_brake_closed_itself) \
-  X(supervisor_following_error)     \
-  X(supervisor_bridge_not_ready)    \
-  X(supervisor_no_match)            \
-  X(supervisor_moved_while_arming)  \
-  X(supervisor_brake_did_not_open)  \
-  X(supervisor_state_stale)         \
-  X(supervisor_demand_stale)        \
-  X(supervisor_demand_invalid)      \
-  X(supervisor_demand_rate)         \
-  X(supervisor_overrun)             \
-  X(supervisor_stopping_envelope)   \
-  X(supervisor_swing_runaway)       \
-  X(supervisor_swing_sensor)        \
-  X(supervisor_stop_timeout)        \
-  X(supervisor_swing_limit)         \
-  X(supervisor_operator_stop)       \
-  X(supervisor_operator_disarm)     \
-  X(supervisor_homed)               \
-  X(supervisor_idle)                \
-  X(supervisor_bridge_restarted)    \
-  X(supervisor_echo)                \
-  X(gate_range)                     \
-  X(gate_rate)                      \
-  X(gate_block_outwards)            \
-  X(request_target)                 \
-  X(request_id)                     \
-  X(reset_edge)                     \
-  X(reset_clear_time)               \
-  X(reset_place_unclear)            \
-  X(reset_load_unclear)             \
-  X(arm_fresh_time)                 \
-  X(brake_slip)                     \
-  X(brake_report)                   \
-  X(bridge_second_writer)           \
-  X(bridge_command_stale)           \
-  X(bridge_command_not_finite)      \
-  X(bridge_command_range)           \
-  X(bridge_command_rate)            \
-  X(bridge_not_homed)               \
-  X(bridge_encoder_jump)            \
-  X(bridge_lost_counts)             \
-  X(bridge_position)                \
-  X(bridge_speed)                   \
-  X(bridge_swing)                   \
-  X(bridge_braked_motion)           \
-  X(bridge_encoder_frozen)          \
-  X(bridge_drive_response)          \
-  X(bridge_latch_is_kept)           \
-  X(bus_checksum)                   \
-  X(bus_checksum_of_topic)          \
-  X(bus_source)                     \
+// Supervisor: echo of the commands, gate, requests and brakes; its rules have their names in
+// supervisor/src/rules.cpp. Bridge: checks in the order of hardware_bridge/src/checks.cpp. Bus: seal and
+// writer binding.
+#define CRANE_PROTECTIONS(X)   \
+  X(supervisor_echo)           \
+  X(gate_range)                \
+  X(gate_rate)                 \
+  X(gate_block_outwards)       \
+  X(request_target)            \
+  X(request_id)                \
+  X(reset_edge)                \
+  X(reset_clear_time)          \
+  X(reset_place_unclear)       \
+  X(reset_load_unclear)        \
+  X(arm_fresh_time)            \
+  X(brake_slip)                \
+  X(brake_report)              \
+  X(bridge_second_writer)      \
+  X(bridge_command_stale)      \
+  X(bridge_command_not_finite) \
+  X(bridge_command_range)      \
+  X(bridge_command_rate)       \
+  X(bridge_not_homed)          \
+  X(bridge_encoder_jump)       \
+  X(bridge_lost_counts)        \
+  X(bridge_position)           \
+  X(bridge_speed)              \
+  X(bridge_swing)              \
+  X(bridge_braked_motion)      \
+  X(bridge_encoder_frozen)     \
+  X(bridge_drive_response)     \
+  X(bridge_latch_is_kept)      \
+  X(bus_checksum)              \
+  X(bus_checksum_of_topic)     \
+  X(bus_source)                \
   X(bus_one_writer)
 
 enum class Protection : std::uint8_t {
@@ -90,9 +59,13 @@ inline constexpr std::size_t kProtections = kNames.size();
 
 #ifdef CRANE_MUTATION
 inline namespace mutated {
-[[nodiscard]] bool enabled(Protection protection) noexcept;  // tests/campaign/mutation.cpp
+[[nodiscard]] bool enabled(std::string_view rule) noexcept;  // tests/campaign/mutation.cpp
+[[nodiscard]] inline bool enabled(Protection protection) noexcept {
+  return enabled(std::string_view{kNames[static_cast<std::size_t>(protection)]});
 }
+}  // namespace mutated
 #else
+[[nodiscard]] constexpr bool enabled(std::string_view /*rule*/) noexcept { return true; }
 [[nodiscard]] constexpr bool enabled(Protection /*protection*/) noexcept { return true; }
 #endif
 

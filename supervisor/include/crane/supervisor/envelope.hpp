@@ -1,5 +1,5 @@
 #pragma once
-/// Where the crane may be, how fast, and how far its load may swing.
+/// Limits of position, speed, stopping distance and swing.
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {
@@ -10,22 +10,22 @@ struct EnvelopeInput {
   double swing_radial_rad = 0;
   double swing_tangential_rad = 0;
   AxisFlags limit_low{}, limit_high{};  ///< limit switches
-  AxisFlags unknown{};  ///< the axis has no zero: where it is, is not judged, but how fast it creeps
+  AxisFlags unknown{};  ///< true: position without known origin; only the creeping speed is limited
 };
 
-/// false = healthy
+/// true: the limit is violated.
 struct Envelope {
-  AxisFlags block_positive{};  ///< no positive voltage on this axis: it would not stop before its high limit
-  AxisFlags block_negative{};  ///< the same downwards
-  bool stopping = false;       ///< x +- v t +- v^2/2a of some axis lies outside a hard limit
-  bool position = false;       ///< some axis is outside a hard limit
+  AxisFlags block_positive{};  ///< the axis would not stop before its high limit: no positive voltage
+  AxisFlags block_negative{};  ///< the same for the low limit and negative voltage
+  bool stopping = false;       ///< x +- v t +- v^2/2a of an axis is outside a hard limit
+  bool position = false;       ///< an axis is outside a hard limit
   bool limit_switch = false;
   bool overspeed = false;
   bool swing = false;          ///< above swing_limit_rad
   bool swing_runaway = false;  ///< above swing_limit_rad * swing_runaway_ratio
 };
 
-/// Absent axes are not judged. A value that is not finite counts as a violation.
+/// Ignores absent axes. A value that is not finite is a violation.
 [[nodiscard]] Envelope check_envelope(const Limits& limits, const EnvelopeInput& input) noexcept;
 
 }  // namespace crane::supervisor

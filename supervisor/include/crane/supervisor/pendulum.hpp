@@ -1,9 +1,9 @@
 #pragma once
-/// Does the load that the encoders show move as a pendulum under the trolley that the encoders show? Over
-/// ground
+/// Check of the swing encoders: compares the measured load with a pendulum under the measured trolley. In
+/// coordinates of the ground
 ///   r'' = -(g + z'') (r - p) / h                                                     (2.11), (2.18), (2.19)
-/// with r the load and p the trolley above it, both horizontal, z the height of the load below the jib, h its
-/// depth. All of them are measured, so that the balance of one sample
+/// r: horizontal position of the load, p: of the trolley, z: height of the load relative to the jib, h: its
+/// depth below the jib. All of them are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
 /// needs no drive, no friction and no load mass. The mean of e over kMean samples is reduced by what is not
 /// known (kCableTolerance of the change of the swing rate, a zero wrong by kZero_rad, wind of kWind_mps2, a
@@ -17,24 +17,25 @@
 /// encoder that was counting stands from then on for kStands_ticks: nobody's push brings a load to rest
 /// within a count.
 ///
-/// Detection time of a swing encoder that stands at an error of a rad:
+/// Detection time of a swing encoder that has stopped and has the error a, rad:
 ///   (kSpeed_mps + noise) / (g (|a| - kZero_rad) - kWind_mps2) + (kMean + 2) ticks.
-/// An error smaller than kZero_rad + kWind_mps2 / g = 46 mrad is not seen. False alarms: none within the
+/// An error below kZero_rad + kWind_mps2 / g = 46 mrad is not detected. False alarms: none within the
 /// tolerances; average run length above 1e9 ticks for a white disturbance of the same size
 /// (tests/supervisor/model_checks_test.cpp).
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {
 
-inline constexpr std::size_t kMean = 4;  ///< samples: the quantisation of the swing rate counts a quarter
+inline constexpr std::size_t kMean =
+    4;  ///< samples of the mean; it divides the quantisation of the swing rate by 4
 inline constexpr double kCableTolerance =
-    0.55;  ///< of the cable length: the true one is 0.5 to 1.5 times the measured
-inline constexpr double kZero_rad = 0.02;   ///< of a swing encoder's zero
-inline constexpr double kWind_mps2 = 0.25;  ///< pull of the wind on the load
-inline constexpr double kDamping = 0.05;    ///< ratio of air, bearing and cable
-inline constexpr double kSpeed_mps = 0.05;  ///< sum that is no failure yet
+    0.55;  ///< relative error of the cable length: the true length is 0.5 to 1.5 times the measured length
+inline constexpr double kZero_rad = 0.02;   ///< zero error of a swing encoder
+inline constexpr double kWind_mps2 = 0.25;  ///< acceleration of the load by wind
+inline constexpr double kDamping = 0.05;    ///< damping ratio of air, bearing and cable
+inline constexpr double kSpeed_mps = 0.05;  ///< permitted sum without quantisation
 inline constexpr int kPush_ticks = 6;       ///< kMean and the two samples of a speed
-inline constexpr double kPush_s = 0.5;      ///< between two pushes
+inline constexpr double kPush_s = 0.5;      ///< shortest time between two pushes
 inline constexpr int kStands_ticks = 8;  ///< at 0.3 rad/s an encoder of 4000 counts shows 90 counts in them
 
 struct PendulumInput {
@@ -45,33 +46,33 @@ struct PendulumInput {
 
 struct PendulumMemory {
   using Plane = std::array<double, 2>;
-  /// One sample over ground; the newest three are kept, newest first.
+  /// One sample of the last three, newest first, in coordinates of the ground.
   struct Seen {
     double sampled_s = 0;
-    Plane pivot_m{}, hanging_m{};  ///< trolley, and load relative to it, horizontal
-    double depth_m = 1;            ///< of the load below the jib
+    Plane pivot_m{}, hanging_m{};  ///< horizontal: trolley, and load relative to the trolley
+    double depth_m = 1;            ///< depth of the load below the jib
   };
   struct Balance {
     Plane error_mps{}, swung_mps{};  ///< e, and the change of the swing rate times the cable length
   };
   std::array<Seen, 3> seen{};
-  std::size_t samples = 0;  ///< since the start, up to kMean + 2
+  std::size_t samples = 0;  ///< number of samples since the start, at most kMean + 2
   std::array<Balance, kMean> balances{};
-  std::size_t next = 0;  ///< place of the next balance
+  std::size_t next = 0;  ///< index of the next balance
   Plane sum_mps{};
   Plane swung_mps{};                    ///< change of the swing speed within the last kMean samples
-  int growing_ticks = 0;                ///< the sum has been above 0 for so long
-  double push_left_s = 0;               ///< > 0: a push has been forgiven so recently
+  int growing_ticks = 0;                ///< number of ticks with a sum above 0
+  double push_left_s = 0;               ///< time until another push is permitted; <= 0: at once
   std::array<double, 2> swing_rad{};    ///< newest, radial and tangential
-  std::array<int, 2> counting_ticks{};  ///< the swing encoder has counted lately: ticks until it is forgotten
-  std::array<int, 2> standing_ticks{};  ///< it stands, and counted before the push
+  std::array<int, 2> counting_ticks{};  ///< > 0: the encoder has counted recently; ticks until this ends
+  std::array<int, 2> standing_ticks{};  ///< ticks without a count since the push
   std::array<bool, 2> counted_before_push{};
-  double largest = 0;  ///< of the sum over its limit: above 1 is a failure
+  double largest = 0;  ///< largest sum / limit so far; above 1 is a failure
 };
 
-/// Sum that is a failure, m/s. @param span_s  between two samples
+/// Limit of the sum, m/s. @param span_s  time between two samples
 [[nodiscard]] double pendulum_limit(const Limits& limits, double cable_m, double span_s) noexcept;
-/// What the model does not explain in one sample, m/s: the drift of the sum.
+/// Drift of the sum: change of speed in one sample that the tolerances permit, m/s.
 [[nodiscard]] double pendulum_drift(const Limits& limits, double span_s) noexcept;
 
 /// One sample. @return true when a swing encoder has failed; never while `limits.machine.known` is false

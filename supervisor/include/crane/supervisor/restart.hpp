@@ -1,27 +1,28 @@
 #pragma once
-/// A bridge that has started anew beside a running supervisor. Its counters begin where [start] of the rig
-/// file says, and its swing encoders where the load hangs: both are believed only as far as they have been
-/// seen.
+/// Restart of the bridge beside a running supervisor. The new bridge sets its counters to [start] of the rig
+/// file and its swing encoders to zero. These values are wrong when an axis stood elsewhere or the load
+/// swung; the supervisor compares them with its last samples of the old bridge.
 #include "crane/supervisor/motion.hpp"
 
 namespace crane::supervisor {
 
 struct RestartMemory {
-  AxisFlags doubted{};        ///< where the axis stands is unclear
-  bool load_doubted = false;  ///< where the load hangs is unclear
-  bool watching = false;      ///< whether the load hangs still
-  double since_s = 0;         ///< of the newest start
+  AxisFlags doubted{};        ///< true: the measured position of the axis may be wrong
+  bool load_doubted = false;  ///< true: the measured swing angles may be wrong
+  bool watching = false;      ///< true: the watch of the load continues
+  double since_s = 0;         ///< time of the last restart
 };
 
-/// @param before    what was seen of the old bridge
-/// @param known     axes that had a zero with the old bridge
-/// @param position  of the first sample of the new one; null: it cannot be used
-/// An axis is in doubt unless it was at rest when last seen, and is there still, within brake_slip. Doubt
-/// outlives a further start: only an operator's word, or homing, ends it.
+/// The position of an axis is doubtful unless it was known, the old bridge showed the axis at rest, and
+/// the new position agrees within brake_slip. Only a confirmed reset or homing ends the doubt, not another
+/// restart.
+/// @param before    motion measured with the old bridge
+/// @param known     axes whose position was known with the old bridge
+/// @param position  positions of the first sample of the new bridge; null: this sample is unusable
 void take_over(const Limits& limits, double now_s, const MotionMemory& before, const AxisFlags& known,
                const PerAxis* position, RestartMemory& memory) noexcept;
 
-/// A load that moves soon after the start did not hang at zero when the start called it zero.
+/// A load that moves soon after the restart swung when the new bridge set its swing encoders to zero.
 void watch_load(const Limits& limits, double now_s, double swing_radial_rad, double swing_tangential_rad,
                 RestartMemory& memory) noexcept;
 

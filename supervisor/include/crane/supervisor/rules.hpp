@@ -1,37 +1,39 @@
 #pragma once
-/// The rule table: what stops the crane, in the order in which it is looked for. The state machine runs this
-/// table; docs/safety.md and `crane supervisor explain` print it.
+/// The rule table: all causes that stop the crane, in the order of their checks. The state machine evaluates
+/// the table; docs/safety.md and `crane supervisor explain` print it.
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "crane/protection.hpp"
 #include "crane/supervisor/state_machine.hpp"
 
 namespace crane::supervisor {
 
-/// In which states a rule is looked at.
+/// States in which a rule is checked.
 enum class Scope : std::uint8_t {
-  restart,         ///< in every state but ESTOP and FAULT
-  always,          ///< in every state
-  past_self_test,  ///< in every state but BOOT and SELFTEST
-  selftest,        ///< in SELFTEST
-  armed,           ///< while the brakes are, or are about to be, open: ARMING, HOLD, RUN, STOP_C1
-  arming           ///< in ARMING
+  restart,         ///< all states except ESTOP and FAULT
+  always,          ///< all states
+  past_self_test,  ///< all states except BOOT and SELFTEST
+  selftest,        ///< SELFTEST
+  armed,           ///< states with open or opening brakes: ARMING, HOLD, RUN, STOP_C1
+  arming           ///< ARMING
 };
 
 struct Rule {
-  protection::Protection id;  ///< names the rule in the mutation check
+  std::string_view name;  ///< name of the rule in the mutation check (tests/campaign)
   Cause cause;
   Reaction reaction;
   Scope scope;
-  bool blocks;  ///< stands against a reset and against READY
+  bool blocks;  ///< true: the cause also refuses a reset, and takes READY back to LOCKED
   bool (*holds)(const Limits&, const Inputs&, const Memory&) noexcept;
-  const char* predicate;  ///< what `holds` looks at, in words
-  const char* detection;  ///< from the first sample that shows it to the reaction
-  const char* remedy;     ///< what the operator can do about it; never empty
+  const char* predicate;  ///< meaning of `holds` in words
+  const char* detection;  ///< time from the first sample that shows the cause to the reaction
+  const char* remedy;     ///< action of the operator; never empty
 };
 
-/// From the severest group to the mildest; within a group the first that holds is the cause.
+/// All rules, from the severest reaction to the mildest. Of rules with the same reaction, the first that
+/// holds wins.
 [[nodiscard]] std::span<const Rule> rules() noexcept;
 
 struct Finding {
@@ -39,11 +41,11 @@ struct Finding {
   Reaction reaction = Reaction::none;
 };
 
-/// The severest cause of this tick.
+/// The cause with the severest reaction in this tick.
 [[nodiscard]] Finding worst_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept;
 
-/// What stands against a reset, and takes READY back to LOCKED. A latched bridge and a dropped watchdog do
-/// not: both need the watchdog permission that comes with the reset.
+/// First cause that refuses a reset and takes READY back to LOCKED. A latched bridge and a dropped watchdog
+/// relay do not refuse it: both need the watchdog permission that the reset gives.
 [[nodiscard]] Cause blocking_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept;
 
 /// The table as Markdown, as docs/safety.md shows it.

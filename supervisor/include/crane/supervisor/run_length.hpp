@@ -1,15 +1,15 @@
 #pragma once
-/// One-sided cumulative sum, the test that the model checks of the supervisor use:
+/// One-sided cumulative sum (CUSUM), used by the model checks of the supervisor:
 ///   S := max(0, S + e),  alarm when S > threshold
-/// e is the part of a change of speed that the model does not explain within its tolerances, minus the
-/// tolerance. While the model holds within its tolerances, S stays below the noise of two speeds, because the
-/// noise of all samples in between cancels: there is no false alarm. The average run length says what a
-/// disturbance outside the model may be.
+/// e is a change of speed minus the largest change that the model permits within its tolerances. While the
+/// crane obeys the model within its tolerances, S does not exceed the noise of two speed samples: the noise
+/// of the samples between them cancels. There is no false alarm then. For an additional random disturbance,
+/// average_run_length() gives the mean time to a false alarm.
 #include <cmath>
 
 namespace crane::supervisor {
 
-/// Average number of samples until a false alarm, when a white Gaussian disturbance comes on top of the model
+/// Mean number of samples until a false alarm under an additional white Gaussian disturbance
 /// (D. Siegmund, Sequential Analysis, 1985: (exp(2 d b) - 2 d b - 1) / (2 d^2), d = drift / sigma,
 /// b = threshold / sigma + 1.166).
 /// @param drift      margin per sample: mean of -e, > 0

@@ -26,38 +26,17 @@ enum class State : std::uint8_t {
 };
 inline constexpr std::size_t kStates = 11;
 
+/// The causes of crane.idl in lower case. crane.idl says what each one means.
 enum class Cause : std::uint8_t {
-  none,
-  start,
-  operator_stop,
-  operator_disarm,
-  operator_estop,
-  estop_input,
-  idle,
-  state_stale,
-  demand_stale,
-  demand_invalid,
-  demand_rate,
-  bridge_latched,
-  position_limit,
-  stopping_envelope,
-  limit_switch,
-  overspeed,
-  swing_limit,
-  brake_did_not_close,
-  brake_did_not_open,
-  second_writer,
-  overrun,
-  selftest_failed,
-  stop_timeout,
-  not_homed,
-  homed,
-  homing_failed,
-  bridge_restarted,
-  following_error,
-  swing_sensor
+#define CRANE_CAUSE(name, text) name,
+#include "crane/causes.def"
+#undef CRANE_CAUSE
 };
-inline constexpr std::size_t kCauses = 29;
+#define CRANE_CAUSE(name, text) +1
+inline constexpr std::size_t kCauses = 0
+#include "crane/causes.def"
+    ;
+#undef CRANE_CAUSE
 
 /// Why an axis has not been homed.
 enum class HomingFailure : std::uint8_t {
@@ -70,24 +49,24 @@ enum class HomingFailure : std::uint8_t {
 };
 inline constexpr std::size_t kHomingFailures = 6;
 
-/// What a cause leads to, in rising severity.
+/// Reaction to a cause, in rising severity.
 enum class Reaction : std::uint8_t {
   none,
   controlled_stop,  ///< STOP_C1: the controllers bring the axes to rest, then the brakes close
   ramped_stop,      ///< STOP_C1: voltage to zero within the ramp time, then the brakes close at once
   power_off,        ///< STOP_C0: 0 V and brakes closed in the same tick
-  estop,            ///< ESTOP: as STOP_C0, and stays until released and reset
-  fault             ///< FAULT: as STOP_C0, and stays until the program starts anew
+  estop,            ///< ESTOP: as STOP_C0, until the emergency stop is released and a reset follows
+  fault             ///< FAULT: as STOP_C0, until the supervisor is restarted
 };
 
-/// "STOP_C1", "SWING_LIMIT": the IDL's names without their prefix.
+/// Name of crane.idl without its prefix: "STOP_C1", "SWING_LIMIT".
 [[nodiscard]] const char* name_of(State state) noexcept;
 [[nodiscard]] const char* name_of(Cause cause) noexcept;
 
-/// What the operator can do about it, from the rule table (rules.hpp); never empty.
+/// Action of the operator, from the rule table (rules.hpp); never empty.
 [[nodiscard]] const char* remedy_for(Cause cause) noexcept;
 
-/// "MARK_STUCK", and what to look at; empty for none.
+/// "MARK_STUCK" and the remedy; empty for none.
 [[nodiscard]] const char* name_of(HomingFailure failure) noexcept;
 [[nodiscard]] const char* remedy_for(HomingFailure failure) noexcept;
 

@@ -1,6 +1,6 @@
 #pragma once
-/// One tick of the supervisor: sample and demand in, command and status out. Everything between the topics,
-/// without them.
+/// One tick of the supervisor: sample and demand in, command and status out. Pure; samples.hpp converts from
+/// and to the topics.
 #include "crane/supervisor/gate.hpp"
 #include "crane/supervisor/homing.hpp"
 #include "crane/supervisor/motion.hpp"
@@ -10,48 +10,49 @@
 
 namespace crane::supervisor {
 
-/// What crane/state says.
+/// The part of crane/state that the supervisor uses.
 struct Sample {
-  double time_s = 0;  ///< when it was latched, by the clock of the bridge
+  double time_s = 0;  ///< time at which the encoders were latched, clock of the bridge
   PerAxis position{};
   double swing_radial_rad = 0;
   double swing_tangential_rad = 0;
   AxisFlags brake_closed{};
   AxisFlags limit_low{}, limit_high{};
   bool estop_pressed = false;
-  bool command_stale = false;    ///< latched by the bridge
-  bool command_invalid = false;  ///< latched by the bridge
+  bool command_stale = false;    ///< true: the bridge has latched an old or missing command
+  bool command_invalid = false;  ///< true: the bridge has latched for any other reason
   bool watchdog_dropped = false;
-  std::uint32_t overruns = 0;    ///< late ticks so far
-  AxisFlags position_unknown{};  ///< the axis has to be homed
-  AxisFlags mark_active{};       ///< it stands on its mark
-  AxisFlags mark_found{};        ///< the bridge has seen the mark at the same place twice
-  PerAxis applied_v{};           ///< acts from this sample on
+  std::uint32_t overruns = 0;    ///< number of late ticks since the start of the bridge
+  AxisFlags position_unknown{};  ///< true: the axis must be homed
+  AxisFlags mark_active{};       ///< true: the axis is at its homing mark
+  AxisFlags mark_found{};        ///< true: the bridge has detected the mark twice at the same position
+  PerAxis applied_v{};           ///< V, acts from this sample on
 };
 
 struct TickInput {
   double now_s =
-      0;  ///< by the supervisor's own clock, which never goes back; silence and idle are judged by it
+      0;  ///< clock of the supervisor, never runs backwards; times of silence and of idleness use it
   std::uint64_t tick = 0;
-  bool state_arrived = false;  ///< false: the wait for the state ran out; the step is due all the same
-  Sample sample{};  ///< read only when state_arrived; a value that is not finite makes it not arrived
-  bool bridge_restarted = false;  ///< from here on a younger bridge speaks; its ticks begin anew
+  bool state_arrived = false;  ///< false: no state arrived in time; the step takes place without it
+  Sample sample{};  ///< valid when state_arrived; a sample with a value that is not finite counts as missing
+  bool bridge_restarted =
+      false;  ///< true: a new bridge writes crane/state from this tick on; its ticks start at 0
   bool demand_arrived = false;
   PerAxis demand_v{};
   bool reference_moving = false;
   bool second_writer = false;
-  bool foreign_command = false;    ///< the bridge gives voltages that this supervisor has not commanded
-  bool brake_open_untold = false;  ///< a brake is open long after it was told to close
+  bool foreign_command = false;    ///< true: a voltage acts that this supervisor has not commanded
+  bool brake_open_untold = false;  ///< true: a brake is open long after the command to close
   SelfTest self_test = SelfTest::not_started;
   Requests requests{};
-  std::size_t home_axis = 0;  ///< whom Request::home is about, < kAxes
-  AxisFlags confirmed{};  ///< Request::reset: the operator has seen that the axis stands where it is said to
+  std::size_t home_axis = 0;  ///< axis of Request::home, < kAxes
+  AxisFlags confirmed{};  ///< Request::reset: the operator has confirmed the measured position of the axis
 };
 
 struct TickMemory {
   Memory machine{};
   HomingMemory homing{};
-  std::size_t homing_axis = 0;  ///< read only while machine.homing
+  std::size_t homing_axis = 0;  ///< valid while machine.homing
   GateMemory gate{};
   MotionMemory motion{};
   BrakeMemory brakes{};
@@ -61,8 +62,8 @@ struct TickMemory {
   Sample sample{};  ///< newest
   int state_missing_in_row = 0;
   int overruns_in_row = 0;
-  PerAxis ramp_from_v{};       ///< voltage at the beginning of the ramp
-  PerAxis release_position{};  ///< where the axes stood when the brakes were told to open
+  PerAxis ramp_from_v{};       ///< V, voltage at the start of the ramp
+  PerAxis release_position{};  ///< positions when the brakes were commanded open
 };
 
 /// Fields of crane/supervisor; false = healthy.
@@ -84,9 +85,9 @@ struct TickOutput {
   StatusFlags flags{};
   PerAxis drive_v{};  ///< V
   AxisFlags brake_release{};
-  AxisFlags homing{};                                  ///< the axis that creeps to its mark
-  PerAxis homing_speed{};                              ///< of its reference, unit/s
-  HomingFailure homing_failure = HomingFailure::none;  ///< of the last homing
+  AxisFlags homing{};                                  ///< true: the axis creeps to its mark
+  PerAxis homing_speed{};                              ///< speed of the reference, unit/s
+  HomingFailure homing_failure = HomingFailure::none;  ///< result of the last homing
   bool watchdog_permission = false;
   bool stop_motion = false;
   std::array<Answer, kRequests> answers{};

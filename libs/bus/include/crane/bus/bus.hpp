@@ -12,7 +12,8 @@
 ///   }
 ///
 /// Every sample carries a Header and a CRC-32C. publish() writes source, epoch and CRC. take() returns only
-/// samples with a correct CRC, and counts the rejected ones.
+/// samples with a correct CRC, and counts the rejected ones. Samples of programs with another version of
+/// crane.idl have a wrong CRC; Bus::other_versions() names these programs.
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -23,6 +24,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "crane/topics.hpp"
@@ -61,6 +63,8 @@ struct Options {
   /// Nothing: DDS Security is off, and every program that reaches this bus may write to it. The memory back
   /// end needs no credentials.
   std::optional<Credentials> credentials{};
+  /// Announced to all participants and part of every CRC. Only tests choose another one.
+  std::uint32_t messages_version = crane_MESSAGES_VERSION;
 };
 
 enum class EventKind : std::uint8_t {
@@ -117,103 +121,102 @@ struct ReaderCounts {
   std::uint64_t rejected = 0;  ///< samples dropped for a wrong CRC
 };
 
-/// Type-erased back end. Each vendor implements Writer and Reader.
+/// A participant of the same crane whose program was built with another version of crane.idl.
+struct OtherVersion {
+  std::string participant;
+  std::uint32_t version = 0;  ///< crane::MESSAGES_VERSION of that program
+};
+/// @return "NAME has messages of version 2, this program has version 1: ...", with the remedy
+[[nodiscard]] std::string refusal(const OtherVersion& other,
+                                  std::uint32_t own_version = crane_MESSAGES_VERSION);
+
 namespace detail {
-class Writer {
- public:
-  virtual ~Writer() = default;
-  virtual bool write(const void* sample) = 0;
-  virtual bool dispose(const void* sample) = 0;
-  virtual bool assert_liveliness() = 0;
-  [[nodiscard]] virtual int matched() const = 0;
-};
-class Reader {
- public:
-  virtual ~Reader() = default;
-  /// Copies the oldest sample that was not yet taken. @return false when there is none
-  virtual bool take(void* sample, SampleInfo& info) = 0;
-  [[nodiscard]] virtual int matched() const = 0;
-};
-/// Writes source, epoch and CRC into `sample`. The CRC covers the name of the topic, so that a sample that is
-/// forwarded to another topic of the same type has a wrong CRC.
-void seal(const topics::Description& topic, void* sample, crane_Source source, std::uint32_t epoch);
-[[nodiscard]] bool intact(const topics::Description& topic, const void* sample);
+class Writer;  ///< of one vendor
+class Reader;
 }  // namespace detail
 
-template <class T>
-class Publisher {
-  static_assert(std::is_trivially_copyable_v<T>, "topics have fixed-size fields and bounded strings only");
-
+/// The part of a publisher that does not depend on the type of its samples.
+class UntypedPublisher {
  public:
-  Publisher(const topics::Description& topic, std::unique_ptr<detail::Writer> writer, crane_Source source,
-            std::uint32_t epoch)
-      : topic_{&topic}, writer_{std::move(writer)}, source_{source}, epoch_{epoch} {}
+  UntypedPublisher(const topics::Description& topic, std::unique_ptr<detail::Writer> writer,
+                   const Options& options);
+  ~UntypedPublisher();
+  UntypedPublisher(UntypedPublisher&&) noexcept;
+  UntypedPublisher& operator=(UntypedPublisher&&) noexcept;
 
-  /// Sets source, epoch and CRC of `sample` and sends it. @return false when the middleware did not send it
-  [[nodiscard]] bool publish(T sample) {
-    detail::seal(*topic_, &sample, source_, epoch_);
-    return writer_->write(&sample);
-  }
-  [[nodiscard]] bool dispose(const T& sample) { return writer_->dispose(&sample); }
-  [[nodiscard]] bool assert_liveliness() { return writer_->assert_liveliness(); }
+  [[nodiscard]] bool assert_liveliness();
   /// Number of matched readers.
-  [[nodiscard]] int matched() const { return writer_->matched(); }
+  [[nodiscard]] int matched() const;
+
+ protected:
+  [[nodiscard]] bool send(void* sample);
+  [[nodiscard]] bool dispose_of(const void* sample);
 
  private:
   const topics::Description* topic_;
   std::unique_ptr<detail::Writer> writer_;
   crane_Source source_;
-  std::uint32_t epoch_;
+  std::uint32_t epoch_, messages_version_;
 };
 
 template <class T>
-class Subscriber {
- public:
-  Subscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader)
-      : topic_{&topic}, reader_{std::move(reader)} {}
+class Publisher : public UntypedPublisher {
+  static_assert(std::is_trivially_copyable_v<T>, "topics have fixed-size fields and bounded strings only");
 
-  /// @return the oldest intact sample that was not yet taken; nothing when there is none. A sample without
-  ///   data (its instance was disposed) is returned only when `info` is given; `info->valid` is then false
-  std::optional<T> take(SampleInfo* info = nullptr) {
-    T sample{};
-    SampleInfo local;
-    while (reader_->take(&sample, local)) {
-      if (local.valid && !detail::intact(*topic_, &sample)) {
-        ++counts_.rejected;
-        continue;
-      }
-      if (!local.valid && info == nullptr) continue;
-      if (info != nullptr) *info = local;
-      if (local.valid) ++counts_.taken;
-      return sample;
-    }
-    return std::nullopt;
-  }
+ public:
+  explicit Publisher(UntypedPublisher&& untyped) : UntypedPublisher{std::move(untyped)} {}
+  /// Sets source, epoch and CRC of `sample` and sends it. @return false when the middleware did not send it
+  [[nodiscard]] bool publish(T sample) { return send(&sample); }
+  [[nodiscard]] bool dispose(const T& sample) { return dispose_of(&sample); }
+};
+
+/// The part of a subscriber that does not depend on the type of its samples.
+class UntypedSubscriber {
+ public:
+  UntypedSubscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader,
+                    const Options& options);
+  ~UntypedSubscriber();
+  UntypedSubscriber(UntypedSubscriber&&) noexcept;
+  UntypedSubscriber& operator=(UntypedSubscriber&&) noexcept;
+
   /// Number of matched writers.
-  [[nodiscard]] int matched() const { return reader_->matched(); }
+  [[nodiscard]] int matched() const;
   [[nodiscard]] const ReaderCounts& counts() const { return counts_; }
+  [[nodiscard]] const topics::Description& topic() const { return *topic_; }
+
+ protected:
+  /// Copies the oldest intact sample that was not yet taken to `sample`. @return false when there is none
+  [[nodiscard]] bool receive(void* sample, SampleInfo* info);
 
  private:
   const topics::Description* topic_;
   std::unique_ptr<detail::Reader> reader_;
+  std::uint32_t messages_version_;
   ReaderCounts counts_;
+};
+
+template <class T>
+class Subscriber : public UntypedSubscriber {
+ public:
+  explicit Subscriber(UntypedSubscriber&& untyped) : UntypedSubscriber{std::move(untyped)} {}
+  /// @return the oldest intact sample that was not yet taken; nothing when there is none. A sample without
+  ///   data (its instance was disposed) is returned only when `info` is given; `info->valid` is then false
+  std::optional<T> take(SampleInfo* info = nullptr) {
+    std::optional<T> sample{std::in_place};
+    if (!receive(&*sample, info)) sample.reset();
+    return sample;
+  }
 };
 
 /// Reader of any topic, for tools. It returns plain-CDR bytes (little endian, with the 4-byte encapsulation
 /// header), in the form in which recordings store them.
-class CdrSubscriber {
+class CdrSubscriber : public UntypedSubscriber {
  public:
-  CdrSubscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader);
+  explicit CdrSubscriber(UntypedSubscriber&& untyped);
   /// Writes the bytes of the next intact sample to `cdr`. @return its header; nothing when there is no sample
   std::optional<msg::Header> take(std::vector<std::uint8_t>& cdr, SampleInfo* info = nullptr);
-  [[nodiscard]] int matched() const { return reader_->matched(); }
-  [[nodiscard]] const ReaderCounts& counts() const { return counts_; }
-  [[nodiscard]] const topics::Description& topic() const { return *topic_; }
 
  private:
-  const topics::Description* topic_;
-  std::unique_ptr<detail::Reader> reader_;
-  ReaderCounts counts_;
   std::vector<std::uint8_t> sample_;
 };
 
@@ -228,12 +231,12 @@ class Bus {
 
   template <class T>
   [[nodiscard]] Publisher<T> publisher(const topics::Topic<T>& topic, const EndpointOptions& endpoint = {}) {
-    return {topic.description, make_writer(topic.description, endpoint), options().source, options().epoch};
+    return Publisher<T>{make_publisher(topic.description, endpoint)};
   }
   template <class T>
   [[nodiscard]] Subscriber<T> subscriber(const topics::Topic<T>& topic,
                                          const EndpointOptions& endpoint = {}) {
-    return {topic.description, make_reader(topic.description, endpoint)};
+    return Subscriber<T>{make_subscriber(topic.description, endpoint)};
   }
   [[nodiscard]] CdrSubscriber cdr_subscriber(const topics::Description& topic,
                                              const EndpointOptions& endpoint = {});
@@ -242,11 +245,14 @@ class Bus {
   /// a sample has arrived since the last call. @return true when a sample has arrived since the last call
   bool wait(std::chrono::nanoseconds timeout);
 
+  /// Participants of this crane whose messages have another version. This bus drops all their samples.
+  [[nodiscard]] std::vector<OtherVersion> other_versions();
+
   [[nodiscard]] const Options& options() const;
 
  private:
-  std::unique_ptr<detail::Writer> make_writer(const topics::Description&, const EndpointOptions&);
-  std::unique_ptr<detail::Reader> make_reader(const topics::Description&, const EndpointOptions&);
+  UntypedPublisher make_publisher(const topics::Description&, const EndpointOptions&);
+  UntypedSubscriber make_subscriber(const topics::Description&, const EndpointOptions&);
   struct State;
   std::unique_ptr<State> state_;
 };

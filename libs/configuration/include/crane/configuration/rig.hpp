@@ -11,6 +11,7 @@
 
 #include "crane/control/drive_limits.hpp"
 #include "crane/control/law.hpp"
+#include "crane/control/operating_limits.hpp"
 #include "crane/control/shaper.hpp"
 #include "crane/plant/parameters.hpp"
 
@@ -74,16 +75,6 @@ struct Wiring {
   bool operator==(const Wiring&) const = default;
 };
 
-struct Limits {
-  double swing_limit_rad = 0.7;        ///< trip when either swing angle exceeds it
-  double stale_after_s = 0.05;         ///< bridge: command age that stops the crane
-  double demand_stale_after_s = 0.03;  ///< supervisor: time without demands that stops the crane
-  double idle_lock_s = 60;             ///< HOLD without a move for so long locks the crane
-  bool model_checks = true;            ///< following error and swing encoders are judged by the model
-
-  bool operator==(const Limits&) const = default;
-};
-
 struct Start {
   std::array<double, plant::kAxes> position{
       0.25, 0, 1.0};  ///< where the simulated plant begins, and an axis with Zero::start: m, rad, m of cable
@@ -114,7 +105,7 @@ struct Rig {
   std::array<Drive, plant::kAxes> drives;
   std::array<Encoder, 5> encoders;  ///< trolley, slew, hoist, radial swing, tangential swing
   Sensing sensing;
-  Limits limits;
+  control::OperatingLimits limits;
   Start start;
   std::string board = "simulated";  ///< simulated (hardware boards: servo_to_go, comedi, emulated)
   Wiring wiring;

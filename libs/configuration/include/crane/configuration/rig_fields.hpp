@@ -1,7 +1,7 @@
 #pragma once
 /// The sections of a rig file as tables of fields. Those of [plant] stand in plant/parameter_fields.hpp,
-/// those of [controller] in control/design_fields.hpp, and what the supervisor checks, too, in
-/// control/drive_limit_fields.hpp.
+/// those of [controller] in control/design_fields.hpp. The supervisor also checks the limits, which stand in
+/// control/drive_limit_fields.hpp and control/operating_limits.hpp.
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +10,7 @@
 #include "crane/configuration/rig.hpp"
 #include "crane/control/design_fields.hpp"
 #include "crane/control/drive_limit_fields.hpp"
+#include "crane/control/operating_limits.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/plant/parameter_fields.hpp"
 
@@ -216,34 +217,6 @@ inline constexpr std::array<Field<Sensing>, 3> kSensingFields{{
          "the swing angles themselves are passed on filtered, too (`docs/analysis.md`: what it costs)"},
 }};
 
-inline constexpr std::array<Field<Limits>, 5> kLimitFields{{
-    {.key = "swing_limit_rad",
-     .member = &Limits::swing_limit_rad,
-     .range = control::kSwingLimits,
-     .unit = "rad",
-     .meaning = "either swing angle beyond it trips"},
-    {.key = "stale_after_s",
-     .member = &Limits::stale_after_s,
-     .range = control::kSilences,
-     .unit = "s",
-     .meaning = "age of the command at which the bridge stops the crane, in whole ticks, at least one"},
-    {.key = "demand_stale_after_s",
-     .member = &Limits::demand_stale_after_s,
-     .range = control::kSilences,
-     .unit = "s",
-     .meaning =
-         "time without a demand after which the supervisor stops the crane, in whole ticks, at least one"},
-    {.key = "idle_lock_s",
-     .member = &Limits::idle_lock_s,
-     .range = control::kIdleTimes,
-     .unit = "s",
-     .meaning = "HOLD without a move for so long locks the crane"},
-    {.key = "model_checks",
-     .member = &Limits::model_checks,
-     .meaning = "the supervisor judges following error and swing encoders by the model of this file "
-                "(FOLLOWING_ERROR, SWING_SENSOR in `docs/safety.md`)"},
-}};
-
 inline constexpr std::array<Field<Start>, 6> kStartFields{{
     {.key = plant::kCoordinates[plant::kTrolley].column,
      .member = Element<Start>{&Start::position, plant::kTrolley},
@@ -284,7 +257,8 @@ inline constexpr std::array<Field<Rig>, 1> kControllerFields{{
                            [](const Rig& rig) { return place_of(rig.controller, controller_names()); },
                            [](Rig& rig, std::size_t i) { rig.controller = controller_names()[i]; }},
      .meaning = "([`equations.md`](equations.md))",
-     .default_text = "`gain_scheduling_partial`; `none` for drive_axis and pendulum"},
+     .default_text = "`gain_scheduling_partial`; `none` for drive_axis and pendulum",
+     .choices_text = "a name of [`registered.def`](../libs/control/src/laws/registered.def)"},
 }};
 
 inline constexpr std::array<Field<Planning>, 5> kPlanningFields{{
@@ -349,7 +323,7 @@ void for_each_section(AnyRig& rig, Visit&& visit) {
   }
   visit(std::string{"wiring"}, kWiringFields, rig.wiring, "");
   visit(std::string{"sensing"}, kSensingFields, rig.sensing, "");
-  visit(std::string{"limits"}, kLimitFields, rig.limits, "");
+  visit(std::string{"limits"}, control::kOperatingLimitFields, rig.limits, "");
   visit(std::string{"start"}, kStartFields, rig.start, "");
   visit(std::string{"controller"}, kControllerFields, rig, "");
   visit(std::string{"controller"}, kPlanningFields, rig.planning, "");

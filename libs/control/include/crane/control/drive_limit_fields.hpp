@@ -15,14 +15,6 @@ inline constexpr Range kDriveVolts = Range::above(0, 10);
 /// A brake that takes longer than a second holds no crane of this project in time.
 inline constexpr Range kBrakeTimes = Range::closed(0, 1);
 
-/// A limit beyond plant::kSwings would never be reached.
-inline constexpr Range kSwingLimits = Range::above(0, plant::kSwings.high);
-/// A day.
-inline constexpr Range kIdleTimes = Range::above(0, 86400);
-/// A crane whose commands or demands have ended must stop within a tenth of a second: at 1 m/s it has
-/// moved 0.1 m by then, the least soft margin of the deployed rigs.
-inline constexpr Range kSilences = Range::above(0, 0.1);
-
 inline constexpr std::array<fields::Field<DriveLimits>, 9> kDriveLimitFields{{
     {.key = "volt_limit_v",
      .member = &DriveLimits::volt_limit_v,

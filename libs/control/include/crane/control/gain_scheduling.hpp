@@ -13,7 +13,7 @@
 ///   K_phi  = L ((a^2 + 2 sqrt(2) a w + w^2 - w0^2 (1 + m_t)) / (K K_m) - 1)         from (3.23),
 ///   K_phi' = L ((2 a + sqrt(2) w) / (K K_m) - K_x')                                 from (3.22).
 /// Partial-state feedback (3.19) has no K_phi'. The condition K_phi' = 0 determines w/w0 and therefore K.
-/// Full-state feedback has a free K; ForwardGain lowers K for long moves, so that the first command stays
+/// Full-state feedback has a free K; forward_gains() lowers K for long moves, so that the first command stays
 /// within the drive's voltage. The slew axis has the same form with K_m / (1 + M_r x^2) for K_m, m_r x^2 / (1
 /// + M_r x^2) for m_t, and swing gains divided by x.
 #include <array>
@@ -67,22 +67,10 @@ struct ForwardGains {
   double slew = 0;     ///< V/rad
 };
 
-/// Forward gain K of the full-state feedback for the present move. K is recomputed when the reference of the
-/// axis changes: K is full_feedback_gain_pm, or smaller when K |reference - position| would exceed
-/// available_control_v(). While the reference is constant, K is constant. Tracking and anti-swing each have a
-/// ForwardGain. The same samples in the same order give the same K in both, bit for bit. A process that
-/// missed the tick of the change recomputes K at the next tick; a crane at rest has not moved by then.
-class ForwardGain {
- public:
-  explicit ForwardGain(const Design& design) noexcept;
-  [[nodiscard]] ForwardGains step(const Design& design, const Measurement& measured,
-                                  const Reference& reference) noexcept;
-  /// The next step() treats its reference as changed.
-  void reset() noexcept;
-
- private:
-  std::array<double, 2> target_{}, gain_{};  ///< trolley, slew
-};
+/// Forward gain K of the full-state feedback for the present move: full_feedback_gain_pm, or smaller when
+/// K |reference - start| would exceed available_control_v(). Tracking and anti-swing get reference and start
+/// from the same crane/reference, and therefore the same K.
+[[nodiscard]] ForwardGains forward_gains(const Design& design, const Reference& reference) noexcept;
 
 /// Gains of both axes at one operating point. The swing gains of the slew axis are K_phi, K_phi' times
 /// inverse_position_pm.

@@ -34,6 +34,7 @@ struct Measurement {
 /// seconds.
 struct AxisReference {
   double position = 0, speed = 0, acceleration = 0;
+  double start = 0;  ///< measured position of the axis when `position` last changed (reference_start.hpp)
 };
 
 /// Planned swing of the load (signs of Measurement).

@@ -61,7 +61,8 @@ struct Field {
   std::string_view meaning;  ///< one line for the document
   Presence presence = Presence::optional;
   Quantity quantity = Quantity::fixed;
-  std::string_view default_text{};              ///< for the document; empty: the value of a new Section
+  std::string_view default_text{};     ///< for the document; empty: the value of a new Section
+  std::string_view choices_text = {};  ///< of a Choice: replaces the list of its names in the document
   double (*derived)(const Section&) = nullptr;  ///< default that follows from the fields before
 };
 

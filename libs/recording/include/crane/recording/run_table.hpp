@@ -35,7 +35,13 @@ class RunTable {
   std::map<std::uint64_t, Row> rows_;
 };
 
-/// Table of a recorded run. @throws DecodeError, SchemaError when the crane topics cannot be decoded
+/// Version of the messages in a recording: crane::MESSAGES_VERSION of its schema. Nothing: the recording has
+/// no crane topics, or is older than the first version; its topics are those of version 1.
+[[nodiscard]] std::optional<std::uint32_t> messages_version(const McapReader& recording);
+
+/// Table of a recorded run. @throws DecodeError, SchemaError when the crane topics cannot be decoded;
+/// SchemaError
+///   that names both versions when the messages have another version
 [[nodiscard]] Table run_table(McapReader& recording);
 
 }  // namespace crane::recording

@@ -1,10 +1,11 @@
 #pragma once
 /// Decodes plain CDR with the IDL text of a recording, so that tools can read types that they were not
-/// compiled with. Supported IDL: modules, enums, @final structs, @key, nested structs, one-dimensional
-/// arrays, bounded and unbounded strings, primitives, comments.
+/// compiled with. Supported IDL: modules, uint32 constants, enums, @final structs, @key, nested structs,
+/// one-dimensional arrays, bounded and unbounded strings, primitives, comments.
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -32,6 +33,8 @@ class Schema {
   /// @throws SchemaError
   explicit Schema(std::string_view idl_text);
 
+  /// Value of a constant, "crane::MESSAGES_VERSION"; nothing when the text does not define it.
+  [[nodiscard]] std::optional<std::uint32_t> constant(std::string_view name) const;
   [[nodiscard]] bool contains(std::string_view type) const;  ///< "crane::CraneState"
   [[nodiscard]] std::vector<std::string> types() const;      ///< structs in the order of the text
 

@@ -18,14 +18,17 @@ namespace crane::runtime {
 [[nodiscard]] inline control::Reference reference(const msg::AxisReference (&axes)[control::kAxes]) {
   control::Reference result;
   for (std::size_t i = 0; i < control::kAxes; ++i)
-    result[i] = {axes[i].position, axes[i].speed, axes[i].acceleration};
+    result[i] = {.position = axes[i].position, .speed = axes[i].speed, .acceleration = axes[i].acceleration};
   return result;
 }
 
 [[nodiscard]] inline control::Reference reference(const msg::Reference& sample) {
   control::Reference result = reference(sample.axis);
   result.swing = {sample.swing_rad[0], sample.swing_radps[0], sample.swing_rad[1], sample.swing_radps[1]};
-  for (std::size_t i = 0; i < control::kAxes; ++i) result.feed_forward_v[i] = sample.feed_forward_v[i];
+  for (std::size_t i = 0; i < control::kAxes; ++i) {
+    result[i].start = sample.start[i];
+    result.feed_forward_v[i] = sample.feed_forward_v[i];
+  }
   return result;
 }
 
@@ -40,7 +43,10 @@ inline void assign(msg::Reference& sample, const control::Reference& reference) 
   sample.swing_rad[1] = reference.swing.tangential_rad;
   sample.swing_radps[0] = reference.swing.radial_radps;
   sample.swing_radps[1] = reference.swing.tangential_radps;
-  for (std::size_t i = 0; i < control::kAxes; ++i) sample.feed_forward_v[i] = reference.feed_forward_v[i];
+  for (std::size_t i = 0; i < control::kAxes; ++i) {
+    sample.start[i] = reference[i].start;
+    sample.feed_forward_v[i] = reference.feed_forward_v[i];
+  }
 }
 
 inline void assign(double (&field)[control::kAxes], const std::array<double, control::kAxes>& values) {

@@ -17,6 +17,7 @@ struct NodeIdentity {
 
 class Node {
  public:
+  /// @param bus  outlives the node
   Node(bus::Bus& bus, NodeIdentity identity);
 
   /// Reports one event on the console and on crane/event. @param code  lower_snake name, stable for scripts
@@ -27,7 +28,8 @@ class Node {
   /// Records the tick and the execution time of one step.
   void stepped(std::uint64_t tick, std::int64_t sample_time_ns, std::int64_t step_ns);
   /// Publishes the status once a second and on every change of phase. Reports an event when `ports` begins to
-  /// drop samples: samples of a second writer, samples with a wrong CRC, samples that could not be sent.
+  /// drop samples: samples of a second writer, of a process with another version of the messages, samples
+  /// with a wrong CRC, samples that could not be sent.
   void beat(std::int64_t now_ns, const Ports& ports, const JoinCounts& counts);
   /// Publishes the status of a process without ports (recorder). @param rejected  samples with a wrong CRC
   void beat(std::int64_t now_ns, crane_NodePhase phase, const JoinCounts& counts, std::uint64_t rejected);
@@ -38,9 +40,11 @@ class Node {
 
  private:
   void report_drops(std::int64_t now_ns, const Ports& ports);
+  void report_other_versions();
   void publish_event(crane_Severity severity, std::string_view code, std::string_view what,
                      std::string_view remedy);
 
+  bus::Bus* bus_;
   NodeIdentity identity_;
   bus::Publisher<msg::NodeStatus> status_;
   bus::Publisher<msg::Event> events_;
@@ -49,6 +53,7 @@ class Node {
   std::int64_t step_sum_ns_ = 0, step_max_ns_ = 0;
   std::uint64_t steps_ = 0;
   std::uint64_t events_refused_ = 0, told_rejected_ = 0, told_refused_ = 0;
+  std::size_t told_versions_ = 0;
   bool told_dispute_ = false;
 };
 

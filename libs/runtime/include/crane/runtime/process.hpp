@@ -69,8 +69,11 @@ void add_loop_options(CLI::App& app, LoopOptions& options);
 /// longer; therefore the readers also check for a second writer at every tick (writer_binding.hpp).
 inline constexpr std::chrono::milliseconds kSoleWriterLook{400};
 
-/// Searches for other writers of the loop topics in `writes` for kSoleWriterLook. @throws bus::Error with the
-/// remedy when another writer exists
+/// @throws bus::Error that names both versions when a program of this crane has messages of another version
+void refuse_other_version(bus::Bus& bus);
+
+/// Searches for other writers of the loop topics in `writes`, and for programs with another version of the
+/// messages, for kSoleWriterLook. @throws bus::Error with the remedy when one exists
 void refuse_second_writer(bus::Bus& bus, const std::vector<Write>& writes);
 
 /// main() of every process of the stack. @return exit code

@@ -24,7 +24,7 @@ SharedFile::SharedFile(std::string name) : name_{std::move(name)} {
   constexpr mode_t kEverybody = 0666;
   file_ = ::shm_open(name_.c_str(), O_RDWR | O_CREAT, kEverybody);
   if (file_ < 0) throw BoardError("shared memory " + name_ + ": " + std::strerror(errno));
-  ::fchmod(file_, kEverybody);  // whatever the umask of who came first
+  ::fchmod(file_, kEverybody);  // independent of the umask of the process that creates it
 }
 
 SharedFile::~SharedFile() {

@@ -1,0 +1,16 @@
+#pragma once
+/// Source, epoch and checksum of a sample. Publishers and subscribers call these functions; tests forge and
+/// check samples with them.
+#include "crane/topics.hpp"
+
+namespace crane::bus {
+
+/// Writes source, epoch and CRC into `sample`. The CRC also covers the name of the topic and the version of
+/// the messages: a sample of another topic or of another version has a wrong CRC, even if its layout is the
+/// same.
+void seal(const topics::Description& topic, void* sample, crane_Source source, std::uint32_t epoch,
+          std::uint32_t messages_version = crane_MESSAGES_VERSION);
+[[nodiscard]] bool intact(const topics::Description& topic, const void* sample,
+                          std::uint32_t messages_version = crane_MESSAGES_VERSION);
+
+}  // namespace crane::bus

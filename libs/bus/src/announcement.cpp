@@ -1,0 +1,65 @@
+#include "announcement.hpp"
+
+#include <charconv>
+#include <optional>
+
+namespace crane::bus {
+namespace {
+
+constexpr std::string_view kBegin = "crane messages=";
+constexpr std::string_view kCrane = " crane=";
+constexpr std::string_view kParticipant = " participant=";
+
+struct Announcement {
+  std::uint32_t version = 0;
+  std::string_view crane, participant;
+};
+
+std::optional<Announcement> parsed(std::string_view text) {
+  if (!text.starts_with(kBegin)) return std::nullopt;
+  text.remove_prefix(kBegin.size());
+  Announcement found;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), found.version);
+  if (error != std::errc{}) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  const auto name = text.rfind(kParticipant);  // the name of a participant has no space
+  if (!text.starts_with(kCrane) || name == std::string_view::npos || name < kCrane.size())
+    return std::nullopt;
+  found.crane = text.substr(kCrane.size(), name - kCrane.size());
+  found.participant = text.substr(name + kParticipant.size());
+  return found;
+}
+
+}  // namespace
+
+std::string announcement(const Options& options) {
+  return std::string{kBegin} + std::to_string(options.messages_version) + std::string{kCrane} +
+         options.crane + std::string{kParticipant} + options.participant;
+}
+
+void Census::note(const Key& participant, std::string_view user_data) {
+  const auto found = parsed(user_data);
+  if (!found || found->crane != crane_ || found->version == version_) return;
+  const std::lock_guard lock{mutex_};
+  others_[participant] = {std::string{found->participant}, found->version};
+}
+
+void Census::forget(const Key& participant) {
+  const std::lock_guard lock{mutex_};
+  others_.erase(participant);
+}
+
+std::vector<OtherVersion> Census::others() const {
+  const std::lock_guard lock{mutex_};
+  std::vector<OtherVersion> others;
+  for (const auto& [key, other] : others_) others.push_back(other);
+  return others;
+}
+
+std::string refusal(const OtherVersion& other, std::uint32_t own_version) {
+  return other.participant + " has messages of version " + std::to_string(other.version) +
+         ", this program has version " + std::to_string(own_version) +
+         ": run programs of one release, or give each crane its own --crane or --domain";
+}
+
+}  // namespace crane::bus

@@ -1,0 +1,24 @@
+#pragma once
+/// Writer and reader of one topic, without its type. Each back end implements both.
+#include "crane/bus/bus.hpp"
+
+namespace crane::bus::detail {
+
+class Writer {
+ public:
+  virtual ~Writer() = default;
+  virtual bool write(const void* sample) = 0;
+  virtual bool dispose(const void* sample) = 0;
+  virtual bool assert_liveliness() = 0;
+  [[nodiscard]] virtual int matched() const = 0;
+};
+
+class Reader {
+ public:
+  virtual ~Reader() = default;
+  /// Copies the oldest sample that was not yet taken. @return false when there is none
+  virtual bool take(void* sample, SampleInfo& info) = 0;
+  [[nodiscard]] virtual int matched() const = 0;
+};
+
+}  // namespace crane::bus::detail

@@ -1,0 +1,76 @@
+/// Publishers and subscribers: seal, send, receive, check.
+#include <cstring>
+
+#include "crane/bus/cdr.hpp"
+#include "crane/bus/seal.hpp"
+#include "endpoint.hpp"
+
+namespace crane::bus {
+
+UntypedPublisher::UntypedPublisher(const topics::Description& topic, std::unique_ptr<detail::Writer> writer,
+                                   const Options& options)
+    : topic_{&topic},
+      writer_{std::move(writer)},
+      source_{options.source},
+      epoch_{options.epoch},
+      messages_version_{options.messages_version} {}
+UntypedPublisher::~UntypedPublisher() = default;
+UntypedPublisher::UntypedPublisher(UntypedPublisher&&) noexcept = default;
+UntypedPublisher& UntypedPublisher::operator=(UntypedPublisher&&) noexcept = default;
+
+bool UntypedPublisher::send(void* sample) {
+  seal(*topic_, sample, source_, epoch_, messages_version_);
+  return writer_->write(sample);
+}
+bool UntypedPublisher::dispose_of(const void* sample) { return writer_->dispose(sample); }
+bool UntypedPublisher::assert_liveliness() { return writer_->assert_liveliness(); }
+int UntypedPublisher::matched() const { return writer_->matched(); }
+
+UntypedSubscriber::UntypedSubscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader,
+                                     const Options& options)
+    : topic_{&topic}, reader_{std::move(reader)}, messages_version_{options.messages_version} {}
+UntypedSubscriber::~UntypedSubscriber() = default;
+UntypedSubscriber::UntypedSubscriber(UntypedSubscriber&&) noexcept = default;
+UntypedSubscriber& UntypedSubscriber::operator=(UntypedSubscriber&&) noexcept = default;
+
+int UntypedSubscriber::matched() const { return reader_->matched(); }
+
+bool UntypedSubscriber::receive(void* sample, SampleInfo* info) {
+  SampleInfo local;
+  while (reader_->take(sample, local)) {
+    if (local.valid && !intact(*topic_, sample, messages_version_)) {
+      ++counts_.rejected;
+      continue;
+    }
+    if (!local.valid && info == nullptr) continue;
+    if (info != nullptr) *info = local;
+    if (local.valid) ++counts_.taken;
+    return true;
+  }
+  return false;
+}
+
+CdrSubscriber::CdrSubscriber(UntypedSubscriber&& untyped)
+    : UntypedSubscriber{std::move(untyped)}, sample_(CdrCodec::of(*topic().descriptor).sample_bytes()) {}
+
+std::optional<msg::Header> CdrSubscriber::take(std::vector<std::uint8_t>& cdr, SampleInfo* info) {
+  constexpr std::array<std::uint8_t, 4> kPlainLittleEndian{0, 1, 0, 0};
+  const CdrCodec& codec = CdrCodec::of(*topic().descriptor);
+  SampleInfo local;
+  do {
+    if (!receive(sample_.data(), &local)) return std::nullopt;
+  } while (!local.valid && info == nullptr);
+  if (info != nullptr) *info = local;
+  cdr.clear();
+  if (local.valid) {
+    cdr.resize(kPlainLittleEndian.size() + codec.max_encoded_bytes());
+    std::memcpy(cdr.data(), kPlainLittleEndian.data(), kPlainLittleEndian.size());
+    const auto body = std::span{cdr}.subspan(kPlainLittleEndian.size());
+    cdr.resize(kPlainLittleEndian.size() + codec.encode(sample_.data(), body));
+  }
+  msg::Header header{};
+  std::memcpy(&header, sample_.data(), sizeof header);
+  return header;
+}
+
+}  // namespace crane::bus

@@ -1,0 +1,57 @@
+#pragma once
+/// Section [limits] of a rig file: limits of the crane as a whole, with their table of fields. Rig file,
+/// supervisor and bridge use this description. A new limit is a member and a row here.
+#include "crane/plant/parameter_fields.hpp"
+
+namespace crane::control {
+
+struct OperatingLimits {
+  double swing_limit_rad = 0.7;        ///< a swing angle above it stops the crane, rad
+  double stale_after_s = 0.05;         ///< bridge: age of the command that stops the crane, s
+  double demand_stale_after_s = 0.03;  ///< supervisor: time without a demand that stops the crane, s
+  double idle_lock_s = 60;             ///< time in HOLD without a move that locks the crane, s
+  bool model_checks = true;  ///< true: following error and swing encoders are compared with the model
+
+  bool operator==(const OperatingLimits&) const = default;
+};
+
+/// A limit beyond plant::kSwings would never be reached.
+inline constexpr fields::Range kSwingLimits = fields::Range::above(0, plant::kSwings.high);
+/// A day.
+inline constexpr fields::Range kIdleTimes = fields::Range::above(0, 86400);
+/// A crane whose commands or demands have ended must stop within a tenth of a second: at 1 m/s it has
+/// moved 0.1 m by then, the least soft margin of the deployed rigs.
+inline constexpr fields::Range kSilences = fields::Range::above(0, 0.1);
+
+inline constexpr std::array kOperatingLimitFields{
+    fields::Field<OperatingLimits>{.key = "swing_limit_rad",
+                                   .member = &OperatingLimits::swing_limit_rad,
+                                   .range = kSwingLimits,
+                                   .unit = "rad",
+                                   .meaning = "a larger swing angle stops the crane"},
+    fields::Field<OperatingLimits>{
+        .key = "stale_after_s",
+        .member = &OperatingLimits::stale_after_s,
+        .range = kSilences,
+        .unit = "s",
+        .meaning = "age of the command at which the bridge stops the crane, in whole ticks, at least one"},
+    fields::Field<OperatingLimits>{
+        .key = "demand_stale_after_s",
+        .member = &OperatingLimits::demand_stale_after_s,
+        .range = kSilences,
+        .unit = "s",
+        .meaning =
+            "time without a demand after which the supervisor stops the crane, in whole ticks, at least one"},
+    fields::Field<OperatingLimits>{.key = "idle_lock_s",
+                                   .member = &OperatingLimits::idle_lock_s,
+                                   .range = kIdleTimes,
+                                   .unit = "s",
+                                   .meaning = "time in HOLD without a move that locks the crane"},
+    fields::Field<OperatingLimits>{
+        .key = "model_checks",
+        .member = &OperatingLimits::model_checks,
+        .meaning = "the supervisor compares following error and swing encoders with the model of this file "
+                   "(FOLLOWING_ERROR, SWING_SENSOR in `docs/safety.md`)"},
+};
+
+}  // namespace crane::control

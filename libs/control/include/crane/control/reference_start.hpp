@@ -1,0 +1,28 @@
+#pragma once
+/// Position from which each axis began its present move. The trajectory planner publishes it with the
+/// reference, so that all laws see the same value.
+#include <array>
+#include <limits>
+
+#include "crane/control/law.hpp"
+
+namespace crane::control {
+
+class ReferenceStart {
+ public:
+  ReferenceStart() noexcept { position_.fill(std::numeric_limits<double>::quiet_NaN()); }
+
+  /// Sets `start` of every axis: the measured position at the last call at which the reference changed.
+  void mark(const Measurement& measured, Reference& reference) noexcept {
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      if (reference[i].position != position_[i]) start_[i] = measured.position[i];
+      position_[i] = reference[i].position;
+      reference[i].start = start_[i];
+    }
+  }
+
+ private:
+  std::array<double, kAxes> position_{}, start_{};
+};
+
+}  // namespace crane::control
