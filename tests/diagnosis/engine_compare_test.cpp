@@ -1,7 +1,9 @@
 /// Which hypothesis is better, from the deviance of its blocks and the errors of its simulation alone.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
+#include <random>
 
 #include "search/compare.hpp"
 
@@ -11,6 +13,7 @@ namespace {
 constexpr std::size_t kBlocks = 90;
 constexpr double kOfEach = 100;
 constexpr std::uint64_t kSeed = 1;
+constexpr std::size_t kCandidates = 40;
 
 /// A drive of a base model whose error is 1 m, and one effect on it.
 struct Compared : testing::Test {
@@ -26,7 +29,7 @@ struct Compared : testing::Test {
     fitted.error[kTrolleyPosition] = 0.8;
   }
   [[nodiscard]] bool is_possible() const { return possible(fitted, base, kSeed); }
-  [[nodiscard]] bool is_accepted() const { return accepted(fitted, base, kSeed); }
+  [[nodiscard]] bool is_accepted() const { return accepted(fitted, base, kCandidates); }
 
   Candidate effect, other;
   Fitted base, fitted;
@@ -43,6 +46,44 @@ TEST_F(Compared, OneSlipLessIsNoEffect) {
   fitted.deviance[35] -= 2000;
   EXPECT_FALSE(is_possible());
   EXPECT_FALSE(is_accepted());
+}
+
+/// What luck makes of one effect in 200 cases it makes of the best of forty in one of five.
+TEST_F(Compared, TheBestOfManyCandidatesHasToBeClearerThanOneAlone) {
+  for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] -= i % 3 == 0 ? -4 : 4;
+  EXPECT_LT(luck_of(fitted.deviance, base.deviance), 0.01);
+  EXPECT_TRUE(accepted(fitted, base, 1));
+  for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] += 0.36;
+  const double luck = luck_of(fitted.deviance, base.deviance);
+  EXPECT_LT(luck, 0.01);
+  EXPECT_GT(luck * kCandidates, 0.05);
+  EXPECT_TRUE(accepted(fitted, base, 1));
+  EXPECT_FALSE(is_accepted());
+}
+
+/// Without an effect the chance is uniform: a twentieth of the cases comes below a twentieth.
+TEST_F(Compared, LuckIsAsFrequentAsItSays) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> gauss;
+  int below = 0;
+  constexpr int kCases = 2000;
+  for (int i = 0; i < kCases; ++i) {
+    for (double& block : fitted.deviance) block = kOfEach + gauss(random);
+    below += luck_of(fitted.deviance, base.deviance) < 0.05 ? 1 : 0;
+  }
+  EXPECT_NEAR(below, 0.05 * kCases, 4 * std::sqrt(0.05 * 0.95 * kCases));
+}
+
+/// Each block a hair likelier than before is no luck of the blocks. It is luck of the value that was fitted.
+TEST_F(Compared, AValueHasToMakeTheDataLikelierThanLuckMakesOne) {
+  fitted.parameters = 1;
+  for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] -= i % 2 == 0 ? 0.01 : 0.03;
+  EXPECT_LT(luck_of(fitted.deviance, base.deviance), 1e-6);
+  EXPECT_TRUE(is_luck(luck_of_values(fitted, base), kCandidates));
+  EXPECT_FALSE(is_accepted());
+  for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] -= 0.1;
+  EXPECT_TRUE(is_accepted());
+  EXPECT_TRUE(is_luck(luck_of_values(fitted, base, -5), kCandidates));
 }
 
 TEST_F(Compared, AnEffectOfATenthOfTheBlocksIsOne) {
@@ -68,9 +109,9 @@ TEST_F(Compared, ASecondEffectHasToTakeMoreOffTheErrorThanAFirstOne) {
   before.error[kTrolleyPosition] = 0.3;  // a fifth of it has to go
   fitted.effects.push_back({&other, {}});
   fitted.error[kTrolleyPosition] = 0.25;
-  EXPECT_FALSE(accepted(fitted, before, kSeed));
+  EXPECT_FALSE(accepted(fitted, before, kCandidates));
   fitted.error[kTrolleyPosition] = 0.23;
-  EXPECT_TRUE(accepted(fitted, before, kSeed));
+  EXPECT_TRUE(accepted(fitted, before, kCandidates));
 }
 
 TEST_F(Compared, OfASwingItIsEnoughToBeNearerOverWholeRuns) {

@@ -58,7 +58,7 @@ TEST(LostCounts, AreCountedAndPutBackToAFewCounts) {
     EXPECT_EQ(found[0].axis, kSlewAngle);
     EXPECT_NEAR(found[0].lost, lost_rad, 0.01 * lost_rad);
     EXPECT_NEAR(found[0].jump, 0.004, 0.001);
-    const auto mended = put_back({run}, found)[0], whole = counted(swinging_rad);
+    const auto mended = put_back({run}, found, rig_of_losses())[0], whole = counted(swinging_rad);
     const double start = mended.measured[kSlewAngle][0] - whole.measured[kSlewAngle][0];
     double worst = 0;
     for (std::size_t k = 0; k + 1 < kRows; ++k) {
@@ -113,6 +113,18 @@ TEST(LostCounts, AreNoneWhereAnAxisSticksAndBreaksLoose) {
     return 0.02 * std::floor(t / 0.5) + (phase < 0.4 ? 0 : 2 * (phase - 0.4) * (phase - 0.4));
   };
   EXPECT_TRUE(losing_encoders({counted(sticking)}, rig_of_losses()).empty());
+}
+
+/// Between two rows of a slow sampling a drive breaks loose and comes to rest again: its command shows that
+/// it can.
+TEST(LostCounts, AreNoneThatTheDriveCanSlipFromRowToRow) {
+  const auto slipping = [](double t) { return 0.002 * std::floor(t / 0.25); };
+  auto run = counted(slipping);
+  ASSERT_EQ(losing_encoders({run}, rig_of_losses()).size(), 1U);
+  const double gain = rig_of_losses().plant.slew_gain_radps2pv;
+  for (plant::PerAxis& volts : run.command_v)
+    volts[plant::kSlew] = 1.1 * 2 * 0.002 / (gain * kSample_s * kSample_s);
+  EXPECT_TRUE(losing_encoders({run}, rig_of_losses()).empty());
 }
 
 TEST(LostCounts, ThatAreTooFewAreNotBelieved) {

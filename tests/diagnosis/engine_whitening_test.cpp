@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "noise/learning.hpp"
 #include "noise/whitening.hpp"
 
 namespace crane::diagnosis {

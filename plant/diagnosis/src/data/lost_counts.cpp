@@ -34,14 +34,29 @@ struct Rows {
   std::vector<std::size_t> row;
   std::vector<double> position;
   std::vector<double> periods;  ///< from the row before
+  std::vector<double> slip;     ///< the most that the drive moves from the row before, from rest to rest
 };
-Rows measured_rows(const Run& run, Output axis) {
+
+/// The most that a drive moves in a time t from rest to rest, accelerated for half of it and braked for the
+/// other half: a t^2 / 4. Motor and friction together make at most twice the acceleration of the largest
+/// command from `kSlipRows` rows before on.
+double slip_of(const Run& run, Output axis, double gain, std::size_t row, double time_s) {
+  constexpr std::size_t kSlipRows = 5;
+  double most_v = 0;
+  for (std::size_t k = row - std::min(row, kSlipRows); k <= row; ++k)
+    most_v = std::max(most_v, std::abs(run.command_v[k][axis]));
+  return 2 * gain * most_v * 0.25 * time_s * time_s;
+}
+
+/// @param gain of the drive, acceleration per volt
+Rows measured_rows(const Run& run, Output axis, double gain) {
   Rows rows;
   const bool regular = run.regular(axis);
   for (std::size_t k = 0; k < run.measured[axis].size(); ++k) {
     if (!run.seen(axis, k)) continue;
     const double time_s = rows.row.empty() ? run.period_s : run.instant_s(k) - run.instant_s(rows.row.back());
     rows.periods.push_back(regular ? 1 : time_s / run.period_s);
+    rows.slip.push_back(slip_of(run, axis, gain, k, time_s));
     rows.row.push_back(k);
     rows.position.push_back(run.measured[axis][k]);
   }
@@ -83,9 +98,10 @@ std::vector<Jump> clear_jumps(const Rows& rows, double count) {
     const double size = deviations[k];
     const double rough = std::max(
         {std::abs(s[k + 1] - s[k - 1]), std::abs(s[k - 2] - s[k - 1]), std::abs(s[k + 2] - s[k + 1])});
+    const double jump = size * rows.periods[k + 1];
     if (std::abs(size) > kClear * rough && std::abs(size) > kCounts * count &&
-        std::abs(size) > beyond_noise(deviations, k))
-      found.push_back({k + 1, size * rows.periods[k + 1]});
+        std::abs(jump) > rows.slip[k + 1] && std::abs(size) > beyond_noise(deviations, k))
+      found.push_back({k + 1, jump});
   }
   return found;
 }
@@ -117,7 +133,8 @@ std::vector<Jump> likely_jumps(const Rows& rows, double usual) {
     const double left = before.value_or(after.value_or(0)), right = after.value_or(left);
     const double outside = std::max(steps[k] - std::max(left, right), std::min(left, right) - steps[k]);
     const double periods = rows.periods[k + 1];
-    if (periods * outside > kUsualShare * usual) found.push_back({k + 1, periods * (steps[k] - left)});
+    if (periods * outside > std::max(kUsualShare * usual, rows.slip[k + 1]))
+      found.push_back({k + 1, periods * (steps[k] - left)});
   }
   return found;
 }
@@ -156,12 +173,16 @@ double way_of(const std::vector<double>& position) {
   return way;
 }
 
-LosingEncoder measured(const std::vector<Run>& runs, Output axis, double usual) {
+double gain_of(const configuration::Rig& rig, Output axis) {
+  return axis == kSlewAngle ? rig.plant.slew_gain_radps2pv : rig.plant.trolley_gain_mps2pv;
+}
+
+LosingEncoder measured(const std::vector<Run>& runs, Output axis, double gain, double usual) {
   LosingEncoder encoder{.axis = axis, .jump = usual};
   double way = 0, squares = 0, deviations = 0;
   for (const Run& run : runs) {
     if (!run.has(axis)) continue;
-    Rows rows = measured_rows(run, axis);
+    Rows rows = measured_rows(run, axis, gain);
     for (const Jump& jump : mend(rows, usual)) {
       ++encoder.jumps;
       encoder.lost += jump.size;
@@ -186,20 +207,22 @@ std::vector<LosingEncoder> losing_encoders(const std::vector<Run>& runs, const c
   for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
     const double counts_per_unit = rig.encoders[axis].counts_per_unit;
     if (!(counts_per_unit > 0)) continue;
+    const double gain = gain_of(rig, axis);
     std::vector<Jump> clear;
     for (const Run& run : runs) {
       const double count = std::max(1 / counts_per_unit, run.resolution[axis]);
-      for (const Jump& jump : clear_jumps(measured_rows(run, axis), count)) clear.push_back(jump);
+      for (const Jump& jump : clear_jumps(measured_rows(run, axis, gain), count)) clear.push_back(jump);
     }
-    if (clear.size() >= kFewest) losing.push_back(measured(runs, axis, median_size(clear)));
+    if (clear.size() >= kFewest) losing.push_back(measured(runs, axis, gain, median_size(clear)));
   }
   return losing;
 }
 
-std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder>& losing) {
+std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder>& losing,
+                          const configuration::Rig& rig) {
   for (const LosingEncoder& encoder : losing)
     for (Run& run : runs) {
-      Rows rows = measured_rows(run, encoder.axis);
+      Rows rows = measured_rows(run, encoder.axis, gain_of(rig, encoder.axis));
       (void)mend(rows, encoder.jump);
       for (std::size_t i = 0; i < rows.row.size(); ++i)
         run.measured[encoder.axis][rows.row[i]] = rows.position[i];

@@ -1,6 +1,6 @@
 #pragma once
 /// Encoders that lose counts. What they show jumps from one row to the next while the motion goes on as
-/// before: no force does that, so that it is seen without a model of the crane.
+/// before, by more than its drive can slip in that time: no force does that.
 #include <cstddef>
 #include <vector>
 
@@ -22,6 +22,7 @@ struct LosingEncoder {
                                                          const configuration::Rig& rig);
 
 /// The runs with what those encoders lost put back: a position goes on where it was.
-[[nodiscard]] std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder>& losing);
+[[nodiscard]] std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder>& losing,
+                                        const configuration::Rig& rig);
 
 }  // namespace crane::diagnosis

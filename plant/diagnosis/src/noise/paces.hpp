@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "noise/whitening.hpp"
+#include "noise/disturbance.hpp"
 
 namespace crane::diagnosis {
 

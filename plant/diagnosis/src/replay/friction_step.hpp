@@ -32,14 +32,16 @@ double implicit_speed(double c, double k, Friction&& friction, double near = 0) 
     const double found = v + k * friction(v) - c;
     return std::abs(found) < kExact ? 0.0 : found;
   };
-  double low = near - kNear, high = near + kNear;
-  double at_low = excess(low), at_high = excess(high);
-  if (at_low >= 0) {
-    high = low, at_high = at_low;
-    low = std::min({c, 0.0, near}) - kCreep, at_low = excess(low);
-  } else if (at_high <= 0) {
-    low = high, at_low = at_high;
-    high = std::max({c, 0.0, near}) + kCreep, at_high = excess(high);
+  double low = near, high = near, at_low = excess(near), at_high = at_low;
+  if (at_low == 0) return near;
+  if (at_high > 0) {
+    low = near - kNear, at_low = excess(low);
+    if (at_low > 0)
+      high = low, at_high = at_low, low = std::min({c, 0.0, near}) - kCreep, at_low = excess(low);
+  } else {
+    high = near + kNear, at_high = excess(high);
+    if (at_high < 0)
+      low = high, at_low = at_high, high = std::max({c, 0.0, near}) + kCreep, at_high = excess(high);
   }
   for (int grown = 0; at_low > 0 && grown < 20; ++grown) low *= 2, at_low = excess(low);
   for (int grown = 0; at_high < 0 && grown < 20; ++grown) high *= 2, at_high = excess(high);

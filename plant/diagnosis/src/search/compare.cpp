@@ -1,6 +1,7 @@
 #include "search/compare.hpp"
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <random>
 #include <string_view>
@@ -11,6 +12,8 @@ namespace {
 /// What takes less than such a share of the error that is left off the columns that it acts on is of no
 /// consequence for the crane; beside other effects it may only make up for a form that is not exactly theirs.
 constexpr double kLeastAlone = 0.01, kLeastBeside = 0.2;
+/// Chance that luck makes the best of all candidates acceptable; the held-out runs then have to confirm it.
+constexpr double kLuckOfTheBest = 0.05;
 constexpr int kVotes = 500;
 
 }  // namespace
@@ -45,6 +48,17 @@ void limit(std::vector<double>& differences) {
 
 }  // namespace
 
+double luck_of(const Blocks& now, const Blocks& before) {
+  std::vector<double> difference;
+  for (std::size_t i = 0; i < now.size(); ++i) difference.push_back(before[i] - now[i]);
+  limit(difference);
+  double sum = 0, squares = 0;
+  for (const double one : difference) sum += one, squares += one * one;
+  if (!(sum > 0)) return 1;
+  const double count = static_cast<double>(difference.size()), variance = squares - sum * sum / count;
+  return variance > 0 ? 0.5 * std::erfc(sum / std::sqrt(2 * variance * count / (count - 1))) : 0;
+}
+
 double block_wins(const Blocks& now, const Blocks& before, std::uint64_t seed) {
   std::vector<double> difference;
   for (std::size_t i = 0; i < now.size(); ++i) difference.push_back(before[i] - now[i]);
@@ -78,9 +92,22 @@ bool same(const Effects& a, const Effects& b) {
          std::all_of(a.begin(), a.end(), [&](const Effect& e) { return has(b, e.candidate); });
 }
 
-bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed) {
+double luck_of_values(const Fitted& fitted, const Fitted& before, double held_out_nats) {
+  const std::size_t more = fitted.parameters - std::min(fitted.parameters, before.parameters);
+  const double freedom = static_cast<double>(std::max<std::size_t>(1, more));
+  const double ratio = sum(before.deviance) - sum(fitted.deviance) + 2 * freedom + 2 * held_out_nats;
+  return ratio > 0 ? boost::math::gamma_q(0.5 * freedom, 0.5 * ratio) : 1;
+}
+
+bool is_luck(double chance, std::size_t candidates) {
+  return chance * static_cast<double>(candidates) >= kLuckOfTheBest;
+}
+
+bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates) {
   const double least = before.effects.empty() ? kLeastAlone : kLeastBeside;
-  return share_of_error(fitted, before) > least && possible(fitted, before, seed);
+  return share_of_error(fitted, before) > least &&
+         !is_luck(luck_of(fitted.deviance, before.deviance), candidates) &&
+         !is_luck(luck_of_values(fitted, before), candidates);
 }
 
 bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {

@@ -26,10 +26,23 @@ inline constexpr double kSignificant = 0.01;
 /// whole runs, of the columns that what only `fitted` has acts on.
 [[nodiscard]] double share_of_error(const Fitted& fitted, const Fitted& before);
 
-/// Likelier beyond resampling, and nearer to what was measured by a share of the error that matters.
-[[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::uint64_t seed);
+/// Likelier beyond the luck of the best of so many candidates (Bonferroni), and nearer to what was measured
+/// by a share of the error that matters.
+[[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates);
 /// Likelier than `base` beyond resampling.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
+
+/// Chance that `now` is less than `before` by nothing but luck: of the mean difference of the blocks, by
+/// their scatter. No block outvotes the others.
+[[nodiscard]] double luck_of(const Blocks& now, const Blocks& before);
+
+/// Chance that as many more values as `fitted` has make the data likelier by as much: the likelihood ratio is
+/// chi-square distributed (Wilks, Ann. Math. Statist. 9 (1938) 60). A block that is left out of its fit costs
+/// a part of that, 2 per value in all.
+/// @param held_out_nats by which `fitted` makes held-out data likelier, that count as well
+[[nodiscard]] double luck_of_values(const Fitted& fitted, const Fitted& before, double held_out_nats = 0);
+/// Whether a chance is luck where the best of so many candidates has it (Bonferroni).
+[[nodiscard]] bool is_luck(double chance, std::size_t candidates);
 
 /// Share of resamples of the blocks in which `now` is less than `before`; no block outvotes the others.
 [[nodiscard]] double block_wins(const Blocks& now, const Blocks& before, std::uint64_t seed);

@@ -181,7 +181,7 @@ class Search {
   bool accept(const Fitted& fitted) {
     const bool as_many = fitted.effects.size() == found_.best.effects.size();
     if (as_many && !less(fitted, found_.best)) return false;
-    if (!accepted(fitted, as_many ? found_.base : found_.best, request_.seed)) return false;
+    if (!accepted(fitted, as_many ? found_.base : found_.best, study_.candidates().size())) return false;
     found_.best = fitted;
     return true;
   }
@@ -246,7 +246,8 @@ class Search {
                                                  : study_.settled(study_.screened(rest, found_.base)));
     }
     for (const Fitted& one : fewer)
-      if (!accepted(whole, one, request_.seed) && (dropped == nullptr || less(one, *dropped))) dropped = &one;
+      if (!accepted(whole, one, study_.candidates().size()) && (dropped == nullptr || less(one, *dropped)))
+        dropped = &one;
     if (dropped == nullptr) return false;
     found_.best = *dropped;
     return true;

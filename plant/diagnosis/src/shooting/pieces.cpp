@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "noise/learning.hpp"
 #include "noise/paces.hpp"
 #include "parallel.hpp"
 #include "robust.hpp"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "noise/learning.hpp"
 #include "noise/paces.hpp"
 #include "parallel.hpp"
 #include "robust.hpp"
@@ -228,7 +229,6 @@ VectorXd Problem::near_start(const WindowFit& at, const VectorXd& measured) cons
 }
 
 void Problem::linearise(const Replay& replay, std::size_t at, WindowFit& fit) const {
-  fit.simulated = simulate(replay, windows_[at], fit.start);
   MatrixXd slopes = start_slopes(replay, at, fit.start, fit.simulated, 0);
   // Numbers of the start are known before to these standard deviations: what the measurement says, and of a
   // term's own coordinates where the measured motion of the whole run has brought them.
@@ -257,28 +257,31 @@ void Problem::take_start_out(WindowFit& fit) const {
 
 /// Rounds with the directions there are, as long as they help: around standstill they may not.
 /// @pre simulated from the start
-void Problem::settle_start(const Replay& replay, std::size_t at, const VectorXd& target,
+bool Problem::settle_start(const Replay& replay, std::size_t at, const VectorXd& target,
                            WindowFit& fit) const {
   fit.residual = target - fit.simulated;
   whiten(at, fit.residual);
+  bool moved = false;
   double trust = 1;
   for (int round = 1; round < kStartRounds; ++round) {
     const double found = disturbances_.empty() ? kPlainStartFound * fit.residual.squaredNorm() : kStartFound;
-    if ((fit.basis.transpose() * fit.residual).squaredNorm() < found) return;
+    if ((fit.basis.transpose() * fit.residual).squaredNorm() < found) return moved;
     const VectorXd start = fit.start + believable(fit.to_start * fit.residual, bare_start(), trust);
     VectorXd simulated = simulate(replay, windows_[at], start);
     VectorXd residual = target - simulated;
     whiten(at, residual);
     if (!(residual.squaredNorm() < fit.residual.squaredNorm())) {
-      if (trust <= 1) return;
+      if (trust <= 1) return moved;
       trust /= 4;
       continue;
     }
     if (part_ == Part::load) trust *= 2;
+    moved = true;
     fit.start = start;
     fit.simulated = std::move(simulated);
     fit.residual = std::move(residual);
   }
+  return moved;
 }
 
 WindowFit Problem::fit_from(const Replay& replay, std::size_t at, const VectorXd& target,
@@ -288,9 +291,12 @@ WindowFit Problem::fit_from(const Replay& replay, std::size_t at, const VectorXd
   fit.start = begin;
   double before = std::numeric_limits<double>::infinity();
   const int most = part_ == Part::load ? kLinearisations : 1;
+  fit.simulated = simulate(replay, windows_[at], begin);
+  linearise(replay, at, fit);
   for (int round = 0; round < most; ++round) {
+    const bool moved = settle_start(replay, at, target, fit);
+    if (!moved) break;
     linearise(replay, at, fit);
-    settle_start(replay, at, target, fit);
     const double left = fit.residual.squaredNorm();
     if (!(left < kStillGains * before)) break;
     before = left;
@@ -327,9 +333,6 @@ void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) co
     }
   }
   fit.measured_start = begin;
-  linearise(replay, at, fit);
-  fit.residual = target - fit.simulated;
-  whiten(at, fit.residual);
   take_start_out(fit);
 }
 

@@ -101,13 +101,15 @@ class Problem {
                                           double step, double& own_gain) const;
   [[nodiscard]] Eigen::VectorXd measured_start(const Replay& replay, const Window& window) const;
   [[nodiscard]] Eigen::VectorXd near_start(const WindowFit& at, const Eigen::VectorXd& measured) const;
+  /// Directions of the start. @pre simulated from it
   void linearise(const Replay& replay, std::size_t window, WindowFit& fit) const;
   /// Of the residual at the start: the start is one that was likely before, plus a change that is not seen.
   void take_start_out(WindowFit& fit) const;
-  void settle_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
+  /// @return whether the start has moved, away from where it was linearised
+  bool settle_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
                     WindowFit& fit) const;
   void fit_start(const Replay& replay, std::size_t window, WindowFit& fit) const;
-  /// A local optimum of the start, from one beginning.
+  /// A local optimum of the start, from one beginning, linearised there.
   [[nodiscard]] WindowFit fit_from(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
                                    const Eigen::VectorXd& begin) const;
   /// Whether a simulation leaves much of the motion of an output.

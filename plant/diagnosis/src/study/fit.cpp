@@ -102,6 +102,15 @@ std::vector<std::vector<Index>> moved_together(const Effects& effects) {
   return groups;
 }
 
+ShowsIn shown_in(const Effects& effects) {
+  ShowsIn parts;
+  for (const Effect& effect : effects) {
+    parts.drive = parts.drive || effect.candidate->drive;
+    parts.load = parts.load || effect.candidate->load;
+  }
+  return parts;
+}
+
 /// Price of the starts included.
 double total_loss(const Evaluation& at, Loss loss) {
   if (loss == Loss::robust) return at.loss;
@@ -213,10 +222,7 @@ Blocks Study::deviance_of(const Body& body, const Evaluation& at) {
 void Study::judge_by_likelihood(Fitted& fitted) const {
   fitted.noise = noise();
   fitted.deviance = deviance_of(train_, fitted.train);
-  if (!fitted.effects.empty()) {
-    const Blocks more = left_out(block_scores(fitted.train, slopes(fitted.effects, fitted.train)));
-    for (std::size_t i = 0; i < more.size(); ++i) fitted.deviance[i] += more[i];
-  }
+  for (std::size_t i = 0; i < fitted.left_out.size(); ++i) fitted.deviance[i] += fitted.left_out[i];
   fitted.error = errors_of({{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}});
   if (whole_runs_.empty()) return;
   const Fits whole = whole_runs_.fit(replays_of(train_.runs, with(fitted.effects)));
@@ -231,22 +237,27 @@ Blocks Study::held_out_deviance(const Fitted& fitted) {
 Fitted Study::bare() const {
   Fitted base;
   base.train = base_train_;
+  base.leaves = noise_of(base);
   judge_by_likelihood(base);
   return base;
 }
 
-Noise Study::noise_of(const Fitted& fitted) const {
-  Noise noise;
-  if (!train_.drive.empty()) noise.drive = train_.drive.disturbances_of(fitted.train.drive);
-  if (!train_.load.empty()) noise.load = train_.load.disturbances_of(fitted.train.load);
-  noise.under_way = train_.under_way.disturbances_of(replays_of(train_.runs, with(fitted.effects)));
+Noise Study::noise_of(const Fitted& fitted, const Noise& unchanged) const {
+  const ShowsIn parts = shown_in(fitted.effects);
+  Noise noise = unchanged;
+  if (!train_.drive.empty() && (parts.drive || unchanged.drive.empty())) {
+    noise.drive = train_.drive.disturbances_of(fitted.train.drive);
+    noise.under_way = train_.under_way.disturbances_of(replays_of(train_.runs, with(fitted.effects)));
+  }
+  if (!train_.load.empty() && (parts.load || unchanged.load.empty()))
+    noise.load = train_.load.disturbances_of(fitted.train.load);
   return noise;
 }
 
 Fitted Study::screened(const Effects& effects, const Fitted& near) const {
   Fitted fitted = fit(effects, near.train.loss - kLeastGain, near.train);
-  fitted.noise = noise_of(fitted);
-  for (const auto* of : {&fitted.noise.drive, &fitted.noise.under_way, &fitted.noise.load})
+  fitted.leaves = noise_of(fitted, near.leaves);
+  for (const auto* of : {&fitted.leaves.drive, &fitted.leaves.under_way, &fitted.leaves.load})
     for (const Disturbance& disturbance : *of) fitted.misfit += disturbance.misfit;
   return fitted;
 }
@@ -255,11 +266,12 @@ Fitted Study::settled(const Fitted& screened) {
   Fitted best = screened, last = screened;
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostNoiseRounds; ++round) {
-    const Noise noise = round == 0 ? screened.noise : noise_of(last);
+    const Noise noise = round == 0 ? screened.leaves : noise_of(last);
     whiten_training(noise);
     last = fit(last.effects, std::numeric_limits<double>::infinity(), evaluated_again(last));
     judge_by_likelihood(last);
     last.misfit = screened.misfit;
+    last.leaves = screened.leaves;
     const double gained = least - sum(last.deviance);
     if (!(gained > 0)) break;
     best = last;
@@ -290,6 +302,7 @@ Fitted Study::fit(Effects effects, double hopeless, const Evaluation& near) cons
   if (hope) descend(best, Loss::robust, hopeless, along);
   if (!along) along = slopes(best.effects, best.train);
   const BlockScores both = block_scores(best.train, *along);
+  best.left_out = left_out(both);
   const MatrixXd inverse = both.curvature.completeOrthogonalDecomposition().pseudoInverse();
   best.by_noise = inverse.diagonal().cwiseMax(0.0).cwiseSqrt();
   // The replay of a drive and its pieces under way see the same noise: together they know no more than one.

@@ -43,10 +43,12 @@ struct Noise {
 struct Fitted {
   Effects effects;
   Evaluation train;
-  Noise noise;        ///< of what it leaves
+  Noise noise;        ///< that it is whitened with
+  Noise leaves;       ///< learnt from what it left when it was screened
   double misfit = 0;  ///< minus twice the log likelihood of that, the starts of windows left free
   /// Minus twice the log likelihood of the training data by block, each as if it was left out of the fit.
   Blocks deviance;
+  Blocks left_out;  ///< of that, what every block costs more for being left out
   /// Error of the simulation in windows, mean over the windows of the rms of each [m or rad].
   std::array<double, kOutputs> error{};
   /// The same of swings over whole runs. Of drives the smallest error of friction integrates into position.
@@ -180,7 +182,8 @@ class Study {
   /// @pre the training data are whitened
   void evaluate_base();
   [[nodiscard]] Evaluation evaluate(const Body& body, const Effects& effects, const Evaluation& near) const;
-  [[nodiscard]] Noise noise_of(const Fitted& fitted) const;
+  /// Noise of what a fit leaves; `unchanged` in the parts that none of its effects shows in.
+  [[nodiscard]] Noise noise_of(const Fitted& fitted, const Noise& unchanged = {}) const;
   /// Minus twice the log likelihood by block in the present noise.
   [[nodiscard]] static Blocks deviance_of(const Body& body, const Evaluation& at);
   void whiten_test(const Noise& noise);

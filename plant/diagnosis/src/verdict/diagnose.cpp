@@ -135,9 +135,11 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
     result.held_out.likelier = block_wins(now, before, request.seed);
   }
   if (const std::string why = held_out_doubt(result.held_out, found.best.effects); !why.empty()) {
-    // What hardly shows in training and not at all out of it is luck; what shows in training only is an error
-    // that has another cause.
-    if (losing.empty() && result.remainder.from.empty() && !matters) {
+    // What hardly shows in training and not at all out of it is luck, and so is what all data together do not
+    // make likely. What shows in training only is an error that has another cause.
+    const bool luck =
+        is_luck(luck_of_values(found.best, found.base, result.held_out.nats), study.candidates().size());
+    if (losing.empty() && result.remainder.from.empty() && (!matters || luck)) {
       found.best = found.base;
       nothing_found(result);
       result.held_out = held_out(study, as_measured, {}, request.seed);
@@ -185,8 +187,8 @@ Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::v
   if (losing.empty()) {
     result = diagnosed(rig, as_measured, as_measured, losing, request);
   } else {
-    Data mended{prepared(put_back(std::move(train), losing), rig),
-                prepared(put_back(std::move(test), losing), rig)};
+    Data mended{prepared(put_back(std::move(train), losing, rig), rig),
+                prepared(put_back(std::move(test), losing, rig), rig)};
     hold_resting_drives(mended.train, mended.test);
     Study study(rig, mended.train, mended.test, request.excluded);
     result = diagnosed(rig, study, as_measured, losing, request);

@@ -1,0 +1,90 @@
+#include "noise/filter.hpp"
+
+#include <cmath>
+
+namespace crane::diagnosis {
+namespace {
+
+/// Share of what friction does at standstill that is left when an axis stands: it creeps, the model's
+/// otherwise.
+constexpr double kStandingShare = 0.01;
+/// Relative change of the variances from row to row below which the filter has come to its steady state.
+constexpr double kSteady = 1e-9;
+
+bool steady(double before, double after) { return std::abs(after - before) <= kSteady * before; }
+
+}  // namespace
+
+Eigen::Matrix3d step_of(const Disturbance& d, const Passage& passage) {
+  const double t = passage.period_s, w = passage.natural_radps, c = d.damping_ps;
+  const double kept = d.correlation_s > 0 ? std::exp(-t / d.correlation_s) : 0;
+  Eigen::Matrix3d step;
+  if (w > 0) {
+    step << std::cos(w * t), std::sin(w * t) / w, (1 - std::cos(w * t)) / (w * w),  //
+        -w * std::sin(w * t), std::cos(w * t), std::sin(w * t) / w,                 //
+        0, 0, kept;
+  } else if (c * t < 1e-6) {
+    step << 1, t, 0.5 * t * t,  //
+        0, 1, t,                //
+        0, 0, kept;
+  } else {
+    const double slowed = std::exp(-c * t), way = (1 - slowed) / c;
+    step << 1, way, (t - way) / c,  //
+        0, slowed, way,             //
+        0, 0, kept;
+  }
+  return step;
+}
+
+Prediction::Prediction(const Disturbance& d, const Passage& passage, double start_variance)
+    : passage_(passage), sticks_(d.sticks), step_(step_of(d, passage)), noise_variance_(d.noise * d.noise) {
+  const double a = d.acceleration * d.acceleration, t = passage.period_s;
+  p_.xx = start_variance;
+  p_.vv = start_variance / (t * t);
+  p_.aa = a;
+  fresh_ = a * (1 - step_(2, 2) * step_(2, 2));
+  friction_ = std::pow(d.friction * t, 2);
+}
+
+Prediction::Symmetric Prediction::carried(const Symmetric& p) const {
+  const auto row = [&](int i) {
+    const double x = step_(i, 0), v = step_(i, 1), a = step_(i, 2);
+    return Eigen::Vector3d{x * p.xx + v * p.xv + a * p.xa, x * p.xv + v * p.vv + a * p.va,
+                           x * p.xa + v * p.va + a * p.aa};
+  };
+  const Eigen::Vector3d x = row(0), v = row(1);
+  const double kept = step_(2, 2);
+  return {.xx = step_(0, 0) * x[0] + step_(0, 1) * x[1] + step_(0, 2) * x[2],
+          .xv = step_(1, 0) * x[0] + step_(1, 1) * x[1] + step_(1, 2) * x[2],
+          .xa = kept * x[2],
+          .vv = step_(1, 0) * v[0] + step_(1, 1) * v[1] + step_(1, 2) * v[2],
+          .va = kept * v[2],
+          .aa = kept * kept * p.aa};
+}
+
+void Prediction::advance(std::size_t row) {
+  const Pace& pace = passage_.paces[row];
+  const Going now = going(row);
+  const double friction = friction_ * (now == Going::standing ? kStandingShare : pace.slow);
+  // The same filter as in every row of a window in which nothing special happens.
+  const bool usual = pace.seen && now == Going::on && friction == 0;
+  if (usual && steady_) return;
+  Symmetric p = p_;
+  if (pace.seen) {
+    const double f = variance();
+    p.xx -= p_.xx * p_.xx / f;
+    p.xv -= p_.xx * p_.xv / f;
+    p.xa -= p_.xx * p_.xa / f;
+    p.vv -= p_.xv * p_.xv / f;
+    p.va -= p_.xv * p_.xa / f;
+    p.aa -= p_.xa * p_.xa / f;
+  }
+  if (now != Going::on) p.xv = p.vv = p.va = 0;
+  p.vv += friction;
+  p = carried(p);
+  p.aa += fresh_;
+  steady_ = usual && steady(p_.xx, p.xx) && steady(p_.vv, p.vv) && steady(p_.aa, p.aa);
+  p_ = p;
+}
+
+}  // namespace crane::diagnosis

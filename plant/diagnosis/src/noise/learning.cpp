@@ -1,0 +1,143 @@
+#include "noise/learning.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "noise/likelihood.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int kSweeps = 8;
+/// Of the speed of a drive's residual.
+constexpr std::array kDampings_ps{0.0, 1.0, 4.0, 12.0};
+/// Of the force; 0: white.
+constexpr std::array kCorrelations_s{0.0, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0};
+/// Decrease of minus twice the log likelihood that asks for another sweep.
+constexpr double kWorthASweep = 1;
+
+/// One number after the other, each on its grid, until nothing gets better. Accelerations are in noises.
+class Learning {
+ public:
+  Learning(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages, double least_noise)
+      : residuals_(residuals), passages_(passages), least_noise_(least_noise) {}
+
+  Disturbance run(const Disturbance& near) {
+    if (near.noise > 0) return search(in_noises(near));
+    Disturbance start;
+    start.noise = 1;
+    start.correlation_s = 0.2;
+    Disturbance best = search(start);
+    if (pendulum()) return best;
+    const double without = found_.value;
+    start.sticks = true;
+    start.friction = 1;
+    const Disturbance sticking = search(start);
+    return found_.value < without ? sticking : best;
+  }
+
+ private:
+  static Disturbance in_noises(Disturbance d) {
+    d.acceleration /= d.noise;
+    d.friction /= d.noise;
+    d.noise = 1;
+    return d;
+  }
+
+  Disturbance search(const Disturbance& start) {
+    best_ = start;
+    found_ = {};
+    found_ = likelihood(residuals_, passages_, best_, found_.variance);
+    if (best_.acceleration == 0) begin();
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      const double before = found_.value;
+      for (const double factor : {0.3, 0.7, 1.4, 3.0})
+        try_with(best_.acceleration, factor * best_.acceleration);
+      for (const double correlation_s : kCorrelations_s) try_colour(correlation_s);
+      if (!pendulum()) try_drive();
+      if (before - found_.value < kWorthASweep) break;
+    }
+    Disturbance found = best_;
+    const double noise = std::sqrt(found_.variance);
+    found.acceleration *= noise;
+    found.friction *= noise;
+    found.noise = std::max(noise, least_noise_);
+    found.misfit = std::isfinite(found_.value) ? found_.value : 0;  // residuals of nothing but zeros
+    return found;
+  }
+
+  /// A force of some size and colour, what friction does in its measure: the likelihood has several summits,
+  /// a weak slow force with a rough sensor is one, a strong fast one with a fine sensor another.
+  void begin() {
+    const Disturbance start = best_;
+    const double share = start.friction;
+    Disturbance likeliest = start;
+    for (const double correlation_s : kCorrelations_s)
+      for (int decade = -1; decade < 8; ++decade) {
+        best_ = start;
+        best_.correlation_s = correlation_s;
+        best_.acceleration = std::pow(10, decade);
+        best_.friction = share * best_.acceleration;
+        const Likelihood tried = likelihood(residuals_, passages_, best_, found_.variance);
+        if (tried.value < found_.value) found_ = tried, likeliest = best_;
+      }
+    best_ = likeliest;
+  }
+
+  /// A force that lasts longer and is as strong at low frequencies, with every damping.
+  void try_colour(double correlation_s) {
+    const Disturbance before = best_;
+    const auto lasts = [](double s) { return std::max(s, kCorrelations_s[1] / 2); };
+    const double weaker = std::sqrt(lasts(before.correlation_s) / lasts(correlation_s));
+    for (const double share : {1.0, weaker})
+      for (const double damping_ps : kDampings_ps) {
+        if (pendulum() && damping_ps > 0) continue;
+        Disturbance tried = before;
+        tried.correlation_s = correlation_s;
+        tried.acceleration *= share;
+        tried.friction *= share;
+        tried.damping_ps = damping_ps;
+        const Likelihood found = likelihood(residuals_, passages_, tried, found_.variance);
+        if (found.value < found_.value) found_ = found, best_ = tried;
+      }
+  }
+
+  [[nodiscard]] bool pendulum() const { return passages_.at(0).natural_radps > 0; }
+
+  void try_drive() {
+    for (const double damping_ps : kDampings_ps) try_with(best_.damping_ps, damping_ps);
+    for (const double share : {0.0, 0.3, 1.0, 3.0, 10.0, 30.0})
+      try_with(best_.friction, share * best_.acceleration);
+  }
+
+  /// Keeps `value` in `number`, one of those of the best, if it makes the residuals likelier.
+  template <class Number>
+  void try_with(Number& number, Number value) {
+    const Number before = number;
+    if (value == before) return;
+    number = value;
+    const Likelihood tried = likelihood(residuals_, passages_, best_, found_.variance);
+    if (tried.value < found_.value)
+      found_ = tried;
+    else
+      number = before;
+  }
+
+  const std::vector<VectorXd>& residuals_;
+  const std::vector<Passage>& passages_;
+  double least_noise_;
+  Disturbance best_;
+  Likelihood found_;
+};
+
+}  // namespace
+
+Disturbance learn(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages,
+                  double least_noise, const Disturbance& near) {
+  return Learning(residuals, passages, least_noise).run(near);
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,108 @@
+#include "noise/likelihood.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "noise/filter.hpp"
+#include "parallel.hpp"
+#include "robust.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// Variance of an unknown start, in noise variances (of position, and of the way the speed makes in a row).
+constexpr double kUnknownStart = 1e8;
+
+/// Sum of logarithms of numbers of at least 1, most of them taken of products.
+class SumOfLogs {
+ public:
+  void add(double number) {
+    product_ *= number;
+    if (product_ > kLarge) sum_ += std::log(product_), product_ = 1;
+  }
+  [[nodiscard]] double value() const { return sum_ + std::log(product_); }
+
+ private:
+  static constexpr double kLarge = 1e100;
+  double sum_ = 0, product_ = 1;
+};
+
+/// Squares of innovations over their variances. A row that was not measured tells nothing.
+struct Innovations {
+  std::vector<double> squares;
+  double logs = 0;  ///< of the variances
+};
+
+Innovations innovations(const VectorXd& residual, const Passage& passage, const Disturbance& d) {
+  constexpr std::size_t kStart = 2;
+  Innovations all;
+  all.squares.reserve(static_cast<std::size_t>(residual.size()));
+  Prediction prediction(d, passage, kUnknownStart);
+  SumOfLogs logs;
+  const Matrix3d step = step_of(d, passage);
+  Vector3d state = Vector3d::Zero();
+  std::size_t seen = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(residual.size()); ++k) {
+    if (passage.paces[k].seen) {
+      const double surprise = residual[static_cast<Index>(k)] - state[0], f = prediction.variance();
+      if (seen++ >= kStart) {
+        logs.add(f);
+        all.squares.push_back(surprise * surprise / f);
+      }
+      state += prediction.gain() * surprise;
+    }
+    state = advanced(step, state, prediction.going(k));
+    prediction.advance(k);
+  }
+  all.logs = logs.value();
+  return all;
+}
+
+/// Root of the mean loss less a normal residual's, by Newton's method in the logarithm of the variance.
+/// @param near a guess above 0
+double robust_variance(const std::vector<Innovations>& of_windows, double near) {
+  constexpr int kRounds = 40;
+  constexpr double kExact = 1e-5, kLongestStep = 3;
+  double variance = near;
+  for (int round = 0; round < kRounds; ++round) {
+    SumOfLogs logs;
+    double slope = 0, count = 0;
+    for (const Innovations& window : of_windows) {
+      for (const double square : window.squares) {
+        const double z = square / (kFar * variance);
+        logs.add(1 + z);
+        slope += z / (1 + z);
+      }
+      count += static_cast<double>(window.squares.size());
+    }
+    const double step = (logs.value() - kMeanLoss / kFar * count) / slope;
+    variance *= std::exp(std::clamp(step, -kLongestStep, kLongestStep));
+    if (!(std::abs(step) > kExact)) break;
+  }
+  return variance;
+}
+
+}  // namespace
+
+Likelihood likelihood(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages,
+                      const Disturbance& d, double near) {
+  std::vector<Innovations> of_windows(residuals.size());
+  parallel_for(residuals.size(),
+               [&](std::size_t w) { of_windows[w] = innovations(residuals[w], passages[w], d); });
+  double logs = 0, squares = 0, count = 0;
+  for (const Innovations& window : of_windows) {
+    logs += window.logs;
+    for (const double square : window.squares) squares += square;
+    count += static_cast<double>(window.squares.size());
+  }
+  if (!(squares > 0)) return {};
+  const double variance = robust_variance(of_windows, near > 0 ? near : squares / count);
+  return {logs + count * std::log(variance), variance};
+}
+
+}  // namespace crane::diagnosis
