@@ -26,15 +26,15 @@ bool decode(const topics::Topic<T>& topic, const recording::Message& message, T&
       .decode(message.data.subspan(kEncapsulation_bytes), false, &out);
 }
 
-/// Newest sample of each tick.
+/// Newest sample of each tick, of the writer that was heard last before `known_ns`, or first; or of any.
 template <class Heard>
-auto by_tick(const std::vector<Heard>& heard, std::int64_t until_ns, std::int64_t onset_ns,
+auto by_tick(const std::vector<Heard>& heard, std::int64_t until_ns, std::int64_t known_ns,
              bool nobody_else) {
   std::map<std::uint64_t, decltype(Heard::sample)> result;
   std::uint32_t trusted = 0;
   for (const auto& [log_ns, sample] : heard) {
     if (log_ns > until_ns) break;
-    if (log_ns < onset_ns || nobody_else) trusted = sample.header.epoch;
+    if (log_ns < known_ns || trusted == 0 || nobody_else) trusted = sample.header.epoch;
     if (sample.header.epoch == trusted) result[sample.header.tick] = sample;
   }
   return result;
@@ -98,12 +98,11 @@ std::int64_t Recorded::log_time_of(std::int64_t monotonic_ns) const {
   return found == states_.end() ? std::numeric_limits<std::int64_t>::max() : found->log_ns;
 }
 
-std::vector<Row> Recorded::rows(std::int64_t from_ns, std::int64_t onset_ns, std::int64_t until_ns,
-                                bool nobody_else) const {
-  const auto onset_log_ns = log_time_of(onset_ns), until_log_ns = log_time_of(until_ns);
-  const auto states = by_tick(states_, until_log_ns, onset_log_ns, nobody_else);
-  const auto commands = by_tick(commands_, until_log_ns, onset_log_ns, nobody_else);
-  const auto statuses = by_tick(statuses_, until_log_ns, onset_log_ns, nobody_else);
+std::vector<Row> Recorded::rows(std::int64_t from_ns, std::int64_t until_ns, bool nobody_else) const {
+  const auto known_ns = log_time_of(from_ns), until_log_ns = log_time_of(until_ns);
+  const auto states = by_tick(states_, until_log_ns, known_ns, nobody_else);
+  const auto commands = by_tick(commands_, until_log_ns, known_ns, nobody_else);
+  const auto statuses = by_tick(statuses_, until_log_ns, known_ns, nobody_else);
   std::vector<Row> rows;
   for (const auto& [tick, state] : states) {
     const auto time_ns = state.header.sample_time_ns;

@@ -13,10 +13,10 @@ class Recorded {
   /// @throws recording::ReadError
   explicit Recorded(const std::filesystem::path& file);
   /// The ticks whose state was sampled within [from_ns, until_ns] of CLOCK_MONOTONIC. Of each topic the
-  /// samples of the writers that were heard before `onset_ns` count, and those of later ones when
-  /// `nobody_else`.
-  [[nodiscard]] std::vector<campaign::Row> rows(std::int64_t from_ns, std::int64_t onset_ns,
-                                                std::int64_t until_ns, bool nobody_else) const;
+  /// samples of the writer that was heard before `from_ns` count, and those of later ones when `nobody_else`:
+  /// a stranger copies the time of a sample, so that its times tell nothing.
+  [[nodiscard]] std::vector<campaign::Row> rows(std::int64_t from_ns, std::int64_t until_ns,
+                                                bool nobody_else) const;
   [[nodiscard]] std::size_t states() const { return states_.size(); }
 
  private:

@@ -253,7 +253,7 @@ TEST_F(Start, AStackDoesNotOutliveItsCommand) {
   ProgramRun up{stack::program_directory() / "crane", on_this_crane({"up"})};
   ASSERT_TRUE(up.wait_for("is up with", 20s)) << up.errors();
   const auto all = processes_with(crane_name());
-  ASSERT_EQ(all.size(), 7U);  // the command and six processes
+  ASSERT_EQ(all.size(), 8U);  // the command, six processes of the loop and the black box
   up.send(SIGKILL);
   EXPECT_EQ(up.wait(5s), 128 + SIGKILL);
   EXPECT_TRUE(wait_for_end(all, 5s));
