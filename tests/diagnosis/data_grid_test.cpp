@@ -94,6 +94,24 @@ TEST(DataAtTheirOwnTimes, TwoSampleTimesInOneFileAreOneRun) {
   expect_rows_as_they_are(table, loaded.runs[0]);
 }
 
+/// A dropped row has lost its command, too. To hold the one before would be wrong by the slope of the command
+/// times a row, 0.1 V here.
+TEST(DataAtTheirOwnTimes, TheCommandOfADroppedRowLiesBetweenThoseAround) {
+  constexpr double kRow_s = 0.0275;
+  const auto smooth = [](double t) { return 0.9 * std::cos(1.1 * t) + 0.7 * std::cos(2.9 * t + 1); };
+  const auto whole = strange::recorded(strange::moved({}, 20, smooth), {.row_s = kRow_s});
+  auto table = whole;
+  for (auto& column : table.columns)
+    for (std::size_t row = column.values.size() - 2; row > 2; --row)
+      if (row % 7 == 3) column.values.erase(column.values.begin() + static_cast<std::ptrdiff_t>(row));
+  const diagnosis::Run dropped = load_run(table, gantry(), "lab.csv").runs.at(0),
+                       complete = load_run(whole, gantry(), "lab.csv").runs.at(0);
+  ASSERT_EQ(dropped.rows(), complete.rows());
+  for (std::size_t row = 0; row < dropped.rows(); ++row)
+    EXPECT_NEAR(dropped.command_v[row][plant::kTrolley], complete.command_v[row][plant::kTrolley], 0.003)
+        << "row " << row;
+}
+
 TEST(DataAtTheirOwnTimes, FromTenHertzToTenKilohertz) {
   EXPECT_EQ(loaded_as({.row_s = 0.1}).runs.size(), 1U);
   const diagnosis::Run fast = loaded_as({.row_s = 0.0005}).runs.at(0);

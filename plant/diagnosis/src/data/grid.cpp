@@ -103,6 +103,29 @@ std::vector<double> held(const std::vector<double>& values, const std::vector<st
   return result;
 }
 
+/// The commands with those of lost rows, straight between the ones around: a row that was dropped has lost
+/// its command, too. A stretch of another sample time has lost none.
+std::vector<TimedCommand> with_lost(const std::vector<TimedCommand>& commands, double row_s) {
+  constexpr double kLost = 1.5;  // usual distances
+  const auto distance = [&](std::size_t k) { return commands[k + 1].time_s - commands[k].time_s; };
+  const auto usual = [&](std::size_t k) { return k + 1 < commands.size() && distance(k) < kLost * row_s; };
+  std::vector<TimedCommand> all;
+  for (std::size_t k = 0; k < commands.size(); ++k) {
+    all.push_back(commands[k]);
+    const bool lost = k + 1 < commands.size() && !usual(k) && (usual(k + 1) || (k > 0 && usual(k - 1)));
+    const auto rows = lost ? static_cast<std::size_t>(std::lround(distance(k) / row_s)) : 1;
+    for (std::size_t i = 1; i < rows; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(rows);
+      TimedCommand between{commands[k].time_s + share * distance(k), {}};
+      for (std::size_t axis = 0; axis < between.drive_v.size(); ++axis)
+        between.drive_v[axis] =
+            (1 - share) * commands[k].drive_v[axis] + share * commands[k + 1].drive_v[axis];
+      all.push_back(between);
+    }
+  }
+  return all;
+}
+
 /// Measured where it is, straight between, the rig's own where it never is.
 std::vector<double> cable_on_grid(const Run& run, const std::vector<double>& seen, double rigs_own_m) {
   std::vector<double> time_s, length_m;
@@ -182,10 +205,11 @@ Run on_grid(const Columns& columns, const std::vector<std::size_t>& rows, const 
     const std::vector<double> volts = held(*columns.commands[axis].values, rows);
     for (std::size_t r = 0; r < rows.size(); ++r) run.commands[r].drive_v[axis] = volts[r];
   }
+  run.commands = with_lost(run.commands, grid.row_s);
   run.command_v = mean_commands(run.commands, run.period_s, count);
   if (!own_times) run.offset_s.clear();
-  if (!own_times && grid.rows_in_period == 1 && count == rows.size()) {
-    for (std::size_t r = 0; r < rows.size(); ++r) run.command_v[r] = run.commands[r].drive_v;
+  if (!own_times && grid.rows_in_period == 1 && count == run.commands.size()) {
+    for (std::size_t r = 0; r < count; ++r) run.command_v[r] = run.commands[r].drive_v;
     run.commands.clear();
   }
   run.cable_m = cable_on_grid(run, cable, cable_m);
