@@ -107,9 +107,23 @@ TEST(DataAtTheirOwnTimes, TheCommandOfADroppedRowLiesBetweenThoseAround) {
   const diagnosis::Run dropped = load_run(table, gantry(), "lab.csv").runs.at(0),
                        complete = load_run(whole, gantry(), "lab.csv").runs.at(0);
   ASSERT_EQ(dropped.rows(), complete.rows());
+  EXPECT_TRUE(dropped.edge_lost[plant::kTrolley].empty());
   for (std::size_t row = 0; row < dropped.rows(); ++row)
     EXPECT_NEAR(dropped.command_v[row][plant::kTrolley], complete.command_v[row][plant::kTrolley], 0.003)
         << "row " << row;
+}
+
+TEST(DataAtTheirOwnTimes, AnEdgeOfTheCommandMayHaveBeenLostWithARow) {
+  constexpr double kRow_s = 0.02;
+  const auto edges = [](double t) { return std::fmod(t, 1.0) < 0.5 ? 0.8 : -0.8; };
+  auto table = strange::recorded(strange::moved({}, 10, edges), {.row_s = kRow_s});
+  constexpr std::size_t kAtAnEdge = 75, kElsewhere = 160;
+  for (auto& column : table.columns)
+    for (const std::size_t row : {kElsewhere, kAtAnEdge})
+      column.values.erase(column.values.begin() + static_cast<std::ptrdiff_t>(row));
+  const diagnosis::Run run = load_run(table, gantry(), "lab.csv").runs.at(0);
+  for (std::size_t row = 0; row < run.rows(); ++row)
+    EXPECT_EQ(run.may_have_lost_edge(kTrolleyPosition, row), row == kAtAnEdge) << "row " << row;
 }
 
 TEST(DataAtTheirOwnTimes, FromTenHertzToTenKilohertz) {

@@ -103,27 +103,69 @@ std::vector<double> held(const std::vector<double>& values, const std::vector<st
   return result;
 }
 
-/// The commands with those of lost rows, straight between the ones around: a row that was dropped has lost
-/// its command, too. A stretch of another sample time has lost none.
-std::vector<TimedCommand> with_lost(const std::vector<TimedCommand>& commands, double row_s) {
+/// Rows that were lost between two of a file.
+struct LostRows {
+  std::size_t after = 0, count = 0;  ///< the row before them, and how many
+};
+
+/// Between rows at these times, where the rows around are at the usual distance: a stretch of another sample
+/// time has lost none.
+std::vector<LostRows> lost_rows(const std::vector<double>& at, double row_s) {
   constexpr double kLost = 1.5;  // usual distances
-  const auto distance = [&](std::size_t k) { return commands[k + 1].time_s - commands[k].time_s; };
-  const auto usual = [&](std::size_t k) { return k + 1 < commands.size() && distance(k) < kLost * row_s; };
+  const auto usual = [&](std::size_t k) { return k + 1 < at.size() && at[k + 1] - at[k] < kLost * row_s; };
+  std::vector<LostRows> lost;
+  for (std::size_t k = 0; k + 1 < at.size(); ++k)
+    if (!usual(k) && (usual(k + 1) || (k > 0 && usual(k - 1))))
+      lost.push_back({k, static_cast<std::size_t>(std::lround((at[k + 1] - at[k]) / row_s)) - 1});
+  return lost;
+}
+
+/// The commands with those of lost rows, which have lost their command, too: straight between the ones
+/// around.
+std::vector<TimedCommand> with_lost(const std::vector<TimedCommand>& commands,
+                                    const std::vector<LostRows>& lost) {
   std::vector<TimedCommand> all;
+  auto next = lost.begin();
   for (std::size_t k = 0; k < commands.size(); ++k) {
     all.push_back(commands[k]);
-    const bool lost = k + 1 < commands.size() && !usual(k) && (usual(k + 1) || (k > 0 && usual(k - 1)));
-    const auto rows = lost ? static_cast<std::size_t>(std::lround(distance(k) / row_s)) : 1;
-    for (std::size_t i = 1; i < rows; ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(rows);
-      TimedCommand between{commands[k].time_s + share * distance(k), {}};
+    if (next == lost.end() || next->after != k) continue;
+    const TimedCommand &from = commands[k], &to = commands[k + 1];
+    for (std::size_t i = 1; i <= next->count; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(next->count + 1);
+      TimedCommand between{from.time_s + share * (to.time_s - from.time_s), {}};
       for (std::size_t axis = 0; axis < between.drive_v.size(); ++axis)
-        between.drive_v[axis] =
-            (1 - share) * commands[k].drive_v[axis] + share * commands[k + 1].drive_v[axis];
+        between.drive_v[axis] = (1 - share) * from.drive_v[axis] + share * to.drive_v[axis];
       all.push_back(between);
     }
+    ++next;
   }
   return all;
+}
+
+/// Whether a command changes across lost rows by more than it does from row to row around them: an edge, that
+/// may have been anywhere in them.
+bool has_edge(const std::vector<TimedCommand>& commands, const LostRows& lost, plant::Axis axis) {
+  constexpr double kEdge = 2;  // times what the larger change around would make of all rows
+  const auto change = [&](std::size_t k) {
+    return k + 1 < commands.size() ? std::abs(commands[k + 1].drive_v[axis] - commands[k].drive_v[axis]) : 0;
+  };
+  const std::size_t k = lost.after;
+  const double around = std::max(k > 0 ? change(k - 1) : 0, change(k + 1));
+  return change(k) > kEdge * around * static_cast<double>(lost.count + 1);
+}
+
+/// Marks the rows of the grid that may have lost an edge of their command.
+void mark_edges(const std::vector<LostRows>& lost, Run& run) {
+  for (const plant::Axis axis : {plant::kTrolley, plant::kSlew})
+    for (const LostRows& one : lost) {
+      if (!run.commanded[axis] || !has_edge(run.commands, one, axis)) continue;
+      run.edge_lost[axis].resize(run.offset_s.size());
+      const auto row_of = [&](std::size_t k) {
+        return static_cast<std::size_t>(std::lround(run.commands[k].time_s / run.period_s));
+      };
+      const std::size_t end = std::min(row_of(one.after + 1), run.edge_lost[axis].size());
+      for (std::size_t row = row_of(one.after) + 1; row < end; ++row) run.edge_lost[axis][row] = true;
+    }
 }
 
 /// Measured where it is, straight between, the rig's own where it never is.
@@ -205,7 +247,9 @@ Run on_grid(const Columns& columns, const std::vector<std::size_t>& rows, const 
     const std::vector<double> volts = held(*columns.commands[axis].values, rows);
     for (std::size_t r = 0; r < rows.size(); ++r) run.commands[r].drive_v[axis] = volts[r];
   }
-  run.commands = with_lost(run.commands, grid.row_s);
+  const std::vector<LostRows> lost = lost_rows(at, grid.row_s);
+  mark_edges(lost, run);
+  run.commands = with_lost(run.commands, lost);
   run.command_v = mean_commands(run.commands, run.period_s, count);
   if (!own_times) run.offset_s.clear();
   if (!own_times && grid.rows_in_period == 1 && count == run.commands.size()) {

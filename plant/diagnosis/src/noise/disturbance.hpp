@@ -27,7 +27,8 @@ enum class Going { on, turning, standing };
 struct Pace {
   double slow = 0;  ///< 0 at speed to 1 at standstill
   Going going = Going::on;
-  bool seen = true;  ///< whether the row was measured
+  bool seen = true;         ///< whether the row was measured
+  bool speed_open = false;  ///< whether an unknown command may have changed the speed in the row
 };
 using Paces = std::vector<Pace>;
 

@@ -8,6 +8,8 @@ namespace {
 /// Share of what friction does at standstill that is left when an axis stands: it creeps, the model's
 /// otherwise.
 constexpr double kStandingShare = 0.01;
+/// Variance of the way in a row that an unknown command leaves open, in noise variances.
+constexpr double kOpenSpeed = 1e6;
 /// Relative change of the variances from row to row below which the filter has come to its steady state.
 constexpr double kSteady = 1e-9;
 
@@ -44,6 +46,7 @@ Prediction::Prediction(const Disturbance& d, const Passage& passage, double star
   p_.aa = a;
   fresh_ = a * (1 - step_(2, 2) * step_(2, 2));
   friction_ = std::pow(d.friction * t, 2);
+  open_ = kOpenSpeed * noise_variance_ / (t * t);
 }
 
 Prediction::Symmetric Prediction::carried(const Symmetric& p) const {
@@ -67,7 +70,7 @@ void Prediction::advance(std::size_t row) {
   const Going now = going(row);
   const double friction = friction_ * (now == Going::standing ? kStandingShare : pace.slow);
   // The same filter as in every row of a window in which nothing special happens.
-  const bool usual = pace.seen && now == Going::on && friction == 0;
+  const bool usual = pace.seen && now == Going::on && friction == 0 && !pace.speed_open;
   if (usual && steady_) return;
   Symmetric p = p_;
   if (pace.seen) {
@@ -80,7 +83,7 @@ void Prediction::advance(std::size_t row) {
     p.aa -= p_.xa * p_.xa / f;
   }
   if (now != Going::on) p.xv = p.vv = p.va = 0;
-  p.vv += friction;
+  p.vv += friction + (pace.speed_open ? open_ : 0);
   p = carried(p);
   p.aa += fresh_;
   steady_ = usual && steady(p_.xx, p.xx) && steady(p_.vv, p.vv) && steady(p_.aa, p.aa);

@@ -41,7 +41,7 @@ class Prediction {
   bool sticks_ = false, steady_ = false;
   Eigen::Matrix3d step_;
   Symmetric p_;
-  double noise_variance_ = 0, fresh_ = 0, friction_ = 0;
+  double noise_variance_ = 0, fresh_ = 0, friction_ = 0, open_ = 0;
 };
 
 }  // namespace crane::diagnosis

@@ -111,7 +111,8 @@ VectorXd left_of(const PreparedRun& run, const Replay::Guided& drive, Output axi
 Passage passage_of(const PreparedRun& run, const MovingStretch& at, Output axis) {
   Passage passage{run.run.period_s, 0, paces_of(run.on_grid[axis], run.run.period_s, at.first, at.rows)};
   for (std::size_t k = 0; k < at.rows; ++k)
-    passage.paces[k].going = Going::on, passage.paces[k].seen = run.run.seen(axis, at.first + k);
+    passage.paces[k].going = Going::on, passage.paces[k].seen = run.run.seen(axis, at.first + k),
+    passage.paces[k].speed_open = run.run.may_have_lost_edge(axis, at.first + k);
   return passage;
 }
 

@@ -77,7 +77,10 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
       const double radps = part == Part::drive ? 0 : natural_radps * softened(position, window);
       Paces paces = part == Part::drive ? paces_of(position, run.run.period_s, window.first, window.rows)
                                         : Paces(window.rows);
-      for (std::size_t k = 0; k < window.rows; ++k) paces[k].seen = run.run.seen(output, window.first + k);
+      for (std::size_t k = 0; k < window.rows; ++k) {
+        paces[k].seen = run.run.seen(output, window.first + k);
+        paces[k].speed_open = part == Part::drive && run.run.may_have_lost_edge(output, window.first + k);
+      }
       of_output.push_back({run.run.period_s, radps, std::move(paces)});
     }
   }

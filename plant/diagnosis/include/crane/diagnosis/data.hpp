@@ -51,7 +51,10 @@ struct Run {
   std::vector<double> offset_s;  ///< by row, of its instant from the grid's, within a period; empty: none
   std::vector<TimedCommand> commands;         ///< as they were given; empty: one a row, `command_v`
   std::array<bool, 2> commanded{true, true};  ///< whether the command of trolley and slew is known
-  double load_mass_kg = 0;                    ///< of this run; 0: the rig's own
+  /// By row, of trolley and slew: whether an edge of the command may have been lost with the row; empty:
+  /// nowhere.
+  std::array<std::vector<bool>, 2> edge_lost;
+  double load_mass_kg = 0;  ///< of this run; 0: the rig's own
   /// Smallest step of each sensor that the data show; 0: not known.
   std::array<double, kOutputs> resolution{};
 
@@ -64,6 +67,10 @@ struct Run {
   /// Instant of a row since row 0.
   [[nodiscard]] double instant_s(std::size_t row) const {
     return static_cast<double>(row) * period_s + (offset_s.empty() ? 0.0 : offset_s[row]);
+  }
+  /// @param drive trolley or slew
+  [[nodiscard]] bool may_have_lost_edge(Output drive, std::size_t row) const {
+    return !edge_lost[drive].empty() && edge_lost[drive][row];
   }
   /// Whether every row was measured, at the grid's times.
   [[nodiscard]] bool regular(Output output) const;
