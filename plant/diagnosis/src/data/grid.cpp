@@ -154,7 +154,8 @@ bool has_edge(const std::vector<TimedCommand>& commands, const LostRows& lost, p
   return change(k) > kEdge * around * static_cast<double>(lost.count + 1);
 }
 
-/// Marks the rows of the grid that may have lost an edge of their command.
+/// Marks the rows of the grid that may have lost an edge of their command, and the one after them: the way
+/// that the edge made and the speed that it left are two unknowns.
 void mark_edges(const std::vector<LostRows>& lost, Run& run) {
   for (const plant::Axis axis : {plant::kTrolley, plant::kSlew})
     for (const LostRows& one : lost) {
@@ -163,8 +164,8 @@ void mark_edges(const std::vector<LostRows>& lost, Run& run) {
       const auto row_of = [&](std::size_t k) {
         return static_cast<std::size_t>(std::lround(run.commands[k].time_s / run.period_s));
       };
-      const std::size_t end = std::min(row_of(one.after + 1), run.edge_lost[axis].size());
-      for (std::size_t row = row_of(one.after) + 1; row < end; ++row) run.edge_lost[axis][row] = true;
+      const std::size_t last = std::min(row_of(one.after + 1), run.edge_lost[axis].size() - 1);
+      for (std::size_t row = row_of(one.after) + 1; row <= last; ++row) run.edge_lost[axis][row] = true;
     }
 }
 
