@@ -33,10 +33,6 @@ using boost::system::error_code;
 constexpr std::uint32_t kDomain = 67;
 constexpr const char* kRig = "virginia_tech_tower";
 constexpr double kStill_m = 0.01;
-/// A computer that is busy with other work loses ticks by itself; three in a row stop the crane, which has to
-/// hold.
-constexpr double kLostShare = 0.01;
-constexpr std::size_t kJoiningProcesses = 5;  ///< that join samples of a tick
 /// 8 MB of history for each of the busy topics, 32 MB of answers, 4 MB for each viewer, and what libraries
 /// take.
 constexpr long kLargest_kb = 400 * 1024;
@@ -201,10 +197,8 @@ TEST_F(DashboardAttack, AFloodDoesNotReachTheLoopAndTheOperatorIsHeard) {
     EXPECT_GT(attackers.attempts(), 100U);
     EXPECT_LT(resident_kb(), kLargest_kb);
     const auto& states = stack_.observer().states();
-    const auto lost = lost_ticks() - lost_before;
-    std::cout << lost << " ticks lost by all processes, " << states.back().overruns - states.front().overruns
-              << " overruns, in " << states.size() << " ticks\n";
-    EXPECT_LT(static_cast<double>(lost), kLostShare * static_cast<double>(states.size() * kJoiningProcesses));
+    EXPECT_EQ(lost_ticks(), lost_before);
+    EXPECT_EQ(states.back().overruns, states.front().overruns);
     EXPECT_NEAR(states.back().trolley_position_m, states.front().trolley_position_m, kStill_m);
     for (const auto& status : stack_.observer().statuses()) ASSERT_EQ(status.state, crane_STATE_HOLD);
     const auto begin = std::chrono::steady_clock::now();
