@@ -67,7 +67,8 @@ bool wait_for(sem_t& semaphore, std::int64_t duration_ns) {
   const timespec at{.tv_sec = at_ns / 1'000'000'000, .tv_nsec = at_ns % 1'000'000'000};
   int result = 0;
   do result = ::sem_clockwait(&semaphore, CLOCK_MONOTONIC, &at);
-  while (result != 0 && errno == EINTR);  // a signal ends the process in order, not in the middle of a tick
+  while (result != 0 &&
+         errno == EINTR);  // a signal must not interrupt a tick; the loop checks for a stop request
   return result == 0;
 }
 

@@ -87,7 +87,7 @@ void Bridge::take_commands(std::int64_t now_ns) {
   std::size_t budget = runtime::LoopReader<msg::Command>::kMostPerPoll;
   while (const auto taken = commands_->take(now_ns, budget)) {
     const auto* command = &taken->sample;
-    if (!tick_ || command->header.tick > *tick_) {  // answers a bridge that was here before
+    if (!tick_ || command->header.tick > *tick_) {  // command for an earlier bridge
       ++counts_.late;
       continue;
     }
@@ -126,12 +126,12 @@ void Bridge::tick(std::int64_t now_ns) {
     const auto elapsed = static_cast<std::uint64_t>((now_ns - start_ns_) / period_ns_);
     if (now_ns - wake_at_ns() > period_ns_ / 2 && tick_) ++overruns_;
     counts_.lost += elapsed - next;
-    next = elapsed;  // what could not be kept is skipped, not caught up with
+    next = elapsed;  // missed ticks are skipped
     sample_time_ns = now_ns;
   }
   const auto previous = tick_;
   tick_ = next;
-  // A rig that simulates its time is read when the stamp says: late when the tick is late.
+  // In real time a simulated rig advances to the actual time of the tick, including its delay.
   const bool paced_by_clock = clock_ == runtime::Clock::realtime;
   board_->advance_to(paced_by_clock ? now_ns - start_ns_ : static_cast<std::int64_t>(next) * period_ns_);
   const auto inputs = board_->read();
@@ -149,7 +149,7 @@ void Bridge::tick(std::int64_t now_ns) {
   look_for_marks(now);
 }
 
-/// Where the sample of tick `next` lies on the grid of ticks.
+/// Position of the sample of tick `next` relative to the nominal ticks.
 Latched Bridge::latched_at(std::optional<std::uint64_t> previous, std::uint64_t next,
                            std::int64_t sample_time_ns) const {
   if (clock_ == runtime::Clock::lockstep) return {};
@@ -158,7 +158,7 @@ Latched Bridge::latched_at(std::optional<std::uint64_t> previous, std::uint64_t 
           .late_s = static_cast<double>(sample_time_ns - due_ns) / 1e9};
 }
 
-/// A position that becomes known is published from the next tick on.
+/// A position that becomes known is published from the next tick on. A doubtful position becomes unknown.
 void Bridge::look_for_marks(const Seen& seen) {
   for (std::size_t i = 0; i < kDrives; ++i) {
     if (last_line_.doubted()[i]) homing_.forget(i);
@@ -175,7 +175,7 @@ void Bridge::look_for_marks(const Seen& seen) {
   }
 }
 
-/// Commands are positive outward; the board gets what the wiring makes of that.
+/// Applies the signs of the wiring: commands are positive outward.
 void Bridge::apply(Outputs outputs) {
   for (std::size_t i = 0; i < kDrives; ++i) outputs.drive_v[i] *= drives_[i].sign;
   applied_v_ = board_->write(outputs);
@@ -242,7 +242,7 @@ void Bridge::report_latch() {
   reported_ = reason;
 }
 
-/// A relay that drops by itself is no latch of the bridge, and nobody else knows how late the toggles were.
+/// Reports a relay that opens without a latch of the bridge. Only the bridge knows the delay of the toggles.
 void Bridge::report_relay(const Inputs& inputs, std::int64_t now_ns) {
   const auto tick_ns = now_ns - ticked_ns_;
   if (relay_closed_ && inputs.watchdog_dropped && toggles_ && !inputs.estop_pressed) {

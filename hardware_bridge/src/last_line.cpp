@@ -36,23 +36,23 @@ Outputs LastLine::decide(const std::optional<CommandView>& command, std::uint64_
   observe(tick, seen);
   if (!enabled(bridge_latch_is_kept)) reason_ = Reason::none;
   if (command && reason_ != Reason::none && !final_) reset_on_permission_edge(*command);
-  const Moment moment{tick, command ? &*command : nullptr, before_, &history_, braked_at_};
-  if (reason_ == Reason::none) latch(first_failure(moment), moment);
+  const CheckInput input{tick, command ? &*command : nullptr, before_, &history_, braked_at_};
+  if (reason_ == Reason::none) latch(first_failure(input), input);
   if (reason_ != Reason::none || !command) {
     before_ = {};
-    return given_ = {};
+    return executed_ = {};
   }
   before_ = *command;
-  given_ = {.drive_v = command->drive_v,
-            .brake_release = command->brake_release,
-            .watchdog_level = command->watchdog_permission && !given_.watchdog_level};
-  return given_;
+  executed_ = {.drive_v = command->drive_v,
+               .brake_release = command->brake_release,
+               .watchdog_level = command->watchdog_permission && !executed_.watchdog_level};
+  return executed_;
 }
 
 void LastLine::observe(std::uint64_t tick, const Seen& seen) noexcept {
-  History::Entry entry{tick, seen, given_.brake_release, {}};
+  History::Entry entry{tick, seen, executed_.brake_release, {}};
   for (std::size_t i = 0; i < kDrives; ++i) {
-    entry.free[i] = given_.brake_release[i] && !seen.brake_closed[i];
+    entry.free[i] = executed_.brake_release[i] && !seen.brake_closed[i];
     if (parameters_.axis[i].present) follow_brake(i, tick, seen);
   }
   history_.add(entry);
@@ -60,37 +60,37 @@ void LastLine::observe(std::uint64_t tick, const Seen& seen) noexcept {
 
 /// From the tick on at which a brake told to close has stopped its axis, the axis has to stay where it is.
 void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Seen& seen) noexcept {
-  if (given_.brake_release[axis]) {
-    told_closed_[axis] = false;
+  if (executed_.brake_release[axis]) {
+    commanded_closed_[axis] = false;
     braked_at_[axis].reset();
     return;
   }
-  if (!told_closed_[axis]) {
+  if (!commanded_closed_[axis]) {
     const AxisLine& line = parameters_.axis[axis];
     constexpr double kReserve = 1.5, kReserve_s = 0.05;
     const double moved = history_.size() > 0 ? seen.coordinate[axis] - history_[0].seen.coordinate[axis] : 0;
     const double speed = std::min(std::abs(moved) / parameters_.period_s, line.max_speed);
     const double rest_s = line.brake_close_time_s + kReserve * speed / line.brake_deceleration + kReserve_s;
-    told_closed_[axis] = true;
+    commanded_closed_[axis] = true;
     rests_from_tick_[axis] = tick + static_cast<std::uint64_t>(std::ceil(rest_s / parameters_.period_s));
   }
   if (!braked_at_[axis] && tick >= rests_from_tick_[axis]) braked_at_[axis] = seen.coordinate[axis];
 }
 
-Reason LastLine::first_failure(const Moment& moment) const noexcept {
+Reason LastLine::first_failure(const CheckInput& input) const noexcept {
   const auto failed = std::find_if(checks_.begin(), checks_.end(), [&](const Check& check) {
-    return is_made(check) && check.fails(parameters_, moment);
+    return is_made(check) && check.fails(parameters_, input);
   });
   return failed == checks_.end() ? Reason::none : failed->reason;
 }
 
 /// Counters in doubt are no reason to start anew where all of them can be homed.
-void LastLine::latch(Reason reason, const Moment& moment) noexcept {
+void LastLine::latch(Reason reason, const CheckInput& input) noexcept {
   reason_ = reason;
   if (reason == Reason::none) return;
   final_ = is_final(reason);
   doubted_ = {};
-  const auto counters = counters_in_doubt(reason, parameters_, moment);
+  const auto counters = counters_in_doubt(reason, parameters_, input);
   bool any = false, all_home = true;
   for (std::size_t i = 0; i < kCounters; ++i) {
     if (!counters[i]) continue;

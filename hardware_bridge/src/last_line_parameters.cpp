@@ -42,10 +42,10 @@ AxisLine axis_line(const configuration::Rig& rig, std::size_t i) {
   static_cast<control::DriveLimits&>(axis) = drive;
   if (!drive.present) return axis;
   // Friction grows with temperature and dust; half of it, and half a volt of offsets, are left to that.
-  constexpr double kOffset_v = 0.5, kBeyondFriction = 1.5, kCertainCreep_v = 0.8;
+  constexpr double kOffset_v = 0.5, kFrictionMargin = 1.5, kCertainCreep_v = 0.8;
   const double friction_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
                                       friction.stiction_positive_v, friction.stiction_negative_v});
-  axis.certain_motion_v = kOffset_v + kBeyondFriction * friction_v + load_pull_v(i, rig);
+  axis.certain_motion_v = kOffset_v + kFrictionMargin * friction_v + load_pull_v(i, rig);
   axis.creeping_motion_v = kCertainCreep_v + friction_v;
   set_gains(axis, i, rig);
   return axis;
@@ -58,8 +58,8 @@ LastLineParameters last_line_parameters(const configuration::Rig& rig) {
   parameters.period_s = rig.period_s;
   parameters.stale_after_ticks = static_cast<std::uint64_t>(rig.ticks_in(rig.limits.stale_after_s));
   for (std::size_t i = 0; i < kDrives; ++i) parameters.axis[i] = axis_line(rig, i);
-  constexpr double kBeyondTheSupervisor = 1.5, kLargest_rad = 1.55;
-  parameters.swing_limit_rad = std::min(kBeyondTheSupervisor * rig.limits.swing_limit_rad, kLargest_rad);
+  constexpr double kSupervisorMargin = 1.5, kLargest_rad = 1.55;
+  parameters.swing_limit_rad = std::min(kSupervisorMargin * rig.limits.swing_limit_rad, kLargest_rad);
   // Twice the largest rate of a free swing of that size on the shortest cable.
   const double cable_m = rig.drives[plant::kHoist].present ? rig.drives[plant::kHoist].low_limit
                                                            : rig.start.position[plant::kHoist];

@@ -25,7 +25,7 @@ TEST(GainCurves, OverTheCableLengthHaveTheNumbersOfTheDissertation) {
   auto crane = with_its_gravity({});
   crane.load_mass_kg = 0;
   for (const auto& point : gains_over_cable_length(crane, 10)) {
-    const double length_m = point.over;
+    const double length_m = point.abscissa;
     EXPECT_NEAR(point.gains.position * length_m, 3.8007, 5e-5);
     EXPECT_NEAR(point.gains.speed / std::sqrt(length_m), 1.3301, 5e-5);
     EXPECT_NEAR(point.gains.swing / length_m, 3.91220, 5e-6);
@@ -38,7 +38,7 @@ TEST(GainCurves, OverTheMassRatioChangeTheSwingGainOnly) {
   for (const auto& point : curve) {
     EXPECT_EQ(point.gains.position, curve.front().gains.position);
     EXPECT_EQ(point.gains.speed, curve.front().gains.speed);
-    EXPECT_NEAR(point.gains.swing, 3.91220 - 1.28925 * point.over, 2e-5);
+    EXPECT_NEAR(point.gains.swing, 3.91220 - 1.28925 * point.abscissa, 2e-5);
   }
 }
 
@@ -47,7 +47,7 @@ TEST(GainCurves, OfTheSlewAxisFollowTheTrolleyPosition) {
   // = 1.97/7.2.
   const auto crane = with_its_gravity({});
   for (const auto& point : gains_over_trolley_position(crane, 1, 15)) {
-    const double x = point.over, ratio = 1.97 / 7.2;
+    const double x = point.abscissa, ratio = 1.97 / 7.2;
     EXPECT_NEAR(point.gains.position, 6.668 * (1 + ratio * x * x), 2e-3);
     EXPECT_NEAR(point.gains.swing, 3.9122 / x - 1.28925 * 2 / 7.2 * x / (1 + ratio * x * x), 5e-4 / x);
   }
@@ -71,7 +71,7 @@ TEST(GainCurves, PlaceThePolesWhereTheDesignWantsThem) {
   // -a is a double pole: rounding of 1e-15 splits it by about 1e-7.
   const auto crane = figure_parameters(0.5);
   for (const auto& point : gains_over_cable_length(crane, 10))
-    EXPECT_LT(worst_pole(point, crane.gravity_mps2, point.over), 1e-5);
+    EXPECT_LT(worst_pole(point, crane.gravity_mps2, point.abscissa), 1e-5);
   for (const auto& point : gains_over_mass_ratio(crane, 1, 10))
     EXPECT_LT(worst_pole(point, crane.gravity_mps2, 1), 1e-5);
   for (const auto& point : gains_over_trolley_position(crane, 1, 10))

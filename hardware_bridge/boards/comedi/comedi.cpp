@@ -94,7 +94,7 @@ void Comedi::find_converter(std::size_t drive, unsigned channel) {
   fail("analog output " + std::to_string(channel) + " has no range of +-10 V: use another board");
 }
 
-/// Directions of all lines in use, where they have a choice.
+/// Sets the directions of all lines in use whose direction can be set.
 void Comedi::find_lines() {
   const auto direct = [this](int subdevice, int channel, unsigned direction, const char* key) {
     require_channel(subdevice, as_index(channel), key);
@@ -131,13 +131,13 @@ void Comedi::start_counter(const Counter& counter) {
                                 NI_GPCT_COUNTING_MODE_QUADRATURE_X4_BITS) < 0 ||
       ::comedi_arm_channel(handle_.device, subdevice, counter.channel, NI_GPCT_ARM_IMMEDIATE) < 0)
     fail(label + " does not count quadrature: use another board");
-  // The preset comes last: some drivers reset the count at every configuration.
+  // Presets the counter last, because some drivers reset it at every configuration.
   const auto wanted = static_cast<lsampl_t>(counter.start_counts) & k24Bits;
   lsampl_t found = 0;
   if (::comedi_data_write(handle_.device, subdevice, counter.channel, 0, AREF_GROUND, wanted) < 0 ||
       ::comedi_data_read(handle_.device, subdevice, counter.channel, 0, AREF_GROUND, &found) < 0)
     fail(label + " does not answer");
-  // An encoder that moves meanwhile changes the lowest bits only.
+  // A moving encoder changes only the lowest bits in the meantime.
   constexpr std::int32_t kTolerance_counts = 0x1000;
   if (std::abs(counts_of_24_bits(found - wanted)) > kTolerance_counts)
     fail(label + " does not hold a written value: use another channel, or another board");

@@ -12,7 +12,7 @@ using runtime::monotonic_ns;
 using Role = SharedFile::Role;
 
 constexpr std::int64_t kPatience_ns = 5'000'000'000;
-constexpr std::int64_t kSilence_ns = 500'000'000;  // a running rig makes a step much more often
+constexpr std::int64_t kSilence_ns = 500'000'000;  // a running rig steps more often than this
 
 /// The shared file of a running rig; nothing when no rig runs.
 std::unique_ptr<SharedFile> find(const std::string& name, SharedLines*& lines) {
@@ -21,7 +21,7 @@ std::unique_ptr<SharedFile> find(const std::string& name, SharedLines*& lines) {
   if (file->size() < sizeof(SharedLines)) return nullptr;
   auto* found = static_cast<SharedLines*>(file->map(sizeof(SharedLines)));
   if (found->ready != SharedLines::kReady) return nullptr;
-  if (SharedFile probe{name}; probe.take(Role::rig)) return nullptr;  // the rig that created it has ended
+  if (SharedFile probe{name}; probe.take(Role::rig)) return nullptr;  // no process has the role of the rig
   lines = found;
   return file;
 }

@@ -20,16 +20,16 @@ inline constexpr std::uint16_t kSecondWindow = 0x400;
 [[nodiscard]] constexpr std::uint16_t counter_control(std::size_t channel) {
   return static_cast<std::uint16_t>(counter_data(channel) + 2);
 }
-/// Written to a counter's control register. The two highest bits choose what is set.
+/// Values for the control register of a counter. The two highest bits select the setting.
 enum CounterCommand : std::uint8_t {
   kMasterReset = 0x20,
   kInputControl = 0x68,   ///< A and B enabled, load pin loads the output latch
   kOutputControl = 0x80,  ///< binary
-  kQuadrature = 0xC3,     ///< four counts a line
+  kQuadrature = 0xC3,     ///< four counts per line
   kZero = 0x04,
   kLatch = 0x03,   ///< counter to output latch, byte pointer to the first byte
   kRewind = 0x01,  ///< byte pointer to the first byte
-  kPreset = 0x09   ///< the three bytes written before become the counter; byte pointer to the first byte
+  kPreset = 0x09   ///< the last three written bytes become the counter; byte pointer to the first byte
 };
 
 [[nodiscard]] constexpr std::uint16_t converter(std::size_t channel) {
@@ -56,7 +56,7 @@ enum TimerCommand : std::uint8_t {
   kTimer0Periodic =
       0x34,  ///< timer 0: low and high byte of period / 25 us follow; each period latches all counters
   kTimerStop = 0x02,
-  kTimer0NoCount = 0x30  ///< mode 0: an 8254 rests until a count is written
+  kTimer0NoCount = 0x30  ///< mode 0: the timer stops until a count is written
 };
 
 }  // namespace crane::bridge::servo_to_go

@@ -55,7 +55,7 @@ std::string_view ServoToGo::name() const {
   return model_ == 1 ? "servo_to_go model 1" : "servo_to_go model 2";
 }
 
-/// Eight readings show each bit of the serial number with its index. Nothing is written before.
+/// Reads the serial number: each of eight readings has one bit and its index. No port is written before.
 int ServoToGo::recognised_model() const {
   unsigned serial = 0, seen = 0, reading = 0;
   for (std::size_t i = 0; i < kChannels; ++i) {
@@ -80,7 +80,7 @@ void ServoToGo::start_counter(const Counter& counter) {
   const auto control = at(counter_control(counter.channel));
   for (const auto command : {kMasterReset, kInputControl, kOutputControl, kQuadrature, kZero})
     ports_->out_8(control, command);
-  // An encoder that moves meanwhile changes the lowest bits only.
+  // A moving encoder changes only the lowest bits in the meantime.
   constexpr std::int32_t kTolerance_counts = 0x1000;
   for (const std::int32_t pattern : {0x2A5A5A, -0x2A5A5A}) {
     preset(counter.channel, pattern);

@@ -82,7 +82,7 @@ class Calibrating {
     return fits;
   }
 
-  /// The zero of the swing encoders is the present angle of the load: the load must hang at rest.
+  /// The present angle of the load is the zero of the swing encoders: the load must hang at rest.
   void settle() {
     while (true) {
       const auto fits = swings();
@@ -130,7 +130,7 @@ class Calibrating {
                                  with_unit(drive_v, "V") + ": crane hw selftest finds the cause");
   }
 
-  /// Pushes grow until the axis has moved half the distance.
+  /// Pushes with increasing voltage until the axis has moved half the distance.
   Record push(std::size_t i) {
     Record motion;
     const double largest_v = std::min(options_.largest_v, rig_.drives[i].volt_limit_v);

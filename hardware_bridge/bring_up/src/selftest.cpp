@@ -70,7 +70,7 @@ class Gathering {
     push(i);
   }
 
-  /// Pushes the axis in both directions, briefly: behind an open brake it moves a few centimetres.
+  /// Pushes the axis briefly in both directions. With an open brake it moves by a few centimetres.
   void push_against_brake(std::size_t i) {
     auto& axis = evidence_.axis[i];
     axis.push_v = std::min(3.0, largest_v(i));
@@ -87,7 +87,7 @@ class Gathering {
     }
   }
 
-  /// Pushes grow until an axis moves. The swing is measured before and after.
+  /// Pushes with increasing voltage until an axis moves. Measures the swing before and after.
   void push(std::size_t i) {
     const auto before = swings();
     Record motion;
@@ -133,7 +133,7 @@ class Gathering {
     return false;
   }
 
-  /// Swing that the push has added.
+  /// True when the push has added a visible swing.
   [[nodiscard]] bool swing_seen(const Sample& now, const std::array<SwingFit, kSwings>& before) const {
     for (std::size_t k = 0; k < kSwings; ++k)
       if (std::abs(now.coordinate[kDrives + k] - before[k].at(now.time_s, frequency_radps_)) > kSwingSeen_rad)
@@ -172,7 +172,7 @@ class Gathering {
     axis.share = share_of(expected, before[swing - kDrives], after[swing - kDrives]);
   }
 
-  [[nodiscard]] bool stood_still(std::size_t i) const {
+  [[nodiscard]] bool did_not_move(std::size_t i) const {
     const auto& axis = evidence_.axis[i];
     return axis.pushed &&
            std::all_of(axis.moved.begin(), axis.moved.end(),
@@ -183,7 +183,7 @@ class Gathering {
   /// Two drives that seem dead may be swapped: repeats the push with the brakes of all such axes open.
   void try_unlocked() {
     std::array<bool, kDrives> still{};
-    for (std::size_t i = 0; i < kDrives; ++i) still[i] = rig_.drives[i].present && stood_still(i);
+    for (std::size_t i = 0; i < kDrives; ++i) still[i] = rig_.drives[i].present && did_not_move(i);
     if (std::count(still.begin(), still.end(), true) < 2) return;
     for (std::size_t i = 0; i < kDrives; ++i) {
       if (!still[i]) continue;
@@ -205,7 +205,7 @@ class Gathering {
   const SelftestOptions& options_;
   double frequency_radps_;
   Evidence evidence_;
-  std::array<SwingFit, kDrives> counter_fits_;  ///< of the drives' counters, while everything is braked
+  std::array<SwingFit, kDrives> counter_fits_;  ///< of the counters of the drives, with closed brakes
   bool counters_swing_ =
       false;  ///< true: a drive's counter shows the swing, so that further pushes give no evidence
 };

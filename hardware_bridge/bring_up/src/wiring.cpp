@@ -8,7 +8,7 @@
 namespace crane::bring_up {
 namespace {
 
-constexpr double kClearShare = 0.4;  // of the expected swing: right or wrong way round, else none
+constexpr double kClearShare = 0.4;  // share of the expected swing above which its sign is determined
 
 std::string text_of(double value, std::string_view unit) {
   char text[40];
@@ -41,7 +41,7 @@ class Judgement {
       findings_.push_back({fault, std::move(subject), std::move(text)});
   }
 
-  /// A swing encoder that is swapped is not reported as dead, too.
+  /// Removes the report of a dead swing encoder that is reported as swapped.
   void drop_explained() {
     const auto swapped = [this](const std::string& name) {
       return std::any_of(findings_.begin(), findings_.end(), [&](const Finding& known) {
@@ -86,7 +86,7 @@ class Judgement {
               std::to_string(rig_.wiring.drives[i].limit_low_input) + " and " +
               std::to_string(rig_.wiring.drives[i].limit_high_input) + "); not moved");
     if (!axis.held)
-      add(axis.closed_in_use ? Fault::brake_slips : Fault::brake_open, name,
+      add(axis.closed_in_use ? Fault::brake_slips : Fault::brake_stays_open, name,
           "the brake of " + name + (axis.closed_in_use ? " does not hold: " : " does not close: ") +
               "it slipped by " + text_of(axis.slipped, coordinate_unit(i)) + " at " +
               text_of(axis.push_v, "V") + " with output line " + output + " off");
@@ -116,7 +116,7 @@ class Judgement {
                      std::to_string(rig_.wiring.drives[high].brake_release_output) + ", or their contacts)");
     }
     if (evidence_.relay_closed && !axis.limit_open)
-      add(Fault::brake_shut, name,
+      add(Fault::brake_stays_closed, name,
           "the brake of " + name + " does not open with output line " +
               std::to_string(rig_.wiring.drives[i].brake_release_output) +
               " on: check its 24 V supply, its coil and its contact (input line " +
@@ -126,7 +126,7 @@ class Judgement {
   void judge_motion(std::size_t i) {
     const auto& axis = evidence_.axis[i];
     if (std::abs(axis.drift) > kStandstill)
-      add(Fault::drifts, named(i),
+      add(Fault::drift, named(i),
           named(i) + " moves by " + text_of(axis.drift, coordinate_unit(i)) +
               " with its brake open at 0 V: trim the amplifier's offset");
     if (const auto swinging = counter_that_swings(i))
@@ -196,12 +196,12 @@ class Judgement {
     return {};
   }
 
-  /// Another counter that follows a motion of axis i.
+  /// Counter of another encoder that follows axis i.
   [[nodiscard]] std::optional<std::size_t> counter_that_moved(std::size_t i) const {
     const auto& axis = evidence_.axis[i];
     for (std::size_t k = 0; k < kDrives; ++k)
       if (k != i && std::abs(axis.moved[k]) > kStandstill) return k;
-    for (std::size_t k = 0; k < kSwings; ++k)  // a load swings back, a motor stays
+    for (std::size_t k = 0; k < kSwings; ++k)  // the load swings back, an axis does not
       if (std::abs(axis.shifted_rad[k]) > 2 * kNoSwing_rad) return kDrives + k;
     return {};
   }
@@ -252,10 +252,10 @@ class Judgement {
 std::string_view name_of(Fault fault) {
   constexpr std::array<std::string_view, 21> kNames{"estop",          "relay_stuck",
                                                     "relay_dead",     "limit_open",
-                                                    "brake_contact",  "brake_open",
-                                                    "brake_slips",    "brake_shut",
+                                                    "brake_contact",  "brake_stays_open",
+                                                    "brake_slips",    "brake_stays_closed",
                                                     "brakes_swapped", "brake_slow",
-                                                    "drifts",         "drive_sign",
+                                                    "drift",          "drive_sign",
                                                     "encoder_sign",   "drive_or_encoder_sign",
                                                     "swing_sign",     "encoders_swapped",
                                                     "drives_swapped", "encoder_dead",

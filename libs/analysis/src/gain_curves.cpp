@@ -7,9 +7,9 @@ double spread(double low, double high, int index, int points) {
   return low + (high - low) * index / (points - 1);
 }
 
-GainSample sample(double over, const control::SwingAxis& axis) {
+GainSample sample(double abscissa, const control::SwingAxis& axis) {
   const auto gains = control::partial_state_gains(axis);
-  return {over, gains, closed_loop_poles(axis, gains)};
+  return {abscissa, gains, closed_loop_poles(axis, gains)};
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ std::optional<Announcement> parsed(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), found.version);
   if (error != std::errc{}) return std::nullopt;
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  const auto name = text.rfind(kParticipant);  // the name of a participant has no space
+  const auto name = text.rfind(kParticipant);  // names of participants contain no space
   if (!text.starts_with(kCrane) || name == std::string_view::npos || name < kCrane.size())
     return std::nullopt;
   found.crane = text.substr(kCrane.size(), name - kCrane.size());

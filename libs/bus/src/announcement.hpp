@@ -1,6 +1,6 @@
 #pragma once
-/// What a participant says of itself in its USER_DATA, which both vendors exchange at discovery: version of
-/// the messages, crane and name. It is understood even when no topic of the two participants matches.
+/// The announcement of a participant in its USER_DATA, which both vendors exchange at discovery: version of
+/// the messages, crane and name. It can be read even when no topic of the two participants matches.
 #include <array>
 #include <cstdint>
 #include <map>
@@ -22,7 +22,7 @@ class Census {
   using Key = std::array<std::uint8_t, 16>;
 
   Census(std::uint32_t version, std::string crane) : version_{version}, crane_{std::move(crane)} {}
-  /// Notes the announcement of a participant. Participants without one, of another crane, or of the same
+  /// Stores the announcement of a participant. Participants without one, of another crane, or of the same
   /// version are ignored.
   void note(const Key& participant, std::string_view user_data);
   void forget(const Key& participant);

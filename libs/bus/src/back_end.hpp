@@ -49,8 +49,8 @@ struct Announcer {
 };
 
 /// Numbers of topics::Qos. Every writer and reader is RELIABLE and KEEP_LAST. A volatile Fast DDS reader also
-/// receives the history of a TRANSIENT_LOCAL Cyclone DDS writer. Old requests and old samples of a real-time
-/// loop must not be received, so that their writers do not offer TRANSIENT_LOCAL.
+/// receives the history of a TRANSIENT_LOCAL Cyclone DDS writer. Therefore writers of requests and of
+/// real-time loop topics, whose old samples must not be received, do not offer TRANSIENT_LOCAL.
 struct Quality {
   int depth = 1;                ///< samples kept per instance
   int instances = 1;            ///< most instances of a keyed topic

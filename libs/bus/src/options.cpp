@@ -33,8 +33,9 @@ std::vector<std::string> addresses_of_this_host(unsigned flags = 0) {
   return found;
 }
 
-/// A participant on an interface without carrier hears nothing, also when the carrier comes later: the
-/// vendors look at the interfaces once. After power-on the carrier comes some seconds after the address.
+/// A participant on an interface without carrier receives nothing, even after the carrier appears, because
+/// the vendors read the interfaces only once. After power-on the carrier appears some seconds after the
+/// address.
 void await_carrier(const Options& options, std::vector<std::string>& problems) {
   constexpr std::chrono::seconds kPatience{5};
   constexpr std::chrono::milliseconds kPause{50};

@@ -10,7 +10,7 @@ namespace crane::bus {
 
 void vendor_log(std::string_view vendor, std::string_view line) noexcept {
   constexpr int kMostLines =
-      20;  // of kMostBytes: fewer than a pipe holds (64 kB), so that none of them waits
+      20;  // lines of kMostBytes: together less than the buffer of a pipe (64 kB), so that no write blocks
   constexpr std::size_t kMostBytes = 500;
   constexpr std::string_view kLast = " (further messages of this kind are dropped)";
   static std::atomic<int> lines{0};

@@ -1,7 +1,7 @@
 #pragma once
-/// What a DDS implementation has to say about its peers. Anybody on the network can make it talk, and a line
-/// that waits for a stopped terminal would hold up a receive thread: the first lines go to standard error,
-/// the rest is dropped.
+/// Limits the messages of a DDS implementation about its peers. Any program on the network can cause such
+/// messages, and a write to a stopped terminal would block a receive thread. The first lines go to standard
+/// error; all others are dropped.
 #include <string_view>
 
 namespace crane::bus {

@@ -9,7 +9,7 @@
 namespace crane::configuration {
 namespace {
 
-/// Without its base nothing else about the file can be judged.
+/// Reports only the missing base, because all other checks depend on it.
 [[noreturn]] void refuse(const TomlTable& document, const std::string& extended, const std::string& rule) {
   throw ConfigurationError({document.place("extends") + "extends = \"" + extended + "\": " + rule});
 }

@@ -9,7 +9,7 @@
 namespace crane::configuration {
 namespace {
 
-/// Unit suffixes of keys; what follows the last underscore is a unit only if it is one of these.
+/// Unit suffixes of keys. Other text after the last underscore is no unit.
 constexpr std::array<std::string_view, 50> kUnits{
     "m",    "mm",   "cm",   "um",     "km",     "rad",      "mrad",   "deg",   "s",    "ms",
     "us",   "ns",   "min",  "kg",     "g",      "v",        "mv",     "n",     "nm",   "hz",

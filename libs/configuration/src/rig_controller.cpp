@@ -5,8 +5,8 @@
 namespace crane::configuration {
 namespace {
 
-/// What the design takes from the rest of the rig: the drives' volts, and a measured cable length is taken
-/// into what this rig can have.
+/// Sets the values of the design that follow from the rest of the rig: voltage limits of the drives, and the
+/// range of cable lengths of the hoist.
 void design_from(const Rig& rig, control::Design& design) {
   const Drive& hoist = rig.drives[plant::kHoist];
   const double length_m = rig.start.position[plant::kHoist];
@@ -20,7 +20,7 @@ void design_from(const Rig& rig, control::Design& design) {
 
 void read_friction(TomlTable& table, const plant::Coordinate& axis, double volt_limit_v, const Rig& rig,
                    control::DriveFriction& friction) {
-  friction.factor = 1;  // whoever writes a section wants the friction compensated
+  friction.factor = 1;  // the default of a rig file that has this section
   read_section(table, control::kFrictionFields, friction, &rig, axis.unit);
   for (const auto& [key, value, rule] : control::contradictions(friction, volt_limit_v))
     if (table.has(key)) table.problem(key, rule);
@@ -37,7 +37,7 @@ void read_frictions(TomlTable& controller, Rig& rig) {
   }
 }
 
-/// What the controller of this file needs beyond a design in order.
+/// Checks between the controller, its design and the kind of rig.
 void check_controller(TomlTable& table, const Rig& rig) {
   for (const auto& [key, value, rule] : control::contradictions(rig.design)) table.problem(key, rule);
   if (!rig.carries_load() && rig.planning.shaping != control::Shaping::none)

@@ -6,7 +6,7 @@
 namespace crane::configuration {
 namespace {
 
-/// Travel of a reference that reaches the soft limit at the planner's speed and is then stopped by the brake:
+/// Distance that an axis moves beyond the soft limit at the planner's speed before the brake has stopped it:
 /// v (t_detect + t_react + t_brake) + v^2 / (2 a), with one tick each to detect and to react.
 double stopping_travel(const Drive& drive, double period_s) {
   const double speed = drive.reference_speed;
@@ -15,7 +15,7 @@ double stopping_travel(const Drive& drive, double period_s) {
 
 void check_drive(TomlTable& table, const plant::Coordinate& axis, const Drive& drive, double period_s) {
   const auto limit = [&axis](std::string_view key) { return key_in(control::kDriveLimitFields, key, axis); };
-  // A cable has a length: its limits are positive.
+  // A cable length is positive.
   if (&axis == &plant::kCoordinates[plant::kHoist])
     check_range(table, limit("low_limit"), drive.low_limit, plant::kCableLengths);
   if (drive.low_limit >= drive.high_limit) {
@@ -47,7 +47,7 @@ Drive read_drive(TomlTable& table, const plant::Coordinate& axis, const Rig& rig
   return drive;
 }
 
-/// Which drives belong to a kind of rig: a gantry does not slew, a pendulum hangs from a fixed point.
+/// Drives that each kind of rig must have or cannot have.
 void check_drives_of_kind(TomlTable& table, const Rig& rig) {
   const auto has = [&rig](plant::Axis axis) { return rig.drives[axis].present; };
   const auto count =

@@ -14,7 +14,7 @@ void check_zero(TomlTable& encoder, const Rig& rig, const Drive& drive) {
     encoder.problem("zero", "the counters of this board are incremental: start or homing");
 }
 
-/// What the fields of [homing.NAME] are when the file does not say; the mark has been read.
+/// Defaults of [homing.NAME]. @pre the mark has been read
 void set_defaults(Drive& drive) {
   constexpr double kShareOfPlanned = 0.1, kBackOff = 0.02, kUsual_v = 5;
   auto& homing = drive.homing;
@@ -26,7 +26,7 @@ void set_defaults(Drive& drive) {
 
 void check_position(TomlTable& table, const std::string& key, const Drive& drive) {
   const auto& homing = drive.homing;
-  if (!(drive.low_limit < drive.high_limit)) return;  // reported
+  if (!(drive.low_limit < drive.high_limit)) return;  // reported already
   check_range(table, key, homing.position, Range::closed(drive.low_limit, drive.high_limit));
   const double end = homing.mark == Mark::limit_low ? drive.low_limit : drive.high_limit;
   if (homing.mark == Mark::input && !table.has(key)) table.problem(key, "missing");

@@ -10,7 +10,7 @@ void read_limits(TomlTable& root, Rig& rig) {
 void read_start(TomlTable& root, Rig& rig) {
   TomlTable table = root.table("start");
   Start& start = rig.start;
-  // A slewing axis without a trolley has its jib inertia alone: gamma'' = K_mgamma V holds at x = 0.
+  // Without a trolley the slew axis has the inertia of the jib only: gamma'' = K_mgamma V, with x = 0.
   if (!rig.drives[plant::kTrolley].present) start.position[plant::kTrolley] = 0;
   read_section(table, kStartFields, start, &rig);
   for (std::size_t i = 0; i < plant::kAxes; ++i) {

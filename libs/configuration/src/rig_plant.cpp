@@ -14,7 +14,7 @@ std::vector<std::string> term_names() {
 
 void read_term(TomlTable& table, const plant::TermKind& kind, const Rig& rig, plant::TermSetting& term) {
   const std::vector<std::string> axes(kind.axes.begin(), kind.axes.end());
-  // A term that acts on the whole crane has no axis; one that acts on a drive has to say which.
+  // A term that acts on the whole crane has no axis. A term that acts on a drive must name it.
   const bool needs_axis = std::find(axes.begin(), axes.end(), "") == axes.end();
   term.axis = needs_axis ? table.choice("axis", axes) : table.choice("axis", axes, "");
   for (std::size_t i = 0; i < plant::kAxes; ++i) {
@@ -48,7 +48,7 @@ void read_terms(TomlTable& root, Rig& rig) {
     if (const plant::TermKind* kind = plant::find_term(term.name)) {
       read_term(table, *kind, rig, term);
     } else {
-      table.ignore_unknown();  // the name has been reported; its parameters cannot be judged
+      table.ignore_unknown();  // the wrong name is reported; its parameters are unknown
     }
     rig.terms.push_back(std::move(term));
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// One reader per section of a rig file; each notes its problems in the document (toml_reader.hpp).
+/// Readers of the sections of a rig file. Each reader notes its problems in the document (toml_reader.hpp).
 #include <string_view>
 #include <vector>
 
@@ -9,21 +9,21 @@
 
 namespace crane::configuration {
 
-/// The key of a field, with the unit of the coordinate that its section is about.
+/// Key of a field, with the unit of the section's coordinate.
 template <class Section, std::size_t N>
 [[nodiscard]] std::string key_in(const std::array<Field<Section>, N>& fields, std::string_view key,
                                  const plant::Coordinate& coordinate) {
   return key_of(fields::field_of(fields, key), coordinate.unit);
 }
 
-/// +1 or -1 is asked for; the range of integers lets 0 pass.
+/// Reports 0, which the range of integers [-1, 1] permits.
 void check_sign(TomlTable& table, int sign);
-/// Two drives on one output, or two encoders on one counter, are a wiring mistake.
+/// Reports a channel that is in `taken`: two drives on one output, or two encoders on one counter.
 void check_unique(TomlTable& table, std::string_view key, int channel, std::vector<int>& taken);
-/// Notes a problem of `key` where the value is no NaN, which has been reported, and outside the range.
+/// Reports a value outside the range. NaN is ignored, because the reader has reported it.
 void check_range(TomlTable& table, std::string_view key, double value, const Range& range);
 
-// In the order in which they are called: later sections are checked against the earlier ones.
+// In the order of the calls: later sections are checked against earlier ones.
 void read_drives(TomlTable& root, Rig& rig);
 void read_encoders(TomlTable& root, Rig& rig);
 void read_wiring(TomlTable& root, Rig& rig);

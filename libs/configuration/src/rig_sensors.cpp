@@ -3,7 +3,7 @@
 namespace crane::configuration {
 namespace {
 
-/// Which coordinates a rig can and must measure.
+/// True when a rig can measure a coordinate, and when it must.
 struct Measurable {
   bool possible, needed;
 };
@@ -11,7 +11,7 @@ struct Measurable {
 Measurable measurable(const Rig& rig, std::size_t coordinate) {
   if (coordinate < plant::kAxes) return {rig.drives[coordinate].present, rig.drives[coordinate].present};
   if (coordinate == plant::kSwingRadial) return {rig.carries_load(), rig.carries_load()};
-  // A gantry's load swings in one plane; a pendulum may.
+  // The load of a gantry swings in one plane. A pendulum can have one or two planes.
   const bool tower = rig.kind == RigKind::tower;
   return {tower || rig.kind == RigKind::pendulum, tower};
 }

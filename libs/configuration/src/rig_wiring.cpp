@@ -3,7 +3,7 @@
 namespace crane::configuration {
 namespace {
 
-/// Every line and every subdevice belongs to one signal.
+/// Reports a line or a subdevice that has two signals.
 template <class Section, std::size_t N>
 void check_lines(TomlTable& table, const std::array<Field<Section>, N>& fields, const Section& section,
                  std::string_view ending, std::vector<int>& taken) {

@@ -7,7 +7,7 @@
 namespace crane::configuration {
 namespace {
 
-/// A number with its fraction or exponent, so that TOML reads no integer, of which it has 64 bits.
+/// A number with a fraction or an exponent. TOML would read any other text as a 64-bit integer.
 std::string toml_of(double value) {
   const auto text = shortest_number(value);
   return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
@@ -48,7 +48,7 @@ struct FieldWriter {
   }
 };
 
-/// Text of each table, in the order in which they are opened.
+/// Texts of the tables, in the order in which the tables are opened.
 class Tables {
  public:
   std::string& at(const std::string& path) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads a section of a rig file by its table of fields.
+/// Reads a section of a rig file, as its table of fields describes it.
 #include <algorithm>
 
 #include "crane/configuration/rig_fields.hpp"
@@ -7,13 +7,13 @@
 
 namespace crane::configuration {
 
-/// The shortest text that reads back as the same number.
+/// Shortest text that reads back as the same number.
 [[nodiscard]] std::string shortest_number(double value);
 [[nodiscard]] bool is_required(Presence presence, const Rig& rig);
-/// The drives that the array `key` names. @param drives  stays as it is when there is no such key
+/// Reads an array of names of drives. @param drives  unchanged when the key is absent
 void read_axes(TomlTable& table, const std::string& key, std::array<bool, plant::kAxes>& drives);
 
-/// Reads one field; the default stands in `section` before.
+/// Reads one field. @pre `section` contains the default
 template <class Section>
 struct FieldReader {
   TomlTable& table;
@@ -43,14 +43,14 @@ struct FieldReader {
     const auto name =
         required ? table.choice(key, names) : table.choice(key, names, names[choice.get(section)]);
     const auto place = std::find(names.begin(), names.end(), name);
-    if (place == names.end()) return;  // reported
+    if (place == names.end()) return;  // reported already
     choice.set(section, static_cast<std::size_t>(place - names.begin()));
   }
 };
 
-/// Reads the fields in the order of their table; the defaults stand in `section` before.
-/// @param rig   says which fields are required; nullptr: none
-/// @param unit  of the coordinate that the section is about
+/// Reads the fields in the order of their table. @pre `section` contains the defaults
+/// @param rig   determines which fields are required; nullptr: none
+/// @param unit  unit of the section's coordinate
 template <class Section, std::size_t N>
 void read_section(TomlTable& table, const std::array<Field<Section>, N>& fields,
                   std::type_identity_t<Section>& section, const Rig* rig, std::string_view unit = "") {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the handles of one TOML document share: the parsed tables, the keys asked for, the problems found.
+/// Data that all handles of one TOML document share: parsed tables, requested keys, problems.
 #include <toml++/toml.h>
 #include <deque>
 #include <map>
@@ -12,11 +12,11 @@
 
 namespace crane::configuration {
 
-/// One table that was opened, present in the file or not.
+/// A table that was opened. The file need not contain it.
 struct TomlTable::Place {
   const toml::table* table = nullptr;  ///< nullptr: absent
   std::string path;                    ///< "drive.trolley", "model.terms[2]", empty for the root
-  int line = 1;                        ///< where its problems are reported
+  int line = 1;                        ///< line of its problems
   std::string file;
   std::set<std::string, std::less<>> known;
   std::vector<std::string> missing;
@@ -24,7 +24,7 @@ struct TomlTable::Place {
   [[nodiscard]] std::string name_of(std::string_view key) const;
 };
 
-/// One value that was asked for.
+/// A value that was requested.
 struct TomlTable::Value {
   const toml::node* node = nullptr;  ///< nullptr: absent
   Place* place = nullptr;
@@ -50,7 +50,7 @@ struct TomlTable::Document {
   [[nodiscard]] std::vector<std::string> sorted_problems();
 };
 
-/// As the file would write it, shortened; tables as "(table)".
+/// The value as TOML, shortened; a table is "(table)".
 [[nodiscard]] std::string written(const toml::node& node);
 [[nodiscard]] int line_of(const toml::node& node);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNoInteger = std::numeric_limits<int>::min();
 
-/// Nodes are moved, never copied: only a move keeps the file and line a node came from.
+/// Moves nodes instead of copying them, because only a move keeps their file and line.
 void move_lacking(toml::table& base, toml::table& into) {
   for (auto&& [key, node] : base) {
     toml::node* own = into.get(key.str());

@@ -22,7 +22,7 @@ constexpr double kStartSwing = 1;          // standard deviation of swing (rad) 
 constexpr double kStartOffset_rad = 0.02;  // standard deviation of the offset at the start
 constexpr double kMostAngle_rad = 1.4;     // the equations are singular at pi/2
 constexpr double kMostRate = 1e3;          // m/s, rad/s
-constexpr double kStandstill = 1e-3;       // m/s, rad/s: below, the static friction can hold a drive
+constexpr double kStandstill = 1e-3;       // m/s, rad/s: at a lower speed static friction can hold a drive
 constexpr int kSubsteps = 2;               // midpoint steps per tick
 
 double limited(double value, double most) noexcept { return std::clamp(value, -most, most); }
@@ -46,15 +46,15 @@ double friction_v(const DriveFriction& f, double speed) noexcept {
   return f.factor * moving;
 }
 
-/// The static friction holds the drive.
+/// True when static friction holds the drive.
 bool sticks(const DriveFriction& f, double speed, double drive_v) noexcept {
   return std::abs(speed) < kStandstill && drive_v <= f.factor * f.coulomb_positive_v &&
          drive_v >= -f.factor * f.coulomb_negative_v;
 }
 
-/// What acts on the crane during a tick.
+/// Volts and forces that act on the crane during a tick.
 struct Drives {
-  double trolley_v, slew_v;           ///< volts with the unexplained ones
+  double trolley_v, slew_v;           ///< including the unexplained volts
   double radial_rad, tangential_rad;  ///< forces on the load
 };
 
@@ -124,7 +124,7 @@ const CraneEstimate& PendulumObserver::step(const Measurement& raw) noexcept {
     correct(measured);
   predict(measured);
   const double certain = radial_.covariance.sum() + tangential_.covariance.sum();
-  if (!finite(estimate_.state) || !std::isfinite(certain)) reset(measured);  // parameters beyond any crane
+  if (!finite(estimate_.state) || !std::isfinite(certain)) reset(measured);  // unrealistic parameters
   return estimate_;
 }
 
@@ -211,7 +211,7 @@ Measurement at_effect(const CraneEstimate& estimate) noexcept {
 
 namespace {
 
-/// A law that sees the crane at the time when its command acts.
+/// Gives the law the state of the crane at the time when its command acts.
 class ObservedLaw final : public Law {
  public:
   ObservedLaw(std::unique_ptr<Law> law, const Design& design)

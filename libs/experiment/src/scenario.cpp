@@ -243,7 +243,7 @@ Rig started_by(Rig rig, const Scenario& scenario) {
   rig.start.swing_radial_rad = scenario.swing_radial_rad;
   rig.start.swing_tangential_rad = scenario.swing_tangential_rad;
   rig.start.cable_length_offset_m += scenario.cable_length_offset_m;
-  // A cable of several times its measured length is what the check of the swing encoders looks for.
+  // The check of the swing encoders would detect a cable that is several times longer than measured.
   constexpr double kPlausible = 0.55;  // kCableTolerance of crane/supervisor/pendulum.hpp
   if (std::abs(scenario.cable_length_offset_m) > kPlausible * rig.start.position[plant::kHoist])
     rig.limits.model_checks = false;

@@ -16,7 +16,7 @@ std::string shown(double value) {
 
 bool Range::contains(double value) const {
   if (!std::isfinite(value)) return false;
-  // Negated so that a bound that is NaN, having been reported itself, allows everything.
+  // With the negation a NaN bound permits every value. The wrong bound has its own report.
   const bool too_low = low_included ? value < low : value <= low;
   const bool too_high = high_included ? value > high : value >= high;
   return !too_low && !too_high;

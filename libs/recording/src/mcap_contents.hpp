@@ -36,10 +36,10 @@ struct Contents {
 /// Scans the file record by record and skips damaged parts. @param problems  found problems are appended
 [[nodiscard]] Contents walk(const InputFile& file, std::vector<std::string>& problems);
 
-/// Unpacked records of a chunk, checked against its CRC. @throws mcap::FormatError saying what is wrong
+/// Unpacked records of a chunk, checked against its CRC. @throws mcap::FormatError with the problem
 [[nodiscard]] std::string unpack_chunk(const InputFile& file, const Place& chunk);
 
-/// Takes a schema or channel record's content in. @throws mcap::FormatError
+/// Stores the content of a schema or channel record. @throws mcap::FormatError
 void add_schema(Contents& contents, std::string_view content);
 void add_channel(Contents& contents, std::string_view content);
 

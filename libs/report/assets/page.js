@@ -11,7 +11,7 @@
     return d.map((step) => step === null ? null : (sum += step, e < 0 ? sum / power : sum * power));
   };
 
-  // uPlot wants one x for all series: rows over the x of all columns, undefined where a column has none.
+  // uPlot needs one x for all series: the rows have the x of all columns, and undefined where a column has no value.
   const aligned = (xs, columns) => {
     if (xs.length === 1) return [xs[0], ...columns.map((column) => column.y)];
     const entries = xs.flatMap((x, column) => x.map((value, i) => ({value, column, i})));
@@ -28,7 +28,7 @@
 
   const shortened = (u, value) => value == null ? "" : String(Number(value.toPrecision(5)));
 
-  // uPlot's own labels have three decimals: on a curve that hardly moves they would all be the same.
+  // The default labels of uPlot have three decimals, so that labels of a nearly constant curve would be equal.
   const ticks = (u, splits, axis, space, step) => {
     const decimals = Math.min(12, Math.max(0, Math.ceil(-Math.log10(step)) + 1));
     return splits.map((value) => value == null ? "" : String(Number(value.toFixed(decimals))));
@@ -97,7 +97,7 @@
     const u = new uPlot(options, aligned(plot.xs.map(decode), columns), element);
     group.plots.push({u, follow});
     if (group.zoom) follow(() => u.setScale("x", group.zoom));
-    // uPlot settles its scales in a microtask; what comes later is the reader's doing.
+    // uPlot sets its scales in a microtask. Later changes come from the reader.
     queueMicrotask(() => { ready = true; });
     new ResizeObserver(() => u.setSize({width: element.clientWidth, height: 300})).observe(element);
   };

@@ -1,5 +1,5 @@
-/// How a process joins the bus: its command line, its keys, and the rule that nothing which writes is
-/// reachable from other hosts without keys.
+/// Options with which a process joins the bus: command line, keys, and the rule that a process that writes is
+/// reachable from other hosts with keys only.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>

@@ -7,7 +7,7 @@
 namespace crane::runtime {
 namespace {
 
-/// A request that ends motion at once: a flood of others must not keep it out.
+/// True for requests that stop the crane at once. They are accepted during a flood of other requests.
 bool stops(const msg::Request& request) {
   return request.apply_tick == 0 &&
          (request.kind == crane_REQUEST_STOP || request.kind == crane_REQUEST_ESTOP ||

@@ -31,7 +31,7 @@ std::string utc_of(std::int64_t time_s) {
   return text;
 }
 
-/// Collects what is wrong with the files of one identity.
+/// Collects the problems of the files of one identity.
 class Checker {
  public:
   Checker(const Identity& files, std::string_view vendor) : files_{files}, vendor_{vendor} {}

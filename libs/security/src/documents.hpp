@@ -1,14 +1,14 @@
 #pragma once
-/// Governance and permissions as the DDS Security specification 1.1 writes them, not yet signed.
+/// Governance and permissions documents of the DDS Security specification 1.1, without signature.
 #include <string>
 
 #include "crane/security/keys.hpp"
 
 namespace crane::security {
 
-/// Unauthenticated participants are refused; discovery, liveliness and every topic are encrypted and need a
-/// permission. Of the protections that both vendors implement, this is the strongest set that all four pairs
-/// of them understand.
+/// Refuses unauthenticated participants, encrypts discovery, liveliness and every topic, and requires a
+/// permission for every topic. This is the strongest set of protections that works between all four pairs of
+/// the two vendors.
 [[nodiscard]] std::string governance_document();
 [[nodiscard]] std::string permissions_document(const Role& role, const std::string& subject,
                                                const Validity& validity);

@@ -22,7 +22,7 @@ void make_directory(const fs::path& directory) {
     throw std::runtime_error{"cannot make directory " + directory.string() + ": " + std::strerror(errno)};
 }
 
-/// Readable by its owner only, from the moment it exists.
+/// Creates the file with read permission for its owner only.
 void write(const fs::path& file, const std::string& text) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   const bool written =
@@ -46,7 +46,7 @@ Authority make_authority(const std::string& name, const fs::path& directory, con
   return authority;
 }
 
-/// A subject whose hash makes Cyclone DDS start every handshake with Fast DDS.
+/// Subject with a hash for which Cyclone DDS starts every handshake with Fast DDS.
 std::string common_name(std::string_view role, std::string_view vendor) {
   for (int number = 0;; ++number) {
     auto name = std::string{role} + "." + std::string{vendor} + "." + std::to_string(number);

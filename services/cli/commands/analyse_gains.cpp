@@ -26,7 +26,7 @@ struct GainsOptions {
 
 /// One figure of the source: its curve and its scales.
 struct GainFigure {
-  std::string figure, file, over, x_label;
+  std::string figure, file, abscissa, x_label;
   std::string speed_name, swing_name;
   double scale = 1;  ///< the picture shows K and the swing gain divided by this value
   GainCurve curve;
@@ -57,7 +57,7 @@ recording::Table table_of(const GainFigure& figure) {
     for (const GainSample& point : figure.curve) column.values.push_back(value(point));
     table.columns.push_back(std::move(column));
   };
-  add(figure.over, [](const GainSample& p) { return p.over; });
+  add(figure.abscissa, [](const GainSample& p) { return p.abscissa; });
   add("K", [](const GainSample& p) { return p.gains.position; });
   add(figure.speed_name, [](const GainSample& p) { return p.gains.speed; });
   add(figure.swing_name, [](const GainSample& p) { return p.gains.swing; });
@@ -71,7 +71,8 @@ recording::Table table_of(const GainFigure& figure) {
 void draw(const std::filesystem::path& file, const GainFigure& figure) {
   const auto curve = [&](std::string name, double scale, auto&& value) {
     plot::NamedCurve named{scale == 1 ? name : name + "/" + recording::shortest(scale), {}, {}};
-    for (const GainSample& point : figure.curve) named.points.push_back({point.over, value(point) / scale});
+    for (const GainSample& point : figure.curve)
+      named.points.push_back({point.abscissa, value(point) / scale});
     return named;
   };
   plot::draw_curves(
@@ -83,24 +84,24 @@ void draw(const std::filesystem::path& file, const GainFigure& figure) {
          curve(figure.swing_name, figure.scale, [](const GainSample& p) { return p.gains.swing; })}}});
 }
 
-/// Point of the curve that is nearest to `over`.
-const GainSample& nearest(const GainFigure& figure, double over) {
+/// Point of the curve that is nearest to `abscissa`.
+const GainSample& nearest(const GainFigure& figure, double abscissa) {
   return *std::min_element(figure.curve.begin(), figure.curve.end(),
-                           [over](const GainSample& a, const GainSample& b) {
-                             return std::abs(a.over - over) < std::abs(b.over - over);
+                           [abscissa](const GainSample& a, const GainSample& b) {
+                             return std::abs(a.abscissa - abscissa) < std::abs(b.abscissa - abscissa);
                            });
 }
 
 void print(const GainFigure& figure) {
   std::cout << "figure " << figure.figure << '\n';
-  TextTable table{{figure.over, "K", figure.speed_name, figure.swing_name, "poles"}};
-  const double low = figure.curve.front().over, high = figure.curve.back().over;
+  TextTable table{{figure.abscissa, "K", figure.speed_name, figure.swing_name, "poles"}};
+  const double low = figure.curve.front().abscissa, high = figure.curve.back().abscissa;
   for (int i = 0; i <= 4; ++i) {
     const GainSample& point = nearest(figure, low + (high - low) * i / 4);
     std::string poles;
     for (const auto& pole : point.poles)
       if (pole.imag() >= 0) poles += (poles.empty() ? "" : ", ") + pole_text(pole);
-    table.add({fixed(point.over, 3), fixed(point.gains.position, 4), fixed(point.gains.speed, 4),
+    table.add({fixed(point.abscissa, 3), fixed(point.gains.position, 4), fixed(point.gains.speed, 4),
                fixed(point.gains.swing, 4), poles});
   }
   table.print(std::cout);
@@ -108,11 +109,11 @@ void print(const GainFigure& figure) {
 }
 
 nlohmann::ordered_json figure_json(const GainFigure& figure) {
-  nlohmann::ordered_json json{{"figure", figure.figure}, {"over", figure.over}};
+  nlohmann::ordered_json json{{"figure", figure.figure}, {"over", figure.abscissa}};
   for (const GainSample& point : figure.curve) {
     nlohmann::ordered_json poles;
     for (const auto& pole : point.poles) poles.push_back(pole_json(pole));
-    json["points"].push_back({{figure.over, point.over},
+    json["points"].push_back({{figure.abscissa, point.abscissa},
                               {"K", point.gains.position},
                               {figure.speed_name, point.gains.speed},
                               {figure.swing_name, point.gains.swing},

@@ -31,9 +31,8 @@ class Homing {
  public:
   explicit Homing(const configuration::Rig& rig);
 
-  /// Call once per tick and axis. @return counts to add to the counter at the tick at which the position
-  /// becomes known;
-  ///   otherwise nothing
+  /// Call once per tick and axis. @return counts to add to the counter, at the tick at which the position
+  ///   becomes known; nothing at every other tick
   std::optional<std::int64_t> step(std::size_t axis, const MarkView& view) noexcept;
   /// True when the position of the axis is known.
   [[nodiscard]] bool known(std::size_t axis) const { return axes_[axis].known; }

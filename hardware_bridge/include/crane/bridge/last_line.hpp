@@ -38,7 +38,7 @@ struct Seen {
   bool second_writer = false;  ///< true: crane/command has had a second writer within the last second
 };
 
-/// Meanings and numbers: LatchReason in idl/crane.idl.
+/// LatchReason in idl/crane.idl has the meanings and the same numbers.
 enum class Reason : std::uint8_t {
   none,
   command_stale,
@@ -68,7 +68,7 @@ inline constexpr std::size_t kReasons = 15;
 /// the soft margin indicates a wrong position.
 struct AxisLine : control::DriveLimits {
   double certain_motion_v = 5;   ///< a larger voltage moves the axis against any friction and load, V
-  double creeping_motion_v = 2;  ///< the same while the axis is being homed, V
+  double creeping_motion_v = 2;  ///< as certain_motion_v, while the axis is being homed, V
   /// Smallest and largest gain: unit/s^2 per volt when lag_s is 0, otherwise unit/s per volt.
   double gain_low = 0;
   double gain_high = 0;
@@ -92,7 +92,7 @@ class History {
     std::uint64_t tick = 0;
     Seen seen;
     std::array<bool, kDrives> released{};  ///< true: the brake is commanded open
-    std::array<bool, kDrives> free{};      ///< true: it is commanded open and reports open
+    std::array<bool, kDrives> free{};      ///< true: the brake is commanded open and reports open
   };
   static constexpr std::size_t kLength = 32;
 
@@ -112,7 +112,7 @@ class History {
 };
 
 /// Input of the checks at one tick.
-struct Moment {
+struct CheckInput {
   std::uint64_t tick = 0;
   const CommandView* command = nullptr;  ///< newest command; null: no command since the start
   CommandView before;                    ///< last executed command; default-constructed after a latch
@@ -124,14 +124,14 @@ struct Moment {
 
 struct Check {
   Reason reason;
-  bool (*fails)(const LastLineParameters&, const Moment&) noexcept;
+  bool (*fails)(const LastLineParameters&, const CheckInput&) noexcept;
 };
 /// All checks in their order.
 [[nodiscard]] std::span<const Check> last_line_checks() noexcept;
 /// Counters that fail encoder_jump or lost_counts; none for any other reason.
 [[nodiscard]] std::array<bool, kCounters> counters_in_doubt(Reason reason,
                                                             const LastLineParameters& parameters,
-                                                            const Moment& moment) noexcept;
+                                                            const CheckInput& input) noexcept;
 
 class LastLine {
  public:
@@ -157,8 +157,8 @@ class LastLine {
  private:
   void observe(std::uint64_t tick, const Seen& seen) noexcept;
   void follow_brake(std::size_t axis, std::uint64_t tick, const Seen& seen) noexcept;
-  [[nodiscard]] Reason first_failure(const Moment& moment) const noexcept;
-  void latch(Reason reason, const Moment& moment) noexcept;
+  [[nodiscard]] Reason first_failure(const CheckInput& input) const noexcept;
+  void latch(Reason reason, const CheckInput& input) noexcept;
   void reset_on_permission_edge(const CommandView& command) noexcept;
 
   LastLineParameters parameters_;
@@ -166,10 +166,10 @@ class LastLine {
   History history_;
   Reason reason_ = Reason::none;
   CommandView before_;
-  Outputs given_;
+  Outputs executed_;
   /// Tick by which the closed brake has stopped its axis.
   std::array<std::uint64_t, kDrives> rests_from_tick_{};
-  std::array<bool, kDrives> told_closed_{};
+  std::array<bool, kDrives> commanded_closed_{};
   std::array<std::optional<double>, kDrives> braked_at_{};
   std::array<bool, kDrives> doubted_{};
   bool final_ = false;

@@ -1,8 +1,9 @@
 #pragma once
-/// Quiet time of a new writer of crane/command: the bridge obeys the writer after it has requested no volts,
-/// no open brake, no homing and no watchdog permission for kQuiet_s. A supervisor is quiet for longer
-/// (self-test, then 1 s without a cause before a reset). A program that commands at once moves nothing, also
-/// when no supervisor runs; discovery shows the second writer within the quiet time. Pure.
+/// Quiet time of a new writer of crane/command. The bridge obeys a new writer only after the writer has
+/// requested no volts, no open brake, no homing and no watchdog permission for kQuiet_s. A supervisor is
+/// quiet for longer (self-test, then 1 s without a cause before a reset). A program that commands at once
+/// moves nothing, even when no supervisor runs; discovery reports the second writer within the quiet time.
+/// Pure.
 #include <cstdint>
 #include <optional>
 

@@ -246,7 +246,7 @@ class CycloneBackEnd final : public BackEnd {
   std::shared_ptr<Doorbell> doorbell_;
   Census census_;
   dds_entity_t participant_ = 0;
-  dds_entity_t participants_ = 0;  ///< built-in reader of what was discovered
+  dds_entity_t participants_ = 0;  ///< built-in reader of discovered participants
   dds_entity_t publisher_ = 0;
   dds_entity_t subscriber_ = 0;
 };

@@ -54,7 +54,7 @@ std::string configuration(const Options& options) {
 
 void report(void* /*unused*/, const dds_log_data_t* entry) {
   const std::string_view line{entry->message, entry->size};
-  // The domain is open a moment before its participant exists; the others call again.
+  // The domain opens shortly before its participant exists. Other threads call this function again.
   if (line.find("Remote secure participant") != std::string_view::npos) return;
   vendor_log("Cyclone DDS", line);
 }

@@ -36,7 +36,7 @@ void switch_intraprocess_delivery_off() {
   });
 }
 
-/// Instead of standard output, which belongs to what a tool was asked for.
+/// Writes the log to standard error. Standard output is for the results of a tool.
 class LogToVendorLog final : public dds::LogConsumer {
  public:
   void Consume(const dds::Log::Entry& entry) override { vendor_log("Fast DDS", entry.message); }
@@ -115,7 +115,7 @@ class ParticipantNumber {
     const std::lock_guard lock{mutex()};
     if (!kept_) used().erase(number_);
   }
-  /// Fast DDS does not give the number of a participant back that it could not create.
+  /// Fast DDS does not release the number of a participant that it failed to create.
   void keep() { kept_ = true; }
   [[nodiscard]] int value() const { return number_; }
 
@@ -139,7 +139,7 @@ struct ParticipantDeleter {
   }
 };
 
-/// Notes what the participants announce, on a thread of Fast DDS.
+/// Stores the announcements of participants. Runs on a thread of Fast DDS.
 class Discovery final : public dds::DomainParticipantListener {
  public:
   explicit Discovery(const Options& options) : census_{options.messages_version, options.crane} {}
@@ -211,7 +211,7 @@ class FastBackEnd final : public BackEnd {
   }
 
   std::shared_ptr<Doorbell> doorbell_;
-  Discovery discovery_;       // as long as the participant
+  Discovery discovery_;       // must outlive the participant
   ParticipantNumber number_;  // released after the participant is deleted
   std::unique_ptr<dds::DomainParticipant, ParticipantDeleter> participant_;
   dds::Publisher* publisher_ = nullptr;

@@ -5,10 +5,10 @@
 /// pendulum on a support whose acceleration a is the control. With lengths in L, accelerations in g and time
 /// in sqrt(L/g), every plane and every cable length has the same equations,
 ///   p'' = a,   s'' = a - s
-/// p: support behind its reference, s: swing (phi, or -theta). The gains of
+/// p: distance of the support from its reference; s: swing (phi, or -theta). The gains of
 ///   a = -(k_p p + k_v p' + k_s s + k_r s')
-/// minimise the integral of (p - s)^2 + w a^2: the squared distance of the load from its reference, and the
-/// effort. Plans add their feed-forward volts, and the gains act on the distance from the planned state.
+/// minimise the integral of (p - s)^2 + w a^2, the squared distance of the load from its reference and the
+/// effort. With a plan, its feed-forward volts are added, and p and s are distances from the planned state.
 #include <Eigen/Dense>
 #include <cmath>
 
@@ -24,7 +24,7 @@ struct LqrGains {
 };
 
 constexpr double kEffortWeight =
-    1;  // w; smaller: faster, with more volts and less tolerance of a wrong length
+    1;  // w; a smaller value: faster, more volts, less tolerance of a wrong cable length
 // Of the distance from a plan. 0.05 settles maneuver 2 in 2.22 s instead of 2.37 s, and a cable 20 % shorter
 // than measured makes it unstable.
 constexpr double kPlanEffortWeight = 0.18;
@@ -57,7 +57,7 @@ LqrGains at_length(const LqrGains& k, double gravity_mps2, double length_m) noex
           k.swing_rate * gravity_mps2 / rate_ps};
 }
 
-/// Volts per acceleration of the load's suspension along the jib and across it.
+/// Volts per acceleration of the suspension point, along the jib and across it.
 struct VoltsPerAcceleration {
   VoltsPerAcceleration(const Design& design, const Schedule& at)
       : trolley{1 / design.crane.trolley_gain_mps2pv},

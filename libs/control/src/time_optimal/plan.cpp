@@ -1,4 +1,4 @@
-/// What a plan needs before it can be solved, and the reference that it gives.
+/// Checks of a plan's problem, and the reference of a plan.
 #include <algorithm>
 #include <cmath>
 
@@ -67,7 +67,7 @@ Reference reference_at(const Design& design, const PlanProblem& problem, const P
   const double period_s = design.period_s;
   Reference reference;
   reference[kHoist].position = problem.cable_m;
-  if (time_s >= plan.duration_s) {  // the target itself, to the last bit
+  if (time_s >= plan.duration_s) {  // exactly the target
     reference[kTrolley].position = problem.to[kTrolley];
     reference[kSlew].position = problem.to[kSlew];
     return reference;

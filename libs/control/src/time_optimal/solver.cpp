@@ -20,11 +20,11 @@ constexpr double kClosed = 1e-4;      // sum of all gaps of a solution, m, rad a
 constexpr double kMostChange = 0.2;   // largest relative change of T in one step
 constexpr int kMostHalvings = 12;
 constexpr double kDamping = 1e-7;  // s per V^2 of change
-// With its duration fixed slightly above the optimum the move has room, and its gaps close quickly.
+// With a duration slightly above the optimum, fixed, the gaps close quickly.
 constexpr double kRoom = 1.003;        // duration / optimal duration
-constexpr double kRoomBarrier = 1e-3;  // only the barriers are minimised: their scale is free
+constexpr double kRoomBarrier = 1e-3;  // the objective then has no other part
 constexpr double kNearOptimum = 5e-3;  // relative change of T below which the duration is fixed
-constexpr double kNearGaps = 0.3;      // and sum of the gaps
+constexpr double kNearGaps = 0.3;      // sum of the gaps below which the duration is fixed
 constexpr int kMostSearching = 60;     // iterations with free duration
 constexpr int kMostClosing = 20;       // iterations with one fixed duration
 constexpr double kMoreRoom = 1.01;     // factor of the duration when its gaps do not close
@@ -42,17 +42,17 @@ double logarithms(double value, double low, double high) noexcept {
   return std::log(value - low) + std::log(high - value);
 }
 
-/// Share of `change` after which the value has gone kToBoundary of the way to a bound.
+/// Share of `change` that moves the value by kToBoundary of its distance from a bound.
 double share_within(double value, double change, double low, double high) noexcept {
   const double room = change > 0 ? high - value : value - low;
   return std::abs(change) > kToBoundary * room ? kToBoundary * room / std::abs(change) : 1;
 }
 
-/// Moves a dual by the linearised complementarity (value - bound) z = mu, as far as it stays positive.
+/// Moves a dual variable by the linearised complementarity (value - bound) z = mu. It stays positive.
 void move_dual(double& dual, double room, double room_change, double mu) noexcept {
   const double change = (mu - dual * room_change) / room - dual;
   const double share = change < -kToBoundary * dual ? kToBoundary * dual / -change : 1;
-  // Stays near the central path, so that one bad step cannot spoil the curvature.
+  // Keeps the dual variable near the central path, so that one bad step cannot spoil the curvature.
   dual = std::clamp(dual + share * change, mu / room / 1e8, mu / room * 1e8);
 }
 
@@ -251,7 +251,7 @@ bool Solver::search(int& iterations) noexcept {
     ++iterations;
     linearise();
     find_step();
-    if (!take_step()) return true;  // as near as this linearisation gets
+    if (!take_step()) return true;  // no step of this linearisation comes nearer
     const bool near = std::abs(change_.duration_s) < kNearOptimum * at_.duration_s;
     const double gaps = merit(at_).gaps;
     if (!std::isfinite(gaps)) return false;

@@ -1,11 +1,11 @@
 #pragma once
-/// Interior point method of the time-optimal plan (time_optimal.hpp). The iterate:
-///   T, volts of every interval, states at every end of an interval; the gaps between the end of one interval
-///   and the start of the next close as the iterations converge (multiple shooting).
-/// A Newton step solves, with ds, du, dT the changes, Sigma the curvature of the barriers:
+/// Interior point method of the time-optimal plan (time_optimal.hpp). An iterate has T, the volts of every
+/// interval, and the states at the ends of the intervals. The gap between the end of one interval and the
+/// start of the next closes as the iterations converge (multiple shooting). A Newton step solves, with the
+/// changes ds, du, dT and the curvature Sigma of the barriers,
 ///   minimise sum of barriers + T + effort,  ds(k+1) = A ds(k) + B du(k) + d dT + gap(k),  end state reached
-/// by a Riccati recursion over (ds, dT). The curvature of the equations is left out: time-optimal volts lie
-/// on their limits, so that the linearised problem has its solution in a corner.
+/// by a Riccati recursion over (ds, dT). It omits the curvature of the equations: time-optimal volts are at
+/// their limits, so that the solution of the linearised problem is at a corner.
 #include "tower.hpp"
 
 namespace crane::control::time_optimal {
@@ -53,7 +53,7 @@ class Solver {
   State from_, to_, low_, high_;
   Control volt_limit_;
   double barrier_ = 0;  ///< mu
-  bool fixed_ = false;  ///< the duration is fixed; only the gaps are left
+  bool fixed_ = false;  ///< true: the duration is fixed, the iterations close the gaps
   double share_ = 1;    ///< share of the last step that was taken
   Iterate at_, change_, trial_;
   std::array<Step, kIntervals> steps_;

@@ -11,7 +11,7 @@ namespace {
 
 namespace motion = plant::motion;
 
-/// A number with its derivatives by x, phi, theta, x', phi', gamma', theta'.
+/// A number with its derivatives with respect to x, phi, theta, x', phi', gamma', theta'.
 struct Dual {
   static constexpr int kInputs = 7;
   using Slope = Eigen::Matrix<double, kInputs, 1>;
@@ -28,7 +28,7 @@ Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slop
 Dual operator*(const Dual& a, const Dual& b) {
   return {a.value * b.value, a.slope * b.value + b.slope * a.value};
 }
-// Without these a constant would be multiplied as a Dual with slope 0.
+// These overloads avoid a Dual with slope 0 for each constant.
 Dual operator+(double a, const Dual& b) { return {a + b.value, b.slope}; }
 Dual operator-(double a, const Dual& b) { return {a - b.value, -b.slope}; }
 Dual operator*(double a, const Dual& b) { return {a * b.value, b.slope * a}; }
@@ -67,10 +67,10 @@ Eigen::Matrix4d matrix_of(const motion::Mass<double>& e) {
   return m;
 }
 
-/// The state of each input of Dual; the slew angle is none, because the equations do not depend on it.
+/// State number of each input of Dual. The equations do not depend on the slew angle, which is no input.
 constexpr std::array<int, Dual::kInputs> kStateOfInput{0, 1, 3, 4, 5, 6, 7};
 
-/// Derivatives of M(q) a + h by the inputs of Dual, at constant a.
+/// Derivatives of M(q) a + h with respect to the inputs of Dual, at constant a.
 Eigen::Matrix<double, 4, Dual::kInputs> residual_slope(const Tower& tower, const State& s,
                                                        const Eigen::Vector4d& a) {
   const Equations<Dual> e(tower, [&](int state) {

@@ -19,7 +19,7 @@ struct Tower {
   double cable_m;
 };
 
-/// Friction of a drive in volts, smooth around standstill so that it has a derivative.
+/// Friction of a drive in volts, smoothed around standstill so that it has a derivative.
 struct Friction {
   double volts, slope;
 };

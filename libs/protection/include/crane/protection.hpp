@@ -1,7 +1,7 @@
 #pragma once
-/// Every protection of supervisor, bridge and bus by name. In a build with CRANE_MUTATION one of them can be
-/// switched off, so that tests/campaign can show that a fault gets through without it. In every other build
-/// `enabled` is the constant true and nothing of this is left in a program.
+/// Names of all protections of supervisor, bridge and bus. A build with CRANE_MUTATION can switch one of them
+/// off; tests/campaign then shows that a fault has an effect without it. In every other build `enabled` is
+/// the constant true, and the compiler removes the check.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,9 +9,8 @@
 
 namespace crane::protection {
 
-// Supervisor: echo of the commands, gate, requests and brakes; its rules have their names in
-// supervisor/src/rules.cpp. Bridge: checks in the order of hardware_bridge/src/checks.cpp. Bus: seal and
-// writer binding.
+// Supervisor: command echo, gate, requests and brakes; supervisor/src/rules.cpp has the names of the rules.
+// Bridge: checks in the order of hardware_bridge/src/checks.cpp. Bus: checksum and writer binding.
 #define CRANE_PROTECTIONS(X)   \
   X(supervisor_echo)           \
   X(gate_range)                \

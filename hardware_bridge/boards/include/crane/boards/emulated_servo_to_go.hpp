@@ -3,10 +3,8 @@
 /// card. A Connector represents the wiring of the card.
 ///
 /// Modelled: counters with output latch, byte pointer, preset, input enable and quadrature mode (8- and
-/// 16-bit
-///   accesses); converters; 8255 ports with directions; board test; 8254 timer 0 behind timer 1, which
-///   latches
-///   all counters in each period.
+/// 16-bit accesses); converters; 8255 ports with directions; board test; 8254 timer 0 behind timer 1, which
+/// latches all counters in each period.
 /// Not modelled: ADC, index pulses, interrupts. Reading any other port returns 0xFF. Counters follow `pulses`
 /// modulo 2^24 while their inputs are enabled.
 #include <array>

@@ -36,15 +36,13 @@ struct Calibration {
 ///   does not come to rest
 [[nodiscard]] Calibration calibrate(Session& session, const CalibrationOptions& options);
 
-/// @return text of a rig file for the path `file`, which extends that of `rig` by the values of the
-///   calibration
+/// @return text of a rig file for the path `file`, which extends the file of `rig` by the calibrated values
 /// @throws configuration::ConfigurationError when the result has problems, or when `file` is the calibration
-/// of
-///   another rig, is not a rig file, or is the rig file itself
+/// of another rig, is no rig file, or is the rig file itself
 [[nodiscard]] std::string calibration_file(const configuration::Rig& rig, const Calibration& calibration,
                                            const std::filesystem::path& file);
-/// Checks before a calibration that `file` may be written for `rig`. @throws
-/// configuration::ConfigurationError
+/// Checks before a calibration that `file` may be written for `rig`.
+/// @throws configuration::ConfigurationError
 void require_own_file(const configuration::Rig& rig, const std::filesystem::path& file);
 
 }  // namespace crane::bring_up

@@ -30,13 +30,13 @@ struct Sample {
 };
 using Record = std::vector<Sample>;
 
-/// A person has ended the session with Ctrl-C or the emergency stop.
+/// The user has ended the session with Ctrl-C or the emergency stop.
 class Ended : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Waiting and interruption.
+/// Functions that wait for a tick and report an interruption.
 struct Clock {
   std::function<void(std::int64_t duration_ns)> wait = [](std::int64_t) {
   };  ///< default for simulated time: no wait

@@ -22,7 +22,7 @@ inline constexpr std::size_t kSwings = 2;
 
 /// Evidence from the pushes of one axis.
 struct AxisEvidence {
-  bool limit_open = false;     ///< true: a limit switch was open before, so that the axis was not moved
+  bool limit_open = false;     ///< true: a limit switch was open, so that the axis was not moved
   bool closed_at_rest = true;  ///< true: the brake contact reported closed with brake line and relay off
   /// True: the brake contact reported closed with closed relay and brake line off.
   bool closed_in_use = true;
@@ -37,8 +37,8 @@ struct AxisEvidence {
   std::array<double, kDrives> moved{};       ///< motion by the counter of each axis, m or rad
   std::array<double, kSwings> shifted_rad{};  ///< permanent change of each swing counter (angle at rest)
   std::array<double, kSwings> swung_rad{};    ///< added swing
-  /// Swing that the motion of the suspension point should have added, with the sign of the encoder; and its
-  /// measured share (share_of).
+  /// Swing that the motion of the suspension point should add, with the sign of the encoder, and the measured
+  /// share of it (share_of).
   double expected_rad = 0;
   double share = 0;
   /// After the push, with closed brakes: swing in the counter of a drive, with the scale of the swing
@@ -58,27 +58,27 @@ struct Evidence {
 };
 
 enum class Fault {
-  estop,
-  relay_stuck,
-  relay_dead,
-  limit_open,
-  brake_contact,
-  brake_open,
-  brake_slips,
-  brake_shut,
-  brakes_swapped,
-  brake_slow,
-  drifts,
-  drive_sign,
-  encoder_sign,
-  drive_or_encoder_sign,
-  swing_sign,
-  encoders_swapped,
-  drives_swapped,
-  encoder_dead,
-  drive_dead,
-  drive_or_encoder_dead,
-  swing_dead
+  estop,                  ///< the emergency stop is pressed, or its wire is broken
+  relay_stuck,            ///< the relay stays closed without toggles of the watchdog output
+  relay_dead,             ///< the relay does not close while the watchdog output toggles
+  limit_open,             ///< a limit switch is open: the axis was not moved
+  brake_contact,          ///< the brake holds, and its contact reports open
+  brake_stays_open,       ///< the axis moves against the brake, and the contact reports open
+  brake_slips,            ///< the axis moves against the brake, and the contact reports closed
+  brake_stays_closed,     ///< the contact reports closed with the brake line on
+  brakes_swapped,         ///< the contact of another brake opens
+  brake_slow,             ///< the brake does not close within its closing time and two ticks
+  drift,                  ///< the axis moves at 0 V with open brake
+  drive_sign,             ///< a positive voltage moves the axis inward
+  encoder_sign,           ///< the counter decreases when the axis moves outward
+  drive_or_encoder_sign,  ///< voltage and counter disagree; no load shows which of them is wrong
+  swing_sign,             ///< the swing angle has the wrong sign
+  encoders_swapped,       ///< the counter of another encoder follows the axis
+  drives_swapped,         ///< the voltage moves another axis
+  encoder_dead,           ///< the axis moves, and its counter does not change
+  drive_dead,             ///< the voltage moves no axis
+  drive_or_encoder_dead,  ///< no counter changes; no load shows which of them is dead
+  swing_dead              ///< the load swings, and its counter does not change
 };
 [[nodiscard]] std::string_view name_of(Fault fault);  ///< "encoder_sign"
 

@@ -17,7 +17,7 @@ namespace crane::analysis {
 
 /// One point of a curve.
 struct GainSample {
-  double over = 0;             ///< abscissa: L [m], m_t or x [m]
+  double abscissa = 0;         ///< L [m], m_t or x [m]
   control::Gains gains;        ///< slew axis: swing gains K_theta = K_phi / x
   std::vector<Complex> poles;  ///< all four poles
 };

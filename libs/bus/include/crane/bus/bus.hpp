@@ -44,7 +44,7 @@ class Error : public std::runtime_error {
 
 class MemoryNetwork;  ///< connects the buses of an in-process stack; all buses of one stack share one network
 
-/// Absolute paths of what DDS Security wants of one participant; PEM, documents signed as S/MIME.
+/// Absolute paths of one participant's files for DDS Security: PEM; documents signed as S/MIME.
 struct Credentials {
   std::string identity_ca, identity_certificate, private_key;
   std::string permissions_ca, governance, permissions;
@@ -60,10 +60,10 @@ struct Options {
   std::vector<std::string> interfaces{"127.0.0.1"};  ///< addresses to bind to
   std::vector<std::string> peers{};          ///< not empty: unicast discovery of these hosts, no multicast
   std::shared_ptr<MemoryNetwork> network{};  ///< Vendor::memory only
-  /// Nothing: DDS Security is off, and every program that reaches this bus may write to it. The memory back
-  /// end needs no credentials.
+  /// Empty: DDS Security is off, and every program that reaches this bus may write to it. The memory back end
+  /// needs no credentials.
   std::optional<Credentials> credentials{};
-  /// Announced to all participants and part of every CRC. Only tests choose another one.
+  /// Announced to all participants and part of every CRC. Only tests set another value.
   std::uint32_t messages_version = crane_MESSAGES_VERSION;
 };
 
@@ -131,7 +131,7 @@ struct OtherVersion {
                                   std::uint32_t own_version = crane_MESSAGES_VERSION);
 
 namespace detail {
-class Writer;  ///< of one vendor
+class Writer;  ///< writer of one vendor
 class Reader;
 }  // namespace detail
 
@@ -260,13 +260,13 @@ class Bus {
 /// @return an in-process network without endpoints
 [[nodiscard]] std::shared_ptr<MemoryNetwork> make_memory_network();
 
-/// Hands a sample of the topic to all its readers.
+/// Delivers a sample of the topic to all its readers.
 using Deliver = std::function<void(const void* sample)>;
 /// What an in-process network does to a published sample: calls `deliver` once for every sample that arrives,
 /// this one or any other of its topic. It must not use the network.
 using Wire =
     std::function<void(const topics::Description& topic, const void* sample, const Deliver& deliver)>;
-/// From now on samples go through `wire`; an empty one delivers each sample once.
+/// Passes all later samples through `wire`. An empty `wire` delivers each sample once.
 void set_wire(MemoryNetwork& network, Wire wire);
 
 }  // namespace crane::bus

@@ -1,7 +1,7 @@
 #pragma once
-/// The sections of a rig file as tables of fields. Those of [plant] stand in plant/parameter_fields.hpp,
-/// those of [controller] in control/design_fields.hpp. The supervisor also checks the limits, which stand in
-/// control/drive_limit_fields.hpp and control/operating_limits.hpp.
+/// Tables of the fields of a rig file, one per section. plant/parameter_fields.hpp has the table of [plant],
+/// control/design_fields.hpp that of [controller]. control/drive_limit_fields.hpp and
+/// control/operating_limits.hpp have the limits, which the supervisor checks as well.
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,12 +28,12 @@ inline constexpr Range kChannels = Range::closed(0, 7);     ///< boards have 8 c
 inline constexpr Range kInputs = Range::closed(0, 15);      ///< ports A and B
 inline constexpr Range kOutputs = Range::closed(16, 31);    ///< ports C and D
 inline constexpr Range kSubdevices = Range::closed(0, 63);  ///< of a comedi board
-/// What a trajectory can be planned with: its times stay finite, and longer than nothing.
+/// Limits of a trajectory. Within this range all its times are finite and positive.
 inline constexpr Range kPlanned = Range::closed(1e-6, 1e6);
 
 [[nodiscard]] std::vector<std::string> board_names();
 [[nodiscard]] std::vector<std::string> controller_names();
-/// @pre the name is one of the names
+/// Index of `name`. @pre `names` contains it
 [[nodiscard]] std::size_t place_of(const std::string& name, const std::vector<std::string>& names);
 
 inline constexpr std::array<Field<Rig>, 4> kRigFields{{
@@ -77,7 +77,7 @@ inline constexpr std::array<Field<Drive>, 5> kDriveFields{{
      .meaning = "a_max of planned moves (3.43)",
      .presence = Presence::required,
      .quantity = Quantity::acceleration},
-    // A ramp rises to full acceleration within a tenth of a second unless the file says otherwise.
+    // The default jerk reaches the full acceleration within 0.1 s.
     {.key = "reference_jerk",
      .member = &Drive::reference_jerk,
      .range = kPlanned,
@@ -106,7 +106,7 @@ inline constexpr std::array<Field<Encoder>, 3> kEncoderFields{{
      .meaning = "1 or -1: which way it counts"},
 }};
 
-/// Only of the encoder of a drive.
+/// For encoders of drives only.
 inline constexpr std::array<Field<Drive>, 1> kZeroFields{{
     {.key = "zero",
      .member = Choice<Drive>{[] {
@@ -296,8 +296,8 @@ inline constexpr std::array<Field<Planning>, 5> kPlanningFields{{
          "shaped (`zv`)"},
 }};
 
-/// Calls visit(path, fields, section, unit) for every section that the rig has, with "" as path of the root
-/// and the unit of the coordinate that a section is about. Sections with two tables of fields come twice.
+/// Calls visit(path, fields, section, unit) for every section of the rig. `path` is empty for the root;
+/// `unit` is the unit of the section's coordinate. A section with two tables of fields is visited twice.
 /// @tparam AnyRig  Rig or const Rig
 template <class AnyRig, class Visit>
 void for_each_section(AnyRig& rig, Visit&& visit) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Declarative reader of TOML input files: every value is asked for by its unit-bearing key and its rule,
-/// every problem is collected, and finish() reports them all at once, sorted by line:
+/// Declarative reader of TOML input files. A getter states key and rule of a value. The reader collects all
+/// problems, and finish() reports them together, sorted by line:
 ///
 ///   TomlTable root(text, "tower.toml");
 ///   auto drive = root.required_table("trolley");
@@ -17,26 +17,26 @@ namespace crane::configuration {
 
 using fields::Range;
 
-/// One table of a TOML document; a cheap handle, copies speak of the same table. A table that the file does
-/// not have is absent: its getters give their defaults, and required keys in it are not missed.
+/// One table of a TOML document: a cheap handle; copies refer to the same table. A table that the file does
+/// not have is absent: its getters return their defaults and report no missing keys.
 ///
-/// Every getter marks its key as known. With a default the key is optional, without one it is required. Where
-/// a value breaks its rule the problem is noted and the getter gives NaN (number), the default or INT_MIN
-/// (integer), or an empty text: comparisons with NaN are false, so cross checks written as `if
-/// (low >= high)` do not add a second problem, and finish() throws before the value is used.
+/// Every getter marks its key as known. A key with a default is optional, a key without one is required. For
+/// a value that breaks its rule, the getter notes a problem and returns NaN (number), the default or INT_MIN
+/// (integer), or an empty text. Comparisons with NaN are false, so that a check between two values, such as
+/// `if (low >= high)`, adds no second problem. finish() throws before the value is used.
 class TomlTable {
  public:
   /// Root table. `file` is used in messages only. @throws ConfigurationError (rig.hpp) on a syntax error
   TomlTable(const std::string& text, const std::string& file);
 
-  /// Root tables only, before any sub-table is opened: keys that this file lacks come from `base`, table by
-  /// table; arrays are taken whole. Problems name the file and line that the value comes from.
+  /// Takes keys that this file does not have from `base`, table by table; an array is taken as a whole.
+  /// Problems name the file and line of the value. @pre this is a root table without an open sub-table
   void inherit(TomlTable base);
 
   [[nodiscard]] bool present() const;
-  /// Is the key there? Marks it as known.
+  /// True when the table has the key. Marks the key as known.
   [[nodiscard]] bool has(std::string_view key);
-  /// Keys of this table in alphabetical order, without marking them as known (tables whose keys are data).
+  /// Keys of this table in alphabetical order, for tables whose keys are data. Marks no key as known.
   [[nodiscard]] std::vector<std::string> keys() const;
 
   /// Finite number within the range; integers are accepted.
@@ -64,13 +64,13 @@ class TomlTable {
   /// [[key]]: array of tables, empty when the key is absent.
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);
 
-  /// Keys of this table are not judged by finish().
+  /// finish() then reports no unknown key of this table.
   void ignore_unknown();
 
-  /// Note a problem of the value of `key` (cross checks): "file:line: name = value: rule". Where the table
-  /// has no such key, the table's own line is named, and the value is left out.
+  /// Notes a problem of the value of `key`: "file:line: name = value: rule". Without such a key the problem
+  /// has the line of the table and no value.
   void problem(std::string_view key, const std::string& rule);
-  /// Note a problem of the table as a whole: "file:line: name: rule".
+  /// Notes a problem of the table as a whole: "file:line: name: rule".
   void problem(const std::string& rule);
   /// "file:line: " of the key, or of the table if the key is absent.
   [[nodiscard]] std::string place(std::string_view key) const;

@@ -1,6 +1,6 @@
 #pragma once
-/// Fields of [controller] and [controller.friction.NAME] of a rig file. Gains are those of the dissertation
-/// (H. M. Omar, Control of Gantry and Tower Cranes), in the tower's sign.
+/// Fields of [controller] and [controller.friction.NAME] of a rig file. The gains are those of H. M. Omar,
+/// Control of Gantry and Tower Cranes, with the signs of docs/equations.md#coordinates-and-signs.
 #include <string>
 #include <vector>
 
@@ -10,16 +10,16 @@
 
 namespace crane::control {
 
-/// Gains of normalised time. The printed ones lie within 100; beyond 1e5 a swing of one encoder count
-/// commands full voltage.
+/// Gains in normalised time. The printed gains are within 100; with a gain above 1e5, a swing of one encoder
+/// count commands full voltage.
 inline constexpr fields::Range kGains = fields::Range::closed(-1e5, 1e5);
-/// In periods of the load; the damping of delayed feedback repeats with the period, so two periods show all
-/// of it.
+/// Delays in load periods. The damping of delayed feedback repeats with the period, so that two periods cover
+/// all cases.
 inline constexpr fields::Range kDelays = fields::Range::closed(0, 2);
-/// Friction in volts; what a drive can overcome is checked against its volts.
+/// Friction in volts. A separate check compares it with the voltage limit of the drive.
 inline constexpr fields::Range kFrictionVolts = fields::Range::closed(0, 1000);
 
-/// (3.42): critically damped.
+/// K_d of (3.42), for critical damping.
 [[nodiscard]] double critical_derivative(const Design& design);
 
 inline constexpr std::array<fields::Field<Design>, 18> kDesignFields{{
@@ -148,7 +148,7 @@ inline constexpr std::array<fields::Field<DriveFriction>, 9> kFrictionFields{{
      .range = fields::Range::above(0, 1e6),
      .unit = "1/V",
      .meaning = "A of (3.2)"},
-    // One m/s or rad/s is the top speed of a fast drive: a wider band would compensate standstill for ever.
+    // 1 m/s or 1 rad/s is the top speed of a fast drive: with a wider band every motion counts as standstill.
     {.key = "zero_band",
      .member = &DriveFriction::zero_band_mps,
      .range = fields::Range::above(0, 1),
@@ -161,15 +161,15 @@ inline constexpr std::array<fields::Field<DriveFriction>, 9> kFrictionFields{{
      .default_text = "1"},
 }};
 
-/// A rule between several fields that does not hold. Fields outside their range break no such rule.
+/// A broken rule between several fields. Fields outside their range are not reported here.
 struct Contradiction {
   std::string_view key;
   double value;
   std::string rule;
 };
 [[nodiscard]] std::vector<Contradiction> contradictions(const Design& design);
-/// A drive that its own friction holds at full voltage moves nothing, and leaves K of the full feedback no
-/// volt.
+/// A drive that its own friction holds at full voltage cannot move, and leaves no voltage for the gain K of
+/// full-state feedback.
 [[nodiscard]] std::vector<Contradiction> contradictions(const DriveFriction& friction, double volt_limit_v);
 
 }  // namespace crane::control

@@ -1,6 +1,6 @@
 #pragma once
-/// Fields of [drive.NAME] and [homing.NAME] of a rig file that say what an axis may do, for the rig file and
-/// for the supervisor.
+/// Fields of [drive.NAME] and [homing.NAME] of a rig file that limit the motion of an axis. Rig file and
+/// supervisor use them.
 #include "crane/control/drive_limits.hpp"
 #include "crane/plant/parameter_fields.hpp"
 
@@ -10,9 +10,9 @@ using fields::Presence;
 using fields::Quantity;
 using fields::Range;
 
-/// An analog output gives +-10 V.
+/// Range of an analog output: +-10 V.
 inline constexpr Range kDriveVolts = Range::above(0, 10);
-/// A brake that takes longer than a second holds no crane of this project in time.
+/// A brake that closes later than after 1 s cannot stop a crane of this project in time.
 inline constexpr Range kBrakeTimes = Range::closed(0, 1);
 
 inline constexpr std::array<fields::Field<DriveLimits>, 9> kDriveLimitFields{{

@@ -7,7 +7,7 @@ namespace crane::control {
 
 /// Origin of the position of an axis.
 enum class Zero : std::uint8_t {
-  start,     ///< assumed: the operator has moved the axis to the position of [start] before the bridge starts
+  start,  ///< assumed: before the bridge starts, the operator has moved the axis to the position in [start]
   absolute,  ///< an absolute encoder measures the position
   homing     ///< unknown until the axis has crept to its homing mark
 };

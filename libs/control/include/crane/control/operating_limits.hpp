@@ -1,6 +1,6 @@
 #pragma once
-/// Section [limits] of a rig file: limits of the crane as a whole, with their table of fields. Rig file,
-/// supervisor and bridge use this description. A new limit is a member and a row here.
+/// Section [limits] of a rig file: limits of the whole crane, with their table of fields. Rig file,
+/// supervisor and bridge use this description. A new limit is one member and one row here.
 #include "crane/plant/parameter_fields.hpp"
 
 namespace crane::control {
@@ -15,12 +15,12 @@ struct OperatingLimits {
   bool operator==(const OperatingLimits&) const = default;
 };
 
-/// A limit beyond plant::kSwings would never be reached.
+/// No swing can exceed a limit above plant::kSwings.
 inline constexpr fields::Range kSwingLimits = fields::Range::above(0, plant::kSwings.high);
-/// A day.
+/// At most one day.
 inline constexpr fields::Range kIdleTimes = fields::Range::above(0, 86400);
-/// A crane whose commands or demands have ended must stop within a tenth of a second: at 1 m/s it has
-/// moved 0.1 m by then, the least soft margin of the deployed rigs.
+/// The crane must stop within 0.1 s when commands or demands end: at 1 m/s it moves 0.1 m in this time, the
+/// smallest soft margin of the deployed rigs.
 inline constexpr fields::Range kSilences = fields::Range::above(0, 0.1);
 
 inline constexpr std::array kOperatingLimitFields{

@@ -37,7 +37,7 @@ class PendulumObserver {
  public:
   /// @pre problems(design).empty()
   explicit PendulumObserver(const Design& design);
-  /// Forgets everything: the crane is at rest at `measured`, the load possibly swings.
+  /// Clears the memory. The crane is at rest at `measured`; the load may swing.
   void reset(const Measurement& measured) noexcept;
   /// One tick. No allocation. A measurement that is not finite changes nothing.
   const CraneEstimate& step(const Measurement& measured) noexcept;
@@ -63,9 +63,9 @@ class PendulumObserver {
 /// unknown force holds the load, so that wind does not displace the crane.
 [[nodiscard]] Measurement at_effect(const CraneEstimate& estimate) noexcept;
 
-/// The law behind a pendulum observer. A law that has one already stays as it is.
+/// Puts a pendulum observer in front of the law. A law that has an observer is returned unchanged.
 [[nodiscard]] std::unique_ptr<Law> with_observer(std::unique_ptr<Law> law, const Design& design);
-/// The law of `controller`, behind a pendulum observer where the design asks for it.
+/// The law of `controller`, behind a pendulum observer when design.swing_observer is true.
 [[nodiscard]] std::unique_ptr<Law> tracking_law(const Controller& controller, const Design& design);
 [[nodiscard]] std::unique_ptr<Law> anti_swing_law(const Controller& controller, const Design& design);
 

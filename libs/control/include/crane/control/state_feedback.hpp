@@ -1,5 +1,5 @@
 #pragma once
-/// State feedback with constant gains, for a law that somebody has designed elsewhere (LQR, pole placement):
+/// State feedback with constant gains, for a law that was designed elsewhere (LQR, pole placement):
 ///
 ///   V = k_p (r - q) - k_v q' - k_s s - k_r s'
 ///
@@ -13,7 +13,7 @@
 
 namespace crane::control {
 
-/// Any finite number is allowed; stability is the designer's to check (`crane analyse`).
+/// Any finite number is permitted. The designer must check stability (`crane analyse`).
 struct StateFeedbackAxis {
   double position = 0;    ///< k_p [V/m, V/rad]
   double speed = 0;       ///< k_v [V s/m, V s/rad]

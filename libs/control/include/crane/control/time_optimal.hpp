@@ -1,12 +1,14 @@
 #pragma once
 /// Time-optimal moves of trolley and slew with a swinging load, from rest to rest without residual swing.
 ///
-/// Direct multiple shooting: N intervals of equal length T/N with constant volts; the nonlinear equations of
-/// the tower with its centrifugal coupling (plant/equations.hpp) and friction, one Runge-Kutta step per
-/// interval, exact first derivatives. Minimised: T plus a small effort, so that volts without influence on T
-/// are zero. Limits on volts, swing, speed and position hold at the ends of the intervals.
-/// Solver: primal-dual interior point; a Riccati recursion over the intervals solves the Newton step, so that
-/// the effort grows with N and not with its cube. No dependence on a clock: equal problems have equal plans.
+/// Direct multiple shooting with N intervals of equal length T/N and constant volts. The model has the
+/// nonlinear equations of the tower with centrifugal coupling (plant/equations.hpp) and friction; each
+/// interval is one Runge-Kutta step with exact first derivatives. The objective is T plus a small effort, so
+/// that volts without influence on T are zero. The limits on volts, swing, speed and position hold at the
+/// ends of the intervals.
+/// Solver: primal-dual interior point method. A Riccati recursion over the intervals solves the Newton step,
+/// so that the effort is proportional to N. The result does not depend on a clock: equal problems have equal
+/// plans.
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -28,7 +30,7 @@ struct PlanLimits {
   std::array<double, 2> volts{10, 10};
   std::array<double, 2> low{-1e3, -1e3}, high{1e3, 1e3};  ///< m, rad
   std::array<double, 2> speed{1e3, 1e3};                  ///< m/s, rad/s
-  double swing_rad = 0.17453292519943295;                 ///< of either angle
+  double swing_rad = 0.17453292519943295;                 ///< largest |phi| and |theta|
 };
 
 struct PlanProblem {
@@ -45,8 +47,8 @@ struct Plan {
 
 enum class PlanOutcome : std::uint8_t {
   solved,
-  not_converged,  ///< the iterations were used up, or no step made progress
-  impossible      ///< problems() says why
+  not_converged,  ///< too many iterations, or no step made progress
+  impossible      ///< problems() states the reason
 };
 
 struct PlanResult {
@@ -63,8 +65,8 @@ struct PlanResult {
 [[nodiscard]] PlanResult time_optimal_plan(const Design& design, const PlanProblem& problem,
                                            const Plan* warm = nullptr) noexcept;
 
-/// The plan at `time_s` after its start: positions with speeds and accelerations, swing, and the volts
-/// without the friction that is compensated. At rest at its ends outside [0, duration].
+/// The plan at `time_s` after its start: positions, speeds, accelerations, swing, and volts without the
+/// compensated friction. Before 0 and after the duration the reference is at rest.
 [[nodiscard]] Reference reference_at(const Design& design, const PlanProblem& problem, const Plan& plan,
                                      double time_s) noexcept;
 

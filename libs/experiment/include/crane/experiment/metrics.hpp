@@ -31,7 +31,7 @@ struct Sample {
 /// @throws std::invalid_argument without the column time_s
 [[nodiscard]] std::vector<Sample> samples_from(const recording::Table& table);
 
-/// Moves of a run. An "action" is a move, an excitation or a kick.
+/// Times and targets for the evaluation of a run. An "action" is a move, an excitation or a kick.
 struct Maneuver {
   double first_action_s = 0;  ///< start of the evaluation
   double last_action_s = 0;   ///< start of the evaluation of settling time and overshoot

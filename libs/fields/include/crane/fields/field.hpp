@@ -1,7 +1,7 @@
 #pragma once
-/// One number, switch, text or choice of a section of a rig file, described once. Tables of fields stand
-/// beside the structs they describe. They give the reader and the writer of rig files, the checks and the
-/// tables in docs/rig_file.md.
+/// Describes one number, switch, text or choice in a section of a rig file. The tables of fields are declared
+/// beside the structs that they describe. Reader and writer of rig files, the checks and the tables in
+/// docs/rig_file.md use them.
 #include <array>
 #include <cstddef>
 #include <string>
@@ -14,10 +14,10 @@
 
 namespace crane::fields {
 
-/// What the number is to the coordinate that its section is about. All but `fixed` add a unit to the key.
+/// Quantity of the section's coordinate that the number measures. All except `fixed` add a unit to the key.
 enum class Quantity { fixed, position, speed, acceleration, jerk, volts_per_speed };
 
-/// When a file has to give the field.
+/// When a file must contain the field.
 enum class Presence {
   optional,
   required,
@@ -27,7 +27,7 @@ enum class Presence {
   required_with_hoist
 };
 
-/// One number of an array with one number per drive.
+/// One element of an array that has one number per drive.
 template <class Section>
 struct Element {
   std::array<double, 3> Section::*array;
@@ -54,16 +54,16 @@ using Member = std::variant<double Section::*, int Section::*, bool Section::*, 
 
 template <class Section>
 struct Field {
-  std::string_view key;  ///< without the unit where `quantity` adds it
+  std::string_view key;  ///< without the unit that `quantity` adds
   Member<Section> member;
   Range range{};             ///< of numbers
-  std::string_view unit{};   ///< as documents print it; empty where `quantity` gives it
+  std::string_view unit{};   ///< as the documents print it; empty: `quantity` gives it
   std::string_view meaning;  ///< one line for the document
   Presence presence = Presence::optional;
   Quantity quantity = Quantity::fixed;
   std::string_view default_text{};     ///< for the document; empty: the value of a new Section
   std::string_view choices_text = {};  ///< of a Choice: replaces the list of its names in the document
-  double (*derived)(const Section&) = nullptr;  ///< default that follows from the fields before
+  double (*derived)(const Section&) = nullptr;  ///< default that depends on earlier fields of the table
 };
 
 /// "mps" for the speed of a coordinate in "m"; nothing for a fixed quantity.
@@ -93,7 +93,7 @@ template <class Section>
   return added.empty() ? std::string{field.key} : std::string{field.key} + '_' + std::string{added};
 }
 
-/// The number that a field stands for; nullptr when it is no floating-point number.
+/// Value of a floating-point field; nullptr for any other field.
 template <class Section>
 [[nodiscard]] const double* number_of(const Field<Section>& field,
                                       const std::type_identity_t<Section>& section) {
@@ -103,7 +103,7 @@ template <class Section>
   return nullptr;
 }
 
-/// The field of the table with this key. @pre there is one
+/// Field with this key. @pre the table has one
 template <class Section, std::size_t N>
 [[nodiscard]] constexpr const Field<Section>& field_of(const std::array<Field<Section>, N>& table,
                                                        std::string_view key) {

@@ -21,13 +21,13 @@ struct Range {
 
   /// False for NaN and infinities.
   [[nodiscard]] bool contains(double value) const;
-  /// "[0, 10]", "(0, 10]", "> 0", "" without bounds
+  /// "[0, 10]", "(0, 10]", "> 0"; empty without bounds
   [[nodiscard]] std::string interval() const;
   /// "must be finite and > 0", "must be in (0, 10]", ...
   [[nodiscard]] std::string rule() const;
 };
 
-/// "name = value: rule", the form of every complaint about a number.
+/// "name = value: rule", the form of every message about a wrong number.
 [[nodiscard]] std::string complaint(const std::string& name, double value, const std::string& rule);
 
 }  // namespace crane::fields

@@ -22,7 +22,7 @@ class Component {
  public:
   virtual ~Component() = default;
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// Handles the samples that have arrived. @return true when it did some work; the host then calls poll()
+  /// Processes the samples that have arrived. @return true when it did some work; the host then calls poll()
   /// again before it waits
   virtual bool poll(std::int64_t now_ns) = 0;
   /// Time of the next poll() that is due without a new sample; kNever: only new samples need a poll().

@@ -1,15 +1,15 @@
 #pragma once
-/// The directory of keys that `crane keys make` writes and every process of a secured crane reads:
+/// The directory of keys, which `crane keys make` writes and every process of a secured crane reads:
 ///
-///   DIR/identity_ca.pem       signs the certificate of every identity
+///   DIR/identity_ca.pem       signs the certificates of all identities
 ///   DIR/permissions_ca.pem    signs governance and permissions
-///   DIR/governance.smime      what the bus encrypts and whom it lets in
-///   DIR/private/              keys of both authorities: needed by `crane keys make` only; keep them off the
+///   DIR/governance.smime      rules of the domain: authentication, encryption, access control
+///   DIR/private/              keys of both authorities, for `crane keys make` only; do not copy them to the
 ///   rig DIR/ROLE/VENDOR/          certificate.pem, key.pem, permissions.smime of one identity
 ///
-/// A role has one identity per DDS implementation: the participant with the lower hash of its certificate's
-/// subject starts the handshake, and a Fast DDS process understands a Cyclone DDS process only when the
-/// latter starts.
+/// A role has one identity per DDS implementation. The participant whose certificate has the subject with the
+/// lower hash starts the handshake. Fast DDS understands a handshake with Cyclone DDS only when Cyclone DDS
+/// starts it.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -20,11 +20,11 @@
 
 namespace crane::security {
 
-/// Files of one identity, as a participant needs them.
+/// Files that a participant with this identity needs.
 struct Identity {
   std::filesystem::path identity_ca, certificate, key, permissions_ca, governance, permissions;
 };
-/// Paths only; nothing is read.
+/// Returns paths only, and reads no file.
 [[nodiscard]] Identity identity(const std::filesystem::path& directory, std::string_view role,
                                 std::string_view vendor);
 
@@ -33,14 +33,14 @@ inline constexpr std::string_view kVendors[] = {"cyclone", "fastdds"};
 struct Validity {
   std::int64_t from_s = 0, until_s = 0;  ///< seconds since 1970
 };
-/// From an hour ago, because clocks of two hosts differ, for `days`.
+/// Begins an hour ago, because the clocks of two hosts differ, and ends after `days`.
 [[nodiscard]] Validity valid_for(int days);
 
 /// Makes authorities and one identity per role and vendor. @throws std::runtime_error when `directory` exists
 /// and is not empty, or a file cannot be written
 void make(const std::filesystem::path& directory, const Validity& validity);
 
-/// What stands against the use of one identity now, each with file, value, rule and remedy.
+/// Reasons why the identity cannot be used now, each with file, value, rule and remedy.
 [[nodiscard]] std::vector<std::string> problems(const Identity& identity, std::string_view vendor);
 
 /// One line of `crane keys show`.
@@ -51,7 +51,7 @@ struct Entry {
   std::int64_t until_s = 0;
   std::vector<std::string> problems;
 };
-/// Every identity that `directory` holds; a copy for another host may hold some of the roles only.
+/// All identities in `directory`. A copy for another host may contain some of the roles only.
 [[nodiscard]] std::vector<Entry> entries(const std::filesystem::path& directory);
 
 }  // namespace crane::security

@@ -1,6 +1,6 @@
 #pragma once
-/// Who may do what on a secured bus. A role may write the topics that topics.hpp lets its sources write, and
-/// read every topic of the crane.
+/// Permissions on a secured bus. A role may write the topics that topics.hpp permits its sources to write,
+/// and read every topic of the crane.
 #include <optional>
 #include <string_view>
 #include <vector>
