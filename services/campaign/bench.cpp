@@ -13,8 +13,8 @@ namespace crane::campaign {
 namespace {
 
 constexpr double kSelfTest_s = 1.3, kCausesClear_s = 1.1, kLongest_s = 20;
-// Start-up numbers of the components: 1, and from kRestarted on for those that were started anew. Whoever has
-// another is no part of the stack.
+// Start-up numbers of the components: 1 at first, kRestarted and above after a restart. A sample with another
+// number is from a foreign writer.
 constexpr std::uint32_t kOwnEpoch = 1, kRestarted = 1000;
 
 bool is_ours(const msg::Header& header) { return header.epoch == kOwnEpoch || header.epoch >= kRestarted; }
@@ -33,15 +33,15 @@ const T& as(const void* sample) {
 
 Bench::Bench(Setting setting)
     : setting_{std::move(setting)},
-      world_{std::make_shared<World>(setting_.told, setting_.wired)},
-      period_ns_{std::llround(setting_.told.period_s * 1e9)},
+      rig_{std::make_shared<FaultyRig>(setting_.configured, setting_.actual)},
+      period_ns_{std::llround(setting_.configured.period_s * 1e9)},
       next_epoch_{kRestarted} {
   auto specs = stack::stack_with(stack::Plant::simulated);
-  building_ = this;  // a specification holds a function without a context
+  building_ = this;  // ComponentSpec::make is a function pointer without a context
   specs.front().make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
-    return std::make_unique<bridge::Bridge>(context, std::make_unique<FaultyBoard>(building_->world_));
+    return std::make_unique<bridge::Bridge>(context, std::make_unique<FaultyBoard>(building_->rig_));
   };
-  stack_.emplace(specs, setting_.told, *setting_.controller);
+  stack_.emplace(specs, setting_.configured, *setting_.controller);
   bus::set_wire(*stack_->network(), [this](const auto& topic, const void* sample,
                                            const bus::Deliver& deliver) { carry(topic, sample, deliver); });
   bus_.emplace(runtime::memory_options(stack_->network(), "operator", crane_SOURCE_OPERATOR));
@@ -51,10 +51,10 @@ Bench::Bench(Setting setting)
 
 void Bench::carry(const topics::Description& topic, const void* sample, const bus::Deliver& deliver) {
   const auto& header = as<msg::Header>(sample);
-  if (mad && is_ours(header)) {
+  if (publish_fault && is_ours(header)) {
     copy_.resize(topic.descriptor->m_size / sizeof(std::max_align_t) + 1);
     std::memcpy(copy_.data(), sample, topic.descriptor->m_size);
-    if (mad(topic, copy_.data())) {
+    if (publish_fault(topic, copy_.data())) {
       bus::seal(topic, copy_.data(), header.source, header.epoch);
       sample = copy_.data();
     }
@@ -66,7 +66,7 @@ void Bench::carry(const topics::Description& topic, const void* sample, const bu
     deliver(sample);
 }
 
-/// What is published, before any fault of the network.
+/// Records what the components publish, before any fault of the network.
 void Bench::tap(const topics::Description& topic, const void* sample) {
   if (!is_ours(as<msg::Header>(sample))) return;
   if (is(topic, topics::state)) row_.state = as<msg::State>(sample);
@@ -80,39 +80,40 @@ void Bench::tap(const topics::Description& topic, const void* sample) {
 
 void Bench::tick() {
   every_tick();
-  row_.reset_asked = std::exchange(reset_sent_, false);
-  row_.arm_asked = std::exchange(arm_sent_, false);
+  row_.reset_requested = std::exchange(reset_sent_, false);
+  row_.arm_requested = std::exchange(arm_sent_, false);
   stack_->run_until(next_ns_);
-  world_->board().advance_to(next_ns_ - 1'000'000'000);  // nature goes on when the bridge does not
+  rig_->board().advance_to(next_ns_ -
+                           1'000'000'000);  // the simulated rig continues when the bridge has ended
   row_.time_ns = next_ns_;
-  row_.truth = world_->truth();
+  row_.truth = rig_->truth();
   next_ns_ += period_ns_;
   stack_->run_until(next_ns_ - 1);
   rows_.push_back(row_);
 }
 
 void Bench::run(double seconds) {
-  for (auto left = std::llround(seconds / setting_.told.period_s); left > 0; --left) tick();
+  for (auto left = std::llround(seconds / setting_.configured.period_s); left > 0; --left) tick();
 }
 
 bool Bench::run_until(const std::function<bool()>& holds, double longest_s) {
-  for (auto left = std::llround(longest_s / setting_.told.period_s); left > 0; --left) {
+  for (auto left = std::llround(longest_s / setting_.configured.period_s); left > 0; --left) {
     if (holds()) return true;
     tick();
   }
   return holds();
 }
 
-void Bench::ask(const stack::Wish& wish) {
+void Bench::request(const stack::Wish& wish) {
   last_request_ = operator_->send(wish);
   note(wish.kind);
   tick();
 }
 
-void Bench::ask_without_number() {
-  numberless_.emplace(*bus_, "campaign", 0);
+void Bench::request_without_id() {
+  without_id_.emplace(*bus_, "campaign", 0);
   stack::Wish wish{.kind = crane_REQUEST_MOVE, .selected = setting_.selected, .target = setting_.target};
-  last_request_ = numberless_->send(wish);
+  last_request_ = without_id_->send(wish);
   tick();
 }
 
@@ -131,10 +132,10 @@ void Bench::restart_bridge() {
   stack_->restart(crane_SOURCE_PLANT, next_epoch_++);
 }
 
-void Bench::ask(crane_RequestKind kind) { ask(stack::Wish{.kind = kind}); }
+void Bench::request(crane_RequestKind kind) { request(stack::Wish{.kind = kind}); }
 
-void Bench::ask_for_the_move() {
-  ask(stack::Wish{.kind = crane_REQUEST_MOVE, .selected = setting_.selected, .target = setting_.target});
+void Bench::request_move() {
+  request(stack::Wish{.kind = crane_REQUEST_MOVE, .selected = setting_.selected, .target = setting_.target});
 }
 
 std::optional<msg::Reply> Bench::reply() {
@@ -149,7 +150,7 @@ bool Bench::reach_hold() {
          row_.status.state == crane_STATE_HOLD;
 }
 
-/// The first time that the speed of the axis does not grow any more.
+/// Runs until the speed of the axis no longer increases.
 bool Bench::reach_cruise() {
   constexpr double kMoving = 0.03;  // m/s, rad/s
   double fastest = 0;
@@ -165,9 +166,9 @@ bool Bench::reach_cruise() {
 
 bool Bench::prepare(Moment moment) {
   run(kSelfTest_s);
-  ask(crane_REQUEST_RESET);
+  request(crane_REQUEST_RESET);
   run(kCausesClear_s);
-  ask(crane_REQUEST_ARM);
+  request(crane_REQUEST_ARM);
   if (moment == Moment::brake_release)
     return run_until(
         [this] {
@@ -179,7 +180,7 @@ bool Bench::prepare(Moment moment) {
   constexpr double kIdle_s = 0.3, kIntoTheMove_s = 0.12, kIntoTheStop_s = 0.05;
   run(kIdle_s);
   if (moment == Moment::armed_idle) return true;
-  ask_for_the_move();
+  request_move();
   if (moment == Moment::peak_acceleration) {
     run(kIntoTheMove_s);
     return true;
@@ -187,15 +188,16 @@ bool Bench::prepare(Moment moment) {
   if (!reach_cruise()) return false;
   if (moment == Moment::cruise) return true;
   if (moment == Moment::stop) {
-    ask(crane_REQUEST_STOP);
+    request(crane_REQUEST_STOP);
     run(kIntoTheStop_s);
     return true;
   }
   const std::size_t i = setting_.axis;
-  const double way = std::abs(setting_.target[i] - setting_.told.start.position[i]);
+  const double distance = std::abs(setting_.target[i] - setting_.configured.start.position[i]);
   constexpr double kLastShare = 0.2;
-  return run_until([&] { return std::abs(setting_.target[i] - row_.truth.position[i]) < kLastShare * way; },
-                   kLongest_s);
+  return run_until(
+      [&] { return std::abs(setting_.target[i] - row_.truth.position[i]) < kLastShare * distance; },
+      kLongest_s);
 }
 
 }  // namespace crane::campaign

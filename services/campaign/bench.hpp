@@ -1,5 +1,5 @@
 #pragma once
-/// A crane, its stack and its operator on the test bench: everything a fault can get at, and the log.
+/// Test bench for fault injection: a simulated crane, its stack, its operator and the log of every tick.
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -12,45 +12,44 @@
 
 namespace crane::campaign {
 
-/// Changes what a component publishes, before it is sealed. @return true when it did
-using Madness = std::function<bool(const topics::Description& topic, void* sample)>;
+/// Changes a published sample before it gets its CRC. @return true when it changed the sample
+using PublishFault = std::function<bool(const topics::Description& topic, void* sample)>;
 
 class Bench {
  public:
-  /// The stack has started; nothing has happened yet. @throws configuration::ConfigurationError as the
-  /// components
+  /// Starts the stack. @throws configuration::ConfigurationError as the components
   explicit Bench(Setting setting);
 
   [[nodiscard]] const Setting& setting() const { return setting_; }
-  [[nodiscard]] World& world() { return *world_; }
+  [[nodiscard]] FaultyRig& rig() { return *rig_; }
   [[nodiscard]] VirtualStack& stack() { return *stack_; }
   [[nodiscard]] std::size_t axis() const { return setting_.axis; }
   [[nodiscard]] const Row& now() const { return row_; }
   [[nodiscard]] std::int64_t period_ns() const { return period_ns_; }
-  /// When the next tick is due.
+  /// Time of the next tick.
   [[nodiscard]] std::int64_t next_tick_ns() const { return next_ns_; }
 
   void tick();
   void run(double seconds);
-  /// @return false when it does not hold by then
+  /// Runs until `holds()` is true. @return false when it is not true within `longest_s`
   bool run_until(const std::function<bool()>& holds, double longest_s);
-  void ask(crane_RequestKind kind);
-  void ask(const stack::Wish& wish);
-  void ask_for_the_move();
-  void ask_without_number();  ///< a move whose id is 0
-  /// The same without a tick.
+  void request(crane_RequestKind kind);
+  void request(const stack::Wish& wish);
+  void request_move();
+  void request_without_id();  ///< a move whose id is 0
+  /// Sends a request without running a tick.
   void send(crane_RequestKind kind);
-  /// A new process on the same board.
+  /// Starts a new bridge on the same board.
   void restart_bridge();
-  /// What came of the newest request; nothing: no answer yet.
+  /// Reply to the newest request; nothing: no reply yet.
   [[nodiscard]] std::optional<msg::Reply> reply();
 
-  Madness mad;
-  /// Takes the place of the perfect wire, for every topic.
+  PublishFault publish_fault;
+  /// Transport of all samples; empty: delivers each sample once.
   bus::Wire wire;
   std::function<void()> every_tick = [] {};
 
-  /// From power-on to the moment. @return false when the crane has not come there
+  /// Runs from power-on to the given moment. @return false when the crane does not reach the moment
   bool prepare(Moment moment);
   [[nodiscard]] std::vector<Row> take_rows() { return std::move(rows_); }
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
@@ -65,11 +64,11 @@ class Bench {
 
   static inline Bench* building_ = nullptr;
   Setting setting_;
-  std::shared_ptr<World> world_;
+  std::shared_ptr<FaultyRig> rig_;
   std::optional<VirtualStack> stack_;
   std::optional<bus::Bus> bus_;
   std::optional<stack::OperatorClient> operator_;
-  std::optional<stack::OperatorClient> numberless_;
+  std::optional<stack::OperatorClient> without_id_;
   std::int64_t period_ns_, next_ns_;
   std::uint64_t last_request_ = 0;
   std::uint32_t next_epoch_;

@@ -7,84 +7,85 @@
 namespace crane::campaign {
 namespace {
 
-/// The brake of the axis is worn out, or hangs.
-void broken_brake(Setting& setting, Dice& dice) {
-  auto& drive = setting.wired.drives[setting.axis];
-  if (dice.pick(2) == 0)
+/// The brake of the axis is worn, or does not close.
+void broken_brake(Setting& setting, Random& random) {
+  auto& drive = setting.actual.drives[setting.axis];
+  if (random.pick(2) == 0)
     drive.brake_close_time_s = 5;
   else
     drive.brake_deceleration = 0.05;
 }
 
-/// Farther than twice its way to a stop and its slip since the brakes were told to close (docs/safety.md).
+/// True when the axis has moved by more than twice its stopping distance plus its slip since the command to
+/// close (docs/safety.md).
 std::function<bool()> slips(Bench& bench, std::size_t i) {
-  const auto& rig = bench.setting().told;
+  const auto& rig = bench.setting().configured;
   const auto& drive = rig.drives[i];
   const auto& truth = bench.now().truth;
-  constexpr double kBrakesTold_ticks = 2;  // until the first sample under closed brakes
-  // The axis may gain what its brake takes away, until it is told.
-  const double v = std::abs(truth.speed[i]) + drive.brake_deceleration * rig.period_s * kBrakesTold_ticks;
-  const double way = 2 * way_to_a_stop(drive, v, supervisor_reaction_s(rig, i)) + drive.brake_slip +
-                     v * rig.period_s * kBrakesTold_ticks;
-  return [&bench, i, way, from = truth.position[i]] {
-    return std::abs(bench.now().truth.position[i] - from) > way;
+  constexpr double kBrakeCommand_ticks = 2;  // until the first sample with closed brakes
+  // Until the command arrives, the axis may gain as much speed as the brake can remove.
+  const double v = std::abs(truth.speed[i]) + drive.brake_deceleration * rig.period_s * kBrakeCommand_ticks;
+  const double distance = 2 * stopping_distance(drive, v, supervisor_reaction_s(rig, i)) + drive.brake_slip +
+                          v * rig.period_s * kBrakeCommand_ticks;
+  return [&bench, i, distance, from = truth.position[i]] {
+    return std::abs(bench.now().truth.position[i] - from) > distance;
   };
 }
 
-/// Due for a brake that does not report closed: closing time, 100 ms, one tick (docs/safety.md), and one tick
-/// each for the command and the sample. For a worn one that reports closed: 100 ms (hazard 24) after the axis
-/// has gone too far.
-Strike brake_stays_open(Bench& bench, Dice& dice) {
+/// Detection time for a brake that does not report closed: closing time, 100 ms, one tick (docs/safety.md),
+/// and one tick each for command and sample. For a worn brake that reports closed: 100 ms (hazard 24) after
+/// slips().
+Injection brake_stays_open(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
-  const bool silent = dice.pick(2) == 0;
-  const bool hangs = bench.setting().wired.drives[i].brake_close_time_s > 1;
-  if (silent) bench.world().spoil_inputs = [i](bridge::Inputs& inputs) { inputs.brake_closed[i] = false; };
-  bench.ask(crane_REQUEST_ESTOP);
-  Strike strike{.expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_CLOSE),
-                                            latched(crane_LATCH_BRAKED_MOTION)},
-                                .detection_ms = 100,
-                                .brakes_are_broken = true},
-                .watched_s = 1.5};
+  const bool silent = random.pick(2) == 0;
+  const bool hangs = bench.setting().actual.drives[i].brake_close_time_s > 1;
+  if (silent) bench.rig().change_inputs = [i](bridge::Inputs& inputs) { inputs.brake_closed[i] = false; };
+  bench.request(crane_REQUEST_ESTOP);
+  Injection injection{.expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_CLOSE),
+                                                  latched(crane_LATCH_BRAKED_MOTION)},
+                                      .detection_ms = 100,
+                                      .brakes_are_broken = true},
+                      .watched_s = 1.5};
   if (silent || hangs)
-    strike.expectation.detection_ms =
-        1000 * bench.setting().told.drives[i].brake_close_time_s + 100 + 10 + 20;
+    injection.expectation.detection_ms =
+        1000 * bench.setting().configured.drives[i].brake_close_time_s + 100 + 10 + 20;
   else
-    strike.visible = slips(bench, i);
-  return strike;
+    injection.visible = slips(bench, i);
+  return injection;
 }
 
-void worn_brake(Setting& setting, Dice& /*dice*/) {
-  setting.wired.drives[setting.axis].brake_deceleration = 0.05;
+void worn_brake(Setting& setting, Random& /*random*/) {
+  setting.actual.drives[setting.axis].brake_deceleration = 0.05;
 }
 
-/// The axis slides on under its closed brake, and the bridge does not tell that it has latched. Due: 100 ms
-/// (hazard 24) after the axis has gone too far.
-Strike slides_untold(Bench& bench, Dice& /*dice*/) {
+/// The axis moves with its closed brake, and the bridge does not report its latch. Detection time: 100 ms
+/// (hazard 24) after slips().
+Injection slides_without_latch(Bench& bench, Random& /*random*/) {
   constexpr double kBound_ms = 100;
-  bench.mad = madness(topics::state, [](msg::State& state) {
+  bench.publish_fault = falsify(topics::state, [](msg::State& state) {
     state.latch_reason = crane_LATCH_NONE;
     state.command_invalid = state.command_stale = state.watchdog_dropped = false;
   });
-  bench.ask(crane_REQUEST_ESTOP);
+  bench.request(crane_REQUEST_ESTOP);
   return {.expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_CLOSE)},
                           .detection_ms = kBound_ms,
-                          .cause_too = crane_CAUSE_BRAKE_DID_NOT_CLOSE,
-                          .too_ms = kBound_ms,
+                          .supervisor_must_find = crane_CAUSE_BRAKE_DID_NOT_CLOSE,
+                          .independent_ms = kBound_ms,
                           .brakes_are_broken = true},
           .watched_s = 1.5,
           .visible = slips(bench, bench.axis())};
 }
 
-/// Due where the brake reports it: its closing time and two ticks; while it opens, 0.2 s and two ticks. Where
-/// it does not: as for a drive that does not move its axis (evidence.hpp).
-Strike brake_closes(Bench& bench, Dice& dice) {
+/// Detection time when the contact reports it: closing time and two ticks; in ARMING 0.2 s and two ticks.
+/// Without a report: as for a drive that does not move its axis (evidence.hpp).
+Injection brake_closes(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
-  bench.world().spoil_outputs = [i](bridge::Outputs& outputs) { outputs.brake_release[i] = false; };
-  const bool unseen = dice.pick(2) == 0;
-  if (unseen) bench.world().spoil_inputs = [i](bridge::Inputs& inputs) { inputs.brake_closed[i] = false; };
+  bench.rig().change_outputs = [i](bridge::Outputs& outputs) { outputs.brake_release[i] = false; };
+  const bool unseen = random.pick(2) == 0;
+  if (unseen) bench.rig().change_inputs = [i](bridge::Inputs& inputs) { inputs.brake_closed[i] = false; };
   if (!unseen) {
     const bool opening = bench.now().status.state == crane_STATE_ARMING;
-    const double close_ms = 1000 * bench.setting().told.drives[i].brake_close_time_s;
+    const double close_ms = 1000 * bench.setting().configured.drives[i].brake_close_time_s;
     return {
         .expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_OPEN),
                                     because(crane_CAUSE_FOLLOWING_ERROR), because(crane_CAUSE_SWING_SENSOR)},
@@ -96,28 +97,28 @@ Strike brake_closes(Bench& bench, Dice& dice) {
           .watched_s = 1.5};
 }
 
-Strike inputs_pressed(Bench& bench, Dice& dice) {
-  if (dice.pick(3) > 0) {
-    const bool wired = dice.pick(2) == 0;
-    if (wired) bench.world().board().press_estop(true);
-    if (!wired) bench.world().spoil_inputs = [](bridge::Inputs& inputs) { inputs.estop_pressed = true; };
+Injection inputs_pressed(Bench& bench, Random& random) {
+  if (random.pick(3) > 0) {
+    const bool by_wire = random.pick(2) == 0;
+    if (by_wire) bench.rig().board().press_estop(true);
+    if (!by_wire) bench.rig().change_inputs = [](bridge::Inputs& inputs) { inputs.estop_pressed = true; };
     return {.expectation = {.reasons = {because(crane_CAUSE_ESTOP_INPUT)}, .detection_ms = 10}};
   }
-  return switch_elsewhere(bench, dice);
+  return switch_at_wrong_position(bench, random);
 }
 
-constexpr std::array kOfBrakes{
-    Hazard{.number = 24, .name = "brake fails to close", .prepare = broken_brake, .strike = brake_stays_open},
-    Hazard{.number = 25, .name = "brake fails to open", .strike = brake_closes},
+constexpr std::array kBrakeHazards{
+    Hazard{.number = 24, .name = "brake fails to close", .prepare = broken_brake, .inject = brake_stays_open},
+    Hazard{.number = 25, .name = "brake fails to open", .inject = brake_closes},
     Hazard{.number = 45,
            .name = "worn brake, bridge that is silent",
            .prepare = worn_brake,
-           .strike = slides_untold},
-    Hazard{.number = 31, .name = "e-stop and limit switches", .strike = inputs_pressed},
+           .inject = slides_without_latch},
+    Hazard{.number = 31, .name = "e-stop and limit switches", .inject = inputs_pressed},
 };
 
 }  // namespace
 
-std::span<const Hazard> brake_hazards() { return kOfBrakes; }
+std::span<const Hazard> brake_hazards() { return kBrakeHazards; }
 
 }  // namespace crane::campaign

@@ -15,7 +15,8 @@
 namespace crane::campaign {
 namespace {
 
-static_assert(std::is_trivially_copyable_v<Result> && sizeof(Result) < 4096);  // one write to a pipe is whole
+static_assert(std::is_trivially_copyable_v<Result> &&
+              sizeof(Result) < 4096);  // so that one write to a pipe is atomic
 
 /// Mixes the parts of a tuple (splitmix64).
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
@@ -25,34 +26,35 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
   return x ^ (x >> 31U);
 }
 
-Dice dice_of(const Tuple& tuple) {
-  return Dice{
+Random random_of(const Tuple& tuple) {
+  return Random{
       mixed(static_cast<std::uint64_t>(tuple.hazard), static_cast<std::uint64_t>(tuple.moment), tuple.seed)};
 }
-/// Not of the moment: what a hazard changes of a rig is the same at every moment.
-Dice dice_of_preparation(const Tuple& tuple) {
-  return Dice{mixed(static_cast<std::uint64_t>(tuple.hazard), 99, tuple.seed)};
+/// Independent of the moment: a hazard changes the rig in the same way for every moment.
+Random random_of_preparation(const Tuple& tuple) {
+  return Random{mixed(static_cast<std::uint64_t>(tuple.hazard), 99, tuple.seed)};
 }
 
 bool is_over(const Bench& bench) {
   const Row& row = bench.now();
   for (std::size_t i = 0; i < kAxes; ++i)
-    if (bench.setting().told.drives[i].present && !row.truth.brake_closed[i]) return false;
+    if (bench.setting().configured.drives[i].present && !row.truth.brake_closed[i]) return false;
   return row.status.state >= crane_STATE_STOP_C0 || row.status.state == crane_STATE_LOCKED;
 }
 
-/// Lets the fault act until the crane has been at rest for a while, or nothing more is to be expected.
-void watch(Bench& bench, const Strike& strike, Run& run) {
+/// Runs until the crane has been at rest for a while, or the time of the injection is over.
+void watch(Bench& bench, const Injection& injection, Run& run) {
   constexpr double kAfterwards_s = 0.25, kControlledStop_s = 8.5;
-  const double period_s = bench.setting().told.period_s;
+  const double period_s = bench.setting().configured.period_s;
   double over_s = 0;
-  for (double t_s = 0; t_s < strike.watched_s + kControlledStop_s && over_s < kAfterwards_s;
+  for (double t_s = 0; t_s < injection.watched_s + kControlledStop_s && over_s < kAfterwards_s;
        t_s += period_s) {
-    if (t_s >= strike.watched_s && bench.now().status.state != crane_STATE_STOP_C1) break;
+    if (t_s >= injection.watched_s && bench.now().status.state != crane_STATE_STOP_C1) break;
     bench.tick();
-    if (!run.visible_ns && (!strike.visible || strike.visible())) run.visible_ns = bench.now().time_ns;
-    const bool must_go_on = strike.expectation.brakes_are_broken || strike.expectation.detection_ms > 1000;
-    over_s = is_over(bench) && !(must_go_on && t_s < strike.watched_s) ? over_s + period_s : 0;
+    if (!run.visible_ns && (!injection.visible || injection.visible())) run.visible_ns = bench.now().time_ns;
+    const bool must_go_on =
+        injection.expectation.brakes_are_broken || injection.expectation.detection_ms > 1000;
+    over_s = is_over(bench) && !(must_go_on && t_s < injection.watched_s) ? over_s + period_s : 0;
   }
 }
 
@@ -72,7 +74,7 @@ Result result_of(const Tuple& tuple, const Expectation& expected, const Verdict&
   return result;
 }
 
-void leave(const std::filesystem::path& recording, const std::vector<Row>& rows) {
+void write_recording(const std::filesystem::path& recording, const std::vector<Row>& rows) {
   experiments::TickLog log{recording};
   for (const Row& row : rows)
     log.add({.state = &row.state,
@@ -85,34 +87,34 @@ void leave(const std::filesystem::path& recording, const std::vector<Row>& rows)
   log.close();
 }
 
-/// From the prepared crane on.
-Result strike(const Tuple& tuple, Bench& bench, const std::optional<std::filesystem::path>& recording) {
+/// Injects the fault into a prepared crane and judges the run.
+Result inject(const Tuple& tuple, Bench& bench, const std::optional<std::filesystem::path>& recording) {
   const Hazard& hazard = *find_hazard(tuple.hazard);
-  Dice dice = dice_of(tuple);
+  Random random = random_of(tuple);
   constexpr std::size_t kSpread_ticks = 8;
-  const auto later = dice.pick(kSpread_ticks);
+  const auto later = random.pick(kSpread_ticks);
   if (tuple.moment != Moment::brake_release && !hazard.from_power_on)
-    bench.run(static_cast<double>(later) * bench.setting().told.period_s);
+    bench.run(static_cast<double>(later) * bench.setting().configured.period_s);
   const auto begin_ns = bench.next_tick_ns();
-  Strike what = hazard.strike(bench, dice);
+  Injection what = hazard.inject(bench, random);
   Run run{.begin_ns = begin_ns, .onset_ns = bench.next_tick_ns(), .expectation = what.expectation};
   if (const auto reply = bench.reply()) run.accepted = reply->accepted;
   watch(bench, what, run);
   run.rows = bench.take_rows();
-  if (recording) leave(*recording, run.rows);
-  return result_of(tuple, what.expectation, judge(bench.setting().told, run));
+  if (recording) write_recording(*recording, run.rows);
+  return result_of(tuple, what.expectation, judge(bench.setting().configured, run));
 }
 
-/// Configurations that are refused never get to a bench.
+/// Prepares the crane for this run only. A refused configuration is a result.
 Result run_alone(const Tuple& tuple, const std::optional<std::filesystem::path>& recording) {
   const Hazard& hazard = *find_hazard(tuple.hazard);
   Setting made = setting(tuple.seed % kSettings, tuple.moment);
-  Dice dice = dice_of_preparation(tuple);
-  if (hazard.prepare != nullptr) hazard.prepare(made, dice);
+  Random random = random_of_preparation(tuple);
+  if (hazard.prepare != nullptr) hazard.prepare(made, random);
   try {
     Bench bench{std::move(made)};
     if (!hazard.from_power_on && !bench.prepare(tuple.moment)) return {.tuple = tuple, .prepared = false};
-    return strike(tuple, bench, recording);
+    return inject(tuple, bench, recording);
   } catch (const configuration::ConfigurationError&) {
     return {.tuple = tuple, .right = true};
   }
@@ -155,7 +157,7 @@ pid_t forked(const std::function<void()>& child) {
   ::_exit(code);
 }
 
-/// One run in a process of its own.
+/// One run in a separate process.
 void run_forked(const Tuple& tuple, const Pipe& pipe, const std::function<Result()>& run) {
   const pid_t pid = forked([&] { pipe.put(run()); });
   int status = 0;
@@ -184,7 +186,7 @@ void run_group(const Group& place, const std::vector<Tuple>& tuples, const Pipe&
     if (!ready)
       pipe.put({.tuple = tuple, .prepared = false});
     else
-      run_forked(tuple, pipe, [&] { return strike(tuple, *prepared, {}); });
+      run_forked(tuple, pipe, [&] { return inject(tuple, *prepared, {}); });
   }
 }
 
@@ -204,7 +206,7 @@ std::vector<Tuple> tuples(const Selection& selection) {
     for (std::size_t m = 0; m < kMoments; ++m)
       for (const Hazard& hazard : hazards()) {
         const auto moment = static_cast<Moment>(m);
-        if (hazard.place == Place::campaign && seed % hazard.every == 0 &&
+        if (hazard.test_bed == TestBed::campaign && seed % hazard.every == 0 &&
             wanted(selection.moments, moment) && wanted(selection.hazards, hazard.number))
           all.push_back({hazard.number, moment, seed});
       }

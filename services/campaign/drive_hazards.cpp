@@ -1,4 +1,4 @@
-/// Hazards 19 to 22: drives that do something else, and demands that lead beyond a limit.
+/// Hazards 19 to 22 and 44: faulty drives, and demands beyond a limit.
 #include "campaign/evidence.hpp"
 #include "campaign/hazards.hpp"
 #include "campaign/traffic.hpp"
@@ -6,8 +6,8 @@
 namespace crane::campaign {
 namespace {
 
-/// Due as the speed that nothing explains becomes visible (evidence.hpp).
-Strike drive_strike(Bench& bench, double detection_ms) {
+/// The detection time starts when the unexplained speed is visible (evidence.hpp).
+Injection drive_fault(Bench& bench, double detection_ms) {
   return {.expectation = {.reasons = drive_reasons(), .detection_ms = detection_ms},
           .watched_s = 2,
           .visible = [evidence = std::make_shared<Evidence>(bench, bench.axis())] {
@@ -15,46 +15,49 @@ Strike drive_strike(Bench& bench, double detection_ms) {
           }};
 }
 
-/// Stuck where it is, at the end of its range, or the wrong sign.
-Strike converter(Bench& bench, Dice& dice) {
+/// Converter stuck at its present voltage or at another one, or with the wrong sign.
+Injection converter(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
-  const auto kind = dice.pick(3);
-  const double stuck_v = kind == 0 ? bench.now().truth.converter_v[i] * bench.setting().told.drives[i].sign
-                                   : dice.sign() * dice.between(6, 10);
-  bench.world().spoil_outputs = [i, kind, stuck_v](bridge::Outputs& outputs) {
+  const auto kind = random.pick(3);
+  const double stuck_v = kind == 0
+                             ? bench.now().truth.converter_v[i] * bench.setting().configured.drives[i].sign
+                             : random.sign() * random.between(6, 10);
+  bench.rig().change_outputs = [i, kind, stuck_v](bridge::Outputs& outputs) {
     outputs.drive_v[i] = kind == 2 ? -outputs.drive_v[i] : stuck_v;
   };
-  return drive_strike(bench, kEncoderDetection_ms);
+  return drive_fault(bench, kEncoderDetection_ms);
 }
 
-/// A drive that gives a part of what it is told, or that much more.
-Strike weak_drive(Bench& bench, Dice& dice) {
+/// Drive without voltage, with an offset, or with twice the voltage.
+Injection weak_drive(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
-  const auto kind = dice.pick(3);
-  const double offset_v = dice.sign() * dice.between(3, 5);
-  bench.world().spoil_outputs = [i, kind, offset_v](bridge::Outputs& outputs) {
+  const auto kind = random.pick(3);
+  const double offset_v = random.sign() * random.between(3, 5);
+  bench.rig().change_outputs = [i, kind, offset_v](bridge::Outputs& outputs) {
     if (kind == 0) outputs.drive_v[i] = 0;
     if (kind == 1) outputs.drive_v[i] += offset_v;
     if (kind == 2) outputs.drive_v[i] *= 2;
   };
-  return drive_strike(bench, kDriveDetection_ms);
+  return drive_fault(bench, kDriveDetection_ms);
 }
 
-/// A controller that knows one voltage only. Due: one tick after the axis is too fast (hazard 21: 20 ms).
-Strike overspeed(Bench& bench, Dice& dice) {
+/// A controller that demands a constant voltage. Detection time: one tick after overspeed (hazard 21: 20 ms).
+Injection overspeed(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
-  const double volts_v = direction(bench) * dice.between(7, 10);
-  bench.mad = madness(topics::demand, [i, volts_v](msg::Demand& demand) { demand.total_v[i] = volts_v; });
+  const double volts_v = direction(bench) * random.between(7, 10);
+  bench.publish_fault =
+      falsify(topics::demand, [i, volts_v](msg::Demand& demand) { demand.total_v[i] = volts_v; });
   return {.expectation = {.reasons = {because(crane_CAUSE_OVERSPEED)}, .detection_ms = 20},
           .watched_s = 3,
           .visible = crosses(bench, because(crane_CAUSE_OVERSPEED))};
 }
 
-/// Due: 10 ms after the axis would not stop before its limit any more.
-Strike position_limit(Bench& bench, Dice& dice) {
+/// Detection time: 10 ms after the axis can no longer stop before its limit.
+Injection position_limit(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
-  const double volts_v = direction(bench) * dice.between(3, 5);
-  bench.mad = madness(topics::demand, [i, volts_v](msg::Demand& demand) { demand.total_v[i] = volts_v; });
+  const double volts_v = direction(bench) * random.between(3, 5);
+  bench.publish_fault =
+      falsify(topics::demand, [i, volts_v](msg::Demand& demand) { demand.total_v[i] = volts_v; });
   return {.expectation = {.reasons = {because(crane_CAUSE_STOPPING_ENVELOPE)},
                           .detection_ms = 10,
                           .outwards_axis = i,
@@ -63,27 +66,27 @@ Strike position_limit(Bench& bench, Dice& dice) {
           .visible = crosses(bench, because(crane_CAUSE_STOPPING_ENVELOPE))};
 }
 
-/// One demand beyond the range of the drive, against the motion, as a controller may make it: it is
-/// saturated, and no reason to stop.
-Strike beyond_the_range(Bench& bench, Dice& dice) {
+/// One demand beyond the range of the drive, against the motion, as a controller may publish it. The gate
+/// limits the demand; the crane must not stop.
+Injection beyond_the_range(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
-  const double volts_v = -direction(bench) * dice.between(12, 60);
-  bench.mad = madness(topics::demand, [i, volts_v, tick = 0](msg::Demand& demand) mutable {
+  const double volts_v = -direction(bench) * random.between(12, 60);
+  bench.publish_fault = falsify(topics::demand, [i, volts_v, tick = 0](msg::Demand& demand) mutable {
     if (tick++ < 2) demand.total_v[i] = volts_v;
   });
   return {.expectation = {}, .watched_s = 0.3};
 }
 
-constexpr std::array kOfDrives{
-    Hazard{.number = 19, .name = "converter stuck, wrong sign", .strike = converter},
-    Hazard{.number = 20, .name = "following error", .strike = weak_drive},
-    Hazard{.number = 21, .name = "overspeed", .strike = overspeed},
-    Hazard{.number = 22, .name = "position limit", .strike = position_limit},
-    Hazard{.number = 44, .name = "demand beyond the range of a drive", .strike = beyond_the_range},
+constexpr std::array kDriveHazards{
+    Hazard{.number = 19, .name = "converter stuck, wrong sign", .inject = converter},
+    Hazard{.number = 20, .name = "following error", .inject = weak_drive},
+    Hazard{.number = 21, .name = "overspeed", .inject = overspeed},
+    Hazard{.number = 22, .name = "position limit", .inject = position_limit},
+    Hazard{.number = 44, .name = "demand beyond the range of a drive", .inject = beyond_the_range},
 };
 
 }  // namespace
 
-std::span<const Hazard> drive_hazards() { return kOfDrives; }
+std::span<const Hazard> drive_hazards() { return kDriveHazards; }
 
 }  // namespace crane::campaign

@@ -6,61 +6,61 @@
 namespace crane::campaign {
 namespace {
 
-/// The counter runs over its end within the move, where the move leads away from 0.
-void fine_encoders(Setting& setting, Dice& dice) {
+/// Sets the resolution such that the counter wraps during a move away from 0.
+void fine_encoders(Setting& setting, Random& random) {
   constexpr double kHalfRange = 1 << 23;
   const std::size_t i = setting.axis;
-  const double start = setting.told.start.position[i], target = setting.target[i];
+  const double start = setting.configured.start.position[i], target = setting.target[i];
   if (std::abs(target) <= std::abs(start) + 0.1) return;
-  const double at = start + dice.between(0.3, 0.7) * (target - start);
+  const double at = start + random.between(0.3, 0.7) * (target - start);
   if (std::abs(at) <= std::abs(start)) return;
-  setting.told.encoders[i].counts_per_unit = setting.wired.encoders[i].counts_per_unit =
+  setting.configured.encoders[i].counts_per_unit = setting.actual.encoders[i].counts_per_unit =
       kHalfRange / std::abs(at);
 }
 
-Strike nothing_at_all(Bench& /*bench*/, Dice& /*dice*/) { return {.expectation = {}, .watched_s = 2}; }
+Injection nothing_at_all(Bench& /*bench*/, Random& /*random*/) { return {.expectation = {}, .watched_s = 2}; }
 
 void shift_counter(Bench& bench, std::size_t counter, std::int32_t by) {
-  bench.world().spoil_inputs = [counter, by](bridge::Inputs& inputs) {
+  bench.rig().change_inputs = [counter, by](bridge::Inputs& inputs) {
     inputs.raw_counts[counter] = simulator::wrap_24_bit(std::int64_t{inputs.raw_counts[counter]} + by);
   };
 }
 
-/// The whole speed that the jump makes of the axis' own is `ratio` of its largest.
+/// Jump after which the apparent speed of the axis is `ratio` times its largest speed.
 void jump_to_speed(Bench& bench, double ratio) {
   const std::size_t i = bench.axis();
-  const auto& told = bench.setting().told;
+  const auto& configured = bench.setting().configured;
   const double v = bench.now().truth.speed[i];
   const double side = v != 0 ? std::copysign(1, v) : direction(bench);
-  const double jump = (ratio * told.drives[i].max_speed - std::abs(v)) * told.period_s;
+  const double jump = (ratio * configured.drives[i].max_speed - std::abs(v)) * configured.period_s;
   shift_counter(bench, i, counts(bench, i, side * jump));
 }
 
-Strike encoder_jump(Bench& bench, Dice& dice) {
+Injection encoder_jump(Bench& bench, Random& random) {
   std::vector<Reason> reasons{latched(crane_LATCH_ENCODER_JUMP)};
-  switch (dice.pick(4)) {
+  switch (random.pick(4)) {
     case 0:
       shift_counter(bench, swing_counter(bench),
-                    counts(bench, swing_counter(bench), dice.sign() * dice.between(0.4, 1)));
+                    counts(bench, swing_counter(bench), random.sign() * random.between(0.4, 1)));
       break;
     case 1:
-      jump_to_speed(bench, dice.between(1.2, 1.9));
+      jump_to_speed(bench, random.between(1.2, 1.9));
       reasons = {latched(crane_LATCH_SPEED), latched(crane_LATCH_POSITION)};
       break;
     case 2:
-      jump_to_speed(bench, dice.between(1.03, 1.07));
+      jump_to_speed(bench, random.between(1.03, 1.07));
       reasons = {because(crane_CAUSE_OVERSPEED), latched(crane_LATCH_POSITION)};
       break;
     default:
-      jump_to_speed(bench, dice.between(2.3, 40));
+      jump_to_speed(bench, random.between(2.3, 40));
   }
   return {.expectation = {.reasons = reasons, .detection_ms = 10}};
 }
 
-/// Due: 100 ms (hazard 16) after its speed cannot be explained any more (evidence.hpp). The load swings
-/// because of an acceleration that the encoder does not show, so that the check of the swing encoders may be
-/// the first.
-Strike encoder_frozen(Bench& bench, Dice& /*dice*/) {
+/// Detection time: 100 ms (hazard 16) after the speed can no longer be explained (evidence.hpp). The load
+/// swings because of an acceleration that the encoder does not show, so that the check of the swing encoders
+/// may detect the fault first.
+Injection encoder_frozen(Bench& bench, Random& /*random*/) {
   const std::size_t i = bench.axis();
   freeze(bench, i);
   return {
@@ -73,14 +73,14 @@ Strike encoder_frozen(Bench& bench, Dice& /*dice*/) {
       }};
 }
 
-/// The counter misses a share of the way. Within the tolerances of the model nothing but a switch can tell:
-/// due one tick after the axis has reached it. The axis is then beyond its hard limit by what its brake
-/// needs.
-Strike lost_counts(Bench& bench, Dice& dice) {
+/// The counter loses a share of the motion. Within the tolerances of the model only a limit switch can detect
+/// this: detection time is one tick after the axis reaches the switch. The axis may then move beyond its hard
+/// limit by its stopping distance.
+Injection lost_counts(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
-  const double kept = dice.between(0.85, 0.97);
-  const auto first = static_cast<double>(bench.world().board().read().raw_counts[i]);
-  bench.world().spoil_inputs = [i, kept, first](bridge::Inputs& inputs) {
+  const double kept = random.between(0.85, 0.97);
+  const auto first = static_cast<double>(bench.rig().board().read().raw_counts[i]);
+  bench.rig().change_inputs = [i, kept, first](bridge::Inputs& inputs) {
     inputs.raw_counts[i] =
         static_cast<std::int32_t>(std::lround(first + kept * (inputs.raw_counts[i] - first)));
   };
@@ -89,26 +89,26 @@ Strike lost_counts(Bench& bench, Dice& dice) {
                           .position_is_false = true},
           .watched_s = 1.5,
           .visible = [&bench, i] {
-            const auto inputs = bench.world().board().read();
+            const auto inputs = bench.rig().board().read();
             return inputs.limit_low[i] || inputs.limit_high[i];
           }};
 }
 
-Strike counts_wrong(Bench& bench, Dice& dice) {
-  return dice.pick(3) == 0 ? switch_elsewhere(bench, dice) : lost_counts(bench, dice);
+Injection counts_wrong(Bench& bench, Random& random) {
+  return random.pick(3) == 0 ? switch_at_wrong_position(bench, random) : lost_counts(bench, random);
 }
 
-/// Due after the imbalance that a standing encoder shows is visible (evidence.hpp): four samples of the mean,
-/// two of a speed, and ten for a push that is forgiven once.
+/// Detection time after the imbalance of a frozen encoder is visible (evidence.hpp): four samples of the
+/// mean, two of a speed, and ten for one tolerated push.
 constexpr double kSwingDetection_ms = 160;
 
-Strike swing_encoder(Bench& bench, Dice& dice) {
+Injection swing_encoder(Bench& bench, Random& random) {
   const std::size_t counter = swing_counter(bench);
   auto at = std::make_shared<std::optional<std::int32_t>>();
-  auto noise = std::make_shared<Dice>(dice.pick(1U << 30U));
+  auto noise = std::make_shared<Random>(random.pick(1U << 30U));
   const auto shake = static_cast<double>(counts(bench, counter, 0.08));
-  const auto kind = dice.pick(4);
-  bench.world().spoil_inputs = [=](bridge::Inputs& inputs) {
+  const auto kind = random.pick(4);
+  bench.rig().change_inputs = [=](bridge::Inputs& inputs) {
     auto& shown = inputs.raw_counts[counter];
     if (!*at) *at = shown;
     if (kind == 0) shown = **at;
@@ -116,30 +116,30 @@ Strike swing_encoder(Bench& bench, Dice& dice) {
     if (kind == 2) shown += static_cast<std::int32_t>(std::lround(noise->between(-shake, shake)));
     if (kind == 3) shown = -shown;
   };
-  Strike strike{
+  Injection injection{
       .expectation = {.reasons = {because(crane_CAUSE_SWING_SENSOR), latched(crane_LATCH_ENCODER_JUMP)},
                       .detection_ms = kSwingDetection_ms},
       .watched_s = 2};
-  // Noise is seen at once. A mirrored swing fulfils the same equations until the trolley moves it, and has no
-  // due time.
+  // Noise is visible at once. A swing with the wrong sign fulfils the same equations until the trolley moves,
+  // and has no detection time.
   if (kind < 2)
-    strike.visible = [zero = kind == 1, evidence = std::make_shared<SwingEvidence>(bench, counter)] {
+    injection.visible = [zero = kind == 1, evidence = std::make_shared<SwingEvidence>(bench, counter)] {
       return evidence->of_standing_encoder(zero ? 0 : evidence->swing_at_first());
     };
-  if (kind == 3) strike.visible = [] { return false; };
-  return strike;
+  if (kind == 3) injection.visible = [] { return false; };
+  return injection;
 }
 
-constexpr std::array kOfEncoders{
-    Hazard{.number = 14, .name = "encoder counter wraps", .prepare = fine_encoders, .strike = nothing_at_all},
-    Hazard{.number = 15, .name = "encoder jumps", .strike = encoder_jump},
-    Hazard{.number = 16, .name = "encoder frozen", .strike = encoder_frozen},
-    Hazard{.number = 17, .name = "lost counts", .strike = counts_wrong},
-    Hazard{.number = 18, .name = "swing encoder fails", .strike = swing_encoder},
+constexpr std::array kEncoderHazards{
+    Hazard{.number = 14, .name = "encoder counter wraps", .prepare = fine_encoders, .inject = nothing_at_all},
+    Hazard{.number = 15, .name = "encoder jumps", .inject = encoder_jump},
+    Hazard{.number = 16, .name = "encoder frozen", .inject = encoder_frozen},
+    Hazard{.number = 17, .name = "lost counts", .inject = counts_wrong},
+    Hazard{.number = 18, .name = "swing encoder fails", .inject = swing_encoder},
 };
 
 }  // namespace
 
-std::span<const Hazard> encoder_hazards() { return kOfEncoders; }
+std::span<const Hazard> encoder_hazards() { return kEncoderHazards; }
 
 }  // namespace crane::campaign

@@ -7,7 +7,7 @@
 namespace crane::campaign {
 
 double Evidence::gain() const {
-  const auto& p = bench_->setting().told.plant;
+  const auto& p = bench_->setting().configured.plant;
   if (axis_ == 0) return p.trolley_gain_mps2pv;
   if (axis_ == 2) return p.hoist_gain_mpspv / p.hoist_lag_s;
   const double x = bench_->now().truth.position[0];
@@ -16,7 +16,7 @@ double Evidence::gain() const {
 
 double Evidence::tolerance_v(double applied_v, double speed) const {
   constexpr double kGain = 0.25, kOffset_v = 0.3, kMost = 1.5, kExtra_v = 0.3;
-  const auto& rig = bench_->setting().told;
+  const auto& rig = bench_->setting().configured;
   const auto& friction = rig.design.friction[axis_];
   const double rest_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
                                   friction.stiction_positive_v, friction.stiction_negative_v});
@@ -36,7 +36,7 @@ double Evidence::tolerance_v(double applied_v, double speed) const {
 
 double Evidence::visible_speed(double speed) const {
   constexpr double kShare = 0.1, kCounts = 4;
-  const auto& rig = bench_->setting().told;
+  const auto& rig = bench_->setting().configured;
   return kShare * (rig.drives[axis_].max_speed + std::abs(speed)) +
          kCounts / (rig.encoders[axis_].counts_per_unit * rig.period_s);
 }
@@ -44,9 +44,9 @@ double Evidence::visible_speed(double speed) const {
 bool Evidence::of_drive() {
   const auto& truth = bench_->now().truth;
   const double v = truth.speed[axis_];
-  const double error_v = std::abs(bench_->world().output_error_v(axis_));
+  const double error_v = std::abs(bench_->rig().output_error_v(axis_));
   const double excess_v = error_v - tolerance_v(truth.written_v[axis_], v);
-  const double dt_s = bench_->setting().told.period_s;
+  const double dt_s = bench_->setting().configured.period_s;
   fast_ = truth.brake_closed[axis_] ? 0 : std::max(0.0, fast_ + gain() * excess_v * dt_s);
   visible_ = visible_ || fast_ > visible_speed(v);
   return visible_;
@@ -54,7 +54,7 @@ bool Evidence::of_drive() {
 
 bool Evidence::of_standing_encoder() {
   const auto& truth = bench_->now().truth;
-  const double dt_s = bench_->setting().told.period_s;
+  const double dt_s = bench_->setting().configured.period_s;
   if (!started_) {
     fast_ = std::max(truth.speed[axis_], 0.0);
     slow_ = std::max(-truth.speed[axis_], 0.0);
@@ -75,7 +75,7 @@ SwingEvidence::SwingEvidence(Bench& bench, std::size_t counter)
       at_first_rad_{radial_ ? bench.now().truth.swing_radial_rad : bench.now().truth.swing_tangential_rad},
       before_{bench.now().truth} {}
 
-SwingEvidence::Place SwingEvidence::place_of(const Truth& truth, double shown_rad) const {
+SwingEvidence::Positions SwingEvidence::positions_of(const Truth& truth, double shown_rad) const {
   const double radial = radial_ ? shown_rad : truth.swing_radial_rad;
   const double tangential = radial_ ? truth.swing_tangential_rad : shown_rad;
   const double cable_m = truth.position[2];
@@ -88,17 +88,17 @@ SwingEvidence::Place SwingEvidence::place_of(const Truth& truth, double shown_ra
 
 bool SwingEvidence::of_standing_encoder(double shown_rad) {
   constexpr double kZero_rad = 0.02, kWind_mps2 = 0.25, kSpeed_mps = 0.05, kMean = 4, kCable = 0.55;
-  const auto& rig = bench_->setting().told;
+  const auto& rig = bench_->setting().configured;
   const auto& truth = bench_->now().truth;
   const double g = rig.plant.gravity_mps2, dt_s = rig.period_s;
   if (older_) {
-    const Place a = place_of(*older_, shown_rad), b = place_of(before_, shown_rad),
-                c = place_of(truth, shown_rad);
+    const Positions a = positions_of(*older_, shown_rad), b = positions_of(before_, shown_rad),
+                    c = positions_of(truth, shown_rad);
     const auto swung = (c.load_m - 2.0 * b.load_m + a.load_m) / dt_s;
     const auto carried = (c.trolley_m - 2.0 * b.trolley_m + a.trolley_m) / dt_s;
     const double sinking_mps2 = (c.depth_m - 2 * b.depth_m + a.depth_m) / (dt_s * dt_s);
     const auto imbalance = swung + carried + (g - sinking_mps2) / b.depth_m * dt_s * b.load_m;
-    // Along the direction of the encoder: the jib, or across it.
+    // Component in the direction of the encoder: along or across the jib.
     const auto to_encoder =
         std::polar(1.0, -before_.position[1]) * (radial_ ? std::complex{1.0} : std::complex{0.0, -1.0});
     const double seen = (imbalance * to_encoder).real();

@@ -1,4 +1,4 @@
-/// The list of all hazards, and what several of them share.
+/// The list of all hazards, and functions that several hazards share.
 #include "campaign/hazards.hpp"
 
 #include "campaign/judge/truth.hpp"
@@ -7,11 +7,12 @@
 namespace crane::campaign {
 
 double direction(const Bench& bench) {
-  return bench.setting().target[bench.axis()] >= bench.setting().told.start.position[bench.axis()] ? 1 : -1;
+  return bench.setting().target[bench.axis()] >= bench.setting().configured.start.position[bench.axis()] ? 1
+                                                                                                         : -1;
 }
 
 std::int32_t counts(const Bench& bench, std::size_t counter, double change) {
-  const auto& encoder = bench.setting().told.encoders[counter];
+  const auto& encoder = bench.setting().configured.encoders[counter];
   return static_cast<std::int32_t>(std::llround(change * encoder.counts_per_unit * encoder.sign));
 }
 
@@ -19,38 +20,38 @@ std::size_t swing_counter(const Bench& bench) { return bench.axis() == 1 ? 4 : 3
 
 void freeze(Bench& bench, std::size_t counter) {
   auto at = std::make_shared<std::optional<std::int32_t>>();
-  bench.world().spoil_inputs = [at, counter](bridge::Inputs& inputs) {
+  bench.rig().change_inputs = [at, counter](bridge::Inputs& inputs) {
     if (!*at) *at = inputs.raw_counts[counter];
     inputs.raw_counts[counter] = **at;
   };
 }
 
 std::function<bool()> sees_error(Bench& bench, std::size_t counter, double error) {
-  return [&bench, counter, error] { return bench.world().shown_error()[counter] > error; };
+  return [&bench, counter, error] { return bench.rig().shown_error()[counter] > error; };
 }
 
 std::function<bool()> crosses(Bench& bench, Reason reason) {
   return [&bench, reason] {
-    return is_true(reason, bench.setting().told, bench.rows(), bench.rows().size() - 1);
+    return is_true(reason, bench.setting().configured, bench.rows(), bench.rows().size() - 1);
   };
 }
 
-/// A push against the load that swings it so far. @param rad  amplitude
+/// Pushes the load so that it swings with the amplitude `rad`.
 void push(Bench& bench, double rad) {
   const double cable_m = bench.now().truth.position[2];
   const double rate_radps = std::sqrt(2 * 9.81 / cable_m * (1 - std::cos(rad)));
   const bool radial = swing_counter(bench) == 3;
-  bench.world().board().kick(radial ? rate_radps : 0, radial ? 0 : rate_radps);
+  bench.rig().board().kick(radial ? rate_radps : 0, radial ? 0 : rate_radps);
 }
 
-/// A limit switch closes where the counter says there is none.
-Strike switch_elsewhere(Bench& bench, Dice& dice) {
+/// A limit switch is pressed at a wrong position of the axis.
+Injection switch_at_wrong_position(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
-  const bool high = dice.pick(2) == 0;
-  bench.world().spoil_inputs = [i, high](bridge::Inputs& inputs) {
+  const bool high = random.pick(2) == 0;
+  bench.rig().change_inputs = [i, high](bridge::Inputs& inputs) {
     (high ? inputs.limit_high : inputs.limit_low)[i] = true;
   };
-  const auto& drive = bench.setting().told.drives[i];
+  const auto& drive = bench.setting().configured.drives[i];
   const double x = bench.now().truth.position[i];
   const bool near =
       high ? x > drive.high_limit - 1.2 * drive.soft_margin : x < drive.low_limit + 1.2 * drive.soft_margin;
@@ -59,10 +60,10 @@ Strike switch_elsewhere(Bench& bench, Dice& dice) {
   return {.expectation = {.reasons = reasons, .detection_ms = 10}};
 }
 
-Strike refusal() { return {.expectation = {.refused = true}, .watched_s = 0.3}; }
+Injection refusal() { return {.expectation = {.refused = true}, .watched_s = 0.3}; }
 
-void stop_at_once(Bench& bench) {
-  bench.ask(crane_REQUEST_ESTOP);
+void emergency_stop(Bench& bench) {
+  bench.request(crane_REQUEST_ESTOP);
   bench.run(0.3);
 }
 
@@ -75,7 +76,7 @@ namespace {
 std::vector<Hazard> every_hazard() {
   std::vector<Hazard> all;
   for (const auto part : {process_hazards(), encoder_hazards(), drive_hazards(), load_hazards(),
-                          brake_hazards(), mad_supervisor_hazards(), request_hazards(), start_hazards()})
+                          brake_hazards(), faulty_supervisor_hazards(), request_hazards(), start_hazards()})
     all.insert(all.end(), part.begin(), part.end());
   std::ranges::sort(all, {}, &Hazard::number);
   return all;

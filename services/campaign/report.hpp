@@ -1,5 +1,5 @@
 #pragma once
-/// Results of a campaign: a line each, and a table with a row per hazard.
+/// Reports of a campaign: one line per run, and a table with one row per hazard.
 #include <map>
 #include <optional>
 #include <string>
@@ -11,9 +11,9 @@ namespace crane::campaign {
 
 /// "FOLLOWING_ERROR", "BRIDGE_LATCHED: encoder_frozen"
 [[nodiscard]] std::string to_string(const Reason& reason);
-/// One run in full.
+/// Full description of one run.
 [[nodiscard]] std::string describe(const Result& result);
-/// One run as a line of a log, and back. @return nothing when the line is none
+/// Converts a run to a line of a log, and back. @return nothing when the line is no run
 [[nodiscard]] std::string line_of(const Result& result);
 [[nodiscard]] std::optional<Result> result_from(const std::string& line);
 
@@ -22,7 +22,7 @@ class Table {
   void add(const Result& result);
   [[nodiscard]] std::string text() const;
   [[nodiscard]] std::string json() const;
-  /// Runs that violated an invariant, crashed, or never came to their moment.
+  /// Number of runs that violated an invariant, crashed, or did not reach their moment.
   [[nodiscard]] std::size_t violations() const { return failed_.size(); }
 
  private:

@@ -12,14 +12,14 @@ struct Choice {
   const char* rig;
   const char* controller;
   std::array<double, 3> start;   ///< m, rad, m of cable
-  std::array<double, 3> target;  ///< the same; an axis whose target is its start does not move
+  std::array<double, 3> target;  ///< m, rad, m of cable; an axis with target = start does not move
   std::size_t axis;
 };
 
 constexpr const char* kTower = "virginia_tech_tower";
 constexpr const char* kGantry = "gantry";
 
-/// Every controller, both rigs, each axis alone and together with others, both directions.
+/// All controllers, two rigs, each axis alone and with others, both directions.
 constexpr std::array<Choice, kSettings> kChoices{{
     {kTower, "gain_scheduling_partial", {0.3, 0, 1}, {1.05, 0, 1}, 0},
     {kGantry, "gain_scheduling_full", {0.5, 0, 1.5}, {1.7, 0, 1.5}, 0},
@@ -38,7 +38,7 @@ constexpr std::array<Choice, kSettings> kChoices{{
 constexpr std::array<std::string_view, kMoments> kMomentNames{
     "armed_idle", "brake_release", "peak_acceleration", "cruise", "limit", "stop"};
 
-/// As far as an operator may ask the axis to go, the way it goes anyway.
+/// Farthest permitted target in the direction of the move.
 double farthest(const configuration::Drive& drive, double start, double target) {
   constexpr double kRounding = 1e-6;
   return target > start ? drive.high_limit - drive.soft_margin - kRounding
@@ -58,8 +58,8 @@ std::optional<Moment> moment_named(std::string_view name) noexcept {
 Setting setting(std::uint64_t number, Moment moment) {
   const Choice& choice = kChoices.at(number);
   Setting made;
-  made.told = configuration::load_rig(stack::find_rig(choice.rig));
-  made.told.start.position = choice.start;
+  made.configured = configuration::load_rig(stack::find_rig(choice.rig));
+  made.configured.start.position = choice.start;
   made.controller = control::find_controller(choice.controller);
   made.axis = choice.axis;
   for (std::size_t i = 0; i < made.target.size(); ++i) {
@@ -68,8 +68,8 @@ Setting setting(std::uint64_t number, Moment moment) {
   }
   if (moment == Moment::limit)
     made.target[made.axis] =
-        farthest(made.told.drives[made.axis], choice.start[made.axis], choice.target[made.axis]);
-  made.wired = made.told;
+        farthest(made.configured.drives[made.axis], choice.start[made.axis], choice.target[made.axis]);
+  made.actual = made.configured;
   return made;
 }
 

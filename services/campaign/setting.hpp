@@ -1,5 +1,6 @@
 #pragma once
-/// What is being done when a fault strikes: rig, controller and move, chosen by the seed, and the moment.
+/// Situation of the crane when a fault is injected: rig, controller and move, which the seed selects, and the
+/// moment.
 #include <optional>
 #include <string_view>
 
@@ -10,25 +11,25 @@ namespace crane::campaign {
 
 /// The six moments of docs/safety.md.
 enum class Moment : std::uint8_t {
-  armed_idle,         ///< HOLD, nothing asked for
-  brake_release,      ///< the tick in which the brakes are told to open
-  peak_acceleration,  ///< RUN: the axis gains speed
+  armed_idle,         ///< HOLD without a request
+  brake_release,      ///< the tick in which the brakes are commanded open
+  peak_acceleration,  ///< RUN: the axis accelerates
   cruise,             ///< RUN: the axis has reached its largest speed
   limit,              ///< RUN: the axis brakes before the end of its permitted travel
-  stop                ///< the operator's stop is being executed
+  stop                ///< a stop by the operator is in progress
 };
 inline constexpr std::size_t kMoments = 6;
 [[nodiscard]] std::string_view name_of(Moment moment) noexcept;
-/// @return nothing when there is none of that name
+/// @return nothing when no moment has this name
 [[nodiscard]] std::optional<Moment> moment_named(std::string_view name) noexcept;
 
 struct Setting {
-  configuration::Rig told;   ///< what the rig file says: components are built from it
-  configuration::Rig wired;  ///< the rig as it is
+  configuration::Rig configured;  ///< rig file of the components
+  configuration::Rig actual;      ///< parameters of the simulated rig
   const control::Controller* controller = nullptr;
   std::array<bool, 3> selected{};  ///< axes that move
   std::array<double, 3> target{};  ///< m, rad, m of cable
-  std::size_t axis = 0;            ///< the axis that the fault concerns
+  std::size_t axis = 0;            ///< axis of the fault
 };
 
 inline constexpr std::uint64_t kSettings = 12;

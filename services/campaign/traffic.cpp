@@ -9,7 +9,7 @@ namespace crane::campaign {
 namespace {
 
 bus::Options options_of(Bench& bench, crane_Source source, std::uint32_t epoch) {
-  auto options = runtime::memory_options(bench.stack().network(), "stranger", source);
+  auto options = runtime::memory_options(bench.stack().network(), "foreign_writer", source);
   options.epoch = epoch;
   return options;
 }
@@ -29,25 +29,25 @@ bus::Wire on(const topics::Description& topic,
   };
 }
 
-Held::Held(const topics::Description& topic)
+StoredSample::StoredSample(const topics::Description& topic)
     : topic_{topic}, bytes_(topic.descriptor->m_size / sizeof(std::max_align_t) + 1) {}
 
-void Held::keep(const void* sample) {
+void StoredSample::keep(const void* sample) {
   std::memcpy(bytes_.data(), sample, topic_.descriptor->m_size);
   full_ = true;
 }
 
-const void* Held::take() {
+const void* StoredSample::take() {
   full_ = false;
   return bytes_.data();
 }
 
-void Held::flip(std::size_t bit) {
+void StoredSample::flip(std::size_t bit) {
   auto* bytes = reinterpret_cast<unsigned char*>(bytes_.data());
   bytes[bit / 8] = static_cast<unsigned char>(bytes[bit / 8] ^ (1U << (bit % 8)));
 }
 
-void Held::spoil_value(std::size_t axis) {
+void StoredSample::change_value(std::size_t axis) {
   void* sample = bytes_.data();
   if (topic_.name == topics::command.description.name)
     static_cast<msg::Command*>(sample)->drive_v[axis] += kPush_v;
@@ -63,10 +63,10 @@ crane_Source right_source(const topics::Description& topic) {
   return crane_SOURCE_NONE;
 }
 
-Stranger::Stranger(Bench& bench, crane_Source source, std::uint32_t epoch)
+ForeignWriter::ForeignWriter(Bench& bench, crane_Source source, std::uint32_t epoch)
     : bus_{options_of(bench, source, epoch)} {}
 
-void Stranger::speak(const topics::Description& topic, const Bench& bench) {
+void ForeignWriter::publish_plausible(const topics::Description& topic, const Bench& bench) {
   const auto send = [&](auto& publisher, const auto& typed, auto sample) {
     if (typed.description.name != topic.name) return;
     if (!publisher) publisher.emplace(bus_.publisher(typed));
@@ -89,7 +89,7 @@ void Stranger::speak(const topics::Description& topic, const Bench& bench) {
   send(commands_, topics::command, command);
 }
 
-void Stranger::flood_requests(const Bench& bench, std::size_t count, bool later) {
+void ForeignWriter::flood_requests(const Bench& bench, std::size_t count, bool later) {
   if (!requests_) requests_.emplace(bus_.publisher(topics::request));
   for (std::size_t i = 0; i < count; ++i) {
     msg::Request request{};

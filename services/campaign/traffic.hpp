@@ -1,5 +1,5 @@
 #pragma once
-/// What can happen to samples between a component and the bus, and who else may talk there.
+/// Faults of samples between a component and the bus, and foreign writers.
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -8,21 +8,21 @@
 
 namespace crane::campaign {
 
-/// A wire that does `fault` to one topic and leaves the others alone.
+/// A wire that applies `fault` to one topic and delivers all other topics.
 [[nodiscard]] bus::Wire on(const topics::Description& topic,
                            std::function<void(const void* sample, const bus::Deliver& deliver)> fault);
 
-/// A sample kept by the wire.
-class Held {
+/// A sample that the wire stores.
+class StoredSample {
  public:
-  explicit Held(const topics::Description& topic);
+  explicit StoredSample(const topics::Description& topic);
   void keep(const void* sample);
   [[nodiscard]] bool full() const { return full_; }
   [[nodiscard]] const void* look() const { return bytes_.data(); }
   [[nodiscard]] const void* take();
   void flip(std::size_t bit);
-  /// Another voltage, or another position: what a wrong bit does at its worst.
-  void spoil_value(std::size_t axis);
+  /// Changes a voltage or a position, the worst effect of a wrong bit.
+  void change_value(std::size_t axis);
 
  private:
   const topics::Description& topic_;
@@ -30,9 +30,9 @@ class Held {
   bool full_ = false;
 };
 
-/// A component that has gone mad: it publishes something else, with a right CRC.
+/// Changes the samples of one topic before they get their CRC.
 template <class T, class Change>
-[[nodiscard]] Madness madness(const topics::Topic<T>& topic, Change change) {
+[[nodiscard]] PublishFault falsify(const topics::Topic<T>& topic, Change change) {
   return [&topic, change = std::move(change)](const topics::Description& published, void* sample) mutable {
     if (published.name != topic.description.name) return false;
     change(*static_cast<T*>(sample));
@@ -40,16 +40,16 @@ template <class T, class Change>
   };
 }
 
-/// The kind of process that writes a loop topic in this stack.
+/// Kind of process that may write a loop topic in this stack.
 [[nodiscard]] crane_Source right_source(const topics::Description& topic);
 
-/// A program that has joined the domain.
-class Stranger {
+/// A foreign program in the domain.
+class ForeignWriter {
  public:
-  Stranger(Bench& bench, crane_Source source, std::uint32_t epoch);
-  /// One sample of a loop topic, as plausible as it can be made.
-  void speak(const topics::Description& topic, const Bench& bench);
-  /// @param later  for ticks to come; otherwise to be answered at once
+  ForeignWriter(Bench& bench, crane_Source source, std::uint32_t epoch);
+  /// Publishes one plausible sample of a loop topic.
+  void publish_plausible(const topics::Description& topic, const Bench& bench);
+  /// @param later  true: requests for later ticks; false: requests that are due at once
   void flood_requests(const Bench& bench, std::size_t count, bool later);
 
  private:

@@ -8,73 +8,72 @@
 namespace crane::campaign {
 namespace {
 constexpr std::uint32_t kFirstEpoch = 1;
-constexpr std::int64_t kShortestStep_ns =
-    100'000;  // a component that has asked for the past is asked again then
+constexpr std::int64_t kShortestStep_ns = 100'000;  // delay of a component that requests a time in the past
 }  // namespace
 
 VirtualStack::VirtualStack(std::span<const runtime::ComponentSpec> specs, const configuration::Rig& rig,
                            const control::Controller& controller)
     : rig_{rig}, controller_{controller}, network_{bus::make_memory_network()} {
   for (const auto& spec : specs) {
-    rooms_.push_back({.spec = spec, .bus = nullptr, .hosted = nullptr});
-    fill(rooms_.back(), kFirstEpoch);
+    slots_.push_back({.spec = spec, .bus = nullptr, .hosted = nullptr});
+    start_in(slots_.back(), kFirstEpoch);
   }
 }
 
-void VirtualStack::fill(Room& room, std::uint32_t epoch) {
-  auto options = runtime::memory_options(network_, std::string{room.spec.program}, room.spec.source);
+void VirtualStack::start_in(Slot& slot, std::uint32_t epoch) {
+  auto options = runtime::memory_options(network_, std::string{slot.spec.program}, slot.spec.source);
   options.epoch = epoch;
-  room.bus = std::make_unique<bus::Bus>(options);
-  room.hosted = std::make_unique<runtime::HostedComponent>(*room.bus, room.spec, rig_, controller_,
+  slot.bus = std::make_unique<bus::Bus>(options);
+  slot.hosted = std::make_unique<runtime::HostedComponent>(*slot.bus, slot.spec, rig_, controller_,
                                                            runtime::Clock::realtime);
 }
 
-VirtualStack::Room& VirtualStack::room_of(crane_Source source) {
+VirtualStack::Slot& VirtualStack::slot_of(crane_Source source) {
   const auto found =
-      std::ranges::find_if(rooms_, [&](const Room& room) { return room.spec.source == source; });
-  if (found == rooms_.end()) throw std::logic_error{"no such component in this stack"};
+      std::ranges::find_if(slots_, [&](const Slot& slot) { return slot.spec.source == source; });
+  if (found == slots_.end()) throw std::logic_error{"no such component in this stack"};
   return *found;
 }
 
 void VirtualStack::suspend(crane_Source source, std::int64_t time_ns) {
-  room_of(source).suspended_until_ns = time_ns;
+  slot_of(source).suspended_until_ns = time_ns;
 }
 
 void VirtualStack::kill(crane_Source source) {
-  Room& room = room_of(source);
-  room.hosted.reset();
-  room.bus.reset();
+  Slot& slot = slot_of(source);
+  slot.hosted.reset();
+  slot.bus.reset();
 }
 
 void VirtualStack::restart(crane_Source source, std::uint32_t epoch) {
-  Room& room = room_of(source);
+  Slot& slot = slot_of(source);
   kill(source);
-  fill(room, epoch);
+  start_in(slot, epoch);
 }
 
 void VirtualStack::settle() {
   for (bool progress = true; progress;) {
     progress = false;
-    for (auto& room : rooms_)
-      while (room.hosted && room.suspended_until_ns <= now_ns_ && polled(room)) progress = true;
+    for (auto& slot : slots_)
+      while (slot.hosted && slot.suspended_until_ns <= now_ns_ && polled(slot)) progress = true;
   }
 }
 
-/// An exception ends a process, and with it the component.
-bool VirtualStack::polled(Room& room) {
+/// An exception ends the component, as it would end its process.
+bool VirtualStack::polled(Slot& slot) {
   try {
-    return room.hosted->component().poll(now_ns_);
+    return slot.hosted->component().poll(now_ns_);
   } catch (const std::runtime_error&) {
-    kill(room.spec.source);
+    kill(slot.spec.source);
     return true;
   }
 }
 
 std::int64_t VirtualStack::next_wake_ns() const {
   std::int64_t next_ns = runtime::kNever;
-  for (const auto& room : rooms_)
-    if (room.hosted)
-      next_ns = std::min(next_ns, std::max(room.hosted->component().wake_at_ns(), room.suspended_until_ns));
+  for (const auto& slot : slots_)
+    if (slot.hosted)
+      next_ns = std::min(next_ns, std::max(slot.hosted->component().wake_at_ns(), slot.suspended_until_ns));
   return next_ns;
 }
 

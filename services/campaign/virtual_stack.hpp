@@ -1,7 +1,6 @@
 #pragma once
-/// A whole stack as it runs in real time, in one process and in virtual time: the components have the clock
-/// `realtime`, and the time they are given is made here. A component waits, gives up and stops exactly as in
-/// a process of its own; nothing depends on the computer, so that two runs are equal bit for bit.
+/// A stack with the real-time clock in one process and in virtual time. The components wait, lose ticks and
+/// stop as in separate processes. Nothing depends on the computer, so that runs repeat bit for bit.
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -19,32 +18,32 @@ class VirtualStack {
 
   [[nodiscard]] const std::shared_ptr<bus::MemoryNetwork>& network() const { return network_; }
   [[nodiscard]] std::int64_t now_ns() const { return now_ns_; }
-  /// Lets everybody do what is due until `time_ns`.
+  /// Polls all components until `time_ns`.
   void run_until(std::int64_t time_ns);
-  /// The component does nothing before `time_ns`; kNever: it hangs.
+  /// Suspends the component until `time_ns`; kNever: it hangs.
   void suspend(crane_Source source, std::int64_t time_ns);
-  /// The process has ended: its endpoints are gone, its destructors have run.
+  /// Ends the process of a component: destroys component and endpoints.
   void kill(crane_Source source);
-  /// A process that is started anew, with another start-up number.
+  /// Restarts a component with another start-up number.
   void restart(crane_Source source, std::uint32_t epoch);
 
  private:
-  struct Room {
+  struct Slot {
     runtime::ComponentSpec spec;
     std::unique_ptr<bus::Bus> bus;
     std::unique_ptr<runtime::HostedComponent> hosted;
     std::int64_t suspended_until_ns = 0;
   };
   void settle();
-  void fill(Room& room, std::uint32_t epoch);
+  void start_in(Slot& slot, std::uint32_t epoch);
   [[nodiscard]] std::int64_t next_wake_ns() const;
-  Room& room_of(crane_Source source);
-  bool polled(Room& room);
+  Slot& slot_of(crane_Source source);
+  bool polled(Slot& slot);
 
   const configuration::Rig& rig_;
   const control::Controller& controller_;
   std::shared_ptr<bus::MemoryNetwork> network_;
-  std::vector<Room> rooms_;
+  std::vector<Slot> slots_;
   std::int64_t now_ns_ = 1'000'000'000;
 };
 

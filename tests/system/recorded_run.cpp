@@ -13,9 +13,9 @@ namespace {
 using campaign::Row;
 
 constexpr std::size_t kEncapsulation_bytes = 4;
-/// A 12-bit converter of +-10 V shows a command to half of this.
+/// Half a step of a 12-bit converter of +-10 V.
 constexpr double kConverterStep_v = 20.0 / 4096;
-/// A request acts within so many ticks: a lost one is repeated by its reliable writer.
+/// Longest time of a request until it acts, in ticks: a reliable writer repeats a lost one.
 constexpr std::size_t kTakesEffect_ticks = 100;
 
 template <class T>
@@ -26,7 +26,8 @@ bool decode(const topics::Topic<T>& topic, const recording::Message& message, T&
       .decode(message.data.subspan(kEncapsulation_bytes), false, &out);
 }
 
-/// Newest sample of each tick, of the writer that was heard last before `known_ns`, or first; or of any.
+/// Newest sample of each tick from the writer that was received last before `known_ns`, or first; or from any
+/// writer.
 template <class Heard>
 auto by_tick(const std::vector<Heard>& heard, std::int64_t until_ns, std::int64_t known_ns,
              bool nobody_else) {
@@ -46,7 +47,7 @@ typename Map::mapped_type newest(const Map& map, std::uint64_t tick) {
   return next == map.begin() ? typename Map::mapped_type{} : std::prev(next)->second;
 }
 
-/// What the bridge asked the board for: the command that it names, where the volts that act are those of it.
+/// Outputs of the bridge: the command that the state names, when the acting volts are those of this command.
 void fill_outputs(Row& row, const std::map<std::uint64_t, msg::Command>& commands) {
   const auto found = commands.find(row.state.applied_command_tick);
   const bool latched = row.state.latch_reason != crane_LATCH_NONE;
@@ -90,7 +91,7 @@ Recorded::Recorded(const std::filesystem::path& file) {
   });
 }
 
-/// When the recorder heard the first state that was sampled at that time or later.
+/// Time at which the recorder received the first state sampled at this time or later.
 std::int64_t Recorded::log_time_of(std::int64_t monotonic_ns) const {
   const auto found = std::ranges::find_if(states_, [monotonic_ns](const auto& heard) {
     return heard.sample.header.sample_time_ns >= monotonic_ns;
@@ -125,8 +126,8 @@ std::vector<Row> Recorded::rows(std::int64_t from_ns, std::int64_t until_ns, boo
     const auto first = std::max<std::ptrdiff_t>(row - rows.begin() - 1, 0);
     for (std::size_t k = static_cast<std::size_t>(first);
          k < rows.size() && k < static_cast<std::size_t>(first) + kTakesEffect_ticks; ++k) {
-      rows[k].reset_asked = rows[k].reset_asked || request.kind == crane_REQUEST_RESET;
-      rows[k].arm_asked = rows[k].arm_asked || request.kind == crane_REQUEST_ARM;
+      rows[k].reset_requested = rows[k].reset_requested || request.kind == crane_REQUEST_RESET;
+      rows[k].arm_requested = rows[k].arm_requested || request.kind == crane_REQUEST_ARM;
     }
   }
   return rows;

@@ -10,17 +10,17 @@ namespace {
 
 constexpr double kCommunicationBound_ms = 70;  // I2: onset of a communication fault to 0 V
 constexpr double kZeroVoltsBound_ms = 20;      // I2: any detection to 0 V
-constexpr double kBrakesBound_ms = 10;         // I3: 0 V to brakes told to close: one tick
-constexpr double kControlledStop_ms = 8'200;   // the longest controlled stop, and its ramp
-constexpr double kOutside = 1e-3;          // I1: m, rad; the size of a weld bead, not of a stopping distance
-constexpr double kSlip = 1e-3;             // I4: m, rad
-constexpr double kAtRest = 1e-6;           // m/s, rad/s: a locked axis of the simulated rig
-constexpr double kVolt = 1e-9;             // V: rounding
-constexpr std::size_t kOldestCommand = 6;  // ticks: the bridge holds a command for five
+constexpr double kBrakesBound_ms = 10;         // I3: 0 V to brakes commanded closed: one tick
+constexpr double kControlledStop_ms = 8'200;   // longest controlled stop with its ramp
+constexpr double kOutside = 1e-3;              // I1: m, rad; small compared with any stopping distance
+constexpr double kSlip = 1e-3;                 // I4: m, rad
+constexpr double kAtRest = 1e-6;               // m/s, rad/s: below, an axis of the simulated rig is locked
+constexpr double kVolt = 1e-9;                 // V: rounding error
+constexpr std::size_t kOldestCommand = 6;      // ticks: the bridge applies a command for at most five ticks
 
 double ms(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
 
-/// Power is, or is being, taken away. LOCKED is where a stop ends.
+/// True in states of a stop: power is, or is being, removed. LOCKED is the end of a stop.
 bool is_stop(crane_SupervisorState state) {
   return state >= crane_STATE_STOP_C1 || state == crane_STATE_LOCKED || state == crane_STATE_SELFTEST;
 }
@@ -32,7 +32,7 @@ bool is_controlled(const Reason& reason) {
 }
 
 bool no_volts(const Row& row) { return row.truth.written_v == PerAxis{}; }
-bool told_closed(const Row& row) { return row.truth.brake_release == AxisFlags{}; }
+bool commanded_closed(const Row& row) { return row.truth.brake_release == AxisFlags{}; }
 
 class Judgement {
  public:
@@ -54,7 +54,7 @@ class Judgement {
     find_first_reason();
     right_reason();
     refusal();
-    each_by_itself();
+    independent_detection();
     nothing_outwards();
     stop_times();
     return std::move(verdict_);
@@ -82,10 +82,10 @@ class Judgement {
     }
   }
 
-  /// A supervisor that sees a latch stops, too.
+  /// When the bridge has latched, the supervisor must stop, too.
   void follows_latch(std::size_t k) {
     constexpr std::size_t kTicks = 3;
-    if (k < kTicks || run_.expectation.supervisor_gone || run_.expectation.supervisor_mad) return;
+    if (k < kTicks || run_.expectation.supervisor_gone || run_.expectation.supervisor_faulty) return;
     const bool latched = run_.rows[k - kTicks].state.latch_reason != crane_LATCH_NONE &&
                          run_.rows[k].state.latch_reason != crane_LATCH_NONE;
     const auto state = run_.rows[k].status.state;
@@ -93,7 +93,7 @@ class Judgement {
       violated(Invariant::right_reason, k, "the supervisor goes on although the bridge has latched");
   }
 
-  /// Beyond 1.25 times its limit the swing is no controlled stop's to damp.
+  /// A controlled stop cannot damp a swing above 1.25 times its limit: 0 V is required.
   void runaway_swing(std::size_t k) {
     constexpr double kRunaway = 1.25, kReserve = 1.02, kBound_ms = 50;
     const Truth& truth = run_.rows[k].truth;
@@ -102,7 +102,7 @@ class Judgement {
         std::abs(truth.swing_radial_rad) > limit_rad || std::abs(truth.swing_tangential_rad) > limit_rad;
     if (beyond && !runaway_ns_) runaway_ns_ = run_.rows[k].time_ns;
     if (runaway_ns_ && ms(*runaway_ns_, run_.rows[k].time_ns) > kBound_ms && !no_volts(run_.rows[k]) &&
-        !run_.expectation.supervisor_gone && !run_.expectation.supervisor_mad &&
+        !run_.expectation.supervisor_gone && !run_.expectation.supervisor_faulty &&
         !run_.expectation.volts_by_rig)
       violated(Invariant::zero_volts, k, "volts on although the load has swung beyond 1.25 times its limit");
   }
@@ -120,24 +120,24 @@ class Judgement {
     }
   }
 
-  /// Permission begins with reset, then arm, and ends with every stop.
+  /// Permission to open brakes begins with reset and arm, and ends with every stop.
   void reset_and_arm(std::size_t k) {
     const Row& row = run_.rows[k];
-    const bool was_released = k > 0 && !told_closed(run_.rows[k - 1]);
+    const bool was_released = k > 0 && !commanded_closed(run_.rows[k - 1]);
     const bool may = permitted_;
     if (is_stop(row.status.state)) permitted_ = reset_ = false;
-    if (row.reset_asked) reset_ = true;
-    if (row.arm_asked && reset_) permitted_ = true;
+    if (row.reset_requested) reset_ = true;
+    if (row.arm_requested && reset_) permitted_ = true;
     if (row.status.state == crane_STATE_READY && !reset_)
       violated(Invariant::reset_and_arm, k, "READY without a reset");
-    if (!told_closed(row) && !was_released && !may && !permitted_)
+    if (!commanded_closed(row) && !was_released && !may && !permitted_)
       violated(Invariant::reset_and_arm, k, "a brake was opened without reset and arm");
   }
 
   void only_supervisor(std::size_t k) {
     const Row& row = run_.rows[k];
     const bool bridge_is_dead = run_.expectation.volts_by_rig && row.time_ns >= run_.begin_ns;
-    if (bridge_is_dead || (no_volts(row) && told_closed(row))) return;
+    if (bridge_is_dead || (no_volts(row) && commanded_closed(row))) return;
     for (std::size_t age = 1; age <= std::min(k, kOldestCommand); ++age)
       if (is_of(run_.rows[k - age].command, row.truth)) return;
     violated(Invariant::only_supervisor, k, "the board was given what the supervisor has not published");
@@ -182,7 +182,7 @@ class Judgement {
     const Row before = onset_ > 0 ? run_.rows[onset_ - 1] : Row{};
     for (first_row_ = onset_; first_row_ < run_.rows.size(); ++first_row_) {
       const Row& row = run_.rows[first_row_];
-      const bool stopped = !run_.expectation.supervisor_mad && is_stop(row.status.state) &&
+      const bool stopped = !run_.expectation.supervisor_faulty && is_stop(row.status.state) &&
                            (!is_stop(before.status.state) || row.status.cause != before.status.cause);
       const bool latched =
           row.state.latch_reason != crane_LATCH_NONE && before.state.latch_reason == crane_LATCH_NONE;
@@ -195,7 +195,7 @@ class Judgement {
     }
   }
 
-  /// The operator's stop has gone on for as long as it may: no fault's doing.
+  /// True when the operator's stop has reached its longest duration, which is no effect of the fault.
   [[nodiscard]] bool ends_the_stop(const Row& before, const Row& row) const {
     const Reason timeout{crane_CAUSE_STOP_TIMEOUT, crane_LATCH_NONE};
     return before.status.state == crane_STATE_STOP_C1 && row.status.cause == crane_CAUSE_STOP_TIMEOUT &&
@@ -218,7 +218,8 @@ class Judgement {
     if (run_.visible_ns) verdict_.detection_ms = std::max(detection_ms, 0.0);
   }
 
-  /// Nothing has to be detected that nobody can see, or when another stop had ended before it was due.
+  /// Detection is not required when the effect was never visible, or when another stop ended before the
+  /// detection time.
   void undetected() {
     const auto& wanted = run_.expectation;
     if (wanted.reasons.empty() || wanted.may_ride_through || !run_.visible_ns || run_.rows.empty()) return;
@@ -226,7 +227,7 @@ class Judgement {
     if (ms(*run_.visible_ns, last.time_ns) < wanted.detection_ms) return;
     for (const Row& row : run_.rows)
       if (row.time_ns >= run_.onset_ns && ms(*run_.visible_ns, row.time_ns) <= wanted.detection_ms &&
-          is_stop(row.status.state) && told_closed(row) && no_volts(row))
+          is_stop(row.status.state) && commanded_closed(row) && no_volts(row))
         return;
     violated(Invariant::right_reason, run_.rows.size() - 1, "not detected");
   }
@@ -238,21 +239,21 @@ class Judgement {
           run_.accepted ? "a request was accepted that has to be refused" : "a request was not answered");
   }
 
-  /// What bridge and supervisor each have to find, although the other one has stopped the crane.
-  void each_by_itself() {
+  /// Faults that bridge and supervisor must each detect, even when the other one has stopped the crane.
+  void independent_detection() {
     const auto& wanted = run_.expectation;
-    if (wanted.latch_too != crane_LATCH_NONE &&
-        !seen_in_time([&](const Row& row) { return row.state.latch_reason == wanted.latch_too; }))
+    if (wanted.bridge_must_latch != crane_LATCH_NONE &&
+        !seen_in_time([&](const Row& row) { return row.state.latch_reason == wanted.bridge_must_latch; }))
       violated(Invariant::right_reason, run_.rows.size() - 1, "the bridge has not found it by itself");
-    if (wanted.cause_too != crane_CAUSE_NONE &&
-        !seen_in_time([&](const Row& row) { return row.status.cause == wanted.cause_too; }))
+    if (wanted.supervisor_must_find != crane_CAUSE_NONE &&
+        !seen_in_time([&](const Row& row) { return row.status.cause == wanted.supervisor_must_find; }))
       violated(Invariant::right_reason, run_.rows.size() - 1, "the supervisor has not found it by itself");
   }
 
-  /// @return true when nothing was to be seen, or it was not due before the end
+  /// @return true when the effect was not visible, or the detection time was not over at the end of the run
   template <class Shows>
   [[nodiscard]] bool seen_in_time(const Shows& shows) const {
-    const double bound_ms = run_.expectation.too_ms + 1e-6;
+    const double bound_ms = run_.expectation.independent_ms + 1e-6;
     if (!run_.visible_ns || run_.rows.empty() || ms(*run_.visible_ns, run_.rows.back().time_ns) < bound_ms)
       return true;
     return std::any_of(
@@ -263,21 +264,22 @@ class Judgement {
   void nothing_outwards() {
     const auto& axis = run_.expectation.outwards_axis;
     if (!axis || !verdict_.first || verdict_.first->cause != crane_CAUSE_STOPPING_ENVELOPE) return;
-    for (std::size_t k = first_row_ + 1; k < run_.rows.size(); ++k)  // its command acts from the next tick on
+    for (std::size_t k = first_row_ + 1; k < run_.rows.size();
+         ++k)  // the command of this tick acts from the next tick on
       if (run_.rows[k].truth.written_v[*axis] * run_.expectation.outwards > kVolt)
         violated(Invariant::zero_volts, k,
                  "a voltage outwards although the axis would not stop before its limit");
   }
 
-  /// Without the bridge only the relay of the rig acts.
+  /// Without the bridge, only the relay of the rig acts.
   void relay_acts() {
     for (std::size_t k = onset_; k < run_.rows.size(); ++k)
       if (run_.rows[k].truth.brake_closed == present_brakes(run_.rows[k])) {
         if (ms(run_.onset_ns, run_.rows[k].time_ns) > run_.expectation.braked_by_rig_ms)
-          violated(Invariant::brakes_told, k, "the relay closed the brakes late");
+          violated(Invariant::brakes_commanded, k, "the relay closed the brakes late");
         return;
       }
-    violated(Invariant::brakes_told, run_.rows.size() - 1, "the relay did not close the brakes");
+    violated(Invariant::brakes_commanded, run_.rows.size() - 1, "the relay did not close the brakes");
   }
 
   void stop_times() {
@@ -286,17 +288,17 @@ class Judgement {
     const auto detected_ns = run_.rows[first_row_].time_ns;
     const auto since_ns = run_.visible_ns.value_or(run_.onset_ns);
     const bool controlled = is_controlled(*verdict_.first);
-    std::optional<std::int64_t> zero_ns, told_ns;
+    std::optional<std::int64_t> zero_ns, commanded_ns;
     for (std::size_t k = first_row_; k < run_.rows.size(); ++k) {
       const Row& row = run_.rows[k];
-      if (!zero_ns && no_volts(row) && (!controlled || told_closed(row))) zero_ns = row.time_ns;
-      if (!told_ns && told_closed(row)) told_ns = row.time_ns;
+      if (!zero_ns && no_volts(row) && (!controlled || commanded_closed(row))) zero_ns = row.time_ns;
+      if (!commanded_ns && commanded_closed(row)) commanded_ns = row.time_ns;
       if (!verdict_.braked_ms && row.truth.brake_closed == present_brakes(row))
         verdict_.braked_ms = ms(since_ns, row.time_ns);
     }
     if (zero_ns) verdict_.zero_volts_ms = ms(since_ns, *zero_ns);
-    const bool nobody_acts = run_.expectation.supervisor_gone || run_.expectation.supervisor_mad;
-    if (run_.expectation.volts_by_rig || (nobody_acts && !run_.expectation.communication)) return;
+    const bool no_supervisor = run_.expectation.supervisor_gone || run_.expectation.supervisor_faulty;
+    if (run_.expectation.volts_by_rig || (no_supervisor && !run_.expectation.communication)) return;
     const auto end_ns = run_.rows.back().time_ns;
     const double reaction_ms =
         (run_.expectation.loses_commands ? kCommunicationBound_ms : kZeroVoltsBound_ms) +
@@ -307,10 +309,10 @@ class Judgement {
     if (run_.expectation.communication && !controlled &&
         ms(run_.onset_ns, zero_ns.value_or(end_ns)) > kCommunicationBound_ms + 1e-6)
       violated(Invariant::zero_volts, first_row_, "0 V comes late after the onset");
-    // Where no voltage was on, the ramp lasts all the same.
-    const bool late = ms(detected_ns, told_ns.value_or(end_ns)) > reaction_ms + 1e-6;
-    if (zero_ns && late && ms(*zero_ns, told_ns.value_or(end_ns)) > kBrakesBound_ms + 1e-6)
-      violated(Invariant::brakes_told, first_row_, "the brakes are told to close late");
+    // The ramp takes its time even when no voltage was applied.
+    const bool late = ms(detected_ns, commanded_ns.value_or(end_ns)) > reaction_ms + 1e-6;
+    if (zero_ns && late && ms(*zero_ns, commanded_ns.value_or(end_ns)) > kBrakesBound_ms + 1e-6)
+      violated(Invariant::brakes_commanded, first_row_, "the brakes are commanded closed late");
   }
 
   [[nodiscard]] AxisFlags present_brakes(const Row& row) const {
@@ -333,7 +335,7 @@ class Judgement {
 
 const char* name_of(Invariant invariant) noexcept {
   static constexpr std::array<const char*, kInvariants> kNames{
-      "I1 inside hard limits", "I2 0 V in time",        "I3 brakes told to close",
+      "I1 inside hard limits", "I2 0 V in time",        "I3 brakes commanded closed",
       "I4 braked axes stay",   "I5 reset and arm",      "I6 supervisor's volts only",
       "I7 volts in range",     "I8 right first reason", "I9 recording recoverable",
       "I10 no false trip"};

@@ -1,6 +1,6 @@
 #pragma once
-/// What a run leaves for the judge: every tick the samples that were published and the truth that no sensor
-/// knows. Nothing here comes from supervisor or bridge.
+/// Record of a run for the judge: the published samples and the true state of every tick. Independent of
+/// supervisor and bridge.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -14,72 +14,77 @@ inline constexpr std::size_t kAxes = 3;
 using PerAxis = std::array<double, kAxes>;
 using AxisFlags = std::array<bool, kAxes>;
 
-/// The rig at one instant, as nature has it.
+/// True state of the rig.
 struct Truth {
   PerAxis position{};  ///< m, rad, m of cable
   PerAxis speed{};     ///< per second
   double swing_radial_rad = 0, swing_tangential_rad = 0;
-  PerAxis converter_v{};  ///< what the drives get
+  PerAxis converter_v{};  ///< voltage at the drives
   AxisFlags brake_closed{};
-  PerAxis written_v{};        ///< what the bridge asked the board for
-  AxisFlags brake_release{};  ///< the same
+  PerAxis written_v{};        ///< voltage that the bridge has written
+  AxisFlags brake_release{};  ///< brake supplies that the bridge has written
 };
 
-/// One tick, as it stood when the tick was over.
+/// One tick, at its end.
 struct Row {
   std::int64_t time_ns = 0;
   Truth truth;
   msg::State state{};              ///< newest published
-  msg::Command command{};          ///< newest that the supervisor published
+  msg::Command command{};          ///< newest sample of the supervisor
   msg::SupervisorStatus status{};  ///< newest published
-  msg::Reference
-      reference{};  ///< this and the next two lines: newest published, for the recording, not for the judge
+  msg::Reference reference{};  ///< this and the next two lines: newest published; the recording needs them,
+                               ///< the judge does not
   msg::Contribution tracking{}, anti_swing{};
   msg::Demand demand{};
-  bool reset_asked = false, arm_asked = false;  ///< by the operator, in this tick
+  bool reset_requested = false, arm_requested = false;  ///< requests of the operator in this tick
 };
 
-/// Why the crane was stopped: the cause of the supervisor, and for CAUSE_BRIDGE_LATCHED the bridge's reason.
+/// Reason of a stop: the cause of the supervisor, and for CAUSE_BRIDGE_LATCHED the reason of the bridge.
 struct Reason {
   crane_Cause cause = crane_CAUSE_NONE;
   crane_LatchReason latch = crane_LATCH_NONE;
   [[nodiscard]] bool operator==(const Reason&) const = default;
 };
 
-/// What has to come of a fault.
+/// Expected reaction to a fault.
 struct Expectation {
-  /// Any of them is right, and beside them the limit that the truth has crossed; empty: nothing may stop the
-  /// crane.
+  /// Correct reasons. The limit that the true state has crossed is correct as well. Empty: the crane must not
+  /// stop.
   std::vector<Reason> reasons{};
-  bool may_ride_through = false;   ///< no stop is right, too
-  double detection_ms = 0;         ///< from onset to the first reason
-  bool communication = false;      ///< I2: 0 V within 70 ms of the onset
-  bool volts_by_rig = false;       ///< the bridge is dead: only the relay of the rig acts, on the brakes
-  bool position_is_false = false;  ///< I1 cannot be kept by counters: travel beyond a hard limit is reported
-  bool loses_commands = false;   ///< a command that stops the crane may be lost: the bridge stops it at 50 ms
-  bool refused = false;          ///< the newest request of the operator is to be refused
-  double braked_by_rig_ms = 90;  ///< volts_by_rig: from onset to closed brakes: relay, coil and two ticks
-  bool supervisor_gone = false;  ///< nobody follows a latch of the bridge
-  bool supervisor_mad = false;   ///< what it says is no evidence: only the bridge is judged
-  double acts_late_ms =
-      0;  ///< the bridge itself is late by so much: added to the times until volts and brakes
-  /// The bridge has to find this by itself, whatever the supervisor did before; LATCH_NONE: nothing.
-  crane_LatchReason latch_too = crane_LATCH_NONE;
-  /// The same for the supervisor, whatever the bridge did before; CAUSE_NONE: nothing.
-  crane_Cause cause_too = crane_CAUSE_NONE;
-  double too_ms = 0;  ///< latch_too and cause_too: from the time the fault was visible
-  std::optional<std::size_t> outwards_axis{};  ///< after STOPPING_ENVELOPE no voltage drives this axis ...
-  double outwards = 1;                         ///< ... to this side
-  bool brakes_are_broken = false;              ///< I3 and I4 say nothing about a brake that does not close
+  bool may_ride_through = false;  ///< true: no stop is correct as well
+  double detection_ms = 0;        ///< longest time from onset to the first reason
+  bool communication = false;     ///< I2: 0 V within 70 ms of the onset
+  bool volts_by_rig =
+      false;  ///< true: the bridge has ended, and only the relay of the rig acts on the brakes
+  bool position_is_false =
+      false;  ///< true: wrong counters permit motion beyond a hard limit; I1 reports it only
+  bool loses_commands =
+      false;             ///< true: a command to stop may be lost; the bridge then stops the crane after 50 ms
+  bool refused = false;  ///< true: the newest request of the operator must be refused
+  double braked_by_rig_ms =
+      90;  ///< volts_by_rig: longest time from onset to closed brakes: relay, coil and two ticks
+  bool supervisor_gone = false;  ///< true: no supervisor follows a latch of the bridge
+  bool supervisor_faulty =
+      false;                ///< true: the status of the supervisor is wrong, and only the bridge is judged
+  double acts_late_ms = 0;  ///< delay of the bridge itself: added to the times until volts and brakes
+  /// The bridge must latch with this reason, even after a stop by the supervisor; LATCH_NONE: no requirement.
+  crane_LatchReason bridge_must_latch = crane_LATCH_NONE;
+  /// The supervisor must report this cause, even after a latch of the bridge; CAUSE_NONE: no requirement.
+  crane_Cause supervisor_must_find = crane_CAUSE_NONE;
+  double independent_ms = 0;  ///< longest time for both, from the time at which the fault was visible
+  std::optional<std::size_t> outwards_axis{};  ///< after STOPPING_ENVELOPE no voltage may drive this axis ...
+  double outwards = 1;                         ///< ... in this direction
+  bool brakes_are_broken = false;  ///< true: I3 and I4 do not apply, because a brake does not close
 };
 
 struct Run {
   std::vector<Row> rows{};
-  std::int64_t begin_ns = 0;                 ///< until then nothing was done to the crane
-  std::int64_t onset_ns = 0;                 ///< of the fault
-  std::optional<std::int64_t> visible_ns{};  ///< when its effect could be seen at the earliest; none: never
+  std::int64_t begin_ns = 0;  ///< no request or fault before
+  std::int64_t onset_ns = 0;  ///< onset of the fault
+  std::optional<std::int64_t>
+      visible_ns{};  ///< earliest time at which the effect was visible; nothing: never
   Expectation expectation{};
-  std::optional<bool> accepted{};  ///< what came of the operator's newest request
+  std::optional<bool> accepted{};  ///< answer to the newest request of the operator
 };
 
 }  // namespace crane::campaign

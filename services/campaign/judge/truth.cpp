@@ -13,21 +13,21 @@ double count_of(const configuration::Rig& rig, std::size_t counter) {
   return per_unit > 0 ? 1 / per_unit : 0;
 }
 
-/// What encoders show of it: the way of the last tick, and a count of each sample.
+/// Speed that the encoders show: distance in the last tick plus one count.
 double shown_speed(const configuration::Rig& rig, std::span<const Row> rows, std::size_t k,
                    std::size_t axis) {
   if (k == 0) return 0;
-  const double way = std::abs(rows[k].truth.position[axis] - rows[k - 1].truth.position[axis]);
-  return (way + count_of(rig, axis)) / rig.period_s;
+  const double distance = std::abs(rows[k].truth.position[axis] - rows[k - 1].truth.position[axis]);
+  return (distance + count_of(rig, axis)) / rig.period_s;
 }
 
 bool beyond(const configuration::Rig& rig, std::span<const Row> rows, std::size_t k, std::size_t axis,
             double reaction_s) {
   const auto& drive = rig.drives[axis];
   const double x = rows[k].truth.position[axis], count = count_of(rig, axis);
-  const double way = way_to_a_stop(drive, shown_speed(rig, rows, k, axis), reaction_s) + count;
+  const double distance = stopping_distance(drive, shown_speed(rig, rows, k, axis), reaction_s) + count;
   const double from = k > 0 ? rows[k - 1].truth.position[axis] : x;
-  return (x >= from && x + way > drive.high_limit) || (x <= from && x - way < drive.low_limit);
+  return (x >= from && x + distance > drive.high_limit) || (x <= from && x - distance < drive.low_limit);
 }
 
 bool swings_beyond(const configuration::Rig& rig, const Row& row, double limit_rad) {
@@ -60,7 +60,7 @@ bool is_true_at(const Reason& reason, const configuration::Rig& rig, std::span<c
 
 }  // namespace
 
-double way_to_a_stop(const configuration::Drive& drive, double speed, double reaction_s) {
+double stopping_distance(const configuration::Drive& drive, double speed, double reaction_s) {
   if (reaction_s < 0) return 0;
   return speed * reaction_s + speed * speed / (2 * drive.brake_deceleration);
 }

@@ -51,7 +51,9 @@ int list() {
   std::cout << "\nhazards:\n";
   for (const auto& hazard : hazards())
     std::cout << "  " << hazard.number << "  " << hazard.name
-              << (hazard.place == Place::campaign ? "" : std::string{" (not here: "} + hazard.elsewhere + ")")
+              << (hazard.test_bed == TestBed::campaign
+                      ? ""
+                      : std::string{" (tested elsewhere: "} + hazard.verified_by + ")")
               << '\n';
   return 0;
 }
@@ -64,7 +66,7 @@ int run_single(const CampaignOptions& options, const Tuple& tuple) {
   return result.violations == 0 && !result.crashed ? 0 : 1;
 }
 
-/// Lines of an earlier campaign: what is there is not run again.
+/// Reads the log of an earlier campaign, whose runs are not repeated.
 std::set<std::string> done_before(const std::string& log, Table& table) {
   std::set<std::string> done;
   std::ifstream in{log};
@@ -108,7 +110,7 @@ int run_free(const CampaignOptions& options) {
 }
 
 int run(const CampaignOptions& options) {
-  spdlog::set_level(spdlog::level::off);  // what the components say of their faults is in the recordings
+  spdlog::set_level(spdlog::level::off);  // the recordings contain the messages of the components
   if (options.list) return list();
   if (options.fault_free_h > 0) return run_free(options);
   const auto all = tuples(selection_of(options));
@@ -127,16 +129,16 @@ void add_campaign(CLI::App& app, Action& chosen) {
   command->add_option("--hazard", options->hazards, "hazards by number (default: all)");
   command->add_option("--moment", options->moments, "moments by name (default: all)");
   command->add_option("--seed", options->seed,
-                      "this seed only; with one hazard and one moment: one run, told in full");
+                      "this seed only; with one hazard and one moment: one run, described in full");
   command->add_option("--first-seed", options->first_seed, "first seed");
   command->add_option("--seeds", options->seeds, "number of seeds; about 200 runs each");
   command->add_option("--jobs", options->jobs, "processes that work at the same time")
       ->check(CLI::PositiveNumber);
   command->add_option("--record", options->record, "MCAP file of the one run");
   command->add_option("--log", options->log,
-                      "a line for each run; runs that it has already are not run again");
+                      "file with one line per run; runs that it contains are not repeated");
   command->add_option("--fault-free", options->fault_free_h,
-                      "instead: so many hours of virtual time without a fault");
+                      "instead: this number of hours of virtual time without faults");
   command->add_flag("--json", options->json, "table as JSON");
   command->add_flag("--list", options->list, "hazards and moments");
   command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });
