@@ -8,7 +8,7 @@
 #include <iostream>
 #include <thread>
 
-#include "black_box/moment_file.hpp"
+#include "black_box/incident_file.hpp"
 #include "crane/configuration/extended_file.hpp"
 #include "crane/runtime/node.hpp"
 #include "dashboard/observer.hpp"
@@ -40,8 +40,8 @@ Origin origin_of(const Options& options) {
   return origin;
 }
 
-/// "tracking" -> "0.1.0, cyclone, delayed_1, process 4711, start 123456": with the start-up number, the
-/// random seed of the process.
+/// "tracking" -> "0.1.0, cyclone, delayed_1, process 4711, start 123456". The last number is the random
+/// start-up number.
 recording::Metadata processes_of(const dashboard::Traffic& traffic) {
   recording::Metadata processes;
   for (const auto& [number, heard] : traffic.nodes()) {
@@ -55,15 +55,15 @@ recording::Metadata processes_of(const dashboard::Traffic& traffic) {
 
 constexpr std::int64_t kLinger_ns = 200'000'000;
 
-/// Writes in a thread of its own, so that a slow disk delays no sample.
+/// Writes in a separate thread, so that a slow disk delays no sample.
 class Writer {
  public:
   Writer(const Options& options, Origin origin) : options_{options}, origin_{std::move(origin)} {}
 
-  void write(Moment moment, recording::Metadata processes) {
-    thread_ = std::jthread{[this, moment = std::move(moment), processes = std::move(processes)] {
+  void write(Incident incident, recording::Metadata processes) {
+    thread_ = std::jthread{[this, incident = std::move(incident), processes = std::move(processes)] {
       try {
-        const auto file = write_moment(options_.directory, moment, origin_, processes);
+        const auto file = write_incident(options_.directory, incident, origin_, processes);
         std::cout << "black box: " + file.string() + "\n" << std::flush;
         keep_newest(options_.directory, options_.files);
       } catch (const recording::WriteError& error) {
@@ -75,7 +75,7 @@ class Writer {
  private:
   const Options& options_;
   Origin origin_;
-  std::jthread thread_;  ///< a new one waits for the old one
+  std::jthread thread_;  ///< a new thread waits for the end of the previous one
 };
 
 }  // namespace
@@ -93,7 +93,7 @@ std::filesystem::path default_directory() {
 Options default_options() {
   Options options;
   options.directory = default_directory();
-  options.bus.vendor = "fastdds";  // as all tools: ordinary use exercises both vendors together
+  options.bus.vendor = "fastdds";  // like all tools, so that ordinary use exercises both vendors together
   return options;
 }
 
@@ -118,22 +118,22 @@ int run(const Options& options) {
   Writer writer{options, origin_of(options)};
   bus::Bus bus{
       runtime::bus_options(options.bus, "crane_black_box", crane_SOURCE_RECORDER, runtime::random_epoch())};
-  Moments moments{dashboard::log_now_ns()};
-  dashboard::Observer observer{bus, false, [&moments](const std::vector<SamplePtr>& samples) {
-                                 for (const auto& sample : samples) moments.add(sample);
+  Incidents incidents{dashboard::log_now_ns()};
+  dashboard::Observer observer{bus, false, [&incidents](const std::vector<SamplePtr>& samples) {
+                                 for (const auto& sample : samples) incidents.add(sample);
                                }};
   const auto keep = [&](bool ends) {
-    if (auto moment = moments.poll(runtime::monotonic_ns(), dashboard::log_now_ns(), ends))
-      writer.write(*std::move(moment), processes_of(moments.traffic()));
+    if (auto incident = incidents.poll(runtime::monotonic_ns(), dashboard::log_now_ns(), ends))
+      writer.write(*std::move(incident), processes_of(incidents.traffic()));
   };
   while (!runtime::stop_requested()) {
     observer.poll();
     keep(false);
   }
-  // What has been said until now may still be on its way. That the others end, too, is no fault.
-  const auto asked_ns = dashboard::log_now_ns();
-  moments.ignore_what_begins_after(asked_ns);
-  while (dashboard::log_now_ns() < asked_ns + kLinger_ns) observer.poll();
+  // Receives samples that are still in transit. The end of the other processes is no fault.
+  const auto stop_ns = dashboard::log_now_ns();
+  incidents.ignore_causes_after(stop_ns);
+  while (dashboard::log_now_ns() < stop_ns + kLinger_ns) observer.poll();
   keep(true);
   return runtime::kExitDone;
 }

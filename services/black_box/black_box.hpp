@@ -1,6 +1,6 @@
 #pragma once
-/// The black box as a program: `crane black-box`, which `crane up` starts. It listens to every topic, keeps
-/// the newest samples in memory, and writes a recording at every stop, fault and trip (moments.hpp).
+/// The program `crane black-box`, which `crane up` starts. It receives every topic, keeps the newest samples
+/// in memory, and writes a recording at every stop, fault and trip (incidents.hpp).
 #include <filesystem>
 #include <string>
 
@@ -9,10 +9,10 @@
 namespace crane::black_box {
 
 struct Options {
-  std::filesystem::path directory;  ///< is made when it does not exist
-  std::string rig;                  ///< name or path of a rig file, which is attached; empty: unknown
-  int parent = 0;                   ///< process that this one ends with; 0: none
-  std::size_t files = 64;           ///< newest files that are kept; a file has about 1 MB
+  std::filesystem::path directory;  ///< created when missing
+  std::string rig;                  ///< name or path of the rig file, which is attached; empty: unknown
+  int parent = 0;          ///< process id of the parent; this process ends when the parent ends; 0: none
+  std::size_t files = 64;  ///< number of files that are kept; a file has about 1 MB
   runtime::BusOptions bus;
 };
 /// $XDG_STATE_HOME/crane/black_box, or ~/.local/state/crane/black_box
@@ -20,7 +20,7 @@ struct Options {
 [[nodiscard]] Options default_options();
 void add_options(CLI::App& app, Options& options);
 
-/// Runs until a stop signal; then writes what waits. @return exit code. @throws ConfigurationError,
+/// Runs until a stop signal, and then writes an open incident. @return exit code. @throws ConfigurationError,
 /// bus::Error
 int run(const Options& options);
 

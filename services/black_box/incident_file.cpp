@@ -1,4 +1,4 @@
-#include "black_box/moment_file.hpp"
+#include "black_box/incident_file.hpp"
 
 #include <algorithm>
 #include <ctime>
@@ -17,38 +17,38 @@ std::string utc(std::int64_t time_ns) {
   return text.data();
 }
 
-recording::Metadata trigger_of(const Moment& moment) {
-  return {{"first_cause", moment.first.what},
-          {"first_cause_from", moment.first.from},
-          {"first_cause_tick", std::to_string(moment.first.tick)},
-          {"first_cause_ns", std::to_string(moment.first.at_ns)},
-          {"faults", std::to_string(moment.faults)}};
+recording::Metadata trigger_of(const Incident& incident) {
+  return {{"first_cause", incident.first.what},
+          {"first_cause_from", incident.first.from},
+          {"first_cause_tick", std::to_string(incident.first.tick)},
+          {"first_cause_ns", std::to_string(incident.first.at_ns)},
+          {"faults", std::to_string(incident.faults)}};
 }
 
 }  // namespace
 
-std::string file_name_of(const Moment& moment) {
-  std::string cause = moment.first.what;
+std::string file_name_of(const Incident& incident) {
+  std::string cause = incident.first.what;
   for (char& c : cause)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  return utc(moment.first.at_ns) + "_" + cause + ".mcap";
+  return utc(incident.first.at_ns) + "_" + cause + ".mcap";
 }
 
-std::filesystem::path write_moment(const std::filesystem::path& directory, const Moment& moment,
-                                   const Origin& origin, const recording::Metadata& processes) {
-  const auto file = directory / file_name_of(moment);
+std::filesystem::path write_incident(const std::filesystem::path& directory, const Incident& incident,
+                                     const Origin& origin, const recording::Metadata& processes) {
+  const auto file = directory / file_name_of(incident);
   const std::filesystem::path unfinished = file.string() + ".part";
   recording::McapWriter writer{unfinished, {.sync = true}};
   const auto channels = recording::add_topic_channels(writer);
   writer.metadata("crane", origin.crane);
-  writer.metadata("trigger", trigger_of(moment));
+  writer.metadata("trigger", trigger_of(incident));
   writer.metadata("processes", processes);
-  for (const auto& sample : moment.samples)
+  for (const auto& sample : incident.samples)
     writer.message(channels[sample->topic], static_cast<std::uint32_t>(sample->header.tick),
                    sample->log_time_ns, sample->source_time_ns, sample->cdr);
   if (!origin.rig_text.empty())
     writer.attachment(
-        origin.rig_name, "application/toml", moment.first.at_ns,
+        origin.rig_name, "application/toml", incident.first.at_ns,
         std::span{reinterpret_cast<const std::uint8_t*>(origin.rig_text.data()), origin.rig_text.size()});
   writer.close();
   std::error_code error;

@@ -1,4 +1,4 @@
-#include "black_box/moments.hpp"
+#include "black_box/incidents.hpp"
 
 #include <algorithm>
 
@@ -10,13 +10,13 @@ bool is_stop(const dashboard::Note& note) {
          (note.what == "OPERATOR_STOP" || note.what == "OPERATOR_ESTOP");
 }
 
-void Moments::add(const SamplePtr& sample) {
+void Incidents::add(const SamplePtr& sample) {
   history_.add(sample);
   traffic_.add(*sample);
   timeline_.add(*sample);
 }
 
-void Moments::open(const dashboard::Fault& fault) {
+void Incidents::open(const dashboard::Fault& fault) {
   const auto stop = std::ranges::find_if(fault.notes, is_stop);
   if (stop == fault.notes.end() || fault.last_ns <= kept_until_ns_) return;
   if (fault.notes.front().at_ns > ends_ns_) return;
@@ -28,11 +28,11 @@ void Moments::open(const dashboard::Fault& fault) {
       std::min(std::max(open_->until_ns, fault.last_ns + kAfter_ns), open_->from_ns + kLongest_ns);
   if (fault.number > newest_fault_) ++open_->faults;
   newest_fault_ = std::max(newest_fault_, fault.number);
-  // The first cause may become known later than its consequence: a silent process.
+  // The first cause may be detected after its consequence, for example a process that is silent.
   if (open_->faults == 1) open_->first = fault.notes.front();
 }
 
-std::optional<Moment> Moments::poll(std::int64_t now_ns, std::int64_t log_now_ns, bool ends) {
+std::optional<Incident> Incidents::poll(std::int64_t now_ns, std::int64_t log_now_ns, bool ends) {
   const bool changed = timeline_.poll(now_ns, log_now_ns, traffic_, history_);
   if (changed)
     for (const auto& fault : timeline_.faults()) open(fault);
@@ -40,16 +40,16 @@ std::optional<Moment> Moments::poll(std::int64_t now_ns, std::int64_t log_now_ns
   return taken(log_now_ns);
 }
 
-Moment Moments::taken(std::int64_t log_now_ns) {
-  Moment moment = *std::move(open_);
+Incident Incidents::taken(std::int64_t log_now_ns) {
+  Incident incident = *std::move(open_);
   open_.reset();
   newest_fault_ = 0;
-  moment.until_ns = kept_until_ns_ = std::min(moment.until_ns, log_now_ns);
+  incident.until_ns = kept_until_ns_ = std::min(incident.until_ns, log_now_ns);
   for (std::size_t i = 0; i < topics::kAll.size(); ++i)
-    for (auto& sample : history_.between(i, moment.from_ns, moment.until_ns))
-      moment.samples.push_back(std::move(sample));
-  std::ranges::stable_sort(moment.samples, {}, [](const SamplePtr& sample) { return sample->log_time_ns; });
-  return moment;
+    for (auto& sample : history_.between(i, incident.from_ns, incident.until_ns))
+      incident.samples.push_back(std::move(sample));
+  std::ranges::stable_sort(incident.samples, {}, [](const SamplePtr& sample) { return sample->log_time_ns; });
+  return incident;
 }
 
 }  // namespace crane::black_box

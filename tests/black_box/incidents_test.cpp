@@ -1,4 +1,4 @@
-#include "black_box/moments.hpp"
+#include "black_box/incidents.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,17 +10,17 @@ namespace {
 using dashboard::kSecond_ns;
 using dashboard::status_at;
 
-/// A supervisor at 10 Hz whose state is told by the test.
+/// A supervisor at 10 Hz; the test sets its state.
 class Crane {
  public:
-  explicit Crane(std::int64_t started_ns = 0) : moments{started_ns}, now_ns_{started_ns} {}
+  explicit Crane(std::int64_t started_ns = 0) : incidents{started_ns}, now_ns_{started_ns} {}
 
   void run(double seconds, crane_SupervisorState state, crane_Cause cause) {
     for (int i = 0; i < static_cast<int>(seconds * 10); ++i) {
       now_ns_ += kSecond_ns / 10;
-      moments.add(status_at(now_ns_, state, cause));
-      if (auto moment = moments.poll(now_ns_, now_ns_)) kept.push_back(*std::move(moment));
-      most_bytes = std::max(most_bytes, moments.bytes());
+      incidents.add(status_at(now_ns_, state, cause));
+      if (auto incident = incidents.poll(now_ns_, now_ns_)) kept.push_back(*std::move(incident));
+      most_bytes = std::max(most_bytes, incidents.bytes());
     }
   }
   void work(double seconds) { run(seconds, crane_STATE_HOLD, crane_CAUSE_NONE); }
@@ -28,28 +28,28 @@ class Crane {
     run(seconds, crane_STATE_STOP_C0, cause);
   }
 
-  Moments moments;
-  std::vector<Moment> kept;
+  Incidents incidents;
+  std::vector<Incident> kept;
   std::size_t most_bytes = 0;
 
  private:
   std::int64_t now_ns_;
 };
 
-TEST(Moments, ATripIsKeptFrom10SecondsBeforeTo5After) {
+TEST(Incidents, ATripIsKeptFrom10SecondsBeforeTo5After) {
   Crane crane;
   crane.work(30);
   crane.trip(10);
   ASSERT_EQ(crane.kept.size(), 1U);
-  const auto& moment = crane.kept[0];
-  EXPECT_EQ(moment.first.what, "SWING_LIMIT");
+  const auto& incident = crane.kept[0];
+  EXPECT_EQ(incident.first.what, "SWING_LIMIT");
   const auto trip_ns = 30 * kSecond_ns + kSecond_ns / 10;
-  EXPECT_EQ(moment.samples.front()->log_time_ns, trip_ns - 10 * kSecond_ns);
-  EXPECT_EQ(moment.samples.back()->log_time_ns, trip_ns + 5 * kSecond_ns);
-  EXPECT_EQ(moment.samples.size(), 151U);
+  EXPECT_EQ(incident.samples.front()->log_time_ns, trip_ns - 10 * kSecond_ns);
+  EXPECT_EQ(incident.samples.back()->log_time_ns, trip_ns + 5 * kSecond_ns);
+  EXPECT_EQ(incident.samples.size(), 151U);
 }
 
-TEST(Moments, OverlappingTripsAreOneMoment) {
+TEST(Incidents, OverlappingTripsAreOneIncident) {
   Crane crane;
   crane.work(30);
   crane.trip(3.5);
@@ -61,7 +61,7 @@ TEST(Moments, OverlappingTripsAreOneMoment) {
   EXPECT_EQ(crane.kept[0].samples.size(), 151U + 45U);
 }
 
-TEST(Moments, TripsThatAreFarApartAreTwo) {
+TEST(Incidents, TripsThatAreFarApartAreTwo) {
   Crane crane;
   crane.work(30);
   crane.trip(10);
@@ -71,7 +71,7 @@ TEST(Moments, TripsThatAreFarApartAreTwo) {
   EXPECT_EQ(crane.kept[1].first.what, "OVERSPEED");
 }
 
-TEST(Moments, TheEndOfAWorkAsPlannedIsNoStop) {
+TEST(Incidents, TheEndOfAWorkAsPlannedIsNoStop) {
   Crane crane;
   crane.work(5);
   for (const auto cause : {crane_CAUSE_OPERATOR_DISARM, crane_CAUSE_IDLE, crane_CAUSE_HOMED}) {
@@ -83,7 +83,7 @@ TEST(Moments, TheEndOfAWorkAsPlannedIsNoStop) {
   EXPECT_EQ(crane.kept.size(), 1U);
 }
 
-TEST(Moments, ACraneThatTripsWithoutAnEndGivesAFileAMinuteAndBoundedMemory) {
+TEST(Incidents, ACraneThatTripsWithoutAnEndGivesAFileAMinuteAndBoundedMemory) {
   Crane crane;
   for (int i = 0; i < 600; ++i) {
     crane.trip(1, i % 2 == 0 ? crane_CAUSE_SWING_LIMIT : crane_CAUSE_OVERSPEED);
@@ -91,35 +91,36 @@ TEST(Moments, ACraneThatTripsWithoutAnEndGivesAFileAMinuteAndBoundedMemory) {
   }
   EXPECT_GE(crane.kept.size(), 18U);
   EXPECT_LE(crane.kept.size(), 25U);
-  for (const auto& moment : crane.kept) EXPECT_LE(moment.until_ns - moment.from_ns, Moments::kLongest_ns);
+  for (const auto& incident : crane.kept)
+    EXPECT_LE(incident.until_ns - incident.from_ns, Incidents::kLongest_ns);
   Crane quiet;
-  quiet.work(static_cast<double>(Moments::kKept_ns / kSecond_ns) + 1);
+  quiet.work(static_cast<double>(Incidents::kKept_ns / kSecond_ns) + 1);
   EXPECT_LE(crane.most_bytes, quiet.most_bytes + 1000);
 }
 
-TEST(Moments, WhatWaitsIsGivenAtTheEndAndTheEndItselfIsNoFault) {
+TEST(Incidents, WhatWaitsIsGivenAtTheEndAndTheEndItselfIsNoFault) {
   Crane crane;
   crane.work(20);
   crane.trip(1);
   EXPECT_TRUE(crane.kept.empty());
-  EXPECT_TRUE(crane.moments.poll(21 * kSecond_ns, 21 * kSecond_ns, true).has_value());
+  EXPECT_TRUE(crane.incidents.poll(21 * kSecond_ns, 21 * kSecond_ns, true).has_value());
 
   Crane ended;
   ended.work(20);
-  ended.moments.ignore_what_begins_after(20 * kSecond_ns);
+  ended.incidents.ignore_causes_after(20 * kSecond_ns);
   ended.trip(1, crane_CAUSE_STATE_STALE);
-  EXPECT_FALSE(ended.moments.poll(21 * kSecond_ns, 21 * kSecond_ns, true).has_value());
+  EXPECT_FALSE(ended.incidents.poll(21 * kSecond_ns, 21 * kSecond_ns, true).has_value());
 }
 
-TEST(Moments, WhatHappenedBeforeTheStartIsNotKept) {
+TEST(Incidents, WhatHappenedBeforeTheStartIsNotKept) {
   Crane crane{100 * kSecond_ns};
   msg::Event event{};
   event.severity = crane_SEVERITY_ERROR;
   runtime::assign(event.code, "latched");
   auto old =
       std::make_shared<dashboard::Sample>(*dashboard::sample_of(topics::event, event, 101 * kSecond_ns));
-  old->source_time_ns = 50 * kSecond_ns;  // its writer has kept it for late joiners
-  crane.moments.add(old);
+  old->source_time_ns = 50 * kSecond_ns;  // an old sample that its writer kept for late joiners
+  crane.incidents.add(old);
   crane.work(20);
   EXPECT_TRUE(crane.kept.empty());
 }

@@ -1,4 +1,4 @@
-#include "black_box/moment_file.hpp"
+#include "black_box/incident_file.hpp"
 
 #include <gmock/gmock.h>
 
@@ -11,21 +11,22 @@ namespace {
 
 using dashboard::kSecond_ns;
 
-Moment a_moment() {
+Incident an_incident() {
   constexpr std::int64_t kAt_ns = 1'795'579'498 * kSecond_ns;
-  Moment moment{.from_ns = kAt_ns - kSecond_ns, .until_ns = kAt_ns + kSecond_ns, .first = {}, .samples = {}};
-  moment.first.at_ns = kAt_ns;
-  moment.first.what = "LATCH_encoder jump";
-  moment.samples = {dashboard::status_at(kAt_ns, crane_STATE_STOP_C0, crane_CAUSE_BRIDGE_LATCHED, 7)};
-  return moment;
+  Incident incident{
+      .from_ns = kAt_ns - kSecond_ns, .until_ns = kAt_ns + kSecond_ns, .first = {}, .samples = {}};
+  incident.first.at_ns = kAt_ns;
+  incident.first.what = "LATCH_encoder jump";
+  incident.samples = {dashboard::status_at(kAt_ns, crane_STATE_STOP_C0, crane_CAUSE_BRIDGE_LATCHED, 7)};
+  return incident;
 }
 
-TEST(MomentFile, HasSamplesTriggerProcessesAndTheRigFile) {
+TEST(IncidentFile, HasSamplesTriggerProcessesAndTheRigFile) {
   const recording::TemporaryDirectory directory;
   const auto file =
-      write_moment(directory / "", a_moment(),
-                   {.crane = {{"version", "1"}}, .rig_name = "rig.toml", .rig_text = "name = 1"},
-                   {{"supervisor", "1, cyclone"}});
+      write_incident(directory / "", an_incident(),
+                     {.crane = {{"version", "1"}}, .rig_name = "rig.toml", .rig_text = "name = 1"},
+                     {{"supervisor", "1, cyclone"}});
   EXPECT_EQ(file.filename(), "20261125T040458Z_LATCH_encoder_jump.mcap");
   EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
   EXPECT_EQ(recording::check(file).messages, 1U);
@@ -38,7 +39,7 @@ TEST(MomentFile, HasSamplesTriggerProcessesAndTheRigFile) {
   EXPECT_EQ(metadata[2].entries.at("supervisor"), "1, cyclone");
 }
 
-TEST(MomentFile, OnlyTheNewestOfItsOwnFilesStay) {
+TEST(IncidentFile, OnlyTheNewestOfItsOwnFilesStay) {
   const recording::TemporaryDirectory directory;
   for (const auto* name : {"20260101T000000Z_A.mcap", "20260102T000000Z_B.mcap", "20260103T000000Z_C.mcap",
                            "20250101T000000Z_C.html", "run.mcap"})

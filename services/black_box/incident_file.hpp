@@ -1,0 +1,26 @@
+#pragma once
+/// Writes an incident as a recording: samples, metadata, rig file.
+#include <filesystem>
+
+#include "black_box/incidents.hpp"
+#include "crane/recording/mcap_writer.hpp"
+
+namespace crane::black_box {
+
+/// Metadata of every file of this process.
+struct Origin {
+  recording::Metadata crane;       ///< "crane", "domain", "version", "host", "kernel", "cores", ...
+  std::string rig_name, rig_text;  ///< rig file, which is attached; empty: unknown
+};
+
+/// "20261125T035501Z_SWING_LIMIT.mcap". The alphabetical order is the order of time.
+[[nodiscard]] std::string file_name_of(const Incident& incident);
+
+/// Writes the file, which appears when it is complete. @return its path. @throws recording::WriteError
+std::filesystem::path write_incident(const std::filesystem::path& directory, const Incident& incident,
+                                     const Origin& origin, const recording::Metadata& processes);
+
+/// Deletes the oldest files of the black box; other files are not deleted.
+void keep_newest(const std::filesystem::path& directory, std::size_t files) noexcept;
+
+}  // namespace crane::black_box

@@ -1,0 +1,61 @@
+#pragma once
+/// Selects the samples that the black box keeps: around every stop, fault and trip, from 10 s before the
+/// first cause to 5 s after the last note. Overlapping incidents are one incident. Pure; bounded memory.
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dashboard/fault_timeline.hpp"
+
+namespace crane::black_box {
+
+using dashboard::FaultTimeline;
+using dashboard::History;
+using dashboard::SamplePtr;
+
+struct Incident {
+  std::int64_t from_ns = 0, until_ns = 0;  ///< log time
+  dashboard::Note first;                   ///< first cause of the incident
+  std::size_t faults = 0;                  ///< number of merged faults
+  std::vector<SamplePtr> samples;          ///< of all topics, in the order of log time
+};
+
+class Incidents {
+ public:
+  static constexpr std::int64_t kBefore_ns = FaultTimeline::kBefore_ns, kAfter_ns = FaultTimeline::kAfter_ns;
+  /// Longest incident: a crane that trips continuously gives one file per minute.
+  static constexpr std::int64_t kLongest_ns = 60'000'000'000;
+  static constexpr std::int64_t kKept_ns = kBefore_ns + kLongest_ns + kAfter_ns;
+
+  /// @param started_ns  earlier samples are not kept: they come from the events of others
+  explicit Incidents(std::int64_t started_ns) : started_ns_{started_ns}, history_{kKept_ns} {}
+
+  void add(const SamplePtr& sample);
+  /// @param ends  true: no more samples will come; an open incident is returned at once
+  /// @return an incident that is complete; at most one per call
+  [[nodiscard]] std::optional<Incident> poll(std::int64_t now_ns, std::int64_t log_now_ns, bool ends = false);
+
+  /// Ignores causes after this time: when a stack ends, each of its processes misses the others.
+  void ignore_causes_after(std::int64_t log_time_ns) { ends_ns_ = log_time_ns; }
+
+  [[nodiscard]] std::size_t bytes() const { return history_.bytes(); }
+  [[nodiscard]] const dashboard::Traffic& traffic() const { return traffic_; }
+
+ private:
+  void open(const dashboard::Fault& fault);
+  [[nodiscard]] Incident taken(std::int64_t log_now_ns);
+
+  std::int64_t started_ns_, kept_until_ns_ = started_ns_;
+  std::int64_t ends_ns_ = std::numeric_limits<std::int64_t>::max();
+  History history_;
+  dashboard::Traffic traffic_;
+  FaultTimeline timeline_;
+  std::optional<Incident> open_;    ///< does not have its samples yet
+  std::uint64_t newest_fault_ = 0;  ///< newest fault of the open incident
+};
+
+/// True for faults and for the operator's stops. False for planned ends: disarm, idle time, homed.
+[[nodiscard]] bool is_stop(const dashboard::Note& note);
+
+}  // namespace crane::black_box
