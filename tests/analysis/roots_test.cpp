@@ -1,5 +1,5 @@
-/// The roots against three other ways to them: the companion matrix, a Chebyshev discretisation of the
-/// delayed state, and a plain integral of f'/f around the region.
+/// Compares the roots with three independent methods: the companion matrix, a Chebyshev discretisation of the
+/// delayed state, and an integral of f'/f around the region.
 #include "crane/analysis/roots.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-/// Anti-swing as a component: the right law, fed with the samples of one tick.
+/// The anti-swing component selects the right law and passes it the samples of one tick.
 #include "anti_swing/anti_swing.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #pragma once
-/// An emulated rig on the bench, wired as one rig file says, brought up with another.
+/// An emulated rig with the wiring of one rig file, which the bring-up uses with another rig file.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace crane::bring_up::test {
 /// deploy/rigs/emulated_servo_to_go.toml
 inline configuration::Rig tower() { return configuration::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml"); }
 
-/// Lines that are stuck, whatever the card or the rig does; bits as on the connector.
+/// Lines that are stuck at a level; bits as on the connector.
 struct StuckLines {
   std::uint16_t outputs_on = 0, outputs_off = 0;  ///< bit 0: line 16
   std::uint16_t inputs_closed = 0, inputs_open = 0;

@@ -1,4 +1,5 @@
-// Somebody beside the emulated rig answers; signs, scales and place are found whatever they were.
+// An observer of the emulated rig answers the questions. The calibration finds signs, scales and position for
+// any wiring.
 #include "crane/bring_up/calibration.hpp"
 
 #include <unistd.h>
@@ -11,7 +12,7 @@
 namespace crane::bring_up::test {
 namespace {
 
-/// Looks at the crane and answers truthfully.
+/// Observes the crane and answers correctly.
 class Onlooker {
  public:
   Onlooker(Bench& bench, bool measures) : bench_{bench}, measures_{measures} {}
@@ -47,7 +48,7 @@ class Onlooker {
   std::array<double, kDrives> before_ = bench_.told().start.position;
 };
 
-/// Every combination of wrong signs of one axis and its swing.
+/// All combinations of wrong signs of one axis and its swing.
 TEST(Calibration, FindsEverySign) {
   for (int signs = 0; signs < 8; ++signs)
     for (const std::size_t axis : {0U, 1U}) {
@@ -97,7 +98,7 @@ TEST(Calibration, WaitsForALoadThatHangsStill) {
   bench.expect_safe();
 }
 
-/// Zeroed while the load swung, the encoder shows an offset from then on.
+/// Zeroed with a swinging load, the encoder has an offset.
 TEST(Calibration, DoesNotTakeAZeroFromALoadThatSwungWhenTheBoardWasOpened) {
   auto wired = tower();
   wired.start.swing_radial_rad = 0.02;

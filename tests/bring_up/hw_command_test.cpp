@@ -1,4 +1,4 @@
-// crane hw as a user runs it: what it prints, its exit codes, what it leaves behind.
+// crane hw as a program: output, exit codes, files.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -59,7 +59,7 @@ TEST_F(Hw, SelftestEndsWithOneLineAFaultAndExitCodeOne) {
   EXPECT_EQ(nlohmann::json::parse(json.output)["findings"][0]["subject"], "trolley, slew");
 }
 
-/// Wrong signs, calibrated, then tested with the file that was written.
+/// Wrong signs: calibration, then a self-test with the calibrated file.
 TEST_F(Hw, CalibratesAWronglyWiredRigSoThatItPasses) {
   const auto wired =
       rig("wired",
@@ -94,7 +94,7 @@ TEST_F(Hw, RefusesWhatCannotBe) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "x.toml"));
 }
 
-/// A rig in a process of its own: real time, one user at a time, Ctrl-C.
+/// A rig in a separate process: real time, one user at a time, Ctrl-C.
 TEST_F(Hw, SharesABoardWithNobodyAndEndsOnCtrlC) {
   const auto crane = "hw_" + std::to_string(::getpid());
   ProgramRun emulated{program("crane_emulated_rig"),
@@ -110,7 +110,7 @@ TEST_F(Hw, SharesABoardWithNobodyAndEndsOnCtrlC) {
   const bridge::RigMonitor monitor{lines};
   ProgramRun user{program("crane"), {"hw", "selftest", "--rig", tower_, "--crane", crane}};
   while (monitor.lines().relay_dropped_ns == 0 && !user.wait(std::chrono::milliseconds{1})) {
-  }  // it has had the relay closed once: in the middle of its work
+  }  // the relay has closed once: the command is running
   user.send(SIGINT);
   EXPECT_EQ(user.wait(std::chrono::seconds{5}), 1);
   EXPECT_NE(user.errors().find("interrupted; 0 V, brakes closed"), std::string::npos) << user.errors();
@@ -118,7 +118,7 @@ TEST_F(Hw, SharesABoardWithNobodyAndEndsOnCtrlC) {
   EXPECT_EQ(monitor.lines().outputs, 0);
 }
 
-/// A drive that is wired the other way round, and a rig file that says so, is the same crane.
+/// A drive with reversed wiring and a rig file that states it behave like the original crane.
 TEST_F(Hw, ADriveWithANegativeSignRunsTheSameManeuver) {
   for (const std::string plant : {"sim", "hardware"}) {
     const auto run = [&](const std::string& file) {

@@ -1,4 +1,4 @@
-// Every wrong wiring, made on the emulated rig, is named: that one, and no other.
+// For every wrong wiring of the emulated rig, the self-test reports exactly this fault.
 #include <cmath>
 #include <functional>
 
@@ -20,7 +20,7 @@ Names found_on(Bench& bench) {
   return names;
 }
 
-/// The rig file is right about the crane, the crane has been wired otherwise.
+/// The rig file describes the crane; its wiring differs.
 struct Miswiring {
   const char* name;
   Names expected;
@@ -40,7 +40,7 @@ TEST_P(Wrong, IsNamedAndNothingElseIs) {
   EXPECT_EQ(bench.rig().drive_v(), (std::array<double, kDrives>{}));
 }
 
-constexpr int kNowhere = 7;  // a channel nothing is told about
+constexpr int kNowhere = 7;  // an unused channel
 
 std::uint16_t bit(int line) { return static_cast<std::uint16_t>(1U << static_cast<unsigned>(line % 16)); }
 
@@ -160,7 +160,7 @@ TEST(Selftest, TestsARigOfASingleAxis) {
   EXPECT_EQ(found_on(wrong).size(), 1U);
 }
 
-/// Interrupted at any tick, the rig is safe.
+/// After an interruption at any tick the rig is safe.
 TEST(Selftest, LeavesTheBoardSafeWhereverItIsInterrupted) {
   for (int last = 1; last < 900; last += 37) {
     int ticks = 0;

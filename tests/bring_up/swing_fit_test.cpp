@@ -1,4 +1,4 @@
-// What a swinging load tells.
+// Fits of a swinging load.
 #include "crane/bring_up/swing_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -32,13 +32,13 @@ TEST(SwingFit, FindsOffsetAndSwingOfAPendulum) {
               1e-12);
 }
 
-/// A second derivation: the pendulum's equation, integrated step by step.
+/// Independent derivation: integration of the equation of the pendulum.
 TEST(SwingFit, ExpectsTheSwingThatThePendulumEquationGives) {
   constexpr double kCable_m = 1.02, kStep_s = 1e-5;
   Record motion{Sample{}};
   double angle = 0, rate = 0, t = 0, position = 0;
   for (int tick = 1; tick <= 60; ++tick) {
-    const double speed_mps = tick < 40 ? 0.002 * tick : 0;  // stops dead
+    const double speed_mps = tick < 40 ? 0.002 * tick : 0;  // stops at once
     for (int i = 0; i < 1000; ++i, t += kStep_s) {
       rate -= kFrequency_radps * kFrequency_radps * angle * kStep_s;
       angle += (rate + speed_mps / kCable_m) * kStep_s;

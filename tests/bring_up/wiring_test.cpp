@@ -1,4 +1,4 @@
-// The judgement, from made-up evidence.
+// judge() with constructed evidence.
 #include "crane/bring_up/wiring.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace crane::bring_up::test {
 namespace {
 
-/// Everything as it should be.
+/// Evidence of a rig without faults.
 Evidence good() {
   Evidence evidence;
   for (std::size_t i = 0; i < kDrives; ++i) {
@@ -21,7 +21,7 @@ Evidence good() {
   return evidence;
 }
 
-/// Which of drive, encoder and swing encoder is wrong, for every combination of what is seen.
+/// Drive, encoder or swing encoder with wrong sign, for every combination of the observed signs.
 TEST(Judgement, BlamesTheOneThatDisagreesWithTheOtherTwo) {
   const auto blamed = [](double moved, double share) {
     auto evidence = good();

@@ -1,4 +1,4 @@
-// Cost of one crane/state on its way, beside a memcpy of the struct.
+// Cost of one sample of crane/state, compared with a memcpy of the struct.
 #include <benchmark/benchmark.h>
 
 #include <cstring>

@@ -1,5 +1,4 @@
-// The version of the messages: crane.idl carries a fingerprint of itself, so that a change cannot be
-// forgotten.
+// crane.idl contains its own fingerprint, so that a change of the messages without a new version is detected.
 #include <gtest/gtest.h>
 
 #include <cctype>

@@ -64,7 +64,8 @@ TEST(Seal, IsTheSameWhateverThePaddingHolds) {
   EXPECT_EQ(a.crc32c, b.crc32c);
 }
 
-TEST(Intact, IsFalseForASampleOfZeros) {  // what the Fast DDS back end makes of a payload it cannot decode
+TEST(Intact,
+     IsFalseForASampleOfZeros) {  // sample of the Fast DDS back end for a payload that it cannot decode
   for (const auto& topic : topics::kAll) {
     const std::vector<std::uint8_t> zeros(topic.descriptor->m_size, 0);
     EXPECT_FALSE(intact(topic, zeros.data())) << topic.name;
@@ -91,7 +92,7 @@ TEST(Intact, IsFalseAfterAnyFieldChanged) {
   }
 }
 
-/// What may come over a wire: the same decode and check as every reader makes.
+/// Decodes and checks bytes like every reader.
 bool handed_out(const topics::Description& topic, std::span<const std::uint8_t> payload,
                 std::vector<std::uint8_t>& sample) {
   return CdrCodec::of(*topic.descriptor).decode(payload, false, sample.data()) &&
@@ -148,8 +149,8 @@ TEST(Intact, NoMutatedPayloadIsHandedOutAsAnotherSample) {
       const auto bytes = encoded(codec, original.data());
       const auto payload = mutated(bytes, random);
       std::vector<std::uint8_t> sample(original.size());
-      // Padding between fields and up to 3 bytes after the last carry nothing: such a payload is still the
-      // sample.
+      // Padding between fields, and up to 3 bytes after the last field, have no content: such a payload is
+      // still intact.
       if (handed_out(topic, payload, sample)) {
         ASSERT_EQ(encoded(codec, sample.data()), bytes)
             << topic.name << ", mutation " << i << ", seed " << kSealSeed;

@@ -1,6 +1,6 @@
-/// The campaign with one protection switched off. Without arguments every protection is switched off in turn,
-/// and the runs that need it are made. A protection is needed when some run violates an invariant without it
-/// and violates none with it: both runs are of the same hazard, moment and seed.
+/// The campaign with one protection switched off. Without arguments, every protection is tested in turn. A
+/// protection is needed when a run violates an invariant without it and the run of the same hazard, moment
+/// and seed violates none with it.
 ///   campaign_mutants [--without NAME] [--seeds N] [--hazard N ...]
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -32,7 +32,7 @@ namespace {
 using namespace crane;
 using namespace crane::campaign;
 
-/// Where a protection is needed: hazards, and how many seeds are enough.
+/// Hazards that need a protection, and the number of seeds.
 struct Need {
   Need(std::string_view rule, std::vector<int> where) : protection{rule}, hazards{std::move(where)} {}
   Need(protection::Protection one, std::vector<int> where)
@@ -42,7 +42,7 @@ struct Need {
   std::uint64_t seeds = 12;
 };
 
-/// The rules of the supervisor, and everything in protection::kNames.
+/// The rules of the supervisor, and the names in protection::kNames.
 std::vector<std::string_view> all_protections() {
   std::vector<std::string_view> names;
   for (const auto& rule : supervisor::rules()) names.push_back(rule.name);
@@ -118,7 +118,8 @@ std::vector<Need> needs() {
           {bus_one_writer, {9}}};
 }
 
-/// Of a protection that the runs cannot need, because another one finds the same: the test that needs it.
+/// For a protection that no run can need, because another protection detects the same fault: the test that
+/// needs it.
 struct Elsewhere {
   std::string_view protection;
   const char* test;
@@ -130,11 +131,11 @@ constexpr std::array kElsewhere{
 
 bool fails(const Result& result) { return result.violations != 0 || result.crashed || !result.prepared; }
 
-/// Runs with every protection on, each made once.
+/// Runs with all protections; each tuple runs once.
 class Sound {
  public:
   explicit Sound(unsigned jobs) : jobs_{jobs} {}
-  /// @return whether the run of this tuple violates nothing
+  /// @return true when the run of this tuple violates no invariant
   bool passes(const Tuple& tuple) { return passes_.at(tuple); }
   void make(const std::vector<Tuple>& wanted) {
     std::vector<Tuple> missing;
@@ -150,7 +151,7 @@ class Sound {
   std::map<Tuple, bool> passes_;
 };
 
-/// @return the first run that violates something because the protection is missing
+/// @return the first run that violates an invariant only without the protection
 std::optional<Result> caught_by(const Need& need, std::uint64_t first_seed, std::uint64_t most_seeds,
                                 unsigned jobs, Sound& sound) {
   for (std::uint64_t seed = 0; seed < most_seeds; seed += need.seeds) {

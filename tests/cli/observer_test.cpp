@@ -1,4 +1,4 @@
-/// The tools' side of a running crane, over the memory bus: recorder, snapshot, requests.
+/// Tools beside a running crane, over the memory bus: recorder, snapshot, requests.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -131,8 +131,8 @@ TEST_F(Observers, SnapshotOfNobodyIsEmpty) { EXPECT_TRUE(listen(tool_, 0.01).emp
 
 enum class Planner : std::uint8_t { absent, deaf, listening };
 
-/// Answers every request the same way, holds the crane after it, and publishes its status as a supervisor
-/// does; the reference beside it as a planner does.
+/// Gives the same answer to every request, then stays in HOLD, and publishes the status of a supervisor and
+/// the reference of a planner.
 class FakeSupervisor {
  public:
   FakeSupervisor(bus::Bus& bus, bool accepts, Planner planner = Planner::absent)

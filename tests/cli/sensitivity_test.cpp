@@ -17,7 +17,7 @@ experiments::PlannedRun plan_with(const std::string& controller) {
           control::find_controller(controller), ""};
 }
 
-/// The plan as the named departure changes it.
+/// The plan after the named departure.
 experiments::PlannedRun departed(const std::string& controller, const std::string& quantity, double value) {
   auto plan = plan_with(controller);
   for (const auto& departure : departures(plan))

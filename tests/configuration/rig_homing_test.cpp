@@ -1,4 +1,4 @@
-// How a rig file says where the zeros of its encoders are.
+// Keys of a rig file for homing and for the origins of the positions.
 #include <gmock/gmock.h>
 
 #include "crane/configuration/rig.hpp"
@@ -10,7 +10,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// The emulated rig with these lines on top.
+/// The emulated rig, extended by these lines.
 std::string rig_with(const std::string& lines) {
   return "extends = \"" CRANE_RIGS "/emulated_servo_to_go.toml\"\n" + lines;
 }

@@ -11,7 +11,7 @@
 namespace crane::configuration {
 namespace {
 
-/// A number of the range: near what it was, spread over the decades, or an end.
+/// A random number of the range: near the old value, on a logarithmic scale, or an end of the range.
 double random_number(std::mt19937& random, const Range& range, double now) {
   const auto uniform = [&random](double low, double high) {
     return std::uniform_real_distribution<double>{low, high}(random);
@@ -101,8 +101,8 @@ std::string change_one(std::mt19937& random, Rig& rig) {
 
 Rig read_back(const Rig& rig) { return parse_rig(to_toml(rig), rig.path); }
 
-/// The design's lengths, period and volts follow from other fields, which have changed. The file has the
-/// homing only of an axis that homes, and the channel only of an encoder that exists.
+/// Updates the values of the design that follow from changed fields. The file contains homing only for an
+/// axis that homes, and a channel only for an encoder that exists.
 Rig with_what_follows(Rig rig, const Rig& read) {
   rig.design.period_s = read.design.period_s;
   rig.design.shortest_cable_length_m = read.design.shortest_cable_length_m;
@@ -117,7 +117,7 @@ Rig with_what_follows(Rig rig, const Rig& read) {
 
 class RoundTrip : public testing::TestWithParam<const char*> {};
 
-/// From one rig to the next: a change that makes a rig file contradict itself is refused and taken back.
+/// One random change of the rig. A change that contradicts other fields is refused and reverted.
 TEST_P(RoundTrip, GivesTheSameRigForAnyRig) {
   constexpr unsigned kSeed = 20250117;
   constexpr int kChanges = 1500;
@@ -137,7 +137,7 @@ TEST_P(RoundTrip, GivesTheSameRigForAnyRig) {
     changed = with_what_follows(std::move(changed), read);
     ASSERT_TRUE(read == changed) << path << " after " << i << " changes\n"
                                  << to_toml(changed) << to_toml(read);
-    ASSERT_EQ(to_toml(read), to_toml(changed)) << path;  // also the sign of 0
+    ASSERT_EQ(to_toml(read), to_toml(changed)) << path;  // compares the sign of 0, too
     rig = std::move(changed);
     ++accepted;
   }
@@ -170,7 +170,7 @@ TEST(RigEquality, SeesEveryFieldOfTheFile) {
                          std::type_identity_t<Section>& section, std::string_view) {
     for (const auto& field : fields) {
       const Section before = section;
-      // A random value may be the old one.
+      // A random value may equal the old value.
       for (int i = 0; i < 20 && section == before; ++i)
         std::visit(Randomize<Section>{random, field, section}, field.member);
       EXPECT_FALSE(copy == rig) << path << ' ' << field.key;

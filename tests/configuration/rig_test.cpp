@@ -31,7 +31,7 @@ std::vector<std::string> problems_of(const std::string& text) {
   return {};
 }
 
-/// The tower's file with `from`, which has to be there, replaced by `to` at its first place after `after`.
+/// The file of the tower with the first `from` after `after` replaced by `to`. @pre `from` exists
 class ChangedTower {
  public:
   ChangedTower& change(const std::string& after, const std::string& from, const std::string& to) {
@@ -72,7 +72,7 @@ TEST(RigFile, HasTheDissertationsTower) {
 
 TEST(RigFile, CountsAsTheTowersEncodersDo) {
   const Rig rig = load_rig(kTower);
-  // Lines, quadrature and gear of the dissertation's chapter 4; rounding of the file's digits only.
+  // Lines, quadrature and gear of chapter 4 of the dissertation, with the rounding of the file.
   EXPECT_DOUBLE_EQ(rig.encoders[0].counts_per_unit, 2000 * 4 / 0.0127);
   EXPECT_DOUBLE_EQ(rig.encoders[1].counts_per_unit, 2000 * 4 * 45 / (2 * std::numbers::pi));
   EXPECT_DOUBLE_EQ(rig.encoders[2].counts_per_unit, 2000 * 4 / 0.05);
@@ -165,7 +165,7 @@ TEST(RigFile, GivesTheDesignItsAntiSwingGains) {
 }
 
 TEST(RigFile, HasTheDefaultsOfTheDesignWritten) {
-  // The annotated example names every gain; leaving them out gives the same.
+  // The annotated example contains every gain; a file without gains gives the same rig.
   const auto written = load_rig(kTower).design;
   const control::Design defaults;
   EXPECT_EQ(written.delayed_2_gain, defaults.delayed_2_gain);
@@ -332,7 +332,7 @@ TEST(RigFile, NamesAFileThatCannotBeRead) {
   EXPECT_THROW((void)load_rig(kRigs), ConfigurationError);
 }
 
-/// One line of the file spoiled: dropped, doubled, cut, a byte replaced or its value replaced.
+/// One changed line of the file: removed, repeated, cut, with another byte or another value.
 std::string spoiled(std::mt19937& random, std::vector<std::string> lines) {
   static const std::vector<std::string> kValues{
       "nan",  "-inf", "-1", "1e300", "99999999999999999999", "\"\"",

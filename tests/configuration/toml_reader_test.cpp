@@ -31,7 +31,7 @@ TEST(TomlReader, GivesTheValuesOfTheFile) {
   EXPECT_TRUE(root.boolean("on", false));
   EXPECT_EQ(root.choice("name", {"x", "y"}), "x");
   EXPECT_THAT(root.numbers("list", Range::any()), ElementsAre(1, 2.5));
-  EXPECT_EQ(root.table("sub").number("b", Range::any()), 2);  // an integer will do for a number
+  EXPECT_EQ(root.table("sub").number("b", Range::any()), 2);  // a number may be written as an integer
   auto rows = root.tables("row");
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].integer("c", 0, 9), 1);
@@ -92,7 +92,7 @@ TEST(TomlReader, SuggestsTheNearestKeyForAnUnknownOne) {
 
 TEST(TomlReader, SaysWhichUnitAKeyMustHave) {
   TomlTable root("slew_angle_deg = 90\n", "f");
-  (void)root.number("slew_angle_rad", Range::any());  // required, but the wrong unit is the problem to report
+  (void)root.number("slew_angle_rad", Range::any());  // required; only the wrong unit is reported
   EXPECT_THAT(problems_of(root), ElementsAre("f:1: slew_angle_deg = 90: unit must be rad: slew_angle_rad"));
 }
 
@@ -107,8 +107,9 @@ TEST(TomlReader, ReportsMissingKeysAtTheirTable) {
   TomlTable root("name = 'x'\n\n[drive]\n", "f");
   (void)root.text("name");
   (void)root.table("drive").number("limit_m", Range::any());
-  (void)root.required_table("plant").number("mass_kg",
-                                            Range::any());  // the table is missed, not each key of it
+  (void)root.required_table("plant").number(
+      "mass_kg",
+      Range::any());  // the missing table is reported, not each of its keys
   EXPECT_THAT(problems_of(root), ElementsAre("f:1: plant: missing", "f:3: drive.limit_m: missing"));
 }
 

@@ -1,5 +1,6 @@
-/// Every linear anti-swing law against the characteristic equation it is designed from, normalised time:
-///   (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - s^2 G(s) = 0, tower sign; exact delays, no Pade approximation.
+/// Compares every linear anti-swing law with its characteristic equation in normalised time,
+///   (s^2 + 4 pi^2)(s^2 + K_d s + K_p) - s^2 G(s) = 0,
+/// tower sign, exact delays, no Pade approximation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,8 +29,8 @@ struct Loop {
   }
 };
 
-/// A delay brings endless roots whose damping ratio falls to zero as they grow, though they decay ever
-/// faster; "least damping" therefore means below eight load frequencies.
+/// A delay causes an infinite chain of roots whose damping ratio tends to zero. "Least damping" therefore
+/// means roots below eight load frequencies.
 constexpr double kHighest = 50;
 
 const Loop kLoops[] = {
@@ -93,8 +94,8 @@ double drive_acceleration(const Design& design, Motion motion, double x, double 
          (1 + c.trolley_mass_kg / c.jib_inertia_kgm2 * x * x);
 }
 
-/// The sampled axis begins on one mode of the characteristic equation, history included, and has to stay on
-/// it. Semi-implicit Euler; its error is of first order: h |s|^2 t / 2 of the swing, largest near t = 1 / |Re
+/// The sampled axis starts on one mode of the characteristic equation, including its history, and must stay
+/// on it. Semi-implicit Euler with a first-order error: h |s|^2 t / 2 of the swing, largest near t = 1 / |Re
 /// s|.
 void expect_mode_is_kept(const Loop& loop, Motion motion, Complex root) {
   Design design;

@@ -1,6 +1,5 @@
-/// Times of the time-optimal planner over random moves of the dissertation's tower, without and with the plan
-/// of a neighbouring move as first guess. Prints outcome, iterations and processor time per plan: p50, p99,
-/// max.
+/// Times of the time-optimal planner for random moves of the dissertation's tower, without and with a similar
+/// plan as first guess. Prints outcome, iterations and processor time per plan: p50, p99, maximum.
 ///   bench_planner [moves] [seed]
 #include <algorithm>
 #include <cstdio>

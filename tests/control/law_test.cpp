@@ -1,4 +1,4 @@
-/// What every registered controller promises.
+/// Rules for every registered controller (docs/adding_a_law.md).
 #include "crane/control/law.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ Reference random_reference(std::mt19937& random, auto number) {
   return r;
 }
 
-/// Zero, the smallest, ordinary and the largest numbers of either sign.
+/// Zero, and the smallest, ordinary and largest numbers of both signs.
 double extreme(std::mt19937& random) {
   using Limits = std::numeric_limits<double>;
   static constexpr std::array kSizes{
@@ -112,7 +112,7 @@ TEST(EveryLaw, StaysFiniteForAnyFiniteInput) {
     }
 }
 
-/// A design without problems with every number at, or near, an end of its range.
+/// A design without problems; every number is at or near an end of its range.
 Design extreme_design(std::mt19937& random) {
   const auto pick = [&random](std::initializer_list<double> values) {
     return values.begin()[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(random)];

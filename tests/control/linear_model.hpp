@@ -1,5 +1,5 @@
 #pragma once
-/// The linear models (2.28)-(2.31), closed with whatever a law does: the oracle of the pole tests.
+/// The linear models (2.28)-(2.31) in closed loop with a law: the oracle of the tests of poles.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <complex>
@@ -26,7 +26,7 @@ inline Measurement measurement(const Design& design, Motion motion, double troll
   return measured;
 }
 
-/// Volts both laws of a controller ask for together.
+/// Sum of the volts of both laws of a controller.
 inline double volts(const Controller& controller, const Design& design, Motion motion,
                     double trolley_position_m, const Eigen::Vector4d& state) {
   const auto measured = measurement(design, motion, trolley_position_m, state);
@@ -42,7 +42,8 @@ inline double volts(const Controller& controller, const Design& design, Motion m
   return sum;
 }
 
-/// Closed loop at constant x and L; the controllers are linear there, so unit probes give exact gains.
+/// Closed loop at constant x and L. The controllers are linear there, so that unit inputs give the exact
+/// gains.
 inline Eigen::Matrix4d closed_loop(const Controller& controller, const Design& design, Motion motion,
                                    double x) {
   const auto& c = design.crane;
@@ -71,7 +72,8 @@ inline Eigen::Matrix4d closed_loop(const Controller& controller, const Design& d
   return a;
 }
 
-/// Largest distance when every expected root takes its nearest pole in turn.
+/// Largest distance between expected and computed roots, when each expected root takes its nearest one in
+/// turn.
 inline double worst_mismatch(const Eigen::Matrix4d& a, const std::vector<std::complex<double>>& expected) {
   const Eigen::Vector4cd poles = a.eigenvalues();
   std::vector<std::complex<double>> left(poles.data(), poles.data() + poles.size());

@@ -67,7 +67,7 @@ Trajectory trajectory(const Controller& controller, const Maneuver& maneuver, do
   return {axis(maneuver.from_m, maneuver.to_m), axis(0, maneuver.to_rad), step_profile(1, 1)};
 }
 
-/// Within 2 % of the move (of 0.75 m and 90 degrees where there is none) and both swings within 0.5 degrees.
+/// Within 2 % of the move (for an unmoved axis 2 % of 0.75 m or 90 degrees), both swings within 0.5 degrees.
 bool settled(const plant::State& s, const Maneuver& maneuver) {
   return std::abs(s.trolley_m - maneuver.to_m) < 0.02 * 0.75 &&
          std::abs(s.slew_rad - maneuver.to_rad) < 0.02 * pi / 2 &&
@@ -120,7 +120,7 @@ TEST(Maneuvers, SettleWithGainSchedulingAsComputedIndependently) {
 }
 
 TEST(Maneuvers, SettleWithTheForwardGainThatTheVoltsAllow) {
-  // K = 8 asks for 12.6 V of the slew drive as it begins; 10 V allow K = 6.37 for 90 degrees.
+  // K = 8 demands 12.6 V of the slew drive at the start; 10 V permit K = 6.37 for 90 degrees.
   Design design;
   design.full_feedback_gain_pm = 8;
   const auto& full = *find_controller("gain_scheduling_full");

@@ -1,4 +1,4 @@
-/// The pendulum observer against the nonlinear equations of the tower.
+/// Compares the pendulum observer with the nonlinear equations of the tower.
 #include "crane/control/pendulum_observer.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Measurement encoders(const plant::State& s, const Volts& acting, double offset_r
   return m;
 }
 
-/// Runs the crane with volts that move both axes. @return largest errors of the predictions after `begin_s`
+/// Runs the crane with volts for both axes. @return largest errors of the predictions after `begin_s`
 struct Errors {
   double swing_rad = 0, rate_radps = 0, speed = 0;
 };
@@ -32,7 +32,8 @@ Errors follow(TestCrane crane, double offset_rad, double begin_s, CraneEstimate*
   Errors worst;
   for (int k = 0; k < 1000; ++k) {
     const double t = k * crane.design.period_s;
-    // A crane without friction keeps every speed: slow volts without mean keep it on its jib.
+    // Without friction the speed does not decay: the volts have zero mean, so that the trolley stays on the
+    // jib.
     const bool rubs = crane.friction[kTrolley].factor > 0;
     const Volts volts = rubs ? Volts{3 * std::sin(2.5 * t), 2.5 * std::sin(1.9 * t), 0}
                              : Volts{0.4 * std::cos(1.2 * t), 0.2 * std::cos(1.2 * t), 0};

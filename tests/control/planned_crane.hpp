@@ -1,6 +1,6 @@
 #pragma once
-/// A crane with friction, encoders and one tick of delay, for tests of whole controllers: the nonlinear
-/// equations, steps of 0.1 ms, no process and no bus.
+/// A crane with friction, encoders and one tick of delay, for tests of whole controllers: nonlinear equations
+/// with steps of 0.1 ms, without processes and bus.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,7 +16,7 @@ struct TestCrane {
   plant::Parameters truth;
   std::array<DriveFriction, kAxes> friction;  ///< true friction; factor scales it
   double cable_ratio = 1;                     ///< true / measured cable length
-  Design design;                              ///< what the controllers believe
+  Design design;                              ///< design of the controllers
 };
 
 /// deploy/rigs/virginia_tech_tower.toml
@@ -38,7 +38,7 @@ struct TestResult {
   double settled_s = 0, residual_rad = 0, largest_swing_rad = 0, overshoot = 0;
 };
 
-/// Smooth friction of the true crane, V.
+/// Smoothed friction of the true crane, V.
 inline double true_friction_v(const DriveFriction& f, double speed) {
   const double side = std::tanh(speed / 0.0005);
   const double coulomb = side > 0 ? f.coulomb_positive_v : f.coulomb_negative_v;

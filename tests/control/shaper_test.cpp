@@ -1,6 +1,5 @@
-/// Shaped references move a linear load without damping, phi'' + w^2 phi = x''/L, integrated in time; the
-/// swing left after the move is held against the formulas and the insensitivities of Singer, Seering and
-/// Singhose.
+/// Shaped references move a linear load without damping, phi'' + w^2 phi = x''/L, integrated in time. The
+/// residual swing is compared with the formulas and insensitivities of Singer, Seering and Singhose.
 #include "crane/control/shaper.hpp"
 
 #include <gtest/gtest.h>
@@ -16,9 +15,9 @@ namespace crane::control {
 namespace {
 
 using std::numbers::pi;
-constexpr double kPeriod_s = 2;  ///< of the load the shapers are made for
+constexpr double kPeriod_s = 2;  ///< load period for which the shapers are designed
 
-/// Amplitude after the reference rests, of a load with `ratio` times the frequency, for L = 1 m.
+/// Amplitude after the reference is at rest, for a load with `ratio` times the frequency and L = 1 m.
 double swing_left(const Shaper& shaper, const AxisProfile& profile, double ratio) {
   const double w = 2 * pi * ratio / kPeriod_s, end_s = profile.duration_s() + shaper.delay_s();
   const int steps = 20000;
@@ -32,8 +31,7 @@ double swing_left(const Shaper& shaper, const AxisProfile& profile, double ratio
   return std::hypot(swing, rate / w);
 }
 
-/// Share of the swing that the unshaped profile leaves. Its ramp is short, so that it leaves swing at all
-/// ratios.
+/// Residual swing / residual swing of the unshaped profile, whose short ramp excites the swing at all ratios.
 double share_left(Shaping shaping, double ratio) {
   const AxisProfile profile = timed_profile(0, 0.5, 0.45, 0.15, 0.03);
   return swing_left({shaping, kPeriod_s}, profile, ratio) / swing_left({}, profile, ratio);
@@ -61,7 +59,7 @@ TEST(Shapers, LeaveNothingAtTheirFrequencyButEiFivePercent) {
   EXPECT_NEAR(share_left(Shaping::none, 1), 1, 1e-12);
 }
 
-/// Width of the band of f T around 1 in which at most 5 % is left.
+/// Width of the band of f T around 1 with at most 5 % residual swing.
 double insensitivity(Shaping shaping) {
   const auto edge = [shaping](double inside, double outside) {
     for (int k = 0; k < 30; ++k) {
@@ -70,7 +68,7 @@ double insensitivity(Shaping shaping) {
     }
     return inside;
   };
-  // EI is at its 5 % in the middle: search from one of its zeros outwards.
+  // The residual swing of ei is 5 % in the middle: the search starts at one of its zeros.
   const double zero = shaping == Shaping::ei ? std::acos(-0.95 / 1.05) / pi : 1;
   return edge(2 - zero, 1.5) - edge(zero, 0.5);
 }

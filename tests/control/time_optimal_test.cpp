@@ -1,5 +1,5 @@
-/// Time-optimal plans against the equations of the plant, the bounds of docs/comparison.md, and a crane with
-/// friction, encoders and delay. About 3 s in all.
+/// Compares time-optimal plans with the equations of the plant, the least times of docs/comparison.md, and a
+/// crane with friction, encoders and delay. Duration about 3 s.
 #include "crane/control/time_optimal.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ PlanProblem problem_of(const TestMove& move, double volts) {
   return problem;
 }
 
-/// A design, a state and volts from the whole range in which plans are made.
+/// Random design, state and volts in the whole range of the planner.
 struct RandomCase {
   Design design;
   double cable_m;
@@ -74,7 +74,7 @@ TEST(TimeOptimalTower, AcceleratesAsThePlantDoes) {
     PlanState rate;
     rate << s.tail<4>(), wanted.trolley_mps2, wanted.radial_radps2, wanted.slew_radps2,
         wanted.tangential_radps2;
-    // The plant eliminates the swing, the planner inverts M: they differ by rounding.
+    // The plant eliminates the swing, the planner inverts M: the results differ by rounding.
     constexpr double kRounding = 1e-10;
     EXPECT_LT((rate_of(at) - rate).norm(), kRounding * (1 + rate.norm())) << "case " << i;
   }

@@ -1,4 +1,4 @@
-// Against signals whose figures follow from a formula.
+// Signals whose figures of merit follow from a formula.
 #include "crane/experiment/metrics.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-/// Figures of merit of an independent simulation of the same crane and laws (full nonlinear model, 100 Hz,
-/// true states, volts applied at once), against runs of the whole stack. Explanations: docs/comparison.md.
+/// Compares runs of the whole stack with figures of an independent simulation of the same crane and laws
+/// (full nonlinear model, 100 Hz, true states, no delay). Explanations: docs/comparison.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,8 +28,8 @@ std::ostream& operator<<(std::ostream& out, const Row& row) {
   return out << row.controller << ", " << row.variant << ", maneuver " << row.maneuver;
 }
 
-/// Nobody is to hold what is not in the reference. Ten percent, or `floor` where that is more: the reference
-/// has been rounded to 0.1 of its unit.
+/// Values that the reference does not have are not compared. The tolerance is 10 %, at least `floor`: the
+/// reference is rounded to 0.1 of its unit.
 void expect_near(double ours, double reference, double floor, const char* what) {
   if (std::isnan(reference)) return;
   EXPECT_NEAR(ours, reference, std::max(0.1 * std::abs(reference), floor)) << what;
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"anti_swing_pd", kIdeal, 3, 5.16, 15.1, 9.5, 15.6, 26.0, .9, 2.7}),
     title);
 
-/// The friction plant with its sensors and filters; of it the reference has settling times only.
+/// The rig with friction, sensors and filters; the reference has only settling times for it.
 Row settling(const char* controller, const char* variant, int maneuver, double settle_s) {
   return {controller, variant, maneuver, settle_s, kNot, kNot, kNot, kNot, kNot, kNot};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The travel of the dissertation's rig, enough of it for scenarios.
+/// The travel of the dissertation's rig, for the checks of scenarios.
 #include <numbers>
 
 #include "crane/configuration/rig.hpp"

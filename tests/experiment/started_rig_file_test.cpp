@@ -11,7 +11,7 @@ namespace {
 
 class StartedRigFile : public testing::TestWithParam<std::string> {};
 
-/// What processes read must be what the components in one process get.
+/// The processes must read the rig that the components in one process get.
 TEST_P(StartedRigFile, ReadsBackAsTheRigThatRuns) {
   const auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
   experiment::Scenario scenario;

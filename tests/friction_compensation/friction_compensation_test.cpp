@@ -1,4 +1,4 @@
-/// Friction compensation as a component: sums the contributions of one tick and adds the friction.
+/// The friction compensation component adds the contributions of one tick and the friction.
 #include "friction_compensation/friction_compensation.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What one cycle of the bridge costs: on the emulated card, without the bus and without the rig's own time.
+// Cost of one cycle of the bridge on the emulated card, without the bus and without the time of the rig.
 #include <benchmark/benchmark.h>
 
 #include "crane/bridge/last_line.hpp"
@@ -10,7 +10,7 @@ namespace {
 using namespace crane;
 using namespace crane::bridge;
 
-/// A plug without a crane behind it, so that only the card and the bridge are measured.
+/// A connector without a crane, so that only card and bridge are measured.
 struct StillPlug final : Connector {
   std::int32_t pulses(std::size_t /*channel*/) noexcept override { return turned; }
   std::uint16_t inputs() noexcept override { return 0; }

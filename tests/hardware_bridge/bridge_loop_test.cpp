@@ -1,4 +1,4 @@
-// Which commands the bridge's loop listens to, and what it says of its relay.
+// Commands that the loop of the bridge accepts, and its reports about the relay.
 #include <gtest/gtest.h>
 
 #include "crane/boards/emulated_board.hpp"
@@ -25,7 +25,7 @@ msg::Command command_of(std::uint64_t tick, double trolley_v) {
 
 class BridgeLoop : public testing::Test {
  protected:
-  /// The tick at its time; what it published.
+  /// Runs the tick at its time. @return the published sample
   msg::State tick(std::uint64_t number) {
     bridge_.poll(static_cast<std::int64_t>(number) * kPeriod_ns);
     const auto state = states_.take();
@@ -33,7 +33,7 @@ class BridgeLoop : public testing::Test {
     return state.value_or(msg::State{});
   }
   void publish(const msg::Command& command) { EXPECT_TRUE(commands_.publish(command)); }
-  /// Ticks 0 to kClosed - 1, each answered: quiet at first, then with permission.
+  /// Ticks 0 to kClosed - 1 with commands: quiet at first, then with permission.
   void run_with_closed_relay() {
     for (std::uint64_t number = 0; number < kClosed; ++number) {
       tick(number);

@@ -1,7 +1,7 @@
 #pragma once
-/// A comedi device that exists at link time only: the functions of libcomedi that the driver calls, on a
-/// board wired to the simulated crane. What the driver may not do is a test failure: wrong order, a subdevice
-/// not locked, codes beyond the range, lines without a direction.
+/// Stand-in for libcomedi at link time: the functions that the driver calls, on a board with the simulated
+/// crane. Forbidden calls fail the test: wrong order, an unlocked subdevice, codes beyond the range, lines
+/// without a direction.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -18,7 +18,7 @@ class ComediStandIn {
   static constexpr unsigned kAnalogOutputs = 1, kInputs = 2, kOutputs = 3, kCountersAt = 5, kSubdevices = 6;
   static constexpr unsigned kChannels = 16, kLargestCode = 8191, kGoodRange = 1;
 
-  /// The one device there is, until it ends.
+  /// The only device while this object exists.
   explicit ComediStandIn(const configuration::Rig& rig);
   ~ComediStandIn();
   ComediStandIn(const ComediStandIn&) = delete;
@@ -29,16 +29,16 @@ class ComediStandIn {
   /// "list 6"
   [[nodiscard]] const std::vector<std::string>& calls() const { return calls_; }
 
-  // What the test breaks.
+  // Faults that a test sets.
   bool there = true;
   unsigned locked_by_another = kSubdevices;  ///< a subdevice; kSubdevices: none
   unsigned largest_count = 0xFFFFFF;
   double range_v = 10;  ///< of the good range
   unsigned stuck_counter = kChannels;
   bool answers = true;
-  bool fixed_lines = false;  ///< inputs and outputs of a kind that cannot be anything else
+  bool fixed_lines = false;  ///< true: the subdevices are inputs or outputs only
 
-  // What the functions of libcomedi do.
+  // Implementations of the functions of libcomedi.
   void note(const std::string& call) { calls_.push_back(call); }
   void require(bool kept, const char* rule) const;
   bool open();

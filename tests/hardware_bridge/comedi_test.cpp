@@ -1,4 +1,4 @@
-// The comedi driver and libcomedi: call order, ranges, units, and what is refused.
+// The comedi driver with the stand-in: call order, ranges, units, refusals.
 #include "crane/boards/comedi.hpp"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(ComediBoard, ReportsTheVoltsOfTheFirstAndTheLastCode) {
   EXPECT_NEAR(given_v[1], -10, 20.0 / 8191);
 }
 
-/// The message when it cannot be opened. Whatever was opened is closed again: the stand-in looks.
+/// Message of a failed opening. The stand-in checks that everything is closed again.
 std::string refusal(const std::function<void(ComediStandIn&, configuration::Rig&)>& spoil) {
   auto rig = comedi_rig();
   ComediStandIn device{rig};

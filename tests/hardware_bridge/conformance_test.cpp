@@ -1,4 +1,4 @@
-// What every board has to keep, whatever the software above it does. One suite for all of them.
+// Requirements of the interface Board, tested for every board.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,11 +22,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 class Conformance : public testing::TestWithParam<Kind> {
  protected:
   void put_on_bench(const configuration::Rig& rig) {
-    subject_.reset();  // some boards are there once only
+    subject_.reset();  // some boards can be opened only once
     subject_ = GetParam().make(rig);
   }
   void SetUp() override { put_on_bench(rig_); }
-  /// Trolley and jib at speed, brakes open.
+  /// Trolley and jib in motion, brakes open.
   void get_going() {
     subject_->open_brakes();
     subject_->tick({4, 4, 0}, true, 20);
@@ -71,7 +71,7 @@ TEST_P(Conformance, IsSafeAfterItsProgramHasEnded) {
   expect_safe();
 }
 
-/// Lends a board to a bridge; the crane has to outlive both.
+/// Passes a board to a bridge. The crane must outlive both.
 class Lent final : public Board {
  public:
   explicit Lent(Board& board) : board_{board} {}
@@ -170,12 +170,12 @@ TEST_P(Conformance, CountsInTheDirectionOfItsSign) {
     subject_->tick({3, 3, 0}, true, 20);
     const auto after = subject_->board().read().raw_counts;
     EXPECT_GT(sign * (after[0] - before[0]), 1000);   // trolley: a positive voltage moves it outwards
-    EXPECT_GT(-sign * (after[1] - before[1]), 1000);  // slew: its drive is wired the other way round
+    EXPECT_GT(-sign * (after[1] - before[1]), 1000);  // slew: its drive is wired with the opposite sign
     EXPECT_GT(sign * (after[4] - before[4]), 10);     // tangential swing
   }
 }
 
-/// Drives the trolley across the end of the counter, forwards and back.
+/// Drives the trolley across the wrap of the counter, forwards and back.
 TEST_P(Conformance, CountsThroughTheEndOf24BitsBothWays) {
   rig_.encoders[0].counts_per_unit = 0x7FFFFF / (rig_.start.position[0] + 0.02);
   put_on_bench(rig_);

@@ -1,5 +1,5 @@
-// A driver's process that ends in every way a process can, with a rig that lives in another one. The rig's
-// time runs by request, so that nothing here depends on how fast the machine is.
+// The process of a driver ends in every possible way, with a rig in another process. The time of the rig
+// advances by requests, so that the test does not depend on the speed of the computer.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,8 +25,8 @@ std::string unique_name(const std::string& part) {
 
 volatile std::sig_atomic_t throw_requested = 0;
 
-/// What a bridge does, without a bus: every tick 4 V on trolley and slew, brakes open, watchdog toggling.
-/// SIGUSR1 makes another of its threads throw what nobody catches, as a fault in a DDS library would.
+/// A bridge without bus: 4 V on trolley and slew in every tick, brakes open, watchdog output toggling.
+/// SIGUSR1 makes another thread throw an uncaught exception, as a fault of a DDS library would.
 [[noreturn]] void drive(const std::string& name) {
   runtime::install_stop_signals();
   std::signal(SIGUSR1, [](int) { throw_requested = 1; });
@@ -59,7 +59,7 @@ class Death : public testing::TestWithParam<int> {
     return server_.rig().crane().read().brake_closed == std::array<bool, kDrives>{true, true, true};
   }
   void pass(std::int64_t duration_ns) { server_.run_to(server_.rig().now_ns() + duration_ns); }
-  /// Serves the driver until its process is gone. @return its wait status
+  /// Serves the driver until its process has ended. @return its wait status
   int serve_to_the_end() {
     int status = 0;
     while (::waitpid(child_, &status, WNOHANG) == 0) server_.serve_advance();
@@ -76,7 +76,7 @@ TEST_P(Death, BySigtermLeavesZeroVoltsAndClosedBrakes) {
   ASSERT_FALSE(braked());
   ::kill(child_, SIGTERM);
   EXPECT_EQ(serve_to_the_end(), 0);
-  pass(1);  // the rig sees the lines
+  pass(1);  // the rig reads the lines
   EXPECT_EQ(server_.rig().drive_v(), kNothing);
   pass(20'000'000);
   EXPECT_TRUE(braked());
@@ -86,7 +86,7 @@ TEST_P(Death, BySigkillLeavesTheVoltsAndTheRelayClosesTheBrakesWithin50Ms) {
   ASSERT_FALSE(braked());
   ::kill(child_, SIGKILL);
   ::waitpid(child_, nullptr, 0);
-  pass(1);  // the last lines, and the last toggle with them
+  pass(1);  // the last lines with the last toggle
   EXPECT_NE(server_.rig().drive_v(), kNothing) << "a card holds its voltages";
   pass(49'999'999);
   EXPECT_TRUE(server_.rig().crane().read().watchdog_dropped);
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Models, Death, testing::Values(1, 2),
 
 TEST(RigServer, MissesNoToggleThatCameWhileItWasKeptFromItsStep) {
   auto rig = emulated_rig();
-  rig.wiring.relay_timeout_s = 1;  // a machine may be busy
+  rig.wiring.relay_timeout_s = 1;  // the computer may be busy
   const auto name = unique_name("late");
   RigServer server{rig, name, false, 1};
   LinkedRig card{name};

@@ -1,4 +1,4 @@
-// How the bridge finds a zero, and what its last line lets an axis do that has none.
+// Homing in the bridge, and the checks of LastLine for an axis without known position.
 #include "crane/bridge/homing.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace crane::bridge::test {
 namespace {
 
-/// A trolley that is moved by hand before the bridge's eyes.
+/// A trolley that the test moves while the bridge observes it.
 class Hand {
  public:
   explicit Hand(const configuration::Rig& rig, double from_m = 0.5)
@@ -29,7 +29,7 @@ class Hand {
  public:
   double true_m;
 
-  /// Moves on at this speed.
+  /// Moves with this speed.
   void move(double speed_mps, double duration_s) {
     for (double passed_s = 0; passed_s < duration_s - 1e-9; passed_s += kPeriod_s) {
       true_m += speed_mps * kPeriod_s;
@@ -41,7 +41,7 @@ class Hand {
         0, {.counts = counts(), .active = active(), .asked = asked, .free = free, .rests = !free});
     if (found) change = found;
   }
-  /// Search, back, approach, back; from 0.05 m beside the mark, whatever side that is.
+  /// Search, back-off, approach, back-off; starts 0.05 m from the mark, on any side.
   void run_course(double approach_mps = 0.01) {
     const double way = drive_.homing.direction();
     const double to_mark_m = std::abs(true_m - drive_.homing.position);
@@ -62,7 +62,7 @@ class Hand {
     return drive_.homing.mark == control::Mark::limit_high ? true_m >= drive_.homing.position
                                                            : true_m <= drive_.homing.position;
   }
-  /// Where the counter says that the trolley is.
+  /// Position according to the counter.
   [[nodiscard]] double shown_m() const {
     return encoder_.sign * static_cast<double>(counts() + change.value_or(0)) / encoder_.counts_per_unit;
   }
@@ -125,7 +125,7 @@ TEST(Homing, StaysUnknownWhenItIsInterrupted) {
   hand.move(0.05, 0.6);
   hand.end();
   hand.asked = hand.free = true;
-  hand.move(-0.01, 4);  // a second homing: this is its first sight
+  hand.move(-0.01, 4);  // first detection of a second homing
   hand.end();
   EXPECT_FALSE(hand.homing.known(0));
 }
@@ -201,7 +201,7 @@ TEST(MarkOfAHomedAxis, SeenElsewhereTakesItsZeroAndHomingHelps) {  // hazard 17
   Timeline timeline{last_line_checks(), homing_tower()};
   timeline.start_at(0.3);
   ASSERT_TRUE(timeline.tick(10));
-  timeline.mark = true;  // the file says 0.05 m
+  timeline.mark = true;  // the rig file has 0.05 m
   EXPECT_FALSE(timeline.tick());
   EXPECT_EQ(timeline.line.reason(), Reason::lost_counts);
   EXPECT_EQ(timeline.line.doubted(), (std::array<bool, kDrives>{true, false, false}));

@@ -1,6 +1,5 @@
-// The bridge's own decision, hazard by hazard: what goes wrong, when it is stopped, and why. Each timeline is
-// also run with its check taken away, and has to go unnoticed then: no check is there for nothing, and none
-// stands in for another.
+// LastLine, hazard by hazard: fault, detection time, reason. Each timeline also runs without its check and
+// must then not be stopped: every check is needed, and no check replaces another one.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -15,9 +14,9 @@ namespace {
 struct Hazard {
   const char* name;
   Reason reason;
-  int longest_ticks;  ///< from its begin until the outputs are safe
+  int longest_ticks;  ///< from the onset until the outputs are safe
   std::function<void(Timeline&)> begin;
-  /// Runs on; the first of these ticks is the first one spoilt.
+  /// Continues the run; the first of these ticks is the first one with the fault.
   std::function<void(Timeline&, int)> every_tick = [](Timeline&, int) {};
   double trolley_m = 0.6;
   friend std::ostream& operator<<(std::ostream& out, const Hazard& hazard) { return out << hazard.name; }
@@ -76,8 +75,8 @@ std::vector<Hazard> hazards() {
 
 class LastLineHazard : public testing::TestWithParam<Hazard> {
  protected:
-  /// Ordinary ticks, then the hazard. @return ticks from its begin until the crane was stopped, -1: it was
-  /// not
+  /// Ordinary ticks, then the hazard. @return ticks from its onset until the crane was stopped; -1: not
+  /// stopped
   static int run(Timeline& timeline, const Hazard& hazard) {
     timeline.start_at(hazard.trolley_m);
     EXPECT_TRUE(timeline.tick(40)) << name_of(timeline.line.reason());

@@ -1,4 +1,4 @@
-// What the bridge's last line lets through, for how long, and what releases it.
+// LastLine: permitted commands, their duration, and the end of a latch.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -99,7 +99,7 @@ TEST(LastLine, ATickThatWasLatchedLateIsNoOverspeed) {
 
 TEST(LastLine, StopsADriveAtFullSpeedByTheBrakeBeforeItsLimit) {
   const auto& rig = tower();
-  std::vector<Check> only_position;  // the others mind where that speed comes from
+  std::vector<Check> only_position;  // the other checks would detect the cause of this speed
   std::ranges::copy_if(last_line_checks(), std::back_inserter(only_position),
                        [](const Check& check) { return check.reason == Reason::position; });
   ASSERT_EQ(only_position.size(), 1U);
@@ -118,7 +118,7 @@ TEST(LastLine, StopsADriveAtFullSpeedByTheBrakeBeforeItsLimit) {
 TEST(LastLine, LetsAnEncoderStandStillWhileTheDrivePushesLessThanFrictionMayHold) {
   Timeline timeline;
   timeline.encoder_dead = true;
-  // Friction of the rig file: 1.2 V; with 0.5 V, half of the friction and 0.3 V of the load's pull: 2.6 V.
+  // Friction of the rig file: 1.2 V. With 0.5 V, half of the friction and 0.3 V of the load: 2.6 V.
   timeline.drive_v[0] = 2.5;
   EXPECT_TRUE(timeline.tick(40)) << name_of(timeline.line.reason());
 }
@@ -129,7 +129,7 @@ TEST(LastLine, DoesNotMistakeABrakeThatStopsAnAxisForADriveThatPushesIt) {
     timeline.drive_v[0] = volts;
     timeline.tick(8);
     timeline.drive_v[0] = 0;
-    timeline.release = false;  // this timeline's brake stops the axis dead within the tick
+    timeline.release = false;  // the brake of this timeline stops the axis within the tick
     EXPECT_TRUE(timeline.tick(60)) << name_of(timeline.line.reason());
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// A trolley before the bridge's last line, tick by tick.
+/// A trolley with LastLine, tick by tick.
 #include <algorithm>
 #include <cmath>
 
@@ -15,13 +15,13 @@ inline const configuration::Rig& tower() {
   return rig;
 }
 
-/// The same crane, switched on anywhere: every axis has to be homed.
+/// The same crane with homing for every axis.
 inline const configuration::Rig& homing_tower() {
   static const auto rig = configuration::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
   return rig;
 }
 
-/// A trolley, its brakes and its supervisor, tick by tick. Tests spoil one of the public numbers.
+/// A trolley, its brakes and its supervisor, tick by tick. Tests change the public members.
 class Timeline {
  public:
   explicit Timeline(std::span<const Check> checks = last_line_checks(),
@@ -36,27 +36,27 @@ class Timeline {
   bool release = true, permission = true, commands_come = true;
   bool encoder_dead = false, brake_opens = true;
   double encoder_offset_m = 0;
-  double converter_gives = 1;  ///< times the volts asked for
+  double converter_gives = 1;  ///< converter voltage / commanded voltage
   double converter_stuck_v = 0;
   bool limit_high = false;
   bool second_writer = false;
-  double late_s = 0;  ///< the board latched this tick so much after its time
+  double late_s = 0;  ///< delay of the sample of this tick
   bool unknown = false, homing = false,
-       mark = false;  ///< the trolley has no zero; it is homed; it is below its mark
+       mark = false;  ///< true: position unknown; being homed; below its mark
 
-  /// Elsewhere, as a new line that has seen nothing yet.
+  /// Moves the trolley, with a new LastLine without history.
   void start_at(double position_m) {
     line = LastLine{last_line_parameters(rig_), checks_};
     outputs = {};
     trolley_m = position_m;
     tick();
   }
-  /// @return true while the last line lets the command through
+  /// @return true while LastLine applies the command
   bool tick(int ticks = 1) {
     for (int i = 0; i < ticks; ++i) step();
     return line.reason() == Reason::none;
   }
-  /// Ticks until it stops the crane; `most` when it does not.
+  /// Number of ticks until LastLine stops the crane; `most` when it does not.
   int ticks_until_stopped(int most = 50) {
     for (int i = 1; i <= most; ++i)
       if (!tick()) return i;
@@ -96,7 +96,7 @@ class Timeline {
     seen.mark[0] = mark;
     outputs = line.decide(command, now, seen);
   }
-  /// Without friction; an open brake lets the trolley run.
+  /// Without friction; the trolley coasts while the brake is open.
   void move() {
     const bool open = brake_opens && outputs.brake_release[0];
     if (open)

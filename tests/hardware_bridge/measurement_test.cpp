@@ -1,4 +1,4 @@
-// Counts beyond the counter's range, positions and rates.
+// Counter wraps, positions and rates.
 #include "crane/bridge/measurement.hpp"
 
 #include <gtest/gtest.h>

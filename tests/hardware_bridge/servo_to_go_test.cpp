@@ -1,4 +1,4 @@
-// The driver's port accesses, against the register facts written out once more as numbers.
+// Port accesses of the driver, compared with the register facts as numbers.
 #include "crane/boards/servo_to_go.hpp"
 #include "crane/bridge/converter.hpp"
 
@@ -28,7 +28,7 @@ struct Access {
   }
 };
 
-/// Passes accesses on to a card and keeps a list of them.
+/// Passes accesses to a card and records them.
 class Tapped final : public PortIo {
  public:
   using Before = std::function<void(const Access&)>;
@@ -61,7 +61,7 @@ class Tapped final : public PortIo {
   Before before_;
 };
 
-/// A plug whose encoders turn as a test says.
+/// A connector whose encoders the test moves.
 struct Plug final : Connector {
   std::array<std::int32_t, kCardChannels> turned{};
   std::array<std::uint16_t, kCardChannels> codes{};
@@ -108,7 +108,7 @@ TEST(ConverterCode, ZeroAtStartUpWouldBeTenVolts) {
   Plug plug;
   CardState state;
   EmulatedServoToGo card{0x200, state, plug};
-  plug.codes.fill(0);  // as a card may come up
+  plug.codes.fill(0);  // possible state after power-on
   const auto rig = emulated_rig();
   std::vector<Access> log;
   const ServoToGo board{rig, std::make_unique<Tapped>(card, log)};
@@ -157,7 +157,7 @@ TEST_F(Card, ReadsEveryCounterLatchedByAPairOfThemAtATime) {
   EXPECT_EQ(log_.size(), 3U + 2U + 5U * 3U);
 }
 
-/// Encoders run at an edge per port access, far faster than any drive.
+/// Encoders with one edge per port access, much faster than any drive.
 TEST_F(Card, ReadingIsNeverTornAndAllCountersBelongToThreePortAccesses) {
   constexpr unsigned kSeed = 7;
   std::mt19937 random{kSeed};
@@ -172,9 +172,9 @@ TEST_F(Card, ReadingIsNeverTornAndAllCountersBelongToThreePortAccesses) {
     const auto first = board->read();
     plug_.turned.fill(origin + here);
     const auto second = board->read();
-    // The same place gives the same counts, wherever a carry runs through the bytes meanwhile ...
+    // Equal positions give equal counts, even when a carry passes through the bytes between the accesses.
     EXPECT_EQ(first.raw_counts, second.raw_counts) << "seed " << kSeed;
-    // ... and pairs are latched one access after the other.
+    // Pairs are latched in consecutive accesses.
     EXPECT_EQ(first.raw_counts[4] - first.raw_counts[3], second.raw_counts[4] - second.raw_counts[3]);
   }
   plug_.turned.fill(origin);
@@ -235,7 +235,7 @@ TEST_F(Card, PortDOfModel2IsElsewhere) {
 
 TEST_F(Card, InputsAreActiveLowAndABrokenWireIsTrouble) {
   const auto board = open();
-  auto inputs = board->read();  // nothing plugged in
+  auto inputs = board->read();  // no encoder is connected
   EXPECT_TRUE(inputs.estop_pressed && inputs.watchdog_dropped && inputs.limit_low[0] && inputs.limit_high[2]);
   EXPECT_FALSE(inputs.brake_closed[0] || inputs.brake_closed[1] || inputs.brake_closed[2]);
   plug_.in = 0x0000;
@@ -247,7 +247,7 @@ TEST_F(Card, InputsAreActiveLowAndABrokenWireIsTrouble) {
   EXPECT_EQ(board->read().limit_high, (std::array<bool, kDrives>{false, true, false}));
 }
 
-/// No card: the bus floats.
+/// No card: reads return the level of the open bus.
 struct EmptySlot final : PortIo {
   int writes = 0;
   std::uint8_t in_8(std::uint16_t /*port*/) noexcept override { return 0xFF; }
@@ -280,8 +280,9 @@ TEST_F(Card, ACounterThatDoesNotKeepItsValueIsNamedAndTheCardIsSafe) {
   plug_.codes.fill(0);
   EXPECT_THAT(refusal([this] {
                 open([this](const Access& access) {
-                  if (access.port == 0x209) state_.counters[4].preset = {};  // channel 5 forgets
-                  if (access.port == 0x208) state_.counters[4].preset = {};  // channel 4 too
+                  if (access.port == 0x209)
+                    state_.counters[4].preset = {};  // channel 5 does not keep its value
+                  if (access.port == 0x208) state_.counters[4].preset = {};  // channel 4 does not either
                 });
               }),
               AllOf(HasSubstr("counter 4"), HasSubstr("does not hold"), HasSubstr("0x2a5a5a")));

@@ -1,5 +1,5 @@
 #pragma once
-/// The boards of the conformance suite, each with the crane behind it.
+/// The boards of the conformance tests, each with its crane.
 #include <functional>
 #include <memory>
 #include <string>
@@ -23,7 +23,7 @@ inline configuration::Rig emulated_rig() {
 
 inline constexpr std::array<double, kDrives> kNothing{};
 
-/// One board, and what an observer beside the crane sees of it.
+/// One board, and what an observer of its crane measures.
 class Subject {
  public:
   virtual ~Subject() = default;
@@ -31,11 +31,11 @@ class Subject {
   [[nodiscard]] virtual simulator::SimulatedBoard& crane() = 0;
   /// Volts at the amplifiers.
   [[nodiscard]] virtual std::array<double, kDrives> amplifier_v() = 0;
-  /// The program that drives the board ends in order; the crane stays.
+  /// Ends the program of the board in order; the crane continues.
   virtual void close() = 0;
   virtual void pass(std::int64_t duration_ns) = 0;
 
-  /// Writes and lets ticks pass, toggling the watchdog output in each.
+  /// Writes outputs for several ticks and toggles the watchdog output in each tick.
   std::array<double, kDrives> tick(const std::array<double, kDrives>& drive_v, bool release, int ticks = 1) {
     std::array<double, kDrives> given{};
     for (int i = 0; i < ticks; ++i) {
@@ -61,7 +61,7 @@ class SimulatedSubject final : public Subject {
   Board& board() override { return board_; }
   simulator::SimulatedBoard& crane() override { return board_; }
   std::array<double, kDrives> amplifier_v() override { return board_.converter_v(); }
-  void close() override { board_.make_safe(); }  // this crane ends with its board
+  void close() override { board_.make_safe(); }  // the crane of this board ends with it
   void pass(std::int64_t duration_ns) override { board_.advance_to(board_.now_ns() + duration_ns); }
 
  private:
@@ -92,10 +92,10 @@ class CardSubject final : public Subject {
   std::unique_ptr<ServoToGo> board_;
 };
 
-/// A board of the conformance suite.
+/// A board of the conformance tests.
 struct Kind {
   const char* name;
-  std::vector<const char*> covers;  ///< names of the rig file whose driver this is
+  std::vector<const char*> covers;  ///< names in rig files of boards with this driver
   std::function<std::unique_ptr<Subject>(const configuration::Rig&)> make;
   friend std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
 };
@@ -103,7 +103,7 @@ struct Kind {
 /// Every subject, in alphabetical order.
 std::vector<Kind> all_boards();
 
-/// Adds a subject to the suite: one file in subjects/ for each driver.
+/// Adds a subject: subjects/ has one file per driver.
 struct RegisteredSubject {
   explicit RegisteredSubject(Kind kind);
 };

@@ -1,5 +1,5 @@
-// The driver with real in and out instructions. Without permission each of them is a fault; this program's
-// handler does what the card would have done, and the driver goes on without having noticed.
+// The driver with real in and out instructions. Without permission each instruction faults; the signal
+// handler of this program emulates the card, and the driver continues.
 #include <sys/io.h>
 #include <ucontext.h>
 
@@ -56,7 +56,7 @@ void emulate(int /*signal*/, siginfo_t* /*info*/, void* context) {
 
 }  // namespace
 
-/// In the place of the C library's: the kernel is not asked.
+/// Replaces the function of the C library, so that the kernel is not called.
 extern "C" int ioperm(unsigned long /*from*/, unsigned long /*count*/, int /*on*/) noexcept {
   if (permission_refused_with == 0) return 0;
   errno = permission_refused_with;
@@ -104,7 +104,7 @@ TEST_F(TrappedCard, RunsTheUnchangedDriverWithRealInstructions) {
   EXPECT_GT(faults, 60 * 40);
 }
 
-/// What the driver says when the kernel refuses with `error`.
+/// Message of the driver when the kernel refuses with `error`.
 std::string refusal(int error) {
   permission_refused_with = error;
   std::string text = "accepted";

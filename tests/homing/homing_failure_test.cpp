@@ -1,4 +1,4 @@
-/// Every way in which homing goes wrong: it ends with 0 V, closed brakes, a name, and no zero.
+/// Every failure of homing ends with 0 V, closed brakes, a name, and an unknown position.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -17,7 +17,8 @@ struct Fault {
   crane_HomingFailure failure;
   crane_LatchReason latch = crane_LATCH_NONE;
   double trolley_m = 0.3;
-  bool turned_round = false;  ///< drive and encoder both: the loop is stable, and the axis goes the other way
+  bool turned_round = false;  ///< drive and encoder with wrong sign: the loop is stable, and the axis moves
+                              ///< in the other direction
 };
 
 std::vector<Fault> faults() {
@@ -60,8 +61,8 @@ TEST_P(HomingFault, EndsSafeWithItsNameAndWithoutAZero) {
   if (fault.turned_round) {
     wired.drives[0].sign = -1;
     wired.encoders[0].sign = -1;
-    told.controller = "none";  // what damps the swing of a crane would excite that of its mirror image
-    auto& friction = told.design.friction[0];  // as weak as that of the other direction: what it really meets
+    told.controller = "none";                  // anti-swing would excite the swing of a mirrored crane
+    auto& friction = told.design.friction[0];  // friction of the other direction, which the mirrored axis has
     friction.coulomb_negative_v = friction.stiction_negative_v = friction.coulomb_positive_v;
     friction.viscous_negative_vspm = friction.viscous_positive_vspm;
   }

@@ -1,4 +1,4 @@
-/// A crane that is switched on anywhere finds its zeros by itself, and only creeps until it has.
+/// A crane with unknown positions at power-on finds them, and only creeps until then.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -67,7 +67,7 @@ TEST_P(HomingOn, FindsEveryZeroCreepingAndMovesOnlyThen) {
 
 TEST_P(HomingOn, BeginsOnTheMarkToo) {
   auto rig = homing_rig();
-  rig.start.position = {0.055, 0.09, 0.45};  // creeps onto the switch, or is below the mark already
+  rig.start.position = {0.055, 0.09, 0.45};  // starts near the switch, or below the mark
   LockstepCrane crane{GetParam(), rig, rig};
   for (const std::size_t axis : {0U, 1U}) {
     crane.home_completely(axis);
@@ -94,7 +94,7 @@ TEST_P(HomingOn, CountsThatAreLostLaterTakeTheZeroAndHomingHelps) {  // hazard 1
   EXPECT_EQ(crane.ask({.kind = crane_REQUEST_MOVE, .selected = {false, true, false}, .target = {0, 0.35, 0}}),
             "");
   crane.run(5);
-  double lost_counts = 0;  // an encoder that slips, 0.1 rad in 20 s, while nothing else notices
+  double lost_counts = 0;  // the encoder slips by 0.1 rad in 20 s; no other check detects it
   crane.spoil = [&](bridge::Inputs& inputs, const plant::State&) {
     lost_counts = std::min(lost_counts + 2.9, 5730.0);
     inputs.raw_counts[1] += static_cast<std::int32_t>(lost_counts);
@@ -102,7 +102,7 @@ TEST_P(HomingOn, CountsThatAreLostLaterTakeTheZeroAndHomingHelps) {  // hazard 1
   crane.run(21);
   stack::Wish to_and_fro{
       .kind = crane_REQUEST_FOLLOW, .selected = {false, true, false}, .target = {0, 0.35, 0}};
-  to_and_fro.sines = {{0.4, 0.025, 0}};  // slowly, so that the load hangs still when the brakes close
+  to_and_fro.sines = {{0.4, 0.025, 0}};  // slow, so that the load is at rest when the brakes close
   to_and_fro.duration_s = 60;
   EXPECT_EQ(crane.ask(to_and_fro), "");
   crane.run_until([&] { return crane.status().state >= crane_STATE_STOP_C1; }, 60);

@@ -1,5 +1,5 @@
 #pragma once
-/// A whole stack in one process, on a board whose sensors a test may spoil, and an operator at it.
+/// A whole stack in one process, with a board whose sensors a test can change, and an operator.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -17,17 +17,17 @@
 
 namespace crane::homing_test {
 
-/// deploy/rigs/homing_servo_to_go.toml: stands anywhere, every axis has to be homed.
+/// deploy/rigs/homing_servo_to_go.toml: positions unknown at power-on; every axis must be homed.
 inline configuration::Rig homing_rig() {
   return configuration::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
 }
 
 inline constexpr std::array<const char*, 2> kBoards{"simulated", "emulated"};
 
-/// What is between the rig and the bridge.
+/// Faults between rig and bridge.
 using Spoil = std::function<void(bridge::Inputs&, const plant::State& truth)>;
 
-/// A board, and the crane behind it.
+/// A board with its crane.
 class SpoiltBoard final : public bridge::Board {
  public:
   SpoiltBoard(const configuration::Rig& told, const configuration::Rig& wired, const std::string& kind,
@@ -68,7 +68,7 @@ class LockstepCrane {
   explicit LockstepCrane(const std::string& kind, configuration::Rig told = homing_rig(),
                          const configuration::Rig& wired = homing_rig())
       : told_{std::move(told)}, wired_{wired}, kind_{kind} {
-    making_ = this;  // a specification holds a function without a context
+    making_ = this;  // ComponentSpec::make is a function pointer without a context
     auto specs = stack::stack_with(stack::Plant::simulated);
     specs.front().make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
       auto board =
@@ -91,13 +91,13 @@ class LockstepCrane {
   void run(double seconds) {
     for (double passed_s = 0; passed_s < seconds - 1e-9; passed_s += told_.period_s) tick();
   }
-  /// @return seconds; `longest_s` when it does not hold by then
+  /// @return seconds until it holds; `longest_s` when it does not
   double run_until(const std::function<bool()>& holds, double longest_s) {
     double passed_s = 0;
     for (; passed_s < longest_s && !holds(); passed_s += told_.period_s) tick();
     return passed_s;
   }
-  /// @return why it was refused; empty when it was accepted
+  /// @return reason of the refusal; empty when accepted
   std::string ask(const stack::Wish& wish) {
     const auto id = operator_->send(wish);
     tick();
@@ -113,7 +113,7 @@ class LockstepCrane {
     wish.selected[axis] = true;
     return ask(wish);
   }
-  /// Reset and home; ends when the brakes are closed again.
+  /// Resets and homes; ends when the brakes are closed again.
   void begin_homing(std::size_t axis) {
     run(1.1);
     ASSERT_EQ(ask(crane_REQUEST_RESET), "");

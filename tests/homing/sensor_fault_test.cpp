@@ -1,4 +1,4 @@
-// An encoder that dies in a move, in closed loop: the axis is stopped far from the end of its travel.
+// An encoder fails during a move, in closed loop: the axis stops far from the end of its travel.
 #include "lockstep_crane.hpp"
 
 #include "crane/plant/coordinates.hpp"
@@ -14,7 +14,8 @@ std::ostream& operator<<(std::ostream& out, const FrozenMove& move) {
   return out << plant::kCoordinates[move.axis].name << " by " << move.distance;
 }
 
-/// Without the supervisor's model, which is often faster: the bridge has to find a dead encoder by itself.
+/// Without the model checks of the supervisor, which are often faster: the bridge must detect a dead encoder
+/// alone.
 configuration::Rig tower() {
   configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
   rig.limits.model_checks = false;

@@ -1,5 +1,5 @@
-/// A program with the project's own bus, or with a bare DDS writer, that joins before, while and after a
-/// stack runs. Whatever it does, a LOCKED crane does not move and nobody but the planner steers an armed one.
+/// A program with the bus of this project, or with a plain DDS writer, joins before, during and after the run
+/// of a stack. A LOCKED crane must not move, and only the planner may steer an armed crane.
 #include <dds/dds.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr std::uint32_t kDomain = 67;
-constexpr double kStill_m = 0.01;  ///< what swing and control move an axis that holds
+constexpr double kStill_m = 0.01;  ///< motion of an axis in HOLD by swing and control
 
 void open_and_push(msg::Command& command, std::uint64_t tick) {
   command.header.tick = tick;
@@ -43,8 +43,8 @@ runtime::BusOptions on_this_crane() {
   return options;
 }
 
-/// As a supervisor arms, in a hurry: permission, the relay closes, brakes, volts that rise no faster than a
-/// drive may.
+/// Commands of a supervisor that arms: permission, relay, brakes, then volts that rise no faster than
+/// permitted.
 void arm_and_push(msg::Command& command, std::uint64_t tick, int count) {
   constexpr int kPermission = 3, kRelease = 25, kPush = 30;
   constexpr double kStep_v = 0.2, kMost_v = 3;
@@ -57,7 +57,7 @@ void arm_and_push(msg::Command& command, std::uint64_t tick, int count) {
   }
 }
 
-/// Commands for every tick that it hears of, as a supervisor.
+/// Commands for every received tick, as a supervisor would send them.
 class FalseSupervisor {
  public:
   explicit FalseSupervisor(std::uint32_t epoch = 7)
@@ -140,12 +140,12 @@ TEST_F(AttackOnAStack, AfterTheSupervisorDiedMovesNothingAndTheNextSupervisorIsO
   stack_.session().arm();
   stack_.send("supervisor", SIGKILL);
   {
-    stack_.listen(500ms);  // the crane has been stopped by now
+    stack_.listen(500ms);  // the crane has stopped by then
     stack_.forget();
     FalseSupervisor stranger;
     attack_for(1500ms, [&] { stranger.speak(); });
     expect_nothing_moved(stack_.observer().states());
-    stack_.start_again("supervisor");  // hears the stranger and refuses
+    stack_.start_again("supervisor");  // it detects the foreign writer and refuses to start
     attack_for(1500ms, [&] { stranger.speak(); });
     expect_nothing_moved(stack_.observer().states());
   }
@@ -213,13 +213,13 @@ TEST_F(AttackOnAStack, OfAFloodOfRequestsLeavesTheLoopAloneAndAStopIsObeyed) {
   EXPECT_NO_THROW(stack_.session().request_with_patience({.kind = crane_REQUEST_ESTOP}, "estop"));
 }
 
-/// A writer of crane/command that no bus of the project would make.
+/// A writer of crane/command that no bus of this project would create.
 struct Bare {
   const char* name;
-  std::string partition;  ///< empty: the crane's
+  std::string partition;  ///< empty: the partition of the crane
   bool exclusive = false;
   bool disposes = false, unregisters = false;
-  bool is_second_writer = true;  ///< the crane has to stop; else it must not even notice
+  bool is_second_writer = true;  ///< true: the crane must stop; false: the crane must not react
 };
 std::ostream& operator<<(std::ostream& out, const Bare& bare) { return out << bare.name; }
 

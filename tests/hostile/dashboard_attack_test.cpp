@@ -1,5 +1,5 @@
-/// Strangers at the dashboard of a running crane: floods, requests without the token, a killed dashboard. The
-/// loop does not notice, nothing moves, and the operator with the token is heard.
+/// Attackers of the dashboard of a running crane: floods, requests without token, a killed dashboard. The
+/// loop is not disturbed, nothing moves, and the operator with the token is served.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -33,8 +33,7 @@ using boost::system::error_code;
 constexpr std::uint32_t kDomain = 67;
 constexpr const char* kRig = "virginia_tech_tower";
 constexpr double kStill_m = 0.01;
-/// 8 MB of history for each of the busy topics, 32 MB of answers, 4 MB for each viewer, and what libraries
-/// take.
+/// 8 MB of history per busy topic, 32 MB of answers, 4 MB per viewer, and the memory of libraries.
 constexpr long kLargest_kb = 400 * 1024;
 
 unsigned short free_port() {
@@ -45,7 +44,7 @@ unsigned short free_port() {
 class Client {
  public:
   explicit Client(unsigned short port) : port_{port} {}
-  /// Throws when the dashboard cannot be reached. @return status; 0: it hung up
+  /// @return status; 0: the server closed the connection. Throws when the dashboard cannot be reached
   unsigned ask(http::request<http::string_body> request) {
     boost::beast::tcp_stream stream{context_};
     stream.connect(tcp::endpoint{asio::ip::make_address("127.0.0.1"), port_});
@@ -70,7 +69,7 @@ class Client {
     return ask(std::move(request));
   }
   [[nodiscard]] const std::string& body() const { return body_; }
-  /// @return whether the dashboard answers within `patience`
+  /// @return true when the dashboard answers within `patience`
   bool answers(std::chrono::milliseconds patience) {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (std::chrono::steady_clock::now() < end) try {
@@ -87,7 +86,7 @@ class Client {
   std::string body_;
 };
 
-/// Attackers, with the lowest priority: what counts is the work that they make for others.
+/// Attackers with the lowest priority, so that only the work that they cause for others counts.
 class Attackers {
  public:
   explicit Attackers(unsigned short port) : port_{port} {
@@ -113,7 +112,7 @@ class Attackers {
       while (!stop_) try {
           ++attempts_;
           attack();
-        } catch (const boost::system::system_error&) {  // refused or ended, as it should be
+        } catch (const boost::system::system_error&) {  // refused or closed, as expected
         }
     });
   }
@@ -136,7 +135,7 @@ class Attackers {
     viewer.handshake("127.0.0.1", "/");
     while (!stop_) viewer.ping({});
   }
-  /// A text frame of 2^63 bytes, continued by nothing but empty frames.
+  /// A text frame of 2^63 bytes, continued by empty frames only.
   void garbage() {
     websocket::stream<tcp::socket> viewer{connected()};
     viewer.handshake("127.0.0.1", "/");
@@ -273,7 +272,7 @@ TEST(DashboardOfAStack, IsStartedAnewWhenItIsKilledAndTheCraneGoesOn) {
   const auto end = std::chrono::steady_clock::now() + 15s;
   while (!heard() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(100ms);
   ASSERT_TRUE(heard());
-  std::this_thread::sleep_until(answered + 1s);  // a dashboard that ends sooner is not started anew
+  std::this_thread::sleep_until(answered + 1s);  // a dashboard that ends sooner is not restarted
   const auto killed = dashboard_of();
   ASSERT_GT(killed, 0);
   ::kill(killed, SIGKILL);

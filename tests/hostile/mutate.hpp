@@ -1,5 +1,5 @@
 #pragma once
-/// Messages that were heard, spoilt at random where RTPS has structure: bits, numbers, lengths, whole
+/// Random changes of received RTPS messages that respect their structure: bits, numbers, lengths, whole
 /// submessages.
 #include <random>
 #include <vector>
@@ -10,11 +10,11 @@ namespace crane::hostile {
 
 using Random = std::mt19937_64;
 
-/// One to four changes. @param other  another message, for submessages that do not belong together
+/// Makes one to four changes. @param other  another message, for submessages of another context
 [[nodiscard]] Bytes mutated(Bytes message, const Bytes& other, Random& random);
 
-/// Messages worth changing: at most kMostPerKind of each sequence of submessages, so that the thousand
-/// heartbeats that were heard do not hide the one handshake.
+/// Selects messages: at most kMostPerKind per sequence of submessages, so that a thousand heartbeats do not
+/// displace the only handshake.
 class Corpus {
  public:
   static constexpr std::size_t kMostPerKind = 200;
@@ -25,7 +25,8 @@ class Corpus {
 
  private:
   std::vector<Bytes> messages_;
-  std::vector<std::pair<Bytes, std::size_t>> counts_;  ///< sequence of submessage kinds, how often
+  std::vector<std::pair<Bytes, std::size_t>>
+      counts_;  ///< sequence of submessage kinds, number of occurrences
 };
 
 }  // namespace crane::hostile

@@ -1,6 +1,6 @@
-/// Mutated RTPS packets at each process of a running stack and at an observer, per vendor. Allowed: a process
-/// goes on, or the crane is stopped. Not allowed: motion, memory that grows, a process that hangs.
-/// CRANE_MUTATIONS=10000000 sends as many packets, however long it takes, instead of kMutations within kMost.
+/// Sends mutated RTPS packets to each process of a running stack and to an observer, per vendor. Permitted:
+/// the process continues, or the crane stops. Forbidden: motion, growing memory, a process that hangs.
+/// CRANE_MUTATIONS=10000000 sets the number of packets; the default is kMutations within kMost.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -27,11 +27,11 @@ constexpr std::uint32_t kDomain = 67;
 constexpr std::uint64_t kSeed = 1'965;
 constexpr std::uint64_t kMutations = 100'000;
 constexpr auto kMost = 15s;
-constexpr std::uint64_t kPerSecond = 50'000;  ///< more than that the sockets drop
-constexpr long kGrowth_kb = 64 * 1024;        ///< a history of the longest samples, for every topic
+constexpr std::uint64_t kPerSecond = 50'000;  ///< the sockets drop packets beyond this rate
+constexpr long kGrowth_kb = 64 * 1024;        ///< history of the longest samples of every topic
 constexpr const char* kRig = "emulated_servo_to_go";
 
-/// How many packets were asked for; nothing: kMutations within kMost.
+/// Requested number of packets; nothing: kMutations within kMost.
 std::optional<std::uint64_t> wanted_mutations() {
   const char* wanted = std::getenv("CRANE_MUTATIONS");
   if (wanted == nullptr) return std::nullopt;
@@ -72,7 +72,7 @@ class Mutation : public testing::Test {
     all.emplace_back("recorder");
     return all;
   }
-  /// What was sent to the stack since the start, its discovery included, and goes on being sent.
+  /// Packets to the stack since its start, including discovery, and its continuing traffic.
   void collect(std::chrono::milliseconds duration) {
     const auto own = ports(everybody());
     const auto end = std::chrono::steady_clock::now() + duration;
@@ -82,13 +82,13 @@ class Mutation : public testing::Test {
     std::cout << corpus_.size() << " packets of " << corpus_.kinds() << " kinds heard\n";
     ASSERT_GT(corpus_.size(), 200U);
   }
-  /// Counts of trolley and jib by the rig itself.
+  /// Counts of trolley and jib according to the rig.
   [[nodiscard]] std::array<int, 2> pulses() const {
     return {monitor_->lines().pulses[0].load(), monitor_->lines().pulses[1].load()};
   }
   void fire_at(const std::vector<std::string>& processes) {
     const auto own = ports(processes);
-    auto others = ports_of(::getpid());  // multicast ports are everybody's
+    auto others = ports_of(::getpid());  // multicast ports are shared by all processes
     for (const auto& process : everybody())
       if (std::ranges::find(processes, process) == processes.end())
         others.merge(ports_of(pid_of(process).value()));

@@ -1,5 +1,5 @@
 #pragma once
-/// RTPS messages byte by byte, as an attacker sees them: no DDS implementation takes part.
+/// RTPS messages at byte level, without a DDS implementation.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,13 +36,13 @@ void set_prefix(Bytes& message, const GuidPrefix& prefix);
 [[nodiscard]] std::uint64_t sequence_number_of(const Bytes& message, const Submessage& data);
 void set_sequence_number(Bytes& message, const Submessage& data, std::uint64_t number);
 
-/// A sample of one topic in a message, and where it stands.
+/// A sample of one topic in a message, and its position.
 template <class T>
 struct Found {
   Submessage data;
   T sample;
 };
-/// The intact sample of `topic` in a message that carries one unencrypted.
+/// The intact sample of `topic` in an unencrypted message.
 template <class T>
 [[nodiscard]] std::optional<Found<T>> find(Bytes& message, const topics::Topic<T>& topic) {
   constexpr std::size_t kEncapsulationBytes = 4;
@@ -57,8 +57,7 @@ template <class T>
   }
   return std::nullopt;
 }
-/// Puts `sample` in the place of another one of its topic, with a CRC that fits and every field of the header
-/// as it is in `sample`.
+/// Replaces a sample of the same topic by `sample`, with a correct CRC and the header of `sample`.
 template <class T>
 void replace(Bytes& message, const Submessage& data, const topics::Topic<T>& topic, T sample) {
   bus::seal(topic.description, &sample, sample.header.source, sample.header.epoch);

@@ -1,5 +1,5 @@
-/// RTPS packets that carry the GUID of the supervisor's writer, made byte by byte: what no check above the
-/// middleware can tell from the supervisor's own. With keys none of them moves anything.
+/// RTPS packets with the GUID of the supervisor's writer, which no check above the middleware can distinguish
+/// from its own packets. With keys none of them moves anything.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class Spoof : public testing::Test {
   void SetUp() override {
     if (!Ear::permitted()) GTEST_SKIP() << "listening on the loop-back interface needs CAP_NET_RAW";
   }
-  /// The next packets to one process of the stack.
+  /// Waits for packets to one process of the stack.
   static std::vector<Packet> heard(RunningStack& stack, const char* process, std::size_t count) {
     const auto ports = ports_of(stack.children().pid_of(process).value());
     std::vector<Packet> packets;
@@ -49,7 +49,7 @@ class Spoof : public testing::Test {
     stack.listen(700ms);
     stack.forget();
   }
-  /// The next command of the supervisor, turned into one that opens the brakes and drives.
+  /// The next command of the supervisor, changed to open the brakes and drive.
   static void spoil(Packet& packet, const Found<msg::Command>& found, std::uint64_t ahead) {
     auto command = found.sample;
     command.header.tick += ahead;
@@ -61,7 +61,7 @@ class Spoof : public testing::Test {
     replace(packet.message, found.data, topics::command, command);
     set_sequence_number(packet.message, found.data, sequence_number_of(packet.message, found.data) + ahead);
   }
-  /// A packet with a command as an unsecured supervisor sends it to its bridge.
+  /// A packet with a command, as an unsecured supervisor sends it to its bridge.
   static Packet plain_command() {
     RunningStack stack{kDomain, "virginia_tech_tower"};
     for (auto& packet : heard(stack, "plant", 100))
@@ -91,14 +91,14 @@ TEST_F(Spoof, NoneOf10000ForgedOrReplayedPacketsMovesACraneWithKeys) {
     const auto& model = genuine[random() % genuine.size()];
     auto packet = model;
     switch (mouth.sent() % 3) {
-      case 0:  // in the clear, with the identity of a process that was heard
+      case 0:  // unencrypted, with the identity of a received process
         packet.message = forged.message;
         set_prefix(packet.message, prefix_of(model.message));
         set_sequence_number(packet.message, found.data, ++number);
         break;
       case 1:  // a replay
         break;
-      default:  // a replay with one bit changed
+      default:  // a replay with one changed bit
         packet.message[kHeaderBytes + random() % (packet.message.size() - kHeaderBytes)] ^=
             static_cast<std::uint8_t>(1U << random() % 8);
     }
@@ -115,8 +115,8 @@ TEST_F(Spoof, NoneOf10000ForgedOrReplayedPacketsMovesACraneWithKeys) {
   EXPECT_NO_THROW(stack.session().arm()) << "the packets have disturbed the crane";
 }
 
-/// The supervisor's next packets, made by somebody else: a HEARTBEAT makes the bridge's reader pass over what
-/// the supervisor will send, and the sequence numbers go on from there.
+/// Forges the next packets of the supervisor: a HEARTBEAT makes the reader of the bridge skip the next
+/// samples of the supervisor, and the forged sequence numbers continue there.
 class Impostor {
  public:
   explicit Impostor(Packet model)
@@ -130,15 +130,15 @@ class Impostor {
     bytes.resize(kHeaderBytes);
     bytes.insert(bytes.end(), {kHeartbeat, 3, 28, 0, 0, 0, 0, 0});  // little endian, final; to any reader
     bytes.insert(bytes.end(), writer.begin(), writer.end());
-    for (const std::uint64_t sequence : {number_, number_}) {  // first and last that there are
+    for (const std::uint64_t sequence : {number_, number_}) {  // first and last available number
       bytes.insert(bytes.end(), 4, 0);
       for (unsigned byte = 0; byte < 4; ++byte)
         bytes.push_back(static_cast<std::uint8_t>(sequence >> 8U * byte));
     }
-    bytes.insert(bytes.end(), {0, 0, 0, 0x7F});  // a later count than the supervisor's
+    bytes.insert(bytes.end(), {0, 0, 0, 0x7F});  // a later count than that of the supervisor
     mouth_.send(heartbeat);
   }
-  /// A command for a tick, as the supervisor would arm: permission, brakes, then volts that rise.
+  /// A command for a tick, as a supervisor that arms would send it: permission, brakes, then rising volts.
   void command(std::uint64_t tick) {
     auto command = found_.sample;
     command.header.tick = tick;
@@ -163,8 +163,8 @@ class Impostor {
   Mouth mouth_;
 };
 
-/// No check above the middleware can keep such packets from the bridge; the supervisor sees what the bridge
-/// does, and ends. `crane up` then ends the bridge; here nobody does.
+/// No check above the middleware can keep such packets from the bridge. The supervisor detects their effect
+/// and ends. `crane up` would then end the bridge; this test does not.
 TEST_F(Spoof, WithoutKeysForgedPacketsEndTheSupervisorBeforeTheCraneMoves) {
   RunningStack stack{kDomain, "virginia_tech_tower"};
   wait_until_locked(stack);

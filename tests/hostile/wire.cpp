@@ -70,7 +70,7 @@ std::optional<Packet> Ear::next(std::chrono::milliseconds patience) {
     socklen_t size = sizeof from;
     const auto bytes =
         ::recvfrom(socket_, buffer.data(), buffer.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
-    if (bytes <= 0 || from.sll_pkttype == PACKET_OUTGOING) continue;  // each packet comes twice
+    if (bytes <= 0 || from.sll_pkttype == PACKET_OUTGOING) continue;  // each packet arrives twice
     if (auto packet = parsed(std::span{buffer}.first(static_cast<std::size_t>(bytes)))) return packet;
   }
 }

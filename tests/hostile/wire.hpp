@@ -1,5 +1,5 @@
 #pragma once
-/// What goes over the loop-back interface of this host, and packets of one's own on it.
+/// Receives the traffic on the loop-back interface of this host, and sends packets to it.
 #include <netinet/in.h>
 
 #include <chrono>
@@ -17,7 +17,7 @@ struct Packet {
   [[nodiscard]] std::uint16_t port() const { return ntohs(to.sin_port); }
 };
 
-/// Hears every RTPS message on the loop-back interface. Needs CAP_NET_RAW.
+/// Receives every RTPS message on the loop-back interface. Needs CAP_NET_RAW.
 class Ear {
  public:
   Ear();  ///< @throws std::system_error
@@ -46,9 +46,9 @@ class Mouth {
   std::uint64_t sent_ = 0;
 };
 
-/// UDP ports that a process has bound.
+/// UDP ports of a process.
 [[nodiscard]] std::set<std::uint16_t> ports_of(pid_t process);
-/// Memory that a process holds [kB]; 0: there is no such process.
+/// Memory of a process [kB]; 0: no such process.
 [[nodiscard]] long resident_kb(pid_t process);
 
 }  // namespace crane::hostile

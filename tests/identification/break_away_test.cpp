@@ -1,4 +1,4 @@
-/// Break-aways from rest under slow ramps of voltage.
+/// Break-aways from rest under slow voltage ramps.
 #include "crane/identification/break_away.hpp"
 
 #include <gtest/gtest.h>
@@ -8,11 +8,11 @@
 namespace crane::identification {
 namespace {
 
-/// Ramps of 0.4 V/s both ways; the axis moves at 0.05 m/s where the voltage exceeds what holds it, which
-/// varies by 10 mV from one time to the next.
+/// Ramps of 0.4 V/s in both directions. The axis moves at 0.05 m/s when the voltage exceeds its stiction,
+/// which varies by 10 mV.
 AxisRun ramped_run(double holds_positive_v, double holds_negative_v, int ramps) {
   AxisRun run;
-  double position = 0, volts = -2;  // and 2 V at the other end of a ramp
+  double position = 0, volts = -2;  // and 2 V at the other end of the ramp
   for (int ramp = 0; ramp < ramps; ++ramp) {
     const int direction = ramp % 2 == 0 ? 1 : -1;
     const double varied = (ramp / 2) % 2 == 0 ? 0.01 : -0.01;

@@ -1,5 +1,4 @@
-/// The references of the experiment: smooth, inside the rig's limits, and swinging the load no more than
-/// allowed.
+/// References of the experiment: smooth, within the limits of the rig, with a limited swing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

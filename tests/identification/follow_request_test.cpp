@@ -1,4 +1,4 @@
-/// The request to follow a sum of sines, on the whole stack: the supervisor's limits hold for it.
+/// The request to follow a sum of sines, with the whole stack and the limits of the supervisor.
 #include <gtest/gtest.h>
 
 #include "crane/experiment/metrics.hpp"

@@ -1,4 +1,4 @@
-/// The guided experiment on the whole stack: the simulated rigs' own friction comes back.
+/// The experiment with the whole stack recovers the friction of the simulated rigs.
 #include "identification/friction_experiment.hpp"
 
 #include <gtest/gtest.h>

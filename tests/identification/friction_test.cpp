@@ -1,5 +1,5 @@
-/// Least squares on motion with known friction: exact without noise, honest with it, and silent where the
-/// data cannot answer.
+/// Least squares for a motion with known friction: exact without noise, correct standard errors with noise,
+/// and no result when the data do not determine it.
 #include "crane/identification/friction.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ FrictionOptions unfiltered(double zero_band, std::optional<double> gain = kTestG
   return options;
 }
 
-/// The rows say exactly u = a/K_m + b v + c: any least squares must give back what is put in.
+/// The rows fulfil u = a/K_m + b v + c exactly: least squares must return these values.
 AxisRun constructed_run(double viscous_positive, double viscous_negative, double coulomb_positive,
                         double coulomb_negative) {
   AxisRun run;
@@ -105,8 +105,8 @@ TEST(Friction, HardlyDependsOnASmallErrorOfTheGain) {
   EXPECT_NEAR(e.coulomb_positive.value, 1.0, 0.05);
 }
 
-/// 60 runs with unmeasured volts of a correlation time of 0.2 s and with position noise; each estimate's
-/// distance from the truth in its own standard errors.
+/// 60 runs with unmeasured volts of correlation time 0.2 s and with position noise: errors of the estimates
+/// in units of their standard errors.
 TEST(Friction, HasStandardErrorsThatHoldUnderColouredNoise) {
   constexpr std::uint64_t kSeed = 20260117;
   constexpr int kRuns = 60;
@@ -134,7 +134,7 @@ TEST(Friction, HasStandardErrorsThatHoldUnderColouredNoise) {
   }
   for (const double mean_square : squares) {
     std::cout << "rms distance in standard errors: " << std::sqrt(mean_square) << '\n';
-    // 1 when exact; 60 runs scatter it by 0.09, twenty blocks by as much again.
+    // 1 for exact standard errors; 60 runs and twenty blocks scatter it by 0.09 each.
     EXPECT_GT(std::sqrt(mean_square), 0.7);
     EXPECT_LT(std::sqrt(mean_square), 1.4);
   }

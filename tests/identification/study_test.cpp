@@ -1,5 +1,4 @@
-/// Tables 3.1 to 3.5 against a second computation of the same reading by another program: its own integrator,
-/// filter and solver.
+/// Compares Tables 3.1 to 3.5 with an independent computation that has another integrator, filter and solver.
 #include "crane/identification/study.hpp"
 
 #include <gtest/gtest.h>

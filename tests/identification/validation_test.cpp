@@ -1,4 +1,4 @@
-/// The linear axis against the closed solution of its continuous loop.
+/// Compares the linear axis with the closed-form solution of its continuous loop.
 #include "crane/identification/validation.hpp"
 
 #include <gtest/gtest.h>

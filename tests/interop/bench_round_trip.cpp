@@ -1,5 +1,5 @@
-// Round trip of one crane/state through an echoing thread with a bus of its own, per vendor, beside a UDP
-// socket pair on the same loop-back interface. Prints the median and the 99th percentile in microseconds.
+// Round trip of one crane/state through a thread with its own bus, per vendor, compared with a pair of UDP
+// sockets on the same interface. Prints median and 99th percentile in microseconds.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// What every vendor tells about its counterparts, and how long wait() sleeps.
+// Events of each vendor about its counterparts, and the sleep of wait().
 #include "stage.hpp"
 
 namespace crane::bus::testing {

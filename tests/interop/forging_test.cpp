@@ -1,4 +1,4 @@
-// A writer that sends forged payloads reaches neither vendor's application, and does not stop honest samples.
+// Forged payloads reach no application of either vendor and do not stop correct samples.
 #include <cstring>
 
 #include "../bus/random_sample.hpp"
@@ -23,7 +23,7 @@ std::vector<std::uint8_t> payload_of(const topics::Description& topic, Random& r
   return payload;
 }
 
-/// A payload that carries something else than the original: cut, bits flipped, made longer, or garbage.
+/// A changed payload: cut, with flipped bits, longer, or random.
 std::vector<std::uint8_t> forged(std::vector<std::uint8_t> payload, Random& random) {
   switch (random() % 5) {
     case 0:
@@ -35,7 +35,7 @@ std::vector<std::uint8_t> forged(std::vector<std::uint8_t> payload, Random& rand
     case 2:
       payload[4] = static_cast<std::uint8_t>(payload[4] ^ 0x80U);
       break;
-    case 3:  // Cyclone passes over what comes after the last field: change the sample too
+    case 3:  // Cyclone DDS ignores bytes after the last field: changes the sample, too
       payload[5] = static_cast<std::uint8_t>(payload[5] ^ 1U);
       payload.resize(payload.size() + 4 + random() % 1500, 0x41);
       break;
@@ -67,7 +67,7 @@ void expect_only_honest_samples(const topics::Topic<T>& topic, Vendor vendor) {
     ASSERT_FALSE(reader.take());
   }
   EXPECT_EQ(reader.counts().taken, 20U);
-  EXPECT_GT(reader.counts().rejected, 0U);  // what the vendor itself refused is not counted
+  EXPECT_GT(reader.counts().rejected, 0U);  // samples that the vendor refuses are not counted
 }
 
 TEST_P(Forging, OfStatesIsRejected) { expect_only_honest_samples(topics::state, GetParam()); }

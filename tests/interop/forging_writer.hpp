@@ -1,6 +1,5 @@
 #pragma once
-/// A Fast DDS writer that sends any bytes as the payload of a topic, as an attacker or a broken program
-/// would.
+/// A Fast DDS writer that sends any bytes as the payload of a topic, like an attacker or a defective program.
 #include <cstdint>
 #include <memory>
 #include <string>

@@ -1,5 +1,6 @@
-// A monitor or a dashboard on another host: two network namespaces joined by a veth pair, the loop on Cyclone
-// DDS in one, the tools on Fast DDS in the other, found by multicast and by unicast peers only.
+// A monitor or a dashboard on another host: two network namespaces connected by a veth pair. The loop runs on
+// Cyclone DDS in one of them, the tools on Fast DDS in the other; discovery by multicast, and by unicast
+// peers only.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -41,7 +42,7 @@ Answer run(const std::string& command) {
   return answer;
 }
 
-/// Two hosts of our own, gone with the object.
+/// Two hosts, which exist as long as this object.
 class TwoHosts {
  public:
   TwoHosts()
@@ -79,7 +80,7 @@ class TwoHosts {
   bool ok_ = false;
 };
 
-/// A `crane` command that goes on on one of the hosts; ended by Ctrl-C, as its user does.
+/// A `crane` command that runs on one of the hosts until Ctrl-C.
 class Running {
  public:
   Running(const std::string& host, const std::vector<std::string>& command) {
@@ -109,7 +110,7 @@ std::vector<std::string> joined(std::vector<std::string> first, const std::vecto
   return first;
 }
 
-/// Whole HTTP answer of a server, asked from a host; empty: no answer.
+/// Complete HTTP answer of a server, requested from a host; empty: no answer.
 std::string ask(const std::string& host, const char* address, std::uint16_t port,
                 const std::string& request) {
   std::string answer;
@@ -145,7 +146,7 @@ std::string post(const std::string& path, const char* address, const std::string
          std::to_string(body.size()) + "\r\n\r\n" + body;
 }
 
-/// Asks until the answer contains `wanted`. @return the last answer
+/// Repeats the request until the answer contains `wanted`. @return the last answer
 std::string ask_until(const std::string& host, const char* address, const std::string& request,
                       const std::string& wanted) {
   constexpr int kTries = 300;
@@ -174,7 +175,7 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
     }
   }
   [[nodiscard]] std::string keys() const { return (directory / "keys").string(); }
-  /// Options of a command that only listens.
+  /// Options of a command that only reads.
   [[nodiscard]] std::string tool_options() const {
     std::string text;
     for (const auto& option : GetParam().tool_options) text += " " + option;
@@ -188,7 +189,7 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
   [[nodiscard]] std::vector<std::string> up() const {
     return writing(joined({"up", "--priority", "0"}, GetParam().stack_options));
   }
-  /// Until the stack has come up the tool says that nobody is there, or sees the first of its processes only.
+  /// During the start of the stack the tool finds no process, or only the first processes.
   Answer patiently(const std::string& command, const std::vector<std::string>& wanted = {}) {
     const auto complete = [&](const Answer& answer) {
       return answer.exit_code == 0 && std::all_of(wanted.begin(), wanted.end(), [&](const std::string& text) {

@@ -1,5 +1,4 @@
-// What one vendor publishes the other hands out unchanged; history, instances and cranes are kept apart
-// alike.
+// Samples of one vendor arrive unchanged at the other one; history, instances and partitions behave equally.
 #include <cstring>
 
 #include "../bus/random_sample.hpp"

@@ -1,5 +1,5 @@
-// DDS Security across processes and vendors: who has an identity of the crane's authority takes part, with
-// the rights of its role, and nobody else hears or writes anything.
+// DDS Security across processes and vendors: programs with an identity of the crane's authority communicate
+// with the permissions of their role; all other programs neither read nor write.
 #include <sys/wait.h>
 
 #include <csignal>
@@ -25,7 +25,7 @@ Options secured(const std::filesystem::path& keys, const char* role, Vendor vend
   return result;
 }
 
-/// A process of its own: a bridge that publishes states, and says in them how many commands it has heard.
+/// A separate process: a bridge that publishes states with the number of received commands.
 class BridgeProcess {
  public:
   BridgeProcess(const std::filesystem::path& keys, Vendor vendor, const std::string& crane) : pid_{::fork()} {
@@ -78,7 +78,7 @@ TEST_P(SecurePair, StatesAndCommandsCrossBetweenTwoProcesses) {
 INSTANTIATE_TEST_SUITE_P(Vendors, SecurePair, kAllPairs,
                          [](const auto& test) { return name_of(test.param); });
 
-/// Somebody who wants to listen and to command.
+/// A program that tries to read and to command.
 struct Attacker {
   explicit Attacker(const Options& options)
       : bus{options}, states{bus.subscriber(topics::state)}, commands{bus.publisher(topics::command)} {}
@@ -93,7 +93,8 @@ struct Attacker {
 
 class Intruder : public Secure, public ::testing::WithParamInterface<VendorPair> {
  protected:
-  /// While a monitor with keys hears the bridge for 1 s, this attacker hears nobody and nobody hears it.
+  /// While a monitor with keys receives the bridge for 1 s, this attacker receives nothing and nobody
+  /// receives its samples.
   void expect_shut_out(const Options& attacker_options) {
     const BridgeProcess bridge{keys(), GetParam().reader, crane_};
     Attacker attacker{attacker_options};

@@ -1,5 +1,5 @@
 #pragma once
-/// Two buses of any vendors that meet in one domain, apart from every other test on this host.
+/// Two buses of any vendors in one domain, separated from all other tests on this host.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace crane::bus::testing {
 
 using namespace std::chrono_literals;
 
-/// Longest wait for anything that must happen; passing tests wait for the event only.
+/// Longest wait for an event that must occur. A passing test waits for the event only.
 constexpr std::chrono::seconds kPatience{10};
 
 inline Options options(Vendor vendor, std::uint32_t domain, const std::string& crane = "crane") {
@@ -29,7 +29,7 @@ inline Options options(Vendor vendor, std::uint32_t domain, const std::string& c
           .network = network};
 }
 
-/// Calls `condition` whenever something arrives at `bus`, and at least every few milliseconds.
+/// Calls `condition` when a sample arrives at `bus`, and at least every few milliseconds.
 template <class Condition>
 [[nodiscard]] bool eventually(Bus& bus, const Condition& condition) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -45,7 +45,7 @@ template <class Writer, class Reader>
   return eventually(bus, [&] { return writer.matched() >= count && reader.matched() >= count; });
 }
 
-/// The next sample of `reader`, waited for.
+/// Waits for the next sample of `reader`.
 template <class T>
 std::optional<T> next(Bus& bus, Subscriber<T>& reader, SampleInfo* info = nullptr) {
   std::optional<T> sample;
@@ -63,7 +63,7 @@ class Log {
       arrived_.notify_all();
     };
   }
-  /// @return the `nth` event of this kind, waited for
+  /// Waits for the `nth` event of this kind. @return the event
   std::optional<Event> wait_for(EventKind kind, std::size_t nth = 1) {
     std::unique_lock lock{mutex_};
     std::optional<Event> found;
@@ -75,8 +75,8 @@ class Log {
     });
     return found;
   }
-  /// Waits for incompatible_qos with this policy. Others may come from tests that run beside this one:
-  /// Cyclone compares the quality of service of endpoints in different partitions too.
+  /// Waits for incompatible_qos with this policy. Other policies may come from parallel tests, because
+  /// Cyclone DDS also compares endpoints in different partitions.
   bool wait_for_refusal(std::string_view policy) {
     std::unique_lock lock{mutex_};
     return arrived_.wait_for(lock, kPatience, [&] {

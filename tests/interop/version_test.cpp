@@ -1,5 +1,5 @@
-// A participant whose program was built with another version of crane.idl: it is named, and none of its
-// samples counts. Domain 48.
+// A participant whose program has another version of crane.idl is named, and all its samples are dropped.
+// Domain 48.
 #include "stage.hpp"
 
 namespace crane::bus::testing {

@@ -1,4 +1,4 @@
-// Cyclone DDS serializes every topic to the same bytes as the project's codec.
+// Cyclone DDS serialises every topic to the same bytes as the codec of this project.
 #include <dds/dds.h>
 #include <dds/ddsi/ddsi_serdata.h>
 #include <gtest/gtest.h>

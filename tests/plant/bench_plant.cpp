@@ -1,4 +1,4 @@
-/// Cost of one tick (10 ms) of the simulated plant, moving and with friction, beside its floors.
+/// Cost of one tick (10 ms) of the simulated plant in motion with friction, compared with lower bounds.
 #include <benchmark/benchmark.h>
 
 #include "closed_loop.hpp"
@@ -33,8 +33,8 @@ void one_right_hand_side(benchmark::State& run) {
 }
 BENCHMARK(one_right_hand_side);
 
-/// Four steps of 2.5 ms have about the accuracy of the integrator while everything moves; near standstill the
-/// friction needs 0.1 ms and less.
+/// Four steps of 2.5 ms have about the accuracy of the integrator while all axes move; near standstill the
+/// friction needs steps of at most 0.1 ms.
 void fixed_step_runge_kutta(benchmark::State& run) {
   const Model model{kCrane, crane::test::rig_friction()};
   const auto actuation = crane::test::driven({3, 2, 0});
@@ -63,7 +63,7 @@ void one_tick_moving(benchmark::State& run) {
 }
 BENCHMARK(one_tick_moving);
 
-/// Maneuver 3 in closed loop: moving, reversing and coming to rest.
+/// Maneuver 3 in closed loop: motion, reversal, standstill.
 void ticks_of_maneuver_3(benchmark::State& run) {
   Model model{kCrane, crane::test::rig_friction()};
   crane::simulator::Integrator integrator{model};
@@ -79,7 +79,7 @@ void ticks_of_maneuver_3(benchmark::State& run) {
 }
 BENCHMARK(ticks_of_maneuver_3);
 
-/// The same through the board: counters, converters, brakes, watchdog.
+/// The same with the simulated board: counters, converters, brakes, watchdog.
 void board_ticks_moving(benchmark::State& run) {
   crane::simulator::SimulatedRig rig;
   rig.terms = crane::test::rig_friction();

@@ -1,5 +1,5 @@
 #pragma once
-/// The simulated board on the bench.
+/// The simulated board with a caller, for tests.
 #include "crane/bridge/converter.hpp"
 #include "crane/simulator/simulated_board.hpp"
 
@@ -17,7 +17,7 @@ class Bench {
  public:
   explicit Bench(const SimulatedRig& rig = {}) : board(rig) {}
 
-  /// Writes and lets ticks pass, toggling the watchdog output in each.
+  /// Writes outputs for several ticks and toggles the watchdog output in each tick.
   void tick(const std::array<double, 3>& drive_v, bool release, int ticks = 1) {
     for (int i = 0; i < ticks; ++i) {
       outputs.drive_v = drive_v;
@@ -27,7 +27,7 @@ class Bench {
       pass();
     }
   }
-  /// Nobody writes.
+  /// Advances the time without writing.
   void pass(int ticks = 1) { board.advance_to(board.now_ns() + ticks * kTick_ns); }
   /// Relay closed, brakes open.
   void open_brakes() { tick({}, true, 12); }
@@ -36,8 +36,5 @@ class Bench {
   Outputs outputs;
   std::array<double, 3> applied_v{};
 };
-
-// --- converters
-// -------------------------------------------------------------------------------------------------
 
 }  // namespace crane::simulator

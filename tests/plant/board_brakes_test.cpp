@@ -9,8 +9,6 @@
 namespace crane::simulator {
 namespace {
 
-// --- brakes and watchdog
-// ----------------------------------------------------------------------------------------
 TEST(Brakes, AreClosedAtStartAndHoldExactlyAgainstTheMotors) {
   Bench bench;
   bench.board.kick(0.5, 0.5);

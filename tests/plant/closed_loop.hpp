@@ -1,6 +1,5 @@
 #pragma once
-/// The dissertation's maneuvers in closed loop on the full model, as one sampled simulation without board or
-/// delay.
+/// The maneuvers of the dissertation in closed loop with the full model, sampled, without board and delay.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,8 +52,8 @@ inline plant::PerAxis partial_gain_scheduling(const plant::Parameters& p, const 
   return {std::clamp(trolley_v, -10.0, 10.0), std::clamp(slew_v, -10.0, 10.0), 0};
 }
 
-/// Position within 2 % of the move (of 0.75 m and 90 degrees for an axis that does not move), swings below
-/// 0.5 degrees.
+/// Position within 2 % of the move (for an unmoved axis 2 % of 0.75 m or 90 degrees), swings below 0.5
+/// degrees.
 inline bool settled(const plant::State& s, const Maneuver& m) {
   constexpr double kSwing_rad = 0.5 * std::numbers::pi / 180;
   return std::abs(s.trolley_m - m.target_trolley_m) <= 0.02 * 0.75 &&
@@ -62,7 +61,7 @@ inline bool settled(const plant::State& s, const Maneuver& m) {
          std::abs(s.radial_rad) < kSwing_rad && std::abs(s.tangential_rad) < kSwing_rad;
 }
 
-/// Drive friction of the dissertation's rig with the reading 4.16 -> 0.15 for the slew axis, in volts.
+/// Drive friction of the dissertation's rig in volts, with 0.15 for the misprint in (4.16).
 inline std::vector<plant::TermSetting> rig_friction(double smoothing_speed = 0.0005) {
   return {{"drive_friction",
            "trolley",

@@ -80,7 +80,7 @@ TEST(Backlash, LosesEnergyWhileTheMotorRestsAndStaysInItsGap) {
   }
 }
 
-/// Torque of the motors without friction, what each side's inertia takes of it.
+/// Torque of the motors without friction, and the parts that accelerate each side.
 TEST(FarSide, KeepsTheMomentumOfMotorAndJibWithItsTrolley) {
   constexpr double kShare = 0.65, kVolts = 2;
   Parameters crane;
@@ -119,7 +119,7 @@ TEST(FarSide, LeavesTheMotorAloneInsideTheGap) {
   EXPECT_NEAR(a.trolley_mps2, Parameters{}.trolley_gain_mps2pv / 0.9, 0.01);
 }
 
-/// A motor that is stopped by a flank nobody saw coming, and one that goes on where a flank should have been.
+/// A motor that an unexpected contact stops, and one that continues where a contact was expected.
 TEST(Backlash, IsCorrectedByWhatTheMotorShows) {
   constexpr double kHalf = 0.005, kShare = 0.65, kMotor = 0.35 / 0.65;
   Parameters crane;

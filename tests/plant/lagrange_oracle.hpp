@@ -1,6 +1,7 @@
 #pragma once
-/// A second derivation of the equations of motion, from positions over ground only: the load's velocity, the
-/// momenta and Lagrange's equations (2.16) come from automatic differentiation with nested dual numbers.
+/// Independent derivation of the equations of motion from positions relative to the ground: automatic
+/// differentiation with nested dual numbers gives the velocity of the load, the momenta and Lagrange's
+/// equations (2.16).
 #include <array>
 #include <cmath>
 #include <random>
@@ -40,7 +41,7 @@ inline constexpr std::size_t kQ = 5;  // x, phi, gamma, theta, L
 template <class T>
 using Q = std::array<T, kQ>;
 
-/// Load over ground: (2.11) turned by the slew angle.
+/// Position of the load relative to the ground: (2.11), rotated by the slew angle.
 template <class T>
 std::array<T, 3> load_over_ground(const Q<T>& q) {
   using std::cos;
@@ -58,7 +59,7 @@ std::array<T, 2> trolley_over_ground(const Q<T>& q) {
   return {q[0] * cos(q[2]), q[0] * sin(q[2])};
 }
 
-/// T - V. The leadscrew's share of the inertia, M - M_j, moves with x' only.
+/// T - V. The inertia of the leadscrew, M - M_j, moves with x' only.
 template <class T>
 T lagrangian(const plant::Parameters& p, const Q<T>& q, const Q<T>& rate) {
   Q<Dual<T>> moving;
@@ -83,7 +84,7 @@ inline Q<double> values(const plant::Accelerations& a) {
   return {a.trolley_mps2, a.radial_radps2, a.slew_radps2, a.tangential_radps2, a.cable_mps2};
 }
 
-/// Generalised forces that Lagrange's equations (2.16) ask for: d/dt (dL/dq') - dL/dq, the one on L included.
+/// Generalised forces of Lagrange's equations (2.16), d/dt (dL/dq') - dL/dq, including the one on L.
 inline Q<double> required_forces(const plant::Parameters& p, const plant::State& s,
                                  const plant::Accelerations& a) {
   using D = Dual<double>;
@@ -121,7 +122,7 @@ inline Q<double> momenta(const plant::Parameters& p, const plant::State& s) {
 
 inline constexpr unsigned kSeed = 20021;
 
-/// Swings up to 70 degrees, speeds far beyond the rig's.
+/// Swings up to 70 degrees, and speeds far above those of the rig.
 inline plant::State random_state(std::mt19937& random) {
   const auto in = [&random](double low, double high) {
     return std::uniform_real_distribution{low, high}(random);

@@ -1,4 +1,4 @@
-/// Partial gain scheduling on the full model without friction settles when the recomputed tables say it does.
+/// Partial gain scheduling with the full model without friction settles at the recomputed times.
 #include <gtest/gtest.h>
 
 #include "closed_loop.hpp"

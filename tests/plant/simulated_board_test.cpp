@@ -1,4 +1,4 @@
-// What the simulated board measures, converts and lets move.
+// Measurements, converters and permitted motion of the simulated board.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -40,8 +40,6 @@ TEST(Converter, GivesNoVoltageForWhatIsNoNumber) {
   EXPECT_EQ(bench.applied_v, (std::array<double, 3>{0, 0, 0}));
 }
 
-// --- encoders
-// ---------------------------------------------------------------------------------------------------
 TEST(Encoders, CountAbsoluteCoordinatesOfTheDissertationsRig) {
   SimulatedRig rig;
   rig.start = {.trolley_m = 0.5, .radial_rad = 0.1, .slew_rad = 1, .tangential_rad = -0.1, .cable_m = 1.2};
@@ -70,8 +68,6 @@ TEST(Encoders, WrapAt24BitsWithTheirSign) {
   EXPECT_EQ(SimulatedBoard{rig}.read().raw_counts[0], -8388608);
 }
 
-// --- travel
-// -----------------------------------------------------------------------------------------------------
 TEST(Travel, SwitchesReportTheirEndAndStopsHoldTheAxisThere) {
   SimulatedRig rig;
   rig.drives[plant::kTrolley].high_switch = 0.4;
@@ -132,7 +128,7 @@ TEST(Drives, WorkAloneWithoutALoad) {
   Bench bench{rig};
   bench.open_brakes();
   const double start = bench.board.truth().trolley_m;
-  bench.board.kick(1, 1);  // nothing hangs there
+  bench.board.kick(1, 1);  // there is no load
   bench.tick({1, 0, 0}, true, 10);
   EXPECT_NEAR(bench.board.truth().trolley_m - start, 0.01, 1e-4);
   EXPECT_EQ(bench.board.truth().radial_rad, 0);
@@ -147,8 +143,6 @@ TEST(Kick, AddsToTheSwingRatesThatExist) {
   EXPECT_EQ(board.truth().tangential_radps, 0);
 }
 
-// --- time and errors
-// --------------------------------------------------------------------------------------------
 TEST(Time, OfTheRigDoesNotRunBackwards) {
   SimulatedBoard board{{}, 5 * kTick_ns};
   board.advance_to(kTick_ns);

@@ -14,7 +14,7 @@ using plant::TermSetting;
 
 constexpr std::int64_t kStep_ns = 10'000'000;
 
-/// An effect of each kind, large enough for the encoders.
+/// One term of each kind, with an effect that the encoders resolve.
 std::vector<TermSetting> every_effect() {
   return {
       {"payload_mass", "", {{"delta_kg", 0.5}}},
@@ -59,7 +59,7 @@ struct Record {
   friend bool operator==(const Record&, const Record&) = default;
 };
 
-/// 5 s in which trolley and slew are driven both ways. `twice`: everything is written and read twice a tick.
+/// 5 s of motion of trolley and slew in both directions. `twice`: writes and reads twice per tick.
 Record driven_for_5_s(const std::vector<TermSetting>& terms, bool twice = false) {
   SimulatedRig rig;
   rig.terms = terms;

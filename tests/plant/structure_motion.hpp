@@ -1,5 +1,5 @@
 #pragma once
-/// Fixed-step motion of a model whose structure terms have coordinates of their own.
+/// Motion of a model with structure terms, integrated with fixed steps.
 #include "crane/plant/model.hpp"
 
 namespace crane::test {
@@ -9,7 +9,7 @@ struct StructureMotion {
   plant::InnerState inner{};
 };
 
-/// Drives stand still or move as `acceleration` says: the load is all that is free.
+/// The drives are at rest or have the given acceleration; only the load moves freely.
 inline plant::Actuation held(const plant::PerAxis& acceleration = {}) {
   plant::Actuation actuation;
   actuation.locks.axis = {true, true, true};

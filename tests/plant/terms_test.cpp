@@ -237,7 +237,7 @@ TEST(Terms, APositionForceIsASpringWithARestPosition) {
   EXPECT_NEAR(friction_v(terms, -0.1, 0.7), 0.4, 1e-12) << "it does not depend on the direction";
 }
 
-/// Motor and weight work against each other in the gear: it carries both where the motor holds the weight.
+/// Motor and weight work against each other in the gear, which carries both when the motor holds the weight.
 TEST(Terms, GearFrictionGrowsWithWhatMotorAndWeightLoadTheGearWith) {
   const std::vector<TermSetting> gear{{"gear_friction", "trolley", {{"share", 0.3}}}};
   EXPECT_NEAR(friction_v(gear, 0.1, 0, 4), 1.2, 1e-12);

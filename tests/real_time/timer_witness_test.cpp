@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Takes processor 0 from everything else, as a host takes it from a virtual machine.
+/// Occupies processor 0 completely, like the host of a virtual machine.
 bool occupy_processor(std::chrono::milliseconds duration) {
   bool granted = false;
   std::thread{[&] {
@@ -32,7 +32,7 @@ TEST(TimerWitness, SeesAProcessorThatIsTakenAway) {
   TimerWitness witness;
   (void)witness.take();
   if (!occupy_processor(20ms)) GTEST_SKIP() << "real-time priority was denied";
-  while (witness.take().pauses == 0) std::this_thread::yield();  // the test's time limit is the bound
+  while (witness.take().pauses == 0) std::this_thread::yield();  // the time limit of the test ends this loop
 }
 
 TEST(TimerWitness, CountsAPauseOnce) {

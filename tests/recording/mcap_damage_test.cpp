@@ -1,4 +1,5 @@
-// Cut and corrupted recordings: everything intact is read, nothing false is, and every loss is named.
+// Cut and corrupted recordings: all intact data are read, no wrong data are returned, and every loss is
+// reported.
 #include <gmock/gmock.h>
 
 #include <random>
@@ -42,7 +43,7 @@ Chunked chunked_recording(const TemporaryDirectory& directory) {
   return result;
 }
 
-/// What must be readable of the first `size` bytes.
+/// Messages that must be readable in the first `size` bytes.
 std::size_t messages_before(const Chunked& recording, std::size_t size) {
   const auto whole =
       std::upper_bound(recording.ends.begin(), recording.ends.end(), size) - recording.ends.begin();
@@ -89,7 +90,7 @@ TEST(CutRecording, SaysHowManyBytesAreLost) {
                                      ": the file ends inside a record: its last 100 bytes are lost")));
 }
 
-/// Reads the file with byte `at` changed: only genuine messages, and either all of them or a problem.
+/// Reads the file with a changed byte `at`: only correct messages, and either all of them or a problem.
 void expect_honest(const std::filesystem::path& file, std::string bytes, std::size_t at, std::size_t count) {
   bytes[at] = static_cast<char>(bytes[at] ^ 0x41);
   put_contents(file, bytes);

@@ -108,7 +108,7 @@ TEST(McapWriter, NamesFileAndReasonWhenTheDiskIsFull) {
             "/dev/full: cannot write: No space left on device");
 }
 
-/// Lets the process write files up to `bytes` only, as a full disk would.
+/// Limits the size of files of this process, like a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_{std::signal(SIGXFSZ, SIG_IGN)} {

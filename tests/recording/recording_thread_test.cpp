@@ -69,7 +69,7 @@ TEST(RecordingThread, HasAnUrgentEntryInTheFileWithoutBeingClosed) {
   EXPECT_EQ(recording::check(file).messages, 1U);
 }
 
-/// A disk that is full after so many bytes. The limit is the process's, so it is lifted again.
+/// A disk with this number of free bytes. The limit applies to the whole process and is removed again.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

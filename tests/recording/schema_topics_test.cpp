@@ -1,5 +1,5 @@
-// The schema read from crane.idl against the C structs idlc makes from the same file and the codec of the
-// bus: two independent readings of one text must agree in every field of every topic.
+// Compares the schema that is read from crane.idl with the C structs of idlc and the codec of the bus in
+// every field of every topic.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Values that differ from field to field.
+/// Values that differ between fields.
 class Filler {
  public:
   double real() { return 0.5 * ++count_ - 20; }

@@ -16,7 +16,7 @@ using testing::Not;
 
 Page page_of(Block block) { return {.title = "t", .summary = "", .sections = {{"s", {std::move(block)}}}}; }
 
-/// Everything that a page can hold, every text of it being `text`.
+/// A page with all kinds of content, in which every text is `text`.
 Page full_of(const std::string& text) {
   const LinePlot plot{.title = text,
                       .x_label = text,

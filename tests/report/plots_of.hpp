@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the plots of a page back: a second derivation of what assets/page.js does with them.
+/// Decodes the plots of a page, independently of assets/page.js.
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>

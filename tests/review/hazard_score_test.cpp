@@ -1,5 +1,5 @@
-/// The first sentence of a review against the judge of the fault campaign, which shares no code with it:
-/// recordings of every hazard at every moment.
+/// Compares the first cause of a review with the judge of the fault campaign, which shares no code with it,
+/// for recordings of every hazard at every moment.
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 
@@ -15,7 +15,7 @@
 namespace crane::review {
 namespace {
 
-/// The note that names the reason; empty: nothing stopped the crane.
+/// The note that names the reason; empty: no stop.
 std::string name_of(const campaign::Result& result) {
   if (!result.stopped) return "";
   if (result.first.latch != crane_LATCH_NONE)
@@ -28,8 +28,8 @@ std::string named_by(const Review& review) {
   return cause == nullptr ? "" : cause->what;
 }
 
-/// The judge looks from the onset of the hazard on. That an order before it stopped the crane, and nothing
-/// else, is right when the judge saw no stop.
+/// The judge ignores the time before the onset. A review that finds only an earlier request of the operator
+/// is correct when the judge found no stop.
 bool is_right(const Review& review, const campaign::Result& result) {
   const auto* cause = review.first_cause();
   return named_by(review) == name_of(result) ||

@@ -1,6 +1,6 @@
 #pragma once
-/// One component alone on a memory bus, in lockstep: a test publishes what it reads, lets it step, and takes
-/// what it writes.
+/// One component on a memory bus, in lockstep: a test publishes its inputs, lets it step, and reads its
+/// outputs.
 #include <map>
 #include <memory>
 #include <string>
@@ -22,7 +22,7 @@ class ComponentBench {
         listener_{memory_options(network_, "listener", crane_SOURCE_OPERATOR)},
         hosted_{bus_, spec, rig_, controller_, Clock::lockstep} {}
 
-  /// Publishes a sample as the process of kind `source` would.
+  /// Publishes a sample as a process of kind `source`.
   template <class T>
   void publish(const topics::Topic<T>& topic, crane_Source source, const T& sample) {
     auto& bus = writers_.try_emplace(source, memory_options(network_, "writer", source)).first->second;
@@ -32,12 +32,12 @@ class ComponentBench {
     if (!std::static_pointer_cast<bus::Publisher<T>>(publisher)->publish(sample))
       throw std::logic_error{"the memory bus refused a sample"};
   }
-  /// Listens from now on.
+  /// Creates the reader.
   template <class T>
   [[nodiscard]] bus::Subscriber<T> listen(const topics::Topic<T>& topic) {
     return listener_.subscriber(topic);
   }
-  /// Lets the component do everything it can.
+  /// Polls the component until it has no more work.
   void step() {
     while (hosted_.component().poll(now_ns_)) {
     }
@@ -76,7 +76,7 @@ class ComponentBench {
   return state;
 }
 
-/// Every axis is asked to be where state_at() has it, the trolley `ahead_m` farther out.
+/// Reference at the positions of state_at(), with the trolley `ahead_m` farther out.
 [[nodiscard]] inline msg::Reference reference_at(std::uint64_t number, double ahead_m = 0) {
   msg::Reference reference{};
   reference.header = tick(number);

@@ -1,4 +1,4 @@
-// A component gets the endpoints its specification declares, and no others.
+// A component gets the endpoints that its ComponentSpec declares, and no others.
 #include "crane/runtime/ports.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Requests wait for their tick, in bounds.
+// Requests wait for their tick in bounded memory.
 #include "crane/runtime/request_inbox.hpp"
 
 #include <gtest/gtest.h>

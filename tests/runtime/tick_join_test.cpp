@@ -1,4 +1,4 @@
-// Exactly tick k, a bounded wait, and what is counted, over the memory bus.
+// Joins of equal ticks, bounded waits and counts, over the memory bus.
 #include "crane/runtime/tick_join.hpp"
 
 #include <gtest/gtest.h>

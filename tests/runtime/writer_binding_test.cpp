@@ -1,4 +1,4 @@
-// Whose samples of a loop topic count, as timelines. Times in milliseconds.
+// Binding of a reader to a writer, as timelines. Times in milliseconds.
 #include "crane/runtime/writer_binding.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Writer writer(std::uint8_t id, std::uint32_t epoch = 7, crane_Source source = cr
 
 class Binding : public testing::Test {
  protected:
-  /// The supervisor speaks every 10 ms, up to and including `until_ms`.
+  /// The supervisor writes every 10 ms, up to and including `until_ms`.
   void supervisor_speaks_until(std::int64_t until_ms) {
     for (; now_ms_ <= until_ms; now_ms_ += 10)
       ASSERT_EQ(binding_.judge(writer(1), ms(now_ms_), 1), Verdict::own);
@@ -62,7 +62,7 @@ TEST_F(Binding, OfNobodyWhileTwoWritersAreThere) {
   EXPECT_EQ(binding_.judge(writer(1), ms(0), 2), Verdict::foreign);
   EXPECT_EQ(binding_.judge(writer(2), ms(0), 2), Verdict::foreign);
   EXPECT_TRUE(binding_.disputed(ms(10)));
-  EXPECT_EQ(binding_.judge(writer(1), ms(500), 1), Verdict::own);  // the other one has gone
+  EXPECT_EQ(binding_.judge(writer(1), ms(500), 1), Verdict::own);  // the other writer has ended
 }
 
 TEST_F(Binding, IsDisputedByAWriterThatIsMatchedAndSilent) {
@@ -83,7 +83,7 @@ TEST_F(Binding, PassesToANewStartOnlyAfterTheOldOneHasBeenSilent) {
   EXPECT_EQ(binding_.judge(writer(2, 8), ms(299), 2), Verdict::foreign);
   EXPECT_EQ(binding_.judge(writer(2, 8), ms(300), 2), Verdict::taken_over);
   EXPECT_EQ(binding_.judge(writer(2, 8), ms(310), 2), Verdict::own);
-  EXPECT_EQ(binding_.judge(writer(1), ms(320), 2), Verdict::foreign);  // the old one wakes up again
+  EXPECT_EQ(binding_.judge(writer(1), ms(320), 2), Verdict::foreign);  // the old writer continues
 }
 
 TEST_F(Binding, IsNotDisputedByADeadWriterThatDdsHasNotGivenUpYet) {
@@ -93,7 +93,7 @@ TEST_F(Binding, IsNotDisputedByADeadWriterThatDdsHasNotGivenUpYet) {
   EXPECT_FALSE(binding_.disputed(ms(700)));
   binding_.watch(ms(800), 1);  // its lease has ended
   ASSERT_EQ(binding_.judge(writer(2, 8), ms(810), 1), Verdict::own);
-  binding_.watch(ms(810), 2);  // and this is a stranger
+  binding_.watch(ms(810), 2);  // a foreign writer joins
   EXPECT_TRUE(binding_.disputed(ms(810)));
 }
 

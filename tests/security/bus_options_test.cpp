@@ -1,4 +1,4 @@
-// Nothing that writes is reachable from other hosts without keys, unless a user says so.
+// A process that writes is reachable from other hosts only with keys, unless the user permits it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The directory of keys: what `crane keys make` leaves, and what is said of each defect.
+// The directory of `crane keys make`, and the message for each defect.
 #include "crane/security/keys.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-# No source in DIRECTORIES (relative to SOURCE_DIRECTORY, separated by commas) includes what matches FORBIDDEN, but for those whose
-# path matches EXCEPT. Fewer sources than LEAST: a room has moved and nothing is checked.
+# Fails when a source in DIRECTORIES (relative to SOURCE_DIRECTORY, separated by commas) has an include that matches FORBIDDEN,
+# unless the path of the source matches EXCEPT. Also fails when there are fewer sources than LEAST, because a directory has moved.
 cmake_minimum_required(VERSION 3.25)
 string(REPLACE "," ";" directories "${DIRECTORIES}")
 set(sources "")

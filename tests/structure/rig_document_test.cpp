@@ -1,4 +1,4 @@
-// docs/rig_file.md shows the fields as the tables in the code declare them.
+// docs/rig_file.md shows the fields that the tables in the code declare.
 #include <gtest/gtest.h>
 
 #include <filesystem>

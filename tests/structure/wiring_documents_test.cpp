@@ -1,5 +1,5 @@
-// The documents show the wiring that the components declare. What differs is printed with the command that
-// makes the right text.
+// The documents show the wiring that the components declare. The test prints the differences and the command
+// that generates the text.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// What the supervisor's checks cost in one tick of a crane that moves: gate, envelope, following error, swing
-// encoders. The counter `allocations` is per tick.
+// Cost of the checks of one tick while the crane moves: gate, envelope, following error, swing encoders. The
+// counter `allocations` is per tick.
 #include <benchmark/benchmark.h>
 
 #include <atomic>
@@ -109,7 +109,7 @@ void whole_step(benchmark::State& run) {
     input.now_s += kTick_s;
     input.sample = sample_at(input.now_s);
     input.demand_v = input.sample.applied_v;
-    memory.machine.state = State::run;  // whatever these samples amount to
+    memory.machine.state = State::run;  // independent of the result for these samples
     benchmark::DoNotOptimize(step(limits, input, memory));
   }
   count(run, before);

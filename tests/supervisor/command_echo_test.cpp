@@ -1,4 +1,4 @@
-// The supervisor notices that the bridge obeys somebody else.
+// The supervisor detects that the bridge executes commands of another program.
 #include "process/command_echo.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,8 @@
 namespace crane::supervisor {
 namespace {
 
-/// A supervisor and a bridge that obeys it one tick later, unless a test spoils what the bridge reports.
+/// A supervisor and a bridge that executes its command one tick later, unless a test changes the reported
+/// state.
 class Echo : public testing::Test {
  protected:
   msg::State report() const {
@@ -24,7 +25,7 @@ class Echo : public testing::Test {
     for (bool& brake : command.brake_release) brake = released_ = release;
     echo_.commanded(command);
   }
-  /// @return states until it is noticed, 0: never
+  /// @return number of states until the detection; 0: not detected
   int noticed_after(const msg::State& state, int most = 100) {
     for (int i = 1; i <= most; ++i)
       if (echo_.contradicts(state)) return i;

@@ -1,4 +1,4 @@
-// Every state against every combination of inputs: what must hold whatever happens.
+// Rules that hold for every state and every combination of inputs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kNow_s = 100;
 
-// Every state with the parts of its memory that decide; those that are armed also while an axis is homed.
+// Every state with the parts of its memory that influence decisions; armed states also while an axis is
+// homed.
 std::vector<Memory> every_memory() {
   std::vector<Memory> all;
   for (std::size_t i = 0; i < kStates; ++i) {
@@ -95,7 +96,7 @@ bool stopped(State s) {
          s == State::fault;
 }
 
-// An accepted request is carried out in the same tick.
+// An accepted request takes effect in the same tick.
 const char* broken_promise(const Memory& before, const Inputs& in, const Memory& after, const Outputs& out) {
   const auto accepted = [&out](Request request) { return out.answers[index_of(request)].accepted; };
   const State is = after.state;

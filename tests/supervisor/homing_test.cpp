@@ -1,4 +1,4 @@
-// Axes without a zero: what is refused, how one creeps to its mark, and every way in which that fails.
+// Axes without known position: refused requests, the course of homing, and all failures.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -25,8 +25,8 @@ Limits homing_limits() {
   return limits;
 }
 
-/// A trolley that follows the creeping reference, its limit switches, and a bridge that knows its zero when
-/// the mark was seen twice and the brake has closed.
+/// A trolley that follows the creeping reference, its limit switches, and a bridge that knows the position
+/// after two detections of the mark and the closing of the brake.
 class Crane : public Timeline {
  public:
   explicit Crane(double from_m = 0.3) : Timeline{homing_limits()}, true_m{from_m} {
@@ -124,10 +124,10 @@ TEST(Homing, OfAnAxisWithoutAMarkOrOfAnArmedCraneIsRefused) {
 
 TEST(Homing, FindsTheMarkTwiceAndEndsLockedWithAKnownPosition) {  // S22
   for (const double from_m :
-       {0.3, 0.105, 0.08, 1.4}) {  // the third stands on its mark, the last on the other switch
+       {0.3, 0.105, 0.08, 1.4}) {  // the third starts at its mark, the last one at the other switch
     Crane t{from_m};
     t.to_homing();
-    t.demand(9);  // the gate lets no more through than creeping takes
+    t.demand(9);  // the gate limits the volts to those of creeping
     t.live_until_stopped();
     EXPECT_EQ(t.cause(), Cause::homed) << from_m;
     t.live(0.5);
@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
                   c.true_m = 1.4;
                 },
                 HomingFailure::mark_stuck, 0.1},
-        // Signs of drive and encoder both wrong: the loop is stable, and the axis goes the other way.
+        // Wrong signs of drive and encoder: the loop is stable, and the axis moves in the other direction.
         Failure{"TheOtherSwitchIsReached", [](Crane& c) { c.mirrored = true; }, HomingFailure::other_switch,
                 3, 1.35},
         Failure{"TheAxisDoesNotFollow", [](Crane& c) { c.follows = 0; }, HomingFailure::no_motion, 2},

@@ -80,7 +80,7 @@ TEST(Envelope, LooksAheadInTheDirectionOfMotionOnly) {
   EXPECT_FALSE(check_envelope(test_limits(), in).stopping);
 }
 
-// Second derivation: simulate the stop that the envelope promises, in fine steps.
+// Independent derivation: simulates the stop of the envelope in fine steps.
 TEST(Envelope, AnAxisCaughtByItStopsInsideTheHardLimits) {  // S9
   const Limits limits = test_limits();
   for (double speed = 0.05; speed <= 1; speed += 0.05) {
@@ -89,7 +89,7 @@ TEST(Envelope, AnAxisCaughtByItStopsInsideTheHardLimits) {  // S9
     double stop_s = -1;
     double v = speed;
     constexpr double kStep_s = 1e-4;
-    // The sample is judged every tick; brakes grip after ramp and delay (20 ms) and closing time (20 ms).
+    // Every tick has a check; the brakes act after ramp and delay (20 ms) and closing time (20 ms).
     for (int i = 0; v > 0 && i < 300000; ++i, since_sample_s += kStep_s) {
       if (since_sample_s >= limits.period_s && stop_s < 0) {
         since_sample_s = 0;

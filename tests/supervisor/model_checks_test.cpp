@@ -1,5 +1,4 @@
-// The checks that compare the crane with its model: what they tolerate, what they find, and how seldom they
-// are wrong.
+// The checks that compare the crane with its model: tolerances, detections, and the rate of false alarms.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -31,7 +30,7 @@ TEST(AverageRunLength, IsThatOfASimulatedSum) {
   EXPECT_NEAR(ticks / kAlarms, average_run_length(kDrift, 1, kThreshold), 0.15 * ticks / kAlarms);
 }
 
-/// The disturbance: white, as large as the margin that the model leaves for an offset.
+/// White disturbance with the size of the offset tolerance.
 TEST(AverageRunLength, OfEachModelCheckIsAbove1e9TicksOnEachRig) {
   for (const char* name : {"virginia_tech_tower", "gantry", "emulated_servo_to_go", "drive_axis"}) {
     const Limits limits = limits_of_rig(name);
@@ -48,11 +47,11 @@ TEST(AverageRunLength, OfEachModelCheckIsAbove1e9TicksOnEachRig) {
   }
 }
 
-/// A trolley without load whose drive gives `given` volts for `told` ones.
+/// A trolley without load whose drive gives `given` volts for a command of `told` volts.
 class Trolley : public testing::Test {
  protected:
   Trolley() { limits_.machine.crane.load_mass_kg = 0; }
-  /// @return ticks until a following error, 0: none
+  /// @return number of ticks until a following error; 0: none
   int drive(double told_v, double given_v, int ticks, double gain = 1, bool encoder_stands = false) {
     for (int tick = 1; tick <= ticks; ++tick) {
       time_s_ += kTick_s;
@@ -114,10 +113,10 @@ TEST_F(Trolley, WhoseEncoderStopsWhileItMovesIsFoundInTheNextTicks) {
   EXPECT_LE(ticks, 2);
 }
 
-/// A pendulum under a trolley that stands.
+/// A pendulum with a resting trolley.
 class Load : public testing::Test {
  protected:
-  /// @return ticks until its encoders are found to have failed, 0: never
+  /// @return number of ticks until the failure of its encoders is detected; 0: not detected
   template <class Show>
   int swing(int ticks, Show show) {
     const double omega2 = 9.81 / cable_m_;

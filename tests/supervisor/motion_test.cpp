@@ -1,4 +1,4 @@
-// Limits of place, speed and swing, and brakes that do not obey.
+// Limits of position, speed and swing, and brakes that do not obey.
 #include <gtest/gtest.h>
 
 #include "timeline.hpp"
@@ -102,7 +102,7 @@ TEST(Supervisor, AFreelySwingingLoadIsNoFaultAndBelowTheLimitDoesNotHinderArming
   for (int i = 0; i < 3000; ++i) {
     const double swing = 0.65 * std::sin(3.13 * i * t.limits.period_s);
     t.world.sample.swing_radial_rad = swing;
-    t.demand(-15 * swing);  // gain scheduling answers a swing at once
+    t.demand(-15 * swing);  // gain scheduling reacts to a swing at once
     if (i == 1000) t.world.requests[index_of(Request::reset)] = true;
     if (i == 1100) t.world.requests[index_of(Request::arm)] = true;
     t.tick();
@@ -148,7 +148,7 @@ TEST(Supervisor, OrdinaryBrakingIsNoFault) {  // S13
     t.speed = {0.8, 0, 0};
     t.run(0.1);
     t.estop();
-    t.axes_slip = true;  // slides to a stop, as a braked axis does
+    t.axes_slip = true;  // the closed brake stops the axis gradually
     t.ticks(3);
     for (int i = 0; i < 200; ++i) {
       t.speed[0] = std::max(0.0, t.speed[0] - deceleration * t.limits.period_s);

@@ -1,4 +1,4 @@
-// Long random histories, judged by an observer that knows nothing of the state machine's insides.
+// Long random histories, judged by an observer without knowledge of the state machine.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -25,7 +25,7 @@ constexpr double kOdd[] = {std::numeric_limits<double>::quiet_NaN(),
                            12.8,
                            1e-320};
 
-// How often a fault begins in a tick, and how often a present fault ends in one.
+// Probability per tick that a fault begins, and that a present fault ends.
 struct Weather {
   double fault = 0;
   double recovery = 0.05;
@@ -64,12 +64,13 @@ void act(Random& random, Timeline& t) {
   if (chance(random, 0.05)) t.speed = {between(random, -0.3, 0.3), between(random, -0.5, 0.5), 0};
 }
 
-// Holds the crane to I5 and I7 by what goes in and comes out alone.
+// Checks I5 and I7 with inputs and outputs only.
 class Observer {
  public:
   void check(const Limits& limits, const Requests& asked, const TickOutput& out) {
     const bool released = out.brake_release[0] || out.brake_release[1] || out.brake_release[2];
-    if (!out.watchdog_permission) reset_ = armed_ = false;  // the relay is off: both are needed anew
+    if (!out.watchdog_permission)
+      reset_ = armed_ = false;  // the relay is open: reset and arm are required again
     if (asked[index_of(Request::reset)] && out.answers[index_of(Request::reset)].accepted) reset_ = true;
     if (reset_ && asked[index_of(Request::arm)] && out.answers[index_of(Request::arm)].accepted)
       armed_ = true;
@@ -152,12 +153,12 @@ TEST(RandomHistory, AfterAnyHistoryWithoutAFaultAHealthyCraneCanBeArmedAgain) { 
     t.brakes_obey = true;
     t.stop();
     t.run(10);
-    if (t.state() == State::fault) continue;  // an axis was moved by hand against its closed brake
+    if (t.state() == State::fault) continue;  // an axis was moved while its brake was closed
     t.world.confirmed = {true, true, true};
     const Answer reset = t.reset();
     ASSERT_TRUE(reset.accepted || t.state() == State::hold) << name_of(t.state()) << ": " << reset.reason;
     t.run(0.1);
-    if (t.state() == State::locked) t.reset();  // the first one has led to the test of a new bridge
+    if (t.state() == State::locked) t.reset();  // the first reset led to the self-test of a new bridge
     const Answer arm = t.arm();
     ASSERT_TRUE(arm.accepted) << arm.reason;
     t.run(0.5);

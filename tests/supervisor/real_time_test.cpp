@@ -1,5 +1,5 @@
-// The supervisor's process in real time, with a clock that the test moves: what counts as a missing tick when
-// samples come late, or when the process itself did not get the processor. Times in milliseconds.
+// The process of the supervisor in real time, with a clock that the test sets: which ticks count as missing
+// when samples are late, or when the process is scheduled late. Times in milliseconds.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,8 +14,8 @@ class SupervisorInRealTime : public testing::Test {
  protected:
   static constexpr std::int64_t kBegin_ns = 1'000'000'000;
 
-  /// Ten ticks with everything in time; tick 10 is stepped at 100.5 ms.
-  /// @param bridge_ahead_ns  how far the clock of the bridge's host is ahead of the supervisor's
+  /// Ten complete ticks in time; the step of tick 10 is at 100.5 ms.
+  /// @param bridge_ahead_ns  offset of the clock of the bridge's host relative to that of the supervisor
   explicit SupervisorInRealTime(std::int64_t bridge_ahead_ns = 0) : bridge_ahead_ns_{bridge_ahead_ns} {
     for (std::uint64_t tick = 1; tick <= 10; ++tick) {
       const double at_ms = 10.0 * static_cast<double>(tick);
@@ -40,7 +40,7 @@ class SupervisorInRealTime : public testing::Test {
     reference.header = header(tick);
     EXPECT_TRUE(references_.publish(reference));
   }
-  /// The process gets the processor now.
+  /// The process is scheduled now.
   void wake_at(double time_ms) {
     const auto now_ns = kBegin_ns + std::llround(time_ms * 1e6);
     while (supervisor_->poll(now_ns)) continue;
@@ -49,7 +49,7 @@ class SupervisorInRealTime : public testing::Test {
       ++steps_;
     }
   }
-  /// The process sleeps until it wants to be woken, again and again until `time_ms`.
+  /// The process sleeps until its wake-up time, repeatedly until `time_ms`.
   void sleep_until(double time_ms) {
     for (double next_ms = due_ms(); next_ms <= time_ms; next_ms = due_ms()) wake_at(next_ms);
   }

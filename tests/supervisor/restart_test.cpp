@@ -1,4 +1,4 @@
-// A bridge that dies and is started again while the supervisor runs on.
+// The bridge ends and restarts while the supervisor runs.
 #include <gtest/gtest.h>
 
 #include <string_view>
@@ -8,9 +8,9 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr PerAxis kStart{0.7, 0, 1};  // where a new bridge has the axes
+constexpr PerAxis kStart{0.7, 0, 1};  // positions of the axes in a new bridge
 
-/// The bridge dies, nothing comes for three seconds, and another one has been started.
+/// The bridge ends, no state arrives for three seconds, then another bridge starts.
 void exchange_bridge(Timeline& t) {
   t.world.state_arrived = t.world.demand_arrived = false;
   t.run(3);

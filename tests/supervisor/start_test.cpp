@@ -1,4 +1,4 @@
-// From power-on to HOLD: self-test, reset, arming, and what stands in the way.
+// From power-on to HOLD: self-test, reset, arming, and refusals.
 #include <gtest/gtest.h>
 
 #include <string_view>

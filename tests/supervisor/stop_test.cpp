@@ -1,4 +1,4 @@
-// Stops that an operator or idleness asks for, and which of two causes wins.
+// Stops by the operator and by idleness, and the priority of two causes.
 #include <gtest/gtest.h>
 
 #include "timeline.hpp"

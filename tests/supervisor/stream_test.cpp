@@ -1,4 +1,4 @@
-// Demands and states that are late, missing or no numbers.
+// Demands and states that are late, missing or not finite.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -87,7 +87,7 @@ TEST(Supervisor, StopsWhenTheStateStopsComing) {  // S5
   t.tick();
   EXPECT_TRUE(t.safe());
   t.run(3);
-  EXPECT_EQ(t.state(), State::stop_c1);  // nobody knows yet whether it stands
+  EXPECT_EQ(t.state(), State::stop_c1);  // without a state, standstill is unknown
   t.world.state_arrived = true;
   t.run(0.5);
   EXPECT_EQ(t.state(), State::locked);

@@ -1,5 +1,5 @@
 #pragma once
-// A crane that does what a test says, and a supervisor beside it, in virtual time: tests read as a timeline.
+// A simple crane that the test controls, with a supervisor, in virtual time: tests read as a timeline.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -35,7 +35,7 @@ class Timeline {
     world.sample.position = {0.7, 0, 1};
   }
 
-  // What the test may change at any time; it stays until changed again.
+  // Values that a test may change at any time.
   Limits limits;
   TickInput world{.state_arrived = true, .demand_arrived = true, .self_test = SelfTest::passed};
   PerAxis speed{};          // unit/s, while the brake is open
@@ -43,7 +43,7 @@ class Timeline {
   bool axes_slip = false;   // true: closed brakes do not hold
   bool relay_obeys = true;
   double bridge_clock_ahead_s = 0;  // the bridge runs on another host
-  double late_s = 0;                // the bridge latched this sample so much after its time
+  double late_s = 0;                // delay of this sample
 
   TickMemory memory;
   TickOutput out;
@@ -81,7 +81,7 @@ class Timeline {
     return answer;
   }
 
-  /// The next state comes from a bridge that has just been started, and has the axes there.
+  /// The next state comes from a new bridge, with the axes at these positions.
   void start_bridge(const PerAxis& position) {
     world.bridge_restarted = world.state_arrived = true;
     world.tick = 0;

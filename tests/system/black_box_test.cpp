@@ -1,4 +1,4 @@
-/// The black box of `crane up`: it is there without being asked for, and says afterwards what happened.
+/// The black box of `crane up` runs without a request and records every stop.
 #include <gmock/gmock.h>
 
 #include <thread>
@@ -30,14 +30,14 @@ class BlackBox : public testing::Test {
     const auto ended = run_program(program(), with_bus(command, crane));
     EXPECT_EQ(ended.exit_code, 0) << command.front() << ": " << ended.errors;
   }
-  /// Asks again while the answer is a refusal: the self-test is under way, the streams are not complete for a
-  /// second.
+  /// Repeats the request while it is refused: during the self-test, or until all inputs have been complete
+  /// for a second.
   void ask_until_accepted(const std::string& request) {
     const auto give_up = std::chrono::steady_clock::now() + 10s;
     while (run_program(program(), with_bus({request}, crane)).exit_code != 0)
       ASSERT_LT(std::chrono::steady_clock::now(), give_up) << request;
   }
-  /// Ready, armed and moving.
+  /// Reset, armed and moving.
   void start_a_move() {
     ask_until_accepted("reset");
     ask_until_accepted("arm");

@@ -1,4 +1,4 @@
-/// A bridge that dies and is started again beside a stack that runs on.
+/// The bridge ends and restarts while the rest of the stack runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,8 @@ class BridgeRestart : public testing::Test {
            observer().statuses().back().cause == crane_CAUSE_BRIDGE_RESTARTED;
   }
 
-  /// Kills the bridge of an armed crane, waits until the rig has closed the brakes, and starts another one.
+  /// Kills the bridge of an armed crane, waits until the rig has closed the brakes, and starts another
+  /// bridge.
   void exchange_bridge() {
     const auto kill_ns = runtime::monotonic_ns();
     running_.send("hardware_bridge", SIGKILL);
@@ -42,7 +43,7 @@ class BridgeRestart : public testing::Test {
       for (std::size_t i = 0; i < 3; ++i)
         ASSERT_TRUE(command.drive_v[i] == 0 && !command.brake_release[i]) << "moved by itself";
   }
-  /// Why a reset is refused; empty when it is not.
+  /// Reason for the refusal of a reset; empty when accepted.
   std::string refusal(bool confirmed) {
     try {
       running_.session().request({.kind = crane_REQUEST_RESET, .selected = {confirmed, confirmed, confirmed}},
@@ -52,7 +53,7 @@ class BridgeRestart : public testing::Test {
     }
     return "";
   }
-  /// The load has not swung for half a period.
+  /// True when the load has not swung for half a period.
   bool until_load_is_still() {
     constexpr std::size_t kStates = 110;
     constexpr double kStill_rad = 0.0015;

@@ -1,4 +1,4 @@
-/// The programs of examples/ do what their first lines promise.
+/// The programs of examples/ behave as their first lines state.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-/// Processes that die or hang in the middle of a move: the drives are at 0 V and the brakes closed within 100
-/// ms, and stay so until an operator resets and arms.
+/// Processes that end or hang during a move: within 100 ms the drives are at 0 V and the brakes closed, until
+/// an operator resets and arms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ bool asks_for_nothing(const msg::Command& command) {
   return true;
 }
 
-/// The first of the samples from which on all of them are `quiet`; samples.size() when the last one is not.
+/// Index of the first sample from which on all samples are `quiet`; samples.size() when the last one is not.
 template <class T>
 std::size_t quiet_from(const std::vector<T>& samples, bool (*quiet)(const T&)) {
   auto first = samples.size();
@@ -54,7 +54,7 @@ std::size_t quiet_from(const std::vector<T>& samples, bool (*quiet)(const T&)) {
 
 class FaultTest : public testing::TestWithParam<Fault> {
  protected:
-  /// A move of trolley and jib, both at speed.
+  /// A move of trolley and jib; returns while both move.
   void get_going() {
     stack_.session().arm();
     stack_.session().request(
@@ -79,7 +79,7 @@ class FaultTest : public testing::TestWithParam<Fault> {
     return std::string{supervisor::name_of(static_cast<supervisor::State>(status.state))} + " because of " +
            supervisor::name_of(static_cast<supervisor::Cause>(status.cause));
   }
-  /// Nobody moves the crane although all processes are there again; an operator can.
+  /// With all processes running again, the crane does not move until an operator acts.
   void expect_rest_until_reset_and_arm() {
     stack_.forget();
     ASSERT_TRUE(stack_.until([this] { return supervisor_is(crane_STATE_LOCKED); }, 5s))
@@ -159,7 +159,7 @@ TEST_P(PlantFault, StopsTheSupervisorWithin100Ms) {
   EXPECT_LE(quiet_ns, kBound_ns);
   if (GetParam().signal != SIGSTOP) return;
 
-  // The rig's own time ran on meanwhile: its relay has closed the brakes when the process answers again.
+  // The time of the rig continued: its relay has closed the brakes when the process answers again.
   stack_.forget();
   stack_.send("plant", SIGCONT);
   stack_.listen(kWatched);
@@ -171,7 +171,7 @@ TEST_P(PlantFault, StopsTheSupervisorWithin100Ms) {
   const auto slew_rad = std::abs(states.front().slew_angle_rad - before.slew_angle_rad);
   std::cout << "  travelled meanwhile: trolley " << trolley_m << " m, slew " << slew_rad
             << " rad; supervisor " << supervisor_in_words() << '\n';
-  // 0.1 s at the largest speed of the rig file, then braking: v t + v^2/2a.
+  // 0.1 s at the largest speed of the rig file, then the stopping distance: v t + v^2/2a.
   EXPECT_LE(trolley_m, 1.5 * 0.1 + 1.5 * 1.5 / (2 * 20));
   EXPECT_LE(slew_rad, 3.5 * 0.1 + 3.5 * 3.5 / (2 * 11));
 }
@@ -180,13 +180,13 @@ INSTANTIATE_TEST_SUITE_P(ThePlant, PlantFault,
                          testing::Values(Fault{"plant", SIGKILL}, Fault{"plant", SIGSTOP}), test_name);
 
 using ObserverFault = FaultTest;
-constexpr auto kReported = 1500ms;  // every process has reported once more
+constexpr auto kReported = 1500ms;  // every process has reported in this time
 
-/// Ticks in a row without a state that the supervisor bridges are no disturbance; a writer that waits for a
-/// dead reader would cost ten at a time.
+/// Lost ticks in a row that the supervisor tolerates. A writer that waits for a dead reader would lose ten at
+/// a time.
 constexpr std::uint64_t kBridged = 2;
 
-/// Ticks each process of the loop has lost so far.
+/// Number of ticks that each process of the loop has lost so far.
 std::map<std::string, std::uint64_t> lost_ticks(const Observer& observer) {
   std::map<std::string, std::uint64_t> lost;
   for (const auto& [name, status] : observer.nodes())

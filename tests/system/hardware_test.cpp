@@ -1,5 +1,5 @@
-/// The whole hardware path on an emulated Servo-to-Go board: the maneuvers against the simulated plant, and a
-/// bridge that dies or hangs at full speed.
+/// The whole hardware path with an emulated Servo-to-Go card: the maneuvers, compared with the simulated
+/// plant, and a bridge that ends or hangs at full speed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,9 +45,8 @@ experiments::ExperimentOptions options_for(const std::string& scenario,
 
 class HardwareManeuver : public testing::TestWithParam<const char*> {};
 
-/// Register by register the emulated board carries the same counts and codes as the simulated plant, so that
-/// nothing may differ but who measured; that it is equal to the last byte also means that it is within the
-/// quantisation.
+/// The emulated card has the same counts and codes as the simulated plant, so that only the name of the clock
+/// master may differ. Equal bytes also imply that the difference is below the quantisation.
 TEST_P(HardwareManeuver, ThroughTheBoardIsTheSameAsOnTheSimulatedPlant) {
   const TemporaryDirectory directory;
   auto options = options_for(GetParam(), directory / "simulated");
@@ -83,7 +82,7 @@ TEST(HardwareLockstep, ARigInAProcessOfItsOwnGivesTheSameBytesAsOneInTheBridge) 
         << file;
 }
 
-/// What the converters of trolley and jib give, as codes.
+/// Codes of the converters of trolley and jib.
 std::array<int, 2> codes(const bridge::RigMonitor& monitor) {
   return {monitor.lines().codes[0].load(), monitor.lines().codes[1].load()};
 }
@@ -118,7 +117,7 @@ TEST_P(BridgeDeath, AtFullSpeedClosesTheBrakesWithin50MsOfTheLastToggle) {
   }
 }
 
-// The first four are caught and end the process in order, the others leave it to the relay.
+// The first four signals are caught and end the process in order; for the others only the relay acts.
 INSTANTIATE_TEST_SUITE_P(By, BridgeDeath,
                          testing::Values(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGKILL, SIGSTOP, SIGABRT,
                                          SIGSEGV),
@@ -156,7 +155,7 @@ TEST(BridgeProcess, LeavesZeroVoltsAndClosedBrakesWhenCraneUpIsKilled) {
   EXPECT_TRUE(wait_for_end(children, 5s));
   EXPECT_EQ(codes(monitor), zero_v);
   EXPECT_EQ(monitor.lines().outputs,
-            closed);  // the emulated rig ends, too: its lines stay as the bridge left them
+            closed);  // the emulated rig ends, too: its lines keep the levels of the bridge
 }
 
 TEST(BridgeProcess, EndsWithTheProgramThatStartedItWhateverItsFileMayDo) {

@@ -1,4 +1,4 @@
-/// `crane home` at a stack in real time: an emulated Servo-to-Go card, a crane that stands anywhere.
+/// `crane home` with a stack in real time: an emulated Servo-to-Go card and a crane with unknown positions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(CraneHome, LetsTheTrolleyCreepToItsMarkAndSaysWhatIsNotHomed) {
   running.session().request_with_patience({.kind = crane_REQUEST_RESET}, "reset");
   EXPECT_THAT(crane({"move", "--trolley", "1.0"}).errors, HasSubstr("crane home"));
   auto ended = crane({"home", "--axis", "trolley", "--timeout", "60"});
-  for (int i = 0; i < 2 && ended.exit_code != 0; ++i) {  // ticks that a busy machine loses stop the crane
+  for (int i = 0; i < 2 && ended.exit_code != 0; ++i) {  // lost ticks on a busy computer stop the crane
     std::cout << ended.errors;
     EXPECT_FALSE(running.observer().states().back().position_known[0]);
     running.session().request_with_patience({.kind = crane_REQUEST_RESET}, "reset");

@@ -1,5 +1,5 @@
-/// Scenarios on whole stacks in lockstep: the same bytes whatever carries them, and the figures of the
-/// dissertation's three maneuvers.
+/// Scenarios with whole stacks in lockstep: equal bytes for every host and vendor, and the figures of the
+/// three maneuvers of the dissertation.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -18,7 +18,7 @@ using recording::TemporaryDirectory;
 
 constexpr std::uint32_t kDomain = 60;
 
-/// Everything a run consists of: a move of three axes, and pushes while they move.
+/// A scenario with all actions: a move of three axes, and kicks during the move.
 constexpr const char* kShort = R"(description = "a short run with everything in it"
 duration_s = 2.5
 [start]
@@ -45,7 +45,7 @@ class Lockstep : public testing::Test {
     options_.bus.domain = kDomain;
     options_.bus.crane = crane_name();
   }
-  /// The same scenario again, its files in a directory of that name.
+  /// Runs the scenario again, with files in a directory of this name.
   std::filesystem::path run(const std::string& name) {
     options_.directory = directory_ / name;
     const auto result = experiments::run_experiment(options_);
@@ -92,7 +92,7 @@ TEST_F(Lockstep, AnotherScenarioGivesOtherBytes) {
   EXPECT_FALSE(contents_of(files / "run.csv") == contents_of(run("other") / "run.csv"));
 }
 
-/// A law and a variant of the rig under which processes have to give the bytes of one process.
+/// A law and a variant of the rig for which processes and one process must give equal bytes.
 struct Law {
   const char *controller, *variant;
 };
@@ -166,8 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
       return test.param.rig + "_" + test.param.controller + "_" + test.param.scenario;
     });
 
-/// Every rig of the project with a trolley drive can be armed and moved, whatever the supervisor asks of its
-/// limits.
+/// Every rig file with a trolley drive can be armed and moved with the checks of its limits.
 class RigOfTheProject : public testing::TestWithParam<const char*> {};
 
 TEST_P(RigOfTheProject, CanBeArmedAndMoved) {

@@ -1,5 +1,5 @@
-/// To be preloaded into a process: a share of the datagrams that it sends is lost, as on a bad link. The
-/// share and the seed come from CRANE_LOST_SHARE (0.2) and CRANE_LOST_SEED.
+/// Preloaded library that drops a share of the datagrams of a process, like a lossy link. CRANE_LOST_SHARE
+/// (0.2) and CRANE_LOST_SEED set share and seed.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// The share in the file; null: nothing is lost.
+/// The share in the file; null: no loss.
 const volatile double* share() {
   static const volatile double* const mapped = [] {
     const char* path = std::getenv("CRANE_LOST_FILE");

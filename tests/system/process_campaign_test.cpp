@@ -1,8 +1,7 @@
-/// The fault campaign with real processes: every process of the control loop killed and stopped, and every
-/// loop topic forged, at random moments; and the whole loop on a link that loses packets. Everything is
-/// recorded, and the judge of the campaign in virtual time, which shares no code with supervisor and bridge,
-/// judges the recording. CRANE_PROCESS_SEED chooses moments and order, CRANE_PROCESS_ROUNDS how often every
-/// fault comes.
+/// The fault campaign with real processes: every process of the control loop is killed and stopped, and every
+/// loop topic forged, at random moments; also the whole loop on a lossy link. The judge of the campaign,
+/// which shares no code with supervisor and bridge, judges the recording. CRANE_PROCESS_SEED selects moments
+/// and order, CRANE_PROCESS_ROUNDS the number of repetitions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,15 +68,15 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
   return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
-/// A second writer is heard when DDS has found it, which takes up to a second between two vendors.
+/// A second writer is detected after its discovery, which takes up to a second between two vendors.
 constexpr auto kFound = 1500ms;
-/// A tick may begin so late before it counts as an overrun (docs/safety.md); a signal arrives as late.
+/// Largest delay of a tick that is no overrun (docs/safety.md); a signal may have the same delay.
 constexpr double kLate_ms = 5;
 
-/// Within this time a reliable writer has repeated what was lost.
+/// Time within which a reliable writer repeats lost samples.
 constexpr auto kRepeated = 200ms;
 
-/// What has to come of it: the same as in the campaign in virtual time, and how late real ticks may be.
+/// Expected reaction: as in the campaign in virtual time, plus the delay of real ticks.
 Expectation expectation_of(const Fault& fault) {
   if (fault.component == nullptr)
     return {.reasons = {{crane_CAUSE_SECOND_WRITER, crane_LATCH_NONE},
@@ -100,7 +99,7 @@ struct Struck {
   std::string name{};
   Expectation expectation{};
   std::int64_t onset_ns = 0, end_ns = 0;
-  std::int64_t lead_ns = 0;  ///< before the onset that is judged, too: since the crane was locked
+  std::int64_t lead_ns = 0;  ///< time before the onset that is judged, too: since the crane was LOCKED
   bool forged = false, lossy = false;
 };
 
@@ -157,7 +156,7 @@ class ProcessCampaign : public testing::Test {
     struck.end_ns = now_ns();
     return struck;
   }
-  /// @return when the stranger joined
+  /// @return time at which the foreign writer joined
   std::int64_t forge(const Fault& fault) {
     auto options = stack_->bus_options();
     options.vendor = fault.vendor;
@@ -174,7 +173,7 @@ class ProcessCampaign : public testing::Test {
     });
     return joined_ns;
   }
-  /// As before the fault; the crane is locked.
+  /// Restores the stack; the crane is LOCKED.
   void repair(const Fault& fault) {
     if (fault.component != nullptr && fault.signal == SIGSTOP) stack_->send(fault.component, SIGCONT);
     if (fault.component != nullptr && fault.signal == SIGKILL) stack_->start_again(fault.component);
@@ -182,7 +181,7 @@ class ProcessCampaign : public testing::Test {
     ASSERT_TRUE(stack_->until([this] { return is(crane_STATE_LOCKED); }, 10s));
   }
 
-  /// Ends the recorder and judges every run. @return number of runs in which the crane was stopped
+  /// Stops the recorder and judges every run. @return number of runs in which the crane was stopped
   std::size_t judge(const std::vector<Struck>& all) {
     const auto recorder = *stack_->children().pid_of("recorder");
     ::kill(recorder, SIGTERM);
@@ -192,7 +191,7 @@ class ProcessCampaign : public testing::Test {
     EXPECT_GT(recorded.states(), 100U);
     std::size_t stopped = 0;
     for (const auto& struck : all) {
-      campaign::Run run{.begin_ns = struck.onset_ns - struck.lead_ns,  // LOCKED because of the fault before
+      campaign::Run run{.begin_ns = struck.onset_ns - struck.lead_ns,  // LOCKED because of the previous fault
                         .onset_ns = struck.onset_ns,
                         .visible_ns = struck.onset_ns,
                         .expectation = struck.expectation};
@@ -207,7 +206,7 @@ class ProcessCampaign : public testing::Test {
                 << verdict.zero_volts_ms.value_or(-1) << " ms, braked after "
                 << verdict.braked_ms.value_or(-1) << " ms\n";
       for (const auto& violation : verdict.violations) {
-        // The recorder's own copy of a command is lost as often as the bridge's.
+        // The recorder loses commands as often as the bridge.
         if (struck.lossy && violation.invariant == campaign::Invariant::only_supervisor) continue;
         ADD_FAILURE() << struck.name << ": " << campaign::name_of(violation.invariant) << ": "
                       << violation.what << ", "
@@ -250,7 +249,7 @@ TEST_F(ProcessCampaign, EveryProcessAndEveryTopicAtRandomMoments) {
   (void)judge(all);
 }
 
-/// Share of the packets that every process loses (lossy_sockets.cpp).
+/// Share of packets that every process loses (lossy_sockets.cpp).
 class Link {
  public:
   explicit Link(std::filesystem::path file) : file_{std::move(file)} {
@@ -263,14 +262,14 @@ class Link {
     if (!out) out.open(file_, std::ios::binary);
     out.write(reinterpret_cast<const char*>(&share), sizeof share);
   }
-  /// Processes that start from now on lose nothing.
+  /// Processes that start later lose no packets.
   static void leave() { ::unsetenv("LD_PRELOAD"); }
 
  private:
   std::filesystem::path file_;
 };
 
-/// Lost packets may stop the crane, for a reason that says so, and move nothing that must not.
+/// Lost packets may stop the crane with a reason that names the loss; they must not cause forbidden motion.
 TEST_F(ProcessCampaign, ALinkThatLosesPacketsIsRiddenThroughOrStopsTheCrane) {
   ASSERT_TRUE(std::filesystem::exists(stack::program_directory() / "liblossy_sockets.so"));
   ::setenv("CRANE_LOST_SEED", std::to_string(number_from("CRANE_PROCESS_SEED", 1)).c_str(), 1);
@@ -296,7 +295,7 @@ TEST_F(ProcessCampaign, ALinkThatLosesPacketsIsRiddenThroughOrStopsTheCrane) {
     struck.end_ns = now_ns();
     link.lose(0);
     all.push_back(struck);
-    stack_->listen(kRepeated);  // old states that are sent again must not show what is asked next
+    stack_->listen(kRepeated);  // repeated old states must not count for the next request
     ASSERT_TRUE(stack_->until([this] { return is(crane_STATE_LOCKED) || is(crane_STATE_HOLD); }, 10s));
   }
   EXPECT_GT(judge(all), 0U) << "half of the packets lost, and the crane did not stop: are they lost?";

@@ -1,5 +1,5 @@
 #pragma once
-/// A program of the project as a user starts it: its output, its exit code, and what it leaves running.
+/// A program of the project as a user starts it: output, exit code, child processes.
 #include <sys/types.h>
 
 #include <chrono>
@@ -17,9 +17,9 @@ class ProgramRun {
   ProgramRun(const ProgramRun&) = delete;
   ProgramRun& operator=(const ProgramRun&) = delete;
 
-  /// Waits for the program's end. @return its exit code, 128 + signal, or nothing after `patience`
+  /// Waits for the end of the program. @return exit code, 128 + signal; nothing after `patience`
   std::optional<int> wait(std::chrono::milliseconds patience);
-  /// Waits until it has said `text` on standard output. @return false when it ended or `patience` passed
+  /// Waits for `text` on standard output. @return false when the program ended or `patience` passed
   bool wait_for(const std::string& text, std::chrono::milliseconds patience);
   void send(int signal) const;
 
@@ -27,7 +27,7 @@ class ProgramRun {
   [[nodiscard]] const std::string& errors() const { return errors_; }
 
  private:
-  /// Reads until something new came. @return false when the time is up or everything has been read
+  /// Reads until new output arrives. @return false after the time, or at the end of the output
   bool read_some(std::chrono::steady_clock::time_point give_up);
 
   pid_t pid_ = 0;
@@ -35,7 +35,7 @@ class ProgramRun {
   std::string output_, errors_;
 };
 
-/// Runs it to its end.
+/// Runs the program to its end.
 struct Ended {
   int exit_code = -1;  ///< -1: it did not end
   std::string output, errors;
@@ -43,7 +43,7 @@ struct Ended {
 [[nodiscard]] Ended run_program(const std::filesystem::path& program,
                                 const std::vector<std::string>& arguments);
 
-/// The processes that have `text` on their command line, this one apart.
+/// Processes with `text` on their command line, without this process.
 [[nodiscard]] std::vector<pid_t> processes_with(const std::string& text);
 /// Waits until all of `pids` have ended. @return false after `patience`
 [[nodiscard]] bool wait_for_end(const std::vector<pid_t>& pids, std::chrono::milliseconds patience);

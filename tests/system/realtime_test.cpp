@@ -1,4 +1,4 @@
-/// A move in real time settles as the same move in lockstep does.
+/// A move in real time settles like the same move in lockstep.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -61,7 +61,7 @@ TEST(Realtime, AMoveSettlesAsInLockstep) {
   EXPECT_NEAR(*metrics.settling_time_s, *lockstep.metrics.settling_time_s,
               0.05 * *lockstep.metrics.settling_time_s);
   EXPECT_EQ(session.status()->state, crane_STATE_HOLD);
-  // A machine that has other work may skip a tick; a stack that loses more than that has a defect.
+  // A busy computer may skip a tick; a larger loss is a defect of the stack.
   EXPECT_LE(static_cast<double>(metrics.lost_ticks), 0.01 * static_cast<double>(samples.size()));
 }
 

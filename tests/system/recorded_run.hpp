@@ -1,6 +1,6 @@
 #pragma once
-/// Rows for the judge of the fault campaign from the recording of real processes: what the recorder heard,
-/// and nothing that supervisor or bridge computed for the test.
+/// Converts a recording of real processes to rows for the judge of the fault campaign. Only the recording is
+/// used.
 #include <filesystem>
 
 #include "campaign/judge/judge.hpp"
@@ -12,9 +12,9 @@ class Recorded {
  public:
   /// @throws recording::ReadError
   explicit Recorded(const std::filesystem::path& file);
-  /// The ticks whose state was sampled within [from_ns, until_ns] of CLOCK_MONOTONIC. Of each topic the
-  /// samples of the writer that was heard before `from_ns` count, and those of later ones when `nobody_else`:
-  /// a stranger copies the time of a sample, so that its times tell nothing.
+  /// The ticks whose state was sampled within [from_ns, until_ns] of CLOCK_MONOTONIC. Of each topic, the
+  /// samples of the writer that was received before `from_ns` count; with `nobody_else` also those of later
+  /// writers. The sample times of a foreign writer are copies and prove nothing.
   [[nodiscard]] std::vector<campaign::Row> rows(std::int64_t from_ns, std::int64_t until_ns,
                                                 bool nobody_else) const;
   [[nodiscard]] std::size_t states() const { return states_.size(); }

@@ -1,6 +1,5 @@
 #pragma once
-/// The processes of a stack in real time, an operator at it, and everything it says kept for judging
-/// afterwards.
+/// The processes of a stack in real time, an operator, and a record of all received samples.
 #include <csignal>
 #include <functional>
 #include <map>
@@ -14,10 +13,10 @@
 
 namespace crane::system_test {
 
-/// A name nobody else uses: separates this test from every other crane in its domain.
+/// A unique name, which separates this test from other cranes in its domain.
 [[nodiscard]] std::string crane_name();
 
-/// What was heard, in the order of arrival, and when its writer sent it [ns since 1970].
+/// Received samples in the order of arrival, with the time of their writer [ns since 1970].
 class Observer {
  public:
   explicit Observer(bus::Bus& bus);
@@ -30,7 +29,7 @@ class Observer {
   [[nodiscard]] const std::vector<std::int64_t>& command_times_ns() const { return command_times_ns_; }
   /// The newest status of every process, by name.
   [[nodiscard]] const std::map<std::string, msg::NodeStatus>& nodes() const { return nodes_; }
-  /// Forgets all but the nodes.
+  /// Clears all samples except the status of the nodes.
   void forget();
 
  private:
@@ -59,9 +58,9 @@ class RunningStack {
 
   /// Sends `signal` to a process of the stack.
   void send(const std::string& component, int signal) const;
-  /// Starts a process of the stack anew.
+  /// Restarts a process of the stack.
   void start_again(const std::string& component);
-  /// Listens until `condition` holds. @return false when it does not within `patience`
+  /// Receives until `condition` holds. @return false when it does not within `patience`
   bool until(const std::function<bool()>& condition, std::chrono::milliseconds patience);
   void listen(std::chrono::milliseconds duration);
 

@@ -1,6 +1,5 @@
-/// What a user meets at the `crane` command: bad input, a crane that is there already, programs and disk
-/// space that are missing, and the end of a stack. One clear message, the right exit code, nothing left
-/// running.
+/// The `crane` command for a user: bad input, an existing crane, missing programs and disk space, the end of
+/// a stack. Each case has one clear message and the right exit code, and leaves no process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +30,7 @@ class Start : public testing::Test {
  protected:
   void TearDown() override { EXPECT_THAT(processes_with(crane_name()), IsEmpty()); }
 
-  /// The `crane` command on this test's crane.
+  /// The `crane` command for the crane of this test.
   [[nodiscard]] static std::vector<std::string> on_this_crane(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--domain", std::to_string(kDomain), "--crane", crane_name()});
     return arguments;
@@ -43,7 +42,7 @@ class Start : public testing::Test {
     put_contents(directory_ / name, text);
     return (directory_ / name).string();
   }
-  /// A rig file with these lines in addition to the tower crane's.
+  /// A rig file that extends the tower crane by these lines.
   [[nodiscard]] std::string rig_file(const std::string& lines) const {
     return file("rig.toml",
                 "extends = \"" + stack::find_rig("virginia_tech_tower").string() + "\"\n" + lines);
@@ -139,7 +138,7 @@ TEST_F(Start, AProgramMissingInTheMiddleLeavesNoneOfTheOthersRunning) {
   EXPECT_THAT(ended.errors, AllOf(HasSubstr("crane_tracking"), HasSubstr("build the project first")));
 }
 
-/// A device that is always full stands for a disk that has become so.
+/// A device that is always full replaces a full disk.
 TEST_F(Start, AFullDiskEndsARunWithOneLine) {
   for (const auto* way : {"processes", "--in-process"}) {
     const auto directory = directory_ / way;
@@ -155,7 +154,7 @@ TEST_F(Start, AFullDiskEndsARunWithOneLine) {
   }
 }
 
-/// A program of another release in the same crane.
+/// A program of another release for the same crane.
 bus::Bus program_of_another_version(bus::Vendor vendor) {
   return bus::Bus{{.vendor = vendor,
                    .domain = kDomain,
@@ -190,7 +189,7 @@ class StartOfASecond : public Start {
     EXPECT_EQ(first_.wait(10s), 0) << first_.errors();
     Start::TearDown();
   }
-  /// The first stack goes on as if nothing had happened: the same processes, and nobody else.
+  /// The first stack continues unchanged, with the same processes.
   void expect_only_the_first(const std::vector<pid_t>& before) const {
     EXPECT_EQ(processes_with(crane_name()), before);
     EXPECT_THAT(first_.errors(), IsEmpty());

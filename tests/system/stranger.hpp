@@ -1,6 +1,6 @@
 #pragma once
-/// A program of somebody else that joins the domain with the project's own bus, copies the headers it hears,
-/// and writes what only a process of the stack may write.
+/// A foreign program with the bus of this project: copies the headers of received samples, and writes topics
+/// that only a process of the stack may write.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace crane::system_test {
 
-/// Takes the newest sample of one topic, spoils it and publishes it again, as the writer it was heard from.
+/// Takes the newest sample of one topic, changes it, and publishes it under the identity of its writer.
 template <class T>
 class Stranger {
  public:
@@ -32,9 +32,9 @@ class Stranger {
                                         forged_.header.epoch + static_cast<std::uint32_t>(epoch_ahead)));
     writer_.emplace(mouth_->publisher(topic));
   }
-  /// When it began to join as a writer.
+  /// Time at which it began to join as a writer.
   [[nodiscard]] std::int64_t joined_ns() const { return joined_ns_; }
-  /// Publishes the forged sample for the tick of now and the next one.
+  /// Publishes the forged sample for the present tick and the next one.
   void speak() {
     while (const auto sample = heard_.take()) forged_.header.tick = sample->header.tick;
     for (int ahead = 0; ahead < 2; ++ahead, ++forged_.header.tick) EXPECT_TRUE(writer_->publish(forged_));
@@ -72,7 +72,7 @@ inline void armed(msg::SupervisorStatus& status) {
   status.move.target[0] = 1.2;
 }
 
-/// Calls `run(topic, spoil)` for the loop topic of that name ("command").
+/// Calls `run(topic, spoil)` for the loop topic with this name ("command").
 template <class Run>
 void with_forgery_of(std::string_view topic, const Run& run) {
   if (topic == "command") run(topics::command, open_and_push);

@@ -1,6 +1,5 @@
-/// A program of somebody else joins the domain with the project's own bus and writes what only a process of
-/// the stack may write. It copies the headers it hears. Whatever it writes, nothing moves that must not, and
-/// the supervisor or the bridge says why.
+/// A foreign program with the bus of this project writes topics that only a process of the stack may write,
+/// with copied headers. No forbidden motion occurs, and supervisor or bridge report the reason.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +20,7 @@ constexpr std::uint32_t kDomain = 65;
 struct Attack {
   const char* topic;
   const char* vendor;
-  int epoch_ahead;  ///< of the start-up number that was heard
+  int epoch_ahead;  ///< added to the received start-up number
 };
 std::ostream& operator<<(std::ostream& out, const Attack& attack) {
   return out << attack.topic << " from " << attack.vendor << ", start-up number + " << attack.epoch_ahead;
@@ -49,7 +48,7 @@ class StrangerTest : public testing::TestWithParam<Attack> {
     };
     with_forgery_of(topic, run);
   }
-  /// States of the real plant: those that say what its own encoders count.
+  /// States of the real plant: those with the counts of its encoders.
   [[nodiscard]] std::vector<msg::State> honest_states() const {
     auto states = stack_.observer().states();
     if (std::string{GetParam().topic} == "state")

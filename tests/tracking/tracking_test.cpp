@@ -1,4 +1,4 @@
-/// Tracking as a component: the right law, fed with the samples of one tick.
+/// The tracking component selects the right law and passes it the samples of one tick.
 #include "tracking/tracking.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-/// The worker of the trajectory planner: its thread gives the plan of the newest problem, the same as without
-/// a thread. The thread sanitizer runs these tests, too (deploy/test --all).
+/// The plan worker returns the plan of the newest problem, equal to a plan without a thread. The thread
+/// sanitizer runs these tests, too (deploy/test --all).
 #include "trajectory_planner/plan_worker.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ control::PlanProblem problem_to(double trolley_m) {
   return problem;
 }
 
-/// Asks as a loop does at every tick: again when the thread holds the lock.
+/// Calls ask() at every tick, and again when the thread holds the lock.
 void ask(PlanWorker& worker, const control::PlanProblem& problem) {
   while (!worker.ask(problem)) std::this_thread::yield();
 }

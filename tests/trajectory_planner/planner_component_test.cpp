@@ -1,4 +1,4 @@
-/// The planner as a component: executes the move that the supervisor accepted, and nothing else.
+/// The planner component executes the accepted move and nothing else.
 #include <gtest/gtest.h>
 
 #include "../runtime/component_bench.hpp"

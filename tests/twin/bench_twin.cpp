@@ -1,5 +1,5 @@
-/// Measures the live twin on simulated motion: false alarms in hours without a fault, and for each cause and
-/// size how long until the alarm and whether the cause is named. `bench_twin --help`.
+/// Measures the live twin with simulated motion: false alarms in hours without faults; for each cause and
+/// size the time to the alarm and the named cause. `bench_twin --help`.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -24,7 +24,7 @@ struct Options {
 struct Fault {
   std::string cause, axis, size;
   std::function<void(SimulatedMotion&, double sign)> happen;
-  bool unseen = false;  ///< the twin misses the ticks in which it happens
+  bool unseen = false;  ///< true: the twin misses the ticks of the change
 };
 
 void false_alarms(const Options& options, const configuration::Rig& rig) {

@@ -1,4 +1,4 @@
-// Friction and gain of a drive resemble each other in a few seconds of moves: the twin tells them apart.
+// Friction and gain of a drive have similar effects in a few seconds of motion: the twin distinguishes them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,13 +14,13 @@ configuration::Rig rig_of(const std::string& name) {
   return configuration::load_rig(CRANE_RIGS "/" + name + ".toml");
 }
 
-/// What the first event of a crane that becomes one with `change` names, "" without an event.
+/// Cause in the first event after the crane has changed by `change`; "" without an event.
 std::string named_cause(const plant::TermSetting& change, std::uint64_t seed) {
   constexpr long kSecond = 100;  // ticks
   static const configuration::Rig kRig = rig_of("virginia_tech_tower");
   SimulatedMotion motion{kRig, seed};
   twin::Twin twin{kRig};
-  // As long as bench_twin takes: how these seeds go on after it is known.
+  // Duration as in bench_twin, so that the continuation of these seeds is known.
   for (long k = 0; k < (45 + static_cast<long>(seed % 7)) * kSecond; ++k) twin.step(motion.next());
   motion.become_with(change);
   for (long k = 0; k < 40 * kSecond; ++k) {
@@ -41,10 +41,10 @@ TEST_P(Likeness, LessGainIsNoFriction) {
   EXPECT_EQ(named_cause({"motor_gain", "trolley", {{"factor", 0.9}}}, GetParam()), "motor_gain");
 }
 
-// Moves in which the one does nearly what the other does.
+// Moves in which both causes have nearly equal effects.
 INSTANTIATE_TEST_SUITE_P(Seed, Likeness, testing::Values(5, 7, 9, 13), testing::PrintToStringParamName());
 
-/// Levels of dry friction that are tried for an axis, V.
+/// Levels of dry friction for an axis, V.
 std::vector<double> levels(const configuration::Rig& rig, const std::string& axis) {
   std::vector<double> all;
   for (const twin::Hypothesis& h : twin::hypotheses_for(rig))

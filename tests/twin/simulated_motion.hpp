@@ -1,6 +1,6 @@
 #pragma once
 /// A tower crane in closed loop without bus, board and brakes: random moves, encoder counts and quantised
-/// volts as a bridge reports them. The plant may become another one while it moves.
+/// volts of a bridge. The plant can change during the motion.
 #include <memory>
 #include <optional>
 #include <random>
@@ -13,7 +13,7 @@
 
 namespace crane::test {
 
-/// What acts on the crane that no model knows: first-order coloured, correlation 0.2 s.
+/// Disturbances that no model contains: first-order coloured noise, correlation time 0.2 s.
 struct Disturbance {
   double drive_v = 0;       ///< standard deviation of a force on trolley and slew, in volts of their drives
   double swing_radps2 = 0;  ///< of an acceleration of the swing
@@ -21,7 +21,7 @@ struct Disturbance {
 
 class SimulatedMotion {
  public:
-  /// @param rig file's crane: the plant, until it is changed, and what the controller believes
+  /// @param rig  parameters of the plant until a change, and of the controller
   SimulatedMotion(const configuration::Rig& rig, std::uint64_t seed, const Disturbance& disturbance = {})
       : rig_(rig), random_(seed), disturbance_(disturbance) {
     state_.trolley_m = 0.6;
@@ -30,7 +30,7 @@ class SimulatedMotion {
     choose_target();
   }
 
-  /// From now on the plant is this one.
+  /// Replaces the plant.
   void become(const plant::Parameters& parameters, const std::vector<plant::TermSetting>& terms) {
     integrator_.reset();
     model_ = std::make_unique<plant::Model>(parameters, terms, rig_.period_s);

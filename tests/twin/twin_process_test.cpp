@@ -1,5 +1,5 @@
-// The twin as a process beside a stack of processes in lockstep: what it says about a crane that is not the
-// one of its rig file, and that it says the same in one process.
+// The twin as a process beside a stack of processes in lockstep: its event for a crane that differs from its
+// rig file, equal to that in one process.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ using recording::TemporaryDirectory;
 
 constexpr std::uint32_t kDomain = 61;
 
-/// Moves to and fro; enough of them to learn from and to judge.
+/// Moves in both directions, enough for learning and tests.
 std::string scenario_text(int moves) {
   std::string text = "description = \"to and fro\"\nduration_s = " + std::to_string(5 * moves) + "\n";
   for (int i = 0; i < moves; ++i)
@@ -32,7 +32,7 @@ std::string scenario_text(int moves) {
 
 class TwinProcess : public testing::Test {
  protected:
-  /// Runs the scenario on processes over DDS, the plant `variant` of the twin's rig.
+  /// Runs the scenario with processes over DDS; the plant is `variant` of the twin's rig.
   void run(const std::string& variant, int moves) {
     const auto rig_file = stack::find_rig("virginia_tech_tower");
     const auto rig = configuration::load_rig(rig_file);

@@ -1,5 +1,5 @@
-// The twin beside a simulated crane: it agrees with its own plant, notices and names what changes, and takes
-// no harm from bad input.
+// The twin with a simulated crane: it agrees with its own plant, detects and names changes, and tolerates bad
+// input.
 #include "crane/twin/twin.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ const configuration::Rig& rig() {
   return kRig;
 }
 
-/// Half of the usual learning: seconds of a test are dear.
+/// Half of the default learning time, which shortens the tests.
 twin::Design design() {
   twin::Design quick;
   quick.learn_s = 10;
@@ -34,7 +34,7 @@ constexpr long kSecond = 100;  // ticks
 
 class TwinTest : public testing::Test {
  protected:
-  /// @return the first notice within so many seconds
+  /// @return the first notice within this number of seconds
   std::optional<Notice> watch(double seconds) {
     for (long k = 0; k < std::lround(seconds * kSecond); ++k) {
       twin_.step(motion_.next());
@@ -95,7 +95,7 @@ TEST_P(ChangeTest, IsFoundNamedAndMeasured) {
   EXPECT_EQ(j.state, State::deviates);
   EXPECT_EQ(j.cause, GetParam().cause) << notice->what;
   EXPECT_EQ(j.axis, GetParam().axis) << notice->what;
-  // The size is linear in the change of the prediction: right to a third.
+  // The estimate is linear in the change of the prediction: tolerance one third.
   EXPECT_NEAR(j.size, GetParam().size, std::abs(GetParam().size) / 3) << notice->what;
   EXPECT_NE(notice->what.find(GetParam().cause), std::string::npos) << notice->what;
   EXPECT_FALSE(notice->remedy.empty());
@@ -203,7 +203,7 @@ TEST_F(TwinTest, DoesNotJudgeAnAxisThatABrakeHolds) {
   for (long k = 0; k < 10 * kSecond; ++k) {
     auto sample = motion_.next();
     sample.held = {true, true, true};
-    sample.counts[0] = 200000;  // where the brake holds it, whatever is commanded
+    sample.counts[0] = 200000;  // the brake holds the axis, independent of the command
     sample.counts[1] = 1000;
     const Judgement& j = twin_.step(sample);
     EXPECT_EQ(j.residual[0], 0);

@@ -1,6 +1,6 @@
-/// The comedi driver against the kernel's own comedi, in a virtual machine: analog outputs on comedi_test,
-/// whose inputs show them; lines on the parallel port. What these devices lack is lent by the wrappers below,
-/// and only that.
+/// The comedi driver with the comedi modules of the kernel in a virtual machine: analog outputs of
+/// comedi_test, measured by its inputs, and lines of the parallel port. The wrappers below replace only the
+/// functions that these devices do not have.
 #include <comedilib.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@
 #include "crane/boards/comedi.hpp"
 
 namespace {
-constexpr unsigned kLent = 10;  // subdevices from here on are lent, in this order
+constexpr unsigned kLent = 10;  // first replaced subdevice
 constexpr int kLentTypes[] = {COMEDI_SUBD_COUNTER, COMEDI_SUBD_AO, COMEDI_SUBD_DI, COMEDI_SUBD_DO};
 unsigned lent_outputs = 0;
 }  // namespace
@@ -58,7 +58,7 @@ constexpr const char* kTestDevice = "/dev/comedi1";  // comedi_test: 0 analog in
 constexpr const char* kPortDevice = "/dev/comedi0";  // comedi_parport: 0 data, 1 status, 2 control
 constexpr unsigned short kPort = 0x378;
 
-/// Everything lent, no axis.
+/// All subdevices are replaced; no axis.
 configuration::Rig lent_rig(const char* device) {
   configuration::Rig rig;
   rig.wiring.device = device;
@@ -69,7 +69,7 @@ configuration::Rig lent_rig(const char* device) {
   return rig;
 }
 
-/// Three axes on channels 2, 0 and 5 of the kernel's analog outputs.
+/// Three axes on the channels 2, 0 and 5 of the kernel's analog outputs.
 configuration::Rig analog_rig() {
   auto rig = lent_rig(kTestDevice);
   rig.wiring.analog_output_subdevice = 1;
@@ -90,7 +90,7 @@ std::string refusal(const configuration::Rig& rig) {
   return "";
 }
 
-/// What stands at the terminals, seen by another program.
+/// Levels at the terminals, read by another program.
 class Voltmeter {
  public:
   Voltmeter() : device_{comedi_open(kTestDevice)} {}

@@ -3,7 +3,7 @@
 namespace crane::bridge::test {
 namespace {
 
-// The board "emulated" is the same driver on the same card, which a process of its own holds.
+// The board "emulated" is the same driver with the same card in a separate process.
 const RegisteredSubject kModel1{{"servo_to_go_model_1", {"servo_to_go", "emulated"}, [](const auto& rig) {
                                    return std::make_unique<CardSubject>(rig, 1);
                                  }}};
