@@ -1,5 +1,4 @@
-# Every target of the project is declared by one of these functions, so that the language level, the
-# warnings and the sanitizers are the same everywhere.
+# Functions that declare every target of the project, so that language level, warnings and sanitizers are the same everywhere.
 
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
@@ -9,14 +8,14 @@ target_compile_features(crane_build_flags INTERFACE cxx_std_20)
 target_compile_options(crane_build_flags INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wconversion -Wshadow -Werror>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 sees both in the standard library itself (bugs 105329 and 105562), at -O2 and above.
+  # GCC 12 reports both for the standard library at -O2 and above (bugs 105329 and 105562).
   target_compile_options(crane_build_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict -Wno-maybe-uninitialized>)
 endif()
 
 if(CRANE_SANITIZE)
   add_compile_options(-fsanitize=${CRANE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   if(CRANE_SANITIZE MATCHES undefined)
-    # The address sanitizer sees what these see, at run time; they double the time to compile.
+    # The address sanitizer detects the same errors; these checks double the compile time.
     add_compile_options(-fno-sanitize=null,alignment,vptr)
   endif()
   add_link_options(-fsanitize=${CRANE_SANITIZE})
@@ -49,10 +48,10 @@ function(crane_executable name)
 endfunction()
 
 # crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL | LOOP])
-#   GoogleTest program; each TEST becomes one CTest test. SERIAL: never beside another test (real time, real DDS), and
-#   with the main() of tests/real_time: a failure is final unless a bare timer proves that the computer paused.
-#   The others carry the label "unit", if no other LABELS are given, and are built by the target unit_tests. LOOP: of a room that works while a crane moves; these
-#   carry the label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too.
+# GoogleTest program; each TEST becomes one CTest test. SERIAL: never runs beside another test (real time, real DDS), and has the
+# main() of tests/real_time, where a failure is final unless a bare timer proves that the computer paused. All other programs
+# carry the label "unit", unless LABELS are given, and are built by the target unit_tests. LOOP: tests of code that runs while a
+# crane moves; they carry the label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too.
 add_custom_target(unit_tests)
 add_custom_target(loop_tests)
 function(crane_test name)
@@ -63,9 +62,9 @@ function(crane_test name)
     set(main crane_real_time_main)
   endif()
   target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK} ${main} GTest::gmock GTest::gtest)
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # optimising tests costs more time than it saves
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # more optimisation costs more time than it saves
   target_precompile_headers(${name} REUSE_FROM crane_test_headers)
-  # ccache asks for the first. GCC 12 sees overflows in a <string> that is precompiled.
+  # ccache requires -fpch-preprocess. GCC 12 reports false overflows for a precompiled <string>.
   target_compile_options(${name} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow>)
   if(ARG_SERIAL)
     set(properties RUN_SERIAL TRUE)
@@ -87,15 +86,15 @@ function(crane_test name)
     set(ARG_TIMEOUT 60)
   endif()
   if(ARG_SERIAL)
-    math(EXPR ARG_TIMEOUT "3 * ${ARG_TIMEOUT}")  # as often as tests/real_time runs a test
+    math(EXPR ARG_TIMEOUT "3 * ${ARG_TIMEOUT}")  # tests/real_time runs a test up to three times
   endif()
-  # What a stack of a test records of its stops does not mix with what the user's cranes have recorded.
+  # Black-box recordings of tests go to a directory of their own.
   list(APPEND properties TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 
-# crane_benchmark(NAME [OWN_MAIN] SOURCES ... LINK ...): program in bin/ that measures, not a test. The target benchmarks builds all
-#   of them. Google Benchmark has the main(); OWN_MAIN: the program has its own.
+# crane_benchmark(NAME [OWN_MAIN] SOURCES ... LINK ...): program in bin/ that measures and is no test. The target benchmarks
+# builds all of them. Google Benchmark provides main(), unless OWN_MAIN is given.
 add_custom_target(benchmarks)
 function(crane_benchmark name)
   cmake_parse_arguments(ARG "OWN_MAIN" "" "SOURCES;LINK" ${ARGN})

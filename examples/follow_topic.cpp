@@ -1,5 +1,5 @@
-/// Follows a topic of a running stack: prints where the trolley is, once a second, for as many seconds as
-/// asked.
+/// Follows a topic of a running stack: prints the trolley position once a second, for the given number of
+/// seconds.
 ///   crane up &          then          example_follow_topic 5 [--domain N --crane NAME --interface ADDRESS …]
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   app.add_option("seconds", seconds, "how long to follow the topic")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  // A reader needs no start-up number: it writes nothing.
+  // A program that only reads needs no start-up number.
   crane::bus::Bus bus{crane::runtime::bus_options(options, "follow_topic", crane_SOURCE_OPERATOR, 0)};
   auto states = bus.subscriber(crane::topics::state);
 

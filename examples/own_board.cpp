@@ -1,5 +1,5 @@
-/// A board of one's own behind the hardware bridge: a bench of three motors without friction and without a
-/// load. The example runs the whole stack on it in lockstep and moves the trolley by 10 cm.
+/// A board of one's own behind the hardware bridge: three motors without friction and load. The example runs
+/// the whole stack on it in lockstep and moves the trolley by 10 cm.
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -71,7 +71,7 @@ class MotorBench final : public bridge::Board {
 
 int main() {
   auto rig = configuration::load_rig(stack::find_rig("virginia_tech_tower"));
-  for (auto& friction : rig.design.friction) friction.factor = 0;  // the bench has none to compensate
+  for (auto& friction : rig.design.friction) friction.factor = 0;  // the motors have no friction
   auto components = stack::hardware_stack();
   components.front().make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
     return std::make_unique<bridge::Bridge>(context, std::make_unique<MotorBench>(context.rig));

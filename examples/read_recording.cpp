@@ -1,4 +1,4 @@
-/// Reads a recording without the types it was written with: the IDL text in the file says how to decode it.
+/// Reads a recording without the types of this program: the IDL text in the file describes the samples.
 ///   example_read_recording run.mcap crane/state
 #include <cstdio>
 #include <exception>
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Prints the first three samples of `topic` and how many there are.
+/// Prints the first three samples of `topic` and the number of all samples.
 void print_topic(crane::recording::McapReader& recording, const std::string& topic) {
   int count = 0;
   recording.for_each({.topics = {topic}}, [&](const crane::recording::Message& message) {

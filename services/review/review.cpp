@@ -12,14 +12,14 @@ using dashboard::Note;
 using dashboard::Sample;
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-constexpr std::int64_t kYear2000_ns = 946'684'800'000'000'000;  // recordings of simulations begin at 0
+constexpr std::int64_t kYear2000_ns = 946'684'800'000'000'000;  // recordings of simulations begin at time 0
 
 std::size_t topic_index(const std::string& name) {
   const auto found = std::ranges::find(topics::kAll, name, &topics::Description::name);
   return static_cast<std::size_t>(found - topics::kAll.begin());
 }
 
-/// Every topic begins with its header: little endian, without gaps.
+/// Every sample begins with its header: little endian, without padding.
 msg::Header header_of(recording::Bytes cdr) {
   constexpr std::size_t kEncapsulation_bytes = 4;
   msg::Header header{};
@@ -33,7 +33,7 @@ msg::Header header_of(recording::Bytes cdr) {
   return header;
 }
 
-/// Reads sample by sample what a dashboard would have heard.
+/// Reads the recording sample by sample, like the observer of the dashboard.
 class Reader {
  public:
   explicit Reader(Review& review) : review_{review} {}
@@ -101,7 +101,7 @@ class Reader {
       axis.largest_volts = std::max(axis.largest_volts, std::abs(state.applied_v[i]));
       if (armed && !std::isnan(wanted))
         axis.largest_error = std::max(axis.largest_error, std::abs(wanted - position[i]) * scale[i]);
-      constexpr double kAtLimit = 0.999;  // one count of a 12 bit converter below it
+      constexpr double kAtLimit = 0.999;  // one count of a 12-bit converter below the limit
       if (status_.volt_limit_v[i] > 0 && std::abs(state.applied_v[i]) >= kAtLimit * status_.volt_limit_v[i])
         axis.saturated_s += period_s;
     }
@@ -114,7 +114,7 @@ class Reader {
 
   Review& review_;
   dashboard::Traffic traffic_;
-  dashboard::History history_;  ///< stays empty: the file is the history
+  dashboard::History history_;  ///< empty: the file itself is the history
   dashboard::FaultTimeline timeline_;
   msg::Reference reference_{};
   msg::SupervisorStatus status_{};

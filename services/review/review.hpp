@@ -1,5 +1,5 @@
 #pragma once
-/// What happened in a recording, in sentences and figures, first cause first; also as a self-contained page.
+/// Reviews a recording: states, faults with their first cause, figures, curves; as sentences and as a page.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace crane::review {
 
-/// The supervisor's state from a time on.
+/// State of the supervisor from a time on.
 struct Phase {
   std::int64_t at_ns = 0;
   std::uint64_t tick = 0;
@@ -19,7 +19,7 @@ struct Phase {
   crane_Cause cause = crane_CAUSE_NONE;
 };
 
-/// One row per tick of crane/state; the others are the newest that were heard. Angles in degrees.
+/// One row per tick of crane/state, with the newest samples of the other topics. Angles in degrees.
 struct Curves {
   std::vector<double> time_s;
   std::array<std::vector<double>, 3> position, reference, volts;
@@ -28,36 +28,35 @@ struct Curves {
 
 struct AxisFigures {
   double largest_speed = 0, largest_volts = 0;
-  double largest_error = 0;  ///< reference minus position while armed
-  double saturated_s = 0;    ///< time at the limit of the drive
+  double largest_error = 0;  ///< largest |reference - position| while armed
+  double saturated_s = 0;    ///< time with |V| at the limit of the drive
 };
 
 struct Review {
   std::string file;
   std::int64_t begin_ns = 0, end_ns = 0;
-  bool wall_clock = false;  ///< false: times are those of a simulation
+  bool wall_clock = false;  ///< false: the times are those of a simulation
   std::vector<dashboard::Fault> faults;
   std::vector<Phase> phases;
   Curves curves;
   std::array<AxisFigures, 3> axes;
   double largest_radial_deg = 0, largest_tangential_deg = 0;
   std::vector<dashboard::TopicTraffic> topics;  ///< in the order of topics::kAll
-  std::vector<std::string> problems;            ///< of the file
+  std::vector<std::string> problems;            ///< problems of the file
 
-  /// The first fault; without one the first stop that was ordered; nullptr: nothing stopped the crane.
+  /// The first fault; without a fault the first stop by the operator; nullptr: no stop.
   [[nodiscard]] const dashboard::Fault* first_stop() const;
-  /// The note of first_stop() that went wrong first: an order of the operator is a cause only when no fault
-  /// follows.
+  /// First cause of first_stop(). A request of the operator is the cause only when no fault follows.
   [[nodiscard]] const dashboard::Note* first_cause() const;
 };
 
-/// Reads the file as far as it is intact. @throws recording::ReadError when it is no recording of this
+/// Reads all intact parts of the file. @throws recording::ReadError when the file is no recording of this
 /// version
 [[nodiscard]] Review review(const std::filesystem::path& file);
 
-/// What happened; the first sentence names the first cause.
+/// The review as sentences; the first sentence names the first cause.
 [[nodiscard]] std::vector<std::string> sentences(const Review& review);
-/// Commands that lead on.
+/// Commands for a further analysis.
 [[nodiscard]] std::vector<std::string> next_commands(const Review& review);
 [[nodiscard]] report::Page page_of(const Review& review);
 

@@ -14,7 +14,7 @@ namespace {
 control::Shaping shaping_of(control::ReferenceShape shape, control::Shaping of_rig_file) {
   switch (shape) {
     case control::ReferenceShape::zv:
-    case control::ReferenceShape::time_optimal:  // its moves without a plan
+    case control::ReferenceShape::time_optimal:  // used for moves without a plan
       return control::Shaping::zv;
     case control::ReferenceShape::zvd:
       return control::Shaping::zvd;

@@ -76,7 +76,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     if (missing_statuses_ >= stale_after_ticks_) supervisor_ = crane_STATE_BOOT;
     const auto measured = runtime::measurement(*state);
     const auto next = tick + 1;
-    // A planner that starts beside an armed crane has no reference yet: it begins where the crane is.
+    // A planner that starts beside an armed crane has no reference yet: its reference begins at the position.
     if (!published_) motion_.follow(measured, next);
     if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) pending_.reset();
     if (supervisor_ == crane_STATE_STOP_C1) {

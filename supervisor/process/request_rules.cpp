@@ -15,7 +15,7 @@ using enum protection::Protection;
 
 constexpr double kLongestFollow_s = 3600;
 
-/// Farthest from its target, and fastest, that the sum of sines of a request can be.
+/// Upper bounds of distance and speed of a request's sum of sines.
 struct Excursion {
   double distance = 0, speed = 0;
 };

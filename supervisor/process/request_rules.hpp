@@ -1,5 +1,5 @@
 #pragma once
-/// Checks of a request before the state machine gets it.
+/// Checks of a request before the state machine.
 #include <optional>
 #include <string>
 

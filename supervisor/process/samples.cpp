@@ -7,7 +7,7 @@
 namespace crane::supervisor {
 namespace {
 
-/// The logic's numbers are those of crane.idl, one by one.
+/// The enumerators of the logic have the numbers of crane.idl.
 template <class Logic, class Idl>
 constexpr bool same(Logic logic, Idl idl) {
   return static_cast<int>(logic) == static_cast<int>(idl);
@@ -23,7 +23,8 @@ static_assert(same(State::stop_c1, crane_STATE_STOP_C1));
 static_assert(same(State::stop_c0, crane_STATE_STOP_C0));
 static_assert(same(State::estop, crane_STATE_ESTOP));
 static_assert(same(State::fault, crane_STATE_FAULT));
-static_assert(same(Cause::swing_sensor, crane_CAUSE_SWING_SENSOR));  // the list is that of crane.idl
+static_assert(same(Cause::swing_sensor,
+                   crane_CAUSE_SWING_SENSOR));  // the enumerators are generated from crane.idl
 static_assert(same(HomingFailure::mark_not_found, crane_HOMING_MARK_NOT_FOUND));
 static_assert(same(HomingFailure::mark_stuck, crane_HOMING_MARK_STUCK));
 static_assert(same(HomingFailure::other_switch, crane_HOMING_OTHER_SWITCH));

@@ -9,7 +9,7 @@ constexpr int kLongestTicks = 200;
 bool is_quiet(const msg::State& state) {
   for (std::size_t i = 0; i < kAxes; ++i)
     if (state.applied_v[i] != 0 || !state.brake_closed[i]) return false;
-  return state.watchdog_dropped;  // without permission the relay must have taken the brake supply away
+  return state.watchdog_dropped;  // without permission the relay must have removed the brake supply
 }
 
 }  // namespace

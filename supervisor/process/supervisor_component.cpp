@@ -22,11 +22,12 @@ namespace {
 
 using runtime::Context;
 
-constexpr double kWaitShare = 0.6;       // of a period, for the demand: the last hop before the bridge
-constexpr double kSilentPeriods = 1.5;   // without a state: the step is due all the same
-constexpr double kOpenPeriods = 2;       // more, while a state waits for its demand
-constexpr double kRespitePeriods = 0.5;  // after a step, or a wake-up, that came late
-constexpr int kTicksToTakeUp = 20;       // from the acceptance of a move until the planner follows it
+constexpr double kWaitShare = 0.6;  // share of a period: longest wait for the demand; the command must reach
+                                    // the bridge in the same period
+constexpr double kSilentPeriods = 1.5;   // without a state: the step is made after this time
+constexpr double kOpenPeriods = 2;       // additional time while a state waits for its demand
+constexpr double kRespitePeriods = 0.5;  // extension after a late step or a late wake-up
+constexpr int kTicksToTakeUp = 20;       // from the acceptance of a move until the planner must execute it
 
 class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg::Reference> {
  public:
@@ -85,8 +86,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     if (foreign) give_up();
   }
 
-  /// No state arrives: the bridge is dead, hung or cut off. Steps the state machine without a sample; the
-  /// command repeats the last tick, and the bridge discards it.
+  /// No state arrives: the bridge has ended, hangs or is disconnected. Steps the state machine without a
+  /// sample. The command repeats the last tick, and the bridge discards it.
   bool on_idle(std::int64_t now_ns) override {
     if (const auto* state = open_leader()) (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
     if (now_ns < silence_ends_ns() || woke_late(now_ns)) return false;
@@ -104,8 +105,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
 
  private:
-  /// From the acceptance of a move until its reference has ended. A planner that never takes the move up, and
-  /// a reference that is missing for a tick, must not decide about RUN.
+  /// True from the acceptance of a move until its reference has ended. A planner that does not execute the
+  /// move, or a missing reference, must not end RUN.
   bool is_moving(const msg::Reference* reference) {
     if (reference != nullptr) {
       reference_moving_ = reference->moving;
@@ -118,8 +119,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   [[nodiscard]] std::int64_t periods_ns(double periods) const {
     return static_cast<std::int64_t>(periods * limits_.period_s * 1e9);
   }
-  /// While a state has come and waits for its demand the join says when the step is due; it has a period for
-  /// it, so that one state after the other without a demand cannot put off every step.
+  /// While a state waits for its demand, the tick join determines the time of the step. The additional
+  /// periods ensure a step even when states continue to arrive without demands.
   [[nodiscard]] std::int64_t silence_ends_ns() const {
     if (!realtime_ || state_due_ns_ == runtime::kNever) return runtime::kNever;
     return state_due_ns_ + (open_leader() == nullptr ? 0 : periods_ns(kOpenPeriods));
@@ -128,8 +129,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     state_due_ns_ = time_ns;
     has_respite_ = false;
   }
-  /// When this process did not get the processor in time, what has arrived may not have been handed over yet:
-  /// one pause of the computer must not count as several missing ticks. Grants a respite, once per step.
+  /// When this process was scheduled late, samples that have arrived may not be delivered yet. One pause of
+  /// the computer must not count as several missing ticks: extends the wait, once per step.
   bool woke_late(std::int64_t now_ns) {
     if (has_respite_ || open_leader() != nullptr ||
         now_ns < silence_ends_ns() + periods_ns(kRespitePeriods) / 2)
@@ -139,7 +140,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     return true;
   }
 
-  /// The status that this process publishes last names what it has seen.
+  /// Reports the contradiction in the last status of this process.
   void note_foreign(TickInput& input) const {
     if (echo_.is_of_volts())
       input.foreign_command = true;
@@ -149,8 +150,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.brake_open_untold = true;
   }
 
-  /// The bridge obeys packets that look like this supervisor's. No command helps; the end of this process
-  /// takes its writer away, whose packets the bridge then drops, and makes `crane up` end the bridge with a
+  /// The bridge executes forged commands, which no command of this process can prevent. When this process
+  /// ends, its writer disappears: the bridge then drops its samples, and `crane up` ends the bridge with a
   /// signal.
   [[noreturn]] void give_up() {
     constexpr const char* kWhat =
@@ -174,7 +175,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     announce(output);
   }
 
-  /// Requests due on this tick; a target outside the travel is refused here and goes no further.
+  /// Requests that are due at this tick. Requests with invalid content are refused here.
   std::vector<msg::Request> collect(TickInput& input) {
     std::vector<msg::Request> asked;
     while (const auto request = requests_.take_due(input.tick)) {
@@ -232,10 +233,10 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   TickMemory memory_;
   msg::Header last_header_{};
   std::int64_t now_ns_ = 0;
-  std::int64_t state_due_ns_ = runtime::kNever;  ///< until then a state is expected, kNever: before the first
+  std::int64_t state_due_ns_ = runtime::kNever;  ///< time by which a state is expected; kNever: no state yet
   bool has_respite_ = false;
   std::uint64_t bridge_restarts_ = 0;
-  msg::AcceptedMove move_{};  ///< the last one; number 0: none yet
+  msg::AcceptedMove move_{};  ///< last accepted move; number 0: none
   int ticks_to_take_up_ = 0;
   bool reference_moving_ = false;
   State announced_ = State::boot;

@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of the state machine share.
+// Shared by the sources of the state machine.
 #include "crane/supervisor/rules.hpp"
 
 namespace crane::supervisor {
@@ -8,7 +8,7 @@ namespace crane::supervisor {
   return in.requests[static_cast<std::size_t>(request)];
 }
 
-/// The brakes are, or are about to be, open: the whole set of causes applies.
+/// True when the brakes are open or will open: all causes apply.
 [[nodiscard]] inline bool armed(const Memory& m) noexcept {
   return m.state == State::arming || m.state == State::hold || m.state == State::run ||
          m.state == State::stop_c1;
@@ -16,8 +16,8 @@ namespace crane::supervisor {
 
 using Answers = std::array<Answer, kRequests>;
 
-/// The answers to all requests of this tick, in the state that its causes have left. Stop, disarm and estop
-/// are never refused.
+/// Answers to all requests of this tick, after the causes of this tick have changed the state. Stop, disarm
+/// and estop are never refused.
 [[nodiscard]] Answers answer_all(const Limits& limits, const Inputs& in, const Memory& m) noexcept;
 
 }  // namespace crane::supervisor

@@ -8,7 +8,8 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr int kSettled_ticks = 5;  // with open brake: three samples and the two voltages before them
+constexpr int kSettled_ticks =
+    5;  // after the opening of the brake: three samples and the two voltages before them
 
 struct Interval {
   double low, high;
@@ -23,7 +24,7 @@ void remember(const FollowingInput& input, FollowingMemory& memory) noexcept {
     memory.free_ticks[i] = input.free[i] ? std::min(memory.free_ticks[i] + 1, kSettled_ticks) : 0;
 }
 
-/// The middle one of three samples, with mean rates.
+/// The middle sample of three, with mean rates.
 plant::State state_of(const Limits& limits, const FollowingMemory& memory) noexcept {
   const auto& [newest, middle, oldest] = memory.seen;
   const double span_s = newest.sampled_s - oldest.sampled_s;

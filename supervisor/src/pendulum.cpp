@@ -9,8 +9,7 @@ namespace {
 using Plane = PendulumMemory::Plane;
 
 constexpr double kLongestGap_s = 0.1;  // a longer time without samples clears the sum
-constexpr double kLeastDepth =
-    0.2;  // share of the cable; a higher load is not checked, its tangent is too large
+constexpr double kLeastDepth = 0.2;    // share of the cable; the swing of a higher load is not checked
 
 Plane operator-(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
 Plane operator+(const Plane& a, const Plane& b) { return {a[0] + b[0], a[1] + b[1]}; }
@@ -18,7 +17,7 @@ Plane operator*(double s, const Plane& a) { return {s * a[0], s * a[1]}; }
 double dot(const Plane& a, const Plane& b) { return a[0] * b[0] + a[1] * b[1]; }
 double norm(const Plane& a) { return std::hypot(a[0], a[1]); }
 
-/// The part of `a` along `direction` is shortened by `by`, at most to nothing; the part across it stays.
+/// Shortens the component of `a` along `direction` by `by`, at most to 0. The other component is unchanged.
 Plane shortened_along(const Plane& direction, double by, const Plane& a) {
   const double length = norm(direction);
   if (!(length > 0)) return a;
@@ -108,7 +107,7 @@ bool follow_counts(const Limits& limits, const PendulumInput& input, double span
 bool was_pushed(PendulumMemory& memory) {
   constexpr double kOfTheSwing = 0.5;
   const double length = norm(memory.sum_mps);
-  // A swing in another direction than the sum is no push that explains it.
+  // A push explains the sum only when both have the same direction.
   const double swung = dot(memory.swung_mps, memory.sum_mps) / length;
   if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks || !(swung >= kOfTheSwing * length))
     return false;

@@ -39,7 +39,7 @@ constexpr const char* kEnvelope =
 constexpr const char* kDemandJumps =
     "the demand jumps, or does not match a crane at rest: check the controller and its reference";
 constexpr const char* kFollowing =
-    "the axis does not do what its drive was told: check amplifier, encoder, brake and load, then reset";
+    "the axis does not follow its voltage: check amplifier, encoder, brake and load, then reset";
 constexpr const char* kSwing = "wait until the load swings less, then reset";
 constexpr const char* kResetArm = "reset, then arm";
 
@@ -47,11 +47,11 @@ constexpr const char* kResetArm = "reset, then arm";
 constexpr std::array kRules{
     Rule{"supervisor_brake_did_not_close", Cause::brake_did_not_close, Reaction::fault, Scope::past_self_test, false,
          [](L, I in, M) noexcept { return in.brake_failed; },
-         "an axis under a brake told to close is farther than twice its stopping distance plus `brake_slip`, or the brake "
-         "does not report closed within its closing time plus 110 ms", "same tick", kCheckBrakes},
+         "an axis moves by more than twice its stopping distance plus `brake_slip` after the command to close its brake, or the "
+         "brake does not report closed within its closing time plus 110 ms", "same tick", kCheckBrakes},
     Rule{"supervisor_selftest_failed", Cause::selftest_failed, Reaction::fault, Scope::selftest, false,
          [](L, I in, M) noexcept { return in.self_test == SelfTest::failed; },
-         "the board does not rest at 0 V with closed brakes and dropped relay for 0.1 s", "2 s",
+         "the board does not show 0 V, closed brakes and open relay for 0.1 s", "2 s",
          "look at the events of the self-test, then restart the supervisor"},
     Rule{"supervisor_foreign_command", Cause::second_writer, Reaction::fault, Scope::always, false,
          [](L, I in, M) noexcept { return in.foreign_command; },
@@ -62,24 +62,24 @@ constexpr std::array kRules{
          "the emergency stop of the rig is pressed", "same tick", "release the emergency stop, wait a second, then reset"},
     Rule{"supervisor_operator_estop", Cause::operator_estop, Reaction::estop, Scope::always, false,
          [](L, I in, M) noexcept { return asked(in, Request::estop); },
-         "request `estop`", "same tick", "find out why it was stopped, then reset"},
+         "request `estop`", "same tick", "find the reason for the stop, then reset"},
     Rule{"supervisor_second_writer", Cause::second_writer, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.second_writer; },
-         "a loop topic has had a second writer within the last second", "same tick; 1 tick later where another process hears it",
+         "a loop topic has had a second writer within the last second", "same tick; 1 tick later when another process detects it",
          kTwoWriters},
     Rule{"supervisor_bridge_latched", Cause::bridge_latched, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return bridge_stopped(in) && bridge_matters(m); },
-         "the bridge has latched, or the relay has dropped", "same tick", kBridgeStopped},
+         "the bridge has latched, or the watchdog relay is open", "same tick", kBridgeStopped},
     Rule{"supervisor_not_homed", Cause::not_homed, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return in.not_homed && !m.homing; },
          "the position of an axis has become unknown", "same tick",
-         "the position of an axis is not known: reset, then `crane home` (with --axis for one of them)"},
+         "reset, then `crane home` (with --axis for one axis)"},
     Rule{"supervisor_homing_failed", Cause::homing_failed, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept {
            return m.homing && m.state == State::run && in.homing_failure != HomingFailure::none;
          },
          "homing has ended without a position", "same tick",
-         "`crane status` and the events say why; remove the cause, reset, then `crane home`"},
+         "`crane status` and the events state the cause; remove it, reset, then `crane home`"},
     Rule{"supervisor_position_limit", Cause::position_limit, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.envelope.position; },
          "an axis is beyond a hard limit", "same tick", "bring the axis back inside its limits by hand"},
@@ -108,7 +108,7 @@ constexpr std::array kRules{
          "an axis moves more than `brake_slip` while the brakes open", "same tick", kEnvelope},
     Rule{"supervisor_brake_did_not_open", Cause::brake_did_not_open, Reaction::power_off, Scope::arming, false,
          [](L limits, I in, M m) noexcept { return opening_is_late(limits, in, m) && !in.brakes_open; },
-         "a brake reports closed 0.2 s after it was told to open", "0.2 s", kBrakeSupply},
+         "a brake reports closed 0.2 s after the command to open", "0.2 s", kBrakeSupply},
     Rule{"supervisor_state_stale", Cause::state_stale, Reaction::ramped_stop, Scope::armed, true,
          [](L, I in, M) noexcept { return in.state_stale; },
          "`crane/state` is missing for `state_stale_after_ticks` steps", "3rd step in a row",
@@ -131,13 +131,13 @@ constexpr std::array kRules{
          "the computer is too busy: give the stack real-time priority"},
     Rule{"supervisor_stopping_envelope", Cause::stopping_envelope, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.envelope.stopping; },
-         "an axis would not stop before a hard limit; no voltage outwards from then on", "same tick", kEnvelope},
+         "an axis cannot stop before a hard limit; from then on no voltage outwards", "same tick", kEnvelope},
     Rule{"supervisor_swing_runaway", Cause::swing_limit, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.envelope.swing_runaway; },
          "the load swings farther than 1.25 times `swing_limit_rad`", "same tick", kSwing},
     Rule{"supervisor_swing_sensor", Cause::swing_sensor, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.swing_sensor_failed; },
-         "the load that the encoders show does not move as a pendulum under the trolley that they show",
+         "the measured load does not move as a pendulum under the measured trolley",
          "250 ms for an error of 0.1 rad", "check the encoders of swing, trolley and slew, and their cables, then reset"},
     Rule{"supervisor_stop_timeout", Cause::stop_timeout, Reaction::ramped_stop, Scope::armed, false,
          [](L limits, I in, M m) noexcept {
@@ -163,7 +163,7 @@ constexpr std::array kRules{
     Rule{"supervisor_bridge_restarted", Cause::bridge_restarted, Reaction::none, Scope::restart, false,
          [](L, I in, M) noexcept { return in.bridge_restarted; },
          "another bridge writes `crane/state`: SELFTEST, then LOCKED", "first state of the new bridge",
-         "the positions are those of a new bridge: look where the axes stand, then reset"},
+         "the positions come from a new bridge: check where the axes are, then reset"},
 };
 // clang-format on
 

@@ -32,7 +32,7 @@ template <class... Source>
 [[nodiscard]] constexpr Sources only(Source... source) {
   return ((Sources{1} << static_cast<unsigned>(source)) | ...);
 }
-/// Processes that run and report on themselves; a tool that asks or reads does not.
+/// Processes that publish crane/node and crane/event. Tools that send requests or only read publish neither.
 inline constexpr Sources kProcesses =
     only(crane_SOURCE_PLANT, crane_SOURCE_BRIDGE, crane_SOURCE_PLANNER, crane_SOURCE_TRACKING,
          crane_SOURCE_ANTI_SWING, crane_SOURCE_FRICTION, crane_SOURCE_SUPERVISOR, crane_SOURCE_RECORDER,

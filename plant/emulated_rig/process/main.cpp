@@ -1,5 +1,5 @@
-/// crane_emulated_rig: a crane with an emulated Servo-to-Go card, in a process of its own. It runs on when
-/// the bridge dies or hangs; its watchdog relay then closes the brakes.
+/// crane_emulated_rig: an emulated Servo-to-Go card with its crane, in a separate process. It continues when
+/// the bridge ends or hangs; its watchdog relay then closes the brakes.
 #include <sched.h>
 #include <sys/mman.h>
 
@@ -33,7 +33,7 @@ void enter_realtime(int priority) {
             << "; its relay may react late under load\n";
 }
 
-/// Steps much shorter than a tick: a toggle must not be gone before it is seen.
+/// The steps are much shorter than a tick, so that no toggle of an output is missed.
 void run_in_realtime(emulated_rig::RigServer& server, double period_s) {
   const auto step_ns = std::min<std::int64_t>(1'000'000, std::llround(period_s / 4 * 1e9));
   const auto begin_ns = runtime::monotonic_ns();

@@ -20,7 +20,7 @@ RigServer::RigServer(const configuration::Rig& rig, const std::string& name, boo
     if (file_->size() == 0)
       lines_ = new (file_->map(sizeof(bridge::SharedLines))) bridge::SharedLines{};
     else
-      file_->unlink();  // left behind by a rig that has died
+      file_->unlink();  // a file of a rig that has ended
   }
   if (lines_ == nullptr) throw bridge::BoardError("shared memory " + name + ": in use by something else");
   lines_->lockstep = lockstep;
@@ -45,8 +45,7 @@ void RigServer::serve_advance() {
 }
 
 void RigServer::run_to(std::int64_t time_ns) {
-  constexpr std::int64_t kStep_ns =
-      1'000'000;  // so that a moment is known to the millisecond by a late process too
+  constexpr std::int64_t kStep_ns = 1'000'000;  // a late process then still times events to the millisecond
   const auto offset_ns = monotonic_ns() - time_ns;
   const bridge::OutputChange* change = next_output_change();
   while (rig_.now_ns() < time_ns || (change != nullptr && change->at_ns <= time_ns + offset_ns)) {
@@ -64,14 +63,14 @@ void RigServer::run_to(std::int64_t time_ns) {
   put_lines();
 }
 
-/// What this process has not seen yet, though it may be some time ago: a toggle in the meantime kept the
-/// relay closed.
+/// Oldest change of the outputs that is not yet applied. All changes are applied at their times: a toggle
+/// keeps the relay closed.
 const bridge::OutputChange* RigServer::next_output_change() {
   const std::uint64_t count = lines_->output_change_count;
   if (seen_output_changes_ == count) return nullptr;
   if (count - seen_output_changes_ >= bridge::SharedLines::kOutputChanges)
     seen_output_changes_ =
-        count - bridge::SharedLines::kOutputChanges + 1;  // the oldest one may be being replaced
+        count - bridge::SharedLines::kOutputChanges + 1;  // the oldest entry may be overwritten now
   return &lines_->output_changes[seen_output_changes_ % bridge::SharedLines::kOutputChanges];
 }
 
@@ -104,7 +103,8 @@ void RigServer::put_lines() {
   for (std::size_t i = 0; i < bridge::kCardChannels; ++i) lines_->pulses[i] = rig_.pulses(i);
   lines_->inputs = rig_.inputs();
   lines_->beat_ns = monotonic_ns();
-  lines_->rig_time_ns = rig_.now_ns();  // last: who waits for a time finds the lines of that time
+  lines_->rig_time_ns =
+      rig_.now_ns();  // last: a process that waits for this time then reads the lines of this time
 }
 
 }  // namespace crane::emulated_rig

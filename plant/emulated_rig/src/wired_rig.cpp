@@ -25,10 +25,10 @@ std::int32_t WiredRig::pulses(std::size_t channel) noexcept {
   for (std::size_t i = 0; i < bridge::kCounters; ++i)
     if (encoders_[i].counts_per_unit > 0 && static_cast<std::size_t>(encoders_[i].channel) == channel)
       return crane_.read().raw_counts[i] - first_counts_[i];
-  return 0;  // nothing plugged in
+  return 0;  // no encoder at this channel
 }
 
-/// A contact is closed, and its line low, when all is well.
+/// A contact is closed, and its line low, in normal operation.
 std::uint16_t WiredRig::inputs() noexcept {
   const auto state = crane_.read();
   unsigned levels = 0xFFFF;
@@ -61,7 +61,7 @@ void WiredRig::set_outputs(std::uint16_t levels) noexcept {
   changed_ = true;
 }
 
-/// What a tick changes on several lines acts once: command terms of the model remember ticks.
+/// Writes the changes of several lines together: the command terms of the model act once per tick.
 void WiredRig::advance_to(std::int64_t time_ns) {
   if (changed_) crane_.write(outputs_);
   changed_ = false;

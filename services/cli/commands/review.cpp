@@ -1,4 +1,4 @@
-/// crane review: what happened in a recording.
+/// crane review: reviews a recording.
 #include "review/review.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-/// crane supervisor explain: the rule table that the supervisor runs, and why the present state refuses what.
+/// crane supervisor explain: the rule table, and the requests that the present state refuses.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>

@@ -5,20 +5,19 @@
 /// r: horizontal position of the load, p: of the trolley, z: height of the load relative to the jib, h: its
 /// depth below the jib. All of them are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
-/// needs no drive, no friction and no load mass. The mean of e over kMean samples is summed as a vector and
-/// reduced by what is not known (run_length.hpp): a zero wrong by kZero_rad, wind of kWind_mps2 and a damping
-/// ratio of kDamping in any direction; a cable that is k times the measured one leaves e = (1 - k) dr', so
-/// that kCableTolerance of the change of the swing rate dr' counts along dr' only. A sum longer than
-/// kSpeed_mps and the quantisation of the swing rate means that a swing encoder has failed, or the encoder of
+/// needs no drive, no friction and no load mass. The mean of e over kMean samples is summed as a vector
+/// (run_length.hpp) and reduced by the tolerances: a zero error of kZero_rad, wind of kWind_mps2 and a
+/// damping ratio of kDamping in any direction; a cable that is k times the measured one leaves e = (1 - k)
+/// dr', so that kCableTolerance of the change of the swing rate dr' counts along dr' only. When the sum
+/// exceeds kSpeed_mps and the quantisation of the swing rate, a swing encoder has failed, or the encoder of
 /// the axis that carries the load.
 ///
-/// A load that somebody pushes gains its speed within a sample or two, and swings as a pendulum afterwards. A
-/// sum that exceeds the limit within kPush_ticks is forgiven once in kPush_s when at least
-/// half of it is a change of the swing rate in the same direction, unless a swing
-/// encoder that was counting stands from then on for kStands_ticks: nobody's push brings a load to rest
-/// within a count.
+/// Push: a pushed load gains its speed within one or two samples and swings as a pendulum afterwards. One sum
+/// per kPush_s that exceeds the limit within kPush_ticks is tolerated when at least half of it is a change of
+/// the swing rate in the same direction. It is not tolerated when a swing encoder that was counting does not
+/// change for kStands_ticks afterwards: no push stops a load exactly.
 ///
-/// Detection time of a swing encoder that has stopped and has the error a, rad:
+/// Detection time of a frozen swing encoder with the error a, rad:
 ///   (kSpeed_mps + noise) / (g (|a| - kZero_rad) - kWind_mps2) + (kMean + 2) ticks.
 /// An error below kZero_rad + kWind_mps2 / g = 46 mrad is not detected. False alarms: none within the
 /// tolerances; average run length above 1e9 ticks for a white disturbance of the same size

@@ -16,7 +16,7 @@ enum class Request : std::uint8_t { reset, arm, disarm, move, stop, estop, home 
 inline constexpr std::size_t kRequests = 7;
 using Requests = std::array<bool, kRequests>;  ///< indexed by Request; true: requested in this tick
 
-/// Inputs of one tick. Flags: false is healthy; the comment of every other flag begins with "true:".
+/// Inputs of one tick. A flag is false = healthy, unless its comment begins with "true:".
 struct Inputs {
   double now_s = 0;  ///< time of the sample, never runs backwards
   SelfTest self_test = SelfTest::not_started;

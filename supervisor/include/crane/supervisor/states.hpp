@@ -27,7 +27,7 @@ enum class State : std::uint8_t {
 };
 inline constexpr std::size_t kStates = 11;
 
-/// The causes of crane.idl in lower case. crane.idl says what each one means.
+/// The causes of crane.idl in lower case; crane.idl explains them.
 enum class Cause : std::uint8_t {
 #define CRANE_CAUSE(name, text) name,
 #include "crane/causes.def"

@@ -50,7 +50,7 @@ inline constexpr std::array<Field<Rig>, 4> kRigFields{{
     {.key = "board",
      .member = Choice<Rig>{board_names, [](const Rig& rig) { return place_of(rig.board, board_names()); },
                            [](Rig& rig, std::size_t i) { rig.board = board_names()[i]; }},
-     .meaning = "the hardware board ([`hardware.md`](hardware.md)); a simulated plant does not ask for it"},
+     .meaning = "hardware board ([`hardware.md`](hardware.md)); the simulated plant ignores it"},
 }};
 
 inline constexpr std::array<Field<Drive>, 5> kDriveFields{{
@@ -62,9 +62,8 @@ inline constexpr std::array<Field<Drive>, 5> kDriveFields{{
     {.key = "sign",
      .member = &Drive::sign,
      .range = Range::closed(-1, 1),
-     .meaning =
-         "1 or -1: which way a positive voltage moves it; the bridge takes it into account, so that all "
-         "topics are positive outward"},
+     .meaning = "1 or -1: direction of motion for a positive voltage; the bridge applies it, so that the "
+                "voltages of all topics are positive outward"},
     {.key = "reference_speed",
      .member = &Drive::reference_speed,
      .range = kPlanned,
@@ -103,7 +102,7 @@ inline constexpr std::array<Field<Encoder>, 3> kEncoderFields{{
     {.key = "sign",
      .member = &Encoder::sign,
      .range = Range::closed(-1, 1),
-     .meaning = "1 or -1: which way it counts"},
+     .meaning = "1 or -1: direction of counting"},
 }};
 
 /// For encoders of drives only.
@@ -115,9 +114,9 @@ inline constexpr std::array<Field<Drive>, 1> kZeroFields{{
                              [](const Drive& drive) { return static_cast<std::size_t>(drive.zero); },
                              [](Drive& drive, std::size_t i) { drive.zero = static_cast<control::Zero>(i); }},
      .meaning =
-         "how it is known where the axis stands: it was put where `[start]` says before the bridge "
-         "started; the encoder shows it (boards with incremental counters refuse this); it has to creep "
-         "to its mark first"},
+         "origin of the position: `start`, the axis is at the position in `[start]` when the bridge starts; "
+         "`absolute`, an absolute encoder (boards with incremental counters refuse it); `homing`, the axis "
+         "must find its mark"},
 }};
 
 inline constexpr std::array<Field<control::Homing>, 1> kMarkFields{{
@@ -128,8 +127,9 @@ inline constexpr std::array<Field<control::Homing>, 1> kMarkFields{{
          },
          [](const control::Homing& homing) { return static_cast<std::size_t>(homing.mark); },
          [](control::Homing& homing, std::size_t i) { homing.mark = static_cast<control::Mark>(i); }},
-     .meaning = "limit switch, or the contact `mark_input` of `[wiring.NAME]`, closed wherever the axis is "
-                "below its position",
+     .meaning =
+         "limit switch, or the contact `mark_input` of `[wiring.NAME]`, which is closed while the axis "
+         "is below `position`",
      .presence = Presence::required},
 }};
 
@@ -143,19 +143,19 @@ inline constexpr std::array<Field<Wiring>, 10> kWiringFields{{
     {.key = "counter_subdevice",
      .member = &Wiring::counter_subdevice,
      .range = kSubdevices,
-     .meaning = "subdevice of a comedi board, each once; the default is that of an s626"},
+     .meaning = "subdevice of the counters of a comedi board, each once; the defaults are those of an s626"},
     {.key = "analog_output_subdevice",
      .member = &Wiring::analog_output_subdevice,
      .range = kSubdevices,
-     .meaning = "the same"},
+     .meaning = "subdevice of the analog outputs"},
     {.key = "input_subdevice",
      .member = &Wiring::input_subdevice,
      .range = kSubdevices,
-     .meaning = "the same"},
+     .meaning = "subdevice of the digital inputs"},
     {.key = "output_subdevice",
      .member = &Wiring::output_subdevice,
      .range = kSubdevices,
-     .meaning = "the same"},
+     .meaning = "subdevice of the digital outputs"},
     {.key = "estop_input",
      .member = &Wiring::estop_input,
      .range = kInputs,
@@ -167,12 +167,12 @@ inline constexpr std::array<Field<Wiring>, 10> kWiringFields{{
     {.key = "watchdog_output",
      .member = &Wiring::watchdog_output,
      .range = kOutputs,
-     .meaning = "changes every tick while all is well"},
+     .meaning = "changes every tick in normal operation"},
     {.key = "relay_timeout_s",
      .member = &Wiring::relay_timeout_s,
      .range = Range::above(0, 1),
      .unit = "s",
-     .meaning = "the relay drops when its input has not changed for longer"},
+     .meaning = "the watchdog relay opens when its input is constant for longer"},
 }};
 
 inline constexpr std::array<Field<DriveLines>, 5> kDriveLineFields{{
@@ -213,8 +213,7 @@ inline constexpr std::array<Field<Sensing>, 3> kSensingFields{{
      .default_text = "`[\"slew\"]`"},
     {.key = "filter_swing_angle",
      .member = &Sensing::filter_swing_angle,
-     .meaning =
-         "the swing angles themselves are passed on filtered, too (`docs/analysis.md`: what it costs)"},
+     .meaning = "true: `crane/state` contains the filtered swing angles (effect: `docs/analysis.md`)"},
 }};
 
 inline constexpr std::array<Field<Start>, 6> kStartFields{{
@@ -238,7 +237,7 @@ inline constexpr std::array<Field<Start>, 6> kStartFields{{
      .member = &Start::cable_length_offset_m,
      .range = plant::kPositions,
      .unit = "m",
-     .meaning = "the true cable is longer by this than the hoist encoder says; above -`cable_length_m`"},
+     .meaning = "true minus measured cable length; above -`cable_length_m`"},
     {.key = "swing_radial_rad",
      .member = &Start::swing_radial_rad,
      .range = plant::kSwings,
@@ -268,7 +267,7 @@ inline constexpr std::array<Field<Planning>, 5> kPlanningFields{{
                                 },
                                 [](const Planning& planning) -> std::size_t { return planning.limits_jerk; },
                                 [](Planning& planning, std::size_t i) { planning.limits_jerk = i == 1; }},
-     .meaning = "how moves are planned; `s_curve` limits the jerk"},
+     .meaning = "profile of planned moves; `s_curve` limits the jerk"},
     {.key = "shaper",
      .member = Choice<Planning>{
          [] {
@@ -276,7 +275,7 @@ inline constexpr std::array<Field<Planning>, 5> kPlanningFields{{
          },
          [](const Planning& planning) { return static_cast<std::size_t>(planning.shaping); },
          [](Planning& planning, std::size_t i) { planning.shaping = static_cast<control::Shaping>(i); }},
-     .meaning = "impulses that the planned references of trolley and slew are convolved with"},
+     .meaning = "input shaper for the planned references of trolley and slew"},
     {.key = "planned_swing_rad",
      .member = &Planning::planned_swing_rad,
      .range = Range::closed(0.001, 1),
@@ -291,9 +290,8 @@ inline constexpr std::array<Field<Planning>, 5> kPlanningFields{{
      .member = &Planning::planning_time_s,
      .range = Range::closed(0, 10),
      .unit = "s",
-     .meaning =
-         "`time_optimal`: a plan begins so long after its request; without a plan by then, the move is "
-         "shaped (`zv`)"},
+     .meaning = "`time_optimal`: time from the request to the start of the plan; when no plan is ready then, "
+                "the move is shaped (`zv`)"},
 }};
 
 /// Calls visit(path, fields, section, unit) for every section of the rig. `path` is empty for the root;

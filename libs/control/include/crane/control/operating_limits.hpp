@@ -34,14 +34,13 @@ inline constexpr std::array kOperatingLimitFields{
         .member = &OperatingLimits::stale_after_s,
         .range = kSilences,
         .unit = "s",
-        .meaning = "age of the command at which the bridge stops the crane, in whole ticks, at least one"},
+        .meaning = "age of the newest command that stops the crane (bridge); whole ticks, at least one"},
     fields::Field<OperatingLimits>{
         .key = "demand_stale_after_s",
         .member = &OperatingLimits::demand_stale_after_s,
         .range = kSilences,
         .unit = "s",
-        .meaning =
-            "time without a demand after which the supervisor stops the crane, in whole ticks, at least one"},
+        .meaning = "time without a demand that stops the crane (supervisor); whole ticks, at least one"},
     fields::Field<OperatingLimits>{.key = "idle_lock_s",
                                    .member = &OperatingLimits::idle_lock_s,
                                    .range = kIdleTimes,

@@ -7,8 +7,8 @@
 
 namespace crane::emulated_rig {
 
-/// An emulated card with a simulated crane at its plugs, both in this process.
-/// @throws std::invalid_argument naming every problem of the rig
+/// An emulated card with a simulated crane at its connectors, both in this process.
+/// @throws std::invalid_argument with all problems of the rig
 [[nodiscard]] std::unique_ptr<bridge::Board> open_board(const configuration::Rig& rig);
 
 /// Same as bridge::hardware_bridge_spec(), except that on the memory bus open_board() makes an emulated

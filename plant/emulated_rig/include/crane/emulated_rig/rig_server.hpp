@@ -13,8 +13,8 @@ namespace crane::emulated_rig {
 /// Simulates the crane and drives its lines.
 class RigServer {
  public:
-  /// @throws bridge::BoardError when another rig has this name; std::invalid_argument naming problems of the
-  /// rig
+  /// @throws bridge::BoardError when another rig has this name; std::invalid_argument with all problems
+  /// of the rig
   RigServer(const configuration::Rig& rig, const std::string& name, bool lockstep, int model);
   ~RigServer();
   RigServer(const RigServer&) = delete;

@@ -1,6 +1,6 @@
 #pragma once
-/// The coordinates of a crane, in the order of Axis, encoders and board counters: the one table of their
-/// names and units.
+/// The table of the coordinates of a crane: names, units, columns. Order: axes (Axis), swings; encoders and
+/// board counters have the same order.
 #include <array>
 #include <cstddef>
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace crane::plant {
 
-/// After the drives' own coordinates (Axis).
+/// Indices of the swings, after those of the axes (Axis).
 inline constexpr std::size_t kSwingRadial = 3, kSwingTangential = 4;
 inline constexpr std::size_t kCoordinateCount = 5;
 
 struct Coordinate {
-  const char* name;       ///< its section of a rig file: [encoder.NAME]
-  const char* axis;       ///< where a term acts (TermSetting::axis)
+  const char* name;       ///< section of a rig file: [encoder.NAME]
+  const char* axis;       ///< name of the place where a term acts (TermSetting::axis)
   const char* unit;       ///< "m" or "rad"
   const char* column;     ///< canonical column of a table; key in [start] of a rig file
-  const char* command_v;  ///< canonical column of the command; nullptr without a drive
+  const char* command_v;  ///< canonical column of the command; nullptr for a coordinate without a drive
 };
 inline constexpr std::array<Coordinate, kCoordinateCount> kCoordinates{{
     {"trolley", "trolley", "m", "trolley_position_m", "trolley_voltage_v"},

@@ -20,7 +20,7 @@ struct Angles {
   Number sf, cf, st, ct;  // sin and cos of phi, of theta
 };
 
-/// What h depends on.
+/// Arguments of h.
 template <class Number>
 struct Motion {
   Angles<Number> angles;

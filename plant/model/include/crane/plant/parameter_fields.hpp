@@ -1,22 +1,21 @@
 #pragma once
-/// Section [plant] of a rig file, and the ranges that more than one section uses. No crane of this project is
-/// outside them, and inside them every quotient of the equations is finite.
+/// Section [plant] of a rig file, and ranges that several sections use. Within the ranges every quotient of
+/// the equations is finite.
 #include "crane/fields/field.hpp"
 #include "crane/plant/parameters.hpp"
 
 namespace crane::plant {
 
-/// The equations divide by cos(swing): 1.5 rad keeps it above 0.07.
+/// The equations divide by cos(swing), which is above 0.07 for 1.5 rad.
 inline constexpr fields::Range kSwings = fields::Range::closed(-1.5, 1.5);
-/// m or rad; a tower crane's jib is below 100 m.
+/// Positions, m or rad. The jib of a tower crane is shorter than 100 m.
 inline constexpr fields::Range kPositions = fields::Range::closed(-1000, 1000);
-/// The equations divide by the length.
+/// Cable lengths. The equations divide by the length.
 inline constexpr fields::Range kCableLengths = fields::Range::closed(1e-3, 1000);
-/// Ticks from 10 Hz, a few samples in a period of the load, to 100 kHz.
+/// Sampling periods from 10 us to 0.1 s; the latter gives only a few samples per load period.
 inline constexpr fields::Range kPeriods = fields::Range::closed(1e-5, 0.1);
 
-// Masses reach to a thousand tonnes, beyond the load of any tower crane. What equations divide by is at least
-// 1e-6.
+// Masses up to a thousand tonnes, more than any tower crane carries. Divisors are at least 1e-6.
 inline constexpr std::array<fields::Field<Parameters>, 9> kParameterFields{{
     {.key = "gravity_mps2",
      .member = &Parameters::gravity_mps2,
@@ -27,7 +26,7 @@ inline constexpr std::array<fields::Field<Parameters>, 9> kParameterFields{{
      .member = &Parameters::trolley_inertia_kg,
      .range = fields::Range::closed(1e-6, 1e6),
      .unit = "kg",
-     .meaning = "M, felt by the trolley drive (4.3)",
+     .meaning = "M, accelerated by the trolley drive (4.3)",
      .presence = fields::Presence::required_with_trolley},
     {.key = "trolley_mass_kg",
      .member = &Parameters::trolley_mass_kg,

@@ -49,7 +49,7 @@ class Term {
   /// speed.
   virtual void add_friction(const State& /*state*/, PerAxis& /*friction_v*/) const noexcept {}
   /// Drive terms: force that depends on the position only, in volts of the amplifier, positive along the
-  /// axis. A term that has one subtracts it in add_friction.
+  /// axis. A term with such a force subtracts it in add_friction.
   [[nodiscard]] virtual double position_force_v(const State& /*state*/) const noexcept { return 0; }
   /// Drive terms: adds friction that grows with the force in the gear.
   /// @param carried_v  |V - P|, V the output of the amplifier, P the sum of the forces that depend on the

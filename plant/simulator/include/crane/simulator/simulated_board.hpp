@@ -3,23 +3,24 @@
 /// brakes, switches and watchdog relay.
 ///
 /// Encoders: the raw count is the nearest integer of sign * coordinate * counts_per_unit, wrapped to 24 bits
-///   and sign-extended. The coordinates are 0 at the zero of the rig (trolley at the tower axis, slew angle
-///   0,
-///   cable length 0, load hanging at rest). The sensor terms of the model act once per reading time.
+/// and sign-extended. The coordinates are 0 at the zero of the rig (trolley at the tower axis, slew angle 0,
+/// cable length 0, load hanging at rest). The sensor terms of the model act once per reading time.
+///
 /// Converters: see crane/bridge/converter.hpp. Drives: the voltage of the board, multiplied by the sign of
-/// the drive; then the command terms, once per
-///   tick.
+/// the drive; then the command terms, once per tick.
+///
 /// Brakes: a brake without supply closes. It is supplied when brake_release is set, the relay is closed, and
-///   the emergency stop is released (or not wired to the brakes). After the closing time the brake
-///   decelerates
-///   the axis by `brake_deceleration` until standstill. Then the axis is locked, independent of all forces,
-///   until the brake opens.
+/// the emergency stop is released (or not wired to the brakes). After the closing time the brake decelerates
+/// the axis by `brake_deceleration` until standstill. Then the axis is locked, independent of all forces,
+/// until the brake opens.
+///
 /// Watchdog relay: initially open. It closes when the watchdog output has toggled for `watchdog_permit_s`
-/// with
-///   at most `watchdog_timeout_s` between two changes. It opens when the output has not changed for
-///   `watchdog_timeout_s`.
+/// with at most `watchdog_timeout_s` between two changes. It opens when the output has not changed for
+/// `watchdog_timeout_s`.
+///
 /// End stops: an axis that reaches an end stop stops at once (inelastic impact). It leaves the stop when its
-///   acceleration points inwards; this is checked at least every 10 ms.
+/// acceleration points inwards; this is checked at least every 10 ms.
+///
 /// Deterministic: equal calls give equal bits.
 #include <memory>
 

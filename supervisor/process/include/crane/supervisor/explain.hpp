@@ -1,6 +1,6 @@
 #pragma once
-/// Why the present state refuses what: the answers the supervisor would give, from what it and the bridge
-/// publish.
+/// Explains which requests the present state refuses: the answers that the supervisor would give, according
+/// to the published samples of supervisor and bridge.
 #include <string>
 #include <vector>
 
@@ -11,11 +11,12 @@ namespace crane::supervisor {
 struct Explained {
   const char* request;  ///< "reset", "arm", "move", "home"
   bool accepted = false;
-  std::string reason;  ///< why not, and what to do; empty when accepted
+  std::string reason;  ///< reason and remedy; empty when accepted
 };
 
-/// Durations that the topics do not show (causes clear for a second, streams complete for a second) count as
-/// over; doubt about positions after a new start of the bridge is not shown either. @param state  null: none
+/// Assumes that durations have passed which the topics do not show (causes inactive for a second, inputs
+/// complete for a second). Doubt about positions after a restart of the bridge is not shown. @param state
+/// null: no state
 [[nodiscard]] std::vector<Explained> explain(const msg::SupervisorStatus& status, const msg::State* state);
 
 }  // namespace crane::supervisor
