@@ -20,7 +20,7 @@ inline constexpr std::array<fields::Field<DriveLimits>, 9> kDriveLimitFields{{
      .member = &DriveLimits::volt_limit_v,
      .range = kDriveVolts,
      .unit = "V",
-     .meaning = "largest |V|"},
+     .meaning = "largest absolute voltage"},
     {.key = "volt_rate_limit_vps",
      .member = &DriveLimits::volt_rate_limit_vps,
      .range = Range::positive(),
