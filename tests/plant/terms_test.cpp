@@ -89,39 +89,6 @@ TEST(Terms, StayFiniteWithAnyParametersInTheirRanges) {
   }
 }
 
-TEST(Terms, CoverEveryCauseThatDiagnosisNames) {
-  for (const char* cause : {"coulomb_friction",
-                            "viscous_friction",
-                            "direction_asymmetry",
-                            "stribeck_friction",
-                            "position_dependent_friction",
-                            "motor_gain",
-                            "command_offset",
-                            "command_dead_zone",
-                            "command_delay",
-                            "actuator_lag",
-                            "torque_ripple",
-                            "backlash",
-                            "payload_mass",
-                            "cable_length",
-                            "load_linear_drag",
-                            "load_quadratic_drag",
-                            "steady_wind",
-                            "swing_pivot_friction",
-                            "jib_tilt",
-                            "jib_flexibility",
-                            "cable_elasticity",
-                            "double_pendulum",
-                            "swing_offset",
-                            "swing_misalignment",
-                            "swing_scale",
-                            "position_scale",
-                            "position_drift",
-                            "swing_delay",
-                            "swing_moving_average"})
-    EXPECT_NE(find_term(cause), nullptr) << cause;
-}
-
 TEST(Terms, SayWhatTheyAreAndHaveUniqueNames) {
   std::set<std::string_view> names;
   for (const TermKind& kind : term_kinds()) {

@@ -96,12 +96,12 @@ std::vector<Fault> faults_of(const configuration::Rig& rig) {
   term("position_drift", "trolley", "2 %", "rate", 0, 0.02);
   term("position_drift", "slew", "2 %", "rate", 0, 0.02);
   const auto slip = [&](std::size_t column, const std::string& size, double by) {
-    faults.push_back({"encoder_slip", twin::coordinate_of(column).axis, size,
+    faults.push_back({twin::kEncoderSlip, twin::coordinate_of(column).axis, size,
                       [=](SimulatedMotion& motion, double sign) { motion.slip(column, sign * by); }});
   };
   slip(0, "1 mm", 1e-3), slip(0, "5 mm", 5e-3), slip(1, "2 mrad", 2e-3), slip(2, "5 mrad", 5e-3);
   for (const double push : {0.1, 0.3})
-    faults.push_back({"load_pushed", "radial", std::to_string(push).substr(0, 3) + " rad/s",
+    faults.push_back({twin::kLoadPushed, "radial", std::to_string(push).substr(0, 3) + " rad/s",
                       [=](SimulatedMotion& motion, double sign) { motion.push(sign * push, 0); }});
   return faults;
 }

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
+#include <regex>
+#include <set>
 
 #include "simulated_motion.hpp"
 
@@ -52,6 +56,19 @@ class TwinTest : public testing::Test {
   SimulatedMotion motion_{rig(), kSeed};
   Twin twin_{rig(), design()};
 };
+
+TEST(TwinDocument, ListsTheCausesThatTheTwinNames) {
+  std::ifstream in{CRANE_RIGS "/../../docs/twin.md"};
+  const std::string text{std::istreambuf_iterator<char>{in}, {}};
+  const auto begin = text.find("## Causes");
+  const auto section = text.substr(begin, text.find("\n## ", begin) - begin);
+  std::set<std::string> shown, named{twin::kEncoderSlip, twin::kLoadPushed, twin::kUnknown};
+  const std::regex row{"\n\\| `([a-z_]+)` \\|"};
+  for (std::sregex_iterator it{section.begin(), section.end(), row}, end; it != end; ++it)
+    shown.insert((*it)[1]);
+  for (const auto& hypothesis : twin::hypotheses_for(rig())) named.insert(hypothesis.cause);
+  EXPECT_EQ(shown, named);
+}
 
 TEST_F(TwinTest, PredictsItsOwnPlantWithinItsBand) {
   learn();
@@ -120,13 +137,13 @@ INSTANTIATE_TEST_SUITE_P(
                     term("SlewGain", "motor_gain", "slew", "factor", 1.1, 0.1),
                     term("Payload", "payload_mass", "", "delta_kg", 0.5, 0.5),
                     term("CableLength", "cable_length", "", "delta_m", 0.05, 0.05),
-                    Change{"TrolleyEncoderSlip", "encoder_slip", "trolley", 0.002,
+                    Change{"TrolleyEncoderSlip", twin::kEncoderSlip, "trolley", 0.002,
                            [](SimulatedMotion& motion) { motion.slip(0, 0.002); }},
-                    Change{"SlewEncoderSlip", "encoder_slip", "slew", -0.003,
+                    Change{"SlewEncoderSlip", twin::kEncoderSlip, "slew", -0.003,
                            [](SimulatedMotion& motion) { motion.slip(1, -0.003); }},
-                    Change{"SwingEncoderSlip", "encoder_slip", "radial", 0.01,
+                    Change{"SwingEncoderSlip", twin::kEncoderSlip, "radial", 0.01,
                            [](SimulatedMotion& motion) { motion.slip(2, 0.01); }},
-                    Change{"Push", "load_pushed", "radial", 0.2,
+                    Change{"Push", twin::kLoadPushed, "radial", 0.2,
                            [](SimulatedMotion& motion) { motion.push(0.2, 0); }}),
     [](const auto& test) { return std::string{test.param.name}; });
 

@@ -53,7 +53,7 @@ Finding Judge::best_fit() const {
   const std::vector<Fit> list = fits();
   const bool outside = all > kOutside * in_control && !named_hypothesis_;
   if (list.empty() || (outside && list.front().gain < kUnexplained * all)) {
-    found.cause = "unknown";
+    found.cause = kUnknown;
     found.remedy = "record a few minutes of motion and run crane diagnose";
     return found;
   }

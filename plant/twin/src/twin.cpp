@@ -201,7 +201,7 @@ void Twin::watch_steps() {
     if (!step || (step->kind == StepKind::push && !could_be_push(i))) continue;
     Finding finding;
     const bool slip = step->kind == StepKind::slip;
-    finding.cause = slip ? "encoder_slip" : "load_pushed";
+    finding.cause = slip ? kEncoderSlip : kLoadPushed;
     finding.axis = coordinate_of(i).axis;
     finding.unit = slip ? coordinate_of(i).unit : "rad/s";
     finding.size = step->size;

@@ -21,6 +21,12 @@ struct Hypothesis {
   std::string remedy;
 };
 
+/// Causes without a hypothesis: an encoder that jumps, a push of the load, and a deviation that no hypothesis
+/// explains. docs/twin.md lists all causes.
+inline constexpr const char* kEncoderSlip = "encoder_slip";
+inline constexpr const char* kLoadPushed = "load_pushed";
+inline constexpr const char* kUnknown = "unknown";
+
 /// Causes that apply to a rig: friction and gain of each drive, slipping position encoders, payload, cable
 /// length, zero of the swing encoders.
 [[nodiscard]] std::vector<Hypothesis> hypotheses_for(const configuration::Rig& rig);
