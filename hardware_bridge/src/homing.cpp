@@ -51,7 +51,7 @@ std::optional<std::int64_t> Homing::step(std::size_t i, const MarkView& view) no
   if (view.asked && !axis.was_asked) forget(i);
   if (view.asked && view.free && axis.started) look(axis, view);
   const bool over = !view.asked && !axis.was_asked;
-  if (over && axis.first && !axis.found) forget(i);  // ended before the mark was seen twice
+  if (over && axis.first && !axis.found) forget(i);  // homing ended before the second detection
   axis.was_asked = view.asked;
   axis.was_active = view.active;
   axis.last_counts = view.counts;
@@ -65,7 +65,7 @@ std::optional<std::int64_t> Homing::step(std::size_t i, const MarkView& view) no
   return shift;
 }
 
-/// The switch changes between two readings of the counter: their middle is where.
+/// Position of the mark: the mean of the two readings between which the switch changes.
 void Homing::look(Axis& axis, const MarkView& view) noexcept {
   const auto change = static_cast<double>(view.counts - axis.last_counts);
   const double at = static_cast<double>(axis.last_counts) + change / 2;
@@ -74,7 +74,7 @@ void Homing::look(Axis& axis, const MarkView& view) noexcept {
   const bool closes = view.active && !axis.was_active && change * axis.towards >= 0;
   if (!closes || axis.found) return;
   const bool been_back = axis.first && axis.farthest_counts >= axis.back_off_counts;
-  if (axis.first && !been_back) return;  // a contact that bounces
+  if (axis.first && !been_back) return;  // contact bounce
   const bool slow = std::abs(change) <= axis.approach_counts;
   if (been_back && slow && std::abs(at - *axis.first) <= axis.agreement_counts) {
     axis.found = at;

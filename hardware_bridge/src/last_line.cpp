@@ -11,7 +11,7 @@ namespace {
 using protection::enabled;
 using enum protection::Protection;
 
-/// What the mutation check calls a check, in the order of Reason from command_stale on.
+/// Protections of the mutation check, in the order of Reason from command_stale on.
 constexpr std::array kProtections{bridge_command_stale, bridge_command_not_finite, bridge_command_range,
                                   bridge_command_rate,  bridge_position,           bridge_speed,
                                   bridge_swing,         bridge_encoder_jump,       bridge_lost_counts,
@@ -58,7 +58,8 @@ void LastLine::observe(std::uint64_t tick, const Seen& seen) noexcept {
   history_.add(entry);
 }
 
-/// From the tick on at which a brake told to close has stopped its axis, the axis has to stay where it is.
+/// Stores the coordinate at the tick at which the closed brake has stopped the axis. The axis must then stay
+/// there.
 void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Seen& seen) noexcept {
   if (executed_.brake_release[axis]) {
     commanded_closed_[axis] = false;
@@ -84,7 +85,7 @@ Reason LastLine::first_failure(const CheckInput& input) const noexcept {
   return failed == checks_.end() ? Reason::none : failed->reason;
 }
 
-/// Counters in doubt are no reason to start anew where all of them can be homed.
+/// The latch is not final when all doubtful counters belong to axes that can be homed.
 void LastLine::latch(Reason reason, const CheckInput& input) noexcept {
   reason_ = reason;
   if (reason == Reason::none) return;

@@ -7,7 +7,7 @@
 namespace crane::bridge {
 namespace {
 
-/// Smallest and largest acceleration per volt; the load hangs on a pendulum and takes part or not.
+/// Smallest and largest acceleration per volt: the drive accelerates the swinging load fully or not at all.
 void set_gains(AxisLine& axis, std::size_t i, const configuration::Rig& rig) {
   const auto& crane = rig.design.crane;
   const double load_kg = crane.load_mass_kg;
@@ -25,7 +25,7 @@ void set_gains(AxisLine& axis, std::size_t i, const configuration::Rig& rig) {
   }
 }
 
-/// Volts that the load can hold against a drive when it swings as far as the supervisor allows.
+/// Volts that balance the force of the load at the swing limit of the supervisor.
 double load_pull_v(std::size_t i, const configuration::Rig& rig) {
   const auto& crane = rig.design.crane;
   const double force_n = crane.load_mass_kg * crane.gravity_mps2 * std::sin(rig.limits.swing_limit_rad);
@@ -41,7 +41,7 @@ AxisLine axis_line(const configuration::Rig& rig, std::size_t i) {
   AxisLine axis;
   static_cast<control::DriveLimits&>(axis) = drive;
   if (!drive.present) return axis;
-  // Friction grows with temperature and dust; half of it, and half a volt of offsets, are left to that.
+  // Margins: temperature and dust raise the friction by up to 50 %; offsets are up to 0.5 V.
   constexpr double kOffset_v = 0.5, kFrictionMargin = 1.5, kCertainCreep_v = 0.8;
   const double friction_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
                                       friction.stiction_positive_v, friction.stiction_negative_v});
@@ -60,7 +60,7 @@ LastLineParameters last_line_parameters(const configuration::Rig& rig) {
   for (std::size_t i = 0; i < kDrives; ++i) parameters.axis[i] = axis_line(rig, i);
   constexpr double kSupervisorMargin = 1.5, kLargest_rad = 1.55;
   parameters.swing_limit_rad = std::min(kSupervisorMargin * rig.limits.swing_limit_rad, kLargest_rad);
-  // Twice the largest rate of a free swing of that size on the shortest cable.
+  // Twice the largest rate of a free swing with this amplitude on the shortest cable.
   const double cable_m = rig.drives[plant::kHoist].present ? rig.drives[plant::kHoist].low_limit
                                                            : rig.start.position[plant::kHoist];
   parameters.swing_rate_max_radps =

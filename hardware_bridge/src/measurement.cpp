@@ -39,7 +39,7 @@ void Coordinate::step(std::int32_t raw_counts, const Latched& latched) noexcept 
     gridded_ = position_;
     rate_ = 0;
   }
-  constexpr std::uint64_t kMostFilled = 100;  // longer pauses have ended every motion
+  constexpr std::uint64_t kMostFilled = 100;  // after a longer pause the axis is at rest
   const double target = position_ - rate_ * latched.late_s;
   const auto steps = std::clamp<std::uint64_t>(latched.ticks, 1, kMostFilled);
   for (std::uint64_t i = 1; i < steps; ++i)
@@ -51,13 +51,13 @@ void Coordinate::step(std::int32_t raw_counts, const Latched& latched) noexcept 
 
 void Coordinate::shift(std::int64_t change) noexcept {
   shift_ += change;
-  started_ = false;  // the filters settle anew at the next step
+  started_ = false;  // the next step initialises the filters
 }
 
 namespace {
 
-/// The filter in front of the trolley's differentiator makes its motion oscillate on the rig (section 4.4.1),
-/// so the rig file says per axis whether there is one; swing rates always have it.
+/// The rig file selects the axes whose position is filtered before it is differentiated: on the rig this
+/// filter makes the trolley oscillate (section 4.4.1). Swing angles are always filtered for their rates.
 Coordinate coordinate(const configuration::Rig& rig, std::size_t counter) {
   const bool swing = counter >= plant::kAxes;
   const bool filtered = swing || rig.sensing.filter_speed[counter];

@@ -5,12 +5,12 @@
 namespace crane::bridge {
 namespace {
 
-struct Words {
+struct Texts {
   std::string_view name, explanation, remedy;
 };
 
 /// In the order of Reason.
-constexpr std::array<Words, kReasons> kWords{{
+constexpr std::array<Texts, kReasons> kTexts{{
     {"none", "", ""},
     {"command_stale", "commands stopped coming", "look for a dead or hung supervisor, then `crane reset`"},
     {"command_not_finite", "a command was not a number", "restart the supervisor, then `crane reset`"},
@@ -41,13 +41,13 @@ constexpr std::array<Words, kReasons> kWords{{
      "the hung one"},
 }};
 
-const Words& words_of(Reason reason) { return kWords[static_cast<std::size_t>(reason)]; }
+const Texts& texts_of(Reason reason) { return kTexts[static_cast<std::size_t>(reason)]; }
 
 }  // namespace
 
-std::string_view name_of(Reason reason) noexcept { return words_of(reason).name; }
-std::string_view explanation_of(Reason reason) noexcept { return words_of(reason).explanation; }
-std::string_view remedy_for(Reason reason) noexcept { return words_of(reason).remedy; }
+std::string_view name_of(Reason reason) noexcept { return texts_of(reason).name; }
+std::string_view explanation_of(Reason reason) noexcept { return texts_of(reason).explanation; }
+std::string_view remedy_for(Reason reason) noexcept { return texts_of(reason).remedy; }
 
 bool is_final(Reason reason) noexcept {
   return reason == Reason::encoder_jump || reason == Reason::lost_counts || reason == Reason::braked_motion;

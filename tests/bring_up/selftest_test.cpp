@@ -63,11 +63,11 @@ std::vector<Miswiring> all() {
                    [i](auto& rig) { rig.drives[i].dac_channel = kNowhere; }});
     const auto lines = tower().wiring.drives[i];
     all.push_back({"BrakeShut",
-                   {"brake_shut: " + axis},
+                   {"brake_stays_closed: " + axis},
                    [](auto&) {},
                    {.outputs_off = bit(lines.brake_release_output)}});
     all.push_back({"BrakeOpen",
-                   {"brake_open: " + axis},
+                   {"brake_stays_open: " + axis},
                    [](auto&) {},
                    {.outputs_on = bit(lines.brake_release_output)}});
     all.push_back(

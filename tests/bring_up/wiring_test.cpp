@@ -50,7 +50,7 @@ TEST(Judgement, NamesAnAmplifierThatPushesAtZeroVolts) {
   evidence.axis[2].drift = -0.004;
   const auto findings = judge(tower(), evidence);
   ASSERT_EQ(findings.size(), 1U);
-  EXPECT_EQ(findings[0].fault, Fault::drifts);
+  EXPECT_EQ(findings[0].fault, Fault::drift);
 }
 
 TEST(Judgement, ReportsSeveralFaultsInTheOrderOfTheChecks) {
