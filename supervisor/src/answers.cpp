@@ -12,13 +12,12 @@ constexpr std::array<const char*, kAxes> kNotHomed{
     "the position of the hoist is not known: reset, then `crane home --axis hoist`"};
 
 constexpr std::array<const char*, kAxes> kUnclear{
-    "the trolley was moving or elsewhere when the bridge ended: see that it stands where `crane status` "
-    "says, "
-    "then `crane reset --confirm-positions`",
-    "the slewing jib was moving or elsewhere when the bridge ended: see that it stands where `crane status` "
-    "says, then `crane reset --confirm-positions`",
-    "the hoist was moving or elsewhere when the bridge ended: see that it stands where `crane status` says, "
-    "then `crane reset --confirm-positions`"};
+    "the trolley was moving or at another position when the bridge ended: check that it is where `crane "
+    "status` shows it, then `crane reset --confirm-positions`",
+    "the slewing jib was moving or at another position when the bridge ended: check that it is where `crane "
+    "status` shows it, then `crane reset --confirm-positions`",
+    "the hoist was moving or at another position when the bridge ended: check that it is where `crane "
+    "status` shows it, then `crane reset --confirm-positions`"};
 
 Answer refuse(const char* reason) { return {.asked = true, .accepted = false, .reason = reason}; }
 constexpr Answer kAccepted{.asked = true, .accepted = true, .reason = ""};
@@ -42,14 +41,14 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
       return refuse("the crane is armed: there is nothing to reset");
   }
   if (asked(in, Request::estop))
-    return refuse("an emergency stop was asked for in the same tick: reset again");
+    return refuse("an emergency stop was requested in the same tick: reset again");
   if (m.reset_was_up && enabled(reset_edge))
-    return refuse("the reset was already on: take it back, then reset again");
+    return refuse("the reset was already requested: end this request, then reset again");
   if (const Cause c = blocking_cause(limits, in, m); c != Cause::none) return refuse(remedy_for(c));
   if (in.load_unclear && enabled(reset_load_unclear))
     return refuse(
-        "the load swung when the bridge started, so its zero is wrong: let it hang still, then start the "
-        "bridge again");
+        "the load swung when the bridge started, so that the zero of its encoders is wrong: let it hang at "
+        "rest, then restart the bridge");
   if (in.place_unclear && enabled(reset_place_unclear)) return refuse(kUnclear[in.unclear_axis]);
   if (m.state == State::estop && !in.standstill) return refuse("the crane is still moving: wait, then reset");
   if (in.now_s - m.clear_since_s < limits.clear_time_s && enabled(reset_clear_time)) {
@@ -72,7 +71,7 @@ Answer answer_release(const Limits& limits, const Inputs& in, const Memory& m) {
   }
   if (const Cause c = blocking_cause(limits, in, m); c != Cause::none) return refuse(remedy_for(c));
   if (asked(in, Request::stop) || asked(in, Request::disarm)) {
-    return refuse("a stop was asked for in the same tick: reset, then arm again");
+    return refuse("a stop was requested in the same tick: reset, then arm again");
   }
   if (in.gate_cause == Cause::demand_invalid) return refuse(remedy_for(Cause::demand_invalid));
   if (in.demand_stale) return refuse(remedy_for(Cause::demand_stale));
@@ -94,7 +93,7 @@ Answer answer_home(const Limits& limits, const Inputs& in, const Memory& m) {
   if (m.state == State::arming || m.state == State::hold || m.state == State::run)
     return refuse("the crane is armed: disarm and reset it first");
   if (m.state == State::ready && asked(in, Request::arm))
-    return refuse("arming was asked for in the same tick: home again");
+    return refuse("arming was requested in the same tick: home again");
   return answer_release(limits, in, m);
 }
 

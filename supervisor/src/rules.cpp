@@ -240,7 +240,7 @@ const char* remedy_for(Cause cause) noexcept {
 
 std::string rule_table() {
   std::string table =
-      "| cause | seen when | detection | reaction | 0 V | brakes told to close | remedy "
+      "| cause | condition | detection | reaction | 0 V | brakes commanded closed | remedy "
       "|\n|---|---|---|---|---|---|---|\n";
   for (const Rule& rule : kRules) {
     const auto& words = rule.scope == Scope::restart ? ReactionWords{"SELFTEST, LOCKED", "10 ms", "10 ms"}
