@@ -1,13 +1,14 @@
 #pragma once
 /// What happened in a recording, in sentences and figures, first cause first; also as a self-contained page.
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "crane/recording/mcap_reader.hpp"
 #include "crane/report/page.hpp"
-#include "dashboard/fault_timeline.hpp"
-#include "dashboard/traffic.hpp"
+#include "observation/fault_timeline.hpp"
+#include "observation/traffic.hpp"
 
 namespace crane::review {
 
@@ -36,19 +37,19 @@ struct Review {
   std::string file;
   std::int64_t begin_ns = 0, end_ns = 0;
   bool wall_clock = false;  ///< false: times are those of a simulation
-  std::vector<dashboard::Fault> faults;
+  std::vector<observation::Fault> faults;
   std::vector<Phase> phases;
   Curves curves;
   std::array<AxisFigures, 3> axes;
   double largest_radial_deg = 0, largest_tangential_deg = 0;
-  std::vector<dashboard::TopicTraffic> topics;  ///< in the order of topics::kAll
-  std::vector<std::string> problems;            ///< of the file
+  std::vector<observation::TopicTraffic> topics;  ///< in the order of topics::kAll
+  std::vector<std::string> problems;              ///< of the file
 
   /// The first fault; without one the first stop that was ordered; nullptr: nothing stopped the crane.
-  [[nodiscard]] const dashboard::Fault* first_stop() const;
+  [[nodiscard]] const observation::Fault* first_stop() const;
   /// The note of first_stop() that went wrong first: an order of the operator is a cause only when no fault
   /// follows.
-  [[nodiscard]] const dashboard::Note* first_cause() const;
+  [[nodiscard]] const observation::Note* first_cause() const;
 };
 
 /// Reads the file as far as it is intact. @throws recording::ReadError when it is no recording of this
@@ -60,5 +61,7 @@ struct Review {
 /// Commands that lead on.
 [[nodiscard]] std::vector<std::string> next_commands(const Review& review);
 [[nodiscard]] report::Page page_of(const Review& review);
+/// The same with the curves of the page, thinned to at most `most_points` rows.
+[[nodiscard]] nlohmann::ordered_json to_json(const Review& review, std::size_t most_points);
 
 }  // namespace crane::review

@@ -2,21 +2,21 @@
 
 #include <gmock/gmock.h>
 
-#include "../dashboard/samples.hpp"
+#include "../observation/samples.hpp"
 #include "../recording/temporary_directory.hpp"
 #include "crane/recording/mcap_reader.hpp"
 
 namespace crane::black_box {
 namespace {
 
-using dashboard::kSecond_ns;
+using observation::kSecond_ns;
 
 Moment a_moment() {
   constexpr std::int64_t kAt_ns = 1'795'579'498 * kSecond_ns;
   Moment moment{.from_ns = kAt_ns - kSecond_ns, .until_ns = kAt_ns + kSecond_ns, .first = {}, .samples = {}};
   moment.first.at_ns = kAt_ns;
   moment.first.what = "LATCH_encoder jump";
-  moment.samples = {dashboard::status_at(kAt_ns, crane_STATE_STOP_C0, crane_CAUSE_BRIDGE_LATCHED, 7)};
+  moment.samples = {observation::status_at(kAt_ns, crane_STATE_STOP_C0, crane_CAUSE_BRIDGE_LATCHED, 7)};
   return moment;
 }
 
