@@ -136,9 +136,10 @@ export class RunsView {
     const area = find("runs-plots");
     area.replaceChildren();
     if (!opened.length) return;
-    for (const [key, title] of PLOTS) {
-      const box = element("div", { className: "panel" }, element("p", { className: "eyebrow" }, title));
-      area.append(box);
+    const boxes = PLOTS.map(([, title]) => element("div", { className: "panel" }, element("p", { className: "eyebrow" }, title)));
+    area.append(...boxes); // all of them first: their width depends on their number
+    for (const [i, [key]] of PLOTS.entries()) {
+      const box = boxes[i];
       const joined = window.uPlot.join(opened.map(({ result }) => [result.curves.time_s, result.curves[key]]));
       const axis = { stroke: colour("muted"), grid: { stroke: colour("line") }, ticks: { stroke: colour("line") } };
       new window.uPlot({ width: Math.max(200, box.clientWidth - 32), height: 180, scales: { x: { time: false } }, legend: { show: false }, axes: [axis, axis],
