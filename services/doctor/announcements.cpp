@@ -54,14 +54,32 @@ Bytes user_data_in(Reader list) {
   return {};
 }
 
-/// The serialised payload of a DATA submessage without inline QoS; SPDP has none.
+/// What follows a parameter list; empty when the list does not end.
+Bytes after(Reader list) {
+  constexpr std::uint32_t kSentinel = 1;
+  while (list.left() >= 4) {
+    const auto kind = list.number(2), size = list.number(2);
+    if (kind == kSentinel) return list.rest();
+    if (size > list.left()) break;
+    list.skip(size);
+  }
+  return {};
+}
+
+/// Of the serialised payload of a DATA submessage (9.4.5.4). Cyclone DDS puts a key hash before it, as inline
+/// QoS.
 std::optional<bus::Announcement> announcement_of(Bytes content, std::uint8_t flags) {
   constexpr std::size_t kFixed = 20, kEncapsulation = 4;  // flags, entities, sequence number
-  constexpr std::uint8_t kInlineQos = 0x02, kData = 0x04;
-  if ((flags & kInlineQos) != 0 || (flags & kData) == 0 || content.size() < kFixed + kEncapsulation)
-    return std::nullopt;
-  const bool little = content[kFixed + 1] == 0x03;  // PL_CDR_LE; 0x02: PL_CDR_BE
-  const auto text = user_data_in(Reader{content.subspan(kFixed + kEncapsulation), little});
+  constexpr std::uint8_t kLittleEndian = 0x01, kInlineQos = 0x02, kData = 0x04;
+  if ((flags & kData) == 0 || content.size() < kFixed) return std::nullopt;
+  const bool little = (flags & kLittleEndian) != 0;
+  const std::size_t at = 4 + Reader{content.subspan(2), little}.number(2);  // octetsToInlineQos
+  if (at > content.size()) return std::nullopt;
+  auto payload = content.subspan(at);
+  if ((flags & kInlineQos) != 0) payload = after(Reader{payload, little});
+  if (payload.size() < kEncapsulation) return std::nullopt;
+  const bool little_list = payload[1] == 0x03;  // PL_CDR_LE; 0x02: PL_CDR_BE
+  const auto text = user_data_in(Reader{payload.subspan(kEncapsulation), little_list});
   return bus::parse_announcement({reinterpret_cast<const char*>(text.data()), text.size()});
 }
 
