@@ -11,8 +11,7 @@
 #include "black_box/incident_file.hpp"
 #include "crane/configuration/extended_file.hpp"
 #include "crane/runtime/node.hpp"
-#include "dashboard/observer.hpp"
-#include "dashboard/server.hpp"
+#include "observation/observer.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::black_box {
@@ -42,7 +41,7 @@ Origin origin_of(const Options& options) {
 
 /// "tracking" -> "0.1.0, cyclone, delayed_1, process 4711, start 123456". The last number is the random
 /// start-up number.
-recording::Metadata processes_of(const dashboard::Traffic& traffic) {
+recording::Metadata processes_of(const observation::Traffic& traffic) {
   recording::Metadata processes;
   for (const auto& [number, heard] : traffic.nodes()) {
     const auto& node = heard.status;
@@ -118,12 +117,12 @@ int run(const Options& options) {
   Writer writer{options, origin_of(options)};
   bus::Bus bus{
       runtime::bus_options(options.bus, "crane_black_box", crane_SOURCE_RECORDER, runtime::random_epoch())};
-  Incidents incidents{dashboard::log_now_ns()};
-  dashboard::Observer observer{bus, false, [&incidents](const std::vector<SamplePtr>& samples) {
+  Incidents incidents{observation::log_now_ns()};
+  observation::Observer observer{bus, [&incidents](const std::vector<SamplePtr>& samples) {
                                  for (const auto& sample : samples) incidents.add(sample);
                                }};
   const auto keep = [&](bool ends) {
-    if (auto incident = incidents.poll(runtime::monotonic_ns(), dashboard::log_now_ns(), ends))
+    if (auto incident = incidents.poll(runtime::monotonic_ns(), observation::log_now_ns(), ends))
       writer.write(*std::move(incident), processes_of(incidents.traffic()));
   };
   while (!runtime::stop_requested()) {
@@ -131,9 +130,9 @@ int run(const Options& options) {
     keep(false);
   }
   // Receives samples that are still in transit. The end of the other processes is no fault.
-  const auto stop_ns = dashboard::log_now_ns();
+  const auto stop_ns = observation::log_now_ns();
   incidents.ignore_causes_after(stop_ns);
-  while (dashboard::log_now_ns() < stop_ns + kLinger_ns) observer.poll();
+  while (observation::log_now_ns() < stop_ns + kLinger_ns) observer.poll();
   keep(true);
   return runtime::kExitDone;
 }

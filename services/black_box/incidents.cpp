@@ -4,9 +4,9 @@
 
 namespace crane::black_box {
 
-bool is_stop(const dashboard::Note& note) {
-  if (note.kind == dashboard::Note::Kind::fault) return true;
-  return note.kind == dashboard::Note::Kind::order &&
+bool is_stop(const observation::Note& note) {
+  if (note.kind == observation::Note::Kind::fault) return true;
+  return note.kind == observation::Note::Kind::order &&
          (note.what == "OPERATOR_STOP" || note.what == "OPERATOR_ESTOP");
 }
 
@@ -16,7 +16,7 @@ void Incidents::add(const SamplePtr& sample) {
   timeline_.add(*sample);
 }
 
-void Incidents::open(const dashboard::Fault& fault) {
+void Incidents::open(const observation::Fault& fault) {
   const auto stop = std::ranges::find_if(fault.notes, is_stop);
   if (stop == fault.notes.end() || fault.last_ns <= kept_until_ns_) return;
   if (fault.notes.front().at_ns > ends_ns_) return;

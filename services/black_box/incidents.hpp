@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "dashboard/fault_timeline.hpp"
+#include "observation/fault_timeline.hpp"
 
 namespace crane::black_box {
 
-using dashboard::FaultTimeline;
-using dashboard::History;
-using dashboard::SamplePtr;
+using observation::FaultTimeline;
+using observation::History;
+using observation::SamplePtr;
 
 struct Incident {
   std::int64_t from_ns = 0, until_ns = 0;  ///< log time
-  dashboard::Note first;                   ///< first cause of the incident
+  observation::Note first;                   ///< first cause of the incident
   std::size_t faults = 0;                  ///< number of merged faults
   std::vector<SamplePtr> samples;          ///< of all topics, in the order of log time
 };
@@ -40,22 +40,22 @@ class Incidents {
   void ignore_causes_after(std::int64_t log_time_ns) { ends_ns_ = log_time_ns; }
 
   [[nodiscard]] std::size_t bytes() const { return history_.bytes(); }
-  [[nodiscard]] const dashboard::Traffic& traffic() const { return traffic_; }
+  [[nodiscard]] const observation::Traffic& traffic() const { return traffic_; }
 
  private:
-  void open(const dashboard::Fault& fault);
+  void open(const observation::Fault& fault);
   [[nodiscard]] Incident taken(std::int64_t log_now_ns);
 
   std::int64_t started_ns_, kept_until_ns_ = started_ns_;
   std::int64_t ends_ns_ = std::numeric_limits<std::int64_t>::max();
   History history_;
-  dashboard::Traffic traffic_;
+  observation::Traffic traffic_;
   FaultTimeline timeline_;
   std::optional<Incident> open_;    ///< does not have its samples yet
   std::uint64_t newest_fault_ = 0;  ///< newest fault of the open incident
 };
 
 /// True for faults and for the operator's stops. False for planned ends: disarm, idle time, homed.
-[[nodiscard]] bool is_stop(const dashboard::Note& note);
+[[nodiscard]] bool is_stop(const observation::Note& note);
 
 }  // namespace crane::black_box

@@ -9,6 +9,7 @@
 #include "cli/tool_bus.hpp"
 #include "crane/bridge/last_line.hpp"
 #include "crane/supervisor/states.hpp"
+#include "observation/traffic.hpp"
 
 namespace crane::cli {
 namespace {
@@ -26,26 +27,15 @@ const char* remedy(const msg::SupervisorStatus& status) {
              : supervisor::remedy_for(static_cast<supervisor::Cause>(status.cause));
 }
 
-const char* phase_name(crane_NodePhase phase) {
-  switch (phase) {
-    case crane_PHASE_STARTING:
-      return "starting";
-    case crane_PHASE_READY:
-      return "ready";
-    case crane_PHASE_STOPPING:
-      return "stopping";
-  }
-  return "?";
-}
-
 void print_nodes(std::ostream& out, const Snapshot& snapshot) {
   TextTable table{{"process", "vendor", "pid", "phase", "controller", "ticks", "lost", "late", "duplicate",
                    "rejected", "step mean us", "max us"}};
   for (const auto& [number, node] : snapshot.nodes)
-    table.add({node.name, node.vendor, std::to_string(node.pid), phase_name(node.phase), node.controller,
-               std::to_string(node.ticks), std::to_string(node.lost_ticks), std::to_string(node.late_samples),
-               std::to_string(node.duplicate_samples), std::to_string(node.rejected_samples),
-               fixed(node.step_mean_us, 1), fixed(node.step_max_us, 1)});
+    table.add({node.name, node.vendor, std::to_string(node.pid), observation::phase_name(node.phase),
+               node.controller, std::to_string(node.ticks), std::to_string(node.lost_ticks),
+               std::to_string(node.late_samples), std::to_string(node.duplicate_samples),
+               std::to_string(node.rejected_samples), fixed(node.step_mean_us, 1),
+               fixed(node.step_max_us, 1)});
   table.print(out);
 }
 
@@ -124,6 +114,7 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
     const bool twin_heard = twins.matched() == 0 || snapshot.twin;
     return all && twin_heard && snapshot.supervisor && snapshot.state && now_ns - changed_ns > quiet_ns;
   });
+  snapshot.other_versions = bus.other_versions();
   return snapshot;
 }
 
@@ -139,6 +130,9 @@ nlohmann::ordered_json to_json(const Snapshot& snapshot) {
   result["state"] =
       snapshot.state ? to_json(topics::state, *snapshot.state) : nlohmann::ordered_json(nullptr);
   result["twin"] = snapshot.twin ? to_json(topics::twin, *snapshot.twin) : nlohmann::ordered_json(nullptr);
+  result["other_versions"] = nlohmann::ordered_json::array();
+  for (const auto& other : snapshot.other_versions)
+    result["other_versions"].push_back({{"participant", other.participant}, {"version", other.version}});
   return result;
 }
 
@@ -151,6 +145,7 @@ void print(std::ostream& out, const Snapshot& snapshot) {
     print_axes(out, *snapshot.state);
   }
   if (snapshot.twin) print_twin(out, *snapshot.twin);
+  for (const auto& other : snapshot.other_versions) out << "version     " << bus::refusal(other) << '\n';
   if (!snapshot.supervisor) out << "supervisor  no status received: the crane cannot move\n";
   if (!snapshot.state) out << "crane/state  no sample received: neither bridge nor plant publishes it\n";
 }

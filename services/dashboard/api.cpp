@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crane/runtime/process.hpp"
+#include "dashboard/packed_samples.hpp"
 #include "dashboard/page_files.hpp"
 #include "dashboard/request_text.hpp"
 #include "stack/stack.hpp"
@@ -15,11 +16,6 @@ namespace crane::dashboard {
 namespace {
 
 using nlohmann::ordered_json;
-
-ApiAnswer json_answer(const ordered_json& json, unsigned status = 200) {
-  return {.status = status, .body = text_of(json)};
-}
-ApiAnswer problem(unsigned status, const std::string& what) { return json_answer({{"error", what}}, status); }
 
 /// "topic=crane/state&from=1" as pairs; later ones win.
 std::map<std::string, std::string, std::less<>> parameters_of(std::string_view query) {
@@ -52,22 +48,30 @@ std::size_t topic_index(const std::string& name) {
 
 }  // namespace
 
+ApiAnswer json_answer(const ordered_json& json, unsigned status) {
+  return {.status = status, .body = text_of(json)};
+}
+
+ApiAnswer problem_answer(unsigned status, const std::string& what) {
+  return json_answer({{"error", what}}, status);
+}
+
 Api::Api(Model& model, const AccessRules& rules, std::function<void(const stack::Wish&, Answered)> send,
-         std::function<ServerCounts()> counts)
-    : model_{model}, rules_{rules}, send_{std::move(send)}, counts_{std::move(counts)} {}
+         std::function<ServerCounts()> counts, const RunsOptions& runs)
+    : model_{model}, rules_{rules}, send_{std::move(send)}, counts_{std::move(counts)}, runs_{runs} {}
 
 void Api::handle(const ApiRequest& request, Answer answer) {
   try {
     if (!may_look(rules_, request.visitor))
-      answer(problem(403, "this dashboard answers its own pages only: open it by its address"));
+      answer(problem_answer(403, "this dashboard answers its own pages only: open it by its address"));
     else if (request.method == "POST")
       post(request, answer);  // a copy: what is thrown from there is answered below
     else if (request.method == "GET" || request.method == "HEAD")
       answer(get(request));
     else
-      answer(problem(405, "GET, HEAD or POST is expected"));
+      answer(problem_answer(405, "GET, HEAD or POST is expected"));
   } catch (const BadRequest& error) {
-    answer(problem(400, error.what()));
+    answer(problem_answer(400, error.what()));
   }
 }
 
@@ -89,7 +93,8 @@ ApiAnswer Api::get(const ApiRequest& request) {
   if (path == "/api/graph") return json_answer(stack::wiring_json(stack::all_components()));
   if (path == "/api/idl") return {.media_type = "text/plain", .body = std::string{topics::idl_text()}};
   if (path == "/api/history") return history(query);
-  return problem(404, "nothing is at this path; docs/dashboard.md lists the paths");
+  if (auto answer = runs_.get(path)) return *std::move(answer);
+  return problem_answer(404, "nothing is at this path; docs/dashboard.md lists the paths");
 }
 
 ApiAnswer Api::about(const Visitor& visitor) const {
@@ -112,7 +117,7 @@ ApiAnswer Api::history(std::string_view query) const {
   if (parameters.contains("fault")) {
     const auto* fault = model_.faults().find(number_of<std::uint64_t>(parameters["fault"], "fault"));
     if (fault == nullptr || !fault->moment.contains(topic))
-      return problem(404, "no data are kept of this fault");
+      return problem_answer(404, "no data are kept of this fault");
     answer.body = packed(fault->moment.at(topic));
     return answer;
   }
@@ -124,25 +129,28 @@ ApiAnswer Api::history(std::string_view query) const {
 }
 
 void Api::post(const ApiRequest& request, Answer answer) {
-  // A form of a foreign page can send text/plain; it cannot send this type without asking first.
-  if (!request.content_type.starts_with("application/json"))
-    return answer(problem(415, "content type application/json is expected"));
+  // A form of a foreign page can send text/plain; it cannot send these types without asking first.
+  const std::string wanted =
+      request.target.starts_with(kUploadPath) ? "application/octet-stream" : "application/json";
+  if (!request.content_type.starts_with(wanted))
+    return answer(problem_answer(415, "content type " + wanted + " is expected"));
   const bool stops = request.target == "/api/request" && is_stop(wish_of_text(request.body).kind);
   const auto why_not =
       stops ? why_not_stop(rules_, request.visitor) : why_not_operate(rules_, request.visitor);
-  if (!why_not.empty()) return answer(problem(403, why_not));
+  if (!why_not.empty()) return answer(problem_answer(403, why_not));
   const auto now_ns = runtime::monotonic_ns();
   if (request.target == "/api/operator/take") return answer(take_seat(request));
   if (request.target == "/api/operator/renew")
     return answer(model_.seat().renew(request.seat_key, now_ns)
                       ? json_answer({{"held", true}})
-                      : problem(409, "another one has the controls, or the time ran out"));
+                      : problem_answer(409, "another one has the controls, or the time ran out"));
   if (request.target == "/api/operator/release") {
     const bool held = model_.seat().release(request.seat_key, now_ns);
     return answer(json_answer({{"held", false}, {"released", held}}));
   }
+  if (auto done = runs_.post(request)) return answer(*std::move(done));
   if (request.target == "/api/request") return this->request(request, std::move(answer));
-  answer(problem(404, "nothing takes a POST at this path; docs/dashboard.md lists the paths"));
+  answer(problem_answer(404, "nothing takes a POST at this path; docs/dashboard.md lists the paths"));
 }
 
 ApiAnswer Api::take_seat(const ApiRequest& request) {
@@ -150,7 +158,7 @@ ApiAnswer Api::take_seat(const ApiRequest& request) {
   const bool named = body.is_object() && body.contains("name") && body["name"].is_string();
   auto key = random_token();
   if (!model_.seat().take(named ? body["name"].get<std::string>() : "operator", key, runtime::monotonic_ns()))
-    return problem(
+    return problem_answer(
         409, *model_.seat().holder(runtime::monotonic_ns()) +
                  " has the controls; they become free when released, or 10 s after the other page is gone");
   return json_answer({{"seat", key}});
@@ -159,7 +167,7 @@ ApiAnswer Api::take_seat(const ApiRequest& request) {
 void Api::request(const ApiRequest& request, Answer answer) {
   const auto wish = wish_of_text(request.body);
   if (!is_stop(wish.kind) && !model_.seat().renew(request.seat_key, runtime::monotonic_ns()))
-    return answer(problem(409, "take the controls first: one operator at a time"));
+    return answer(problem_answer(409, "take the controls first: one operator at a time"));
   send_(wish, [answer = std::move(answer)](const Reply& reply) {
     answer(json_answer({{"accepted", reply.accepted}, {"reason", reply.reason}}));
   });

@@ -5,35 +5,25 @@
 #include <string>
 #include <string_view>
 
-#include "dashboard/access.hpp"
+#include "dashboard/api_types.hpp"
 #include "dashboard/metrics.hpp"
 #include "dashboard/request_desk.hpp"
+#include "dashboard/runs_api.hpp"
 
 namespace crane::dashboard {
 
-struct ApiRequest {
-  std::string method, target;  ///< "GET", "/api/history?topic=crane/state"
-  std::string content_type, body;
-  std::string seat_key;  ///< header X-Crane-Seat
-  Visitor visitor;       ///< its views must outlive the call
-};
-
-struct ApiAnswer {
-  unsigned status = 200;
-  std::string media_type = "application/json";
-  std::string body;
-  std::string_view file{};  ///< not empty: bytes that live as long as the program; `body` is then unused
-};
 using Answer = std::function<void(ApiAnswer)>;
 
 class Api {
  public:
   /// @param send  hands a request of the operator to the thread of the bus; empty: nobody operates
   Api(Model& model, const AccessRules& rules, std::function<void(const stack::Wish&, Answered)> send,
-      std::function<ServerCounts()> counts);
+      std::function<ServerCounts()> counts, const RunsOptions& runs);
 
   /// Calls `answer` once: at once, or when the supervisor has answered.
   void handle(const ApiRequest& request, Answer answer);
+  /// Starts waiting jobs and notices what has ended.
+  void poll() { runs_.poll(); }
 
  private:
   [[nodiscard]] ApiAnswer get(const ApiRequest& request);
@@ -47,6 +37,7 @@ class Api {
   const AccessRules& rules_;
   std::function<void(const stack::Wish&, Answered)> send_;
   std::function<ServerCounts()> counts_;
+  RunsApi runs_;
 };
 
 }  // namespace crane::dashboard

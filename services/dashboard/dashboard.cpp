@@ -10,10 +10,11 @@
 #include <thread>
 
 #include "crane/configuration/rig.hpp"
-#include "dashboard/observer.hpp"
+#include "dashboard/operator_line.hpp"
 #include "dashboard/rig_text.hpp"
 #include "dashboard/server.hpp"
 #include "dashboard/token_file.hpp"
+#include "observation/observer.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::dashboard {
@@ -31,9 +32,12 @@ void check_address(const std::string& listen) {
 
 std::unique_ptr<Server> open_server(const Options& options, About about, AccessRules rules,
                                     std::function<void(const stack::Wish&, Answered)> send) {
+  const RunsOptions runs{.program = stack::program_directory() / "crane",
+                         .directory = options.runs,
+                         .rig = options.rig.empty() ? "" : stack::find_rig(options.rig).string()};
   try {
     return std::make_unique<Server>(options.listen, options.port, std::move(about), std::move(rules),
-                                    std::move(send));
+                                    std::move(send), runs);
   } catch (const boost::system::system_error& error) {
     throw std::runtime_error("dashboard: cannot open " + address_of(options.listen, options.port) + ": " +
                              error.code().message() + "; choose another --port or --listen");
@@ -64,6 +68,9 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--allow-origin", options.other_origins,
                  "origin of another page that may look: https://app.foxglove.dev (repeatable)");
   app.add_option("--rig", options.rig, "rig file or name: soft limits and planned paths are then drawn");
+  app.add_option("--runs", options.runs,
+                 "directory with recordings and experiments: the page lists, compares and diagnoses them")
+      ->check(CLI::ExistingDirectory);
   app.add_option("--parent", options.parent, "process id that this process ends with")->group("");
   runtime::add_bus_options(app, options.bus);
 }
@@ -89,29 +96,36 @@ int run(const Options& options) {
   const auto source = options.read_only ? crane_SOURCE_MONITOR : crane_SOURCE_OPERATOR;
   bus::Bus bus{runtime::bus_options(options.bus, "crane_dashboard", source, runtime::random_epoch())};
   std::unique_ptr<Server> server;
-  Observer observer{bus, !options.read_only,
-                    [&server](std::vector<SamplePtr> samples) { server->put(std::move(samples)); }};
+  observation::Observer observer{
+      bus, [&server](std::vector<observation::SamplePtr> samples) { server->put(std::move(samples)); }};
+  OperatorLine line{bus, !options.read_only};
   server = open_server(options, std::move(about), std::move(rules),
-                       [&server, &observer](const stack::Wish& wish, const Answered& answered) {
+                       [&server, &line](const stack::Wish& wish, const Answered& answered) {
                          const auto back = [&server, answered](Reply reply) {
                            server->post([answered, reply = std::move(reply)] { answered(reply); });
                          };
-                         if (!observer.ask(wish, back))
-                           answered({false, "too many requests at once: try again"});
+                         if (!line.ask(wish, back)) answered({false, "too many requests at once: try again"});
                        });
   std::cout << "dashboard: " << address_of(options.listen, server->port()) << std::endl;
   std::jthread network{[&server] { server->run(); }};
-  while (!runtime::stop_requested()) observer.poll();
+  constexpr std::int64_t kVersionsPeriod_ns = 1'000'000'000;
+  for (std::int64_t due_ns = 0; !runtime::stop_requested();) {
+    observer.poll();
+    line.poll();
+    if (runtime::monotonic_ns() < due_ns) continue;
+    due_ns = runtime::monotonic_ns() + kVersionsPeriod_ns;
+    server->set_other_versions(bus.other_versions());
+  }
   server->stop();
   return runtime::kExitDone;
 }
 
 void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig,
-            unsigned short port) {
+            const std::string& runs, unsigned short port) {
   bus.vendor = default_options().bus.vendor;
   auto arguments = runtime::arguments(bus);
-  arguments.insert(arguments.end(),
-                   {"--rig", rig, "--port", std::to_string(port), "--parent", std::to_string(::getpid())});
+  arguments.insert(arguments.end(), {"--rig", rig, "--runs", runs, "--port", std::to_string(port), "--parent",
+                                     std::to_string(::getpid())});
   children.start("dashboard", "crane_dashboard", arguments);
 }
 

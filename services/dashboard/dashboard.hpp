@@ -14,8 +14,9 @@ struct Options {
   std::string token_file;
   std::vector<std::string> host_names, other_origins;
   bool read_only = false;
-  std::string rig;  ///< name or path of a rig file; empty: unknown
-  int parent = 0;   ///< process that this one ends with; 0: none
+  std::string runs;  ///< directory of recordings for the views Runs and Diagnose; empty: none
+  std::string rig;   ///< name or path of a rig file; empty: unknown
+  int parent = 0;    ///< process that this one ends with; 0: none
   runtime::BusOptions bus;
 };
 [[nodiscard]] Options default_options();
@@ -26,7 +27,7 @@ int run(const Options& options);
 
 /// Starts crane_dashboard as a child, on the vendor of the tools; it prints its address when it serves.
 void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig,
-            unsigned short port);
+            const std::string& runs, unsigned short port);
 
 /// main() of crane_dashboard.
 int main_of(int argc, char** argv);

@@ -28,6 +28,13 @@ constexpr const char* kContentRules =
     "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
+/// A report has its scripts inside. It gets an origin of its own: it cannot read or ask for anything here.
+constexpr const char* kReportRules =
+    "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src "
+    "'unsafe-inline'; img-src data: blob:; font-src data:; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors "
+    "'none'";
+
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(boost::asio::ip::tcp::socket socket, Server& server, std::unique_ptr<Admission> admission)
@@ -39,17 +46,41 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void read() {
     parser_.emplace();
     parser_->header_limit(kLongestHeader_bytes);
-    parser_->body_limit(kLongestBody_bytes);
+    parser_->body_limit(kLongestUpload_bytes);
     stream_.expires_after(kRequestPatience);
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](error_code error, std::size_t) { self->was_read(error); });
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                              error ? self->was_read(error) : self->read_body();
+                            });
   }
 
  private:
+  void read_body() {
+    const auto& request = parser_->get();
+    const bool uploads = request.method() == http::verb::post &&
+                         view_of(request.target()).starts_with(kUploadPath) &&
+                         why_not_operate(server_.rules(), visitor()).empty();
+    if (!uploads) {
+      if (parser_->content_length().value_or(0) > kLongestBody_bytes)
+        return was_read(http::make_error_code(http::error::body_limit));
+      parser_->body_limit(kLongestBody_bytes);
+    } else if (server_.begin_upload()) {
+      upload_ = std::make_unique<Upload>(server_);
+      stream_.expires_after(kUploadPatience);
+    } else {
+      return refuse(503, "another upload is under way: try again");
+    }
+    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
+      const auto ends_here = std::exchange(self->upload_, nullptr);
+      self->was_read(error);
+    });
+  }
+
   void was_read(error_code error) {
     if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
     if (error == http::error::header_limit) return refuse(431, "the header is longer than 8192 bytes");
-    if (error == http::error::body_limit) return refuse(413, "the body is longer than 4096 bytes");
+    if (error == http::error::body_limit)
+      return refuse(413, "the body is longer than 4096 bytes, or an upload than 16 MB");
     if (error && error.category() == http::make_error_code(http::error::bad_method).category())
       return refuse(400, "this is no HTTP request");
     if (error) return close();
@@ -124,7 +155,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     response_->set(http::field::x_frame_options, "DENY");
     response_->set("X-Content-Type-Options", "nosniff");
     response_->set("Referrer-Policy", "no-referrer");
-    response_->set("Content-Security-Policy", kContentRules);
+    response_->set("Content-Security-Policy", answer_.report ? kReportRules : kContentRules);
     if (!head_only) response_->body() = {bytes.data(), bytes.size()};
     response_->content_length(bytes.size());
     stream_.expires_after(kRequestPatience * 3);  // a slow client may load the page for so long
@@ -139,11 +170,21 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
   }
 
+  /// While it exists, no other upload begins.
+  struct Upload {
+    explicit Upload(Server& of) : server{of} {}
+    ~Upload() { server.end_upload(); }
+    Upload(const Upload&) = delete;
+    Upload& operator=(const Upload&) = delete;
+    Server& server;
+  };
+
   beast::tcp_stream stream_;
   Server& server_;
   std::unique_ptr<Admission> admission_;
   boost::asio::steady_timer guess_{stream_.get_executor()};
   bool loop_back_ = false;
+  std::unique_ptr<Upload> upload_;
   beast::flat_buffer buffer_{kLongestHeader_bytes + kLongestBody_bytes};
   std::optional<http::request_parser<http::string_body>> parser_;
   ApiAnswer answer_;

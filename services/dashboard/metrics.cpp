@@ -47,7 +47,7 @@ void per_topic(Page& page, const char* name, const char* help, MetricType type, 
 }
 
 void add_topics(Page& page, const Model& model) {
-  using Traffic = const TopicTraffic&;
+  using Traffic = const observation::TopicTraffic&;
   per_topic(page, "crane_topic_samples_total", "Samples received.", MetricType::Counter, model,
             [](Traffic t) { return static_cast<double>(t.counts.samples); });
   per_topic(page, "crane_topic_lost_total", "Ticks without a sample.", MetricType::Counter, model,
@@ -100,6 +100,8 @@ std::string metrics(const Model& model, const ServerCounts& counts, std::int64_t
   add_topics(page, model);
   add_processes(page, model, now_ns);
   add_crane(page, model);
+  page.gauge("crane_other_version_programs", "Programs of this crane with another version of the messages.",
+             static_cast<double>(model.other_versions().size()));
   page.gauge("crane_dashboard_viewers", "Open WebSockets.", static_cast<double>(counts.viewers));
   page.gauge("crane_dashboard_history_bytes", "Memory of the history.",
              static_cast<double>(model.history().bytes()));

@@ -4,12 +4,13 @@
 #include <optional>
 #include <string>
 
-#include "dashboard/fault_timeline.hpp"
+#include "crane/bus/bus.hpp"
 #include "dashboard/foxglove.hpp"
-#include "dashboard/history.hpp"
 #include "dashboard/operator_seat.hpp"
 #include "dashboard/situation.hpp"
-#include "dashboard/traffic.hpp"
+#include "observation/fault_timeline.hpp"
+#include "observation/history.hpp"
+#include "observation/traffic.hpp"
 
 namespace crane::dashboard {
 
@@ -24,7 +25,9 @@ class Model {
  public:
   explicit Model(About about) : about_{std::move(about)} {}
 
-  void add(const SamplePtr& sample);
+  void add(const observation::SamplePtr& sample);
+  /// Programs of this crane whose samples are dropped.
+  void set_other_versions(std::vector<bus::OtherVersion> others) { other_versions_ = std::move(others); }
   /// Brings the documents up to date. @return those that have changed
   [[nodiscard]] std::vector<Document> poll(std::int64_t now_ns, std::int64_t log_now_ns);
   /// JSON text of a document.
@@ -33,21 +36,24 @@ class Model {
   }
 
   [[nodiscard]] const About& about() const { return about_; }
-  [[nodiscard]] const History& history() const { return history_; }
-  [[nodiscard]] const Traffic& traffic() const { return traffic_; }
+  [[nodiscard]] const observation::History& history() const { return history_; }
+  [[nodiscard]] const observation::Traffic& traffic() const { return traffic_; }
   [[nodiscard]] const Situation& situation() const { return situation_; }
-  [[nodiscard]] const FaultTimeline& faults() const { return faults_; }
+  [[nodiscard]] const observation::FaultTimeline& faults() const { return faults_; }
+  [[nodiscard]] const std::vector<bus::OtherVersion>& other_versions() const { return other_versions_; }
   [[nodiscard]] OperatorSeat& seat() { return seat_; }
 
  private:
+  [[nodiscard]] nlohmann::ordered_json traffic_json(std::int64_t now_ns) const;
   bool replace(Document document, const nlohmann::ordered_json& json);
 
   About about_;
-  History history_;
-  Traffic traffic_;
+  observation::History history_;
+  observation::Traffic traffic_;
   Situation situation_;
-  FaultTimeline faults_;
+  observation::FaultTimeline faults_;
   OperatorSeat seat_;
+  std::vector<bus::OtherVersion> other_versions_;
   std::array<std::string, kDocuments> documents_;
 };
 

@@ -6,6 +6,7 @@
 #include "crane/runtime/process.hpp"
 #include "dashboard/http_session.hpp"
 #include "dashboard/viewer_session.hpp"
+#include "observation/observer.hpp"
 
 namespace crane::dashboard {
 namespace {
@@ -16,21 +17,14 @@ using boost::system::error_code;
 
 }  // namespace
 
-std::int64_t log_now_ns() {
-  static const auto kWallMinusMonotonic_ns =
-      std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count() -
-      runtime::monotonic_ns();
-  return runtime::monotonic_ns() + kWallMinusMonotonic_ns;
-}
-
 Server::Server(const std::string& address, unsigned short port, About about, AccessRules rules,
-               std::function<void(const stack::Wish&, Answered)> send)
+               std::function<void(const stack::Wish&, Answered)> send, const RunsOptions& runs)
     : acceptor_{context_},
       timer_{context_},
       retry_{context_},
       rules_{std::move(rules)},
       model_{std::move(about)},
-      api_{model_, rules_, std::move(send), [this] { return counts(); }} {
+      api_{model_, rules_, std::move(send), [this] { return counts(); }, runs} {
   const tcp::endpoint endpoint{asio::ip::make_address(address), port};
   acceptor_.open(endpoint.protocol());
   acceptor_.set_option(tcp::acceptor::reuse_address{true});
@@ -57,8 +51,12 @@ void Server::stop() { context_.stop(); }
 
 void Server::post(std::function<void()> work) { asio::post(context_, std::move(work)); }
 
-void Server::put(std::vector<SamplePtr> samples) {
+void Server::put(std::vector<observation::SamplePtr> samples) {
   if (inbox_.put(std::move(samples))) asio::post(context_, [this] { take_samples(); });
+}
+
+void Server::set_other_versions(std::vector<bus::OtherVersion> others) {
+  post([this, others = std::move(others)]() mutable { model_.set_other_versions(std::move(others)); });
 }
 
 void Server::take_samples() {
@@ -94,8 +92,9 @@ void Server::beat() {
   timer_.async_wait([this](error_code error) {
     if (!error) beat();
   });
+  api_.poll();
   const auto now_ns = runtime::monotonic_ns();
-  const auto log_ns = log_now_ns();
+  const auto log_ns = observation::log_now_ns();
   for (const auto document : model_.poll(now_ns, log_ns)) {
     const auto& text = model_.text(document);
     const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end());

@@ -59,7 +59,7 @@ ordered_json move_of(const msg::AcceptedMove& move) {
 
 }  // namespace
 
-void Situation::add(const Sample& sample) {
+void Situation::add(const observation::Sample& sample) {
   if (msg::SupervisorStatus status; decode(topics::supervisor, sample, status)) {
     supervisor_ = status;
     supervisor_ns_ = sample.arrival_time_ns;

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
-#include "dashboard/sample.hpp"
+#include "observation/sample.hpp"
 
 namespace crane::dashboard {
 
@@ -12,7 +12,7 @@ class Situation {
   /// Silence after which what was heard counts no more; the supervisor publishes every tick.
   static constexpr std::int64_t kSilent_ns = 1'000'000'000;
 
-  void add(const Sample& sample);
+  void add(const observation::Sample& sample);
   /// Changes only when something changes that an operator acts on.
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 

@@ -139,7 +139,7 @@ void ViewerSession::subscribe(const Subscribe& wanted) {
     if (channel > topics::kAll.size()) {
       const auto document = static_cast<Document>(channel - topics::kAll.size() - 1);
       if (const auto& text = server_.model().text(document); !text.empty())
-        send_document(document, bytes_of(text), log_now_ns());
+        send_document(document, bytes_of(text), observation::log_now_ns());
       continue;
     }
     if (topics::kAll[channel - 1].every_tick) continue;
@@ -149,7 +149,7 @@ void ViewerSession::subscribe(const Subscribe& wanted) {
   }
 }
 
-void ViewerSession::send_sample(const SamplePtr& sample) {
+void ViewerSession::send_sample(const observation::SamplePtr& sample) {
   const auto channel = channel_of_topic(sample->topic);
   const auto found = subscriptions_.find(channel);
   if (found == subscriptions_.end()) return;

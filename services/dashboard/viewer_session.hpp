@@ -19,7 +19,7 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
   ViewerSession(boost::asio::ip::tcp::socket socket, Server& server, std::unique_ptr<Admission> admission);
 
   void accept(UpgradeRequest request);
-  void send_sample(const SamplePtr& sample);
+  void send_sample(const observation::SamplePtr& sample);
   void send_document(Document document, const Bytes& text, std::int64_t time_ns);
   void send_time(std::int64_t time_ns);
   /// Sends what waits. The page's frames leave with the beat of the server, those of a viewer at once.

@@ -11,7 +11,7 @@
 namespace crane::review {
 namespace {
 
-using dashboard::Note;
+using observation::Note;
 
 constexpr std::array kNames{"trolley", "slew", "cable"};
 constexpr std::array kUnits{"m", "deg", "m"};

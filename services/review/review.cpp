@@ -8,8 +8,8 @@
 namespace crane::review {
 namespace {
 
-using dashboard::Note;
-using dashboard::Sample;
+using observation::Note;
+using observation::Sample;
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr std::int64_t kYear2000_ns = 946'684'800'000'000'000;  // recordings of simulations begin at time 0
@@ -53,9 +53,9 @@ class Reader {
     traffic_.add(sample);
     timeline_.add(sample);
     add_status(sample);
-    if (msg::Reference reference; dashboard::decode(topics::reference, sample, reference))
+    if (msg::Reference reference; observation::decode(topics::reference, sample, reference))
       reference_ = reference;
-    if (msg::State state; dashboard::decode(topics::state, sample, state)) add_state(sample, state);
+    if (msg::State state; observation::decode(topics::state, sample, state)) add_state(sample, state);
   }
 
   void finish() {
@@ -75,7 +75,7 @@ class Reader {
 
   void add_status(const Sample& sample) {
     msg::SupervisorStatus status;
-    if (!dashboard::decode(topics::supervisor, sample, status)) return;
+    if (!observation::decode(topics::supervisor, sample, status)) return;
     status_ = status;
     auto& phases = review_.phases;
     if (phases.empty() || phases.back().state != status.state || phases.back().cause != status.cause)
@@ -113,9 +113,9 @@ class Reader {
   }
 
   Review& review_;
-  dashboard::Traffic traffic_;
-  dashboard::History history_;  ///< empty: the file itself is the history
-  dashboard::FaultTimeline timeline_;
+  observation::Traffic traffic_;
+  observation::History history_;  ///< empty: the file itself is the history
+  observation::FaultTimeline timeline_;
   msg::Reference reference_{};
   msg::SupervisorStatus status_{};
   std::int64_t polled_ns_ = 0;
@@ -135,7 +135,7 @@ void require_this_version(const recording::McapReader& reader, const std::filesy
 
 }  // namespace
 
-const dashboard::Fault* Review::first_stop() const {
+const observation::Fault* Review::first_stop() const {
   for (const auto kind : {Note::Kind::fault, Note::Kind::order})
     for (const auto& fault : faults)  // in the order of time
       if (std::ranges::find(fault.notes, kind, &Note::kind) != fault.notes.end()) return &fault;

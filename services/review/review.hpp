@@ -1,13 +1,14 @@
 #pragma once
 /// Reviews a recording: states, faults with their first cause, figures, curves; as sentences and as a page.
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "crane/recording/mcap_reader.hpp"
 #include "crane/report/page.hpp"
-#include "dashboard/fault_timeline.hpp"
-#include "dashboard/traffic.hpp"
+#include "observation/fault_timeline.hpp"
+#include "observation/traffic.hpp"
 
 namespace crane::review {
 
@@ -36,18 +37,18 @@ struct Review {
   std::string file;
   std::int64_t begin_ns = 0, end_ns = 0;
   bool wall_clock = false;  ///< false: the times are those of a simulation
-  std::vector<dashboard::Fault> faults;
+  std::vector<observation::Fault> faults;
   std::vector<Phase> phases;
   Curves curves;
   std::array<AxisFigures, 3> axes;
   double largest_radial_deg = 0, largest_tangential_deg = 0;
-  std::vector<dashboard::TopicTraffic> topics;  ///< in the order of topics::kAll
+  std::vector<observation::TopicTraffic> topics;  ///< in the order of topics::kAll
   std::vector<std::string> problems;            ///< problems of the file
 
   /// The first fault; without a fault the first stop by the operator; nullptr: no stop.
-  [[nodiscard]] const dashboard::Fault* first_stop() const;
+  [[nodiscard]] const observation::Fault* first_stop() const;
   /// First cause of first_stop(). A request of the operator is the cause only when no fault follows.
-  [[nodiscard]] const dashboard::Note* first_cause() const;
+  [[nodiscard]] const observation::Note* first_cause() const;
 };
 
 /// Reads all intact parts of the file. @throws recording::ReadError when the file is no recording of this
@@ -59,5 +60,7 @@ struct Review {
 /// Commands for a further analysis.
 [[nodiscard]] std::vector<std::string> next_commands(const Review& review);
 [[nodiscard]] report::Page page_of(const Review& review);
+/// The same with the curves of the page, thinned to at most `most_points` rows.
+[[nodiscard]] nlohmann::ordered_json to_json(const Review& review, std::size_t most_points);
 
 }  // namespace crane::review

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "crane/configuration/rig.hpp"
+#include "stack/child_processes.hpp"
 
 #ifndef CRANE_DATA_DIRECTORY
 #error "CRANE_DATA_DIRECTORY is set by the build"
@@ -12,11 +13,18 @@
 namespace crane::stack {
 namespace {
 
+/// Beside the programs when they are installed (/usr/share/crane), else in the tree that they were built
+/// from.
+std::filesystem::path data_directory() {
+  const auto installed = program_directory().parent_path() / "share/crane";
+  return std::filesystem::is_directory(installed) ? installed : std::filesystem::path{CRANE_DATA_DIRECTORY};
+}
+
 std::filesystem::path locate(const std::string& what, const std::string& folder,
                              const std::string& name_or_path) {
   namespace fs = std::filesystem;
   if (fs::is_regular_file(name_or_path)) return fs::absolute(name_or_path).lexically_normal();
-  const fs::path directory = fs::path{CRANE_DATA_DIRECTORY} / folder;
+  const fs::path directory = data_directory() / folder;
   if (const auto known = directory / (name_or_path + ".toml"); fs::is_regular_file(known)) return known;
   std::vector<std::string> names;
   if (fs::is_directory(directory))

@@ -2,14 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include "../dashboard/samples.hpp"
+#include "../observation/samples.hpp"
 #include "../recording/temporary_directory.hpp"
 #include "crane/recording/mcap_reader.hpp"
 
 namespace crane::black_box {
 namespace {
 
-using dashboard::kSecond_ns;
+using observation::kSecond_ns;
 
 Incident an_incident() {
   constexpr std::int64_t kAt_ns = 1'795'579'498 * kSecond_ns;
@@ -17,7 +17,7 @@ Incident an_incident() {
       .from_ns = kAt_ns - kSecond_ns, .until_ns = kAt_ns + kSecond_ns, .first = {}, .samples = {}};
   incident.first.at_ns = kAt_ns;
   incident.first.what = "LATCH_encoder jump";
-  incident.samples = {dashboard::status_at(kAt_ns, crane_STATE_STOP_C0, crane_CAUSE_BRIDGE_LATCHED, 7)};
+  incident.samples = {observation::status_at(kAt_ns, crane_STATE_STOP_C0, crane_CAUSE_BRIDGE_LATCHED, 7)};
   return incident;
 }
 

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "../dashboard/samples.hpp"
+#include "../observation/samples.hpp"
 
 namespace crane::black_box {
 namespace {
 
-using dashboard::kSecond_ns;
-using dashboard::status_at;
+using observation::kSecond_ns;
+using observation::status_at;
 
 /// A supervisor at 10 Hz; the test sets its state.
 class Crane {
@@ -118,7 +118,7 @@ TEST(Incidents, WhatHappenedBeforeTheStartIsNotKept) {
   event.severity = crane_SEVERITY_ERROR;
   runtime::assign(event.code, "latched");
   auto old =
-      std::make_shared<dashboard::Sample>(*dashboard::sample_of(topics::event, event, 101 * kSecond_ns));
+      std::make_shared<observation::Sample>(*observation::sample_of(topics::event, event, 101 * kSecond_ns));
   old->source_time_ns = 50 * kSecond_ns;  // an old sample that its writer kept for late joiners
   crane.incidents.add(old);
   crane.work(20);

@@ -5,12 +5,15 @@
 #include <fstream>
 #include <future>
 
+#include "../observation/samples.hpp"
 #include "dashboard/connection_limits.hpp"
-#include "samples.hpp"
+#include "observation/observer.hpp"
 #include "server_fixture.hpp"
 
 namespace crane::dashboard {
 namespace {
+
+using observation::sample_of;
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
@@ -141,10 +144,12 @@ long resident_kb() {
 TEST_F(ServerTest, ClientsThatAskForTheHistoryAndDoNotReadDoNotFillTheMemory) {
   auto viewer = view(kViewerProtocol);
   subscribe(viewer, channel_of(Document::situation));
-  const auto sample = sample_of(topics::state, msg::State{}, log_now_ns());
-  const auto count = History::kLargestTopic_bytes / sample->cdr.size();
-  for (std::size_t i = 0; i < count; i += 1000) server_.put(std::vector<SamplePtr>(1000, sample));
-  while (get("/api/history?topic=crane/state").body().size() < History::kLargestTopic_bytes / 2) {
+  const auto sample = sample_of(topics::state, msg::State{}, observation::log_now_ns());
+  const auto count = observation::History::kLargestTopic_bytes / sample->cdr.size();
+  for (std::size_t i = 0; i < count; i += 1000)
+    server_.put(std::vector<observation::SamplePtr>(1000, sample));
+  while (get("/api/history?topic=crane/state").body().size() <
+         observation::History::kLargestTopic_bytes / 2) {
   }
   const auto before_kb = resident_kb();
   std::vector<tcp::socket> idle;

@@ -24,7 +24,7 @@ using nlohmann::json;
 /// A dashboard whose supervisor accepts everything but "arm".
 class ServerTest : public testing::Test {
  protected:
-  explicit ServerTest(AccessRules rules = {})
+  explicit ServerTest(AccessRules rules = {}, const RunsOptions& runs = {})
       : server_{
             "127.0.0.1",
             0,
@@ -33,7 +33,8 @@ class ServerTest : public testing::Test {
             [this](const stack::Wish& wish, const Answered& answered) {
               ++asked_;
               answered({wish.kind != crane_REQUEST_ARM, wish.kind == crane_REQUEST_ARM ? "not READY" : ""});
-            }} {}
+            },
+            runs} {}
   ~ServerTest() override { server_.stop(); }
 
   tcp::socket connect() {

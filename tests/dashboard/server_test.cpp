@@ -3,11 +3,14 @@
 
 #include <random>
 
-#include "samples.hpp"
+#include "../observation/samples.hpp"
 #include "server_fixture.hpp"
 
 namespace crane::dashboard {
 namespace {
+
+using observation::kSecond_ns;
+using observation::sample_of;
 
 TEST_F(ServerTest, ServesThePageWithItsRules) {
   const auto page = get("/");
@@ -136,7 +139,7 @@ TEST_F(ServerTest, ASlowViewerLosesSamplesKeepsEventsAndDelaysNobody) {
   }
   const auto sample = sample_of(topics::state, msg::State{}, kSecond_ns);
   for (int i = 0; i < 300; ++i) {
-    server_.put(std::vector<SamplePtr>(100, sample));
+    server_.put(std::vector<observation::SamplePtr>(100, sample));
     if (i % 20 == 0) (void)read(quick);
   }
   server_.put({sample_of(topics::event, msg::Event{}, kSecond_ns)});

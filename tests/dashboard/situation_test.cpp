@@ -4,10 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "samples.hpp"
+#include "../observation/samples.hpp"
 
 namespace crane::dashboard {
 namespace {
+
+using observation::kSecond_ns;
+using observation::sample_of;
+using observation::status_at;
 
 nlohmann::ordered_json answer_of(const nlohmann::ordered_json& situation, const std::string& request) {
   for (const auto& answer : situation["answers"])

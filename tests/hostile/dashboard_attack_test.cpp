@@ -68,6 +68,12 @@ class Client {
     request.set("X-Crane-Seat", seat);
     return ask(std::move(request));
   }
+  unsigned upload(const std::string& name, const std::string& bytes, const std::string& token) {
+    http::request<http::string_body> request{http::verb::post, "/api/uploads/" + name, 11, bytes};
+    request.set(http::field::content_type, "application/octet-stream");
+    if (!token.empty()) request.set(http::field::authorization, "Bearer " + token);
+    return ask(std::move(request));
+  }
   [[nodiscard]] const std::string& body() const { return body_; }
   /// @return true when the dashboard answers within `patience`
   bool answers(std::chrono::milliseconds patience) {
@@ -96,6 +102,9 @@ class Attackers {
     for (const auto* body :
          {R"({"kind":"arm"})", R"({"kind":"move","trolley_m":1})", "[[[[[[[[[[[[[[[[", "{\"kind\":1e999}"})
       start([this, body] { Client{port_}.post("/api/request", body, ""); });
+    start([this] { Client{port_}.get("/api/runs"); });
+    start([this] { Client{port_}.post("/api/runs/review", R"({"run":"../../etc/passwd"})", ""); });
+    start([this] { Client{port_}.upload("flood.csv", std::string(1U << 20U, 'x'), ""); });
     start([this] { Client{port_}.post("/api/operator/take", "{}", "guess"); });
     start([this] { trickle(); });
     start([this] { ping(); });
@@ -159,10 +168,16 @@ class DashboardAttack : public testing::Test {
     auto arguments = runtime::arguments(stack_.bus_options());
     arguments[1] = "fastdds";
     arguments.insert(arguments.end(),
-                     {"--port", std::to_string(port_), "--operator-token", (directory_ / "token").string()});
+                     {"--port", std::to_string(port_), "--operator-token", (directory_ / "token").string(),
+                      "--rig", kRig, "--runs", made(directory_ / "runs").string()});
     stack_.children().start("dashboard", "crane_dashboard", arguments);
     ASSERT_TRUE(client_.answers(10s));
     std::getline(std::ifstream{directory_ / "token"}, token_);
+  }
+  static std::filesystem::path made(const std::filesystem::path& directory) {
+    std::filesystem::create_directories(directory);
+    recording::put_contents(directory / "no_recording.mcap", "this is none");
+    return directory;
   }
   [[nodiscard]] crane_SupervisorState state() const { return stack_.observer().statuses().back().state; }
   [[nodiscard]] long resident_kb() {
@@ -234,6 +249,35 @@ TEST_F(DashboardAttack, WithoutTheTokenNothingIsAskedOfTheSupervisor) {
   const auto seat = client_.body().substr(at, client_.body().find('"', at) - at);
   EXPECT_EQ(client_.post("/api/request", R"({"kind":"reset"})", token_, seat), 200U);
   EXPECT_TRUE(stack_.until([this] { return state() == crane_STATE_READY; }, 3s));
+}
+
+TEST_F(DashboardAttack, RunsThatAreNoneAndManyDiagnosesDoNotReachTheLoop) {
+  stack_.session().arm();
+  stack_.listen(1s);
+  stack_.forget();
+  const auto lost_before = lost_ticks();
+  EXPECT_EQ(client_.post("/api/runs/review", R"({"run":"no_recording.mcap"})", ""), 403U);
+  EXPECT_EQ(client_.upload("a.csv", "time_s\n", ""), 403U);
+  for (const auto* name : {"../token", "/etc/passwd", "no_recording.mcap/../../token"})
+    EXPECT_EQ(client_.post("/api/runs/review", R"({"run":")" + std::string{name} + R"("})", token_), 400U)
+        << name;
+  EXPECT_EQ(client_.post("/api/runs/review", R"({"run":"no_recording.mcap"})", token_), 200U);
+  // Work for the processor, as much as the bounds permit, and more than waits.
+  std::string table = "time_s,trolley_voltage_v,trolley_position_m\n";
+  for (int i = 0; i < 2000; ++i)
+    table += std::to_string(0.01 * i) + ",1.0," + std::to_string(0.5 + 1e-4 * i) + "\n";
+  EXPECT_EQ(client_.upload("a.csv", table, token_), 200U);
+  unsigned refused = 0;
+  for (int i = 0; i < 15; ++i)
+    refused += client_.post("/api/runs/diagnose", R"({"train":["upload:a.csv"],"test":["upload:a.csv"]})",
+                            token_) == 503U;
+  EXPECT_GT(refused, 0U);
+  stack_.listen(5s);
+  EXPECT_EQ(lost_ticks(), lost_before);
+  for (const auto& status : stack_.observer().statuses()) ASSERT_EQ(status.state, crane_STATE_HOLD);
+  EXPECT_LT(resident_kb(), kLargest_kb);
+  EXPECT_EQ(client_.get("/api/jobs"), 200U);
+  EXPECT_NE(client_.body().find("no_recording.mcap"), std::string::npos);
 }
 
 /// Process ids of the children of a process.

@@ -18,92 +18,15 @@
 #include <thread>
 
 #include "../recording/temporary_directory.hpp"
-#include "stack/child_processes.hpp"
+#include "two_hosts.hpp"
 
 namespace crane::stack {
 namespace {
 
 using namespace std::chrono_literals;
-
-struct Answer {
-  int exit_code = -1;
-  std::string output;
-};
-
-Answer run(const std::string& command) {
-  Answer answer;
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return answer;
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    answer.output.append(buffer.data(), n);
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status)) answer.exit_code = WEXITSTATUS(status);
-  return answer;
-}
-
-/// Two hosts, which exist as long as this object.
-class TwoHosts {
- public:
-  TwoHosts()
-      : near_{"crane_near_" + std::to_string(::getpid())}, far_{"crane_far_" + std::to_string(::getpid())} {
-    const std::string id = std::to_string(::getpid());
-    ok_ = run("ip netns add " + near_).exit_code == 0 && run("ip netns add " + far_).exit_code == 0 &&
-          run("ip link add cn" + id + " netns " + near_ + " type veth peer name cf" + id + " netns " + far_)
-                  .exit_code == 0 &&
-          run("ip -n " + near_ + " addr add " + kNear + "/24 dev cn" + id).exit_code == 0 &&
-          run("ip -n " + far_ + " addr add " + kFar + "/24 dev cf" + id).exit_code == 0 &&
-          run("ip -n " + near_ + " link set cn" + id + " up").exit_code == 0 &&
-          run("ip -n " + far_ + " link set cf" + id + " up").exit_code == 0 &&
-          run("ip -n " + near_ + " link set lo up").exit_code == 0 &&
-          run("ip -n " + far_ + " link set lo up").exit_code == 0;
-  }
-  ~TwoHosts() {
-    run("ip netns del " + near_);
-    run("ip netns del " + far_);
-  }
-  TwoHosts(const TwoHosts&) = delete;
-  TwoHosts& operator=(const TwoHosts&) = delete;
-
-  [[nodiscard]] bool ok() const { return ok_; }
-  [[nodiscard]] const std::string& near() const { return near_; }
-  [[nodiscard]] const std::string& far() const { return far_; }
-  [[nodiscard]] Answer on_far(const std::string& arguments) const {
-    return run("ip netns exec " + far_ + " " + (program_directory() / "crane").string() + " " + arguments);
-  }
-  void unplug_far() const { run("ip -n " + far_ + " link set cf" + std::to_string(::getpid()) + " down"); }
-  static constexpr const char* kNear = "10.77.0.1";
-  static constexpr const char* kFar = "10.77.0.2";
-
- private:
-  std::string near_, far_;
-  bool ok_ = false;
-};
-
-/// A `crane` command that runs on one of the hosts until Ctrl-C.
-class Running {
- public:
-  Running(const std::string& host, const std::vector<std::string>& command) {
-    std::vector<std::string> arguments{"ip", "netns", "exec", host, (program_directory() / "crane").string()};
-    arguments.insert(arguments.end(), command.begin(), command.end());
-    std::vector<char*> argv;
-    for (auto& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    pid_ = ::fork();
-    if (pid_ != 0) return;
-    ::execvp("ip", argv.data());
-    ::_exit(127);
-  }
-  ~Running() {
-    ::kill(pid_, SIGINT);
-    ::waitpid(pid_, nullptr, 0);
-  }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-
- private:
-  pid_t pid_ = 0;
-};
+using hosts::Answer;
+using hosts::Running;
+using hosts::TwoHosts;
 
 std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& second) {
   first.insert(first.end(), second.begin(), second.end());

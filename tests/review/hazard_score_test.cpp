@@ -33,7 +33,7 @@ std::string named_by(const Review& review) {
 bool is_right(const Review& review, const campaign::Result& result) {
   const auto* cause = review.first_cause();
   return named_by(review) == name_of(result) ||
-         (!result.stopped && cause != nullptr && cause->kind == dashboard::Note::Kind::order);
+         (!result.stopped && cause != nullptr && cause->kind == observation::Note::Kind::order);
 }
 
 TEST(ReviewOfHazards, NamesTheFirstCauseOfAtLeast95Percent) {

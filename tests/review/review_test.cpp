@@ -2,14 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include "../dashboard/samples.hpp"
+#include "../observation/samples.hpp"
 #include "../recording/temporary_directory.hpp"
 
 namespace crane::review {
 namespace {
 
-using dashboard::kSecond_ns;
-using dashboard::SamplePtr;
+using observation::kSecond_ns;
+using observation::SamplePtr;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -20,7 +20,7 @@ SamplePtr state_at(std::int64_t at_ns, std::uint64_t tick, crane_LatchReason lat
   state.header.source = crane_SOURCE_PLANT;
   state.latch_reason = latch;
   state.swing_radial_rad = 0.1;
-  return dashboard::sample_of(topics::state, state, at_ns, tick);
+  return observation::sample_of(topics::state, state, at_ns, tick);
 }
 
 class Recorded : public testing::Test {
@@ -39,9 +39,9 @@ class Recorded : public testing::Test {
     for (std::uint64_t tick = 1; tick <= 100; ++tick) {
       const auto at_ns = kZero_ns + static_cast<std::int64_t>(tick) * kSecond_ns / 100;
       samples.push_back(state_at(at_ns, tick, tick < 90 ? crane_LATCH_NONE : crane_LATCH_SPEED));
-      samples.push_back(dashboard::status_at(at_ns + 1, tick < 91 ? crane_STATE_RUN : crane_STATE_STOP_C0,
-                                             tick < 91 ? crane_CAUSE_NONE : crane_CAUSE_BRIDGE_LATCHED,
-                                             tick));
+      samples.push_back(observation::status_at(at_ns + 1, tick < 91 ? crane_STATE_RUN : crane_STATE_STOP_C0,
+                                               tick < 91 ? crane_CAUSE_NONE : crane_CAUSE_BRIDGE_LATCHED,
+                                               tick));
     }
     write(samples);
   }
@@ -71,7 +71,7 @@ TEST_F(Recorded, ThePageStandsAloneAndHasStatesFiguresAndCurves) {
 }
 
 TEST_F(Recorded, WithoutAStopNothingIsBlamed) {
-  write({state_at(kZero_ns, 1), dashboard::status_at(kZero_ns + 1, crane_STATE_HOLD, crane_CAUSE_NONE)});
+  write({state_at(kZero_ns, 1), observation::status_at(kZero_ns + 1, crane_STATE_HOLD, crane_CAUSE_NONE)});
   EXPECT_EQ(sentences(review(file)).front(), "Nothing stopped the crane in this recording.");
 }
 

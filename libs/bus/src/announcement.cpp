@@ -3,6 +3,8 @@
 #include <charconv>
 #include <optional>
 
+#include "crane/bus/announcement.hpp"
+
 namespace crane::bus {
 namespace {
 
@@ -10,12 +12,9 @@ constexpr std::string_view kBegin = "crane messages=";
 constexpr std::string_view kCrane = " crane=";
 constexpr std::string_view kParticipant = " participant=";
 
-struct Announcement {
-  std::uint32_t version = 0;
-  std::string_view crane, participant;
-};
+}  // namespace
 
-std::optional<Announcement> parsed(std::string_view text) {
+std::optional<Announcement> parse_announcement(std::string_view text) {
   if (!text.starts_with(kBegin)) return std::nullopt;
   text.remove_prefix(kBegin.size());
   Announcement found;
@@ -30,18 +29,16 @@ std::optional<Announcement> parsed(std::string_view text) {
   return found;
 }
 
-}  // namespace
-
 std::string announcement(const Options& options) {
   return std::string{kBegin} + std::to_string(options.messages_version) + std::string{kCrane} +
          options.crane + std::string{kParticipant} + options.participant;
 }
 
 void Census::note(const Key& participant, std::string_view user_data) {
-  const auto found = parsed(user_data);
+  const auto found = parse_announcement(user_data);
   if (!found || found->crane != crane_ || found->version == version_) return;
   const std::lock_guard lock{mutex_};
-  others_[participant] = {std::string{found->participant}, found->version};
+  others_[participant] = {found->participant, found->version};
 }
 
 void Census::forget(const Key& participant) {

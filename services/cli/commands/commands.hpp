@@ -23,6 +23,7 @@ void add_stop(CLI::App& app, Action& chosen);
 void add_estop(CLI::App& app, Action& chosen);
 void add_topic(CLI::App& app, Action& chosen);
 void add_graph(CLI::App& app, Action& chosen);
+void add_doctor(CLI::App& app, Action& chosen);
 void add_dashboard(CLI::App& app, Action& chosen);
 void add_black_box(CLI::App& app, Action& chosen);
 void add_review(CLI::App& app, Action& chosen);
@@ -36,5 +37,7 @@ void add_bench(CLI::App& app, Action& chosen);
 void add_keys(CLI::App& app, Action& chosen);
 void add_campaign(CLI::App& app, Action& chosen);
 void add_supervisor(CLI::App& app, Action& chosen);
+void add_completion(CLI::App& app, Action& chosen);
+void add_man(CLI::App& app, Action& chosen);
 
 }  // namespace crane::cli

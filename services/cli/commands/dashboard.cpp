@@ -4,9 +4,21 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "black_box/black_box.hpp"
 #include "commands.hpp"
 
 namespace crane::cli {
+
+namespace {
+
+/// Without --runs the page shows what the black box of this user has recorded.
+int serve(dashboard::Options options) {
+  const auto recorded = black_box::default_directory();
+  if (options.runs.empty() && std::filesystem::is_directory(recorded)) options.runs = recorded.string();
+  return dashboard::run(options);
+}
+
+}  // namespace
 
 void add_dashboard(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<dashboard::Options>(dashboard::default_options());
@@ -19,7 +31,7 @@ void add_dashboard(CLI::App& app, Action& chosen) {
       "          crane dashboard --listen 0.0.0.0 --operator-token token    others look; with the token they "
       "operate\n"
       "Foxglove, Lichtblick and PlotJuggler connect to ws://127.0.0.1:8765 (foxglove.websocket.v1).");
-  command->callback([options, &chosen] { chosen = [options] { return dashboard::run(*options); }; });
+  command->callback([options, &chosen] { chosen = [options] { return serve(*options); }; });
 }
 
 }  // namespace crane::cli

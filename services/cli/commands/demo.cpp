@@ -119,7 +119,8 @@ int demo(DemoOptions options) {
   bus::Bus bus{runtime::bus_options(observer, "crane_demo", crane_SOURCE_OPERATOR, 0)};
   stack::wait_until_ready(children, specs, bus, 15s);
   if (options.dashboard)
-    dashboard::launch(children, options.launch.bus, options.launch.rig, dashboard::default_options().port);
+    dashboard::launch(children, options.launch.bus, options.launch.rig, options.out,
+                      dashboard::default_options().port);
   RecorderSlot recorder;
   const auto meanwhile = [&children, &recorder] {
     if (recorder) recorder->poll();

@@ -27,7 +27,7 @@ struct DiagnoseOptions {
   std::optional<double> from_s, to_s;
   std::uint64_t seed = 1;
   std::size_t effects = 3;
-  bool json = false, no_picture = false, check = false;
+  bool json = false, no_picture = false, check = false, progress = false;
 };
 
 /// Progress in one line of the terminal.
@@ -38,6 +38,18 @@ void show_share(double share, const std::string& what) {
   text.resize(kText, ' ');
   std::cerr << "\r[" << std::string(filled, '#') << std::string(kBar - filled, ' ') << "] "
             << static_cast<int>(100 * share) << " % " << text << (share >= 1 ? "\n" : "") << std::flush;
+}
+
+/// Progress for a program that has started this one: "progress 0.25 TEXT".
+void tell_share(double share, const std::string& what) {
+  std::cerr << "progress " << std::clamp(share, 0.0, 1.0) << ' ' << what << std::endl;
+}
+
+/// Where progress goes.
+std::function<void(double, const std::string&)> progress_of(const DiagnoseOptions& options) {
+  if (options.progress) return tell_share;
+  if (::isatty(STDERR_FILENO) == 1) return show_share;
+  return [](double, const std::string&) {};
 }
 
 std::string rounded(double value) {
@@ -99,7 +111,7 @@ void print_check(const diagnosis::Check& check, const DiagnosisData& data) {
 int check_data(const DiagnoseOptions& options, const configuration::Rig& rig, DiagnosisData data) {
   diagnosis::Request request;
   request.seed = options.seed;
-  if (::isatty(STDERR_FILENO) == 1) request.progress = show_share;
+  request.progress = progress_of(options);
   const diagnosis::Check check = diagnosis::check(rig, std::move(data.train), request);
   if (options.json)
     std::cout << diagnosis::to_json(check).dump(2) << '\n';
@@ -122,7 +134,7 @@ int diagnose_data(const DiagnoseOptions& options) {
   diagnosis::Request request;
   request.seed = options.seed;
   request.most_effects = options.effects;
-  if (::isatty(STDERR_FILENO) == 1) request.progress = show_share;
+  request.progress = progress_of(options);
   Diagnosis result = diagnosis::diagnose(rig, data.train, data.test, request);
   result.notes.insert(result.notes.begin(), data.notes.begin(), data.notes.end());
   diagnosis::write_report(options.out, result, rig, data.test);
@@ -171,6 +183,7 @@ void add_diagnose(CLI::App& app, Action& chosen) {
       "--check", options->check,
       "report what --train can show of each candidate and what to record next, without a verdict");
   command->add_flag("--json", options->json, "print report.json");
+  command->add_flag("--progress", options->progress, "print lines \"progress SHARE TEXT\" on standard error");
   command->add_flag("--no-picture", options->no_picture, "do not draw SVG files");
   command->footer(
       "Example: crane diagnose --rig virginia_tech_tower --train a.csv b.mcap --test c.csv --out "

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 
@@ -12,16 +13,23 @@ namespace {
 
 struct ReviewOptions {
   std::filesystem::path file, out;
+  bool json = false;
 };
+
+/// Rows of the curves of --json: more than a screen has columns.
+constexpr std::size_t kMostPoints = 2000;
 
 int run(const ReviewOptions& options) {
   try {
     const auto found = review::review(options.file);
-    for (const auto& line : review::sentences(found)) std::cout << line << '\n';
+    if (options.json)
+      std::cout << review::to_json(found, kMostPoints).dump(2) << '\n';
+    else
+      for (const auto& line : review::sentences(found)) std::cout << line << '\n';
     auto out = options.out;
     if (out.empty()) out = std::filesystem::path{options.file}.replace_extension("html");
     report::write_html(out, review::page_of(found));
-    std::cout << "page: " << out.string() << '\n';
+    if (!options.json) std::cout << "page: " << out.string() << '\n';
     return runtime::kExitDone;
   } catch (const recording::ReadError& error) {
     std::cerr << "crane: " << error.what() << '\n';
@@ -37,6 +45,7 @@ void add_review(CLI::App& app, Action& chosen) {
       app.add_subcommand("review", "Say what happened in a recording, first cause first, and write a page");
   command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(CLI::ExistingFile);
   command->add_option("--out", options->out, "page to write; default: FILE with the extension .html");
+  command->add_flag("--json", options->json, "print sentences, figures and curves as one JSON object");
   command->footer("Example: crane review ~/.local/state/crane/black_box/20261125T035501Z_SWING_LIMIT.mcap");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -4,13 +4,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/arrival_statistics.hpp"
 #include "cli/text_table.hpp"
 #include "cli/topic_reader.hpp"
+#include "observation/arrival_statistics.hpp"
 #include "topic.hpp"
 
 namespace crane::cli {
 namespace {
+
+using observation::ArrivalStatistics;
 
 struct TopicHzOptions {
   TopicOptions topic;

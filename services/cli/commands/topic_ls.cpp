@@ -4,13 +4,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/arrival_statistics.hpp"
 #include "cli/text_table.hpp"
 #include "cli/tool_bus.hpp"
+#include "observation/arrival_statistics.hpp"
 #include "topic.hpp"
 
 namespace crane::cli {
 namespace {
+
+using observation::ArrivalStatistics;
 
 struct TopicLsOptions {
   double window_s = 2;

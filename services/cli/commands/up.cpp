@@ -15,6 +15,7 @@
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
 #include "stack/operator_client.hpp"
+#include "stack/service_manager.hpp"
 #include "stack/stack.hpp"
 
 namespace crane::cli {
@@ -32,6 +33,7 @@ struct UpOptions {
   std::string twin_rig;
   bool dashboard = false;
   unsigned short dashboard_port = dashboard::default_options().port;
+  std::filesystem::path dashboard_runs;  ///< empty: those of the black box
 };
 
 /// The recorder runs on Fast DDS, so that ordinary use exercises both vendors together.
@@ -68,7 +70,8 @@ class DashboardKeeper {
   DashboardKeeper(stack::ChildProcesses& children, const UpOptions& options)
       : children_{children}, options_{options} {}
   void start() {
-    dashboard::launch(children_, options_.launch.bus, options_.launch.rig, options_.dashboard_port);
+    dashboard::launch(children_, options_.launch.bus, options_.launch.rig, options_.dashboard_runs.string(),
+                      options_.dashboard_port);
     started_ns_ = runtime::monotonic_ns();
   }
   /// @return whether it runs again
@@ -86,8 +89,10 @@ class DashboardKeeper {
 };
 
 /// Waits for Ctrl-C. @return false when a process of the control loop has ended by itself
-bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::optional<runtime::Node>& node) {
+bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::optional<runtime::Node>& node,
+           stack::ServiceManager& manager) {
   while (!runtime::stop_requested()) {
+    manager.alive(runtime::monotonic_ns());
     if (const auto ended = children.ended()) {
       const auto without = goes_without(ended->name);
       if (ended->name == "dashboard" && dashboard.start_again()) {
@@ -131,7 +136,11 @@ int up(UpOptions options) {
   if (!options.record.empty()) start_recorder(children, options);
   if (!options.no_black_box) start_black_box(children, options);
   DashboardKeeper dashboard{children, options};
-  if (options.dashboard) dashboard.start();
+  if (options.dashboard_runs.empty()) options.dashboard_runs = options.black_box;
+  if (options.dashboard) {
+    std::filesystem::create_directories(options.dashboard_runs);
+    dashboard.start();
+  }
   stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
   if (options.launch.clock == "lockstep")
     stack::OperatorClient{bus, "crane_up", experiments::unique_first_id()}.send(
@@ -142,7 +151,10 @@ int up(UpOptions options) {
             << std::endl;
   std::optional<runtime::Node> node;  // with keys, the role operator may not write crane/node
   if (options.launch.bus.secure.empty()) node.emplace(bus, runtime::NodeIdentity{"crane_up", ""});
-  const bool orderly = watch(children, dashboard, node);
+  stack::ServiceManager manager;
+  manager.ready();
+  const bool orderly = watch(children, dashboard, node, manager);
+  manager.stopping();
   children.stop();
   return orderly ? runtime::kExitDone : runtime::kExitFailed;
 }
@@ -175,6 +187,10 @@ void add_up(CLI::App& app, Action& chosen) {
                     "serve a page that shows and operates this crane (docs/dashboard.md)");
   command->add_option("--dashboard-port", options->dashboard_port, "port of --dashboard")
       ->capture_default_str();
+  command
+      ->add_option("--dashboard-runs", options->dashboard_runs,
+                   "directory of recordings for --dashboard; default: that of the black box")
+      ->check(CLI::ExistingDirectory);
   command->add_option("--dds-for", options->vendors,
                       "NAME=VENDOR: another DDS implementation for one process");
   command->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")

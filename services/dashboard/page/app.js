@@ -6,10 +6,11 @@ import { Link } from "./link.js";
 import { NetworkView } from "./network.js";
 import { OperateView } from "./operate.js";
 import { PlotsView } from "./plots.js";
+import { DiagnoseView, RunsModel, RunsView } from "./runs.js";
 import { Signals } from "./signals.js";
 
 const find = (id) => document.getElementById(id);
-const VIEWS = ["operate", "plots", "network", "faults"];
+const VIEWS = ["operate", "plots", "network", "faults", "runs", "diagnose"];
 
 function theme(name) {
   document.documentElement.dataset.theme = name;
@@ -32,13 +33,16 @@ const faults = new FaultsView(link, (fault) => {
   plots.showMoment(fault);
 });
 
+const recorded = new RunsModel(desk);
+const runs = new RunsView(recorded), diagnose = new DiagnoseView(recorded);
+
 function show() {
   const wanted = location.hash.slice(1);
   const shown = VIEWS.includes(wanted) ? wanted : "operate";
   for (const view of VIEWS) find("view-" + view).hidden = view !== shown;
   for (const tab of document.querySelectorAll(".tabs a"))
     tab.getAttribute("href") === "#" + shown ? tab.setAttribute("aria-current", "page") : tab.removeAttribute("aria-current");
-  for (const view of [operate, plots, network, faults]) view.shown?.(shown);
+  for (const view of [operate, plots, network, faults, runs, diagnose]) view.shown?.(shown);
   window.dispatchEvent(new Event("resize"));
 }
 window.addEventListener("hashchange", show);

@@ -18,11 +18,16 @@ export class Desk extends EventTarget {
 
   get mine() { return this.#key !== ""; }
 
-  async #post(path, body = {}) {
-    const headers = { "Content-Type": "application/json", "X-Crane-Seat": this.#key };
+  #post(path, body = {}) { return this.#send(path, "application/json", JSON.stringify(body)); }
+  /** With the operator's token, without the controls. @returns the answer, with `ok`, `status` and perhaps `error` */
+  post(path, body) { return this.#post(path, body); }
+  upload(path, file) { return this.#send(path, "application/octet-stream", file); }
+
+  async #send(path, type, body) {
+    const headers = { "Content-Type": type, "X-Crane-Seat": this.#key };
     if (this.#token) headers.Authorization = "Bearer " + this.#token;
     try {
-      const answer = await fetch(path, { method: "POST", headers, body: JSON.stringify(body) });
+      const answer = await fetch(path, { method: "POST", headers, body });
       return { ok: answer.ok, status: answer.status, ...(await answer.json()) };
     } catch {
       return { ok: false, status: 0, error: "the dashboard does not answer" };

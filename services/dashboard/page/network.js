@@ -28,6 +28,8 @@ export class NetworkView {
   #draw() {
     if (!this.#visible || !this.#traffic) return;
     this.#drawProcesses(this.#traffic.processes);
+    find("other-versions").replaceChildren(...this.#traffic.other_versions.map((other) => element("li", {}, other.explanation)));
+    find("other-versions").hidden = this.#traffic.other_versions.length === 0;
     this.#drawTopics(this.#traffic);
     if (this.#wiring) this.#drawGraph();
   }

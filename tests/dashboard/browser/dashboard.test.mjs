@@ -1,12 +1,15 @@
 // The dashboard as a person uses it: real processes, a real browser. Screenshots stay in the directory of the build.
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { chromium } from "playwright-core";
 import WebSocket from "ws";
-import { end, startDashboard, startStack, until } from "./stack.mjs";
+import { crane_done, end, startDashboard, startStack, until } from "./stack.mjs";
 
 let stack, dashboard, browser, page, second;
+const recorded = mkdtempSync(join(tmpdir(), "crane_runs_"));
 const complaints = [];
 mkdirSync("screenshots", { recursive: true });
 const shot = (from, name) => from.screenshot({ path: `screenshots/${name}.png` });
@@ -31,12 +34,14 @@ async function ask(kind) {
 const number = async (id) => parseFloat(await page.textContent("#" + id));
 
 before(async () => {
+  for (const controller of ["gain_scheduling_partial", "delayed_1"]) await crane_done("run", "maneuver_1", "--controller", controller, "--out", join(recorded, controller));
   stack = await startStack("--twin");
-  dashboard = await startDashboard();
+  dashboard = await startDashboard(0, "--runs", recorded);
   browser = await chromium.launch({ executablePath: process.env.CRANE_CHROMIUM, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
 });
 after(async () => {
   await browser?.close();
+  rmSync(recorded, { recursive: true, force: true });
   await Promise.all([dashboard?.child, stack].filter(Boolean).map((child) => end(child)));
 });
 
@@ -161,7 +166,7 @@ test("after a lost dashboard the page says so, and connects again by itself", as
   await end(dashboard.child, "SIGKILL");
   await until("the loss is shown", () => page.isVisible("#lost"));
   await shot(page, "lost");
-  dashboard = await startDashboard(port);
+  dashboard = await startDashboard(port, "--runs", recorded);
   await until("live again", () => page.locator("#link-state[data-state=live]").count());
   await until("the state is shown again", async () => (await state()) === "ESTOP");
   assert.ok(!(await page.isVisible("#lost")));
@@ -193,6 +198,40 @@ test("it works on a phone and in light colours", async () => {
   await page.click("#theme");
   await page.waitForTimeout(300);
   await shot(page, "operate_other_theme");
+});
+
+test("two recordings are reviewed side by side", async () => {
+  await show("runs");
+  for (const controller of ["gain_scheduling_partial", "delayed_1"]) {
+    await page.check(`#runs-list li[data-run="${controller}/recording.mcap"] input`);
+    await until(controller + " is reviewed", () => page.locator(`.review[data-run="${controller}/recording.mcap"] .report-link`).count(), 90_000);
+  }
+  assert.ok((await page.locator("#runs-plots canvas").count()) >= 6, "a plot of each signal");
+  assert.match(await page.textContent("#runs-reviews"), /largest swing/);
+  await shot(page, "runs");
+  const [opened] = await Promise.all([page.context().waitForEvent("page"), page.click(".report-link >> nth=0")]);
+  await opened.waitForLoadState();
+  assert.match(await opened.textContent("body"), /What happened/);
+  assert.ok((await opened.locator("canvas").count()) > 0, "the scripts of the report run");
+  assert.equal(await opened.evaluate(() => fetch("/api/about").then(() => "reached", () => "kept out")), "kept out", "a report reaches nothing of the dashboard");
+  await opened.close();
+});
+
+test("an uploaded run is diagnosed, with its verdict and report", async () => {
+  await show("diagnose");
+  await page.setInputFiles("#diagnose-upload", join(recorded, "delayed_1", "run.csv"));
+  const line = (run) => page.locator(`#diagnose-list li[data-run="${run}"] select`);
+  await until("the upload is listed", () => line("upload:run.csv").count());
+  assert.ok(await page.isDisabled("#diagnose-start"));
+  await line("gain_scheduling_partial/run.csv").selectOption("train");
+  await line("upload:run.csv").selectOption("test");
+  await page.click("#diagnose-start");
+  await until("it computes", () => page.locator("#diagnose-jobs progress").count());
+  await until("progress is told", async () => (await page.locator("#diagnose-jobs progress").getAttribute("value")) > 0, 120_000);
+  await shot(page, "diagnose_running");
+  await until("a verdict", () => page.locator("#diagnose-jobs .verdict").count(), 240_000);
+  assert.match(await page.textContent("#diagnose-jobs .verdict"), /^(none|named|ambiguous|parameter|unknown): /);
+  await shot(page, "diagnose");
 });
 
 test("no browser complained", () => assert.deepEqual(complaints, []));

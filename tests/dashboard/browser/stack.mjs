@@ -30,9 +30,18 @@ const crane = "browser_test_" + process.pid;
 const bus = ["--domain", process.env.CRANE_TEST_DOMAIN ?? "54", "--crane", crane];
 export const startStack = async (...more) => (await start("crane", ["up", "--dds", "cyclone", ...bus, ...more], /is up with/)).child;
 /** @returns {child, address: "http://127.0.0.1:PORT/"} */
-export async function startDashboard(port = 0) {
-  const { child, match } = await start("crane_dashboard", [...bus, "--rig", "virginia_tech_tower", "--port", String(port)], /dashboard: (http:\S+)/);
+export async function startDashboard(port = 0, ...more) {
+  const { child, match } = await start("crane_dashboard", [...bus, "--rig", "virginia_tech_tower", "--port", String(port), ...more], /dashboard: (http:\S+)/);
   return { child, address: match[1] };
+}
+
+/** Runs a command of `crane` to its end. */
+export async function crane_done(...args) {
+  const child = spawn(`${BIN}/crane`, args, { stdio: ["ignore", "ignore", "pipe"] });
+  let said = "";
+  child.stderr.on("data", (data) => { said += data; });
+  const [code] = await once(child, "exit");
+  if (code !== 0) throw new Error(`crane ${args.join(" ")}: ${code}: ${said}`);
 }
 
 /** Waits until `holds` returns something true. */

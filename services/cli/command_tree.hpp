@@ -1,0 +1,33 @@
+#pragma once
+/// The commands as data, read from what --help prints: for completion and the man page.
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace crane::cli {
+
+struct CommandOption {
+  std::vector<std::string> names;  ///< "--rig", "-h"; empty: a positional argument
+  std::string argument;            ///< "TEXT", "FILE"; empty: a flag
+  std::string meaning;
+};
+struct Command {
+  std::string path;  ///< "crane topic echo"
+  std::string meaning, footer;
+  std::vector<CommandOption> options;
+  std::vector<std::string> subcommands;
+};
+
+/// The command and all below it, in the order of --help.
+[[nodiscard]] std::vector<Command> commands_of(const CLI::App& root);
+
+/// Script that completes commands and options; files elsewhere.
+[[nodiscard]] std::string bash_completion(const std::vector<Command>& commands);
+[[nodiscard]] std::string zsh_completion(const std::vector<Command>& commands);
+/// Page of section 1 (man-pages(7)).
+[[nodiscard]] std::string man_page(const std::vector<Command>& commands, const std::string& version);
+
+}  // namespace crane::cli

@@ -1,0 +1,83 @@
+/// crane doctor: why a crane is not heard, and what of this computer hinders its loop.
+#include "doctor/doctor.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/tool_bus.hpp"
+#include "commands.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct DoctorOptions {
+  doctor::Options examined;
+  std::string rig;
+  bool network = false, real_time = false, hardware = false, json = false;
+};
+
+void print_json(const doctor::Findings& findings) {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& finding : findings)
+    list.push_back({{"grade", doctor::name_of(finding.grade)},
+                    {"room", finding.room},
+                    {"code", finding.code},
+                    {"what", finding.what},
+                    {"remedy", finding.remedy}});
+  std::cout << list.dump(2) << '\n';
+}
+
+int examine(DoctorOptions options) {
+  runtime::install_stop_signals();
+  options.examined.hardware = !options.rig.empty();
+  if (!options.rig.empty()) options.examined.rig = options.rig;
+  if (options.network || options.real_time || options.hardware) {
+    options.examined.network = options.network;
+    options.examined.real_time = options.real_time;
+    options.examined.hardware = options.hardware;
+  }
+  const auto findings = doctor::examine(options.examined);
+  if (options.json)
+    print_json(findings);
+  else
+    for (const auto& finding : findings) std::cout << doctor::line_of(finding) << '\n';
+  const bool healthy =
+      std::ranges::find(findings, doctor::Grade::problem, &doctor::Finding::grade) == findings.end();
+  return healthy ? runtime::kExitDone : runtime::kExitFailed;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<DoctorOptions>();
+  options->examined.bus = tool_bus();
+  auto* command = app.add_subcommand(
+      "doctor", "Say why a crane is not heard and what of this computer hinders it, each with its remedy");
+  command->add_flag("--net", options->network,
+                    "interfaces, multicast, processes, wrong domain or crane, versions, quality of service");
+  command->add_flag("--rt", options->real_time,
+                    "real-time permission, locked memory, receive buffers, lateness of the timer");
+  command->add_flag("--hw", options->hardware, "the board of the rig file");
+  command->add_flag("--json", options->json, "one JSON array");
+  command->add_option("--rig", options->rig,
+                      "rig file or name: period of the loop, board; default: virginia_tech_tower");
+  command
+      ->add_option("--duration", options->examined.duration_s,
+                   "time to listen, and to measure the timer, in s")
+      ->check(CLI::Range(0.5, 3600.0))
+      ->capture_default_str();
+  command->add_option("--priority", options->examined.priority, "SCHED_FIFO priority of the loop")
+      ->check(CLI::Range(1, 98))
+      ->capture_default_str();
+  runtime::add_bus_options(*command, options->examined.bus);
+  command->footer(
+      "Example: crane doctor --net --interface 192.168.1.5\n"
+      "Without --net, --rt or --hw: --net and --rt, and with --rig --hw, too. Exit code 1: at least one "
+      "problem (docs/doctor.md).");
+  command->callback([options, &chosen] { chosen = [options] { return examine(*options); }; });
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,30 @@
+#pragma once
+/// A request and its answer, without sockets.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "dashboard/access.hpp"
+
+namespace crane::dashboard {
+
+struct ApiRequest {
+  std::string method, target;  ///< "GET", "/api/history?topic=crane/state"
+  std::string content_type, body;
+  std::string seat_key;  ///< header X-Crane-Seat
+  Visitor visitor;       ///< its views must outlive the call
+};
+
+struct ApiAnswer {
+  unsigned status = 200;
+  std::string media_type = "application/json";
+  std::string body;
+  std::string_view file{};  ///< not empty: bytes that live as long as the program; `body` is then unused
+  bool report = false;      ///< a page with scripts in it: it gets an origin of its own and reaches nothing
+};
+
+[[nodiscard]] ApiAnswer json_answer(const nlohmann::ordered_json& json, unsigned status = 200);
+/// {"error": what}
+[[nodiscard]] ApiAnswer problem_answer(unsigned status, const std::string& what);
+
+}  // namespace crane::dashboard

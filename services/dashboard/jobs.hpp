@@ -1,0 +1,83 @@
+#pragma once
+/// Reviews and diagnoses that the page asks for: one at a time, each a bounded child process, the others
+/// wait.
+#include <deque>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dashboard/bounded_process.hpp"
+#include "dashboard/runs.hpp"
+
+namespace crane::dashboard {
+
+/// A directory that ends with this object.
+class WorkDirectory {
+ public:
+  WorkDirectory();  ///< @throws std::runtime_error
+  ~WorkDirectory();
+  WorkDirectory(const WorkDirectory&) = delete;
+  WorkDirectory& operator=(const WorkDirectory&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+class Jobs {
+ public:
+  enum class State : std::uint8_t { waiting, running, done, failed, cancelled };
+  static constexpr std::size_t kMostWaiting = 8;
+  static constexpr std::size_t kMostKept = 24;  ///< with those that have ended; the oldest go
+  static constexpr Bounds kReview{std::chrono::seconds{60}, 2ULL << 30U, 64ULL << 20U};
+  static constexpr Bounds kDiagnosis{std::chrono::seconds{1200}, 4ULL << 30U, 64ULL << 20U};
+
+  /// @param program  `crane`  @param rig  of a diagnosis; empty: unknown, no diagnosis is possible
+  /// @param directory  exists, and is this object's own
+  Jobs(std::filesystem::path program, std::string rig, std::filesystem::path directory);
+
+  struct Answer {
+    std::uint64_t id = 0;
+    std::string problem;  ///< empty: the job waits or runs, or was done before
+    bool busy = false;    ///< the problem passes
+  };
+  [[nodiscard]] Answer review(const Run& run);
+  [[nodiscard]] Answer diagnose(const std::vector<Run>& train, const std::vector<Run>& test);
+  /// @return false when no job with this number waits or runs
+  bool cancel(std::uint64_t id);
+
+  /// Starts what waits, notices what has ended. Does not wait.
+  void poll();
+  [[nodiscard]] nlohmann::ordered_json json() const;
+  /// A file of a finished job; nothing when it is not there. @param name  "report.html", "result.json"
+  [[nodiscard]] std::optional<std::string> file_of(std::uint64_t id, const char* name) const;
+
+ private:
+  struct Job {
+    std::uint64_t id = 0;
+    const char* kind = "";
+    std::string key;  ///< equal for a review of the same file
+    std::vector<std::string> runs, arguments;
+    Bounds bounds;
+    State state = State::waiting;
+    std::int64_t begun_ns = 0, ended_ns = 0;
+    std::string problem{};
+  };
+  Answer add(Job job);
+  [[nodiscard]] std::filesystem::path directory_of(std::uint64_t id) const;
+  void start(Job& job);
+  void finish(Job& job, const BoundedProcess::End& end);
+  [[nodiscard]] nlohmann::ordered_json json_of(const Job& job) const;
+  [[nodiscard]] std::string errors_of(std::uint64_t id) const;
+
+  std::filesystem::path program_;
+  std::string rig_;
+  std::filesystem::path directory_;
+  std::deque<Job> jobs_;
+  std::unique_ptr<BoundedProcess> running_;
+  std::uint64_t running_id_ = 0, next_id_ = 1;
+};
+
+}  // namespace crane::dashboard

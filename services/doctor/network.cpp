@@ -1,0 +1,235 @@
+#include "doctor/network.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <set>
+
+#include "crane/runtime/process.hpp"
+#include "observation/traffic.hpp"
+
+namespace crane::doctor {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Event handlers run on threads of the vendor.
+class Refusals {
+ public:
+  void add(const bus::Event& event, const topics::Description& topic) {
+    if (event.kind != bus::EventKind::incompatible_qos) return;
+    const std::lock_guard lock{mutex_};
+    const Refused one{std::string{topic.name}, std::string{event.policy}, wanted(event.policy)};
+    if (std::ranges::find(all_, one) == all_.end()) all_.push_back(one);
+  }
+  [[nodiscard]] std::vector<Refused> all() const {
+    const std::lock_guard lock{mutex_};
+    return all_;
+  }
+
+ private:
+  /// Of every reader of this project (libs/bus, endpoint quality).
+  static std::string wanted(std::string_view policy) {
+    if (policy == "reliability") return "reliable";
+    if (policy == "data_representation") return "XCDR1";
+    return "the default of DDS";
+  }
+  mutable std::mutex mutex_;
+  std::vector<Refused> all_;
+};
+
+std::string list_of(const std::vector<std::string>& all) {
+  std::string text;
+  for (const auto& one : all) text += (text.empty() ? "" : ", ") + one;
+  return text;
+}
+
+std::string where(const Asked& asked) {
+  return "crane '" + asked.crane + "' in domain " + std::to_string(asked.domain) + " on " +
+         list_of(asked.interfaces);
+}
+
+Finding nobody(const Asked& asked, const std::string& code, const std::string& instead,
+               const std::string& remedy) {
+  return {Grade::problem, "net", code, "nobody publishes for " + where(asked) + instead, remedy};
+}
+
+/// The option that makes the difference between the asked crane and another one; empty: none.
+std::string options_for(const Asked& asked, const std::string& crane, std::uint32_t domain) {
+  std::string options;
+  if (crane != asked.crane) options += " --crane " + crane;
+  if (domain != asked.domain) options += " --domain " + std::to_string(domain);
+  return options;
+}
+
+std::string code_for(const Asked& asked, std::uint32_t domain) {
+  return domain != asked.domain ? "wrong_domain" : "wrong_crane";
+}
+
+/// Each other crane on this computer once.
+Findings cranes_on_this_computer(const Asked& asked, const std::vector<LocalProcess>& local) {
+  Findings findings;
+  std::set<std::string> told;
+  for (const auto& process : local) {
+    if (!process.in_loop()) continue;
+    auto options = options_for(asked, process.crane, process.domain);
+    auto code = options.empty() ? "wrong_interface" : code_for(asked, process.domain);
+    if (process.interfaces != asked.interfaces)
+      for (const auto& interface : process.interfaces) options += " --interface " + interface;
+    if (process.secure && !asked.secure) {
+      if (options.empty()) code = "wrong_keys";
+      options += " --secure DIR";
+    }
+    if (options.empty() || !told.insert(options).second) continue;
+    findings.push_back(nobody(asked, code,
+                              "; on this computer crane '" + process.crane + "' runs in domain " +
+                                  std::to_string(process.domain) + " on " + list_of(process.interfaces) +
+                                  (process.secure ? ", with keys" : ""),
+                              "add" + options));
+  }
+  return findings;
+}
+
+Findings cranes_announced(const Asked& asked, const std::vector<Announced>& announced) {
+  Findings findings;
+  std::set<std::string> told;
+  for (const auto& one : announced) {
+    const auto options = options_for(asked, one.said.crane, one.domain);
+    if (options.empty() || !told.insert(options + one.address).second) continue;
+    findings.push_back(nobody(asked, code_for(asked, one.domain),
+                              "; " + one.said.participant + " of crane '" + one.said.crane +
+                                  "' announces itself from " + one.address + " in domain " +
+                                  std::to_string(one.domain),
+                              "add" + options));
+  }
+  return findings;
+}
+
+}  // namespace
+
+Heard listen_on(bus::Bus& bus, milliseconds duration) {
+  Heard heard;
+  Refusals refusals;
+  std::vector<bus::CdrSubscriber> readers;
+  for (const auto& topic : topics::kAll) {
+    bus::EndpointOptions endpoint;
+    endpoint.on_event = [&refusals, &topic](const bus::Event& event) { refusals.add(event, topic); };
+    readers.push_back(bus.cdr_subscriber(topic, endpoint));
+  }
+  auto nodes = bus.subscriber(topics::node);
+  const auto end_ns = runtime::monotonic_ns() + std::chrono::nanoseconds{duration}.count();
+  std::vector<std::uint8_t> cdr;
+  bus::SampleInfo info;
+  while (runtime::monotonic_ns() < end_ns && !runtime::stop_requested()) {
+    bus.wait(milliseconds{20});
+    for (auto& reader : readers)
+      while (reader.take(cdr, &info))
+        if (info.valid && reader.topic().name == topics::state.description.name) ++heard.states;
+    while (const auto node = nodes.take(&info)) {
+      if (!info.valid) continue;
+      // A status that was kept for late joiners is old; the newest one counts.
+      const auto now_ns =
+          std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count();
+      heard.clock_offset_s[node->name] = static_cast<double>(info.source_time_ns - now_ns) * 1e-9;
+      heard.nodes[node->node] = *node;
+    }
+  }
+  for (const auto& reader : readers)
+    if (reader.counts().rejected > 0)
+      heard.rejected[std::string{reader.topic().name}] = reader.counts().rejected;
+  heard.refused = refusals.all();
+  heard.other_versions = bus.other_versions();
+  return heard;
+}
+
+Findings judge_silence(const Asked& asked, const Heard& heard, const std::vector<LocalProcess>& local,
+                       const std::vector<Announced>& announced) {
+  if (!heard.nodes.empty() || heard.states > 0) return {};
+  auto findings = cranes_on_this_computer(asked, local);
+  std::ranges::move(cranes_announced(asked, announced), std::back_inserter(findings));
+  if (findings.empty() && heard.other_versions.empty())
+    findings.push_back(
+        nobody(asked, "nobody_publishes", ", and no other crane is found",
+               "start one with `crane up`; on another computer both sides need --interface, and "
+               "where multicast is blocked --peer ADDRESS of the opposite host"));
+  return findings;
+}
+
+Findings judge_processes_heard(const Heard& heard) {
+  if (heard.nodes.empty() && heard.states == 0) return {};
+  Findings findings;
+  constexpr std::array kLoop{crane_SOURCE_PLANNER, crane_SOURCE_TRACKING, crane_SOURCE_ANTI_SWING,
+                             crane_SOURCE_FRICTION, crane_SOURCE_SUPERVISOR};
+  const auto missing = [&](crane_Source source) { return !heard.nodes.contains(source); };
+  const auto absent = [&](const std::string& name) {
+    findings.push_back({Grade::problem, "net", "process_missing",
+                        name + " is not heard: the crane cannot move",
+                        "look at the output of `crane up`, and start the stack anew"});
+  };
+  if (missing(crane_SOURCE_PLANT) && missing(crane_SOURCE_BRIDGE)) absent("plant or hardware_bridge");
+  for (const auto source : kLoop)
+    if (missing(source)) absent(observation::source_name(source));
+  for (const auto& [number, node] : heard.nodes) {
+    const std::string name = node.name;
+    if (node.phase == crane_PHASE_STARTING)
+      findings.push_back({Grade::problem, "net", "process_starting",
+                          name + " waits for a counterpart: a reader or a writer of its topics is missing",
+                          "see which process is missing with `crane graph` and `crane status`"});
+    if (node.lost_ticks > 0)
+      findings.push_back({Grade::advice, "net", "ticks_lost",
+                          name + " has lost " + std::to_string(node.lost_ticks) + " of " +
+                              std::to_string(node.ticks) + " ticks",
+                          "look with `crane doctor --rt` whether this computer is late"});
+    constexpr double kClocks_s = 2.5;  // a status is up to 1 s old, and twin and recorder have no priority
+    if (const auto offset = heard.clock_offset_s.find(name);
+        offset != heard.clock_offset_s.end() && std::abs(offset->second) > kClocks_s)
+      findings.push_back(
+          {Grade::advice, "net", "clock_skew",
+           "the clock of " + name + " is " + std::to_string(std::llround(std::abs(offset->second))) + " s " +
+               (offset->second > 0 ? "ahead of" : "behind") + " this computer's, or the process hangs",
+           "run chrony on both computers; recordings and faults have these times"});
+  }
+  if (heard.states == 0)
+    findings.push_back({Grade::problem, "net", "no_ticks",
+                        "crane/state has no sample: the clock master makes no ticks",
+                        "in lockstep `crane run` advances the ticks; in real time start the stack anew"});
+  if (findings.empty())
+    findings.push_back({Grade::good, "net", "processes",
+                        std::to_string(heard.nodes.size()) + " processes are heard, none has lost a tick",
+                        ""});
+  return findings;
+}
+
+Findings judge_mismatches(const Heard& heard) {
+  Findings findings;
+  for (const auto& other : heard.other_versions)
+    findings.push_back({Grade::problem, "net", "other_version",
+                        other.participant + " has messages of version " + std::to_string(other.version) +
+                            ", this program has version " + std::to_string(crane_MESSAGES_VERSION) +
+                            "; its samples are dropped",
+                        "run programs of one release, or give each crane its own --crane or --domain"});
+  for (const auto& refused : heard.refused)
+    findings.push_back({Grade::problem, "net", "quality_of_service",
+                        "a writer of " + refused.topic + " offers another " + refused.policy +
+                            " than the wanted: " + refused.wanted + "; its samples do not arrive",
+                        "write with the quality of service of crane.idl, or end that program"});
+  if (heard.other_versions.empty())
+    for (const auto& [topic, count] : heard.rejected)
+      findings.push_back({Grade::problem, "net", "samples_rejected",
+                          std::to_string(count) + " samples of " + topic + " had a wrong CRC",
+                          "end the program that is not of this release, or look at the network"});
+  return findings;
+}
+
+Findings judge_number_of_participants(const std::vector<LocalProcess>& local, std::uint32_t domain) {
+  constexpr std::ptrdiff_t kMost = 20;  // libs/bus: ports that Fast DDS asks of each host by unicast
+  const auto count = std::ranges::count(local, domain, &LocalProcess::domain);
+  if (count < kMost) return {};
+  return {{Grade::problem, "net", "too_many_participants",
+           std::to_string(count) + " programs of cranes run in domain " + std::to_string(domain) +
+               " of this computer; discovery by unicast finds " + std::to_string(kMost),
+           "end what is left over (`pgrep -a crane`), or give each crane its own --domain"}};
+}
+
+}  // namespace crane::doctor

@@ -1,0 +1,52 @@
+#pragma once
+/// Who is heard on the bus, who should be, and why he is not.
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "doctor/announcements.hpp"
+#include "doctor/finding.hpp"
+#include "doctor/processes.hpp"
+
+namespace crane::doctor {
+
+/// A writer that was found, and that does not match.
+struct Refused {
+  std::string topic, policy;
+  std::string wanted;  ///< what the readers of this project ask for
+  bool operator==(const Refused&) const = default;
+};
+
+/// What a participant of the asked crane has heard.
+struct Heard {
+  std::map<std::uint32_t, msg::NodeStatus> nodes;  ///< by node number
+  std::map<std::string, double> clock_offset_s;    ///< by process: its clock minus the clock of this computer
+  std::uint64_t states = 0;                        ///< samples of crane/state
+  std::map<std::string, std::uint64_t> rejected;   ///< by topic: samples with a wrong CRC
+  std::vector<Refused> refused;
+  std::vector<bus::OtherVersion> other_versions;
+};
+[[nodiscard]] Heard listen_on(bus::Bus& bus, std::chrono::milliseconds duration);
+
+/// What the user has asked for, and what this computer knows besides.
+struct Asked {
+  std::string crane;
+  std::uint32_t domain = 0;
+  std::vector<std::string> interfaces;
+  bool secure = false;
+};
+
+/// Not empty when nobody is heard: where the crane is instead.
+[[nodiscard]] Findings judge_silence(const Asked& asked, const Heard& heard,
+                                     const std::vector<LocalProcess>& local,
+                                     const std::vector<Announced>& announced);
+/// Processes of the loop that are missing, starting, or far behind; clocks.
+[[nodiscard]] Findings judge_processes_heard(const Heard& heard);
+/// Writers and programs that do not fit.
+[[nodiscard]] Findings judge_mismatches(const Heard& heard);
+/// Discovery by unicast asks a bounded number of ports of each computer.
+[[nodiscard]] Findings judge_number_of_participants(const std::vector<LocalProcess>& local,
+                                                    std::uint32_t domain);
+
+}  // namespace crane::doctor

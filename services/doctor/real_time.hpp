@@ -1,0 +1,39 @@
+#pragma once
+/// What this computer gives a real-time loop: permission, memory, buffers, and how late its timer wakes.
+#include <chrono>
+#include <filesystem>
+#include <functional>
+
+#include "doctor/finding.hpp"
+
+namespace crane::doctor {
+
+struct Permissions {
+  bool fifo = false;         ///< SCHED_FIFO with the priority of the loop
+  bool memory_lock = false;  ///< mlockall
+};
+[[nodiscard]] Permissions try_permissions(int priority);
+[[nodiscard]] Findings judge_permissions(const Permissions& permissions);
+
+struct Buffers {
+  std::int64_t largest_bytes = 0;  ///< net.core.rmem_max
+  std::int64_t lost = 0;           ///< datagrams since the start of the computer that found a full buffer
+  std::int64_t received = 0;
+};
+/// @param proc  "/proc"
+[[nodiscard]] Buffers read_buffers(const std::filesystem::path& proc = "/proc");
+[[nodiscard]] Findings judge_buffers(const Buffers& buffers);
+
+struct Lateness {
+  bool fifo = false;  ///< measured with SCHED_FIFO
+  std::size_t ticks = 0;
+  double p99_us = 0, max_us = 0;
+  std::size_t intolerable = 0;  ///< ticks that the bridge would count as overruns
+};
+/// Wakes at absolute times as the clock master does. @param period_s  of the rig
+[[nodiscard]] Lateness measure_lateness(double period_s, std::chrono::milliseconds duration, int priority);
+/// An overrun is a tick that begins more than half a period late (docs/architecture.md, Clocks).
+[[nodiscard]] std::int64_t tolerable_ns(double period_s);
+[[nodiscard]] Findings judge_lateness(const Lateness& lateness, double period_s);
+
+}  // namespace crane::doctor

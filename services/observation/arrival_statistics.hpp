@@ -1,0 +1,72 @@
+#pragma once
+/// Statistics of the samples of one topic. Rate and losses are computed from ticks and time stamps of the
+/// source, so that bursts in the transport have no influence. Jitter and delay are computed from the arrival
+/// times.
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace crane::observation {
+
+struct Arrival {
+  std::uint64_t tick = 0;
+  std::uint32_t epoch = 0;  ///< start-up number of the writer; a new number restarts the count of ticks
+  std::int64_t source_time_ns = 0;   ///< sample time, clock of the source
+  std::int64_t arrival_time_ns = 0;  ///< arrival time, monotonic clock of this process
+};
+
+/// Nearest-rank percentile of `values` (any order); nothing without values. @param share  in [0, 1]
+[[nodiscard]] std::optional<double> percentile(std::vector<double> values, double share);
+
+struct Spread {
+  double p50 = 0, p99 = 0, max = 0;
+};
+[[nodiscard]] std::optional<Spread> spread(const std::vector<double>& values);
+
+class ArrivalStatistics {
+ public:
+  /// @param counts_ticks  true: every tick has one sample, so that lost, duplicate and late samples can be
+  ///   counted
+  explicit ArrivalStatistics(bool counts_ticks) : counts_ticks_{counts_ticks} {}
+
+  void add(const Arrival& arrival);
+
+  struct Counts {
+    std::uint64_t samples = 0;
+    std::uint64_t lost = 0;       ///< ticks without a sample
+    std::uint64_t late = 0;       ///< samples that arrived after a sample of a later tick
+    std::uint64_t duplicate = 0;  ///< second samples of a tick
+    std::uint64_t restarts = 0;   ///< changes of the writer
+  };
+  /// Counts since the beginning.
+  [[nodiscard]] Counts counts() const;
+
+  struct Window {
+    std::size_t samples = 0;
+    std::optional<double> rate_hz;    ///< by the clock of the source; nothing for fewer than two samples
+    std::optional<Spread> jitter_us;  ///< |arrival interval - source interval| of consecutive samples
+  };
+  /// Statistics since the last call.
+  Window take_window();
+
+ private:
+  void count(const Arrival& arrival);
+  void skip(std::uint64_t from, std::uint64_t to);
+
+  bool counts_ticks_;
+  Counts counts_;
+  std::optional<Arrival> newest_;
+  std::set<std::uint64_t> missing_;
+  std::optional<Arrival> window_first_, window_last_;
+  /// A reliable reader holds the first samples back until a heartbeat of the writer tells it that none before
+  /// them is missing, and gives them together. Jitter counts from the first interval on that is at least half
+  /// as long as at the source, and from kLongestJoin_ns on in any case.
+  bool joined_ = false;
+  std::int64_t first_source_time_ns_ = 0;
+  static constexpr std::int64_t kLongestJoin_ns = 200'000'000;  ///< ten heartbeats (libs/bus, 20 ms)
+  std::size_t window_samples_ = 0, window_intervals_ = 0;
+  std::vector<double> jitter_us_;
+};
+
+}  // namespace crane::observation

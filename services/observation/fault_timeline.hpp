@@ -1,0 +1,80 @@
+#pragma once
+/// What went wrong, in the order of time: the first cause of each stop, and what followed from it. Pure.
+///
+/// Notes are: a new cause of the supervisor, a new latch of the bridge, a warning or an error on crane/event,
+/// and a process that is no longer heard. Notes less than kQuiet_ns apart belong to one fault. The earliest
+/// is its first cause; an event that announces a cause or a latch is the same note; a process that fell
+/// silent before the stop comes before it, however late its silence is noticed.
+#include <deque>
+#include <functional>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "observation/history.hpp"
+#include "observation/traffic.hpp"
+
+namespace crane::observation {
+
+struct Note {
+  enum class Kind : std::uint8_t {
+    order,
+    warning,
+    fault
+  };                       ///< order: an operator or the idle time asked for it
+  std::int64_t at_ns = 0;  ///< ns since 1970
+  std::uint64_t tick = 0;
+  Kind kind = Kind::fault;
+  std::string from;  ///< process
+  std::string what;  ///< "SWING_LIMIT", "LATCH speed", code of an event
+  std::string explanation, remedy;
+  std::string key{};       ///< equal for a cause or latch and the event that announces it
+  bool event = false;      ///< true: from crane/event
+  bool announced = false;  ///< true: the event and what it announces are this one note
+};
+
+struct Fault {
+  std::uint64_t number = 0;                  ///< 1, 2, ...
+  std::vector<Note> notes;                   ///< the first cause, then its consequences
+  std::uint64_t left_out = 0;                ///< consequences that were not kept
+  std::int64_t last_ns = 0, cleared_ns = 0;  ///< cleared_ns: READY, HOLD or RUN again; 0: not yet
+  /// Samples from 10 s before to 5 s after the first cause, by topic; empty until then, and when it is too
+  /// old.
+  std::map<std::size_t, std::vector<SamplePtr>> moment;
+  bool moment_taken = false;
+};
+
+class FaultTimeline {
+ public:
+  static constexpr std::int64_t kQuiet_ns = 3'000'000'000;
+  static constexpr std::int64_t kBefore_ns = 10'000'000'000, kAfter_ns = 5'000'000'000;
+  static constexpr std::size_t kMostFaults = 100, kMostNotes = 40, kMostMoments = 8;
+
+  void add(const Sample& sample);
+  /// Notices silent processes, and keeps the data around a fault once they are complete.
+  /// @return true when a fault is new or has changed since the last call
+  bool poll(std::int64_t now_ns, std::int64_t log_now_ns, const Traffic& traffic, const History& history);
+
+  [[nodiscard]] const std::deque<Fault>& faults() const { return faults_; }
+  [[nodiscard]] const Fault* find(std::uint64_t number) const;
+  [[nodiscard]] nlohmann::ordered_json json() const;
+
+ private:
+  void put(Note note);
+  /// @return true when `note` and one that is there are the same thing, told by a topic and by an event
+  static bool merge(Fault& fault, const Note& note);
+  void add_status(const Sample& sample, const msg::SupervisorStatus& status);
+  void add_state(const Sample& sample, const msg::State& state);
+  void add_event(const Sample& sample, const msg::Event& event);
+  void notice_silence(std::int64_t now_ns, const Traffic& traffic);
+  void keep_moments(std::int64_t log_now_ns, const History& history);
+
+  std::deque<Fault> faults_;
+  crane_Cause cause_ = crane_CAUSE_NONE;
+  crane_LatchReason latch_ = crane_LATCH_NONE;
+  std::map<std::uint32_t, bool> silent_;  ///< by node number
+  std::uint64_t next_number_ = 1;
+  bool changed_ = false;
+};
+
+}  // namespace crane::observation

@@ -1,0 +1,37 @@
+#pragma once
+/// One sample of the bus as the dashboard passes it on: the bytes that recordings store, not decoded.
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "crane/bus/cdr.hpp"
+
+namespace crane::observation {
+
+struct Sample {
+  std::size_t topic = 0;  ///< place in topics::kAll
+  msg::Header header{};
+  std::int64_t source_time_ns = 0;   ///< clock of the writer, ns since 1970
+  std::int64_t arrival_time_ns = 0;  ///< monotonic clock of this process
+  std::int64_t written_time_ns = 0;  ///< source_time_ns on the monotonic clock of this process
+  std::int64_t log_time_ns = 0;      ///< arrival, ns since 1970; a change of the system clock causes no jump
+  std::vector<std::uint8_t> cdr;     ///< plain CDR with its 4-byte encapsulation header
+};
+/// Shared by history and clients; never changed after it was made.
+using SamplePtr = std::shared_ptr<const Sample>;
+
+[[nodiscard]] inline const topics::Description& topic_of(const Sample& sample) {
+  return topics::kAll[sample.topic];
+}
+
+/// @return true when `sample` belongs to `topic` and was decoded to `out`
+template <class T>
+[[nodiscard]] bool decode(const topics::Topic<T>& topic, const Sample& sample, T& out) {
+  constexpr std::size_t kEncapsulation_bytes = 4;
+  if (topic_of(sample).name != topic.description.name || sample.cdr.size() < kEncapsulation_bytes)
+    return false;
+  return bus::CdrCodec::of(*topic.description.descriptor)
+      .decode(std::span{sample.cdr}.subspan(kEncapsulation_bytes), false, &out);
+}
+
+}  // namespace crane::observation

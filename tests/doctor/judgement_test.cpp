@@ -1,0 +1,125 @@
+/// What the doctor concludes from what was heard. The faults themselves are made by doctor_system_test.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "../recording/temporary_directory.hpp"
+#include "crane/runtime/node.hpp"
+#include "doctor/network.hpp"
+#include "doctor/real_time.hpp"
+
+namespace crane::doctor {
+namespace {
+
+using testing::HasSubstr;
+
+Heard whole_loop() {
+  Heard heard;
+  heard.states = 100;
+  for (const auto source : {crane_SOURCE_PLANT, crane_SOURCE_PLANNER, crane_SOURCE_TRACKING,
+                            crane_SOURCE_ANTI_SWING, crane_SOURCE_FRICTION, crane_SOURCE_SUPERVISOR}) {
+    msg::NodeStatus node{};
+    node.node = source;
+    node.phase = crane_PHASE_READY;
+    node.ticks = 1000;
+    runtime::assign(node.name, "process " + std::to_string(source));
+    heard.nodes[source] = node;
+  }
+  return heard;
+}
+
+const Asked kAsked{"crane", 0, {"127.0.0.1"}, false};
+
+LocalProcess running(const std::vector<std::string>& options) {
+  std::vector<std::string> arguments{"crane_plant"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  return process_from(arguments);
+}
+
+TEST(Doctor, FindsNothingInAWholeLoop) {
+  const auto heard = whole_loop();
+  EXPECT_TRUE(judge_silence(kAsked, heard, {running({"--crane", "other"})}, {}).empty());
+  const auto found = judge_processes_heard(heard);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].grade, Grade::good);
+  EXPECT_TRUE(judge_mismatches(heard).empty());
+}
+
+TEST(Doctor, NamesTheMissingAndTheStartingProcess) {
+  auto heard = whole_loop();
+  heard.nodes.erase(crane_SOURCE_ANTI_SWING);
+  heard.nodes[crane_SOURCE_TRACKING].phase = crane_PHASE_STARTING;
+  const auto found = judge_processes_heard(heard);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_THAT(found[0].what, HasSubstr("anti_swing is not heard"));
+  EXPECT_EQ(found[1].code, "process_starting");
+}
+
+TEST(Doctor, NamesAClockThatDiffers) {
+  auto heard = whole_loop();
+  heard.clock_offset_s["process " + std::to_string(crane_SOURCE_PLANT)] = -40;
+  const auto found = judge_processes_heard(heard);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].what, HasSubstr("40 s behind"));
+}
+
+TEST(Doctor, OfSilenceSaysTheOptionThatWouldHelp) {
+  const auto remedy = [](const std::vector<std::string>& options) {
+    const auto found = judge_silence(kAsked, {}, {running(options)}, {});
+    return found.size() == 1 ? found[0].code + ": " + found[0].remedy : "";
+  };
+  EXPECT_EQ(remedy({"--crane", "north"}), "wrong_crane: add --crane north");
+  EXPECT_EQ(remedy({"--domain", "4"}), "wrong_domain: add --domain 4");
+  EXPECT_EQ(remedy({"--interface", "10.0.0.5"}), "wrong_interface: add --interface 10.0.0.5");
+  EXPECT_EQ(remedy({"--secure", "keys"}), "wrong_keys: add --secure DIR");
+  const auto announced = judge_silence(kAsked, {}, {}, {{"10.0.0.9", 3, {1, "north", "crane_plant"}}});
+  ASSERT_EQ(announced.size(), 1U);
+  EXPECT_THAT(announced[0].what, HasSubstr("announces itself from 10.0.0.9 in domain 3"));
+  EXPECT_EQ(announced[0].remedy, "add --crane north --domain 3");
+  EXPECT_EQ(judge_silence(kAsked, {}, {}, {})[0].code, "nobody_publishes");
+}
+
+TEST(Doctor, CountsTheParticipantsThatUnicastFinds) {
+  const std::vector<LocalProcess> few(19, running({})), many(20, running({}));
+  EXPECT_TRUE(judge_number_of_participants(few, 0).empty());
+  EXPECT_EQ(judge_number_of_participants(many, 0)[0].code, "too_many_participants");
+  EXPECT_TRUE(judge_number_of_participants(many, 1).empty());
+}
+
+TEST(Doctor, ReadsReceiveBuffersAndLossesOfTheKernel) {
+  const recording::TemporaryDirectory proc;
+  std::filesystem::create_directories(proc / "sys/net/core");
+  std::filesystem::create_directories(proc / "net");
+  std::ofstream{proc / "sys/net/core/rmem_max"} << "212992\n";
+  std::ofstream{proc / "net/snmp"} << "Ip: Forwarding\nIp: 1\nUdp: InDatagrams NoPorts InErrors OutDatagrams "
+                                      "RcvbufErrors\nUdp: 5000 1 2 3 42\n";
+  const auto buffers = read_buffers(proc / "");
+  EXPECT_EQ(buffers.largest_bytes, 212992);
+  EXPECT_EQ(buffers.lost, 42);
+  EXPECT_EQ(buffers.received, 5000);
+  const auto found = judge_buffers(buffers);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_THAT(found[0].remedy, HasSubstr("net.core.rmem_max=1048576"));
+  EXPECT_THAT(found[1].what, HasSubstr("42 datagrams"));
+  EXPECT_EQ(judge_buffers({4 << 20, 0, 1})[0].grade, Grade::good);
+}
+
+TEST(Doctor, ComparesTheTimerWithHalfAPeriod) {
+  constexpr double kPeriod_s = 0.01;
+  EXPECT_EQ(tolerable_ns(kPeriod_s), 5'000'000);
+  EXPECT_EQ(judge_lateness({true, 300, 80, 200, 0}, kPeriod_s)[0].grade, Grade::good);
+  EXPECT_EQ(judge_lateness({true, 300, 80, 4000, 0}, kPeriod_s)[0].grade, Grade::advice);
+  const auto late = judge_lateness({false, 300, 80, 6000, 1}, kPeriod_s);
+  EXPECT_EQ(late[0].grade, Grade::problem);
+  EXPECT_THAT(late[0].what, HasSubstr("at most 6000 us"));
+  EXPECT_THAT(late[0].remedy, HasSubstr("SCHED_FIFO"));
+}
+
+TEST(Doctor, SaysOneLineForEachFinding) {
+  EXPECT_EQ(line_of({Grade::problem, "net", "x", "what", "remedy"}), "problem  net  what: remedy");
+  EXPECT_EQ(line_of({Grade::good, "rt", "x", "what", ""}), "good     rt  what");
+}
+
+}  // namespace
+}  // namespace crane::doctor
