@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "crane/bus/cdr.hpp"
+#include "discovery.hpp"
 
 namespace crane::bus::fastdds {
 
@@ -49,25 +50,30 @@ void translate(EndpointQos& qos, const Quality& quality, bool history, const End
   qos.data_sharing().off();  // the shared memory of a killed process remains and delays its restart
 }
 
-dds::DataWriterQos writer_qos(const Quality& quality, const EndpointOptions& options) {
+/// Delay of an answer.
+fastrtps::Duration_t no_delay_if(bool network) {
+  return network ? fastrtps::Duration_t{0, 0} : duration(1ms);
+}
+
+dds::DataWriterQos writer_qos(const Quality& quality, const EndpointOptions& options, bool network) {
   dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
   translate(qos, quality, quality.writer_history, options);
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.writer_data_lifecycle().autodispose_unregistered_instances = false;
   qos.representation().m_value = {dds::XCDR_DATA_REPRESENTATION};
   qos.reliability().max_blocking_time = duration(10ms);
-  qos.reliable_writer_qos().times.heartbeatPeriod = duration(20ms);
+  qos.reliable_writer_qos().times.heartbeatPeriod = duration(network ? kNetworkHeartbeat : kHeartbeat);
   qos.reliable_writer_qos().times.initialHeartbeatDelay = duration(5ms);
-  qos.reliable_writer_qos().times.nackResponseDelay = duration(1ms);
+  qos.reliable_writer_qos().times.nackResponseDelay = no_delay_if(network);
   qos.reliable_writer_qos().disable_heartbeat_piggyback = true;
   return qos;
 }
 
-dds::DataReaderQos reader_qos(const Quality& quality, const EndpointOptions& options) {
+dds::DataReaderQos reader_qos(const Quality& quality, const EndpointOptions& options, bool network) {
   dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
   translate(qos, quality, quality.reader_history, options);
   qos.type_consistency().representation.m_value = {dds::XCDR_DATA_REPRESENTATION};
-  qos.reliable_reader_qos().times.heartbeatResponseDelay = duration(1ms);
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = no_delay_if(network);
   qos.reliable_reader_qos().times.initialAcknackDelay = duration(5ms);
   return qos;
 }
@@ -75,11 +81,12 @@ dds::DataReaderQos reader_qos(const Quality& quality, const EndpointOptions& opt
 class FastWriter final : public detail::Writer, private dds::DataWriterListener {
  public:
   FastWriter(std::shared_ptr<BackEnd> back_end, dds::Publisher& publisher, dds::Topic& topic,
-             const topics::Description& description, const EndpointOptions& options)
+             const topics::Description& description, const EndpointOptions& options, bool network)
       : back_end_{std::move(back_end)},
         publisher_{publisher},
         announce_{options.on_event, description.name},
-        writer_{publisher.create_datawriter(&topic, writer_qos(quality(description, options), options), this,
+        writer_{publisher.create_datawriter(&topic,
+                                            writer_qos(quality(description, options), options, network), this,
                                             dds::StatusMask::all())} {
     if (writer_ == nullptr) throw Error{"Fast DDS: cannot create writer of " + std::string{description.name}};
   }
@@ -127,14 +134,15 @@ class FastReader final : public detail::Reader, private dds::DataReaderListener 
  public:
   FastReader(std::shared_ptr<BackEnd> back_end, dds::Subscriber& subscriber, dds::Topic& topic,
              const topics::Description& description, const EndpointOptions& options,
-             std::shared_ptr<Doorbell> doorbell)
+             std::shared_ptr<Doorbell> doorbell, bool network)
       : back_end_{std::move(back_end)},
         subscriber_{subscriber},
         announce_{options.on_event, description.name},
         doorbell_{std::move(doorbell)},
         codec_{CdrCodec::of(*description.descriptor)},
-        reader_{subscriber.create_datareader(&topic, reader_qos(quality(description, options), options), this,
-                                             dds::StatusMask::all())} {
+        reader_{subscriber.create_datareader(&topic,
+                                             reader_qos(quality(description, options), options, network),
+                                             this, dds::StatusMask::all())} {
     if (reader_ == nullptr) throw Error{"Fast DDS: cannot create reader of " + std::string{description.name}};
   }
   FastReader(const FastReader&) = delete;
@@ -217,16 +225,16 @@ class FastReader final : public detail::Reader, private dds::DataReaderListener 
 
 std::unique_ptr<detail::Writer> make_writer(std::shared_ptr<BackEnd> back_end, dds::Publisher& publisher,
                                             dds::Topic& topic, const topics::Description& description,
-                                            const EndpointOptions& options) {
-  return std::make_unique<FastWriter>(std::move(back_end), publisher, topic, description, options);
+                                            const EndpointOptions& options, bool network) {
+  return std::make_unique<FastWriter>(std::move(back_end), publisher, topic, description, options, network);
 }
 
 std::unique_ptr<detail::Reader> make_reader(std::shared_ptr<BackEnd> back_end, dds::Subscriber& subscriber,
                                             dds::Topic& topic, const topics::Description& description,
                                             const EndpointOptions& options,
-                                            std::shared_ptr<Doorbell> doorbell) {
+                                            std::shared_ptr<Doorbell> doorbell, bool network) {
   return std::make_unique<FastReader>(std::move(back_end), subscriber, topic, description, options,
-                                      std::move(doorbell));
+                                      std::move(doorbell), network);
 }
 
 }  // namespace crane::bus::fastdds

@@ -14,12 +14,12 @@ std::unique_ptr<detail::Writer> make_writer(std::shared_ptr<BackEnd> back_end,
                                             eprosima::fastdds::dds::Publisher& publisher,
                                             eprosima::fastdds::dds::Topic& topic,
                                             const topics::Description& description,
-                                            const EndpointOptions& options);
+                                            const EndpointOptions& options, bool network);
 std::unique_ptr<detail::Reader> make_reader(std::shared_ptr<BackEnd> back_end,
                                             eprosima::fastdds::dds::Subscriber& subscriber,
                                             eprosima::fastdds::dds::Topic& topic,
                                             const topics::Description& description,
                                             const EndpointOptions& options,
-                                            std::shared_ptr<Doorbell> doorbell);
+                                            std::shared_ptr<Doorbell> doorbell, bool network);
 
 }  // namespace crane::bus::fastdds

@@ -164,7 +164,7 @@ class Discovery final : public dds::DomainParticipantListener {
 class FastBackEnd final : public BackEnd {
  public:
   FastBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell)
-      : doorbell_{std::move(doorbell)}, discovery_{options} {
+      : doorbell_{std::move(doorbell)}, network_{crosses_network(options)}, discovery_{options} {
     switch_intraprocess_delivery_off();
     report_to_vendor_log();
     auto* factory = dds::DomainParticipantFactory::get_instance();
@@ -188,12 +188,13 @@ class FastBackEnd final : public BackEnd {
 
   std::unique_ptr<detail::Writer> writer(const topics::Description& description,
                                          const EndpointOptions& options) override {
-    return fastdds::make_writer(shared_from_this(), *publisher_, topic(description), description, options);
+    return fastdds::make_writer(shared_from_this(), *publisher_, topic(description), description, options,
+                                network_);
   }
   std::unique_ptr<detail::Reader> reader(const topics::Description& description,
                                          const EndpointOptions& options) override {
     return fastdds::make_reader(shared_from_this(), *subscriber_, topic(description), description, options,
-                                doorbell_);
+                                doorbell_, network_);
   }
 
   std::vector<OtherVersion> other_versions() override { return discovery_.others(); }
@@ -211,6 +212,7 @@ class FastBackEnd final : public BackEnd {
   }
 
   std::shared_ptr<Doorbell> doorbell_;
+  bool network_;
   Discovery discovery_;       // as long as the participant
   ParticipantNumber number_;  // released after the participant is deleted
   std::unique_ptr<dds::DomainParticipant, ParticipantDeleter> participant_;
