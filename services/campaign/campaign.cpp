@@ -1,22 +1,17 @@
 #include "campaign/campaign.hpp"
 
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <csignal>
+#include <cstring>
 #include <map>
-#include <system_error>
 #include <type_traits>
 
+#include "crane/workers/process_pool.hpp"
 #include "experiments/tick_log.hpp"
 
 namespace crane::campaign {
 namespace {
 
-static_assert(std::is_trivially_copyable_v<Result> &&
-              sizeof(Result) < 4096);  // so that one write to a pipe is atomic
+static_assert(std::is_trivially_copyable_v<Result>);  // goes from process to process as bytes
 
 /// Mixes the parts of a tuple (splitmix64).
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
@@ -125,44 +120,19 @@ bool shares_preparation(const Tuple& tuple) {
   return hazard.prepare == nullptr && !hazard.from_power_on;
 }
 
-class Pipe {
- public:
-  Pipe() {
-    if (::pipe(ends_) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  }
-  ~Pipe() { ::close(ends_[0]); }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  void put(const Result& result) const {
-    if (::write(ends_[1], &result, sizeof result) != sizeof result) ::_exit(1);
-  }
-  void no_more_writers() const { ::close(ends_[1]); }
-  bool get(Result& result) const { return ::read(ends_[0], &result, sizeof result) == sizeof result; }
-
- private:
-  int ends_[2]{};
-};
-
-pid_t forked(const std::function<void()>& child) {
-  const pid_t pid = ::fork();
-  if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
-  if (pid > 0) return pid;
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  int code = 0;
-  try {
-    child();
-  } catch (...) {
-    code = 1;
-  }
-  ::_exit(code);
+void send(const workers::Outbox& outbox, const Result& result) {
+  outbox.send({reinterpret_cast<const char*>(&result), sizeof result});
 }
 
 /// One run in a separate process.
-void run_forked(const Tuple& tuple, const Pipe& pipe, const std::function<Result()>& run) {
-  const pid_t pid = forked([&] { pipe.put(run()); });
-  int status = 0;
-  ::waitpid(pid, &status, 0);
-  if (status != 0) pipe.put({.tuple = tuple, .crashed = true});
+void run_forked(const Tuple& tuple, const workers::Outbox& outbox, const std::function<Result()>& run) {
+  workers::run({.count = 1,
+                .work = [&](std::size_t, const workers::Outbox&) { send(outbox, run()); },
+                .take = [](std::size_t, const std::string&) {},
+                .ended =
+                    [&](std::size_t, const std::string& failure) {
+                      if (!failure.empty()) send(outbox, {.tuple = tuple, .crashed = true});
+                    }});
 }
 
 struct Group {
@@ -171,12 +141,12 @@ struct Group {
   auto operator<=>(const Group&) const = default;
 };
 
-void run_group(const Group& place, const std::vector<Tuple>& tuples, const Pipe& pipe) {
+void run_group(const Group& place, const std::vector<Tuple>& tuples, const workers::Outbox& outbox) {
   std::optional<Bench> prepared;
   bool ready = false;
   for (const auto& tuple : tuples) {
     if (!shares_preparation(tuple)) {
-      run_forked(tuple, pipe, [&] { return run_alone(tuple, {}); });
+      run_forked(tuple, outbox, [&] { return run_alone(tuple, {}); });
       continue;
     }
     if (!prepared) {
@@ -184,9 +154,9 @@ void run_group(const Group& place, const std::vector<Tuple>& tuples, const Pipe&
       ready = prepared->prepare(place.moment);
     }
     if (!ready)
-      pipe.put({.tuple = tuple, .prepared = false});
+      send(outbox, {.tuple = tuple, .prepared = false});
     else
-      run_forked(tuple, pipe, [&] { return inject(tuple, *prepared, {}); });
+      run_forked(tuple, outbox, [&] { return inject(tuple, *prepared, {}); });
   }
 }
 
@@ -219,19 +189,21 @@ Result run_one(const Tuple& tuple, const std::optional<std::filesystem::path>& r
 
 void run_all(const std::vector<Tuple>& tuples, unsigned jobs,
              const std::function<void(const Result&)>& done) {
-  std::map<Group, std::vector<Tuple>> groups;
-  for (const auto& tuple : tuples) groups[{tuple.seed % kSettings, tuple.moment}].push_back(tuple);
-  const Pipe pipe;
-  std::vector<pid_t> workers;
-  for (unsigned worker = 0; worker < jobs; ++worker)
-    workers.push_back(forked([&] {
-      unsigned number = 0;
-      for (const auto& [place, group] : groups)
-        if (number++ % jobs == worker) run_group(place, group, pipe);
-    }));
-  pipe.no_more_writers();
-  for (Result result; pipe.get(result);) done(result);
-  for (const pid_t pid : workers) ::waitpid(pid, nullptr, 0);
+  std::map<Group, std::vector<Tuple>> by_place;
+  for (const auto& tuple : tuples) by_place[{tuple.seed % kSettings, tuple.moment}].push_back(tuple);
+  const std::vector<std::pair<Group, std::vector<Tuple>>> groups{by_place.begin(), by_place.end()};
+  workers::run(
+      {.count = groups.size(),
+       .at_a_time = jobs,
+       .work = [&](std::size_t i,
+                   const workers::Outbox& outbox) { run_group(groups[i].first, groups[i].second, outbox); },
+       .take =
+           [&](std::size_t, const std::string& record) {
+             Result result;
+             std::memcpy(&result, record.data(), std::min(sizeof result, record.size()));
+             done(result);
+           },
+       .ended = workers::require_success});
 }
 
 }  // namespace crane::campaign

@@ -1,15 +1,12 @@
 /// Cranes without faults: every stop that no operator requested is a false trip, unless the true state
 /// confirms it.
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <system_error>
 
 #include "campaign/campaign.hpp"
 #include "campaign/judge/truth.hpp"
 #include "campaign/report.hpp"
+#include "crane/workers/process_pool.hpp"
 
 namespace crane::campaign {
 namespace {
@@ -142,40 +139,31 @@ class FaultFreeRun {
 }  // namespace
 
 FaultFree run_fault_free(double hours, unsigned jobs, std::uint64_t seed) {
-  std::FILE* lines = std::tmpfile();
-  if (lines == nullptr) throw std::system_error(errno, std::generic_category(), "tmpfile");
-  std::vector<pid_t> workers;
-  for (unsigned worker = 0; worker < jobs; ++worker) {
-    const pid_t pid = ::fork();
-    if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
-    if (pid > 0) {
-      workers.push_back(pid);
-      continue;
-    }
-    double left_s = hours * 3600 / jobs;
-    for (std::uint64_t number = worker; left_s > 0; number += jobs) {
-      Random random{seed * 1'000'003 + number};
-      FaultFreeRun run{number % kSettings, random};
-      run.run();
-      left_s -= std::max(run.seconds(), 1.0);
-      const auto line = run.line();
-      if (::write(::fileno(lines), line.data(), line.size()) < 0) ::_exit(1);
-    }
-    ::_exit(0);
-  }
-  for (const pid_t pid : workers) ::waitpid(pid, nullptr, 0);
-  std::rewind(lines);
   FaultFree found;
-  std::array<char, 512> line{};
-  while (std::fgets(line.data(), line.size(), lines) != nullptr) {
-    double seconds = 0;
-    int length = 0, confirmed = 0;
-    if (std::sscanf(line.data(), "%lf %d %n", &seconds, &confirmed, &length) < 2) continue;
-    found.hours += seconds / 3600;
-    if (line[static_cast<std::size_t>(length)] != '\0' && line[static_cast<std::size_t>(length)] != '\n')
-      (confirmed != 0 ? found.limits : found.trips).emplace_back(line.data() + length);
-  }
-  std::fclose(lines);
+  workers::run({.count = jobs,
+                .at_a_time = jobs,
+                .work =
+                    [&](std::size_t worker, const workers::Outbox& outbox) {
+                      double left_s = hours * 3600 / jobs;
+                      for (std::uint64_t number = worker; left_s > 0; number += jobs) {
+                        Random random{seed * 1'000'003 + number};
+                        FaultFreeRun run{number % kSettings, random};
+                        run.run();
+                        left_s -= std::max(run.seconds(), 1.0);
+                        outbox.send(run.line());
+                      }
+                    },
+                .take =
+                    [&](std::size_t, const std::string& line) {
+                      double seconds = 0;
+                      int length = 0, confirmed = 0;
+                      if (std::sscanf(line.c_str(), "%lf %d %n", &seconds, &confirmed, &length) < 2) return;
+                      found.hours += seconds / 3600;
+                      const auto at = static_cast<std::size_t>(length);
+                      if (at < line.size() && line[at] != '\n')
+                        (confirmed != 0 ? found.limits : found.trips).push_back(line.substr(at));
+                    },
+                .ended = workers::require_success});
   return found;
 }
 

@@ -57,6 +57,11 @@ class Crew {
 }  // namespace
 
 experiment::ComparedRun simulate(const PlannedRun& plan) {
+  return simulate(plan,
+                  experiment::changed_by(experiment::started_by(plan.rig, plan.scenario), plan.variant));
+}
+
+experiment::ComparedRun simulate(const PlannedRun& plan, const configuration::Rig& started) {
   experiment::ComparedRun run{.scenario = plan.scenario.name,
                               .variant = plan.variant,
                               .controller = std::string{plan.controller->name},
@@ -65,10 +70,10 @@ experiment::ComparedRun simulate(const PlannedRun& plan) {
                               .metrics = {},
                               .samples = {},
                               .least_settling_time_s = plan.scenario.least_settling_time_s};
-  const auto started = experiment::changed_by(experiment::started_by(plan.rig, plan.scenario), plan.variant);
   TickLog log{std::nullopt};
   try {
-    const auto outcome = run_in_process(started, *plan.controller, plan.scenario, log);
+    const auto outcome = run_in_process(started, *plan.controller, plan.scenario, log,
+                                        stack::Plant::simulated, nullptr, plan.integrator);
     run.stopped_because = outcome.stopped_because;
     run.samples = experiment::samples_from(log.table(outcome.hold_tick));
   } catch (const RunError& error) {

@@ -9,6 +9,7 @@
 #include "crane/experiment/picture.hpp"
 #include "crane/experiment/variant.hpp"
 #include "crane/runtime/in_process.hpp"
+#include "crane/simulator/component.hpp"
 #include "crane/twin/component.hpp"
 #include "experiments/started_rig_file.hpp"
 #include "stack/child_processes.hpp"
@@ -67,8 +68,10 @@ void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
 
 RunOutcome run_in_process(const configuration::Rig& rig, const control::Controller& controller,
                           const experiment::Scenario& scenario, TickLog& log, stack::Plant plant,
-                          const configuration::Rig* twin) {
-  return run_in_process(stack::stack_with(plant), rig, controller, scenario, log, twin);
+                          const configuration::Rig* twin, simulator::Method integrator) {
+  auto components = stack::stack_with(plant);
+  if (plant == stack::Plant::simulated) components.front() = simulator::simulated_plant_spec(integrator);
+  return run_in_process(components, rig, controller, scenario, log, twin);
 }
 
 RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components, const configuration::Rig& rig,
@@ -115,10 +118,10 @@ ExperimentResult run_experiment(const ExperimentOptions& options) {
   result.controller = controller.name;
   result.rig = rig.name;
   result.variant = options.variant;
-  result.outcome =
-      options.in_process
-          ? run_in_process(started, controller, scenario, log, options.plant, twin ? &*twin : nullptr)
-          : run_in_processes(options, rig_file, started, controller, scenario, log);
+  result.outcome = options.in_process
+                       ? run_in_process(started, controller, scenario, log, options.plant,
+                                        twin ? &*twin : nullptr, options.integrator)
+                       : run_in_processes(options, rig_file, started, controller, scenario, log);
   log.close();
   result.real_time_factor =
       static_cast<double>(result.outcome.last_tick) * rig.period_s / result.outcome.wall_s;

@@ -11,6 +11,7 @@
 
 #include "crane/experiment/metrics.hpp"
 #include "crane/runtime/process.hpp"
+#include "crane/simulator/integrator.hpp"
 #include "experiments/lockstep_run.hpp"
 #include "stack/stack.hpp"
 
@@ -18,9 +19,10 @@ namespace crane::experiments {
 
 struct ExperimentOptions {
   std::filesystem::path scenario, rig;
-  std::string controller;           ///< empty: the controller of the rig file
-  std::string variant{};            ///< name of experiment/variant.hpp; empty: none
-  std::filesystem::path directory;  ///< created when missing
+  std::string controller;                                   ///< empty: the controller of the rig file
+  std::string variant{};                                    ///< name of experiment/variant.hpp; empty: none
+  simulator::Method integrator = simulator::Method::cvode;  ///< of the simulated plant; used in_process
+  std::filesystem::path directory;                          ///< created when missing
   stack::Plant plant = stack::Plant::simulated;
   bool in_process = false;  ///< true: one process with the memory bus; false: one process per component
   bool picture = true;
@@ -45,7 +47,8 @@ struct ExperimentResult {
                                         const control::Controller& controller,
                                         const experiment::Scenario& scenario, TickLog& log,
                                         stack::Plant plant = stack::Plant::simulated,
-                                        const configuration::Rig* twin = nullptr);
+                                        const configuration::Rig* twin = nullptr,
+                                        simulator::Method integrator = simulator::Method::cvode);
 
 /// The same with components of one's own, in the order of stack_with(). @throws RunError
 [[nodiscard]] RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components,

@@ -47,4 +47,8 @@ std::filesystem::path find_scenario(const std::string& name_or_path) {
   return locate("scenario", "scenarios", name_or_path);
 }
 
+std::filesystem::path find_sweep(const std::string& name_or_path) {
+  return locate("sweep", "sweeps", name_or_path);
+}
+
 }  // namespace crane::stack

@@ -1,5 +1,5 @@
 #pragma once
-/// Finds rig and scenario files by name: "maneuver_1" is deploy/scenarios/maneuver_1.toml of this
+/// Finds rig, scenario and sweep files by name: "maneuver_1" is deploy/scenarios/maneuver_1.toml of this
 /// installation.
 #include <filesystem>
 #include <string>
@@ -11,5 +11,6 @@ namespace crane::stack {
 ///   the list of installed names
 [[nodiscard]] std::filesystem::path find_rig(const std::string& name_or_path);
 [[nodiscard]] std::filesystem::path find_scenario(const std::string& name_or_path);
+[[nodiscard]] std::filesystem::path find_sweep(const std::string& name_or_path);
 
 }  // namespace crane::stack

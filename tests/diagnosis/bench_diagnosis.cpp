@@ -1,18 +1,14 @@
 /// `crane bench diagnosis`: scores the diagnosis on data with hidden effects. Not a test: prints tables.
-#include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
-#include <deque>
 #include <iostream>
-#include <map>
 #include <set>
 
+#include "crane/workers/process_pool.hpp"
 #include "mujoco_case.hpp"
 #include "score_record.hpp"
 
@@ -38,7 +34,7 @@ std::uint64_t seed_of(const Options& options, std::size_t number) {
   return options.deck == "truth" ? options.first_seed + number : options.first_seed;
 }
 
-std::deque<std::size_t> missing(const Options& options) {
+std::vector<std::size_t> missing(const Options& options) {
   std::set<std::size_t> done;
   for (const Record& record : read_records(options.results)) {
     if (record.seed != seed_of(options, record.number) || record.deck != options.deck)
@@ -46,7 +42,7 @@ std::deque<std::size_t> missing(const Options& options) {
                                " is of another --deck or --first-seed");
     done.insert(record.number);
   }
-  std::deque<std::size_t> todo;
+  std::vector<std::size_t> todo;
   for (std::size_t i = 0; i < options.sets; ++i)
     if (!done.contains(i)) todo.push_back(i);
   return todo;
@@ -62,24 +58,7 @@ void append_score(const Options& options, std::size_t number) {
   if (options.only.empty() || options.only == name_of(set.kind)) append(options.results, scored(set));
 }
 
-/// One process a set: a crash or an endless search costs that set and no other.
-pid_t started(const Options& options, std::size_t number) {
-  const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error("cannot start another process");
-  if (child > 0) return child;
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  const rlimit most{kMostCpu_s, kMostCpu_s};
-  ::setrlimit(RLIMIT_CPU, &most);
-  try {
-    append_score(options, number);
-    ::_exit(0);
-  } catch (const std::exception& error) {
-    std::cerr << "bench_diagnosis: set " << number << ": " << error.what() << '\n';
-    ::_exit(1);
-  }
-}
-
-Record failed(const Options& options, std::size_t number, int status) {
+Record failed(const Options& options, std::size_t number, const std::string& failure) {
   Record record;
   record.deck = options.deck;
   record.number = number;
@@ -88,37 +67,41 @@ Record failed(const Options& options, std::size_t number, int status) {
       options.deck == "truth" ? name_of(set_of(number, options.first_seed).kind) : kind_of_mujoco(number);
   record.multiple = 1;
   record.judged = "failed";
-  record.verdict = record.found =
-      WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status)) : "see the error output";
+  record.verdict = record.found = failure;
   return record;
 }
 
-/// Whoever is free takes the next set.
-int score(const Options& options) {
-  std::deque<std::size_t> todo = missing(options);
-  const std::size_t all = todo.size();
-  std::map<pid_t, std::size_t> running;
-  const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  int worst = 0;
-  while (!todo.empty() || !running.empty()) {
-    if (!todo.empty() && running.size() < options.processes) {
-      const pid_t child = started(options, todo.front());
-      running[child] = todo.front();
-      todo.pop_front();
-      continue;
-    }
-    int status = 0;
-    const pid_t ended = ::waitpid(-1, &status, 0);
-    const auto of = running.find(ended);
-    if (of == running.end()) throw std::runtime_error("lost a process");
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-      append(options.results, failed(options, of->second, status));
-      worst = 1;
-    }
-    running.erase(of);
-    if (terminal) std::fprintf(stderr, "\r%zu of %zu sets ", all - todo.size() - running.size(), all);
+/// In the process of one set: a crash or an endless search costs that set and no other.
+void score_one(const Options& options, std::size_t number) {
+  const rlimit most{kMostCpu_s, kMostCpu_s};
+  ::setrlimit(RLIMIT_CPU, &most);
+  try {
+    append_score(options, number);
+  } catch (const std::exception& error) {
+    std::cerr << "bench_diagnosis: set " << number << ": " << error.what() << '\n';
+    throw;
   }
-  if (terminal && all > 0) std::fprintf(stderr, "\n");
+}
+
+int score(const Options& options) {
+  const std::vector<std::size_t> todo = missing(options);
+  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  std::size_t done = 0;
+  int worst = 0;
+  crane::workers::run(
+      {.count = todo.size(),
+       .at_a_time = options.processes,
+       .work = [&](std::size_t i, const crane::workers::Outbox&) { score_one(options, todo[i]); },
+       .take = [](std::size_t, const std::string&) {},
+       .ended =
+           [&](std::size_t i, const std::string& failure) {
+             if (!failure.empty()) {
+               append(options.results, failed(options, todo[i], failure));
+               worst = 1;
+             }
+             if (terminal) std::fprintf(stderr, "\r%zu of %zu sets ", ++done, todo.size());
+           }});
+  if (terminal && !todo.empty()) std::fprintf(stderr, "\n");
   std::cout << table_of(read_records(options.results), options.quiet);
   return worst;
 }

@@ -50,9 +50,11 @@ void fixed_step_runge_kutta(benchmark::State& run) {
 }
 BENCHMARK(fixed_step_runge_kutta)->Arg(4)->Arg(100);
 
-void one_tick_moving(benchmark::State& run) {
+using crane::simulator::Method;
+
+void one_tick_moving(benchmark::State& run, Method method) {
   Model model{kCrane, crane::test::rig_friction()};
-  crane::simulator::Integrator integrator{model};
+  crane::simulator::Integrator integrator{model, {}, method};
   for (auto step : run) {
     State s = kMoving;
     integrator.advance(s, crane::test::driven({3, 2, 0}), crane::test::kTick_s);
@@ -61,12 +63,13 @@ void one_tick_moving(benchmark::State& run) {
   run.counters["evaluations"] =
       static_cast<double>(integrator.evaluations()) / static_cast<double>(run.iterations());
 }
-BENCHMARK(one_tick_moving);
+BENCHMARK_CAPTURE(one_tick_moving, cvode, Method::cvode);
+BENCHMARK_CAPTURE(one_tick_moving, fast, Method::fast);
 
 /// Maneuver 3 in closed loop: motion, reversal, standstill.
-void ticks_of_maneuver_3(benchmark::State& run) {
+void ticks_of_maneuver_3(benchmark::State& run, Method method) {
   Model model{kCrane, crane::test::rig_friction()};
-  crane::simulator::Integrator integrator{model};
+  crane::simulator::Integrator integrator{model, {}, method};
   State s;
   int tick = 0;
   for (auto step : run) {
@@ -77,11 +80,13 @@ void ticks_of_maneuver_3(benchmark::State& run) {
   run.counters["evaluations"] =
       static_cast<double>(integrator.evaluations()) / static_cast<double>(run.iterations());
 }
-BENCHMARK(ticks_of_maneuver_3);
+BENCHMARK_CAPTURE(ticks_of_maneuver_3, cvode, Method::cvode);
+BENCHMARK_CAPTURE(ticks_of_maneuver_3, fast, Method::fast);
 
 /// The same with the simulated board: counters, converters, brakes, watchdog.
-void board_ticks_moving(benchmark::State& run) {
+void board_ticks_moving(benchmark::State& run, Method method) {
   crane::simulator::SimulatedRig rig;
+  rig.integrator = method;
   rig.terms = crane::test::rig_friction();
   crane::simulator::SimulatedBoard board{rig};
   crane::bridge::Outputs outputs;
@@ -96,6 +101,7 @@ void board_ticks_moving(benchmark::State& run) {
     board.advance_to(++tick * 10'000'000);
   }
 }
-BENCHMARK(board_ticks_moving);
+BENCHMARK_CAPTURE(board_ticks_moving, cvode, Method::cvode);
+BENCHMARK_CAPTURE(board_ticks_moving, fast, Method::fast);
 
 }  // namespace

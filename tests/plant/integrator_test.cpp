@@ -35,10 +35,10 @@ std::vector<State> closed_loop(const Maneuver& maneuver, Step step) {
   return states;
 }
 
-std::vector<State> by_cvode(const Maneuver& maneuver, const Tolerances& tolerances,
-                            double smoothing = 0.0005) {
+std::vector<State> by(Method method, const Maneuver& maneuver, const Tolerances& tolerances = {},
+                      double smoothing = 0.0005) {
   const Model model{{}, test::rig_friction(smoothing)};
-  Integrator integrator{model, tolerances};
+  Integrator integrator{model, tolerances, method};
   return closed_loop(maneuver,
                      [&](State& s, const plant::Actuation& a) { integrator.advance(s, a, kTick_s); });
 }
@@ -52,20 +52,25 @@ double largest_difference(const std::vector<State>& a, const std::vector<State>&
 /// 2e-5 m, rad, m/s or rad/s: an encoder count is 1.6e-6 m, 1.7e-5 rad (slew), 2.6e-4 rad (swing).
 constexpr double kAccuracy = 2e-5;
 
-TEST(Integrator, AgreesWithRungeKuttaOf20MicrosecondsOverWholeManeuvers) {
+/// What holds for both methods.
+class EachIntegrator : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, EachIntegrator, testing::Values(Method::cvode, Method::fast),
+                         [](const auto& method) { return method.param == Method::cvode ? "Cvode" : "Fast"; });
+
+TEST_P(EachIntegrator, AgreesWithRungeKuttaOf20MicrosecondsOverWholeManeuvers) {
   const Model model{{}, test::rig_friction()};
   for (const Maneuver& maneuver : kManeuvers) {
     const auto reference = closed_loop(maneuver, [&](State& s, const plant::Actuation& a) {
       for (int i = 0; i < 500; ++i) s = test::runge_kutta_step(model, s, a, 2e-5);
     });
-    EXPECT_LT(largest_difference(by_cvode(maneuver, {}), reference), kAccuracy);
+    EXPECT_LT(largest_difference(by(GetParam(), maneuver), reference), kAccuracy);
   }
 }
 
-TEST(Integrator, HasConvergedInItsTolerances) {
+TEST_P(EachIntegrator, HasConvergedInItsTolerances) {
   for (const Maneuver& maneuver : kManeuvers) {
-    const auto half = by_cvode(maneuver, {.relative = 0.5e-8, .absolute = 0.5e-8});
-    EXPECT_LT(largest_difference(by_cvode(maneuver, {}), half), kAccuracy);
+    const auto half = by(GetParam(), maneuver, {.relative = 0.5e-8, .absolute = 0.5e-8});
+    EXPECT_LT(largest_difference(by(GetParam(), maneuver), half), kAccuracy);
   }
 }
 
@@ -83,7 +88,8 @@ int settling_tick(const std::vector<State>& states, const Maneuver& maneuver) {
 TEST(Integrator, HasConvergedInTheSmoothingOfFriction) {
   constexpr double kThousandth = 0.75e-3;
   for (const Maneuver& maneuver : kManeuvers) {
-    const auto sharp = by_cvode(maneuver, {}, 0.00025), smooth = by_cvode(maneuver, {}, 0.0005);
+    const auto sharp = by(Method::cvode, maneuver, {}, 0.00025),
+               smooth = by(Method::cvode, maneuver, {}, 0.0005);
     for (std::size_t i = 0; i < sharp.size(); ++i) {
       const auto a = plant::to_array(sharp[i]), b = plant::to_array(smooth[i]);
       for (const std::size_t coordinate : {0U, 1U, 2U, 3U})
@@ -93,9 +99,9 @@ TEST(Integrator, HasConvergedInTheSmoothingOfFriction) {
   }
 }
 
-TEST(Integrator, GivesTheSameBitsWhateverItDidBefore) {
+TEST_P(EachIntegrator, GivesTheSameBitsWhateverItDidBefore) {
   const Model model{{}, test::rig_friction()};
-  Integrator used{model}, fresh{model};
+  Integrator used{model, {}, GetParam()}, fresh{model, {}, GetParam()};
   State warm{.trolley_m = 0.5, .radial_rad = 0.3, .tangential_radps = 1};
   for (int i = 0; i < 50; ++i) used.advance(warm, test::driven({4, -2, 0.1}), kTick_s);
   Watch watch;
@@ -108,11 +114,11 @@ TEST(Integrator, GivesTheSameBitsWhateverItDidBefore) {
   EXPECT_EQ(a, b);
 }
 
-TEST(Integrator, StopsWhereAnAxisReachesAPosition) {
+TEST_P(EachIntegrator, StopsWhereAnAxisReachesAPosition) {
   Parameters bare;
   bare.load_mass_kg = 0;
   const Model model{bare};
-  Integrator integrator{model};
+  Integrator integrator{model, {}, GetParam()};
   Watch watch;
   watch.high[plant::kTrolley] = 1;
   State s;
@@ -124,17 +130,17 @@ TEST(Integrator, StopsWhereAnAxisReachesAPosition) {
   EXPECT_NEAR(s.trolley_m, 1, 1e-6);
 }
 
-TEST(Integrator, FollowsTheHoistDrivesLag) {
+TEST_P(EachIntegrator, FollowsTheHoistDrivesLag) {
   const Model model{Parameters{}};
-  Integrator integrator{model};
+  Integrator integrator{model, {}, GetParam()};
   State s{.trolley_m = 1};
   integrator.advance(s, test::driven({0, 0, 4}), 0.1);
   EXPECT_NEAR(s.cable_mps, 0.05 * 4 * (1 - std::exp(-1.0)), 1e-6);
 }
 
-TEST(Integrator, ReportsACollapsedStepInsteadOfReturningNonsense) {
+TEST_P(EachIntegrator, ReportsACollapsedStepInsteadOfReturningNonsense) {
   const Model model{Parameters{}};
-  Integrator integrator{model};
+  Integrator integrator{model, {}, GetParam()};
   State s{.trolley_m = 1, .radial_rad = 0.1, .cable_m = 0.05, .cable_mps = -10};
   EXPECT_THROW(
       {

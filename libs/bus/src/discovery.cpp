@@ -32,4 +32,10 @@ bool discovers_by_unicast(const Options& options) {
   return !options.peers.empty() || std::none_of(own.begin(), own.end(), has_multicast);
 }
 
+bool crosses_network(const Options& options) {
+  return !options.peers.empty() ||
+         std::any_of(options.interfaces.begin(), options.interfaces.end(),
+                     [](const std::string& address) { return !address.starts_with("127."); });
+}
+
 }  // namespace crane::bus

@@ -1,5 +1,7 @@
 #pragma once
 /// Discovery of participants. Both vendors must use the same kind (multicast or unicast), hence one rule.
+#include <chrono>
+
 #include "crane/bus/bus.hpp"
 
 namespace crane::bus {
@@ -7,5 +9,11 @@ namespace crane::bus {
 /// @return true with explicit peers, and when no interface has multicast (the usual Linux loop-back). Every
 ///   participant then contacts the known ports of its own host and of the peers
 [[nodiscard]] bool discovers_by_unicast(const Options& options);
+
+/// True when samples may leave this computer and datagrams may be lost: with peers, or with an interface
+/// other than loop-back. A lost datagram holds back all later samples of its topic until the reader asks for
+/// it after the next heartbeat. Every kNetworkHeartbeat Cyclone DDS repairs a sample within its tick.
+[[nodiscard]] bool crosses_network(const Options& options);
+inline constexpr std::chrono::milliseconds kHeartbeat{20}, kNetworkHeartbeat{2};
 
 }  // namespace crane::bus

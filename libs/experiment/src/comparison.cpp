@@ -20,12 +20,6 @@ std::string text_cell(const std::string& text) {
   return cell + '"';
 }
 
-std::string csv_cell(const nlohmann::ordered_json& value) {
-  if (value.is_null()) return "";
-  if (value.is_string()) return text_cell(value.get<std::string>());
-  return value.is_number_float() ? recording::shortest(value.get<double>()) : value.dump();
-}
-
 /// @param unit_s  time that counts as 1
 std::string settling_cell(const ComparedRun& run, double unit_s) {
   if (!run.stopped_because.empty()) return run.stopped_because;
@@ -69,6 +63,12 @@ void write_markdown(std::ostream& out, const TextTable& table) {
 }
 
 }  // namespace
+
+std::string csv_cell(const nlohmann::ordered_json& value) {
+  if (value.is_null()) return "";
+  if (value.is_string()) return text_cell(value.get<std::string>());
+  return value.is_number_float() ? recording::shortest(value.get<double>()) : value.dump();
+}
 
 std::string variant_title(const std::string& variant) {
   return variant.empty() ? "as the rig file says" : variant;

@@ -71,7 +71,14 @@ SimulatedRig simulated_rig_of(const configuration::Rig& rig) {
   return simulated;
 }
 
-runtime::ComponentSpec simulated_plant_spec() {
+template <Method kMethod>
+std::unique_ptr<runtime::Component> make_plant(const runtime::Context& context) {
+  SimulatedRig rig = simulated_rig_of(context.rig);
+  rig.integrator = kMethod;
+  return std::make_unique<bridge::Bridge>(context, std::make_unique<SimulatedBoard>(rig));
+}
+
+runtime::ComponentSpec simulated_plant_spec(Method integrator) {
   return {.name = "plant",
           .program = "crane_plant",
           .summary =
@@ -81,10 +88,7 @@ runtime::ComponentSpec simulated_plant_spec() {
           .runs_controller = false,
           .reads = bridge::bridge_reads(),
           .writes = bridge::bridge_writes(),
-          .make = [](const runtime::Context& context) -> std::unique_ptr<runtime::Component> {
-            return std::make_unique<bridge::Bridge>(
-                context, std::make_unique<SimulatedBoard>(simulated_rig_of(context.rig)));
-          }};
+          .make = integrator == Method::fast ? make_plant<Method::fast> : make_plant<Method::cvode>};
 }
 
 }  // namespace crane::simulator

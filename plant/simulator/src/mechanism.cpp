@@ -35,7 +35,7 @@ const SimulatedRig& checked(const SimulatedRig& rig) {
 Mechanism::Mechanism(const SimulatedRig& rig, const Tolerances& tolerances)
     : drives_(checked(rig).drives),
       model_(rig.parameters, rig.terms, rig.period_s),
-      integrator_(model_, tolerances),
+      integrator_(model_, tolerances, rig.integrator),
       state_(rig.start) {
   for (std::size_t i = 0; i < kAxes; ++i) absent_.axis[i] = !drives_[i].present;
   absent_.radial = !rig.radial_swing || model_.parameters().load_mass_kg == 0;

@@ -13,6 +13,7 @@ using Action = std::function<int()>;
 void add_up(CLI::App& app, Action& chosen);
 void add_demo(CLI::App& app, Action& chosen);
 void add_run(CLI::App& app, Action& chosen);
+void add_sweep(CLI::App& app, Action& chosen);
 void add_status(CLI::App& app, Action& chosen);
 void add_reset(CLI::App& app, Action& chosen);
 void add_arm(CLI::App& app, Action& chosen);

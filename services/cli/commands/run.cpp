@@ -27,7 +27,7 @@ constexpr const char* kDefaultRig = "virginia_tech_tower";
 
 struct RunOptions {
   Names scenarios, controllers, variants;
-  std::string rig, out = "out", plant = "sim", clock = "lockstep";
+  std::string rig, integrator = "cvode", out = "out", plant = "sim", clock = "lockstep";
   bool compare = false, in_process = false, json = false, no_picture = false;
   runtime::BusOptions bus;
   Names vendors;
@@ -62,7 +62,8 @@ void add_plans(const std::string& name, const RunOptions& options,
   for (const auto& variant : variants) {
     (void)experiment::changed_by(rig, variant);  // reports unknown variants before the first run
     for (const auto& controller : controllers)
-      plans.push_back({scenario, rig, &runtime::chosen_controller(controller, rig), variant});
+      plans.push_back({scenario, rig, &runtime::chosen_controller(controller, rig), variant,
+                       simulator::method_named(options.integrator)});
   }
 }
 
@@ -92,6 +93,7 @@ int run_each(const RunOptions& options, const std::vector<experiments::PlannedRu
   experiments::ExperimentOptions experiment;
   experiment.plant = plant_of(options);
   experiment.in_process = options.in_process;
+  experiment.integrator = simulator::method_named(options.integrator);
   experiment.picture = !options.no_picture;
   experiment.bus = options.bus;
   auto specs = stack::stack_with(experiment.plant);
@@ -204,6 +206,9 @@ int compare(const RunOptions& options, const std::vector<experiments::PlannedRun
 int run(const RunOptions& options) {
   runtime::install_stop_signals();
   const auto plans = plans_of(options);
+  if (options.integrator != "cvode" && !options.in_process && !options.compare)
+    throw configuration::ConfigurationError(
+        {"--integrator = " + options.integrator + ": needs --in-process or --compare"});
   if (options.clock == "realtime") return run_each_in_realtime(options, plans);
   return options.compare ? compare(options, plans) : run_each(options, plans);
 }
@@ -235,6 +240,11 @@ void add_run(CLI::App& app, Action& chosen) {
       ->delimiter(',');
   command->add_option("--rig", options->rig,
                       std::string{"rig file or name; default: that of the scenario, else "} + kDefaultRig);
+  command
+      ->add_option("--integrator", options->integrator,
+                   "of the simulated plant: cvode, the reference; or fast, with --in-process or --compare")
+      ->check(CLI::IsMember(Names{simulator::kMethodNames.begin(), simulator::kMethodNames.end()}))
+      ->capture_default_str();
   command
       ->add_option("--plant", options->plant,
                    "sim: simulated plant; hardware: the bridge on the emulated board of the rig file "

@@ -45,8 +45,13 @@ std::string configuration(const Options& options) {
     xml += "</Peers>";
   }
   xml += "<LeaseDuration>10s</LeaseDuration></Discovery><Internal>";
-  xml += "<HeartbeatInterval min=\"5ms\" minsched=\"5ms\" max=\"1s\">20ms</HeartbeatInterval>";
-  xml += "<NackDelay>1ms</NackDelay><PreEmptiveAckDelay>10ms</PreEmptiveAckDelay>";
+  const bool network = crosses_network(options);
+  const auto heartbeat = std::to_string((network ? kNetworkHeartbeat : kHeartbeat).count()) + "ms";
+  const std::string least = network ? "1ms" : "5ms";
+  xml += "<HeartbeatInterval min=\"" + least + "\" minsched=\"" + least + "\" max=\"1s\">" + heartbeat;
+  xml += "</HeartbeatInterval><NackDelay>";
+  xml += network ? "0s" : "1ms";
+  xml += "</NackDelay><PreEmptiveAckDelay>10ms</PreEmptiveAckDelay>";
   xml +=
       "<GenerateKeyhash>true</GenerateKeyhash></Internal></Domain>";  // Fast DDS identifies instances by it
   return xml;

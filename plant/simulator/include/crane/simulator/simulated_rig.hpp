@@ -10,6 +10,7 @@
 #include "crane/bridge/board.hpp"
 #include "crane/plant/parameters.hpp"
 #include "crane/plant/state.hpp"
+#include "crane/simulator/integrator.hpp"
 
 namespace crane::simulator {
 
@@ -50,6 +51,7 @@ struct SimulatedRig {
   bool radial_swing = true;      ///< false: no radial swing
   bool tangential_swing = true;  ///< false for a gantry
   plant::State start{.trolley_m = 0.25};
+  Method integrator = Method::cvode;
   double period_s = 0.01;            ///< sampling period; command and sensor terms act once per period, > 0
   bool estop_cuts_brakes = true;     ///< true: the wired emergency stop interrupts the brake supply
   double watchdog_timeout_s = 0.05;  ///< the relay opens when the level has not changed for longer than this

@@ -5,7 +5,7 @@
 
 namespace crane::simulator {
 
-[[nodiscard]] runtime::ComponentSpec simulated_plant_spec();
+[[nodiscard]] runtime::ComponentSpec simulated_plant_spec(Method integrator = Method::cvode);
 
 /// Converts a rig file to the parameters of the simulated board. The limit switches are at the hard limits,
 /// the end stops 0.02 m or 0.02 rad beyond.

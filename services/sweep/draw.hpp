@@ -1,0 +1,21 @@
+#pragma once
+/// Numbers of the simulated crane by the keys of the rig file.
+#include <string>
+
+#include "crane/configuration/rig.hpp"
+#include "crane/fields/range.hpp"
+
+namespace crane::sweep {
+
+struct Number {
+  double* value = nullptr;  ///< nullptr: the rig has no such number
+  fields::Range range;
+};
+/// A number of [plant], [start] or of a term of the model. A parameter that the term leaves at its default is
+/// found, too. @return the number; its pointer is valid until the rig changes
+[[nodiscard]] Number number_of(configuration::Rig& rig, const std::string& key);
+
+/// Uniform in [0, 1), the same on every machine, independent for different seeds and indices.
+[[nodiscard]] double uniform(std::uint64_t seed, std::size_t index);
+
+}  // namespace crane::sweep

@@ -1,0 +1,75 @@
+#pragma once
+/// A sweep: every controller with every variant on every rig in every scenario, many times with other true
+/// cranes. A sweep file (TOML) lists them; a run is one experiment in lockstep, in one process.
+///
+/// Run numbers count scenario, rig, variant, controller and seed in this order, the seed fastest. A seed
+/// draws the same true crane for every controller and variant.
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crane/experiment/comparison.hpp"
+#include "crane/experiment/scenario.hpp"
+#include "crane/simulator/integrator.hpp"
+
+namespace crane::sweep {
+
+/// One number of the simulated crane, uniformly distributed over the seeds.
+struct Draw {
+  std::string key;  ///< key of the rig file: "plant.load_mass_kg", "start.swing_radial_rad", or
+                    ///< "model.terms.NAME.AXIS.PARAMETER"
+  double low = 0, high = 0;
+};
+
+/// One scenario on one rig.
+struct Case {
+  experiment::Scenario scenario;
+  configuration::Rig rig;
+};
+
+struct Sweep {
+  std::string name;  ///< file name without .toml
+  std::string description;
+  std::vector<Case> cases;
+  std::vector<std::string> variants;     ///< names of experiment/variant.hpp; "" is the rig as it is
+  std::vector<std::string> controllers;  ///< "" is the controller of the rig file
+  std::vector<Draw> draws;
+  std::uint64_t first_seed = 1, seeds = 1;
+  simulator::Method integrator = simulator::Method::cvode;  ///< of the simulated plant
+
+  [[nodiscard]] std::size_t size() const;
+};
+
+/// Names in the sweep file that are rigs and scenarios, to files. @throws configuration::ConfigurationError
+struct Finder {
+  std::filesystem::path (*rig)(const std::string& name_or_path);
+  std::filesystem::path (*scenario)(const std::string& name_or_path);
+};
+/// @throws configuration::ConfigurationError with all problems of the sweep file and of the files that it
+///   names
+[[nodiscard]] Sweep load_sweep(const std::filesystem::path& file, const Finder& finder);
+/// Same, from text; `file` is used in messages and for the name only.
+[[nodiscard]] Sweep parse_sweep(const std::string& text, const std::string& file, const Finder& finder);
+
+/// One run of a sweep. @pre number < sweep.size()
+struct Run {
+  std::size_t number = 0;
+  const Case* on = nullptr;
+  std::string variant{}, controller{};
+  std::uint64_t seed = 0;
+  std::vector<double> drawn{};  ///< one value per draw
+};
+[[nodiscard]] Run run_of(const Sweep& sweep, std::size_t number);
+
+/// The rig of a run: with the start of the scenario, then the drawn values, then the variant.
+[[nodiscard]] configuration::Rig started_rig(const Sweep& sweep, const Run& run);
+
+/// Runs one experiment. Every failure is a result.
+[[nodiscard]] experiment::ComparedRun simulate(const Sweep& sweep, const Run& run);
+
+/// Text that differs between sweeps whose results differ.
+[[nodiscard]] std::string identity_of(const Sweep& sweep);
+
+}  // namespace crane::sweep

@@ -1,0 +1,33 @@
+#pragma once
+/// Runs a sweep on several processes and leaves its files:
+///   sweep.jsonl  one line per finished run; an interrupted sweep continues from it
+///   runs.csv     every run with its figures
+///   sweep.html   tables and distributions
+/// Equal sweeps give equal bytes of runs.csv and sweep.html, with any number of processes.
+#include <functional>
+#include <string>
+
+#include "sweep/results.hpp"
+
+namespace crane::sweep {
+
+struct Progress {
+  std::size_t done = 0, all = 0;  ///< runs, those of earlier calls included
+  std::size_t new_runs = 0;       ///< finished in this call
+  double elapsed_s = 0;           ///< of this call
+};
+/// "1200 of 5000 runs, 84.1 runs/s, 0:45 left"; without the rate before the first new run.
+[[nodiscard]] std::string to_string(const Progress& progress);
+
+struct RunOptions {
+  std::filesystem::path directory;  ///< created when missing
+  unsigned processes = 1;           ///< >= 1
+  std::function<void(const Progress&)> progress{};
+  std::function<bool()> cancelled{};
+};
+
+/// @return the groups of all runs; empty when cancelled: the log then has the finished runs
+/// @throws LogError, report::WriteError
+[[nodiscard]] std::vector<Group> run_sweep(const Sweep& sweep, const RunOptions& options);
+
+}  // namespace crane::sweep
