@@ -119,8 +119,8 @@ int run(const Options& options) {
       runtime::bus_options(options.bus, "crane_black_box", crane_SOURCE_RECORDER, runtime::random_epoch())};
   Incidents incidents{observation::log_now_ns()};
   observation::Observer observer{bus, [&incidents](const std::vector<SamplePtr>& samples) {
-                                 for (const auto& sample : samples) incidents.add(sample);
-                               }};
+                                   for (const auto& sample : samples) incidents.add(sample);
+                                 }};
   const auto keep = [&](bool ends) {
     if (auto incident = incidents.poll(runtime::monotonic_ns(), observation::log_now_ns(), ends))
       writer.write(*std::move(incident), processes_of(incidents.traffic()));
