@@ -16,7 +16,7 @@ using observation::SamplePtr;
 
 struct Incident {
   std::int64_t from_ns = 0, until_ns = 0;  ///< log time
-  observation::Note first;                   ///< first cause of the incident
+  observation::Note first;                 ///< first cause of the incident
   std::size_t faults = 0;                  ///< number of merged faults
   std::vector<SamplePtr> samples;          ///< of all topics, in the order of log time
 };
