@@ -43,7 +43,7 @@ struct Review {
   std::array<AxisFigures, 3> axes;
   double largest_radial_deg = 0, largest_tangential_deg = 0;
   std::vector<observation::TopicTraffic> topics;  ///< in the order of topics::kAll
-  std::vector<std::string> problems;            ///< problems of the file
+  std::vector<std::string> problems;              ///< problems of the file
 
   /// The first fault; without a fault the first stop by the operator; nullptr: no stop.
   [[nodiscard]] const observation::Fault* first_stop() const;
