@@ -46,9 +46,10 @@ struct Fitted {
   Noise noise;        ///< that it is whitened with
   Noise leaves;       ///< learnt from what it left when it was screened
   double misfit = 0;  ///< minus twice the log likelihood of that, the starts of windows left free
-  /// Minus twice the log likelihood of the training data by block, each as if it was left out of the fit.
+  /// Minus twice the log likelihood of the training data by block, with the price of the fitted values.
   Blocks deviance;
-  Blocks left_out;  ///< of that, what every block costs more for being left out
+  double price = 0;  ///< of the values, contained in `deviance`
+  Blocks left_out;   ///< what every block costs more when it is left out of the fit (Takeuchi's penalty)
   /// Error of the simulation in windows, mean over the windows of the rms of each [m or rad].
   std::array<double, kOutputs> error{};
   /// The same of swings over whole runs. Of drives the smallest error of friction integrates into position.

@@ -6,6 +6,7 @@
 #include "crane/diagnosis/diagnosis.hpp"
 #include "crane/diagnosis/moment.hpp"
 #include "experiment/next_experiment.hpp"
+#include "rules.hpp"
 #include "search/compare.hpp"
 #include "search/held_out.hpp"
 #include "search/intervals.hpp"
@@ -15,20 +16,6 @@
 
 namespace crane::diagnosis {
 namespace {
-
-/// A smaller share of the held-out error is not worth a name.
-constexpr double kWorthwhile = 0.03;
-/// Share of resamples of the held-out data that the extended model makes likelier.
-constexpr double kHeldOutWin = 0.95;
-/// A simulated motion of less than this share of the measured one is none.
-constexpr double kStandsStill = 0.1;
-/// Errors of a swing over whole runs in open loop may grow by that much: phase drifts. Of drives nothing is
-/// asked there, where the smallest error of friction integrates into position.
-constexpr double kWorseOverWholeRuns = 1.25;
-/// Of the squares of a motion over whole runs that the base model follows, the extended model has to follow
-/// at least this share: friction that is off by a little lets an axis drift, one that holds it fast explains
-/// nothing.
-constexpr double kStillFollowed = 0.5;
 
 void give_values(const Fitted& best, Diagnosis& result) {
   const std::vector<Estimate> values = estimates(best);
@@ -52,7 +39,8 @@ bool acts_on(const Effects& effects, const std::string& column) {
   });
 }
 
-/// Whether the extended model loses over whole runs what the base model followed of a motion.
+/// Whether the extended model loses over whole runs what the base model followed of a motion: friction that
+/// is off by a little lets an axis drift, friction that holds it fast explains nothing.
 bool loses_motion(const HeldOut& held_out, const std::string& column) {
   const auto squares = [&column](const std::map<std::string, double>& rms) {
     const auto found = rms.find(column);
@@ -61,7 +49,7 @@ bool loses_motion(const HeldOut& held_out, const std::string& column) {
   const double moved = squares(held_out.whole_held_value_rms);
   const double followed_before = moved - squares(held_out.whole_baseline_rms);
   const double followed = moved - squares(held_out.whole_extended_rms);
-  return followed_before > 0 && followed < kStillFollowed * followed_before;
+  return followed_before > 0 && followed < rules::kStillFollowed * followed_before;
 }
 
 /// Whether the error where the effects act is smaller by a share that is worth a name, in windows or over
@@ -69,7 +57,8 @@ bool loses_motion(const HeldOut& held_out, const std::string& column) {
 bool worthwhile(const HeldOut& held_out, const Effects& effects) {
   const auto smaller = [&](const auto& before, const auto& after) {
     return std::ranges::any_of(before, [&](const auto& column) {
-      return acts_on(effects, column.first) && after.at(column.first) < (1 - kWorthwhile) * column.second;
+      return acts_on(effects, column.first) &&
+             after.at(column.first) < (1 - rules::kWorthwhile) * column.second;
     });
   };
   return smaller(held_out.baseline_rms, held_out.extended_rms) ||
@@ -80,15 +69,15 @@ bool worthwhile(const HeldOut& held_out, const Effects& effects) {
 std::string held_out_doubt(const HeldOut& held_out, const Effects& effects) {
   const bool nothing_held_out = held_out.baseline_rms.empty();
   if (effects.empty() || nothing_held_out) return "";
-  if (!(held_out.likelier > kHeldOutWin))
+  if (!(held_out.likelier > rules::kHeldOutWin))
     return "held-out runs: the extended model does not make them likelier beyond doubt";
   if (!worthwhile(held_out, effects)) return "held-out runs: the extended model hardly simulates them better";
   for (const auto& [column, motion] : held_out.whole_extended_motion)
-    if (acts_on(effects, column) && motion < kStandsStill)
+    if (acts_on(effects, column) && motion < rules::kStandsStill)
       return "held-out runs: " + column + " moves, and stands still in the extended model";
   for (const auto& [column, before] : held_out.whole_baseline_rms)
     if (column.starts_with("swing") && acts_on(effects, column) &&
-        held_out.whole_extended_rms.at(column) > kWorseOverWholeRuns * before)
+        held_out.whole_extended_rms.at(column) > rules::kWorseOverWholeRuns * before)
       return "held-out runs: over whole runs the extended model simulates " + column + " worse";
   for (const auto& [column, before] : held_out.whole_baseline_rms)
     if (!column.starts_with("swing") && acts_on(effects, column) && loses_motion(held_out, column))
@@ -121,7 +110,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   request.progress(0.85, "what is left");
   auto [result, rival] = judge(study, found, losing, request.seed);
   result.excitation = found.excitation;
-  const bool matters = share_of_error(found.best, found.base) >= kWorthwhile;
+  const bool matters = share_of_error(found.best, found.base) >= rules::kWorthwhile;
   if (!found.best.effects.empty()) {
     request.progress(0.88, "how well the data know it");
     found.best = with_intervals(study, found.best, request.seed);
@@ -136,9 +125,11 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   }
   if (const std::string why = held_out_doubt(result.held_out, found.best.effects); !why.empty()) {
     // What hardly shows in training and not at all out of it is luck, and so is what all data together do not
-    // make likely. What shows in training only is an error that has another cause.
-    const bool luck =
-        is_luck(luck_of_values(found.best, found.base, result.held_out.nats), study.candidates().size());
+    // make likely, where held-out data lose no more by it than superfluous values cost. What shows in
+    // training only is an error that has another cause.
+    const std::size_t candidates = study.candidates().size();
+    const bool luck = is_luck(luck_of_values(found.best, found.base, result.held_out.nats), candidates) &&
+                      is_luck(luck_of_loss(found.best, found.base, result.held_out.nats), candidates);
     if (losing.empty() && result.remainder.from.empty() && (!matters || luck)) {
       found.best = found.base;
       nothing_found(result);
