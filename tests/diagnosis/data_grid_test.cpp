@@ -73,6 +73,17 @@ TEST(DataAtTheirOwnTimes, JitterAndDroppedFramesCostNothingElse) {
   }
 }
 
+/// A grid that is a thousandth too fine slips by a row in ten seconds.
+TEST(DataAtTheirOwnTimes, JitteredTimesTellTheirPeriod) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Recording lab{.row_s = 0.01, .jitter = 0.5, .seed = seed};
+    const auto table = strange::recorded(strange::moved({}, 30, strange::rich_command), lab);
+    const Loaded loaded = load_run(table, gantry(), "lab.csv");
+    EXPECT_NEAR(loaded.runs.at(0).period_s, 0.01, 5e-6) << "seed " << seed;
+    EXPECT_EQ(seen_in(loaded.runs[0], kTrolleyPosition), table.rows());
+  }
+}
+
 TEST(DataAtTheirOwnTimes, TwoSampleTimesInOneFileAreOneRun) {
   const auto truth = strange::moved({}, 12, strange::rich_command);
   auto table = strange::recorded(truth, {.row_s = 0.0055});

@@ -19,10 +19,12 @@ constexpr double kTick_s = 0.01;
 constexpr double kViscous_vspm = 0.4;
 
 /// A drive axis with viscous friction in a random walk of commands. @param extra_v on top, of time, position
-/// and speed
+/// and speed @param latest_step of the 20 of a tick: rows come up to so much after their tick
 template <class Extra>
-PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned seed, Extra&& extra_v) {
-  std::mt19937 random(seed);
+PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned seed, Extra&& extra_v,
+                  unsigned latest_step = 0) {
+  constexpr int kSteps = 20;
+  std::mt19937 random(seed), late(seed + 100);
   std::normal_distribution<double> normal;
   Run run;
   run.name = "run " + std::to_string(seed);
@@ -32,14 +34,17 @@ PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned see
   for (int k = 0; k < duration_s / kTick_s; ++k) {
     if (k % 50 == 0) u = 0.5 * normal(random) - 0.6 * x;
     push += (-push * kTick_s + 0.02 * std::sqrt(2 * kTick_s) * normal(random)) / 1.0;
-    run.measured[kTrolleyPosition].push_back(x + 1e-5 * normal(random));
     run.command_v.push_back({u, 0, 0});
     run.cable_m.push_back(1);
-    for (int step = 0; step < 20; ++step) {
-      const double t = kTick_s * (k + step / 20.0);
+    const double count = 1e-5 * normal(random);
+    const int row_at = static_cast<int>(late() % (latest_step + 1));
+    if (latest_step > 0) run.offset_s.push_back(row_at * kTick_s / kSteps);
+    for (int step = 0; step < kSteps; ++step) {
+      if (step == row_at) run.measured[kTrolleyPosition].push_back(x + count);
+      const double t = kTick_s * (k + static_cast<double>(step) / kSteps);
       const double a = gain * (u + push + extra_v(t, x, v) - kViscous_vspm * v);
-      x += kTick_s / 20 * (v + 0.5 * kTick_s / 20 * a);
-      v += kTick_s / 20 * a;
+      x += kTick_s / kSteps * (v + 0.5 * kTick_s / kSteps * a);
+      v += kTick_s / kSteps * a;
     }
   }
   return prepare(std::move(run), rig);
@@ -68,6 +73,17 @@ Left left_of(Extra&& extra_v) {
 }
 
 double nothing(double, double, double) { return 0; }
+
+/// The speed that a piece starts with takes the axis as far as the row's own instant.
+TEST(UnderWay, LeavesOfRowsThatComeLateAsLittleAsOfRegularOnes) {
+  const configuration::Rig rig = axis_with_viscous_friction();
+  const Runs regular{moved(rig, 30, 1, nothing)}, late{moved(rig, 30, 1, nothing, 8)};
+  const Crane crane{rig.plant, rig.terms};
+  const Pieces of_regular = pieces_of(regular, replays_of(regular, crane), kTrolleyPosition);
+  const Pieces of_late = pieces_of(late, replays_of(late, crane), kTrolleyPosition, of_regular.disturbance);
+  EXPECT_LT(of_late.squares(), 1.2 * of_regular.squares());
+  EXPECT_FALSE(find_jumps(of_late));
+}
 
 /// What a scale of 7 % leaves to second order would be 2 mm of 40 cm.
 TEST(UnderWay, ErrorsOfTheEncoderAreUndoneAndNeverMakeTheResidualSmaller) {

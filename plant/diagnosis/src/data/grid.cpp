@@ -32,15 +32,17 @@ double usual_step(const std::vector<double>& steps) {
   return std::min(middle, std::max({*at, kLeastPeriod_s, kLeastShare * middle}));
 }
 
-/// The period of which the steps are multiples, near a guess: their sum over how many there are.
+/// The period of which most steps are multiples, near a guess; else the guess. Of such rows the jitter of the
+/// times adds up to nothing, so that all short steps count: without the uneven ones the grid would slip.
 double period_near(const std::vector<double>& steps, double guess_s) {
-  double time = 0, count = 0;
+  double time = 0, count = 0, regular = 0;
   for (const double step : steps) {
     const double periods = std::round(step / guess_s);
-    if (periods < 1 || periods > 2 || std::abs(step / guess_s - periods) > kRegular) continue;
+    if (periods < 1 || periods > 2) continue;
     time += step, count += periods;
+    if (std::abs(step / guess_s - periods) <= kRegular) regular += periods;
   }
-  return count > 0.5 * static_cast<double>(steps.size()) ? time / count : guess_s;
+  return regular > 0.5 * static_cast<double>(steps.size()) ? time / count : guess_s;
 }
 
 /// Grid row of every row; of rows that crowd, all but one get none: that with most measured values, of these

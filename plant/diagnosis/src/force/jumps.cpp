@@ -21,19 +21,22 @@ constexpr std::size_t kFewest = 3;
 constexpr std::size_t kMargin = 5;
 
 /// One column per row at which the position, or the speed, may jump.
-MatrixXd jumps_in(const Piece& piece, bool of_speed) {
+MatrixXd jumps_in(const Piece& piece, const Run& run, bool of_speed) {
   const auto rows = static_cast<Index>(piece.rows), margin = static_cast<Index>(kMargin);
   MatrixXd all = MatrixXd::Zero(rows, std::max<Index>(0, rows - 2 * margin));
+  const auto instant_s = [&](Index row) {
+    return run.instant_s(piece.first + static_cast<std::size_t>(row));
+  };
   for (Index j = 0; j < all.cols(); ++j)
     for (Index k = j + margin; k < rows; ++k)
-      all(k, j) = of_speed ? static_cast<double>(k - j - margin + 1) : 1.0;
+      all(k, j) = of_speed ? instant_s(k) - instant_s(j + margin - 1) : 1.0;
   piece.whitener.apply(all);
   all -= piece.basis * (piece.basis.transpose() * all).eval();
   return all;
 }
 
-double strongest(const Piece& piece, bool of_speed) {
-  const MatrixXd all = jumps_in(piece, of_speed);
+double strongest(const Piece& piece, const Run& run, bool of_speed) {
+  const MatrixXd all = jumps_in(piece, run, of_speed);
   if (all.cols() == 0) return 0;
   const VectorXd pull = all.transpose() * piece.residual, curvature = all.colwise().squaredNorm();
   return (pull.cwiseAbs2().array() / curvature.array().max(1e-12)).maxCoeff();
@@ -47,7 +50,9 @@ std::optional<Unexplained> find_jumps(const Pieces& pieces) {
   };
   std::vector<Strongest> found(pieces.all.size());
   parallel_for(found.size(), [&](std::size_t i) {
-    found[i] = {strongest(pieces.all[i], false), strongest(pieces.all[i], true)};
+    const Piece& piece = pieces.all[i];
+    const Run& run = (*pieces.runs)[piece.run].run;
+    found[i] = {strongest(piece, run, false), strongest(piece, run, true)};
   });
   std::size_t clear = 0;
   double gain = 0, rather_position = 0;

@@ -116,11 +116,12 @@ Passage passage_of(const PreparedRun& run, const MovingStretch& at, Output axis)
   return passage;
 }
 
-/// Of position and speed at the start, whitened.
-MatrixXd start_of(const Whitener& whitener, std::size_t rows) {
+/// Whitened changes at the rows' own instants that position and speed at the start make.
+MatrixXd start_of(const Whitener& whitener, const Run& run, std::size_t first, std::size_t rows) {
   MatrixXd directions(static_cast<Index>(rows), 2);
   directions.col(0).setOnes();
-  directions.col(1).setLinSpaced(0, 1);
+  for (std::size_t k = 0; k < rows; ++k)
+    directions(static_cast<Index>(k), 1) = run.instant_s(first + k) - run.instant_s(first);
   whitener.apply(directions);
   return Eigen::HouseholderQR<MatrixXd>(directions).householderQ() *
          MatrixXd::Identity(directions.rows(), directions.cols());
@@ -169,7 +170,7 @@ Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis, const Dist
     Piece piece{
         run, first, rows, std::move(position), Whitener(pieces.disturbance, passages[i]), std::move(left[i]),
         {}};
-    piece.basis = start_of(piece.whitener, rows);
+    piece.basis = start_of(piece.whitener, runs[run].run, first, rows);
     take_start_out(piece, piece.residual);
     pieces.all.push_back(std::move(piece));
   }
