@@ -147,7 +147,7 @@ TEST(Smoothing, IsExactForCubicsUpToTheEnds) {
     const double t = 0.1 * k;
     cubic.push_back(1 + 2 * t - 3 * t * t + 0.5 * t * t * t);
   }
-  const Motion motion = smooth(cubic, 0.1, 3);
+  const Motion motion = savitzky_golay(cubic, 0.1, 3);
   for (int k = 0; k < 40; ++k) {
     const double t = 0.1 * k;
     const auto at = static_cast<std::size_t>(k);

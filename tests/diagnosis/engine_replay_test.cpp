@@ -148,13 +148,13 @@ TEST(FixedStepReplay, SwitchesADelayedCommandInsideARow) {
   std::vector<double> out(run.rows());
   const std::array start{0.3, 0.0};
   replay.run(Part::drive, 0, run.rows(), start, out);
-  const Replay::Guided guided = replay.guided(kTrolleyPosition);
+  const Replay::Increments increments = replay.increments_along_measurement(kTrolleyPosition);
   double way = 0.3, rate = 0;
   for (std::size_t k = 0; k < run.rows(); ++k) {
     ASSERT_NEAR(out[k], run.measured[kTrolleyPosition][k], 1e-9) << "seed " << seed << ", row " << k;
     ASSERT_NEAR(way, run.measured[kTrolleyPosition][k], 1e-9) << "seed " << seed << ", row " << k;
-    way += run.period_s * rate + guided.way[k];
-    rate += guided.speed[k];
+    way += run.period_s * rate + increments.distance[k];
+    rate += increments.speed_change[k];
   }
 }
 
@@ -184,7 +184,7 @@ TEST(FrictionStep, StopsAndTurnsInsideOneStepLikeManySmallOnes) {
     }
     // Within twice the width of the smoothed step, which a whole step at once cannot resolve.
     EXPECT_NEAR(step.speed, speed, 1e-3) << "seed " << seed << ", case " << i;
-    EXPECT_NEAR(step.way, way, 5e-6) << "seed " << seed << ", case " << i;
+    EXPECT_NEAR(step.distance, way, 5e-6) << "seed " << seed << ", case " << i;
   }
 }
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "force/position_spectrum.hpp"
-#include "noise/paces.hpp"
+#include "noise/motion_profile.hpp"
 #include "robust.hpp"
 #include "sealed_case.hpp"
 
@@ -20,17 +20,17 @@ TEST(Loss, IsQuadraticForNoiseAndCountsASlipOfAHundredDeviationsLikeTen) {
 }
 
 /// Out at 0.1 m/s for a second, a second of rest, back.
-TEST(Paces, TellWhereAnAxisStandsTurnsAndIsSlow) {
+TEST(MotionProfile, TellWhereAnAxisStandsTurnsAndIsSlow) {
   std::vector<double> position;
   double x = 0;
   for (int k = 0; k < 300; ++k) position.push_back(x += k < 100 ? 1e-3 : k < 200 ? 0 : -1e-3);
-  const Paces paces = paces_of(position, 0.01, 20, 260);
-  EXPECT_EQ(paces[30].going, Going::on);
-  EXPECT_LT(paces[30].slow, 1e-9);
-  EXPECT_EQ(paces[130].going, Going::standing);
-  EXPECT_EQ(paces[130].slow, 1);
-  EXPECT_NE(paces[82].going, Going::standing) << "it moved a few rows before";
-  EXPECT_EQ(paces[230].going, Going::on);
+  const MotionProfile profile = motion_profile_of(position, 0.01, 20, 260);
+  EXPECT_EQ(profile[30].phase, MotionPhase::moving);
+  EXPECT_LT(profile[30].slowness, 1e-9);
+  EXPECT_EQ(profile[130].phase, MotionPhase::standing);
+  EXPECT_EQ(profile[130].slowness, 1);
+  EXPECT_NE(profile[82].phase, MotionPhase::standing) << "it moved a few rows before";
+  EXPECT_EQ(profile[230].phase, MotionPhase::moving);
 }
 
 /// x'' = K (V + a sin(2 pi x / w + psi)) in small steps, a run with one command.

@@ -70,7 +70,7 @@ Left left_of(Extra&& extra_v) {
 double nothing(double, double, double) { return 0; }
 
 /// What a scale of 7 % leaves to second order would be 2 mm of 40 cm.
-TEST(UnderWay, ErrorsOfTheEncoderAreUndoneAndNeverMakeTheResidualSmaller) {
+TEST(EquationError, ErrorsOfTheEncoderAreUndoneAndNeverMakeTheResidualSmaller) {
   constexpr double kScale = 0.93;
   const configuration::Rig rig = axis_with_viscous_friction();
   const Runs as_it_was{moved(rig, 30, 1, nothing)};
@@ -81,9 +81,9 @@ TEST(UnderWay, ErrorsOfTheEncoderAreUndoneAndNeverMakeTheResidualSmaller) {
   crane.terms.push_back({"position_scale", "trolley", {{"factor", kScale}}});
 
   const Replays replays = replays_of(scaled, crane);
-  const auto guided = replays[0].guided(kTrolleyPosition);
+  const auto increments = replays[0].increments_along_measurement(kTrolleyPosition);
   for (std::size_t k = 0; k < shown.rows(); ++k)
-    ASSERT_NEAR(guided.position[k], as_it_was[0].motion[kTrolleyPosition].position[k], 1e-5) << k;
+    ASSERT_NEAR(increments.position[k], as_it_was[0].motion[kTrolleyPosition].position[k], 1e-5) << k;
   const Pieces right = pieces_of(as_it_was, replays_of(as_it_was, {rig.plant, rig.terms}), kTrolleyPosition);
   const Pieces undone = pieces_of(scaled, replays, kTrolleyPosition, right.disturbance);
   EXPECT_NEAR(undone.squares() / right.squares(), kScale * kScale, 0.01);

@@ -13,15 +13,17 @@ namespace crane::diagnosis {
 enum class Loss { squares, robust };
 
 /// Standard deviations squared.
-inline constexpr double kFar = 9;
+inline constexpr double kCauchyScaleSquared = 9;
 /// Of a normal residual of variance 1.
 inline constexpr double kMeanLoss = 0.874;
 
 /// In noise variances.
-[[nodiscard]] inline double loss_of(double e) { return kFar * std::log1p(e * e / kFar); }
+[[nodiscard]] inline double loss_of(double e) {
+  return kCauchyScaleSquared * std::log1p(e * e / kCauchyScaleSquared);
+}
 
 /// Half the slope of the loss, over e.
-[[nodiscard]] inline double weight_of(double e) { return 1 / (1 + e * e / kFar); }
+[[nodiscard]] inline double weight_of(double e) { return 1 / (1 + e * e / kCauchyScaleSquared); }
 
 [[nodiscard]] inline double loss_of(const Eigen::VectorXd& residual) {
   double sum = 0;

@@ -12,13 +12,13 @@ namespace {
 /// Nothing of a crane moves faster than 100 samples a second show.
 constexpr double kFinest_s = 0.01;
 /// Of the steps, the share that a second, shorter sample time has to make up; and how much shorter it is.
-constexpr double kShare = 0.1, kShorter = 0.75;
+constexpr double kSecondRateShare = 0.1, kSecondRateRatio = 0.75;
 /// Shortest grid period of rows that come irregularly, s, and as a share of the median step.
 constexpr double kLeastPeriod_s = 0.005, kLeastShare = 0.25;
 /// Rows this near to the grid, as a share of its period, are on it: 1 um at 1 m/s and 10 ms.
-constexpr double kOnGrid = 1e-4;
+constexpr double kOnGridTolerance = 1e-4;
 /// Steps this near to a whole number of periods tell the period.
-constexpr double kRegular = 0.25;
+constexpr double kWholePeriodTolerance = 0.25;
 /// Nothing is measured there.
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
@@ -26,9 +26,10 @@ constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 double usual_step(const std::vector<double>& steps) {
   const double middle = median(steps);
   std::vector<double> sorted = steps;
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(sorted.size()));
+  const auto at =
+      sorted.begin() + static_cast<std::ptrdiff_t>(kSecondRateShare * static_cast<double>(sorted.size()));
   std::nth_element(sorted.begin(), at, sorted.end());
-  if (*at >= kShorter * middle) return middle;
+  if (*at >= kSecondRateRatio * middle) return middle;
   return std::min(middle, std::max({*at, kLeastPeriod_s, kLeastShare * middle}));
 }
 
@@ -37,7 +38,7 @@ double period_near(const std::vector<double>& steps, double guess_s) {
   double time = 0, count = 0;
   for (const double step : steps) {
     const double periods = std::round(step / guess_s);
-    if (periods < 1 || periods > 2 || std::abs(step / guess_s - periods) > kRegular) continue;
+    if (periods < 1 || periods > 2 || std::abs(step / guess_s - periods) > kWholePeriodTolerance) continue;
     time += step, count += periods;
   }
   return count > 0.5 * static_cast<double>(steps.size()) ? time / count : guess_s;
@@ -45,12 +46,12 @@ double period_near(const std::vector<double>& steps, double guess_s) {
 
 /// Grid row of every row; of rows that crowd, all but one get none: that with most measured values, of these
 /// the nearest.
-class Places {
+class GridAssignment {
  public:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
   /// @param values measured in every row
-  Places(const std::vector<double>& at, const std::vector<std::size_t>& values, const Grid& grid)
+  GridAssignment(const std::vector<double>& at, const std::vector<std::size_t>& values, const Grid& grid)
       : of_row_(at.size(), kNone) {
     for (std::size_t i = 0; i < at.size(); ++i) {
       const double place = at[i] / grid.period_s;
@@ -91,7 +92,7 @@ class Places {
 };
 
 /// A command that is not known holds the last one; before the first one it holds that.
-std::vector<double> held(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
+std::vector<double> held_command(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
   double last = 0;
   for (const std::size_t row : rows)
     if (std::isfinite(values[row])) {
@@ -122,8 +123,8 @@ std::vector<LostRows> lost_rows(const std::vector<double>& at, double row_s) {
 
 /// The commands with those of lost rows, which have lost their command, too: straight between the ones
 /// around.
-std::vector<TimedCommand> with_lost(const std::vector<TimedCommand>& commands,
-                                    const std::vector<LostRows>& lost) {
+std::vector<TimedCommand> with_interpolated_commands(const std::vector<TimedCommand>& commands,
+                                                     const std::vector<LostRows>& lost) {
   std::vector<TimedCommand> all;
   auto next = lost.begin();
   for (std::size_t k = 0; k < commands.size(); ++k) {
@@ -197,7 +198,7 @@ Grid grid_of(const std::vector<double>& time_s) {
   Grid grid;
   grid.row_s = usual_step(steps);
   const bool uniform = std::all_of(steps.begin(), steps.end(), [&](double step) {
-    return std::abs(step - grid.row_s) <= kOnGrid * grid.row_s;
+    return std::abs(step - grid.row_s) <= kOnGridTolerance * grid.row_s;
   });
   if (!uniform) grid.row_s = period_near(steps, grid.row_s);
   constexpr double kFastest_s = 1e-6;  // faster is refused
@@ -216,25 +217,27 @@ Run on_grid(const Columns& columns, const std::vector<std::size_t>& rows, const 
   for (const Source& source : columns.outputs)
     for (std::size_t r = 0; source.values != nullptr && r < rows.size(); ++r)
       values[r] += std::isfinite((*source.values)[rows[r]]) ? 1 : 0;
-  const Places places(at, values, grid);
+  const GridAssignment assignment(at, values, grid);
   Run run;
   run.period_s = grid.period_s;
   run.start_s = t[rows.front()];
   // The instant of the last row must not lie behind the end of the grid.
-  const std::size_t count = places.count() + (places.last_offset(at, grid) > kOnGrid ? 1 : 0);
+  const std::size_t count =
+      assignment.count() + (assignment.last_offset(at, grid) > kOnGridTolerance ? 1 : 0);
   std::vector<double> cable(count, kNotMeasured);
   run.offset_s.assign(count, 0.0);
   for (std::size_t i = 0; i < kOutputs; ++i)
     if (columns.outputs[i].values != nullptr) run.measured[i].assign(count, kNotMeasured);
   bool own_times = false;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const std::size_t node = places.of_row(r);
-    if (node == Places::kNone) {
+    const std::size_t node = assignment.of_row(r);
+    if (node == GridAssignment::kNone) {
       left_out.crowded += grid.rows_in_period == 1 ? 1 : 0;
       continue;
     }
     const double offset_s = at[r] - static_cast<double>(node) * grid.period_s;
-    if (std::abs(offset_s) > kOnGrid * grid.period_s) run.offset_s[node] = offset_s, own_times = true;
+    if (std::abs(offset_s) > kOnGridTolerance * grid.period_s)
+      run.offset_s[node] = offset_s, own_times = true;
     for (std::size_t i = 0; i < kOutputs; ++i)
       if (columns.outputs[i].values != nullptr) run.measured[i][node] = (*columns.outputs[i].values)[rows[r]];
     if (columns.cable.values != nullptr) cable[node] = (*columns.cable.values)[rows[r]];
@@ -245,12 +248,12 @@ Run on_grid(const Columns& columns, const std::vector<std::size_t>& rows, const 
   for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
     run.commanded[axis] = columns.commands[axis].values != nullptr;
     if (!run.commanded[axis]) continue;
-    const std::vector<double> volts = held(*columns.commands[axis].values, rows);
+    const std::vector<double> volts = held_command(*columns.commands[axis].values, rows);
     for (std::size_t r = 0; r < rows.size(); ++r) run.commands[r].drive_v[axis] = volts[r];
   }
   const std::vector<LostRows> lost = lost_rows(at, grid.row_s);
   mark_edges(lost, run);
-  run.commands = with_lost(run.commands, lost);
+  run.commands = with_interpolated_commands(run.commands, lost);
   run.command_v = mean_commands(run.commands, run.period_s, count);
   if (!own_times) run.offset_s.clear();
   if (!own_times && grid.rows_in_period == 1 && count == run.commands.size()) {

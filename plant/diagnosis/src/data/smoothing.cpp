@@ -6,7 +6,7 @@
 
 namespace crane::diagnosis {
 
-Motion smooth(std::span<const double> measured, double period_s, int half_width) {
+Motion savitzky_golay(std::span<const double> measured, double period_s, int half_width) {
   const auto rows = static_cast<int>(measured.size());
   const int width = std::min(2 * half_width + 1, rows);
   constexpr int kOrder = 3;
@@ -39,10 +39,10 @@ namespace {
 /// Second derivatives of the cubic spline at its knots, whose third derivative does not change at the second
 /// and the last knot but one ("not a knot"): a tridiagonal system, solved by elimination (C. de Boor, A
 /// Practical Guide to Splines, 1978, ch. IV).
-std::vector<double> bends_of(std::span<const double> t, std::span<const double> x) {
+std::vector<double> second_derivatives(std::span<const double> t, std::span<const double> x) {
   const std::size_t n = t.size();
-  std::vector<double> bend(n, 0.0), upper(n, 0.0);
-  if (n < 4) return bend;
+  std::vector<double> curvature(n, 0.0), upper(n, 0.0);
+  if (n < 4) return curvature;
   for (std::size_t k = 1; k + 1 < n; ++k) {
     const double before = t[k] - t[k - 1], after = t[k + 1] - t[k];
     double below = before, diagonal = 2 * (before + after), above = after;
@@ -51,15 +51,16 @@ std::vector<double> bends_of(std::span<const double> t, std::span<const double> 
     const double pivot = diagonal - below * upper[k - 1];
     const double turn = 6 * ((x[k + 1] - x[k]) / after - (x[k] - x[k - 1]) / before);
     upper[k] = above / pivot;
-    bend[k] = (turn - below * bend[k - 1]) / pivot;
+    curvature[k] = (turn - below * curvature[k - 1]) / pivot;
   }
-  for (std::size_t k = n - 2; k-- > 1;) bend[k] -= upper[k] * bend[k + 1];
-  const auto beyond = [&](std::size_t end, std::size_t near, std::size_t far) {
-    bend[end] = bend[near] + (bend[near] - bend[far]) * (t[end] - t[near]) / (t[near] - t[far]);
+  for (std::size_t k = n - 2; k-- > 1;) curvature[k] -= upper[k] * curvature[k + 1];
+  const auto extrapolate = [&](std::size_t end, std::size_t near, std::size_t far) {
+    curvature[end] =
+        curvature[near] + (curvature[near] - curvature[far]) * (t[end] - t[near]) / (t[near] - t[far]);
   };
-  beyond(0, 1, 2);
-  beyond(n - 1, n - 2, n - 3);
-  return bend;
+  extrapolate(0, 1, 2);
+  extrapolate(n - 1, n - 2, n - 3);
+  return curvature;
 }
 
 using Eigen::Matrix3d;
@@ -109,10 +110,10 @@ Filtered filtered(std::span<const double> t, std::span<const double> x, const Wh
     }
     f.before.push_back(state);
     f.covariance_before.push_back(covariance);
-    const double surprise = x[k] - state[0], variance = covariance(0, 0) + 1;
-    if (k >= 3) f.squares += surprise * surprise / variance, f.logs += std::log(variance), ++f.count;
+    const double innovation = x[k] - state[0], variance = covariance(0, 0) + 1;
+    if (k >= 3) f.squares += innovation * innovation / variance, f.logs += std::log(variance), ++f.count;
     const Vector3d gain = covariance.col(0) / variance;
-    state += gain * surprise;
+    state += gain * innovation;
     covariance -= gain * covariance.row(0);
     f.after.push_back(state);
     f.covariance_after.push_back(covariance);
@@ -122,8 +123,8 @@ Filtered filtered(std::span<const double> t, std::span<const double> x, const Wh
 
 }  // namespace
 
-std::vector<double> without_noise(std::span<const double> time_s, std::span<const double> measured,
-                                  double least_noise) {
+std::vector<double> rts_smoothed(std::span<const double> time_s, std::span<const double> measured,
+                                 double least_noise) {
   constexpr std::size_t kFewest = 8;
   const std::size_t n = time_s.size();
   if (n < kFewest || !(least_noise > 0)) return {measured.begin(), measured.end()};
@@ -157,7 +158,7 @@ Motion spline_of(std::span<const double> time_s, std::span<const double> measure
   Motion motion;
   for (auto* values : {&motion.position, &motion.rate, &motion.acceleration}) values->assign(rows, 0.0);
   if (n == 0) return motion;
-  const std::vector<double> bend = bends_of(time_s, measured);
+  const std::vector<double> curvature = second_derivatives(time_s, measured);
   for (std::size_t row = 0, k = 0; row < rows; ++row) {
     const double at = static_cast<double>(row) * period_s;
     while (k + 2 < n && time_s[k + 1] <= at) ++k;
@@ -167,17 +168,17 @@ Motion spline_of(std::span<const double> time_s, std::span<const double> measure
     }
     const double h = time_s[k + 1] - time_s[k], b = (at - time_s[k]) / h, a = 1 - b;
     motion.position[row] = a * measured[k] + b * measured[k + 1] +
-                           h * h / 6 * ((a * a * a - a) * bend[k] + (b * b * b - b) * bend[k + 1]);
+                           h * h / 6 * ((a * a * a - a) * curvature[k] + (b * b * b - b) * curvature[k + 1]);
     motion.rate[row] = (measured[k + 1] - measured[k]) / h +
-                       h / 6 * ((3 * b * b - 1) * bend[k + 1] - (3 * a * a - 1) * bend[k]);
-    motion.acceleration[row] = a * bend[k] + b * bend[k + 1];
+                       h / 6 * ((3 * b * b - 1) * curvature[k + 1] - (3 * a * a - 1) * curvature[k]);
+    motion.acceleration[row] = a * curvature[k] + b * curvature[k + 1];
   }
   return motion;
 }
 
 Motion spline(std::span<const double> measured, double period_s) {
   constexpr std::size_t kFewest = 8;
-  if (measured.size() < kFewest) return smooth(measured, period_s, 1);
+  if (measured.size() < kFewest) return savitzky_golay(measured, period_s, 1);
   const boost::math::interpolators::cardinal_cubic_b_spline<double> through(measured.begin(), measured.end(),
                                                                             0, period_s);
   Motion motion{{measured.begin(), measured.end()}, {}, {}};

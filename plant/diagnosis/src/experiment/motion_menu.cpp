@@ -18,9 +18,9 @@ using plant::kSlew;
 using plant::kTrolley;
 
 /// Motions keep to this share of the reference's speed and acceleration and of the travel.
-constexpr double kShare = 0.8;
+constexpr double kShareOfLimits = 0.8;
 constexpr double kFirstAction_s = 0.5;
-constexpr double kPause_s = 1.0;
+constexpr double kPauseBetween_s = 1.0;
 
 constexpr const char* name_of_axis(Axis axis) { return axis == kTrolley ? "trolley" : "slew"; }
 
@@ -64,7 +64,7 @@ class Menu {
   void add(SafeMotion motion) {
     if (!motion.references.empty()) {
       const TimedExcitation& last = motion.references.back();
-      motion.duration_s = std::ceil(last.at_s + last.reference.duration_s + kPause_s);
+      motion.duration_s = std::ceil(last.at_s + last.reference.duration_s + kPauseBetween_s);
     }
     all_.push_back(std::move(motion));
   }
@@ -74,7 +74,7 @@ class Menu {
     TimedExcitation next{.at_s = kFirstAction_s, .reference = {.axis = axis, .about = motion.start[axis]}};
     if (!motion.references.empty()) {
       const TimedExcitation& last = motion.references.back();
-      next.at_s = last.at_s + last.reference.duration_s + kPause_s;
+      next.at_s = last.at_s + last.reference.duration_s + kPauseBetween_s;
     }
     std::copy(sines.begin(), sines.end(), next.reference.sines.begin());
     next.reference.duration_s = duration_s;
@@ -180,7 +180,7 @@ class Menu {
     const double travel = 0.5 * (drive.high_limit - drive.low_limit) - drive.soft_margin;
     const double most =
         std::min({travel, drive.reference_speed / rate, drive.reference_acceleration / (rate * rate)});
-    return rounded(kShare * most);
+    return rounded(kShareOfLimits * most);
   }
 
   const configuration::Rig& rig_;

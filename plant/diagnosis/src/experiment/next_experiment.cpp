@@ -8,7 +8,7 @@
 
 #include "experiment/motion_menu.hpp"
 #include "experiment/safe_run.hpp"
-#include "noise/paces.hpp"
+#include "noise/motion_profile.hpp"
 #include "parallel.hpp"
 #include "search/compare.hpp"
 
@@ -19,13 +19,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPredicted_s = 2.5;
-constexpr double kBefore_s = 0.3;  // terms with a memory fill it; not compared
+constexpr double kExperimentWindow_s = 2.5;
+constexpr double kExperimentLead_s = 0.3;  // terms with a memory fill it; not compared
 constexpr double kLeastSeparation = 10;
-constexpr int kRounds = 10;
-constexpr double kLeastApproach = 1;  // of the sum of squares
-constexpr double kLeastStep = 0.1;    // of the Gauss-Newton step
-constexpr std::size_t kEvery = 2;     // windows compared: enough to rank motions
+constexpr int kMostRefitRounds = 10;
+constexpr double kLeastDecrease = 1;        // of the sum of squares
+constexpr double kShortestStepShare = 0.1;  // of the Gauss-Newton step
+constexpr std::size_t kWindowStride = 2;    // windows compared: enough to rank motions
 
 /// Candidates that only one of the two has.
 std::vector<const Candidate*> differing(const Effects& a, const Effects& b) {
@@ -51,22 +51,23 @@ Crane with(Crane crane, const Effects& effects) {
 
 /// Misfit of a crane to one run in one part, whitened, output by output; the starts of windows are solved for
 /// along the directions of the first crane that is asked.
-class Comparison {
+class WindowMisfit {
  public:
   /// @param gravity_mps2 for the swing's frequency
-  Comparison(const PreparedRun& run, Part part, double gravity_mps2, const Disturbances& disturbances)
+  WindowMisfit(const PreparedRun& run, Part part, double gravity_mps2, const Disturbances& disturbances)
       : run_(run), part_(part), outputs_(simulated_outputs(run, part)) {
     const double period_s = run.run.period_s;
-    rows_ = std::min(static_cast<std::size_t>(std::lround(kPredicted_s / period_s)), run.run.rows());
-    lead_ = static_cast<std::size_t>(std::lround(kBefore_s / period_s));
+    rows_ = std::min(static_cast<std::size_t>(std::lround(kExperimentWindow_s / period_s)), run.run.rows());
+    lead_ = static_cast<std::size_t>(std::lround(kExperimentLead_s / period_s));
     for (const Output output : outputs_)
       for (std::size_t w = 0; w < windows(); ++w) {
         const std::size_t first = first_of(w) + lead_, kept = rows_ - lead_;
-        const Passage passage =
+        const WindowMotion motion =
             part == Part::drive
-                ? Passage{period_s, 0, paces_of(run.on_grid[output], period_s, first, kept)}
-                : Passage{period_s, plant::swing_radps(gravity_mps2, run.run.cable_m[first]), Paces(kept)};
-        whiteners_.emplace_back(disturbances[output], passage);
+                ? WindowMotion{period_s, 0, motion_profile_of(run.on_grid[output], period_s, first, kept)}
+                : WindowMotion{period_s, plant::swing_radps(gravity_mps2, run.run.cable_m[first]),
+                               MotionProfile(kept)};
+        whiteners_.emplace_back(disturbances[output], motion);
       }
   }
 
@@ -93,8 +94,10 @@ class Comparison {
   }
 
  private:
-  [[nodiscard]] std::size_t windows() const { return (run_.run.rows() / rows_ + kEvery - 1) / kEvery; }
-  [[nodiscard]] std::size_t first_of(std::size_t window) const { return window * kEvery * rows_; }
+  [[nodiscard]] std::size_t windows() const {
+    return (run_.run.rows() / rows_ + kWindowStride - 1) / kWindowStride;
+  }
+  [[nodiscard]] std::size_t first_of(std::size_t window) const { return window * kWindowStride * rows_; }
   void whiten(std::size_t window, Eigen::Ref<MatrixXd> x) const {
     const auto kept = static_cast<Index>(rows_ - lead_);
     for (std::size_t i = 0; i < outputs_.size(); ++i)
@@ -164,23 +167,23 @@ class Refit {
   [[nodiscard]] std::vector<MatrixXd> misfits(const Effects& effects) {
     const Crane crane = with(base_, effects);
     std::vector<MatrixXd> all;
-    for (Comparison& part : parts_) all.push_back(part.misfit(crane));
+    for (WindowMisfit& part : parts_) all.push_back(part.misfit(crane));
     return all;
   }
 
   /// Gauss-Newton from the values given, inside the bounds.
-  void approach(Effects& effects) {
+  void fit(Effects& effects) {
     VectorXd residual = stacked(misfits(effects));
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kMostRefitRounds; ++round) {
       const VectorXd change = step(effects, residual);
       double gain = 0;
-      for (double share = 1; share > kLeastStep && gain <= 0; share *= 0.5) {
+      for (double share = 1; share > kShortestStepShare && gain <= 0; share *= 0.5) {
         const Effects next = moved(effects, share * change);
         const VectorXd after = stacked(misfits(next));
         gain = residual.squaredNorm() - after.squaredNorm();
         if (gain > 0) effects = next, residual = after;
       }
-      if (gain < kLeastApproach) return;
+      if (gain < kLeastDecrease) return;
     }
   }
 
@@ -212,11 +215,11 @@ class Refit {
   }
 
   Crane base_;
-  std::vector<Comparison> parts_;
+  std::vector<WindowMisfit> parts_;
 };
 
 /// Causes on one drive show only while that drive is asked to move.
-bool may_show(const SafeMotion& motion, const std::vector<const Candidate*>& causes) {
+bool excites(const SafeMotion& motion, const std::vector<const Candidate*>& causes) {
   const std::string& name = causes.front()->axis;
   const auto elsewhere = [&](const Candidate* cause) { return cause->axis != name; };
   if (std::any_of(causes.begin(), causes.end(), elsewhere) || (name != "trolley" && name != "slew"))
@@ -237,14 +240,14 @@ std::optional<double> separation_of(const configuration::Rig& rig, const SafeMot
   if (!run) return std::nullopt;
   Refit refit(base, *run, disturbances, differing(truth, rival));
   Effects nearest = beginning_at(truth, rival);
-  refit.approach(nearest);
+  refit.fit(nearest);
   const auto left = refit.misfits(nearest),
              own = refit.misfits(truth);  // the replay of smoothed data errs a little
   double most = 0;
   for (std::size_t part = 0; part < left.size(); ++part)
     for (Index i = 0; i < left[part].cols(); ++i) {
       const double more = left[part].col(i).squaredNorm() - own[part].col(i).squaredNorm();
-      most = std::max(most, std::sqrt(static_cast<double>(kEvery) * std::max(0.0, more)));
+      most = std::max(most, std::sqrt(static_cast<double>(kWindowStride) * std::max(0.0, more)));
     }
   return most;
 }
@@ -268,7 +271,7 @@ std::optional<NextExperiment> propose_experiment(const configuration::Rig& rig, 
   const auto menu = motion_menu(rig);
   std::vector<double> separations(menu.size(), 0.0);
   parallel_for(menu.size(), [&](std::size_t i) {
-    if (!may_show(menu[i], causes)) return;
+    if (!excites(menu[i], causes)) return;
     const auto one = separation_of(rig, menu[i], a, b, disturbances);
     const auto other = one ? separation_of(rig, menu[i], b, a, disturbances) : std::nullopt;
     if (other) separations[i] = std::min(*one, *other);

@@ -21,21 +21,21 @@ struct Disturbance {
 };
 
 /// An axis that turns or comes to rest has forgotten what error its speed had; one that stands has none.
-enum class Going { on, turning, standing };
+enum class MotionPhase { moving, turning, standing };
 
 /// How an axis moved, by row of a window.
-struct Pace {
-  double slow = 0;  ///< 0 at speed to 1 at standstill
-  Going going = Going::on;
-  bool seen = true;         ///< whether the row was measured
-  bool speed_open = false;  ///< whether an unknown command may have changed the speed in the row
+struct RowMotion {
+  double slowness = 0;  ///< 0 at speed to 1 at standstill
+  MotionPhase phase = MotionPhase::moving;
+  bool seen = true;            ///< whether the row was measured
+  bool speed_unknown = false;  ///< whether an unknown command may have changed the speed in the row
 };
-using Paces = std::vector<Pace>;
+using MotionProfile = std::vector<RowMotion>;
 
 /// A window of one output: how long, how it moved.
-struct Passage {
+struct WindowMotion {
   double period_s = 0, natural_radps = 0;  ///< natural: of a pendulum; 0: a drive
-  Paces paces;                             ///< by row
+  MotionProfile profile;                   ///< by row
 };
 
 }  // namespace crane::diagnosis

@@ -7,18 +7,20 @@ namespace {
 
 /// Share of what friction does at standstill that is left when an axis stands: it creeps, the model's
 /// otherwise.
-constexpr double kStandingShare = 0.01;
+constexpr double kStandingFrictionShare = 0.01;
 /// Variance of the way in a row that an unknown command leaves open, in noise variances.
-constexpr double kOpenSpeed = 1e6;
+constexpr double kUnknownSpeedVariance = 1e6;
 /// Relative change of the variances from row to row below which the filter has come to its steady state.
-constexpr double kSteady = 1e-9;
+constexpr double kSteadyStateTolerance = 1e-9;
 
-bool steady(double before, double after) { return std::abs(after - before) <= kSteady * before; }
+bool steady(double before, double after) {
+  return std::abs(after - before) <= kSteadyStateTolerance * before;
+}
 
 }  // namespace
 
-Eigen::Matrix3d step_of(const Disturbance& d, const Passage& passage) {
-  const double t = passage.period_s, w = passage.natural_radps, c = d.damping_ps;
+Eigen::Matrix3d transition_of(const Disturbance& d, const WindowMotion& motion) {
+  const double t = motion.period_s, w = motion.natural_radps, c = d.damping_ps;
   const double kept = d.correlation_s > 0 ? std::exp(-t / d.correlation_s) : 0;
   Eigen::Matrix3d step;
   if (w > 0) {
@@ -38,18 +40,22 @@ Eigen::Matrix3d step_of(const Disturbance& d, const Passage& passage) {
   return step;
 }
 
-Prediction::Prediction(const Disturbance& d, const Passage& passage, double start_variance)
-    : passage_(passage), sticks_(d.sticks), step_(step_of(d, passage)), noise_variance_(d.noise * d.noise) {
-  const double a = d.acceleration * d.acceleration, t = passage.period_s;
+PredictionCovariance::PredictionCovariance(const Disturbance& d, const WindowMotion& motion,
+                                           double start_variance)
+    : motion_(motion),
+      sticks_(d.sticks),
+      step_(transition_of(d, motion)),
+      noise_variance_(d.noise * d.noise) {
+  const double a = d.acceleration * d.acceleration, t = motion.period_s;
   p_.xx = start_variance;
   p_.vv = start_variance / (t * t);
   p_.aa = a;
-  fresh_ = a * (1 - step_(2, 2) * step_(2, 2));
+  process_noise_ = a * (1 - step_(2, 2) * step_(2, 2));
   friction_ = std::pow(d.friction * t, 2);
-  open_ = kOpenSpeed * noise_variance_ / (t * t);
+  unknown_speed_ = kUnknownSpeedVariance * noise_variance_ / (t * t);
 }
 
-Prediction::Symmetric Prediction::carried(const Symmetric& p) const {
+PredictionCovariance::Symmetric PredictionCovariance::propagated(const Symmetric& p) const {
   const auto row = [&](int i) {
     const double x = step_(i, 0), v = step_(i, 1), a = step_(i, 2);
     return Eigen::Vector3d{x * p.xx + v * p.xv + a * p.xa, x * p.xv + v * p.vv + a * p.va,
@@ -65,15 +71,17 @@ Prediction::Symmetric Prediction::carried(const Symmetric& p) const {
           .aa = kept * kept * p.aa};
 }
 
-void Prediction::advance(std::size_t row) {
-  const Pace& pace = passage_.paces[row];
-  const Going now = going(row);
-  const double friction = friction_ * (now == Going::standing ? kStandingShare : pace.slow);
+void PredictionCovariance::advance(std::size_t row) {
+  const RowMotion& row_motion = motion_.profile[row];
+  const MotionPhase now = phase(row);
+  const double friction =
+      friction_ * (now == MotionPhase::standing ? kStandingFrictionShare : row_motion.slowness);
   // The same filter as in every row of a window in which nothing special happens.
-  const bool usual = pace.seen && now == Going::on && friction == 0 && !pace.speed_open;
+  const bool usual =
+      row_motion.seen && now == MotionPhase::moving && friction == 0 && !row_motion.speed_unknown;
   if (usual && steady_) return;
   Symmetric p = p_;
-  if (pace.seen) {
+  if (row_motion.seen) {
     const double f = variance();
     p.xx -= p_.xx * p_.xx / f;
     p.xv -= p_.xx * p_.xv / f;
@@ -82,10 +90,10 @@ void Prediction::advance(std::size_t row) {
     p.va -= p_.xv * p_.xa / f;
     p.aa -= p_.xa * p_.xa / f;
   }
-  if (now != Going::on) p.xv = p.vv = p.va = 0;
-  p.vv += friction + (pace.speed_open ? open_ : 0);
-  p = carried(p);
-  p.aa += fresh_;
+  if (now != MotionPhase::moving) p.xv = p.vv = p.va = 0;
+  p.vv += friction + (row_motion.speed_unknown ? unknown_speed_ : 0);
+  p = propagated(p);
+  p.aa += process_noise_;
   steady_ = usual && steady(p_.xx, p.xx) && steady(p_.vv, p.vv) && steady(p_.aa, p.aa);
   p_ = p;
 }

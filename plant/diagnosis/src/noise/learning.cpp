@@ -22,8 +22,9 @@ constexpr double kWorthASweep = 1;
 /// One number after the other, each on its grid, until nothing gets better. Accelerations are in noises.
 class Learning {
  public:
-  Learning(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages, double least_noise)
-      : residuals_(residuals), passages_(passages), least_noise_(least_noise) {}
+  Learning(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
+           double least_noise)
+      : residuals_(residuals), motions_(motions), least_noise_(least_noise) {}
 
   Disturbance run(const Disturbance& near) {
     if (near.noise > 0) return search(in_noises(near));
@@ -50,7 +51,7 @@ class Learning {
   Disturbance search(const Disturbance& start) {
     best_ = start;
     found_ = {};
-    found_ = likelihood(residuals_, passages_, best_, found_.variance);
+    found_ = likelihood(residuals_, motions_, best_, found_.variance);
     if (best_.acceleration == 0) begin();
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       const double before = found_.value;
@@ -81,7 +82,7 @@ class Learning {
         best_.correlation_s = correlation_s;
         best_.acceleration = std::pow(10, decade);
         best_.friction = share * best_.acceleration;
-        const Likelihood tried = likelihood(residuals_, passages_, best_, found_.variance);
+        const Likelihood tried = likelihood(residuals_, motions_, best_, found_.variance);
         if (tried.value < found_.value) found_ = tried, likeliest = best_;
       }
     best_ = likeliest;
@@ -100,12 +101,12 @@ class Learning {
         tried.acceleration *= share;
         tried.friction *= share;
         tried.damping_ps = damping_ps;
-        const Likelihood found = likelihood(residuals_, passages_, tried, found_.variance);
+        const Likelihood found = likelihood(residuals_, motions_, tried, found_.variance);
         if (found.value < found_.value) found_ = found, best_ = tried;
       }
   }
 
-  [[nodiscard]] bool pendulum() const { return passages_.at(0).natural_radps > 0; }
+  [[nodiscard]] bool pendulum() const { return motions_.at(0).natural_radps > 0; }
 
   void try_drive() {
     for (const double damping_ps : kDampings_ps) try_with(best_.damping_ps, damping_ps);
@@ -119,7 +120,7 @@ class Learning {
     const Number before = number;
     if (value == before) return;
     number = value;
-    const Likelihood tried = likelihood(residuals_, passages_, best_, found_.variance);
+    const Likelihood tried = likelihood(residuals_, motions_, best_, found_.variance);
     if (tried.value < found_.value)
       found_ = tried;
     else
@@ -127,7 +128,7 @@ class Learning {
   }
 
   const std::vector<VectorXd>& residuals_;
-  const std::vector<Passage>& passages_;
+  const std::vector<WindowMotion>& motions_;
   double least_noise_;
   Disturbance best_;
   Likelihood found_;
@@ -135,9 +136,9 @@ class Learning {
 
 }  // namespace
 
-Disturbance learn(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages,
+Disturbance learn(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
                   double least_noise, const Disturbance& near) {
-  return Learning(residuals, passages, least_noise).run(near);
+  return Learning(residuals, motions, least_noise).run(near);
 }
 
 }  // namespace crane::diagnosis

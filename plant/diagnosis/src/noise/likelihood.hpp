@@ -19,7 +19,7 @@ struct Likelihood {
 /// that solve for its start.
 /// @param near a guess of the variance; 0: none
 [[nodiscard]] Likelihood likelihood(const std::vector<Eigen::VectorXd>& residuals,
-                                    const std::vector<Passage>& passages, const Disturbance& disturbance,
+                                    const std::vector<WindowMotion>& motions, const Disturbance& disturbance,
                                     double near);
 
 }  // namespace crane::diagnosis

@@ -11,7 +11,7 @@ namespace crane::diagnosis {
 
 class Whitener {
  public:
-  Whitener(const Disturbance& disturbance, const Passage& passage);
+  Whitener(const Disturbance& disturbance, const WindowMotion& motion);
   /// W x with W^T W the inverse covariance of the residual, to each column of x.
   void apply(Eigen::Ref<Eigen::MatrixXd> x) const;
   /// Of the innovation of a row; 0 where nothing was measured.
@@ -23,7 +23,7 @@ class Whitener {
   struct Row {
     Eigen::Vector3d gain;
     double inverse_sd = 0;
-    Going going = Going::on;
+    MotionPhase phase = MotionPhase::moving;
   };
   Eigen::Matrix3d step_;
   std::vector<Row> rows_;

@@ -2,6 +2,6 @@
 namespace crane::diagnosis {
 
 /// Slower than this [m/s or rad/s], an axis with friction stands.
-inline constexpr double kStands = 0.01;
+inline constexpr double kStandstillSpeed = 0.01;
 
 }  // namespace crane::diagnosis

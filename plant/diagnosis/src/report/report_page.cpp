@@ -13,7 +13,7 @@ using report::Tone;
 
 constexpr std::size_t kMostPoints = 1500;  // of a curve or cloud: finer than a screen shows
 constexpr std::size_t kMostCandidates = 20;
-constexpr double kIn95 = 1.96;
+constexpr double kNormalQuantile95 = 1.96;
 constexpr double kLargestPlain = 1e7;  // of the numbers written without an exponent
 constexpr int kMeasuredColor = 8;      // grey
 
@@ -40,8 +40,8 @@ std::string with_intervals(const std::vector<Estimate>& estimates) {
   std::string text;
   for (const Estimate& e : estimates)
     text += (text.empty() ? "" : ", ") + e.name + " " + significant(e.value, 3) + " [" +
-            significant(e.value - kIn95 * e.std_dev, 3) + ", " + significant(e.value + kIn95 * e.std_dev, 3) +
-            "]" + unit_of(e);
+            significant(e.value - kNormalQuantile95 * e.std_dev, 3) + ", " +
+            significant(e.value + kNormalQuantile95 * e.std_dev, 3) + "]" + unit_of(e);
   return text;
 }
 

@@ -77,7 +77,8 @@ class ViewBuilder {
 
  private:
   [[nodiscard]] std::vector<double> rate(Output output) const {
-    return smooth(measured_on_grid(run_, output), run_.period_s, smoothing_half_width(run_.period_s)).rate;
+    return savitzky_golay(measured_on_grid(run_, output), run_.period_s, smoothing_half_width(run_.period_s))
+        .rate;
   }
   [[nodiscard]] std::vector<double> command() const {
     std::vector<double> volts;

@@ -9,7 +9,7 @@
 /// Swing: the windows of the load's replay. A pendulum's answer, once free motion is taken out, is the force
 /// times a constant.
 ///
-/// Forces are in units of their own: patterns of force are told by their shape.
+/// Forces are in units of their own: patterns of force are information by their shape.
 #include "replay/standstill.hpp"
 #include "shooting/problem.hpp"
 
@@ -46,6 +46,6 @@ struct Pieces {
 [[nodiscard]] Pieces pieces_of(const Problem& problem, const Fits& fits, std::size_t output);
 
 /// What forces on a piece, row x pattern, make of its residual: whitened, without what the start can make.
-[[nodiscard]] Eigen::MatrixXd made_by(const Pieces& pieces, const Piece& piece, Eigen::MatrixXd forces);
+[[nodiscard]] Eigen::MatrixXd response_to(const Pieces& pieces, const Piece& piece, Eigen::MatrixXd forces);
 
 }  // namespace crane::diagnosis

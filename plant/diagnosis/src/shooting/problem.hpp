@@ -21,9 +21,9 @@ struct WindowFit {
   /// Directions of the start, whitened: x - basis basis' x is x without what a start that is known before to
   /// some standard deviations makes, (I + A S^2 A')^(-1/2) x with A the slopes and S the deviations.
   Eigen::MatrixXd basis;
-  Eigen::MatrixXd inner_slopes;  ///< whitened, of the start of terms' own coordinates
-  Eigen::MatrixXd to_start;      ///< whitened residual to change of start
-  double start_price = 0;        ///< log det(I + A S^2 A')
+  Eigen::MatrixXd inner_slopes;      ///< whitened, of the start of terms' own coordinates
+  Eigen::MatrixXd start_gain;        ///< whitened residual to change of start
+  double start_log_determinant = 0;  ///< log det(I + A S^2 A')
 };
 using Fits = std::vector<WindowFit>;
 
@@ -89,7 +89,9 @@ class Problem {
   /// Residuals [output][window], not whitened, of starts that were solved for with what is known.
   [[nodiscard]] std::vector<std::vector<Eigen::VectorXd>> residuals(const Fits& fits) const;
   /// Numbers of a start that every crane has.
-  [[nodiscard]] Eigen::Index bare_start() const { return static_cast<Eigen::Index>(2 * outputs_.size()); }
+  [[nodiscard]] Eigen::Index output_start_size() const {
+    return static_cast<Eigen::Index>(2 * outputs_.size());
+  }
   [[nodiscard]] Eigen::VectorXd simulate(const Replay& replay, const Window& window,
                                          const Eigen::VectorXd& start) const;
   void whiten(std::size_t window, Eigen::Ref<Eigen::MatrixXd> x) const;
@@ -100,13 +102,13 @@ class Problem {
   [[nodiscard]] Eigen::VectorXd change_in(const Replay& replay, std::size_t window, const WindowFit& at,
                                           double step, double& own_gain) const;
   [[nodiscard]] Eigen::VectorXd measured_start(const Replay& replay, const Window& window) const;
-  [[nodiscard]] Eigen::VectorXd near_start(const WindowFit& at, const Eigen::VectorXd& measured) const;
+  [[nodiscard]] Eigen::VectorXd transferred_start(const WindowFit& at, const Eigen::VectorXd& measured) const;
   /// Directions of the start. @pre simulated from it
   void linearise(const Replay& replay, std::size_t window, WindowFit& fit) const;
   /// Of the residual at the start: the start is one that was likely before, plus a change that is not seen.
-  void take_start_out(WindowFit& fit) const;
+  void marginalise_start(WindowFit& fit) const;
   /// @return whether the start has moved, away from where it was linearised
-  bool settle_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
+  bool refine_start(const Replay& replay, std::size_t window, const Eigen::VectorXd& target,
                     WindowFit& fit) const;
   void fit_start(const Replay& replay, std::size_t window, WindowFit& fit) const;
   /// A local optimum of the start, from one beginning, linearised there.
@@ -120,9 +122,9 @@ class Problem {
   Part part_;
   std::vector<Output> outputs_;
   std::vector<Window> windows_;
-  std::vector<std::vector<Passage>> passages_;    ///< by output and window
-  std::vector<Disturbance> disturbances_;         ///< by output; empty: plain residuals
-  std::vector<std::vector<Whitener>> whiteners_;  ///< by output and window
+  std::vector<std::vector<WindowMotion>> motions_;  ///< by output and window
+  std::vector<Disturbance> disturbances_;           ///< by output; empty: plain residuals
+  std::vector<std::vector<Whitener>> whiteners_;    ///< by output and window
 };
 
 }  // namespace crane::diagnosis

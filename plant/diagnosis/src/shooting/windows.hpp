@@ -20,6 +20,6 @@ struct Window {
                                              double natural_radps);
 
 /// Distance of measured rows of an output, s: half of them are nearer together.
-[[nodiscard]] double usual_distance_s(const Run& run, Output output);
+[[nodiscard]] double usual_row_spacing_s(const Run& run, Output output);
 
 }  // namespace crane::diagnosis

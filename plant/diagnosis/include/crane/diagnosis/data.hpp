@@ -108,13 +108,13 @@ struct Motion {
 };
 /// From a measured position by a local cubic over 2 half_width + 1 samples: no phase lag; exact for cubics.
 /// At the ends the window is one-sided.
-[[nodiscard]] Motion smooth(std::span<const double> measured, double period_s, int half_width);
+[[nodiscard]] Motion savitzky_golay(std::span<const double> measured, double period_s, int half_width);
 /// A measured position without the noise of its sensor, at the samples' own, increasing times: the
 /// fixed-interval smoother (H. E. Rauch, F. Tung, C. T. Striebel, AIAA J. 3 (1965) 1445) of a motion whose
 /// jerk is white, as strong as makes the samples likeliest.
 /// @param least_noise of the sensor, standard deviation, > 0
-[[nodiscard]] std::vector<double> without_noise(std::span<const double> time_s,
-                                                std::span<const double> measured, double least_noise);
+[[nodiscard]] std::vector<double> rts_smoothed(std::span<const double> time_s,
+                                               std::span<const double> measured, double least_noise);
 /// From a measured position by the cubic spline through the samples: its acceleration, straight between them
 /// and integrated twice, gives them back.
 [[nodiscard]] Motion spline(std::span<const double> measured, double period_s);

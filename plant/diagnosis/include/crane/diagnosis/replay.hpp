@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "crane/diagnosis/data.hpp"
-#include "crane/diagnosis/moment.hpp"
+#include "crane/diagnosis/kinematics.hpp"
 #include "crane/plant/model.hpp"
 
 namespace crane::diagnosis {
@@ -38,7 +38,7 @@ struct PreparedRun {
   std::array<std::vector<double>, kOutputs> on_grid;
   Motion cable;
   /// Along `motion`, in steps without and with coordinates of terms' own; what every replay goes by.
-  std::array<std::vector<Measured>, 2> half_way;
+  std::array<std::vector<MeasuredKinematics>, 2> mid_step;
   std::array<double, kOutputs> least_noise{};  ///< what counting alone makes, m or rad
 };
 [[nodiscard]] PreparedRun prepare(Run run, const configuration::Rig& rig);
@@ -67,9 +67,9 @@ class Replay {
   Replay(Replay&&) noexcept;
 
   /// Numbers that start a window of a part: position and rate per simulated output, then those of the model's
-  /// inner coordinates that ring on by themselves. Inner coordinates that are not given begin where the
-  /// measured motion of the whole run has brought them, and in a replay of the load go where it brings them:
-  /// what the motors' measured speed shows of impacts has corrected that.
+  /// inner coordinates that ring on by themselves. Inner coordinates that are not prescribed_motion begin
+  /// where the measured motion of the whole run has brought them, and in a replay of the load go where it
+  /// brings them: what the motors' measured speed shows of impacts has corrected that.
   [[nodiscard]] std::size_t start_size(Part part) const;
   /// How far those of the inner coordinates go along the measured motion, rms over the run.
   [[nodiscard]] std::vector<double> inner_start_scale() const;
@@ -83,23 +83,23 @@ class Replay {
            std::span<double> out) const;
   /// A drive along the measured motion, by row: where it was, the errors of its sensor undone, and what the
   /// model's acceleration makes of speed and way until the next row.
-  struct Guided {
-    std::vector<double> position;  ///< m or rad
-    std::vector<double> speed;     ///< gained, m/s or rad/s
-    std::vector<double> way;       ///< gone from rest, m or rad
+  struct Increments {
+    std::vector<double> position;      ///< m or rad
+    std::vector<double> speed_change;  ///< gained, m/s or rad/s
+    std::vector<double> distance;      ///< gone from rest, m or rad
 
-    void move(std::size_t row, double acceleration, double step_s) {
-      way[row] += step_s * (speed[row] + 0.5 * step_s * acceleration);
-      speed[row] += step_s * acceleration;
+    void add_step(std::size_t row, double acceleration, double step_s) {
+      distance[row] += step_s * (speed_change[row] + 0.5 * step_s * acceleration);
+      speed_change[row] += step_s * acceleration;
     }
   };
   /// @pre the axis is measured
-  [[nodiscard]] Guided guided(Output axis) const;
+  [[nodiscard]] Increments increments_along_measurement(Output axis) const;
 
  private:
-  struct Parts;
-  struct OwnTimes;
-  std::unique_ptr<Parts> parts_;
+  struct CraneOnRun;
+  struct RowTimeOutputs;
+  std::unique_ptr<CraneOnRun> crane_on_run_;
 };
 
 using Runs = std::vector<PreparedRun>;

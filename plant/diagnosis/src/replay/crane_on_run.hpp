@@ -3,8 +3,8 @@
 /// measured it, where its terms' own coordinates are along that motion.
 #include <optional>
 
-#include "crane/diagnosis/course.hpp"
 #include "crane/diagnosis/replay.hpp"
+#include "crane/diagnosis/step_integrator.hpp"
 
 namespace crane::diagnosis {
 
@@ -19,8 +19,8 @@ class RunningMedian {
   double median_ = 0.02;  // m/s or rad/s, more than noise makes
 };
 
-struct Replay::Parts {
-  Parts(const PreparedRun& prepared, const Crane& the_crane);
+struct Replay::CraneOnRun {
+  CraneOnRun(const PreparedRun& prepared, const Crane& the_crane);
 
   /// Coordinates that stand still or go where they were measured while the others are simulated.
   [[nodiscard]] plant::Locks locks(const std::array<bool, kOutputs>& simulated) const;
@@ -35,16 +35,16 @@ struct Replay::Parts {
     }
   }
   /// The crane as its sensors, their errors undone, have it at a row.
-  [[nodiscard]] Measured measured_at(std::size_t row) const;
-  /// In the middle between a row and the next; that of a step is half_way.
-  [[nodiscard]] Measured measured_half_way(std::size_t row) const;
-  [[nodiscard]] const Measured& half_way(std::size_t row, int step) const {
-    const auto& all = sensors ? corrected_half_way : source.half_way[model.inner_coordinates() > 0 ? 1 : 0];
+  [[nodiscard]] MeasuredKinematics measured_at(std::size_t row) const;
+  /// In the middle between a row and the next; that of a step is mid_step.
+  [[nodiscard]] MeasuredKinematics measured_mid_row(std::size_t row) const;
+  [[nodiscard]] const MeasuredKinematics& mid_step(std::size_t row, int step) const {
+    const auto& all = sensors ? corrected_mid_step : source.mid_step[model.inner_coordinates() > 0 ? 1 : 0];
     return all[row * static_cast<std::size_t>(steps) + static_cast<std::size_t>(step)];
   }
   /// Measures what was measured before a row, as far back as sensors remember.
-  void give_past(plant::Model& sensing, std::size_t row) const;
-  [[nodiscard]] const Motion& given(Output output) const {
+  void warm_up_sensors(plant::Model& sensing, std::size_t row) const;
+  [[nodiscard]] const Motion& prescribed_motion(Output output) const {
     return sensors ? corrected[output] : source.motion[output];
   }
 
@@ -53,18 +53,18 @@ struct Replay::Parts {
   int steps;                   ///< from a row to the next
   mutable plant::Model model;  // friction and forces only; its memory is not used after construction
   bool sensors;
-  std::vector<std::size_t> ringing;           ///< inner coordinates that have a start of their own
-  std::array<bool, plant::kMostInner> led{};  ///< the other ones
-  std::vector<plant::PerAxis> drive_v;        ///< by step
+  std::vector<std::size_t> ringing;                  ///< inner coordinates that have a start of their own
+  std::array<bool, plant::kMostInner> prescribed{};  ///< the other ones
+  std::vector<plant::PerAxis> drive_v;               ///< by step
   std::array<Motion, kOutputs> corrected;
-  std::vector<Measured> corrected_half_way;
+  std::vector<MeasuredKinematics> corrected_mid_step;
   std::vector<plant::InnerState> inner_at;      ///< along the measured motion, by row; empty without any
-  std::array<Motion, plant::kMostInner> inner;  ///< the same of those that are led
-  std::array<std::optional<Guided>, 2> guided;  ///< drives beside led coordinates
+  std::array<Motion, plant::kMostInner> inner;  ///< the same of those that are prescribed
+  std::array<std::optional<Increments>, 2> increments;  ///< drives beside prescribed coordinates
 
  private:
-  void undo_sensors();
-  void follow_inner();
+  void invert_sensors();
+  void simulate_inner_coordinates();
   [[nodiscard]] plant::PerAxis impacts_after(std::size_t row, std::array<RunningMedian, 2>& usual) const;
 };
 

@@ -5,10 +5,10 @@
 
 namespace crane::diagnosis {
 
-class UnderWay {
+class EquationError {
  public:
   /// @param drive of the same runs; outlives this
-  explicit UnderWay(const Problem& drive) : drive_(drive) {}
+  explicit EquationError(const Problem& drive) : drive_(drive) {}
 
   /// Learns noise and disturbance of each axis from what `crane` leaves, and whitens with them from now on.
   void learn_disturbance(const Replays& crane);

@@ -9,7 +9,7 @@ namespace crane::diagnosis {
 
 /// @param position of a whole run, m or rad
 /// @param first row of the window, which is `rows` long
-[[nodiscard]] Paces paces_of(const std::vector<double>& position, double period_s, std::size_t first,
-                             std::size_t rows);
+[[nodiscard]] MotionProfile motion_profile_of(const std::vector<double>& position, double period_s,
+                                              std::size_t first, std::size_t rows);
 
 }  // namespace crane::diagnosis
