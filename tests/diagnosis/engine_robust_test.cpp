@@ -1,4 +1,4 @@
-/// What counts how much: slips, standstill, waves over position.
+/// Cauchy loss, motion profile, spectrum over position.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,15 +12,15 @@
 namespace crane::diagnosis {
 namespace {
 
-TEST(Loss, IsQuadraticForNoiseAndCountsASlipOfAHundredDeviationsLikeTen) {
+TEST(Loss, IsQuadraticForNoiseAndLogarithmicForSlips) {
   EXPECT_NEAR(loss_of(0.3), 0.09, 0.001);
   EXPECT_LT(loss_of(100), 10 * 10);
   for (const double e : {-4.0, -0.5, 0.2, 3.0, 30.0})
     EXPECT_NEAR(weight_of(e) * e, (loss_of(e + 1e-5) - loss_of(e - 1e-5)) / 4e-5, 1e-6) << e;
 }
 
-/// Out at 0.1 m/s for a second, a second of rest, back.
-TEST(MotionProfile, TellWhereAnAxisStandsTurnsAndIsSlow) {
+/// 1 s at 0.1 m/s, 1 s of rest, 1 s back.
+TEST(MotionProfile, HasThePhasesOfTheMotion) {
   std::vector<double> position;
   double x = 0;
   for (int k = 0; k < 300; ++k) position.push_back(x += k < 100 ? 1e-3 : k < 200 ? 0 : -1e-3);
@@ -33,7 +33,7 @@ TEST(MotionProfile, TellWhereAnAxisStandsTurnsAndIsSlow) {
   EXPECT_EQ(profile[230].phase, MotionPhase::moving);
 }
 
-/// x'' = K (V + a sin(2 pi x / w + psi)) in small steps, a run with one command.
+/// x'' = K (V + a sin(2 pi x / w + psi)) in small steps.
 TEST(PositionSpectrum, FindsPeriodAmplitudeAndPhaseOfARipple) {
   configuration::Rig rig = score::rig_file_of("drive_axis");
   rig.terms.clear();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeastNoise = 1e-7;
 
-/// Windows of a drive with viscous friction under a coloured acceleration, seen with noise.
+/// Residuals of a drive with viscous friction under a coloured acceleration, with sensor noise.
 std::vector<Eigen::VectorXd> windows(double noise, double acceleration, double correlation_s,
                                      double damping_ps, std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -52,7 +52,7 @@ TEST(Whitener, FindsNoiseAndDisturbanceOfADrive) {
                                                           "from a whole one";
 }
 
-TEST(Whitener, LearnsTheNoiseOfCountsFromAnAxisThatStandsExactlyStill) {
+TEST(Whitener, LearnsTheQuantisationNoiseOfAnAxisAtRest) {
   const std::vector<Eigen::VectorXd> residuals(3, Eigen::VectorXd::Zero(200));
   const Disturbance learned = learn(residuals, moving(residuals), 1e-5);
   EXPECT_EQ(learned.noise, 1e-5);
@@ -66,7 +66,7 @@ TEST(Whitener, MakesTheResidualWhite) {
   const Whitener whitener(learn(residuals, motions, kLeastNoise), motions[0]);
   double square = 0, neighbours = 0;
   for (Eigen::VectorXd r : residuals) {
-    // The free start of a window is taken out first, as the fit does.
+    // The start of the window is projected out, as in the fit.
     Eigen::MatrixXd z(r.size(), 2);
     for (Eigen::Index k = 0; k < r.size(); ++k) z.row(k) << 1, 1 - std::exp(-0.04 * static_cast<double>(k));
     whitener.apply(r);
@@ -80,7 +80,7 @@ TEST(Whitener, MakesTheResidualWhite) {
   EXPECT_NEAR(neighbours / count, 0, 0.1);
 }
 
-/// Windows of an axis that goes, stands and breaks loose by an impulse that no friction law knows.
+/// Residuals of an axis that moves, rests and breaks loose with a random impulse.
 struct Sticking {
   std::vector<Eigen::VectorXd> residuals;
   std::vector<WindowMotion> motions;
@@ -111,7 +111,7 @@ Sticking sticking(std::uint64_t seed) {
   return all;
 }
 
-TEST(Whitener, SeesThatAnAxisSticksAndMakesWhiteWhatItLeaves) {
+TEST(Whitener, FindsThatAnAxisSticks) {
   const Sticking data = sticking(3);
   const Disturbance learned = learn(data.residuals, data.motions, kLeastNoise);
   EXPECT_TRUE(learned.sticks);
@@ -121,7 +121,7 @@ TEST(Whitener, SeesThatAnAxisSticksAndMakesWhiteWhatItLeaves) {
   EXPECT_LT(learned.acceleration, 0.12);
 }
 
-TEST(Whitener, DoesNotTakeASlowAxisForOneThatSticks) {
+TEST(Whitener, FindsThatASlowAxisDoesNotStick) {
   auto residuals = windows(1e-4, 0.05, 0.5, 4, 5);
   auto motions = moving(residuals);
   for (WindowMotion& motion : motions)

@@ -10,9 +10,9 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A drive asked for less stays where friction holds it.
+/// A smaller command may not overcome friction.
 constexpr double kStandingCommand_v = 0.5;
-/// Swing beyond a straight angle both ways is not radians.
+/// A larger swing is not in radians: more than half a turn.
 constexpr double kLargestSwing_rad = 3.3;
 
 double range_of(std::span<const double> values) {
@@ -59,7 +59,7 @@ class Checks {
       columns_.load_mass_kg = mass->front();
   }
 
-  /// All drives that are measured, or none of them: then their motion is the support of the load.
+  /// All measured drives have a command, or none has: then their motion is that of the load's support.
   void find_commands() {
     bool any = false, swings = false;
     for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
@@ -109,7 +109,7 @@ class Checks {
     }
   }
 
-  /// An axis that is not asked to move, and the swing it would excite, may stand still.
+  /// An axis without a command to move, and its swing, may stand still.
   void judge_constant(Output output) {
     const Output drive = output == kTrolleyPosition || output == kRadialSwing ? kTrolleyPosition : kSlewAngle;
     const auto* command = columns_.commands[drive].values;

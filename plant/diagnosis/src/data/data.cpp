@@ -14,17 +14,17 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Shorter pieces add_notes nothing about a crane: less than half a swing of a metre of cable.
+/// Shorter pieces are left out: less than half a swing of 1 m of cable.
 constexpr double kShortest_s = 1.0;
-/// A gap after which nothing is left of a state: of a load, in its periods; of drives alone, s.
+/// A longer gap loses the state: in periods of the load; of drives alone in s.
 constexpr double kLostPeriods = 1.0, kLost_s = 2.0;
-/// Slowest sampling that follows a swing, s; a clock may be off by a percent.
+/// Slowest sampling that follows a swing, with 1 % error of the clock, s.
 constexpr double kSlowestRow_s = 0.1 * 1.01;
-/// Faster than any file of a laboratory: rather a time in another unit.
+/// Faster sampling is a time in another unit, s.
 constexpr double kFastestRow_s = 1e-5;
-/// Rows of the grid for one that was measured: a file of gaps.
+/// Grid rows per measured row: more is a file of gaps.
 constexpr double kMostGridRowsPerRow = 50;
-/// Of rows, s more than usual from one to the next: a row is missing.
+/// Step over usual step: more is a missing row.
 constexpr double kMissingRowRatio = 1.5;
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -39,7 +39,7 @@ double lost_after_s(const configuration::Rig& rig) {
   return kLostPeriods * 2 * std::numbers::pi * std::sqrt(cable_m / rig.plant.gravity_mps2);
 }
 
-/// Cuts checked columns into runs.
+/// Splits checked columns into runs where the state is lost.
 class RunSplitter {
  public:
   RunSplitter(const Columns& columns, const configuration::Rig& rig, Findings& findings)
@@ -65,7 +65,7 @@ class RunSplitter {
   }
 
  private:
-  /// A count that falls back to zero or wraps moves an axis further in one sample than it can.
+  /// Whether an axis moves further than it can: a counter that is reset or wraps.
   [[nodiscard]] bool jumps(std::size_t row) {
     bool any = false;
     for (std::size_t i = 0; i < kOutputs; ++i) {
@@ -185,8 +185,6 @@ class RunSplitter {
   }
 
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  /// As for spikes (broken.cpp).
-  static constexpr double kBeyondSensor = 10;
 
   const Columns& columns_;
   const configuration::Rig& rig_;

@@ -9,38 +9,35 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A clear jump is so many counts and so many times the changes of speed around it.
+/// A clear jump exceeds so many counts and so many times the changes of the steps around it.
 constexpr double kClearCounts = 12, kClearJumpRatio = 4;
 constexpr std::size_t kFewestClearJumps = 5;
-/// ... and beyond what motion and sensor make likely: false jumps that are accepted in a run, on average,
-/// where the steps around are noise with the tails of a Laplace distribution.
+/// Expected false jumps of a run, if the steps around are noise with Laplace tails.
 constexpr double kFalseJumps = 0.01;
-/// Rows on each side that tell the noise of the steps around a row.
+/// Rows on each side that estimate the noise of the steps.
 constexpr std::size_t kNoiseRows = 50;
-/// Of an encoder that is known to lose counts, jumps of this share of the usual one are believed, where the
-/// motion around is rough, too.
+/// An encoder that loses counts: share of the usual jump beyond which a jump is credible.
 constexpr double kUsualShare = 0.4;
-/// Steps on one side of a jump that tell the acceleration, and the next ones, which tell the speed.
-constexpr std::size_t kSideSteps = 6, kGuesses = 3;
+/// Steps on one side of a jump that estimate the acceleration, and the nearest ones, which estimate the
+/// speed.
+constexpr std::size_t kSideSteps = 6, kNearestSteps = 3;
 constexpr int kMostRemovalRounds = 4;
 
 struct Jump {
-  std::size_t row = 0;  ///< the first one after it
+  std::size_t row = 0;  ///< first row after the jump
   double size = 0;
 };
 
-/// Rows of a run that were measured.
+/// Measured rows of a run.
 struct Rows {
   std::vector<std::size_t> row;
   std::vector<double> position;
-  std::vector<double> periods;  ///< from the row before
-  std::vector<double>
-      credible_slip;  ///< the most that the drive moves from the row before, from rest to rest
+  std::vector<double> periods;        ///< from the row before
+  std::vector<double> credible_slip;  ///< largest slip from the row before, from rest to rest
 };
 
-/// The most that a drive moves in a time t from rest to rest, accelerated for half of it and braked for the
-/// other half: a t^2 / 4. Motor and friction together make at most twice the acceleration of the largest
-/// command from `kSlipRows` rows before on.
+/// Largest slip in a time t from rest to rest, half accelerated, half braked: a t^2 / 4. Motor and friction
+/// together accelerate at most twice as much as the largest command of the last kSlipRows rows.
 double credible_slip_of(const Run& run, Output axis, double gain, std::size_t row, double time_s) {
   constexpr std::size_t kSlipRows = 5;
   double most_v = 0;
@@ -64,7 +61,7 @@ Rows measured_rows(const Run& run, Output axis, double gain) {
   return rows;
 }
 
-/// Of a period each: speeds, in other units.
+/// Steps per period, m or rad.
 std::vector<double> steps_of(const Rows& rows) {
   std::vector<double> steps;
   steps.reserve(rows.position.size());
@@ -73,7 +70,7 @@ std::vector<double> steps_of(const Rows& rows) {
   return steps;
 }
 
-/// How far each step lies from the mean of its neighbours; 0 at the ends.
+/// Step minus the mean of its neighbours; 0 at the ends.
 std::vector<double> deviations_of(const std::vector<double>& steps) {
   std::vector<double> deviations(steps.size(), 0.0);
   for (std::size_t k = 1; k + 1 < steps.size(); ++k)
@@ -81,8 +78,8 @@ std::vector<double> deviations_of(const std::vector<double>& steps) {
   return deviations;
 }
 
-/// What a deviation has to exceed not to be noise of the rows around: a Laplace distribution whose median
-/// deviation is that of these rows exceeds b ln(1/p) with probability p.
+/// Threshold of a deviation: a Laplace distribution with the median deviation of the rows around exceeds b
+/// ln(1/p) with probability p.
 double beyond_noise(const std::vector<double>& deviations, std::size_t k) {
   const std::size_t first = k - std::min(k, kNoiseRows),
                     last = std::min(k + kNoiseRows + 1, deviations.size());
@@ -107,8 +104,8 @@ std::vector<Jump> clear_jumps(const Rows& rows, double count) {
   return found;
 }
 
-/// The step at `k` as those on one side of it have it, by their speed and acceleration; one of them may be a
-/// jump. @param towards -1 for those before, 1 for those after
+/// Step at `k`, extrapolated from one side by robust speed and acceleration. @param towards -1 for those
+/// before, 1 for those after
 std::optional<double> expected(const std::vector<double>& steps, std::size_t k, int towards) {
   std::vector<double> side, changes, guesses;
   for (std::size_t d = 1; d <= kSideSteps; ++d) {
@@ -118,13 +115,13 @@ std::optional<double> expected(const std::vector<double>& steps, std::size_t k, 
   if (side.size() < kSideSteps) return std::nullopt;
   for (std::size_t i = 0; i + 1 < side.size(); ++i) changes.push_back(side[i] - side[i + 1]);
   const double change = median(std::move(changes));
-  for (std::size_t i = 0; i < kGuesses; ++i) guesses.push_back(side[i] + change * static_cast<double>(i + 1));
+  for (std::size_t i = 0; i < kNearestSteps; ++i)
+    guesses.push_back(side[i] + change * static_cast<double>(i + 1));
   return median(std::move(guesses));
 }
 
-/// Steps outside of what the motion before and after makes: one on the distance from one speed to another,
-/// after an impact or a push, lies between. The size is by the motion before: a controller that sees the jump
-/// answers it.
+/// Steps outside the range of the steps expected from both sides. A step inside it is a change of speed, by
+/// an impact or a push. The size is relative to the motion before, because a controller reacts to the jump.
 std::vector<Jump> likely_jumps(const Rows& rows, double usual) {
   std::vector<Jump> found;
   const std::vector<double> steps = steps_of(rows);
@@ -149,7 +146,7 @@ void subtract(std::vector<double>& position, const std::vector<Jump>& jumps) {
   }
 }
 
-/// A jump among several shows when these are taken out. @return all of them
+/// Removes jumps in rounds: a jump beside others appears when these are removed. @return all
 std::vector<Jump> remove_jumps(Rows& rows, double usual) {
   std::vector<Jump> all;
   for (int round = 0; round < kMostRemovalRounds; ++round) {
@@ -193,9 +190,9 @@ LosingEncoder measured(const std::vector<Run>& runs, Output axis, double gain, d
     encoder.duration_s += run.duration_s();
     distance += distance_of(rows.position);
   }
-  constexpr double kOfAMedian = 1.25;  // its error against a mean's
+  constexpr double kMedianErrorRatio = 1.25;  // standard error of a median over that of a mean
   const auto count = static_cast<double>(std::max<std::size_t>(1, encoder.jumps));
-  encoder.jump_std_dev = kOfAMedian * std::sqrt(deviations) / count;
+  encoder.jump_std_dev = kMedianErrorRatio * std::sqrt(deviations) / count;
   encoder.rate = distance > 0 ? encoder.lost / distance : 0;
   encoder.rate_std_dev = distance > 0 ? std::sqrt(squares) / distance : 0;  // jumps come at random
   return encoder;

@@ -9,16 +9,16 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Differences of values are are_multiples of the step within this share of it, but for a share of strays
+/// Differences of values are multiples of the step within this share of it, except a share of strays
 /// (values printed with few digits, a spike).
 constexpr double kLatticeTolerance = 0.05, kLargestStrayShare = 0.02;
-/// Differences that rounding of doubles makes, as a share of the values.
+/// Rounding of doubles, as a share of the values.
 constexpr double kRoundingShare = 1e-12;
-/// Larger numbers are none of a crane; their differences overflow.
+/// Differences of larger numbers overflow.
 constexpr double kLargest = 1e50;
-/// The smallest difference seen may be several steps.
+/// Steps in the smallest difference, at most.
 constexpr int kMostSteps = 64;
-/// Standard deviation over median of the absolute values of a normal number.
+/// Standard deviation over median absolute value, normal distribution.
 constexpr double kSigmaPerMedianDeviation = 1.4826;
 
 std::vector<double> finite(std::span<const double> values) {
@@ -51,7 +51,7 @@ double resolution_of(std::vector<double> values) {
   return least;
 }
 
-/// Third differences of a motion that is sampled fast vanish; of white noise their variance is 20 times its.
+/// Third differences of a smooth motion vanish; of white noise their variance is 20 times that of the noise.
 double noise_of(const std::vector<double>& x) {
   if (x.size() < 4) return 0;
   std::vector<double> thirds;

@@ -12,7 +12,7 @@ Motion savitzky_golay(std::span<const double> measured, double period_s, int hal
   constexpr int kOrder = 3;
   Motion motion;
   for (auto* values : {&motion.position, &motion.rate, &motion.acceleration}) values->resize(measured.size());
-  // The cubic's coefficients are fixed linear combinations of the samples, one set per place in the window.
+  // Coefficients of the cubic are linear in the samples, one set per place in the window.
   const int order = std::min(kOrder, width - 1);
   std::vector<Eigen::MatrixXd> weights(static_cast<std::size_t>(width));
   for (int centre = 0; centre < width; ++centre) {
@@ -36,9 +36,8 @@ Motion savitzky_golay(std::span<const double> measured, double period_s, int hal
 
 namespace {
 
-/// Second derivatives of the cubic spline at its knots, whose third derivative does not change at the second
-/// and the last knot but one ("not a knot"): a tridiagonal system, solved by elimination (C. de Boor, A
-/// Practical Guide to Splines, 1978, ch. IV).
+/// Second derivatives of the cubic spline at its knots, with "not a knot" ends: a tridiagonal system (C. de
+/// Boor, A Practical Guide to Splines, 1978, ch. IV).
 std::vector<double> second_derivatives(std::span<const double> t, std::span<const double> x) {
   const std::size_t n = t.size();
   std::vector<double> curvature(n, 0.0), upper(n, 0.0);
@@ -66,9 +65,9 @@ std::vector<double> second_derivatives(std::span<const double> t, std::span<cons
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Position, speed and acceleration from sample to sample, in sensor noises; the jerk is white.
+/// State position, speed, acceleration, in multiples of the sensor noise; white jerk.
 struct WhiteJerk {
-  double variance_ps5 = 0;  ///< of the jerk, over the sensor's
+  double variance_ps5 = 0;  ///< of the jerk, over that of the sensor
 
   [[nodiscard]] static Matrix3d step(double h) {
     Matrix3d f;
@@ -83,25 +82,26 @@ struct WhiteJerk {
   }
 };
 
-/// What a filter knows at every sample, before and after it.
+/// Filter states and covariances before and after each sample.
 struct Filtered {
   std::vector<Vector3d> before, after;
   std::vector<Matrix3d> covariance_before, covariance_after;
-  double squares = 0, logs = 0;  ///< of the innovations over the sensor's variance, of their variances
+  double squares = 0, logs = 0;  ///< innovations over their variances, ln variances
   double count = 0;
-  /// Minus twice the log likelihood where the sensor's standard deviation is `noise`.
+  /// Minus twice the log likelihood for the sensor's standard deviation `noise`.
   [[nodiscard]] double misfit(double noise) const {
     return logs + 2 * count * std::log(noise) + squares / (noise * noise);
   }
 };
 
 Filtered filtered(std::span<const double> t, std::span<const double> x, const WhiteJerk& jerk) {
-  constexpr double kUnknown = 1e8;  // variance of the start, over the sensor's and what it makes in a sample
+  constexpr double kUnknownStart = 1e8;  // variance of the start, over that of the sensor
   const std::size_t n = t.size();
   const double h0 = (t[n - 1] - t[0]) / static_cast<double>(n - 1);
   Filtered f;
   Vector3d state{x[0], 0, 0};
-  Matrix3d covariance = Vector3d{kUnknown, kUnknown / (h0 * h0), kUnknown / std::pow(h0, 4)}.asDiagonal();
+  Matrix3d covariance =
+      Vector3d{kUnknownStart, kUnknownStart / (h0 * h0), kUnknownStart / std::pow(h0, 4)}.asDiagonal();
   for (std::size_t k = 0; k < n; ++k) {
     if (k > 0) {
       const Matrix3d step = WhiteJerk::step(t[k] - t[k - 1]);
@@ -132,7 +132,7 @@ std::vector<double> rts_smoothed(std::span<const double> time_s, std::span<const
   Filtered likeliest;
   double least_misfit = 0;
   for (int half_decade = -8; half_decade <= 16; ++half_decade) {
-    // Of a jerk that moves the axis by so many noises in a sample.
+    // The jerk moves the axis by about 10^(half_decade / 4) noises per sample.
     Filtered tried = filtered(time_s, measured, {std::pow(10, 0.5 * half_decade) / std::pow(h, 5)});
     const double misfit = tried.misfit(std::max(least_noise, std::sqrt(tried.squares / tried.count)));
     if (!likeliest.after.empty() && misfit >= least_misfit) continue;

@@ -29,7 +29,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-/// Of the swing with what moves it; 0 where either is not measured.
+/// Of r'' + (g / l) r with the acceleration of the drive; 0 without one of the measurements.
 double correlation_with_drive(const Run& run, const configuration::Rig& rig, Output swing, Output drive) {
   if (!run.has(swing) || !run.has(drive)) return 0;
   const Motion load = smoothed(run, swing);

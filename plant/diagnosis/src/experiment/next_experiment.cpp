@@ -20,14 +20,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kExperimentWindow_s = 2.5;
-constexpr double kExperimentLead_s = 0.3;  // terms with a memory fill it; not compared
+constexpr double kExperimentLead_s = 0.3;  // fills the memory of terms; not compared
 constexpr double kLeastSeparation = 10;
 constexpr int kMostRefitRounds = 10;
-constexpr double kLeastDecrease = 1;        // of the sum of squares
+constexpr double kLeastDecrease = 1;        // of the sum of squares, for another round
 constexpr double kShortestStepShare = 0.1;  // of the Gauss-Newton step
-constexpr std::size_t kWindowStride = 2;    // windows compared: enough to rank motions
+constexpr std::size_t kWindowStride = 2;    // every second window is compared: enough to rank motions
 
-/// Candidates that only one of the two has.
+/// Candidates of only one of the two.
 std::vector<const Candidate*> differing(const Effects& a, const Effects& b) {
   std::vector<const Candidate*> all;
   for (const auto& [one, other] : {std::pair{&a, &b}, {&b, &a}})
@@ -36,7 +36,7 @@ std::vector<const Candidate*> differing(const Effects& a, const Effects& b) {
   return all;
 }
 
-/// `other` with the values of `truth` of what both have: from there its refit begins.
+/// Start of the refit: `other` with the values of `truth` for common candidates.
 Effects beginning_at(const Effects& truth, Effects other) {
   for (Effect& effect : other)
     for (const Effect& shared : truth)
@@ -49,8 +49,8 @@ Crane with(Crane crane, const Effects& effects) {
   return crane;
 }
 
-/// Misfit of a crane to one run in one part, whitened, output by output; the starts of windows are solved for
-/// along the directions of the first crane that is asked.
+/// Whitened misfit of a crane to one run in one part. Starts of windows are projected out along the
+/// directions of the first crane.
 class WindowMisfit {
  public:
   /// @param gravity_mps2 for the swing's frequency
@@ -126,7 +126,7 @@ class WindowMisfit {
     }
     return kept_of(values);
   }
-  /// Orthonormal directions in which a change of the start moves the outputs.
+  /// Orthonormal directions of the start.
   [[nodiscard]] MatrixXd start_directions(const Replay& replay, std::size_t window,
                                           const std::vector<double>& start, const VectorXd& at) const {
     constexpr double kStep = 1e-4;
@@ -149,7 +149,7 @@ class WindowMisfit {
   std::vector<MatrixXd> bases_;
 };
 
-/// The structured parts of one run in which what differs may show.
+/// Refits a hypothesis to one run, in the parts that its causes act on.
 class Refit {
  public:
   Refit(const Crane& base, const PreparedRun& run, const Disturbances& disturbances,
@@ -163,7 +163,7 @@ class Refit {
     if (any(&Candidate::load)) parts_.emplace_back(run, Part::load, g, disturbances);
   }
 
-  /// Of each part.
+  /// Misfit of each part.
   [[nodiscard]] std::vector<MatrixXd> misfits(const Effects& effects) {
     const Crane crane = with(base_, effects);
     std::vector<MatrixXd> all;
@@ -171,7 +171,7 @@ class Refit {
     return all;
   }
 
-  /// Gauss-Newton from the values given, inside the bounds.
+  /// Gauss-Newton with step halving, inside the bounds.
   void fit(Effects& effects) {
     VectorXd residual = stacked(misfits(effects));
     for (int round = 0; round < kMostRefitRounds; ++round) {
@@ -218,7 +218,7 @@ class Refit {
   std::vector<WindowMisfit> parts_;
 };
 
-/// Causes on one drive show only while that drive is asked to move.
+/// Whether the motion excites the causes: those of one drive need a reference of that drive.
 bool excites(const SafeMotion& motion, const std::vector<const Candidate*>& causes) {
   const std::string& name = causes.front()->axis;
   const auto elsewhere = [&](const Candidate* cause) { return cause->axis != name; };
@@ -229,8 +229,8 @@ bool excites(const SafeMotion& motion, const std::vector<const Candidate*>& caus
                      [axis](const TimedExcitation& part) { return part.reference.axis == axis; });
 }
 
-/// How far `rival`, refitted, stays from what `truth` gives, in the column that shows it most, in standard
-/// deviations of the noise. Nothing when the motion is not safe for that crane.
+/// Separation of `rival`, refitted, from `truth` in the most sensitive column, in standard deviations of the
+/// noise. Nothing if the motion is not safe for the true crane.
 std::optional<double> separation_of(const configuration::Rig& rig, const SafeMotion& motion,
                                     const Effects& truth, const Effects& rival,
                                     const Disturbances& disturbances) {
@@ -242,7 +242,7 @@ std::optional<double> separation_of(const configuration::Rig& rig, const SafeMot
   Effects nearest = beginning_at(truth, rival);
   refit.fit(nearest);
   const auto left = refit.misfits(nearest),
-             own = refit.misfits(truth);  // the replay of smoothed data errs a little
+             own = refit.misfits(truth);  // the replay of smoothed data has a small residual
   double most = 0;
   for (std::size_t part = 0; part < left.size(); ++part)
     for (Index i = 0; i < left[part].cols(); ++i) {
@@ -255,9 +255,9 @@ std::optional<double> separation_of(const configuration::Rig& rig, const SafeMot
 }  // namespace
 
 Disturbances disturbances_of(const Study& study) {
-  constexpr double kTellsNothing = 1e6;  // m or rad
+  constexpr double kUninformativeNoise = 1e6;  // m or rad
   Disturbances disturbances{};
-  for (Disturbance& disturbance : disturbances) disturbance.noise = kTellsNothing;
+  for (Disturbance& disturbance : disturbances) disturbance.noise = kUninformativeNoise;
   for (const Problem* problem : {&study.drive(), &study.load()})
     for (std::size_t i = 0; i < problem->disturbances().size(); ++i)
       disturbances[problem->outputs()[i]] = problem->disturbances()[i];

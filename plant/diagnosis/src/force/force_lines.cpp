@@ -19,14 +19,14 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// Lines half a width apart in a run of 40 s.
+/// Spacing: half the width of a line in 40 s.
 constexpr double kLowest_hz = 0.1, kHighest_hz = 4, kSpacing_hz = 0.0125;
 constexpr std::size_t kLineFolds = 4;
 constexpr std::size_t kLineFlips = 99;
-/// Share of the loss of drives or load: a smaller line is of no consequence for the crane.
+/// Share of the loss: a smaller line is of no consequence for the crane.
 constexpr double kLineOfDrives = 0.025, kLineOfLoad = 0.012;
 
-/// A force with one frequency on one output, seen through every piece: cosine and sine of a run's own phase.
+/// A force of one frequency: cosine and sine on each piece. Each run has its own phase.
 struct Line {
   double hz = 0;
   std::vector<NormalEquations> pieces;
@@ -47,7 +47,7 @@ Line line_at(const Pieces& pieces, double hz) {
   return line;
 }
 
-/// Sums over the pieces of one run, in or out of a fold.
+/// Sums over the pieces of each run, inside or outside a fold.
 using ByRun = std::map<std::size_t, NormalEquations>;
 
 ByRun summed_by_run(const Pieces& pieces, const Line& line, const VectorXd& signs, std::size_t fold,
@@ -62,7 +62,7 @@ ByRun summed_by_run(const Pieces& pieces, const Line& line, const VectorXd& sign
   return sums;
 }
 
-/// The best line, each fold predicted by the others: frequency and amplitude.
+/// The best line: frequency and amplitude of each fold are those of the others.
 struct Found {
   double gain = 0, hz = 0;
 };
@@ -90,7 +90,7 @@ Found cross_validated_line(const Pieces& pieces, const std::vector<Line>& lines,
   return found;
 }
 
-/// The most that pieces with signs at random give.
+/// Largest gain under random signs of the pieces.
 double largest_by_sign_flips(const Pieces& pieces, const std::vector<Line>& lines, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<VectorXd> signs(kLineFlips, VectorXd::Ones(static_cast<Index>(pieces.all.size())));

@@ -14,13 +14,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Squared standard deviations: the strongest_jump of all places in all pieces of clean data comes to 20.
+/// Chi-square of a jump, one degree of freedom; the largest in clean data is 20.
 constexpr double kClearJumpStatistic = 50;
 constexpr std::size_t kFewestJumpingPieces = 3;
-/// Rows at the ends of a piece, where a jump is as good as another start.
+/// Rows at the ends of a piece, where a jump resembles another start.
 constexpr std::size_t kJumpMargin_rows = 5;
 
-/// One column per row at which the position, or the speed, may jump.
+/// One column per row of a jump of the position, or of the speed.
 MatrixXd jumps_in(const Piece& piece, bool of_speed) {
   const auto rows = static_cast<Index>(piece.rows), margin = static_cast<Index>(kJumpMargin_rows);
   MatrixXd all = MatrixXd::Zero(rows, std::max<Index>(0, rows - 2 * margin));

@@ -1,22 +1,22 @@
 #pragma once
-/// How well patterns of force explain what is left of an output.
+/// Least squares of patterns of force on the residual of an output.
 #include "shooting/pieces.hpp"
 
 namespace crane::diagnosis {
 
-/// slope' weighted residual and slope' weighted slope.
+/// score = J' W e, hessian = J' W J (Gauss-Newton).
 struct NormalEquations {
   explicit NormalEquations(Eigen::Index patterns = 0)
       : score(Eigen::VectorXd::Zero(patterns)), hessian(Eigen::MatrixXd::Zero(patterns, patterns)) {}
   Eigen::VectorXd score;
   Eigen::MatrixXd hessian;
-  /// Decrease of the loss that the amplitudes x make.
+  /// Decrease of the loss at amplitudes x.
   [[nodiscard]] double gain(const Eigen::VectorXd& x) const { return 2 * x.dot(score) - x.dot(hessian * x); }
   NormalEquations& operator+=(const NormalEquations& other);
   NormalEquations& operator-=(const NormalEquations& other);
 };
 
-/// Of cosine and sine, the two patterns of a wave, as the residual has them best.
+/// Least-squares amplitudes of cosine and sine.
 [[nodiscard]] Eigen::Vector2d wave_amplitude(const NormalEquations& wave);
 
 /// @param forces on the piece, row x pattern

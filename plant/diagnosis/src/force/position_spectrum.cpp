@@ -17,11 +17,11 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr std::size_t kLines = 400;
-/// Of a line of the travelled distance.
+/// Distance of lines, in 1 / travel.
 constexpr double kLineSpacing = 0.25;
-/// Five waves over the travel; longer ones are friction that depends on position.
+/// Five waves over the travel; longer ones are position-dependent friction.
 constexpr std::size_t kFirstLine = 20;
-/// Between two lines: a wave that is right in the middle of the travel has to be right at its ends.
+/// Subdivisions between two lines: the phase has to fit over the whole travel.
 constexpr std::size_t kRefinement = 8;
 
 struct Wave {
@@ -44,7 +44,7 @@ Wave wave_of(const Pieces& drive, double per_length) {
   return {per_length, all.score.dot(amplitude), amplitude};
 }
 
-/// The strongest one nearer to `peak` than the lines beside it.
+/// The strongest wave between the neighbours of `peak`.
 Wave refined(const Pieces& drive, const Wave& peak, double spacing) {
   std::vector<Wave> around(2 * kRefinement - 1);
   parallel_for(around.size(), [&](std::size_t i) {

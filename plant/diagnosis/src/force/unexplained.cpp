@@ -16,14 +16,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kPatternFolds = 4;
-/// A force that builds up after a reversal has done so within this share of the travel.
+/// Share of the travel within which a force builds up after a reversal.
 constexpr double kBuildUp = 0.25;
 
-/// Of a run and a row.
+/// Function of run and row.
 using RowFunction = std::function<double(std::size_t, std::size_t)>;
 
-/// A force that goes with `value`: an amplitude for each of some triangular bins over its extent, times
-/// `force`.
+/// Force as a function of `value`: an amplitude for each triangular bin over its range, times `force`.
 struct Variable {
   std::string name;
   GoesWith with = GoesWith::position;
@@ -32,8 +31,7 @@ struct Variable {
   RowFunction value, force;
 };
 
-/// For every row the way since the axis last turned, with the sign of the direction and drawn out near 0:
-/// +-sqrt(way / far), at most 1.
+/// By row: +-sqrt(distance since the last reversal / far), at most 1, with the sign of the direction.
 std::vector<std::vector<double>> since_reversal(const Runs& runs, Output axis, double far) {
   std::vector<std::vector<double>> all;
   for (const PreparedRun& run : runs) {
@@ -80,7 +78,7 @@ std::vector<Variable> variables_of(const Runs& runs, Output axis) {
           {name + ": command of the other drive", GoesWith::other_command, 1, times, time, other_command}};
 }
 
-/// Of every piece, one column a bin.
+/// Of each piece, one pattern per bin.
 std::vector<NormalEquations> normal_equations_of(const Pieces& pieces, const Variable& variable) {
   const auto last = static_cast<double>(variable.bins - 1);
   std::vector<NormalEquations> all;
@@ -98,7 +96,7 @@ std::vector<NormalEquations> normal_equations_of(const Pieces& pieces, const Var
   return all;
 }
 
-/// Decrease of the loss of pieces that did not take part in the fit; 0 unless all folds but one agree.
+/// Decrease of the loss of pieces outside the fit; 0 unless all folds but one have a gain.
 double cross_validated_gain(const std::vector<NormalEquations>& pieces) {
   const Index n = pieces[0].score.size();
   NormalEquations all{n};
@@ -119,7 +117,7 @@ double cross_validated_gain(const std::vector<NormalEquations>& pieces) {
   return agreeing + 1 >= kPatternFolds ? gain : 0;
 }
 
-/// Of a pattern over time, only what a constant of the same kind does not do.
+/// Cross-validated gain; of a pattern over time, beyond that of a constant.
 double pattern_gain_of(const Pieces& pieces, const Variable& variable) {
   const double gain = cross_validated_gain(normal_equations_of(pieces, variable));
   if (variable.with != GoesWith::time || gain <= 0) return gain;

@@ -5,12 +5,11 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Share of what friction does at standstill that is left when an axis stands: it creeps, the model's
-/// otherwise.
+/// Share of u at rest: the axis creeps, unlike the model's.
 constexpr double kStandingFrictionShare = 0.01;
-/// Variance of the way in a row that an unknown command leaves open, in noise variances.
+/// Variance of the distance in a row after a lost edge of the command, in noise variances.
 constexpr double kUnknownSpeedVariance = 1e6;
-/// Relative change of the variances from row to row below which the filter has come to its steady state.
+/// Relative change of the variances per row in the steady state of the filter.
 constexpr double kSteadyStateTolerance = 1e-9;
 
 bool steady(double before, double after) {
@@ -76,7 +75,7 @@ void PredictionCovariance::advance(std::size_t row) {
   const MotionPhase now = phase(row);
   const double friction =
       friction_ * (now == MotionPhase::standing ? kStandingFrictionShare : row_motion.slowness);
-  // The same filter as in every row of a window in which nothing special happens.
+  // In an ordinary row the steady state is kept.
   const bool usual =
       row_motion.seen && now == MotionPhase::moving && friction == 0 && !row_motion.speed_unknown;
   if (usual && steady_) return;

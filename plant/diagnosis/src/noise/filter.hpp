@@ -1,13 +1,13 @@
 #pragma once
-/// Kalman filter of a residual (disturbance.hpp): state position, speed and acceleration of the force
-/// (Kalman, J. Basic Eng. 82 (1960) 35). Its gains do not depend on the residual.
+/// Kalman filter of a residual (disturbance.hpp): state x, x', a (R. E. Kalman, J. Basic Eng. 82 (1960) 35).
+/// The gains do not depend on the residual.
 #include <Eigen/Dense>
 
 #include "noise/disturbance.hpp"
 
 namespace crane::diagnosis {
 
-/// From row to row: position and speed of the residual, the force's acceleration.
+/// Transition F of the state from row to row.
 [[nodiscard]] Eigen::Matrix3d transition_of(const Disturbance& disturbance, const WindowMotion& motion);
 
 /// The state at the next row.
@@ -17,13 +17,13 @@ namespace crane::diagnosis {
   return step * state;
 }
 
-/// Covariance of the filter's prediction along a window, in the square of the disturbance's units.
+/// Covariance P of the predicted state along a window, in squares of the disturbance's units.
 class PredictionCovariance {
  public:
-  /// @param start_variance of position, and of the way that the speed makes in a row
+  /// @param start_variance of x, and of the distance that x' covers in a row
   PredictionCovariance(const Disturbance& disturbance, const WindowMotion& motion, double start_variance);
 
-  /// Of the next residual, noise included.
+  /// Variance f of the innovation.
   [[nodiscard]] double variance() const { return p_.xx + noise_variance_; }
   [[nodiscard]] Eigen::Vector3d gain() const { return Eigen::Vector3d{p_.xx, p_.xv, p_.xa} / variance(); }
   [[nodiscard]] MotionPhase phase(std::size_t row) const {
@@ -32,11 +32,11 @@ class PredictionCovariance {
   void advance(std::size_t row);
 
  private:
-  /// Of position, speed and acceleration.
+  /// Of x, x', a.
   struct Symmetric {
     double xx = 0, xv = 0, xa = 0, vv = 0, va = 0, aa = 0;
   };
-  /// F p F' with F the step from row to row.
+  /// F p F'.
   [[nodiscard]] Symmetric propagated(const Symmetric& p) const;
 
   const WindowMotion& motion_;

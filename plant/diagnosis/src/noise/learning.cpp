@@ -12,14 +12,14 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int kSweeps = 8;
-/// Of the speed of a drive's residual.
+/// Grid of c of a drive.
 constexpr std::array kDampings_ps{0.0, 1.0, 4.0, 12.0};
-/// Of the force; 0: white.
+/// Grid of the correlation time of a; 0: white.
 constexpr std::array kCorrelations_s{0.0, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0};
-/// Decrease of minus twice the log likelihood that asks for another sweep.
+/// Least decrease of minus twice the log likelihood for another sweep.
 constexpr double kWorthASweep = 1;
 
-/// One number after the other, each on its grid, until nothing gets better. Accelerations are in noises.
+/// Coordinate search on grids. Accelerations are in multiples of the noise.
 class Learning {
  public:
   Learning(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
@@ -66,12 +66,12 @@ class Learning {
     found.acceleration *= noise;
     found.friction *= noise;
     found.noise = std::max(noise, least_noise_);
-    found.misfit = std::isfinite(found_.value) ? found_.value : 0;  // residuals of nothing but zeros
+    found.misfit = std::isfinite(found_.value) ? found_.value : 0;  // all residuals are zero
     return found;
   }
 
-  /// A force of some size and colour, what friction does in its measure: the likelihood has several summits,
-  /// a weak slow force with a rough sensor is one, a strong fast one with a fine sensor another.
+  /// Grid of strength and colour: the likelihood has several maxima, for example a weak slow force with a
+  /// coarse sensor and a strong fast one with a fine sensor. u is proportional to a.
   void begin() {
     const Disturbance start = best_;
     const double share = start.friction;
@@ -88,7 +88,7 @@ class Learning {
     best_ = likeliest;
   }
 
-  /// A force that lasts longer and is as strong at low frequencies, with every damping.
+  /// Another correlation time, at the same strength or the same power at low frequencies, with every damping.
   void try_colour(double correlation_s) {
     const Disturbance before = best_;
     const auto lasts = [](double s) { return std::max(s, kCorrelations_s[1] / 2); };
@@ -114,7 +114,7 @@ class Learning {
       try_with(best_.friction, share * best_.acceleration);
   }
 
-  /// Keeps `value` in `number`, one of those of the best, if it makes the residuals likelier.
+  /// Sets `number`, a member of best_, to `value` if that is likelier.
   template <class Number>
   void try_with(Number& number, Number value) {
     const Number before = number;

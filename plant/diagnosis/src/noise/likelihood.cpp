@@ -15,10 +15,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Variance of an unknown start, in noise variances (of position, and of the way the speed makes in a row).
+/// Variance of an unknown start, in noise variances.
 constexpr double kUnknownStartVariance = 1e8;
 
-/// Sum of logarithms of numbers of at least 1, most of them taken of products.
+/// Sum of logarithms of numbers >= 1, by products.
 class SumOfLogs {
  public:
   void add(double number) {
@@ -32,10 +32,10 @@ class SumOfLogs {
   double sum_ = 0, product_ = 1;
 };
 
-/// Squares of innovations over their variances. A row that was not measured tells nothing.
+/// Squares of innovations over their variances, of measured rows.
 struct Innovations {
   std::vector<double> squares;
-  double logs = 0;  ///< of the variances
+  double logs = 0;  ///< sum of ln variance
 };
 
 Innovations innovations(const VectorXd& residual, const WindowMotion& motion, const Disturbance& d) {
@@ -63,8 +63,8 @@ Innovations innovations(const VectorXd& residual, const WindowMotion& motion, co
   return all;
 }
 
-/// Root of the mean loss less a normal residual's, by Newton's method in the logarithm of the variance.
-/// @param near a guess above 0
+/// Variance at which the mean loss is that of normal residuals: Newton's method in its logarithm.
+/// @param near guess, > 0
 double robust_variance(const std::vector<Innovations>& of_windows, double near) {
   constexpr int kRounds = 40;
   constexpr double kExact = 1e-5, kLongestStep = 3;

@@ -6,11 +6,10 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Speeds in m/s or rad/s. Below kSlowSpeed the time of stick and slip cannot be predicted. Below
-/// kTurningSpeed, from row to row, the axis turns or comes to rest. Below kStillSpeed, for several rows, it
-/// is at standstill.
+/// m/s or rad/s. Below kSlowSpeed the time of stick and slip cannot be predicted. Below kTurningSpeed, from
+/// row to row, the axis turns or stops. Below kStillSpeed, for several rows, it is at rest.
 constexpr double kSlowSpeed = 0.02, kTurningSpeed = 2e-3, kStillSpeed = 1e-3;
-/// Half widths, in rows, over which a speed is taken and a standstill lasts.
+/// Half widths in rows: of a speed, of a rest.
 constexpr std::size_t kSpeedRows = 3, kStillRows = 5;
 
 }  // namespace

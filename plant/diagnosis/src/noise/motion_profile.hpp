@@ -1,5 +1,5 @@
 #pragma once
-/// Where an axis moved slowly and where it stood, from its measured position.
+/// Motion phases of an axis from its measured position.
 #include <cstddef>
 #include <vector>
 
@@ -8,7 +8,7 @@
 namespace crane::diagnosis {
 
 /// @param position of a whole run, m or rad
-/// @param first row of the window, which is `rows` long
+/// @param first,rows of the window
 [[nodiscard]] MotionProfile motion_profile_of(const std::vector<double>& position, double period_s,
                                               std::size_t first, std::size_t rows);
 

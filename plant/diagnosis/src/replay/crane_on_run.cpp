@@ -9,8 +9,7 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A motor has been struck when its speed changes from row to row by so many times what half of its changes
-/// beyond the model's keep to.
+/// Change of a motor's speed from row to row, beyond the model's, over its running median: more is an impact.
 constexpr double kImpactRatio = 15;
 
 bool has_sensor_term(const Crane& crane) {
@@ -77,8 +76,8 @@ MeasuredKinematics Replay::CraneOnRun::measured_mid_row(std::size_t row) const {
   return at;
 }
 
-/// What the coordinates were when the sensors reported what was measured: a drive's to a millionth of its
-/// encoder's scale, the swing's to first order, for to undo a delay again and again makes noise of it.
+/// Fixed-point inversion of the sensor terms. Drives: kRounds rounds, to 1e-6 of the encoder's scale. Swing:
+/// one round, because repeated inversion of a delay amplifies noise.
 void Replay::CraneOnRun::invert_sensors() {
   constexpr int kRounds = 5;
   const Run& run = source.run;
@@ -114,7 +113,7 @@ void Replay::CraneOnRun::warm_up_sensors(plant::Model& sensing, std::size_t row)
   }
 }
 
-/// What the motors' speeds show of impacts between a row and the next, beside what usually is unexplained.
+/// Changes of the motors' speeds from a row to the next that only impacts explain.
 plant::PerAxis Replay::CraneOnRun::impacts_after(std::size_t row, std::array<RunningMedian, 2>& usual) const {
   plant::PerAxis unexplained{};
   for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
@@ -128,9 +127,8 @@ plant::PerAxis Replay::CraneOnRun::impacts_after(std::size_t row, std::array<Run
   return unexplained;
 }
 
-/// The terms' own coordinates are not measured, but what drives them is: they prescribe it through the whole
-/// run. Flanks of a gap that meet a little early or late would soon meet at quite other times: what the
-/// motors' measured speed shows of impacts corrects them.
+/// Inner coordinates are simulated along the measured motion of the whole run. The times of impacts in a gap
+/// are chaotic: impacts seen in the motors' measured speed correct the prescribed coordinates.
 void Replay::CraneOnRun::simulate_inner_coordinates() {
   const std::array<bool, kOutputs> none{};
   std::array<bool, kOutputs> drives{};

@@ -1,6 +1,6 @@
 #pragma once
-/// What a replay has ready: one crane on one run, its commands by step, its motion as its sensors would have
-/// measured it, where its terms' own coordinates are along that motion.
+/// State of a Replay: commands by step, measured motion with inverted sensor terms, inner coordinates along
+/// that motion.
 #include <optional>
 
 #include "crane/diagnosis/replay.hpp"
@@ -8,7 +8,7 @@
 
 namespace crane::diagnosis {
 
-/// Half of the values so far, the last few hundred rather, are smaller.
+/// Stochastic approximation of the median of the last few hundred values.
 class RunningMedian {
  public:
   void take(double value) { median_ *= value > median_ ? 1 + kShare : 1 - kShare; }
@@ -16,16 +16,16 @@ class RunningMedian {
 
  private:
   static constexpr double kShare = 0.02;
-  double median_ = 0.02;  // m/s or rad/s, more than noise makes
+  double median_ = 0.02;  // m/s or rad/s, more than noise
 };
 
 struct Replay::CraneOnRun {
   CraneOnRun(const PreparedRun& prepared, const Crane& the_crane);
 
-  /// Coordinates that stand still or go where they were measured while the others are simulated.
+  /// Locks of all coordinates that are not simulated.
   [[nodiscard]] plant::Locks locks(const std::array<bool, kOutputs>& simulated) const;
   [[nodiscard]] double step_s() const { return source.run.period_s / steps; }
-  /// Calls visit(step, voltage, whether it is another than before) for every step from a row to the next.
+  /// Calls visit(step, voltage, voltage has changed) for each step from a row to the next.
   template <class Visit>
   void visit_steps(std::size_t row, Visit&& visit) const {
     const auto first = row * static_cast<std::size_t>(steps);
@@ -34,15 +34,15 @@ struct Replay::CraneOnRun {
       visit(step, drive_v[at], step == 0 || drive_v[at] != drive_v[at - 1]);
     }
   }
-  /// The crane as its sensors, their errors undone, have it at a row.
+  /// Measured kinematics at a row, sensor terms inverted.
   [[nodiscard]] MeasuredKinematics measured_at(std::size_t row) const;
-  /// In the middle between a row and the next; that of a step is mid_step.
+  /// Midway between a row and the next.
   [[nodiscard]] MeasuredKinematics measured_mid_row(std::size_t row) const;
   [[nodiscard]] const MeasuredKinematics& mid_step(std::size_t row, int step) const {
     const auto& all = sensors ? corrected_mid_step : source.mid_step[model.inner_coordinates() > 0 ? 1 : 0];
     return all[row * static_cast<std::size_t>(steps) + static_cast<std::size_t>(step)];
   }
-  /// Measures what was measured before a row, as far back as sensors remember.
+  /// Fills the memory of the sensors with the motion before a row.
   void warm_up_sensors(plant::Model& sensing, std::size_t row) const;
   [[nodiscard]] const Motion& prescribed_motion(Output output) const {
     return sensors ? corrected[output] : source.motion[output];
@@ -51,16 +51,16 @@ struct Replay::CraneOnRun {
   const PreparedRun& source;
   Crane crane;
   int steps;                   ///< from a row to the next
-  mutable plant::Model model;  // friction and forces only; its memory is not used after construction
+  mutable plant::Model model;  // its memory is used by the constructor only
   bool sensors;
-  std::vector<std::size_t> ringing;                  ///< inner coordinates that have a start of their own
+  std::vector<std::size_t> ringing;  ///< inner coordinates that ring freely: part of the start
   std::array<bool, plant::kMostInner> prescribed{};  ///< the other ones
   std::vector<plant::PerAxis> drive_v;               ///< by step
   std::array<Motion, kOutputs> corrected;
   std::vector<MeasuredKinematics> corrected_mid_step;
   std::vector<plant::InnerState> inner_at;      ///< along the measured motion, by row; empty without any
-  std::array<Motion, plant::kMostInner> inner;  ///< the same of those that are prescribed
-  std::array<std::optional<Increments>, 2> increments;  ///< drives beside prescribed coordinates
+  std::array<Motion, plant::kMostInner> inner;  ///< of prescribed inner coordinates
+  std::array<std::optional<Increments>, 2> increments;  ///< of drives, with prescribed inner coordinates
 
  private:
   void invert_sensors();

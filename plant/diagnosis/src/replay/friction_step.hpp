@@ -1,5 +1,5 @@
 #pragma once
-/// One axis over one step with stiff friction: v' = a - g f(v), f odd-like with a steep step at v = 0.
+/// One axis over one step with stiff friction: v' = a - g f(v), f nearly odd with a steep step at v = 0.
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -7,27 +7,27 @@
 
 namespace crane::diagnosis {
 
-/// Slower than this, friction's step at standstill is resolved implicitly.
+/// m/s or rad/s: slower, the step of the friction at standstill is solved implicitly.
 inline constexpr double kImplicitSpeed = 0.004;
-/// Slower than this is standstill; a faster axis that turns inside a step comes to rest first.
+/// m/s or rad/s: slower is standstill. A faster axis that reverses inside a step comes to rest first.
 inline constexpr double kRestSpeed = 2e-4;
 
-/// m/s or rad/s: a simulation that is lost, whose bracket rounding would close.
+/// m/s or rad/s: a diverged simulation; rounding would close the bracket of the root.
 inline constexpr double kDivergedSpeed = 1e6;
 
 struct FrictionStep {
   double speed = 0;     ///< at the end
-  double distance = 0;  ///< covered
+  double distance = 0;  ///< covered in the step
   double friction = 0;  ///< mean [V]
 };
 
 /// Root of the increasing v + k f(v) - c.
-/// @param near a guess; an axis that sticks creeps on as it did
+/// @param near guess: an axis that sticks keeps its creep speed
 template <class Friction>
 double implicit_speed(double c, double k, Friction&& friction, double near = 0) {
   constexpr double kExact = 1e-9, kNear = 1e-5;
   if (!(std::abs(c) < kDivergedSpeed && std::abs(near) < kDivergedSpeed)) return c;
-  // It grows at least as fast as v where friction does: so small, v is the root as exactly as it has to be.
+  // Its slope is at least 1 where friction grows: |excess| bounds the error of v.
   const auto excess = [&](double v) {
     const double found = v + k * friction(v) - c;
     return std::abs(found) < kExact ? 0.0 : found;
@@ -53,7 +53,8 @@ double implicit_speed(double c, double k, Friction&& friction, double near = 0) 
   return 0.5 * (root.first + root.second);
 }
 
-/// @param v speed at the start, `a` acceleration without friction, `g` what a volt of friction takes from it
+/// @param v speed at the start. @param a acceleration without friction. @param g deceleration per volt of
+/// friction. @param h step [s]
 template <class Friction>
 FrictionStep friction_step(double v, double a, double g, double h, Friction&& friction) {
   if (std::abs(v) > kImplicitSpeed) {
@@ -63,7 +64,7 @@ FrictionStep friction_step(double v, double a, double g, double h, Friction&& fr
   }
   const double slope = a - g * friction(v);
   if (std::abs(v) > kRestSpeed && v * slope < 0 && std::abs(v) < h * std::abs(slope)) {
-    const double rest = h + v / slope;  // what is left of the step when it has come to rest
+    const double rest = h + v / slope;  // rest of the step after the stop
     const double after = implicit_speed(rest * a, rest * g, friction);
     const double mean_friction = h * g != 0 ? (v + h * a - after) / (h * g) : 0;
     return {after, 0.5 * v * (h - rest) + 0.5 * after * rest, mean_friction};

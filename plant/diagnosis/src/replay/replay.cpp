@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kSmoothing_s = 0.03;
 
-/// Standard deviation of a value that is rounded to whole steps of its sensor: those that the data show, else
-/// the counts of the rig file. What has neither is known to the least.
+/// Standard deviation of rounding to the resolution that the data show, else to the counts of the rig file.
 std::array<double, kOutputs> quantisation_noise(const Run& run, const configuration::Rig& rig) {
   constexpr double kLeast = 1e-7;
   constexpr std::array<std::size_t, kOutputs> kEncoders{0, 1, 3, 4};
@@ -28,8 +27,7 @@ std::array<double, kOutputs> quantisation_noise(const Run& run, const configurat
 
 }  // namespace
 
-/// A drive's motion is not smoothed: that would take away from what excites the swing, a thousandth of the
-/// amplitude already with second differences of neighbours.
+/// A smoothed drive would excite the swing too little: by 0.1 % already with second differences.
 Motion motion_of(Output output, const std::vector<double>& measured, double period_s) {
   const bool drive = output == kTrolleyPosition || output == kSlewAngle;
   return drive ? spline(measured, period_s)
@@ -46,7 +44,7 @@ int smoothing_half_width(double period_s) {
 
 namespace {
 
-/// What was seen of an output, at its own times.
+/// Measured values of an output, at their own times.
 struct Samples {
   Samples(const Run& run, Output output) {
     for (std::size_t row = 0; row < run.rows(); ++row)
@@ -58,7 +56,7 @@ struct Samples {
   std::vector<double> time_s, values;
 };
 
-/// A drive moves the load by its acceleration: a coarse encoder's steps would shake it.
+/// The drive's acceleration excites the load: steps of a coarse encoder are smoothed first.
 void prepare_drive(const Run& run, Output drive, PreparedRun& prepared) {
   const Samples seen(run, drive);
   const std::vector<double> smoothed = rts_smoothed(seen.time_s, seen.values, prepared.least_noise[drive]);
@@ -142,8 +140,8 @@ std::vector<double> Replay::inner_start_scale() const {
   return scale;
 }
 
-/// Outputs of a window at the rows' own instants: inside the step that an instant falls into the acceleration
-/// is that step's. What sensors add is known at the grid's times and goes straight between them.
+/// Outputs of a window at the rows' own times: constant acceleration inside the step that contains the time.
+/// Sensor errors are known at the grid's times and interpolated linearly.
 struct Replay::RowTimeOutputs {
   RowTimeOutputs(const Run& measured, std::size_t first_row, std::span<const Output> simulated,
                  std::span<double> values)
@@ -156,7 +154,7 @@ struct Replay::RowTimeOutputs {
   }
 
   void begin_step(const plant::State& state) { before = state; }
-  /// @param step of `steps` after `row`, which has brought the crane from what was noted to `after`
+  /// @param step of `steps` after `row`. @param after state at its end
   void end_step(std::size_t row, int step, int steps, plant::State after) {
     const double step_s = run.period_s / steps;
     for (const std::size_t near : {row, row + 1}) {
@@ -174,9 +172,9 @@ struct Replay::RowTimeOutputs {
       }
     }
   }
-  /// Whether the steps before a row have evaluated its outputs.
+  /// Whether steps before the row have set its outputs: its time is before the grid's.
   [[nodiscard]] bool evaluated(std::size_t row) const { return row > first && run.offset_s[row] < 0; }
-  /// @param reported, at by output at the grid's time of `row`
+  /// @param reported,at sensor value and coordinate of output i at the grid's time of `row`
   void add_sensor_error(std::size_t row, std::size_t i, double reported, double at) {
     if (row - first < rows) added[i * rows + row - first] = reported - at;
   }
@@ -250,7 +248,7 @@ void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const
     if (row_times ? !row_times->evaluated(first + k) : !sensing)
       for (std::size_t i = 0; i < outputs.size(); ++i)
         out[i * rows + k] = position_of(integrator.state, outputs[i]);
-    // An instant behind the last row's lies in the interval after it.
+    // A time after the grid's of the last row needs one more interval.
     const bool beyond = row_times && k + 1 == rows && p.source.run.offset_s[first + k] > 0;
     if (k + 1 == rows && !(beyond && first + k + 1 < p.source.run.rows())) break;
     pass(first + k);

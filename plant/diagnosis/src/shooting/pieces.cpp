@@ -15,10 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Shorter ones say nothing beyond their start; longer ones are cut.
+/// A shorter piece is all start; a longer one is divided.
 constexpr double kShortestPiece_s = 0.15, kLongestPiece_s = 2;
-/// Over a longer gap nobody knows the speed that the model is asked at; rows further apart than this have
-/// gaps of their own distance, so many times.
+/// The speed is unknown in a longer gap: the larger of both, the second in usual row spacings.
 constexpr double kUnknownSpeed_s = 0.1, kUnknownRows = 2.5;
 
 struct MovingStretch {
@@ -26,7 +25,7 @@ struct MovingStretch {
   std::vector<double> position;
 };
 
-/// Rows at which the measured motion is only what a spline makes of a gap.
+/// Rows inside gaps, where the motion is that of the spline.
 std::vector<bool> unknown_rows(const Run& run, Output axis) {
   std::vector<bool> unknown(run.rows(), false);
   if (run.regular(axis)) return unknown;
@@ -41,7 +40,7 @@ std::vector<bool> unknown_rows(const Run& run, Output axis) {
   return unknown;
 }
 
-/// Where the axis of a run moves without a rest.
+/// Stretches in which the axis moves without a rest.
 std::vector<MovingStretch> moving_stretches(const PreparedRun& run, std::size_t number, Output axis) {
   const std::vector<double>& rate = run.motion[axis].rate;
   const auto shortest = static_cast<std::size_t>(kShortestPiece_s / run.run.period_s);
@@ -60,7 +59,7 @@ std::vector<MovingStretch> moving_stretches(const PreparedRun& run, std::size_t 
   return all;
 }
 
-/// In place: from rest, by accelerations that last a row each.
+/// In place, from rest; each acceleration lasts one row.
 void integrate_twice(MatrixXd& x, double period_s) {
   Eigen::RowVectorXd way = Eigen::RowVectorXd::Zero(x.cols()), speed = way;
   for (Index k = 0; k < x.rows(); ++k) {
@@ -71,8 +70,7 @@ void integrate_twice(MatrixXd& x, double period_s) {
   }
 }
 
-/// Where the model is at the rows' own instants, from rest at `first`: between two rows of the grid the
-/// acceleration is what it makes of the speed there.
+/// Distance of the model from rest at `first`, at the rows' own times, by the increments of each row.
 VectorXd model_distance(const Run& run, const Replay::Increments& drive, std::size_t first,
                         std::size_t row_count) {
   VectorXd way(static_cast<Index>(row_count));
@@ -93,7 +91,7 @@ VectorXd model_distance(const Run& run, const Replay::Increments& drive, std::si
   return way;
 }
 
-/// In what the sensor shows: a scale of it must not make errors smaller. 0 where nothing was measured.
+/// In units of the sensor value: a scale of the sensor must not reduce the residual. 0 in missing rows.
 VectorXd piece_residual(const PreparedRun& run, const Replay::Increments& drive, Output axis,
                         std::size_t first, std::size_t row_count) {
   const auto rows = static_cast<Index>(row_count);
@@ -119,7 +117,7 @@ WindowMotion window_motion_of(const PreparedRun& run, const MovingStretch& at, O
   return motion;
 }
 
-/// Of position and speed at the start, whitened.
+/// Orthonormal basis of position and speed at the start, whitened.
 MatrixXd start_basis(const Whitener& whitener, std::size_t rows) {
   MatrixXd directions(static_cast<Index>(rows), 2);
   directions.col(0).setOnes();
@@ -129,7 +127,7 @@ MatrixXd start_basis(const Whitener& whitener, std::size_t rows) {
          MatrixXd::Identity(directions.rows(), directions.cols());
 }
 
-/// Whitens first.
+/// Whitens the residual and projects the start out.
 void marginalise_start(const Piece& piece, VectorXd& residual) {
   piece.whitener.apply(residual);
   residual -= piece.basis * (piece.basis.transpose() * residual).eval();

@@ -128,7 +128,7 @@ bool Problem::refine_start(const Replay& replay, std::size_t at, const VectorXd&
 
 WindowFit Problem::fit_from(const Replay& replay, std::size_t at, const VectorXd& target,
                             const VectorXd& begin) const {
-  constexpr double kStillGains = 0.99;
+  constexpr double kLargestDecreaseRatio = 0.99;
   WindowFit fit;
   fit.start = begin;
   double before = std::numeric_limits<double>::infinity();
@@ -140,7 +140,7 @@ WindowFit Problem::fit_from(const Replay& replay, std::size_t at, const VectorXd
     if (!moved) break;
     linearise(replay, at, fit);
     const double left = fit.residual.squaredNorm();
-    if (!(left < kStillGains * before)) break;
+    if (!(left < kLargestDecreaseRatio * before)) break;
     before = left;
   }
   return fit;

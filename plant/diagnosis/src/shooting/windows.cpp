@@ -9,14 +9,13 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A spline through measured motion misses g^2 / 32 of an acceleration that changes inside a gap of g: 0.5 mm
-/// of 1 m/s2 in a sixteenth of two seconds.
+/// A spline misses g^2 / 32 of an acceleration that changes inside a gap g: 0.5 mm of 1 m/s2 in 2 s / 16.
 constexpr double kLongestGap_periods = 1.0 / 16, kLongestGap_rows = 2.5;
-/// Fewer measured rows of an output do not tell a start.
+/// Measured rows of an output that determine a start.
 constexpr std::size_t kFewestRows = 8;
 
 struct Span {
-  std::size_t first = 0, last = 0;  ///< last: one behind
+  std::size_t first = 0, last = 0;  ///< last: exclusive
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-/// One window under way: a crane in fixed steps, some coordinates simulated, the others going where they were
-/// measured.
+/// Integrates the crane in fixed leapfrog steps (drift-kick-drift, second order). Some outputs are simulated,
+/// the others prescribed as measured.
 #include <array>
 
 #include "crane/diagnosis/kinematics.hpp"
@@ -8,7 +8,7 @@
 
 namespace crane::diagnosis {
 
-/// Equal steps in a period: a coordinate of a term's own may ring at 25 Hz.
+/// Number of steps in a period: of at most 5 ms, 2.5 ms with inner coordinates, which may ring at 25 Hz.
 [[nodiscard]] int steps_in(double period_s, bool inner_coordinates);
 
 class StepIntegrator {
@@ -19,26 +19,26 @@ class StepIntegrator {
 
   plant::State state;
   plant::InnerState inner{};
-  /// Terms' own coordinates that go as prescribed_motion, and where they are in the middle of the next step.
+  /// Inner coordinates that are prescribed, and their kinematics in the middle of the next step.
   std::array<bool, plant::kMostInner> prescribed{};
   std::array<Kinematics, plant::kMostInner> prescribed_at{};
 
   void new_command(const plant::PerAxis& drive_v);
-  /// @param at what is measured in the middle of the step. What is not simulated stays where it is in
-  /// `state`, until it is evaluated to prescribe
+  /// Advances simulated outputs by one step; `prescribe` sets the others.
+  /// @param at measured, in the middle of the step
   void step(const MeasuredKinematics& at);
-  /// As the model has them where everything is measured.
+  /// Of the model at measured kinematics.
   [[nodiscard]] plant::Accelerations accelerations(const MeasuredKinematics& at);
-  /// Coordinates that are not simulated go where they were measured.
+  /// Sets outputs that are not simulated, and the cable, to measured kinematics.
   void prescribe(const MeasuredKinematics& at);
 
  private:
   [[nodiscard]] plant::State mid_step(const MeasuredKinematics& at);
   void kick(Output output, double acceleration);
-  /// What goes as prescribed_motion, put in the place of what was extrapolated.
+  /// Replaces the extrapolated state of prescribed inner coordinates.
   void prescribe_inner(plant::InnerState& inner, plant::InnerAccelerations& accelerations) const;
   void kick_inner(const plant::InnerAccelerations& accelerations);
-  /// Friction of each axis, solved one after the other with the other's last value.
+  /// Implicit friction, axis by axis, with the last value of the other axis.
   plant::PerAxis move_drives(const plant::State& middle, const plant::InnerState& inner_middle);
 
   const plant::Model& model_;
@@ -48,7 +48,7 @@ class StepIntegrator {
   std::array<double, kOutputs> last_{};
   std::array<double, plant::kMostInner> last_inner_{};
   plant::PerAxis last_friction_{};
-  std::array<plant::PerAxis, plant::kAxes> gain_{};  ///< accelerations a volt of friction takes
+  std::array<plant::PerAxis, plant::kAxes> gain_{};  ///< acceleration per volt of friction
   bool gains_known_ = false;
 };
 
