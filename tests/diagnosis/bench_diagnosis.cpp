@@ -20,7 +20,7 @@ namespace {
 
 using namespace crane::diagnosis::score;
 
-/// A set that takes longer has failed, s of processor.
+/// Processor time after which a set has failed, s.
 constexpr rlim_t kMostCpu_s = 600;
 
 struct Options {
@@ -62,7 +62,7 @@ void append_score(const Options& options, std::size_t number) {
   if (options.only.empty() || options.only == name_of(set.kind)) append(options.results, scored(set));
 }
 
-/// One process a set: a crash or an endless search costs that set and no other.
+/// One process per set: a crash affects no other set.
 pid_t started(const Options& options, std::size_t number) {
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("cannot start another process");
@@ -93,7 +93,7 @@ Record failed(const Options& options, std::size_t number, int status) {
   return record;
 }
 
-/// Whoever is free takes the next set.
+/// A free worker takes the next set.
 int score(const Options& options) {
   std::deque<std::size_t> todo = missing(options);
   const std::size_t all = todo.size();

@@ -28,7 +28,7 @@ ordered_json causes_json(const std::vector<Cause>& causes) {
 ordered_json candidates_json(const std::vector<Ranked>& ranking) {
   ordered_json json = ordered_json::array();
   for (const Ranked& ranked : ranking) {
-    // A pair of effects may have two parameters of one name, so that they are a list here.
+    // A list: two effects may have a parameter of the same name.
     ordered_json parameters = ordered_json::array();
     for (const Estimate& e : ranked.parameters)
       parameters.push_back({{"name", e.name}, {"value", e.value}, {"std", e.std_dev}, {"unit", e.unit}});

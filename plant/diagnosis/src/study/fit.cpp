@@ -116,8 +116,8 @@ double total_loss(const Evaluation& at, Loss loss) {
   if (loss == Loss::robust) return at.loss;
   double sum = 0;
   for (const Fits* fits : {&at.drive, &at.load})
-    for (const WindowFit& fit : *fits) sum += fit.residual.squaredNorm() + fit.start_price;
-  for (const VectorXd& residual : at.under_way) sum += residual.squaredNorm();
+    for (const WindowFit& fit : *fits) sum += fit.residual.squaredNorm() + fit.start_log_determinant;
+  for (const VectorXd& residual : at.equation_error) sum += residual.squaredNorm();
   return sum;
 }
 
@@ -225,8 +225,9 @@ Blocks Study::deviance_of(const Body& body, const Evaluation& at) {
     for (std::size_t i = 0; i < more.size(); ++i) deviance[first + i] += more[i];
   };
   add(0, log_variances_of(body.drive));
-  const std::vector<double> of_pieces = body.under_way.log_variances();
-  for (std::size_t i = 0; i < of_pieces.size(); ++i) deviance[body.under_way.windows()[i]] += of_pieces[i];
+  const std::vector<double> of_pieces = body.equation_error.log_variances();
+  for (std::size_t i = 0; i < of_pieces.size(); ++i)
+    deviance[body.equation_error.windows()[i]] += of_pieces[i];
   add(at.drive_blocks, log_variances_of(body.load));
   return deviance;
 }
@@ -261,7 +262,8 @@ Noise Study::noise_of(const Fitted& fitted, const Noise& unchanged) const {
   Noise noise = unchanged;
   if (!train_.drive.empty() && (parts.drive || unchanged.drive.empty())) {
     noise.drive = train_.drive.disturbances_of(fitted.train.drive);
-    noise.under_way = train_.under_way.disturbances_of(replays_of(train_.runs, with(fitted.effects)));
+    noise.equation_error =
+        train_.equation_error.disturbances_of(replays_of(train_.runs, with(fitted.effects)));
   }
   if (!train_.load.empty() && (parts.load || unchanged.load.empty()))
     noise.load = train_.load.disturbances_of(fitted.train.load);
@@ -271,7 +273,7 @@ Noise Study::noise_of(const Fitted& fitted, const Noise& unchanged) const {
 Fitted Study::screened(const Effects& effects, const Fitted& near) const {
   Fitted fitted = fit(effects, near.train.loss - kLeastGain, near.train);
   fitted.leaves = noise_of(fitted, near.leaves);
-  for (const auto* of : {&fitted.leaves.drive, &fitted.leaves.under_way, &fitted.leaves.load})
+  for (const auto* of : {&fitted.leaves.drive, &fitted.leaves.equation_error, &fitted.leaves.load})
     for (const Disturbance& disturbance : *of) fitted.misfit += disturbance.misfit;
   return fitted;
 }

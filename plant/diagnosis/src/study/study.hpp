@@ -9,8 +9,8 @@
 #include "crane/diagnosis/candidate.hpp"
 #include "crane/diagnosis/diagnosis.hpp"
 #include "robust.hpp"
+#include "shooting/equation_error.hpp"
 #include "shooting/problem.hpp"
-#include "shooting/under_way.hpp"
 
 namespace crane::diagnosis {
 
@@ -29,7 +29,8 @@ inline constexpr double kBlock_s = 2.0;
 /// A body of data around one crane.
 struct Evaluation {
   Fits drive, load;
-  std::vector<Eigen::VectorXd> under_way;  ///< whitened residuals of the drives along the measured motion
+  std::vector<Eigen::VectorXd>
+      equation_error;  ///< whitened residuals of the drives along the measured motion
   Blocks blocks;
   std::size_t drive_blocks = 0;  ///< the first of them
   double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
@@ -37,7 +38,7 @@ struct Evaluation {
 
 /// Noise and disturbance: by output of the drives, of the same along the measured motion, and of the load.
 struct Noise {
-  std::vector<Disturbance> drive, under_way, load;
+  std::vector<Disturbance> drive, equation_error, load;
 };
 
 struct Fitted {
@@ -150,7 +151,7 @@ class Study {
     Body& operator=(const Body&) = delete;
     const Runs& runs;
     Problem drive, load;
-    UnderWay under_way{drive};
+    EquationError equation_error{drive};
   };
 
  private:

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "crane/diagnosis/diagnosis.hpp"
-#include "crane/diagnosis/moment.hpp"
+#include "crane/diagnosis/kinematics.hpp"
 #include "experiment/next_experiment.hpp"
 #include "rules.hpp"
 #include "search/compare.hpp"
