@@ -1,5 +1,4 @@
-/// The least-squares fit of one cause, to set beside compare_scipy.py: the same data, model, bounds and
-/// start.
+/// Least-squares fit of one cause; compare_scipy.py fits the same data, model, bounds and start.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -21,7 +20,7 @@ Runs measured(const crane::configuration::Rig& rig) {
   return runs;
 }
 
-/// Of pivot friction: viscous and Coulomb; starts of the windows are projected out on the way.
+/// Pivot friction, viscous and Coulomb; starts of windows are projected out.
 void fit_of_pivot_friction(benchmark::State& state) {
   const auto rig = crane::configuration::load_rig(std::string{CRANE_RIGS} + "/uw_pendulum.toml");
   const Runs runs = measured(rig), none;
@@ -34,7 +33,7 @@ void fit_of_pivot_friction(benchmark::State& state) {
   const double inertia = rig.plant.load_mass_kg * std::pow(rig.start.position[crane::plant::kHoist], 2);
   const Effects start{{&*found, {0.02 * inertia, 0.005 * inertia}}};
   Fitted fitted = study.fit(start);
-  study.learn_disturbance(fitted.effects);  // until then friction itself counts as disturbance
+  study.learn_disturbance(fitted.effects);  // before, friction counts as disturbance
   for (auto _ : state) fitted = study.fit(start);
   state.counters["b_nmsprad"] = fitted.effects[0].values[0];
   state.counters["c_nm"] = fitted.effects[0].values[1];

@@ -1,4 +1,4 @@
-/// Values that no motion makes are named with row and time; left out where that is safe, refused where not.
+/// Values that no motion explains are named with row and time, and left out or refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ std::string refusal_of(const recording::Table& table) {
   return "";
 }
 
-TEST(BrokenData, AWholeFileHasNothingToSay) {
+TEST(BrokenData, AnIntactFileHasNoNotes) {
   const Loaded loaded = load_run(whole_file(), broken_lab(), "broken.csv");
   EXPECT_TRUE(loaded.notes.empty()) << loaded.notes[0];
 }
@@ -57,10 +57,10 @@ TEST(BrokenData, AColumnOfSpikesIsRefused) {
   EXPECT_THAT(refusal_of(table), AllOf(HasSubstr("swing_radial_rad"), HasSubstr("are spikes")));
 }
 
-TEST(BrokenData, AColumnThatFreezesInMotionIsLeftOutThere) {
+TEST(BrokenData, FrozenValuesInMotionAreLeftOut) {
   auto table = whole_file();
   auto& swing = values_of(table, "swing_radial_rad");
-  std::size_t from = 500;  // where it swings through rest, fast
+  std::size_t from = 500;  // fast part of the swing
   while (std::abs(swing[from + 1] - swing[from - 1]) < 0.004) ++from;
   for (std::size_t k = from; k < from + 77; ++k) swing[k] = swing[from];
   const Loaded loaded = load_run(table, broken_lab(), "broken.csv");
@@ -71,7 +71,7 @@ TEST(BrokenData, AColumnThatFreezesInMotionIsLeftOutThere) {
   EXPECT_TRUE(loaded.runs.at(0).seen(kTrolleyPosition, from + 20));
 }
 
-TEST(BrokenData, AnAxisThatRestsIsNotFrozen) {
+TEST(BrokenData, AnAxisAtRestIsNotFrozen) {
   const auto rest = [](double t) { return t < 4 ? 0.8 * std::sin(2 * M_PI * t / 4) : 0.0; };
   const auto table =
       strange::recorded(strange::moved({.drag_nspm = 60}, 12, rest), {.position_step_m = 1e-3});
@@ -79,7 +79,7 @@ TEST(BrokenData, AnAxisThatRestsIsNotFrozen) {
     EXPECT_THAT(note, Not(HasSubstr("do not change")));
 }
 
-TEST(BrokenData, ACountThatIsSetToZeroEndsThePieceAndIsNamed) {
+TEST(BrokenData, AResetCounterCutsTheRunAndIsNamed) {
   auto table = whole_file();
   auto& position = values_of(table, "trolley_position_m");
   const double lost = position[600];
@@ -89,7 +89,7 @@ TEST(BrokenData, ACountThatIsSetToZeroEndsThePieceAndIsNamed) {
   EXPECT_THAT(loaded.notes.at(0), AllOf(HasSubstr("jumps"), HasSubstr("row 601 at 6 s")));
 }
 
-TEST(BrokenData, ValuesThatAreMissingAreNamedAndCostTheirOwnColumnOnly) {
+TEST(BrokenData, MissingValuesAreNamedAndDoNotAffectOtherColumns) {
   auto table = whole_file();
   for (std::size_t k = 300; k < 330; ++k) values_of(table, "swing_radial_rad")[k] = std::nan("");
   const Loaded loaded = load_run(table, broken_lab(), "broken.csv");
@@ -98,7 +98,7 @@ TEST(BrokenData, ValuesThatAreMissingAreNamedAndCostTheirOwnColumnOnly) {
   EXPECT_TRUE(loaded.runs[0].seen(kTrolleyPosition, 310));
 }
 
-TEST(BrokenData, ASwingOfTheOtherSignIsRefused) {
+TEST(BrokenData, ASwingOfTheWrongSignIsRefused) {
   auto table = whole_file();
   for (double& swing : values_of(table, "swing_radial_rad")) swing = -swing;
   EXPECT_THAT(refusal_of(table), AllOf(HasSubstr("swing_radial_rad"), HasSubstr("sign?")));
@@ -113,7 +113,7 @@ TEST(BrokenData, AllProblemsAreNamedAtOnce) {
                                        HasSubstr("trolley_voltage_v")));
 }
 
-TEST(BrokenData, ATimeThatIsRepeatedCostsThatRow) {
+TEST(BrokenData, ARepeatedTimeLosesThatRow) {
   auto table = whole_file();
   values_of(table, "time_s")[200] = values_of(table, "time_s")[199];
   const Loaded loaded = load_run(table, broken_lab(), "broken.csv");

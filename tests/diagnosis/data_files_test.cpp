@@ -63,12 +63,12 @@ TEST(DiagnosisData, ReportsTheProblemsOfAllFilesAtOnce) {
                           HasSubstr("none.mcap"), HasSubstr("good.csv: is given twice")));
 }
 
-TEST(UnderControl, KeepsTheRowsInWhichTheSupervisorLetsTheCraneMove) {
+TEST(UnderControl, KeepsRowsInHoldAndRun) {
   const auto table = recording::parse_csv("time_s,supervisor_state\n0,2\n1,5\n2,6\n3,nan\n4,8\n", "run.csv");
   EXPECT_THAT(*under_control(table).find("time_s"), ElementsAre(1, 2)) << "5 HOLD, 6 RUN";
 }
 
-TEST(UnderControl, KeepsAllRowsWhereTheFileDoesNotSay) {
+TEST(UnderControl, KeepsAllRowsWithoutASupervisorState) {
   EXPECT_EQ(under_control(recording::parse_csv("time_s\n0\n1\n", "run.csv")).rows(), 2U);
   EXPECT_EQ(under_control(recording::parse_csv("time_s,supervisor_state\n0,nan\n1,nan\n", "run.csv")).rows(),
             2U);

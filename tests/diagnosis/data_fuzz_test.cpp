@@ -1,5 +1,5 @@
-/// No input crashes reader, mapping and loader: mutated files and small data sets at random. Deterministic;
-/// the number of cases comes from CRANE_FUZZ_CASES, the first seed from CRANE_FUZZ_SEED.
+/// No input crashes reader, mapping and loader: mutated files and small random data sets. CRANE_FUZZ_CASES
+/// sets the number of cases, CRANE_FUZZ_SEED the first seed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -95,7 +95,7 @@ class Fuzz {
  private:
   std::string cell(const std::string& name, double time_s, double wild) {
     if (below(60) == 0) return below(2) == 0 ? "" : "nan";
-    if (below(5000) == 0) return "1e300";  // one of them makes most files be refused
+    if (below(5000) == 0) return "1e300";  // rare: one makes most files refused
     const double wave = std::sin(2 * time_s + static_cast<double>(name.size()));
     const double value = name == "cable_length_m"                    ? 0.8 + 0.1 * wave
                          : name == "trolley_position_m"              ? 0.6 + 0.2 * wave

@@ -1,4 +1,4 @@
-/// Data at the times at which laboratories have them.
+/// Data at their own times: jitter, gaps, several sample times.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ std::size_t seen_in(const Run& run, Output output) {
   return seen;
 }
 
-/// Every row of the file that is compared stands at its own time with its own value.
+/// Every compared row has its own time and value.
 void expect_rows_as_they_are(const recording::Table& table, const Run& run) {
   const auto &time_s = *table.find("time_s"), &position = *table.find("trolley_position_m");
   for (std::size_t row = 0; row < run.rows(); ++row) {
@@ -46,7 +46,7 @@ void expect_rows_as_they_are(const recording::Table& table, const Run& run) {
   }
 }
 
-TEST(DataAtTheirOwnTimes, AMissingRowCostsThatRowAndNotTheRun) {
+TEST(DataAtTheirOwnTimes, AMissingRowDoesNotCutTheRun) {
   const auto truth = strange::moved({}, 12, strange::rich_command);
   auto table = strange::recorded(truth, {});
   for (auto& column : table.columns) column.values.erase(column.values.begin() + 500);
@@ -58,7 +58,7 @@ TEST(DataAtTheirOwnTimes, AMissingRowCostsThatRowAndNotTheRun) {
   EXPECT_THAT(loaded.notes.at(0), HasSubstr("1 rows are missing"));
 }
 
-TEST(DataAtTheirOwnTimes, JitterAndDroppedFramesCostNothingElse) {
+TEST(DataAtTheirOwnTimes, JitterAndDroppedFramesLoseNoOtherRow) {
   for (const double row_s : {0.1, 0.0345, 0.01}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
       SCOPED_TRACE("row " + std::to_string(row_s) + " s, seed " + std::to_string(seed));
@@ -70,6 +70,17 @@ TEST(DataAtTheirOwnTimes, JitterAndDroppedFramesCostNothingElse) {
                 0.98 * static_cast<double>(table.rows()));
       expect_rows_as_they_are(table, loaded.runs[0]);
     }
+  }
+}
+
+/// A grid that is a thousandth too fine slips by a row in ten seconds.
+TEST(DataAtTheirOwnTimes, JitteredTimesTellTheirPeriod) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Recording lab{.row_s = 0.01, .jitter = 0.4, .seed = seed};
+    const auto table = strange::recorded(strange::moved({}, 30, strange::rich_command), lab);
+    const Loaded loaded = load_run(table, gantry(), "lab.csv");
+    EXPECT_NEAR(loaded.runs.at(0).period_s, 0.01, 5e-6) << "seed " << seed;
+    EXPECT_EQ(seen_in(loaded.runs[0], kTrolleyPosition), table.rows());
   }
 }
 
@@ -94,9 +105,8 @@ TEST(DataAtTheirOwnTimes, TwoSampleTimesInOneFileAreOneRun) {
   expect_rows_as_they_are(table, loaded.runs[0]);
 }
 
-/// A dropped row has lost its command, too. To hold the one before would be wrong by the slope of the command
-/// times a row, 0.1 V here.
-TEST(DataAtTheirOwnTimes, TheCommandOfADroppedRowLiesBetweenThoseAround) {
+/// Without interpolation the command would be wrong by its slope times a row, 0.1 V.
+TEST(DataAtTheirOwnTimes, TheCommandOfADroppedRowIsInterpolated) {
   constexpr double kRow_s = 0.0275;
   const auto smooth = [](double t) { return 0.9 * std::cos(1.1 * t) + 0.7 * std::cos(2.9 * t + 1); };
   const auto whole = strange::recorded(strange::moved({}, 20, smooth), {.row_s = kRow_s});
@@ -113,7 +123,7 @@ TEST(DataAtTheirOwnTimes, TheCommandOfADroppedRowLiesBetweenThoseAround) {
         << "row " << row;
 }
 
-TEST(DataAtTheirOwnTimes, AnEdgeOfTheCommandMayHaveBeenLostWithARow) {
+TEST(DataAtTheirOwnTimes, AnEdgeOfTheCommandInADroppedRowIsMarked) {
   constexpr double kRow_s = 0.02;
   const auto edges = [](double t) { return std::fmod(t, 1.0) < 0.5 ? 0.8 : -0.8; };
   auto table = strange::recorded(strange::moved({}, 10, edges), {.row_s = kRow_s});
@@ -127,7 +137,7 @@ TEST(DataAtTheirOwnTimes, AnEdgeOfTheCommandMayHaveBeenLostWithARow) {
         << "row " << row;
 }
 
-TEST(DataAtTheirOwnTimes, FromTenHertzToTenKilohertz) {
+TEST(DataAtTheirOwnTimes, AreAcceptedFrom10HzOn) {
   EXPECT_EQ(loaded_as({.row_s = 0.1}).runs.size(), 1U);
   const diagnosis::Run fast = loaded_as({.row_s = 0.0005}).runs.at(0);
   EXPECT_NEAR(fast.period_s, 0.01, 1e-9);
@@ -135,19 +145,19 @@ TEST(DataAtTheirOwnTimes, FromTenHertzToTenKilohertz) {
   EXPECT_THROW((void)loaded_as({.row_s = 0.2}), DataError);
 }
 
-TEST(DataAtTheirOwnTimes, ASensorSlowerThanTheFileIsComparedWhereItMeasured) {
+TEST(DataAtTheirOwnTimes, ASlowSensorIsComparedAtItsOwnRows) {
   const diagnosis::Run run = loaded_as({.row_s = 0.01, .swing_every_s = 0.0345}).runs.at(0);
   EXPECT_EQ(run.rows(), 1200U);
   EXPECT_EQ(seen_in(run, kTrolleyPosition), 1200U);
   EXPECT_NEAR(static_cast<double>(seen_in(run, kRadialSwing)), 12 / 0.0345, 3);
 }
 
-TEST(DataAtTheirOwnTimes, OfASlowSensorInAFastFileNoRowIsLost) {
+TEST(DataAtTheirOwnTimes, ASlowSensorInAFastFileLosesNoRow) {
   const diagnosis::Run run = loaded_as({.row_s = 0.001, .swing_every_s = 0.0345}).runs.at(0);
   EXPECT_NEAR(static_cast<double>(seen_in(run, kRadialSwing)), 12 / 0.0345, 3);
 }
 
-/// Prediction of the right model at rows of their own times against the truth.
+/// Largest error of the right model at the rows' own times.
 double worst_prediction(const Recording& lab, Part part, Output output,
                         const std::function<double(double)>& command_v) {
   const auto rig = gantry();
@@ -173,7 +183,7 @@ double worst_prediction(const Recording& lab, Part part, Output output,
 double smooth_command(double t) { return 0.9 * std::cos(1.1 * t) + 0.7 * std::cos(2.9 * t + 1); }
 
 /// A count of the swing's encoder is 4e-4 rad, of the trolley's 2.5e-5 m.
-TEST(DataPredictedAtOwnTimes, ErrWellBelowAnySensorsNoise) {
+TEST(DataPredictedAtOwnTimes, HaveErrorsBelowTheSensorsNoise) {
   const Recording jittered{.row_s = 0.01, .jitter = 0.6, .dropped = 0.1};
   EXPECT_LT(worst_prediction({.row_s = 0.01}, Part::load, kRadialSwing, smooth_command), 5e-5);
   EXPECT_LT(worst_prediction(jittered, Part::load, kRadialSwing, smooth_command), 5e-5);
@@ -181,19 +191,19 @@ TEST(DataPredictedAtOwnTimes, ErrWellBelowAnySensorsNoise) {
             3.5e-4);
 }
 
-/// Steps of the acceleration inside a gap are what no measured motion shows.
-TEST(DataPredictedAtOwnTimes, OverGapsAreAsGoodAsTheMotionOfTheSupportIsKnown) {
+/// Steps of the acceleration inside a gap are not in the measured motion.
+TEST(DataPredictedAtOwnTimes, HaveBoundedErrorsOverGaps) {
   const Recording jittered{.row_s = 0.01, .jitter = 0.6, .dropped = 0.1};
   EXPECT_LT(worst_prediction(jittered, Part::load, kRadialSwing, strange::rich_command), 1e-3);
 }
 
-TEST(DataPredictedAtOwnTimes, FollowACommandThatChangesBetweenTheRowsThatAreCompared) {
+TEST(DataPredictedAtOwnTimes, FollowACommandThatChangesBetweenComparedRows) {
   // One row in ten is compared; the command changes every 2 ms.
   const auto held = [](double t) { return strange::rich_command(0.002 * std::floor(t / 0.002 + 1e-6)); };
   EXPECT_LT(worst_prediction({.row_s = 0.001}, Part::whole, kTrolleyPosition, held), 2e-4);
 }
 
-TEST(DataThatWereNotMeasured, EnterNoResidual) {
+TEST(MissingData, HaveNoResidual) {
   const auto rig = gantry();
   const Runs runs{prepare(loaded_as({.row_s = 0.01, .jitter = 0.4, .dropped = 0.2}).runs.at(0), rig)};
   for (const Part part : {Part::drive, Part::load}) {
@@ -218,7 +228,7 @@ TEST(DataThatWereNotMeasured, EnterNoResidual) {
   }
 }
 
-TEST(DataOfASensor, ResolutionAndNoiseAreWhatTheDataShow) {
+TEST(DataOfASensor, GiveItsResolutionAndNoise) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> gauss;
   for (const double finer : {0.01, 1.0, 100.0}) {
@@ -234,7 +244,7 @@ TEST(DataOfASensor, ResolutionAndNoiseAreWhatTheDataShow) {
   }
 }
 
-TEST(DataOfASensor, AHundredTimesFinerOrCoarserThanTheRigFileIsTakenAsItIs) {
+TEST(DataOfASensor, OverrideTheResolutionOfTheRigFile) {
   const auto rig = gantry();
   for (const double finer : {0.01, 1.0, 100.0}) {
     const Recording lab{.row_s = 0.01, .position_step_m = 2.5e-5 / finer};
@@ -243,8 +253,8 @@ TEST(DataOfASensor, AHundredTimesFinerOrCoarserThanTheRigFileIsTakenAsItIs) {
   }
 }
 
-/// A gantry watched by a camera at 29 Hz that drops frames, whose angle is a mean over 0.37 s.
-TEST(DataOfACamera, HasNoLargerErrorsInWindowsThanOverWholeRuns) {
+/// A gantry under a camera at 29 Hz with dropped frames and a mean of the angle over 0.37 s.
+TEST(DataOfACamera, HaveNoLargerErrorsInWindowsThanOverWholeRuns) {
   const auto rig = gantry();
   const auto watched = [&](std::uint64_t seed) {
     const Recording lab{.row_s = 0.0345,

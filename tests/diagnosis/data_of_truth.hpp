@@ -1,5 +1,5 @@
 #pragma once
-/// Runs of the truth as a study takes them.
+/// Prepared runs of the truth.
 #include "sealed_case.hpp"
 #include "study/study.hpp"
 #include "truth/truth.hpp"

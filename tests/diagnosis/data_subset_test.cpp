@@ -1,4 +1,4 @@
-/// Any subset of the columns that can tell anything.
+/// Subsets of the columns; mappings of rows and commands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ TEST(SubsetOfColumns, ADriveAloneIsCompared) {
   EXPECT_TRUE(loaded.runs.at(0).has(kTrolleyPosition));
 }
 
-TEST(SubsetOfColumns, ASupportAtRestMayBeSaidByTheMapping) {
+TEST(SubsetOfColumns, ASupportAtRestMayBeAConstantOfTheMapping) {
   const auto table = without(strange::recorded(strange::moved(
                                                    {}, 12, [](double) { return 0.0; }, 0.2),
                                                {}),
@@ -79,7 +79,7 @@ TEST(SubsetOfColumns, AMotionWithoutCommandAndSwingIsRefused) {
               HasSubstr("a motion alone tells nothing"));
 }
 
-TEST(SubsetOfColumns, RunsThatMeasureDifferentThingsAreRefusedByName) {
+TEST(SubsetOfColumns, RunsWithDifferentColumnsAreRefused) {
   const auto whole = load_run(measured_with(1, 1.5), subset_rig(), "whole.csv");
   const auto part = load_run(without(measured_with(2, 1.5), {"swing_radial_rad"}), subset_rig(), "part.csv");
   try {
@@ -108,7 +108,7 @@ TEST(MappingOfRows, ACommandMayBeACurrentOrATorque) {
   EXPECT_THAT(*canonical(table, mapping, "run.csv").find("trolley_voltage_v"), testing::ElementsAre(6));
 }
 
-TEST(MappingOfRows, TimesStretchesAndAnEnableColumnChooseRows) {
+TEST(MappingOfRows, TimesStretchesAndAnEnableColumnSelectRows) {
   const auto table = recording::parse_csv("time_s,on\n0,1\n1,1\n2,0\n3,1\n4,1\n5,1\n", "run.csv");
   const auto chosen = [&](const std::string& text) {
     return canonical(table, parse_mapping("[columns]\n" + text, "rows.toml"), "folder/run.csv");
@@ -124,7 +124,7 @@ TEST(MappingOfRows, TimesStretchesAndAnEnableColumnChooseRows) {
   EXPECT_THAT(*canonical(table, mapping, "run.csv").find("time_s"), testing::ElementsAre(1, 2, 3));
 }
 
-TEST(MappingOfRows, StretchesAreRunsOfTheirOwnAndRunsHaveTheirOwnLoad) {
+TEST(MappingOfRows, StretchesAreRunsAndRunsHaveTheirOwnLoad) {
   const auto mapping = parse_mapping(
       "[columns]\n[stretches]\n\"lab.csv\" = [0, 5, 5.1, 12]\n[runs.\"lab.csv\"]\ncable_length_m = 0.9\n"
       "load_mass_kg = 3.5\n",

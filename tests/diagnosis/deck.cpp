@@ -14,12 +14,12 @@ constexpr std::array kPattern{Kind::single, Kind::clean, Kind::single, Kind::pai
                               Kind::single, Kind::clean, Kind::single, Kind::confounded};
 constexpr std::array kMultiples{4.0, 2.0, 1.0};
 constexpr double kClear = 4, kSeconds = 30;
-/// Of data too poor to tell what is alike: one run, and how long.
+/// Poor data, which do not separate confounded causes: one run of this length.
 constexpr double kPoor = 3, kPoorSeconds = 12;
-/// Beyond this many times the nominal amplitude a crane is no crane any more.
+/// Largest multiple of the nominal amplitude of a credible crane.
 constexpr double kMostAmplitude = 3;
 
-/// An effect in data that show it but hardly what it is.
+/// An effect in data that do not separate it from its rival.
 struct Alike {
   const char *name, *axis, *run;
 };
@@ -44,9 +44,8 @@ truth::Case case_on(const std::string& rig, std::uint64_t seed) {
   return request;
 }
 
-/// A free pendulum with its only sensor late is one that was let go later, with its support tilted one whose
-/// sensor's zero is off, and with its sensor turned one that was let go in another direction: nothing in its
-/// data is wrong.
+/// Effects that a free pendulum cannot show: a late sensor is a later release, a tilted support an offset, a
+/// turned sensor another direction of release.
 bool shows_nowhere(const std::string& rig, const truth::Hidden& effect) {
   return rig == "pendulum" && (effect.name == "swing_delay" || effect.name == "swing_moving_average" ||
                                effect.name == "jib_tilt" || effect.name == "swing_misalignment");
@@ -69,7 +68,7 @@ bool possible(const std::string& rig, const std::vector<truth::Hidden>& effects)
 }
 
 /// Scales the effects one by one to `multiple` detection limits.
-/// @return what the smallest of them reaches: the crane's bounds stop some before that
+/// @return the smallest multiple reached: bounds of the crane limit some effects
 double set_amplitudes(truth::Case& request, double multiple) {
   constexpr double kTrial = 0.5;
   double reached = multiple;
@@ -84,7 +83,7 @@ double set_amplitudes(truth::Case& request, double multiple) {
   return reached;
 }
 
-/// The largest of the deck's multiples that an effect comes near to; 0 below all of them.
+/// Largest multiple of the deck that an effect reaches; 0: none.
 double nearest_multiple(double reached) {
   constexpr double kNear = 0.75;
   for (const double multiple : kMultiples)
@@ -92,7 +91,7 @@ double nearest_multiple(double reached) {
   return 0;
 }
 
-/// Every other set is of the tower; the rest takes turns among the rigs that can have the effects.
+/// Every other set is of the tower, the rest of the rigs that can have the effects, in turn.
 std::string rig_for(const std::vector<truth::Hidden>& effects, std::size_t turn) {
   constexpr std::array kRigs{"gantry", "drive_axis", "pendulum"};
   if (turn % 2 == 0) return "tower";
@@ -110,7 +109,7 @@ std::vector<std::string> names(bool in_library) {
   return all;
 }
 
-/// Two causes that are no confounded pair, every first one with ever another second one.
+/// Two causes that are not confounded.
 std::vector<truth::Hidden> two(std::size_t count) {
   const auto all = names(true);
   const std::string& first = all[count * 5 % all.size()];
@@ -132,14 +131,14 @@ Set set_of(std::size_t number, std::uint64_t first_seed) {
   const auto before = static_cast<std::size_t>(
       std::count(kPattern.begin(), kPattern.begin() + static_cast<std::ptrdiff_t>(place), set.kind));
   const auto each = static_cast<std::size_t>(std::count(kPattern.begin(), kPattern.end(), set.kind));
-  const std::size_t count = round * each + before;  // of this kind, before this one
+  const std::size_t count = round * each + before;  // earlier sets of this kind
   const std::uint64_t seed = first_seed + number;
   std::vector<truth::Hidden> effects;
   std::string rig;
   if (set.kind == Kind::single || set.kind == Kind::outside) {
     const auto all = names(set.kind == Kind::single);
     effects = {{all[count * (set.kind == Kind::single ? 5 : 1) % all.size()], 1, ""}};
-    // Every amplitude of every cause in three rounds, and in any part of a round as many of each.
+    // All amplitudes of a cause in three rounds, balanced within a round.
     if (set.kind == Kind::single)
       set.multiple = kMultiples[(count % all.size() + count / all.size()) % kMultiples.size()];
     rig = rig_for(effects, count + count / all.size());

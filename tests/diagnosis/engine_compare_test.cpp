@@ -86,6 +86,23 @@ TEST_F(Compared, AValueHasToMakeTheDataLikelierThanLuckMakesOne) {
   EXPECT_TRUE(is_luck(luck_of_values(fitted, base, -5), kCandidates));
 }
 
+/// Two views of the same data, added, promise twice what the data tell: their scores scatter twice as much.
+TEST_F(Compared, AValueOfAddedViewsHasToEarnTwiceAsMuch) {
+  fitted.parameters = 1;
+  for (double& block : fitted.deviance) block -= 16.0 / kBlocks;
+  const double of_one_view = luck_of_values(fitted, base);
+  EXPECT_NEAR(of_one_view, std::erfc(std::sqrt(16.0 / 2)), 1e-9);
+  fitted.left_out.assign(kBlocks, 4.0 / kBlocks);  // 2 tr(H^-1 J) = 4
+  EXPECT_NEAR(luck_of_values(fitted, base), std::erfc(std::sqrt(8.0 / 2)), 1e-9);
+}
+
+TEST_F(Compared, AValueThatIsLuckMakesHeldOutDataALittleUnlikelierAtMost) {
+  fitted.parameters = 1;
+  EXPECT_TRUE(is_luck(luck_of_loss(fitted, base, 3), kCandidates));
+  EXPECT_TRUE(is_luck(luck_of_loss(fitted, base, -3), kCandidates));
+  EXPECT_FALSE(is_luck(luck_of_loss(fitted, base, -30), kCandidates));
+}
+
 TEST_F(Compared, AnEffectOfATenthOfTheBlocksIsOne) {
   for (std::size_t i = 0; i < kBlocks; i += 10) fitted.deviance[i] -= 20;
   EXPECT_TRUE(is_accepted());

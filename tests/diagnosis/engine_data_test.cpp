@@ -56,7 +56,7 @@ std::string problem_of(const Table& table) {
   return "";
 }
 
-TEST(MeasuredData, ArePassedOnAsTheyAre) {
+TEST(MeasuredData, AreLoadedUnchanged) {
   const Loaded loaded = load_run(plausible(), tower(), "data.csv");
   ASSERT_EQ(loaded.runs.size(), 1U);
   EXPECT_TRUE(loaded.notes.empty());
@@ -84,19 +84,19 @@ TEST(MeasuredData, WithoutTheCommandThatMovedTheAxisAreRefused) {
   EXPECT_THAT(problem_of(table), AllOf(HasSubstr("slew_voltage_v"), HasSubstr("missing")));
 }
 
-TEST(MeasuredData, WhoseTimeRunsBackwardsAreRefused) {
+TEST(MeasuredData, WithDecreasingTimeAreRefused) {
   Table table = plausible();
   column(table, "time_s")[200] = 1.0;
   EXPECT_THAT(problem_of(table), HasSubstr("time must increase"));
 }
 
-TEST(MeasuredData, WithASensorThatNeverChangesAreRefused) {
+TEST(MeasuredData, WithAConstantSensorAreRefused) {
   Table table = plausible();
   for (double& value : column(table, "swing_tangential_rad")) value = 0.01;
   EXPECT_THAT(problem_of(table), AllOf(HasSubstr("swing_tangential_rad"), HasSubstr("constant")));
 }
 
-TEST(MeasuredData, OfAnAxisThatIsNotAskedToMoveMayStandStillAndItIsSaid) {
+TEST(MeasuredData, OfAnAxisWithoutCommandMayBeConstantWithANote) {
   Table table = plausible();
   for (double& value : column(table, "slew_voltage_v")) value = 0;
   for (double& value : column(table, "slew_angle_rad")) value = 0.3;
@@ -107,14 +107,14 @@ TEST(MeasuredData, OfAnAxisThatIsNotAskedToMoveMayStandStillAndItIsSaid) {
   EXPECT_THAT(loaded.notes[0], AllOf(HasSubstr("slew_angle_rad"), HasSubstr("stands still")));
 }
 
-TEST(MeasuredData, WithSeveralMistakesNameAllOfThem) {
+TEST(MeasuredData, WithSeveralProblemsNameAll) {
   Table table = plausible();
   for (double& value : column(table, "swing_tangential_rad")) value = 0;
   for (double& value : column(table, "trolley_position_m")) value *= 1000;
   EXPECT_THAT(problem_of(table), AllOf(HasSubstr("swing_tangential_rad"), HasSubstr("trolley_position_m")));
 }
 
-TEST(MeasuredData, AreCutWhereTheStateIsLostAndItIsSaid) {
+TEST(MeasuredData, AreCutAtALongGapWithANote) {
   Table table = plausible();
   for (auto& c : table.columns) c.values.erase(c.values.begin() + 130, c.values.begin() + 290);
   for (double& t : column(table, "time_s")) t *= 2;
@@ -125,7 +125,7 @@ TEST(MeasuredData, AreCutWhereTheStateIsLostAndItIsSaid) {
   EXPECT_THAT(loaded.notes[0], AllOf(HasSubstr("1 gaps"), HasSubstr("row 131 at 5.8 s")));
 }
 
-TEST(MeasuredData, AreCutWhereACountJumpsAndItIsSaid) {
+TEST(MeasuredData, AreCutAtAResetCounterWithANote) {
   Table table = plausible();
   auto& position = column(table, "trolley_position_m");
   for (std::size_t k = 200; k < position.size(); ++k) position[k] -= 0.4;
@@ -147,7 +147,7 @@ TEST(Smoothing, IsExactForCubicsUpToTheEnds) {
     const double t = 0.1 * k;
     cubic.push_back(1 + 2 * t - 3 * t * t + 0.5 * t * t * t);
   }
-  const Motion motion = smooth(cubic, 0.1, 3);
+  const Motion motion = savitzky_golay(cubic, 0.1, 3);
   for (int k = 0; k < 40; ++k) {
     const double t = 0.1 * k;
     const auto at = static_cast<std::size_t>(k);
@@ -157,7 +157,7 @@ TEST(Smoothing, IsExactForCubicsUpToTheEnds) {
   }
 }
 
-TEST(Spline, IsWhatItsAccelerationIntegratedTwiceGivesBack) {
+TEST(Spline, IsReproducedByItsAccelerationIntegratedTwice) {
   constexpr double kPeriod_s = 0.01;
   const std::uint64_t seed = 4;
   std::mt19937_64 random(seed);

@@ -1,4 +1,4 @@
-/// The score's own judgement: what is said against what was hidden.
+/// Judgement of the score: diagnosis against hidden effects.
 #include <gtest/gtest.h>
 
 #include "judgement.hpp"
@@ -37,7 +37,7 @@ TEST(Judgement, OfTwoCauses) {
   EXPECT_EQ(judged({"motor_gain"}, hidden), Judged::wrong);
 }
 
-TEST(Judgement, ACauseThatIsLikeBothOfTwoStandsForBoth) {
+TEST(Judgement, OfACauseConfoundedWithBothIsGroup) {
   EXPECT_EQ(judged({"jib_tilt"}, {"command_offset", "swing_offset"}), Judged::group);
 }
 

@@ -17,7 +17,7 @@ configuration::Rig rig_of_losses() {
   return configuration::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml");
 }
 
-/// What the slew's encoder counts of a motion.
+/// Motion of the slew in whole counts.
 Run counted(const std::function<double(double)>& angle_rad) {
   const double counts_per_rad = rig_of_losses().encoders[kSlewAngle].counts_per_unit;
   Run run;
@@ -31,7 +31,7 @@ Run counted(const std::function<double(double)>& angle_rad) {
 
 double swinging_rad(double t) { return 0.8 * std::sin(1.1 * t) + 0.05 * std::sin(7 * t); }
 
-/// About two jumps a second, of 2 to 6 mrad, one of them in the first row and two of them side by side.
+/// About two jumps per second of 2 to 6 mrad, one in the first row, two in neighbouring rows.
 Run losing(std::uint64_t seed, double& lost_rad) {
   Run run = counted(swinging_rad);
   std::mt19937_64 random(seed);
@@ -48,7 +48,7 @@ Run losing(std::uint64_t seed, double& lost_rad) {
   return run;
 }
 
-TEST(LostCounts, AreCountedAndPutBackToAFewCounts) {
+TEST(LostCounts, AreFoundAndRemovedToAFewCounts) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     SCOPED_TRACE(seed);
     double lost_rad = 0;
@@ -72,9 +72,8 @@ TEST(LostCounts, AreCountedAndPutBackToAFewCounts) {
   }
 }
 
-/// A position sensor of 50 nm that is sampled at 1 kHz shows the roughness of the motion, not its counts; a
-/// coarse one shows its counts.
-TEST(LostCounts, AreNoneWhateverTheResolutionOfTheSensorAndTheNoiseOfTheMotion) {
+/// A fine sensor at 1 kHz shows the roughness of the motion, a coarse one its counts.
+TEST(LostCounts, AreNotFoundAtAnyResolution) {
   for (const double finer : {1.0, 100.0, 0.01}) {
     auto rig = rig_of_losses();
     rig.encoders[kTrolleyPosition].counts_per_unit *= finer;
@@ -97,17 +96,17 @@ TEST(LostCounts, AreNoneWhateverTheResolutionOfTheSensorAndTheNoiseOfTheMotion) 
   }
 }
 
-TEST(LostCounts, AreNoneInAMotionThatIsMeasuredWhole) {
+TEST(LostCounts, AreNotFoundInAnUndisturbedMotion) {
   EXPECT_TRUE(losing_encoders({counted(swinging_rad)}, rig_of_losses()).empty());
 }
 
-/// A gap whose flanks meet gives the motor another speed at once.
-TEST(LostCounts, AreNoneWhereTheSpeedJumps) {
+/// An impact in a gap changes the motor's speed at once.
+TEST(LostCounts, AreNotFoundWhereTheSpeedJumps) {
   const auto knocked = [](double t) { return 0.2 * std::abs(std::sin(3 * t)); };
   EXPECT_TRUE(losing_encoders({counted(knocked)}, rig_of_losses()).empty());
 }
 
-TEST(LostCounts, AreNoneWhereAnAxisSticksAndBreaksLoose) {
+TEST(LostCounts, AreNotFoundWhereAnAxisSticksAndBreaksLoose) {
   const auto sticking = [](double t) {
     const double phase = std::fmod(t, 0.5);
     return 0.02 * std::floor(t / 0.5) + (phase < 0.4 ? 0 : 2 * (phase - 0.4) * (phase - 0.4));
@@ -115,9 +114,8 @@ TEST(LostCounts, AreNoneWhereAnAxisSticksAndBreaksLoose) {
   EXPECT_TRUE(losing_encoders({counted(sticking)}, rig_of_losses()).empty());
 }
 
-/// Between two rows of a slow sampling a drive breaks loose and comes to rest again: its command shows that
-/// it can.
-TEST(LostCounts, AreNoneThatTheDriveCanSlipFromRowToRow) {
+/// Between two rows a drive can break loose and come to rest, if its command is large enough.
+TEST(LostCounts, AreNotFoundWhereTheDriveCanSlipAsFar) {
   const auto slipping = [](double t) { return 0.002 * std::floor(t / 0.25); };
   auto run = counted(slipping);
   ASSERT_EQ(losing_encoders({run}, rig_of_losses()).size(), 1U);
@@ -127,7 +125,7 @@ TEST(LostCounts, AreNoneThatTheDriveCanSlipFromRowToRow) {
   EXPECT_TRUE(losing_encoders({run}, rig_of_losses()).empty());
 }
 
-TEST(LostCounts, ThatAreTooFewAreNotBelieved) {
+TEST(LostCounts, AreNotFoundInTwoJumps) {
   auto run = counted(swinging_rad);
   for (const std::size_t row : {500U, 1500U})
     for (std::size_t k = row; k < kRows; ++k) run.measured[kSlewAngle][k] += 0.004;

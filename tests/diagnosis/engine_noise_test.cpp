@@ -1,4 +1,4 @@
-/// What a crane leaves that is exactly as modelled, in units of the noise learnt from it.
+/// Mean loss of the residual of the right model, in units of its learnt noise.
 #include <gtest/gtest.h>
 
 #include "data_of_truth.hpp"
@@ -17,8 +17,8 @@ double mean_loss(const Fits& fits) {
 
 class NoiseOfARig : public testing::TestWithParam<const char*> {};
 
-/// A start that is not solved for, the speed of a drive above all, leaves four to eight times as much.
-TEST_P(NoiseOfARig, LearntFromACraneAsModelledIsWhatItLeaves) {
+/// A start that is not solved for, above all the speed of a drive, gives four to eight times the loss.
+TEST_P(NoiseOfARig, IsThatOfTheResidualOfTheRightModel) {
   truth::Case request;
   request.rig = GetParam();
   request.seed = 29;

@@ -18,7 +18,7 @@ configuration::Rig tower_with(const std::vector<plant::TermSetting>& terms) {
   return rig;
 }
 
-/// What CVODE makes of a lively command: exact positions at every tick.
+/// The rig under a rich command, by CVODE: exact positions at every tick.
 Run integrated(const configuration::Rig& rig, double seconds, double liveliness = 1) {
   plant::Model model(rig.plant, rig.terms, rig.period_s);
   simulator::Integrator integrator(model);
@@ -55,7 +55,7 @@ void visit_errors(const Run& run, const configuration::Rig& rig, Part part, Visi
   for (std::size_t first = 5; first + rows < run.rows(); first += rows) {
     std::vector<double> out(rows * outputs.size());
     auto start = replay.measured_start(part, first);
-    // The measured rate is a difference quotient; the comparison is about the equations, not about it.
+    // A more exact rate than the measured one: the test is of the equations.
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       const auto& y = run.measured[outputs[i]];
       start[2 * i] = y[first];
@@ -83,7 +83,7 @@ double rms(const Run& run, const configuration::Rig& rig, Part part) {
 TEST(FixedStepReplay, AgreesWithCvodeWithoutFriction) {
   configuration::Rig rig = tower_with({});
   rig.terms.clear();
-  const auto run = integrated(rig, 8, 0.15);        // nothing else keeps this crane on its track
+  const auto run = integrated(rig, 8, 0.15);        // small: without friction the crane would leave its track
   EXPECT_LT(worst(run, rig, Part::drive), 1.5e-4);  // 2 s of double integration from a difference quotient
   EXPECT_LT(worst(run, rig, Part::load), 7e-5);     // a quarter of a count
   EXPECT_LT(worst(run, rig, Part::whole), 1.5e-4);
@@ -96,7 +96,7 @@ TEST(FixedStepReplay, AgreesWithCvodeThroughReversalsWithStiffFriction) {
   EXPECT_LT(worst(run, rig, Part::load), 7e-5);
 }
 
-TEST(FixedStepReplay, OfTheLoadSeesAnEffectOnTheLoad) {
+TEST(FixedStepReplay, OfTheLoadDependsOnADragOfTheLoad) {
   const configuration::Rig plain = tower_with({});
   const configuration::Rig dragged = tower_with({{"load_linear_drag", "", {{"coefficient_nspm", 0.5}}}});
   const auto run = integrated(dragged, 8);
@@ -104,9 +104,9 @@ TEST(FixedStepReplay, OfTheLoadSeesAnEffectOnTheLoad) {
   EXPECT_GT(worst(run, plain, Part::load), 5e-3);
 }
 
-/// Behind a gap nothing is measured, and a flank that meets a little late meets at quite another time soon
-/// after: without what the motor's speed shows of impacts the right gap would be no better than none.
-TEST(FixedStepReplay, OfTheLoadGoesWhereTheGapBehindTheMotorLetsIt) {
+/// The position behind a gap is not measured, and the times of impacts are chaotic: without the correction by
+/// the motor's speed the true gap would fit no better than none.
+TEST(FixedStepReplay, OfTheLoadFitsBestWithTheTrueGapOfTheDrive) {
   constexpr double kGap_rad = 0.01, kClearly = 0.4;
   const auto with_gap = [](double gap_rad) {
     return tower_with(
@@ -118,7 +118,7 @@ TEST(FixedStepReplay, OfTheLoadGoesWhereTheGapBehindTheMotorLetsIt) {
     EXPECT_LT(right, kClearly * rms(run, with_gap(wrong_rad), Part::load)) << wrong_rad;
 }
 
-/// A command that changes at every row, held back by so many rows and a half, on an axis without friction.
+/// A command that changes at every row, delayed by 3.5 rows, on an axis without friction.
 TEST(FixedStepReplay, SwitchesADelayedCommandInsideARow) {
   constexpr double kRowsLate = 3.5;
   const std::uint64_t seed = 6;
@@ -148,25 +148,25 @@ TEST(FixedStepReplay, SwitchesADelayedCommandInsideARow) {
   std::vector<double> out(run.rows());
   const std::array start{0.3, 0.0};
   replay.run(Part::drive, 0, run.rows(), start, out);
-  const Replay::Guided guided = replay.guided(kTrolleyPosition);
+  const Replay::Increments increments = replay.increments_along_measurement(kTrolleyPosition);
   double way = 0.3, rate = 0;
   for (std::size_t k = 0; k < run.rows(); ++k) {
     ASSERT_NEAR(out[k], run.measured[kTrolleyPosition][k], 1e-9) << "seed " << seed << ", row " << k;
     ASSERT_NEAR(way, run.measured[kTrolleyPosition][k], 1e-9) << "seed " << seed << ", row " << k;
-    way += run.period_s * rate + guided.way[k];
-    rate += guided.speed[k];
+    way += run.period_s * rate + increments.distance[k];
+    rate += increments.speed_change[k];
   }
 }
 
-TEST(FrictionStep, HoldsAnAxisThatIsPushedLessThanItsFriction) {
+TEST(FrictionStep, HoldsAnAxisBelowItsFriction) {
   const auto friction = [](double v) { return 1.0 * std::tanh(v / 0.0005); };
   FrictionStep step;
   for (int k = 0; k < 20; ++k) step = friction_step(step.speed, 0.9, 1.0, 0.005, friction);
-  EXPECT_NEAR(step.speed, 0.0005 * std::atanh(0.9), 1e-6);  // the creep of the smoothed step
+  EXPECT_NEAR(step.speed, 0.0005 * std::atanh(0.9), 1e-6);  // creep of the smoothed step of friction
   EXPECT_NEAR(step.friction, 0.9, 1e-3);
 }
 
-TEST(FrictionStep, StopsAndTurnsInsideOneStepLikeManySmallOnes) {
+TEST(FrictionStep, StopsAndReversesInsideOneStepAsInManySmallOnes) {
   const std::uint64_t seed = 5;
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -182,9 +182,9 @@ TEST(FrictionStep, StopsAndTurnsInsideOneStepLikeManySmallOnes) {
       speed = implicit_speed(speed + dt * a, dt * 2.0, friction);
       way += 0.5 * dt * (before + speed);
     }
-    // Within twice the width of the smoothed step, which a whole step at once cannot resolve.
+    // Twice the width of the smoothed step of friction, which one step does not resolve.
     EXPECT_NEAR(step.speed, speed, 1e-3) << "seed " << seed << ", case " << i;
-    EXPECT_NEAR(step.way, way, 5e-6) << "seed " << seed << ", case " << i;
+    EXPECT_NEAR(step.distance, way, 5e-6) << "seed " << seed << ", case " << i;
   }
 }
 

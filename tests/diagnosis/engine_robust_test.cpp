@@ -1,39 +1,39 @@
-/// What counts how much: slips, standstill, waves over position.
+/// Cauchy loss, motion profile, spectrum over position.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "force/position_spectrum.hpp"
-#include "noise/paces.hpp"
+#include "noise/motion_profile.hpp"
 #include "robust.hpp"
 #include "sealed_case.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
-TEST(Loss, IsQuadraticForNoiseAndCountsASlipOfAHundredDeviationsLikeTen) {
+TEST(Loss, IsQuadraticForNoiseAndLogarithmicForSlips) {
   EXPECT_NEAR(loss_of(0.3), 0.09, 0.001);
   EXPECT_LT(loss_of(100), 10 * 10);
   for (const double e : {-4.0, -0.5, 0.2, 3.0, 30.0})
     EXPECT_NEAR(weight_of(e) * e, (loss_of(e + 1e-5) - loss_of(e - 1e-5)) / 4e-5, 1e-6) << e;
 }
 
-/// Out at 0.1 m/s for a second, a second of rest, back.
-TEST(Paces, TellWhereAnAxisStandsTurnsAndIsSlow) {
+/// 1 s at 0.1 m/s, 1 s of rest, 1 s back.
+TEST(MotionProfile, HasThePhasesOfTheMotion) {
   std::vector<double> position;
   double x = 0;
   for (int k = 0; k < 300; ++k) position.push_back(x += k < 100 ? 1e-3 : k < 200 ? 0 : -1e-3);
-  const Paces paces = paces_of(position, 0.01, 20, 260);
-  EXPECT_EQ(paces[30].going, Going::on);
-  EXPECT_LT(paces[30].slow, 1e-9);
-  EXPECT_EQ(paces[130].going, Going::standing);
-  EXPECT_EQ(paces[130].slow, 1);
-  EXPECT_NE(paces[82].going, Going::standing) << "it moved a few rows before";
-  EXPECT_EQ(paces[230].going, Going::on);
+  const MotionProfile profile = motion_profile_of(position, 0.01, 20, 260);
+  EXPECT_EQ(profile[30].phase, MotionPhase::moving);
+  EXPECT_LT(profile[30].slowness, 1e-9);
+  EXPECT_EQ(profile[130].phase, MotionPhase::standing);
+  EXPECT_EQ(profile[130].slowness, 1);
+  EXPECT_NE(profile[82].phase, MotionPhase::standing) << "it moved a few rows before";
+  EXPECT_EQ(profile[230].phase, MotionPhase::moving);
 }
 
-/// x'' = K (V + a sin(2 pi x / w + psi)) in small steps, a run with one command.
+/// x'' = K (V + a sin(2 pi x / w + psi)) in small steps.
 TEST(PositionSpectrum, FindsPeriodAmplitudeAndPhaseOfARipple) {
   configuration::Rig rig = score::rig_file_of("drive_axis");
   rig.terms.clear();

@@ -1,4 +1,4 @@
-/// Where fits begin and what they know, on data of a crane that shares no code with the model.
+/// Starts and intervals of fits, on data of a crane that shares no code with the model.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 namespace crane::diagnosis {
 namespace {
 
-/// What a little delay promises is a valley of its own: a fit that begins there ends at a millisecond.
-TEST(Search, OfACommandThatComesMuchLaterBeginsInTheRightValley) {
+/// A small delay has its own local minimum: a fit from there ends at 1 ms.
+TEST(Search, FindsALongDelayOfTheCommand) {
   truth::Case request;
   request.rig = "drive_axis";
   request.seed = 3;
@@ -28,9 +28,9 @@ TEST(Search, OfACommandThatComesMuchLaterBeginsInTheRightValley) {
   EXPECT_NEAR(best.effects[0].values[0], 0.105, 0.05 * 0.105);
 }
 
-/// Where the axis breaks loose a little later or earlier, the loss goes up and down by more than all that
-/// tells one amplitude from the next one.
-TEST(Intervals, OfARippleReachAsFarAsItsLossIsRough) {
+/// The loss is rough, because the axis breaks loose earlier or later: by more than neighbouring amplitudes
+/// differ.
+TEST(Intervals, OfARippleContainTheTruthDespiteARoughLoss) {
   constexpr double kAmplitude_v = 0.6, kWavelength_m = 0.0127;
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
     truth::Case request;

@@ -1,4 +1,4 @@
-/// Starts of windows on a swing that no pendulum of the model makes, and loops inside loops.
+/// Starts of windows for a swing outside the model; nested parallel loops.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -16,7 +16,7 @@ constexpr double kRow_s = 0.01;
 
 configuration::Rig pendulum() { return configuration::load_rig(CRANE_RIGS "/pendulum.toml"); }
 
-/// A free pendulum of the rig by Runge-Kutta, with a line of `line_rad` at `line_hz` on the measured angle.
+/// Free pendulum of the rig by the mid-point rule, with a sine on the measured angle.
 Run swing(const configuration::Rig& rig, const std::string& name, double start_rad, double line_rad,
           double line_hz, double phase_rad) {
   const double cable_m = rig.start.position[plant::kHoist];
@@ -41,7 +41,7 @@ Run swing(const configuration::Rig& rig, const std::string& name, double start_r
   return run;
 }
 
-TEST(Starts, LeaveNoWindowWorseThanStandingStillWhateverLineIsOnTheSwing) {
+TEST(Starts, LeaveNoWindowWorseThanStandingStill) {
   const auto rig = pendulum();
   std::mt19937 random{20261};
   std::uniform_real_distribution<double> amplitude{0.1, 0.3}, frequency{1.5, 4}, phase{0, 6.28};
@@ -63,7 +63,7 @@ TEST(Starts, LeaveNoWindowWorseThanStandingStillWhateverLineIsOnTheSwing) {
   }
 }
 
-TEST(ParallelFor, AnExceptionOfOneLoopDoesNotCutTheLoopsInsideItsOtherIterationsShort) {
+TEST(ParallelFor, ExceptionDoesNotCancelNestedLoopsOfOtherIterations) {
   for (int round = 0; round < 5000; ++round) {
     std::atomic<bool> whole{true};
     EXPECT_THROW(parallel_for(8,

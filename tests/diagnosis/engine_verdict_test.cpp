@@ -1,4 +1,4 @@
-/// What a verdict says in words.
+/// Verdicts in words.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -32,7 +32,7 @@ TEST(Sentence, NamesAllCauses) {
             "A parameter of the model is off: viscous_friction (slew).");
 }
 
-TEST(Sentence, SaysWhichOfTwoCausesIsInDoubt) {
+TEST(Sentence, NamesTheCauseInDoubt) {
   EXPECT_EQ(said(of(Verdict::ambiguous, {kDelay}, {"actuator_lag"})),
             "These data cannot tell command_delay (trolley) from actuator_lag.");
   EXPECT_EQ(
@@ -41,7 +41,7 @@ TEST(Sentence, SaysWhichOfTwoCausesIsInDoubt) {
       "actuator_lag, command_offset.");
 }
 
-TEST(Sentence, OfADoubtNamesNoCauseAndSaysWhy) {
+TEST(Sentence, OfADoubtGivesTheReasonAndNoCause) {
   Diagnosis diagnosis = of(Verdict::ambiguous, {kDelay}, {"actuator_lag"});
   doubt(diagnosis, "trolley: friction by position");
   EXPECT_EQ(diagnosis.verdict, Verdict::unknown);
@@ -50,7 +50,7 @@ TEST(Sentence, OfADoubtNamesNoCauseAndSaysWhy) {
             "Something is wrong that no known cause explains (trolley: friction by position).");
 }
 
-/// Beside what is said of the rest of the model.
+/// Beside the verdict on the rest of the model.
 class EncoderThatLosesCounts : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -80,7 +80,7 @@ class EncoderThatLosesCounts : public testing::Test {
   static inline std::optional<Study> study_;
 };
 
-TEST_F(EncoderThatLosesCounts, IsNamedWhereNothingElseIsWrong) {
+TEST_F(EncoderThatLosesCounts, IsNamedAlone) {
   const Diagnosis found = named_beside(of(Verdict::none, {}));
   EXPECT_EQ(found.verdict, Verdict::named);
   EXPECT_EQ(found.sentence, "The simulation lacks position_drift (trolley).");
@@ -88,14 +88,14 @@ TEST_F(EncoderThatLosesCounts, IsNamedWhereNothingElseIsWrong) {
   EXPECT_EQ(found.extension[0].parameters.at("jump"), 0.002);
 }
 
-TEST_F(EncoderThatLosesCounts, IsSaidAlsoWhereTheRestIsUnknown) {
+TEST_F(EncoderThatLosesCounts, IsNamedBesideAnUnknownError) {
   const Diagnosis found = named_beside(of(Verdict::unknown, {}));
   EXPECT_EQ(found.verdict, Verdict::unknown);
   EXPECT_EQ(found.sentence.find("An encoder loses counts. Something is wrong"), 0U) << found.sentence;
   EXPECT_EQ(found.causes.at(0).name, "position_drift");
 }
 
-TEST_F(EncoderThatLosesCounts, AndDriftsBesideIsOneCauseWithAllThatItLoses) {
+TEST_F(EncoderThatLosesCounts, IsOneCauseTogetherWithItsDrift) {
   Diagnosis before = of(Verdict::named, {cause("position_drift", "trolley", 1), kFriction});
   before.causes[0].parameters = {{"rate", "m/m", 0.02, 0.004}};
   before.extension = {{"position_drift", "trolley", {{"rate", 0.02}}}, {"viscous_friction", "slew", {}}};

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeastNoise = 1e-7;
 
-/// Windows of a drive with viscous friction under a coloured acceleration, seen with noise.
+/// Residuals of a drive with viscous friction under a coloured acceleration, with sensor noise.
 std::vector<Eigen::VectorXd> windows(double noise, double acceleration, double correlation_s,
                                      double damping_ps, std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -33,11 +33,11 @@ std::vector<Eigen::VectorXd> windows(double noise, double acceleration, double c
   return all;
 }
 
-std::vector<Passage> moving(const std::vector<Eigen::VectorXd>& residuals) {
-  std::vector<Passage> passages;
+std::vector<WindowMotion> moving(const std::vector<Eigen::VectorXd>& residuals) {
+  std::vector<WindowMotion> motions;
   for (const Eigen::VectorXd& r : residuals)
-    passages.push_back({0.01, 0, Paces(static_cast<std::size_t>(r.size()))});
-  return passages;
+    motions.push_back({0.01, 0, MotionProfile(static_cast<std::size_t>(r.size()))});
+  return motions;
 }
 
 TEST(Whitener, FindsNoiseAndDisturbanceOfADrive) {
@@ -52,7 +52,7 @@ TEST(Whitener, FindsNoiseAndDisturbanceOfADrive) {
                                                           "from a whole one";
 }
 
-TEST(Whitener, LearnsTheNoiseOfCountsFromAnAxisThatStandsExactlyStill) {
+TEST(Whitener, LearnsTheQuantisationNoiseOfAnAxisAtRest) {
   const std::vector<Eigen::VectorXd> residuals(3, Eigen::VectorXd::Zero(200));
   const Disturbance learned = learn(residuals, moving(residuals), 1e-5);
   EXPECT_EQ(learned.noise, 1e-5);
@@ -62,11 +62,11 @@ TEST(Whitener, LearnsTheNoiseOfCountsFromAnAxisThatStandsExactlyStill) {
 
 TEST(Whitener, MakesTheResidualWhite) {
   const auto residuals = windows(1e-4, 0.05, 0.5, 4, 12);
-  const auto passages = moving(residuals);
-  const Whitener whitener(learn(residuals, passages, kLeastNoise), passages[0]);
+  const auto motions = moving(residuals);
+  const Whitener whitener(learn(residuals, motions, kLeastNoise), motions[0]);
   double square = 0, neighbours = 0;
   for (Eigen::VectorXd r : residuals) {
-    // The free start of a window is taken out first, as the fit does.
+    // The start of the window is projected out, as in the fit.
     Eigen::MatrixXd z(r.size(), 2);
     for (Eigen::Index k = 0; k < r.size(); ++k) z.row(k) << 1, 1 - std::exp(-0.04 * static_cast<double>(k));
     whitener.apply(r);
@@ -80,10 +80,10 @@ TEST(Whitener, MakesTheResidualWhite) {
   EXPECT_NEAR(neighbours / count, 0, 0.1);
 }
 
-/// Windows of an axis that goes, stands and breaks loose by an impulse that no friction law knows.
+/// Residuals of an axis that moves, rests and breaks loose with a random impulse.
 struct Sticking {
   std::vector<Eigen::VectorXd> residuals;
-  std::vector<Passage> passages;
+  std::vector<WindowMotion> motions;
 };
 Sticking sticking(std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -92,28 +92,28 @@ Sticking sticking(std::uint64_t seed) {
   Sticking all;
   for (int w = 0; w < 40; ++w) {
     Eigen::VectorXd seen(200);
-    Passage passage{kPeriod_s, 0, Paces(200)};
+    WindowMotion motion{kPeriod_s, 0, MotionProfile(200)};
     double x = 0, v = 0, a = 0;
     for (std::size_t k = 0; k < 200; ++k) {
       const std::size_t phase = (k + 13 * static_cast<std::size_t>(w)) % 80;
-      Pace& pace = passage.paces[k];
-      if (phase < 30) pace = {1, Going::standing};
-      if (phase >= 30 && phase < 33) pace = {1, Going::turning};
+      RowMotion& row_motion = motion.profile[k];
+      if (phase < 30) row_motion = {1, MotionPhase::standing};
+      if (phase >= 30 && phase < 33) row_motion = {1, MotionPhase::turning};
       seen[static_cast<Eigen::Index>(k)] = x + kNoise * normal(random);
-      if (pace.going != Going::on) v = 0;
-      if (pace.going == Going::turning) v = kImpulse * normal(random);
+      if (row_motion.phase != MotionPhase::moving) v = 0;
+      if (row_motion.phase == MotionPhase::turning) v = kImpulse * normal(random);
       a = 0.95 * a + 0.31 * kForce * normal(random);
-      if (pace.going != Going::standing) x += kPeriod_s * v, v += kPeriod_s * a;
+      if (row_motion.phase != MotionPhase::standing) x += kPeriod_s * v, v += kPeriod_s * a;
     }
     all.residuals.push_back(seen);
-    all.passages.push_back(passage);
+    all.motions.push_back(motion);
   }
   return all;
 }
 
-TEST(Whitener, SeesThatAnAxisSticksAndMakesWhiteWhatItLeaves) {
+TEST(Whitener, FindsThatAnAxisSticks) {
   const Sticking data = sticking(3);
-  const Disturbance learned = learn(data.residuals, data.passages, kLeastNoise);
+  const Disturbance learned = learn(data.residuals, data.motions, kLeastNoise);
   EXPECT_TRUE(learned.sticks);
   EXPECT_GT(learned.friction, 0);
   EXPECT_NEAR(learned.noise, 1e-6, 3e-7);
@@ -121,12 +121,12 @@ TEST(Whitener, SeesThatAnAxisSticksAndMakesWhiteWhatItLeaves) {
   EXPECT_LT(learned.acceleration, 0.12);
 }
 
-TEST(Whitener, DoesNotTakeASlowAxisForOneThatSticks) {
+TEST(Whitener, FindsThatASlowAxisDoesNotStick) {
   auto residuals = windows(1e-4, 0.05, 0.5, 4, 5);
-  auto passages = moving(residuals);
-  for (Passage& passage : passages)
-    for (std::size_t k = 80; k < 120; ++k) passage.paces[k] = {1, Going::standing};
-  EXPECT_FALSE(learn(residuals, passages, kLeastNoise).sticks);
+  auto motions = moving(residuals);
+  for (WindowMotion& motion : motions)
+    for (std::size_t k = 80; k < 120; ++k) motion.profile[k] = {1, MotionPhase::standing};
+  EXPECT_FALSE(learn(residuals, motions, kLeastNoise).sticks);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-/// Effects are hidden in data by code that shares nothing with the diagnosis, written as CSV with a sealed
-/// answer; the diagnosis sees the CSV alone. Every cause once at a clear amplitude, on the smallest rig and
-/// the shortest data that show it. `crane bench diagnosis` scores weak effects and long data.
+/// Hidden effects: code that shares nothing with the diagnosis writes CSV with a sealed answer. Each cause
+/// once at a clear amplitude, on the smallest rig and the shortest data that show it. `crane bench diagnosis`
+/// scores weak effects and long data.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using testing::AnyOf;
 
-TEST(TheSets, HideEveryCauseOfTheLibraryAndEveryEffectOutsideIt) {
+TEST(TheSets, ContainEveryCauseAndEveryEffectOutsideTheLibrary) {
   std::set<std::string> hidden;
   for (const auto* sets : {&kFoundAlone, &kAlike, &kNotFoundYet, &kOutside})
     for (const HiddenSet& set : *sets) hidden.insert(set.name);
@@ -27,7 +27,7 @@ TEST(TheSets, HideEveryCauseOfTheLibraryAndEveryEffectOutsideIt) {
 
 class EveryCause : public testing::TestWithParam<HiddenSet> {};
 
-TEST_P(EveryCause, IsNamedAloneAndTheExtendedModelIsBetterOnHeldOutRuns) {
+TEST_P(EveryCause, IsNamedAloneAndReducesTheHeldOutError) {
   const SealedCase sealed(case_of(GetParam()));
   const Diagnosis found = sealed.diagnosed();
   EXPECT_EQ(judge(found, sealed.answer()), Judged::right) << found.sentence;
@@ -35,11 +35,10 @@ TEST_P(EveryCause, IsNamedAloneAndTheExtendedModelIsBetterOnHeldOutRuns) {
 }
 INSTANTIATE_TEST_SUITE_P(Hidden, EveryCause, testing::ValuesIn(kFoundAlone), name_of_test);
 
-/// What the engine does not find in these data yet, all of it here. It must not name something else with
-/// confidence.
+/// Causes that are not found in these data: no other cause may be named with confidence.
 class KnownShortcoming : public testing::TestWithParam<HiddenSet> {};
 
-TEST_P(KnownShortcoming, IsNotTakenForAnotherCauseWithConfidence) {
+TEST_P(KnownShortcoming, IsNoOtherCauseWithConfidence) {
   const SealedCase sealed(case_of(GetParam()));
   const Diagnosis found = sealed.diagnosed();
   const Judged judged = judge(found, sealed.answer());
@@ -50,8 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Hidden, KnownShortcoming, testing::ValuesIn(kNotFoundYe
 
 class WithoutItsTerm : public testing::TestWithParam<HiddenSet> {};
 
-/// The library without the term of what is hidden: whoever is named with confidence now is wrong. Only a
-/// cause that is alike until something else changes may take its place.
+/// The library without the hidden term: only a confounded cause may be named with confidence.
 TEST_P(WithoutItsTerm, NoOtherCauseIsNamedWithConfidence) {
   const SealedCase sealed(case_of(GetParam()));
   Request request;
@@ -63,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(Hidden, WithoutItsTerm, testing::ValuesIn(kWithoutTerm)
 
 class SwitchedOff : public testing::TestWithParam<HiddenSet> {};
 
-/// With amplitude 0 the data are those of the crane alone, whatever the effect (data_test.cpp of the truth):
-/// one set per rig and seed stands for all causes above.
+/// With amplitude 0 the data do not depend on the effect (data_test.cpp of the truth): one set per rig and
+/// seed.
 TEST_P(SwitchedOff, NothingIsFound) {
   const SealedCase sealed(case_of(GetParam()));
   ASSERT_TRUE(sealed.answer().empty());
@@ -98,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Hidden, TwoAtOnce, testing::ValuesIn(kPairs), [](const 
 
 class Alike : public testing::TestWithParam<HiddenSet> {};
 
-TEST_P(Alike, AreAmbiguousOrRightAndTheProposedRunDecides) {
+TEST_P(Alike, AreAmbiguousOrRightAndResolvedByTheProposedRun) {
   truth::Case request = case_of(GetParam());
   const SealedCase sealed(request);
   const Diagnosis found = sealed.diagnosed();
@@ -114,9 +112,8 @@ TEST_P(Alike, AreAmbiguousOrRightAndTheProposedRunDecides) {
 }
 INSTANTIATE_TEST_SUITE_P(Hidden, Alike, testing::ValuesIn(kAlike), name_of_test);
 
-/// Fresh seeds, printed: seeds that a developer has seen prove little. Judged as a batch: with
-/// kRightOnFreshSeeds for each set a correct build has fewer right ones than asked for less than once in
-/// 10,000 runs.
+/// Fresh, printed seeds. A correct build, right in a share kRightOnFreshSeeds of sets, fails once in 10,000
+/// runs.
 TEST(FreshSeeds, AreJudgedRightAsABatch) {
   const char* given = std::getenv("CRANE_DIAGNOSIS_SEED");
   const std::uint64_t seed = given != nullptr ? std::stoull(given) : std::random_device{}();

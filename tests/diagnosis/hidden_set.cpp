@@ -29,11 +29,10 @@ const std::vector<HiddenSet> kFoundAlone{{"command_delay", "trolley", "drive_axi
                                          {"torque_ripple", "trolley", "drive_axis"},
                                          {"swing_moving_average", "", "tower"}};
 
-// What comes out as another: an elastic cable is found as a longer one, its bounce is never measured.
+// An elastic cable is found as a longer one: its bounce is never measured.
 const std::vector<HiddenSet> kNotFoundYet{{"cable_elasticity", "", "tower"}};
 
-// Without a load a gain and a scale of the encoder take each other's place, and so do, beside Coulomb
-// friction, a delay and a lag.
+// Confounded: gain and scale of the encoder without a load; delay and lag beside Coulomb friction.
 const std::vector<HiddenSet> kWithoutTerm{{"position_drift", "trolley", "drive_axis", 3},
                                           {"stribeck_friction", "trolley", "drive_axis"},
                                           {"position_dependent_friction", "trolley", "drive_axis"},
@@ -44,15 +43,15 @@ const std::vector<HiddenSet> kSwitchedOff{{"command_delay", "trolley", "drive_ax
                                           {"swing_delay", "", "tower", 0},
                                           {"payload_mass", "", "gantry", 0, 9}};
 
-// A gain that drifts is seen where there is no friction.
+// A drifting gain is visible without friction.
 const std::vector<HiddenSet> kOutside{
     {"magnetic_detent", "trolley", "drive_axis"},  {"gain_drift", "trolley", "gantry"},
     {"hysteretic_force", "trolley", "drive_axis"}, {"periodic_force", "trolley", "drive_axis"},
     {"load_periodic_force", "", "gantry"},         {"slew_crosstalk", "trolley", "tower"},
     {"sticking_brake", "trolley", "drive_axis"}};
 
-// A dead zone is what Coulomb friction does while the axis moves; an offset likewise of asymmetric friction.
-// One cable length does not tell a delay of the swing from a mean over time.
+// Confounded: dead zone and Coulomb friction while the axis moves; offset and asymmetric friction; delay and
+// moving average of the swing at one cable length.
 const std::vector<HiddenSet> kAlike{{"command_dead_zone", "trolley", "drive_axis"},
                                     {"command_offset", "trolley", "drive_axis"},
                                     {"steady_wind", "", "tower"},

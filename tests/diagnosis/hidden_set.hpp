@@ -1,5 +1,5 @@
 #pragma once
-/// The sets of the tests: what is hidden, where, how much, from which seed.
+/// Sets of the tests: hidden effect, axis, rig, amplitude, seed.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -26,8 +26,7 @@ inline void PrintTo(const HiddenPair& pair, std::ostream* out) {
   PrintTo(pair.second, out);
 }
 
-/// Runs of 30 s: a rich one to learn from and one to prove it on, where the smaller rigs are cheap also one
-/// from point to point.
+/// Runs of 30 s: one rich training run, one held out; on smaller rigs also one from point to point.
 [[nodiscard]] inline truth::Case case_of(const HiddenSet& set) {
   truth::Case request;
   request.rig = set.rig;
@@ -44,8 +43,7 @@ inline void PrintTo(const HiddenPair& pair, std::ostream* out) {
   return (name.empty() ? "" : name + "_of_") + set.rig + "_" + std::to_string(set.seed);
 }
 
-/// Of the fresh batch: how many, and the probability of "right" for each: measured 30 of 32, of which 0.8 is
-/// the lower end of the 95 % interval.
+/// Fresh batch: number of sets, and probability of "right" (measured 30 of 32; 0.8 is the lower 95 % bound).
 inline constexpr std::size_t kBatch = 12;
 inline constexpr double kRightOnFreshSeeds = 0.8;
 

@@ -32,13 +32,13 @@ Judged judge_named(const Diagnosis& found, const std::vector<HiddenEffect>& hidd
   return there > 0 || (alike > 0 && !too_many) ? Judged::partly : Judged::wrong;
 }
 
-/// A number that the truth and the library both have: library = factor * truth.
+/// Parameter of truth and library: library = factor * truth.
 struct Shared {
   std::string_view cause, truth, library;
   double factor = 1;
 };
-// The truth's asymmetry is the difference of both directions, the library's half of it; the truth's jib tilts
-// down; its swing sensors are turned the other way about.
+// Conventions of the truth: asymmetry is the whole difference of the directions, the jib tilts down, swing
+// sensors turn the other way.
 constexpr std::array kShared{
     Shared{"coulomb_friction", "coulomb_v", "level_v"},
     Shared{"viscous_friction", "viscous_vspm", "vspm"},

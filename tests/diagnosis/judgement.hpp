@@ -1,5 +1,5 @@
 #pragma once
-/// A diagnosis against the opened answer.
+/// Comparison of a diagnosis with the answer.
 #include <ostream>
 #include <string>
 #include <vector>
@@ -9,16 +9,15 @@
 namespace crane::diagnosis::score {
 
 enum class Judged {
-  right,       ///< what is there is named and nothing else; nothing: "none"; outside the library: "unknown"
-  among,       ///< ambiguous, what is there among the suspects
-  group,       ///< named is, for some or all of what is there, another cause of the same confounded group
-               ///< (docs/diagnosis.md, Limits)
-  beside,      ///< named together with a cause that is not there
-  partly,      ///< some of several causes named, or one that is alike
-  unsure,      ///< "unknown" where a cause of the library is there
-  missed,      ///< "none" where something is wrong
-  wrong,       ///< a cause named that is not there, with confidence
-  wrong_among  ///< ambiguous, what is there not among the suspects
+  right,       ///< exactly the hidden causes; "none" without any; "unknown" outside the library
+  among,       ///< ambiguous, hidden cause among the rivals
+  group,       ///< another cause of the same confounded group (docs/diagnosis.md, Limits)
+  beside,      ///< hidden cause and another one
+  partly,      ///< some of several causes, or confounded ones
+  unsure,      ///< "unknown" for a cause of the library
+  missed,      ///< "none" for a hidden cause
+  wrong,       ///< another cause, with confidence
+  wrong_among  ///< ambiguous, hidden cause not among the rivals
 };
 [[nodiscard]] const char* name_of(Judged judged);
 /// For messages of tests.
@@ -26,10 +25,10 @@ inline void PrintTo(Judged judged, std::ostream* out) { *out << name_of(judged);
 
 [[nodiscard]] Judged judge(const Diagnosis& found, const std::vector<HiddenEffect>& answer);
 
-/// Whether two causes are alike until something else changes.
+/// Whether two causes are confounded.
 [[nodiscard]] bool confounded(const std::string& a, const std::string& b);
 
-/// One estimated parameter of a cause that is there, against the truth's.
+/// An estimated parameter of a hidden cause, and its true value.
 struct Compared {
   std::string cause, parameter;
   double truth = 0, estimate = 0, std_dev = 0;
@@ -37,7 +36,7 @@ struct Compared {
   [[nodiscard]] bool inside() const;  ///< of the 95 % interval
   [[nodiscard]] bool within_5pc() const;
 };
-/// Parameters of the causes found that the truth's form shares with the library's.
+/// Parameters that truth and library have in common.
 [[nodiscard]] std::vector<Compared> compared(const Diagnosis& found, const std::vector<HiddenEffect>& answer);
 
 }  // namespace crane::diagnosis::score

@@ -43,7 +43,7 @@ time_s = { column = "t_ms", factor = 0.001 }
   EXPECT_THAT(*result.find("cable_length_m"), ElementsAre(0.7, 0.8));
 }
 
-TEST(Mapping, AnEmptyOneKeepsCanonicalColumnsOnly) {
+TEST(Mapping, WithoutColumnsKeepsCanonicalColumnsOnly) {
   const auto table = recording::parse_csv("tick,time_s,slew_angle_rad\n1,0,2\n", "run.csv");
   EXPECT_THAT(names_of(canonical(table, {}, "run.csv")), ElementsAre("time_s", "slew_angle_rad"));
 }
@@ -63,7 +63,7 @@ slew_angle_rad = { column = "", sign = 0 }
   EXPECT_THAT(problems, HasSubstr("their.toml:5: columns.slew_angle_rad.sign = 0: must be 1 or -1"));
 }
 
-TEST(Mapping, ReportsEveryColumnThatTheDataLack) {
+TEST(Mapping, ReportsEveryMissingColumn) {
   const auto mapping = parse_mapping(
       "[columns]\ntime_s = { column = \"t\" }\nswing_radial_rad = { column = \"theta\" }\n", "their.toml");
   try {
@@ -75,7 +75,7 @@ TEST(Mapping, ReportsEveryColumnThatTheDataLack) {
   }
 }
 
-TEST(Mapping, OfTheMeasuredPendulumGivesAnAngleAboutItsRest) {
+TEST(Mapping, OfTheMeasuredPendulumGivesAnAngleFromItsEquilibrium) {
   const auto mapping = load_mapping(std::filesystem::path{CRANE_MAPPINGS} / "uw_pendulum.toml");
   const auto rig = configuration::load_rig(std::filesystem::path{CRANE_RIGS} / "uw_pendulum.toml");
   for (const std::string name : {"uw_pendulum_id1.csv", "uw_pendulum_vad1.csv"}) {
@@ -84,7 +84,7 @@ TEST(Mapping, OfTheMeasuredPendulumGivesAnAngleAboutItsRest) {
     ASSERT_EQ(loaded.runs.size(), 1U);
     const auto& swing = loaded.runs[0].measured[kRadialSwing];
     ASSERT_EQ(swing.size(), 917U);
-    // A free decay: both sides are visited, and its mean is small against a swing of half a radian and more.
+    // A free decay of more than 0.5 rad to both sides, with a small mean.
     double mean = 0;
     for (const double angle : swing) mean += angle / static_cast<double>(swing.size());
     EXPECT_LT(std::abs(mean), 0.05) << name;

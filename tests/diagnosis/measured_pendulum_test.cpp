@@ -1,4 +1,4 @@
-/// A real pendulum (data/SOURCE.md): its free decay, the last two pieces held out.
+/// Free decay of a real pendulum (data/SOURCE.md), one of the last two pieces held out.
 #include <gmock/gmock.h>
 
 #include "cli/diagnosis_data.hpp"
@@ -17,11 +17,11 @@ Diagnosis diagnosed(const std::string& held_out) {
   return diagnose(rig, data.train, data.test);
 }
 
-/// The rig file has no friction at all. The authors' viscous friction, its start solved for over the whole
-/// piece as here, is 6.5 mrad off over the one held-out piece and 16.2 mrad over the other.
+/// The rig file has no friction. The viscous friction of the authors errs by 6.5 mrad in vad1 and 16.2 mrad
+/// in vad2, from its best start.
 class MeasuredPendulum : public testing::TestWithParam<std::pair<const char*, double>> {};
 
-TEST_P(MeasuredPendulum, HasDryFrictionAndNothingThatPushes) {
+TEST_P(MeasuredPendulum, HasDryFrictionAndNoNegativeDamping) {
   const auto [piece, target_rad] = GetParam();
   const Diagnosis found = diagnosed(piece);
   EXPECT_EQ(found.verdict, Verdict::named) << found.sentence;

@@ -53,7 +53,7 @@ TEST_P(MotionMenu, EveryMotionIsAScenarioOfTheRig) {
   }
 }
 
-TEST_P(MotionMenu, TheRigAsItShouldBeStaysInItsLimits) {
+TEST_P(MotionMenu, TheNominalRigStaysInsideItsLimits) {
   for (const SafeMotion& motion : motion_menu(rig_)) {
     Crane crane{rig_.plant, rig_.terms};
     crane.parameters.load_mass_kg = motion.load_mass_kg;
@@ -63,7 +63,7 @@ TEST_P(MotionMenu, TheRigAsItShouldBeStaysInItsLimits) {
       std::vector<double> asked;
       for (std::size_t k = 0; k < run->run.rows(); ++k)
         asked.push_back(motion.reference(axis, static_cast<double>(k) * rig_.period_s).position);
-      // The loop is slow and friction holds the last bit of a creep back; most of the way is gone.
+      // The loop is slow, and friction holds the end of a creep.
       if (rig_.drives[axis].present) {
         EXPECT_GE(span(run->run.measured[axis]), 0.6 * span(asked)) << motion.name;
       }
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Rigs, MotionMenu,
                          testing::Values("virginia_tech_tower", "gantry", "drive_axis", "pendulum"),
                          [](const auto& entry) { return std::string{entry.param}; });
 
-TEST(MotionMenu, OfTheDissertationsRigIsWhatTheProjectsScenariosSay) {
+TEST(MotionMenu, OfTheDissertationsRigIsInTheScenarioFiles) {
   const auto rig = configuration::load_rig(kRigFiles / "virginia_tech_tower.toml");
   for (const SafeMotion& motion : motion_menu(rig)) {
     std::ifstream file{std::filesystem::path{CRANE_SCENARIOS} / ("experiment_" + motion.name + ".toml")};

@@ -4,7 +4,7 @@
 
 namespace crane::diagnosis::score {
 
-/// Makes the set, diagnoses its files, opens the answer, judges.
+/// Generates the set, diagnoses its files, and judges.
 /// @throws std::runtime_error without Debian's libmujoco-dev
 [[nodiscard]] Record scored_mujoco(std::size_t number, std::uint64_t deck_seed);
 [[nodiscard]] std::string kind_of_mujoco(std::size_t number);

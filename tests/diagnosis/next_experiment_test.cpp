@@ -8,13 +8,13 @@
 namespace crane::diagnosis {
 namespace {
 
-/// As learnt from such rigs: an encoder's noise and a force that changes within half a second.
+/// As learnt from such rigs: noise of an encoder, a force with a correlation time of 0.5 s.
 const Disturbances kDisturbances{{{.noise = 1e-5, .acceleration = 0.04, .correlation_s = 0.5},
                                   {.noise = 1e-5, .acceleration = 0.04, .correlation_s = 0.5},
                                   {.noise = 1e-4, .acceleration = 0.05, .correlation_s = 0.5},
                                   {.noise = 1e-4, .acceleration = 0.05, .correlation_s = 0.5}}};
 
-/// A rig and everything that can be wrong with it.
+/// A rig and its candidates.
 struct Suspects {
   explicit Suspects(const std::string& name)
       : rig(configuration::load_rig(std::filesystem::path{CRANE_RIGS} / (name + ".toml"))),
@@ -29,7 +29,7 @@ struct Suspects {
   [[nodiscard]] std::optional<NextExperiment> propose(const Effects& a, const Effects& b) const {
     return propose_experiment(rig, a, b, kDisturbances);
   }
-  /// The first parameter as given, the others without effect.
+  /// @param value of the first parameter; the others have no effect
   [[nodiscard]] Effect effect(const std::string& cause, const std::string& axis, double value) const {
     const Candidate& candidate = find(cause, axis);
     std::vector<double> values;
@@ -42,18 +42,18 @@ struct Suspects {
   std::vector<Candidate> candidates;
 };
 
-TEST(NextExperiment, TellsADelayFromALag) {
+TEST(NextExperiment, SeparatesADelayFromALag) {
   const Suspects tower("virginia_tech_tower");
   const auto proposed = tower.propose({tower.effect("command_delay", "trolley", 0.03)},
                                       {tower.effect("actuator_lag", "trolley", 0.03)});
   ASSERT_TRUE(proposed);
-  // Amplitude at two frequencies separates them, and only the trolley shows either.
+  // Two frequencies separate them, on the trolley.
   EXPECT_EQ(proposed->name, "shaking_trolley");
   EXPECT_GT(proposed->separation, 20);
   EXPECT_NO_THROW((void)experiment::parse_scenario(proposed->scenario, "next.toml", &tower.rig));
 }
 
-TEST(NextExperiment, LeavesAloneWhatIsBeyondDoubt) {
+TEST(NextExperiment, IgnoresCommonCauses) {
   const Suspects tower("virginia_tech_tower");
   const Effect friction = tower.effect("viscous_friction", "slew", 0.3);
   const auto proposed = tower.propose({friction, tower.effect("command_delay", "trolley", 0.03)},
@@ -62,7 +62,7 @@ TEST(NextExperiment, LeavesAloneWhatIsBeyondDoubt) {
   EXPECT_EQ(proposed->name, "shaking_trolley");
 }
 
-TEST(NextExperiment, TellsATiltedJibFromASwingOffset) {
+TEST(NextExperiment, SeparatesATiltedJibFromASwingOffset) {
   const Suspects gantry("gantry");
   const auto proposed =
       gantry.propose({gantry.effect("jib_tilt", "", 0.02)}, {gantry.effect("swing_offset", "radial", 0.02)});
@@ -70,7 +70,7 @@ TEST(NextExperiment, TellsATiltedJibFromASwingOffset) {
   EXPECT_GT(proposed->separation, 20);
 }
 
-TEST(NextExperiment, SaysNothingWhereBothAreTheSame) {
+TEST(NextExperiment, IsNotProposedForEqualHypotheses) {
   const Suspects axis("drive_axis");
   const Effect lag = axis.effect("actuator_lag", "trolley", 0.03);
   const Candidate same = *lag.candidate;
@@ -79,7 +79,7 @@ TEST(NextExperiment, SaysNothingWhereBothAreTheSame) {
                          << proposed->name;
 }
 
-TEST(NextExperiment, IsTheSameTwice) {
+TEST(NextExperiment, IsRepeatable) {
   const Suspects axis("drive_axis");
   const Effects a{axis.effect("command_delay", "trolley", 0.03)},
       b{axis.effect("actuator_lag", "trolley", 0.03)};

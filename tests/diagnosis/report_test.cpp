@@ -22,7 +22,7 @@ configuration::Rig rig_of(const std::string& name) {
   return configuration::load_rig(std::filesystem::path{CRANE_RIGS} / (name + ".toml"));
 }
 
-/// A gantry whose simulation misses a twentieth of the trolley's motion.
+/// A gantry whose simulation has 95 % of the trolley's motion.
 struct Example {
   Example() {
     run.name = "held_out.csv";
@@ -87,7 +87,7 @@ TEST(ReportJson, OfAnEmptyDiagnosisHasTheSameFields) {
   EXPECT_TRUE(empty["causes"].is_array());
 }
 
-/// A setting of the term that is neither its default nor extreme.
+/// Parameters of the term between default and bound.
 plant::TermSetting some(const plant::TermKind& kind) {
   plant::TermSetting setting{std::string{kind.name}, std::string{kind.axes.front()}, {}};
   for (const plant::TermParameter& p : kind.parameters) {
@@ -118,7 +118,7 @@ std::vector<std::array<std::int32_t, bridge::kCounters>> driven(const configurat
 
 class ExtendedRigTerm : public testing::TestWithParam<std::string> {};
 
-TEST_P(ExtendedRigTerm, LoadsWithItsTermAndRunsInTheSimulatorAsThatTerm) {
+TEST_P(ExtendedRigTerm, LoadsAndRunsInTheSimulator) {
   configuration::Rig rig = rig_of("virginia_tech_tower");
   Diagnosis diagnosis;
   diagnosis.extension = {some(*plant::find_term(GetParam()))};
@@ -140,7 +140,7 @@ std::vector<std::string> term_names() {
 INSTANTIATE_TEST_SUITE_P(All, ExtendedRigTerm, testing::ValuesIn(term_names()),
                          [](const auto& entry) { return entry.param; });
 
-TEST(ExtendedRig, KeepsTheRigAsItIsWhereNothingWasFound) {
+TEST(ExtendedRig, EqualsTheRigWithoutCauses) {
   const auto rig = rig_of("virginia_tech_tower_ideal");
   const auto extended =
       configuration::parse_rig(extended_rig_text(rig, Diagnosis{}), "/nowhere/extended.toml");
@@ -148,10 +148,10 @@ TEST(ExtendedRig, KeepsTheRigAsItIsWhereNothingWasFound) {
   EXPECT_EQ(extended.start.position, rig.start.position);
 }
 
-TEST(ResidualViews, TakeOutOnlyTheFreeMotionOfAStart) {
+TEST(ResidualViews, RemoveOnlyTheFreeMotionOfAStart) {
   Example example;
   auto& trolley = example.diagnosis.traces[0];
-  // Two windows of two seconds and more; a straight line in each is a start that is off.
+  // Two windows; a straight line in each is a wrong start.
   for (std::size_t k = 0; k < kRows; ++k) {
     trolley.baseline[k] = trolley.measured[k] - 0.3 - 0.02 * static_cast<double>(k);
     trolley.extended[k] = trolley.measured[k] - 0.001 * std::sin(0.3 * static_cast<double>(k));
@@ -176,7 +176,7 @@ TEST(ResidualViews, TakeOutOnlyTheFreeMotionOfAStart) {
                                   "swing rate [rad/s]", "trolley command [V]"));
 }
 
-TEST(ReportPage, SaysVerdictGainCandidatesRestAndNextExperiment) {
+TEST(ReportPage, HasVerdictGainCandidatesRemainderAndNextExperiment) {
   const Example example;
   const std::string html = report::to_html(report_page(example.diagnosis, rig_of("gantry"), {example.run}));
   for (const char* text : {"These data cannot tell command_delay", "0.670 [0.600, 0.700]", "0.03 ± 0.001 s",
@@ -190,7 +190,7 @@ std::string page_of(const Example& example) {
   return report::to_html(report_page(example.diagnosis, rig_of("gantry"), {example.run}));
 }
 
-TEST(ReportPage, ClaimsNoGainThatTheHeldOutRunsDoNotProve) {
+TEST(ReportPage, ClaimsNoUnprovenGain) {
   Example example;
   EXPECT_THAT(page_of(example), HasSubstr("error is smaller by 67 % (95 % interval 60 % to 70 %)"));
   example.diagnosis.held_out.gain_ci95 = {-0.1, 0.7};
@@ -200,13 +200,13 @@ TEST(ReportPage, ClaimsNoGainThatTheHeldOutRunsDoNotProve) {
   EXPECT_THAT(page_of(example), HasSubstr("error is larger by 3 %"));
 }
 
-TEST(ReportPage, SaysWhatWasHeldOutAndWhichGainEachColumnHas) {
+TEST(ReportPage, NamesTheHeldOutRunsAndTheGainOfEachColumn) {
   const std::string html = page_of(Example{});
   EXPECT_THAT(html, HasSubstr("1 hypothesis fitted. Held out: held_out.csv (6 s)."));
   EXPECT_THAT(html, HasSubstr(">0.667<")) << "trolley: 12 mm before, 4 mm after";
 }
 
-TEST(ReportPage, TellsRunsOfTheSameFileNameApart) {
+TEST(ReportPage, DistinguishesRunsOfTheSameFileName) {
   Example example;
   example.run.name = "/data/monday/recording.mcap";
   for (Trace& trace : example.diagnosis.traces) trace.run = example.run.name;
@@ -221,7 +221,7 @@ TEST(ReportPage, WritesLargeNumbersInFull) {
   EXPECT_THAT(page_of(example), HasSubstr(">204431<"));
 }
 
-TEST(ReportPage, GivesOnlyACandidateAloneAShareOfTheResamples) {
+TEST(ReportPage, GivesResamplesOfSingleCandidatesOnly) {
   Example example;
   example.diagnosis.ranking = {{"motor_gain (trolley)", {{"factor", "1", 1.1, 0.01}}, 9, 0.5, 0.77},
                                {"motor_gain (trolley) + jib_tilt", {}, 9, 0.5, 0}};

@@ -1,4 +1,4 @@
-/// The score in quarters of what the deck drew: where a diagnosis is weakest.
+/// The score by quarters of each nuisance of the deck.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,14 +11,14 @@ namespace {
 
 using Part = std::vector<const Record*>;
 
-/// Fewer sets than these are no quarter.
+/// Least number of sets of a quarter.
 constexpr std::size_t kLeastSets = 5;
 
 bool judged_as(const Record& r, std::initializer_list<Judged> any) {
   return std::any_of(any.begin(), any.end(), [&](Judged judged) { return r.judged == name_of(judged); });
 }
 
-/// Whether the verdict is what it should be, up to a confounded group.
+/// Whether the verdict is right up to a confounded group.
 bool good(const Record& r) {
   if (r.kind == name_of(Kind::clean) || r.kind == name_of(Kind::outside))
     return judged_as(r, {Judged::right});

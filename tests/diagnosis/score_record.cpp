@@ -28,7 +28,7 @@ std::string labels(const std::vector<Named>& all) {
   return text;
 }
 
-/// Everything but what is there left out of the library: the best that a diagnosis could have done.
+/// Oracle: the library has only the hidden causes.
 Diagnosis oracle(const SealedCase& sealed, const std::vector<HiddenEffect>& answer) {
   std::set<std::string> names;
   for (const plant::TermKind& kind : plant::term_kinds()) names.emplace(kind.name);
@@ -58,10 +58,10 @@ std::vector<Compared> estimates_in(const Json& all) {
   return estimates;
 }
 
-/// About what the motions of the menu last.
+/// Usual length of a motion of the menu.
 constexpr double kProposedSeconds = 24;
 
-/// Does the proposed run, added to the training data, decide it?
+/// Whether the proposed run, added to the training data, decides.
 void try_experiment(const Set& set, Record& record) {
   truth::Case more = set.request;
   const std::string run = run_like(record.experiment);

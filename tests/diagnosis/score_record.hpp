@@ -20,12 +20,12 @@ struct Record {
   std::string judged;  ///< name_of(Judged); "no data": the crane leaves its range; "failed": no answer
   std::string verdict, found;
   double gain = 0, oracle_gain = 0;  ///< oracle: refit of the true structure alone
-  bool oracle = false;               ///< there is one
-  std::vector<Compared> estimates;   ///< of the causes that are there
-  std::string experiment;            ///< proposed next one
+  bool oracle = false;               ///< an oracle exists
+  std::vector<Compared> estimates;   ///< of the hidden causes
+  std::string experiment;            ///< proposed
   std::string resolved;              ///< judged again with that run; empty: not tried
   double data_s = 0, runtime_s = 0, peak_mb = 0;
-  std::map<std::string, double> nuisance;  ///< what the deck drew for the set, by name; may be empty
+  std::map<std::string, double> nuisance;  ///< drawn by the deck, by name; may be empty
 };
 
 /// Generates, diagnoses, opens the answer, judges; then the oracle and, for confounded sets, the next
@@ -33,17 +33,17 @@ struct Record {
 [[nodiscard]] Record scored(const Set& set);
 
 [[nodiscard]] std::string line_of(const Record& record);
-/// Lines that end the file in the middle of a record are left out.
+/// An incomplete record at the end of the file is ignored.
 [[nodiscard]] std::vector<Record> read_records(const std::filesystem::path& file);
 /// One write at the end of the file, so that several processes may share it. @throws std::runtime_error
 void append(const std::filesystem::path& file, const Record& record);
 
-/// The targets' table of the records, as Markdown. @param quiet without what was hidden in which set
+/// Table of targets, as Markdown. @param quiet without hidden effects by set
 [[nodiscard]] std::string table_of(const std::vector<Record>& records, bool quiet = false);
-/// The sets in quarters of each nuisance, and the worst quarter; empty without nuisance.
+/// Table by quarters of each nuisance, with the worst; empty without nuisance.
 [[nodiscard]] std::string quarters_of(const std::vector<Record>& records);
 
-/// "command_delay@trolley + payload_mass", and what is as good as that in a diagnosis.
+/// "command_delay@trolley + payload_mass"; also of a diagnosis.
 [[nodiscard]] std::string labels_of(const std::vector<HiddenEffect>& effects);
 [[nodiscard]] std::string found_in(const Diagnosis& found);
 /// Of this process.

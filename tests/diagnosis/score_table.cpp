@@ -1,4 +1,4 @@
-/// The tables of the score: targets, power against amplitude, who is taken for whom.
+/// Tables of the score: targets, power against amplitude, confusions.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -19,7 +19,7 @@ Records only(const Records& all, const Is& is) {
   return some;
 }
 
-/// Without effects that do not reach the detection limit.
+/// Sets whose effects reach the detection limit.
 Records of_kind(const Records& all, Kind kind) {
   return only(all, [&](const Record& r) {
     return r.kind == name_of(kind) && r.judged != "no data" && (kind == Kind::clean || r.multiple > 0);
@@ -107,7 +107,7 @@ void add_rest(const Records& all, Targets& table) {
             share(static_cast<std::size_t>(solved), tried.size()));
 }
 
-/// How many estimates hold what they promise.
+/// Coverage of the intervals.
 struct Coverage {
   explicit Coverage(const std::vector<Compared>& estimates) {
     for (const Compared& one : estimates) {
@@ -117,7 +117,7 @@ struct Coverage {
     }
   }
   std::size_t inside = 0, either = 0;
-  std::vector<double> errors;  ///< as shares of the truth
+  std::vector<double> errors;  ///< relative
 };
 
 void add_numbers(const Records& all, Targets& table) {
@@ -165,7 +165,7 @@ std::string power(const Records& all) {
   return text.str();
 }
 
-/// Parameter by parameter, of causes named.
+/// By parameter, of named causes.
 std::string accuracy(const Records& all) {
   std::map<std::string, std::vector<Compared>> by_parameter;
   for (const Record& r : all)
@@ -184,7 +184,7 @@ std::string accuracy(const Records& all) {
   return text.str();
 }
 
-/// What was hidden and what was said instead.
+/// Confusions: hidden and named.
 std::string mistaken(const Records& all) {
   std::map<std::string, std::map<std::string, int>> said;
   for (const Record& r : all) {

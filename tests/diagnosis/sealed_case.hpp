@@ -1,6 +1,5 @@
 #pragma once
-/// Data with hidden effects as files, diagnosed from the files alone; the answer stays closed until the
-/// diagnosis has spoken.
+/// Files of data with hidden effects, diagnosed from the files alone; the answer is read afterwards.
 #include <filesystem>
 #include <map>
 #include <string>
@@ -17,17 +16,18 @@ struct HiddenEffect {
   std::map<std::string, double> parameters;  ///< names and units of the truth
 };
 
-/// A directory of its own, removed again.
+/// Owns a temporary directory.
 class SealedCase {
  public:
   /// Writes train_N.csv, test_N.csv and answer.json.
-  /// @throws std::invalid_argument, std::runtime_error when the crane cannot have it or leaves its range
+  /// @throws std::invalid_argument, std::runtime_error when the crane cannot have the effect or leaves its
+  /// range
   explicit SealedCase(const truth::Case& request);
   ~SealedCase();
   SealedCase(const SealedCase&) = delete;
   SealedCase& operator=(const SealedCase&) = delete;
 
-  /// Of the CSV files.
+  /// Diagnosis of the CSV files.
   [[nodiscard]] Diagnosis diagnosed(const Request& request = {}) const;
   /// Opens answer.json.
   [[nodiscard]] std::vector<HiddenEffect> answer() const;
@@ -37,7 +37,7 @@ class SealedCase {
   std::filesystem::path directory_;
 };
 
-/// The rig file that describes the truth's rig of that name without its effects.
+/// Rig file of the truth's rig, without effects.
 [[nodiscard]] configuration::Rig rig_file_of(const std::string& truth_rig);
 
 }  // namespace crane::diagnosis::score

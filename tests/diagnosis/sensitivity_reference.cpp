@@ -17,13 +17,13 @@ using plant::kSlew;
 using plant::kTrolley;
 
 constexpr double kRelative = 1e-9, kAbsolute = 1e-10;
-/// Share of the parameter's step over which df/dy s + df/dp is a central difference.
+/// Central difference of df/dy s + df/dp, as a share of the parameter's step.
 constexpr double kShare = 1e-3;
-/// The crane's ten numbers, then the voltages of trolley and slew behind one pole and behind two.
+/// State of the crane, then voltages of trolley and slew after one pole and after two.
 constexpr std::size_t kFirst = plant::kStateSize, kSecond = kFirst + 2, kSize = kSecond + 2;
 using Values = std::array<double, kSize>;
 
-/// What happens to a command before it is a voltage.
+/// Command terms of an axis.
 struct Input {
   double factor = 1, offset_v = 0, lag_s = 0, second_lag_s = 0, delay_s = 0;
 };
@@ -50,7 +50,7 @@ struct SmoothCrane {
     return terms;
   }
 
-  /// @param locks given motion of the drives, or nothing locked but the hoist
+  /// @param locks prescribed drives, or the hoist only
   [[nodiscard]] Values derivative(const Values& y, const plant::PerAxis& command_v,
                                   const plant::Locks& locks) const {
     plant::StateArray at{};
@@ -143,7 +143,7 @@ class Solver {
 
   [[nodiscard]] double delay_s(std::size_t axis) const { return here_.input[axis].delay_s; }
 
-  /// To `until_s`, where the command becomes another one.
+  /// Integrates until the next edge of the command.
   void advance(double from_s, double until_s, const plant::PerAxis& command_v) {
     command_v_ = command_v;
     std::copy(y.begin(), y.end(), N_VGetArrayPointer(y_));
@@ -158,7 +158,7 @@ class Solver {
     std::copy_n(N_VGetArrayPointer(s_), kSize, s.begin());
   }
 
-  /// The edge of a delayed command comes later by what the delay grows: s + (f before - f after) d t / d p.
+  /// A delay shifts the edge: s += (f before - f after) dt/dp.
   void cross_edge(const plant::PerAxis& before_v, const plant::PerAxis& after_v, std::size_t axis) {
     const double later = (more_.input[axis].delay_s - less_.input[axis].delay_s) / (2 * change_);
     if (later == 0) return;
@@ -197,7 +197,7 @@ class Solver {
     return 0;
   }
 
-  /// Coordinates whose motion is given do not feel the parameter.
+  /// Prescribed coordinates have no sensitivity.
   void keep_free(Values& slope) const {
     for (const std::size_t i : {0U, 1U, 2U, 3U}) {
       const bool drive = i % 2 == 0;  // trolley, radial, slew, tangential
@@ -232,7 +232,7 @@ struct Edge {
   std::size_t axis = 0, row = 0;
 };
 
-/// Instants at which the voltage of an axis changes, in order.
+/// Times of the edges of the voltages, in order.
 std::vector<Edge> edges_of(const Solver& solver, std::size_t rows, double period_s) {
   std::vector<Edge> edges;
   for (const std::size_t axis : {kTrolley, kSlew})

@@ -1,5 +1,5 @@
-/// Slopes that the fit takes from fixed-step replays, against CVODES' forward sensitivities, and those
-/// against finite differences.
+/// Slopes of fixed-step replays against forward sensitivities of CVODES, and these against finite
+/// differences.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kPeriod_s = 0.01;
 constexpr std::size_t kRows = 101;  // 1 s
-/// Where the fit stands when it asks for slopes (Study::slopes).
+/// Finite difference of the fit, in parameter steps (Study::slopes).
 constexpr double kShareOfStep = 0.3;
 
 struct Tested {
   const char *cause, *axis;
-  std::vector<double> values;  ///< of its parameters, where the slope is taken
+  std::vector<double> values;  ///< parameters at which the slope is taken
 };
 void PrintTo(const Tested& tested, std::ostream* out) { *out << tested.cause << " " << tested.axis; }
 
@@ -30,7 +30,7 @@ configuration::Rig smooth_tower() {
   return rig;
 }
 
-/// Neither drive turns: friction's step at standstill is for tests of its own (engine_replay_test.cpp).
+/// No drive reverses: friction at standstill has its own tests (engine_replay_test.cpp).
 std::vector<plant::PerAxis> onward_command() {
   std::vector<plant::PerAxis> command;
   for (std::size_t k = 0; k < kRows; ++k) {
@@ -72,7 +72,7 @@ double largest(const std::vector<Reported>& values) {
   return most;
 }
 
-/// What the crane with these terms does, without noise.
+/// Motion of the crane with these terms, without noise.
 diagnosis::Run measured_on(const configuration::Rig& rig, const std::vector<plant::TermSetting>& terms,
                            const std::vector<plant::PerAxis>& command) {
   const Varied nothing{[&](double) { return Crane{rig.plant, terms}; }, 0, 1};
@@ -137,19 +137,17 @@ class SlopesOfTheFit : public testing::TestWithParam<Tested> {
   std::vector<Candidate> candidates_;
 };
 
-/// Both are right to a share of the slope: the difference over 0.3 of a step bends by 0.5 * 7.7 rad/s * 1.5
-/// ms = 0.6 % for the delay, the largest; steps of 5 ms are wrong by less. Measured: 1 % and less. A slope
-/// wrong by 2 % makes a round of the fit fall short by 2 %, which the next one makes up.
+/// Tolerance as a share of the slope. The curvature over 0.3 step is 0.5 * 7.7 rad/s * 1.5 ms = 0.6 % for the
+/// delay, the largest; steps of 5 ms err less. Measured: at most 1 %. A slope with 2 % error costs a round of
+/// the fit 2 %.
 constexpr double kShareWrong = 0.02;
-/// A step of the parameter that changes nothing by more than this, a thousandth of a swing encoder's count,
-/// is not seen.
+/// m or rad, 1/1000 count of a swing encoder: a smaller change per step of the parameter is invisible.
 constexpr double kUnseen = 3e-7;
 
 TEST_P(SlopesOfTheFit, AgreeWithCvodes) {
   const Candidate& c = candidate();
   for (const Part part : {Part::drive, Part::load}) {
-    // What a sensor's error changes of the motion that is given to the other part, the reference has no way
-    // to say.
+    // The reference does not model sensor errors of the prescribed motion.
     const bool of_given = c.cause.starts_with(part == Part::drive ? "swing_" : "position_") &&
                           plant::find_term(c.cause)->acts_on == plant::ActsOn::sensor;
     if (!(part == Part::drive ? c.drive : c.load) || of_given) continue;
@@ -169,8 +167,8 @@ TEST_P(SlopesOfTheFit, AgreeWithCvodes) {
   }
 }
 
-/// The given motion with the sensors' errors undone moves the other part as CVODES has it moved.
-TEST(SensorErrors, AreUndoneBeforeTheSwingPullsAtTheDrives) {
+/// With inverted sensor terms the prescribed swing acts on the drives as in CVODES.
+TEST(SensorErrors, AreInvertedBeforeTheSwingActsOnTheDrives) {
   const configuration::Rig rig = smooth_tower();
   const std::vector<plant::TermSetting> errors{{"swing_scale", "radial", {{"factor", 1.2}}},
                                                {"swing_offset", "tangential", {{"offset_rad", 0.05}}}};
@@ -191,7 +189,7 @@ TEST(SensorErrors, AreUndoneBeforeTheSwingPullsAtTheDrives) {
 }
 
 /// CVODES against central differences of CVODES' own motion.
-TEST_P(SlopesOfTheFit, AreThoseOfFiniteDifferencesInCvodesItself) {
+TEST_P(SlopesOfTheFit, OfCvodesAgreeWithFiniteDifferences) {
   const Candidate& c = candidate();
   for (std::size_t i = 0; i < c.parameters.size(); ++i) {
     const Varied one = varied(rig_, c, GetParam().values, i);

@@ -1,7 +1,6 @@
 #pragma once
-/// A laboratory that records a gantry in its own ways. The crane is that of deploy/rigs/gantry.toml by
-/// Lagrange's equations, written down here and integrated by Runge-Kutta: it shares nothing with the
-/// diagnosis.
+/// A laboratory with its own way of recording. The gantry of deploy/rigs/gantry.toml by Lagrange's equations
+/// and Runge-Kutta; no code shared with the diagnosis:
 ///   x'' (M + m sin^2 r) = F - m sin r (g cos r + l r'^2),   l r'' = x'' cos r - g sin r,   F = M k u - c x'
 #include <array>
 #include <cmath>
@@ -15,7 +14,7 @@ namespace crane::strange {
 
 struct Gantry {
   double inertia_kg = 12, load_kg = 3, gain_mps2pv = 1.2, gravity_mps2 = 9.81, cable_m = 1.5;
-  double drag_nspm = 0;  ///< of the trolley: what the rig file lacks
+  double drag_nspm = 0;  ///< viscous, of the trolley; not in the rig file
 };
 
 struct Instant {
@@ -53,7 +52,7 @@ inline std::vector<Instant> moved(const Gantry& crane, double duration_s,
   return all;
 }
 
-/// A rich motion: three tones that do not fit together and steps.
+/// Three incommensurate tones and steps.
 inline double rich_command(double t) {
   return 0.9 * std::cos(1.1 * t) + 0.7 * std::cos(2.9 * t + 1) + 0.3 * std::cos(6.3 * t + 2) +
          (std::fmod(t, 3.7) < 0.6 ? 0.5 : -0.1);
@@ -63,14 +62,14 @@ struct Recording {
   double row_s = 0.01;       ///< of the file
   double jitter = 0;         ///< of a row's time, uniform, as a share of row_s
   double dropped = 0;        ///< share of rows
-  double swing_every_s = 0;  ///< the swing's cells are empty between; 0: every row
-  double swing_mean_s = 0;   ///< the swing's sensor averages that long
+  double swing_every_s = 0;  ///< interval of the swing's values; 0: every row
+  double swing_mean_s = 0;   ///< moving average of the swing's sensor
   double position_step_m = 2.5e-5, swing_step_rad = 3.8e-4;
   double position_noise_m = 0, swing_noise_rad = 0;
   std::uint64_t seed = 1;
 };
 
-/// As a file of the laboratory has it.
+/// Table of the laboratory's file.
 inline recording::Table recorded(const std::vector<Instant>& truth, const Recording& r) {
   recording::Table table;
   table.columns = {

@@ -1,7 +1,7 @@
 #pragma once
-/// for i in 0 ... count - 1 on all processors, also inside another one; results go to places of their own, so
-/// the order does not matter. An exception ends the loop it is thrown in and comes out of it; it does not
-/// cancel loops inside other iterations, which would go on with half of their results.
+/// Calls work(0) ... work(count - 1) on all processors; loops may be nested. Each iteration writes to its own
+/// result, so that the order does not matter. An exception cancels its own loop and is rethrown there; nested
+/// loops of other iterations run to their end.
 #include <tbb/parallel_for.h>
 #include <tbb/task_group.h>
 

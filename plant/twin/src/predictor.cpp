@@ -27,41 +27,41 @@ void Predictor::restart(const Known& now, const Mask& simulated) {
   locks.axis = {!simulated[diagnosis::kTrolleyPosition], !simulated[diagnosis::kSlewAngle], true};
   locks.radial = !simulated[diagnosis::kRadialSwing];
   locks.tangential = !simulated[diagnosis::kTangentialSwing];
-  course_.emplace(*model_, simulated, locks, step_s_);
-  course_->follow({given(now), {now.cable_m, now.cable_mps, 0}});
+  integrator_.emplace(*model_, simulated, locks, step_s_);
+  integrator_->prescribe({given(now), {now.cable_m, now.cable_mps, 0}});
   for (const auto column : diagnosis::kAllOutputs)
-    if (simulated[column]) position_of(course_->state, column) = now.reported[column];
+    if (simulated[column]) position_of(integrator_->state, column) = now.reported[column];
   // State for the measured sensor values, to first order in the sensor errors.
-  const PerColumn seen = columns_of(model_->measure(course_->state));
+  const PerColumn seen = columns_of(model_->measure(integrator_->state));
   for (const auto column : diagnosis::kAllOutputs) {
     if (!simulated[column]) continue;
-    position_of(course_->state, column) += now.reported[column] - seen[column];
-    rate_of(course_->state, column) = now.rate[column];
+    position_of(integrator_->state, column) += now.reported[column] - seen[column];
+    rate_of(integrator_->state, column) = now.rate[column];
   }
   before_ = now;
   predicted_ = now.reported;
 }
 
-std::array<diagnosis::Moment, kColumns> Predictor::given(const Known& now) const {
-  std::array<diagnosis::Moment, kColumns> moments;
-  for (std::size_t i = 0; i < kColumns; ++i) moments[i].position = now.reported[i];
-  return moments;
+std::array<diagnosis::Kinematics, kColumns> Predictor::given(const Known& now) const {
+  std::array<diagnosis::Kinematics, kColumns> kinematics;
+  for (std::size_t i = 0; i < kColumns; ++i) kinematics[i].position = now.reported[i];
+  return kinematics;
 }
 
 const PerColumn& Predictor::predict(const plant::PerAxis& applied_v, const Known& now) {
-  course_->new_command(model_->drive_voltage(applied_v));
+  integrator_->new_command(model_->drive_voltage(applied_v));
   const auto still = given(now);
   const auto cable = [&](double share) {
-    return diagnosis::Moment{std::lerp(before_.cable_m, now.cable_m, share),
-                             std::lerp(before_.cable_mps, now.cable_mps, share), 0};
+    return diagnosis::Kinematics{std::lerp(before_.cable_m, now.cable_m, share),
+                                 std::lerp(before_.cable_mps, now.cable_mps, share), 0};
   };
-  for (int step = 0; step < steps_; ++step) course_->step({still, cable((step + 0.5) / steps_)});
-  course_->follow({still, cable(1)});
+  for (int step = 0; step < steps_; ++step) integrator_->step({still, cable((step + 0.5) / steps_)});
+  integrator_->prescribe({still, cable(1)});
   for (const auto column : diagnosis::kAllOutputs)
-    position_of(course_->state, column) +=
-        slip_[column] * std::abs(rate_of(course_->state, column)) * step_s_ * steps_;
+    position_of(integrator_->state, column) +=
+        slip_[column] * std::abs(rate_of(integrator_->state, column)) * step_s_ * steps_;
   before_ = now;
-  predicted_ = columns_of(model_->measure(course_->state));
+  predicted_ = columns_of(model_->measure(integrator_->state));
   for (std::size_t i = 0; i < kColumns; ++i)
     if (!simulated_[i]) predicted_[i] = now.reported[i];
   return predicted_;
@@ -71,8 +71,8 @@ void Predictor::correct(const PerColumn& reported) {
   for (const auto column : diagnosis::kAllOutputs) {
     if (!simulated_[column]) continue;
     const double error = reported[column] - predicted_[column];
-    position_of(course_->state, column) += position_gain_ * error;
-    rate_of(course_->state, column) += rate_gain_ * error;
+    position_of(integrator_->state, column) += position_gain_ * error;
+    rate_of(integrator_->state, column) += rate_gain_ * error;
   }
 }
 

@@ -9,19 +9,16 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A spike lasts no longer than this many rows; more is another zero of the sensor.
+/// Longest spike in rows; more is another zero of the sensor.
 constexpr std::size_t kLongestSpike = 5;
-/// Beyond what the motion makes, in errors of the sensor: normal noise comes there once in 1e23 rows.
-constexpr double kBeyondSensor = 10;
-/// Share of broken values beyond which a column is refused.
-constexpr double kMostBroken = 0.05;
-/// A motion that is measured at so many errors of the sensor a row does not stop from one row to the next for
-/// so long, and go on elsewhere.
-constexpr double kMoving = 8, kFrozen_s = 0.25;
-constexpr std::size_t kFrozenRows = 10, kNamed = 3;
+/// Share of spikes beyond which a column is refused.
+constexpr double kLargestBrokenShare = 0.05;
+/// Frozen: constant for longer than both, between steps of more than kMovingRatio sensor errors.
+constexpr double kMovingRatio = 8, kFrozen_s = 0.25;
+constexpr std::size_t kFrozenRows = 10, kExamples = 3;
 
 struct BrokenRows {
-  std::size_t first = 0, last = 0;  ///< both broken
+  std::size_t first = 0, last = 0;  ///< inclusive
 };
 
 class Column {
@@ -33,7 +30,7 @@ class Column {
       if (std::isfinite(values[k])) seen_.push_back(k);
   }
 
-  /// Rows that lie further away than the motion can go there and back, and behind which it goes on as before.
+  /// Rows further away than the motion can go and return, after which the motion continues.
   std::vector<BrokenRows> spikes() {
     std::vector<BrokenRows> found;
     for (std::size_t good = 0, i = 1; i < seen_.size(); ++i) {
@@ -72,13 +69,13 @@ class Column {
   [[nodiscard]] std::size_t seen() const { return seen_.size(); }
 
  private:
-  /// Whether the value at `b` lies further from that at `a` than the motion goes until `until`.
+  /// Whether the value at `b` differs from that at `a` by more than the credible motion until `until`.
   [[nodiscard]] bool beyond(std::size_t a, std::size_t b, std::size_t until) const {
     return !(std::abs(values_[b] - values_[a]) <=
-             believable_change(rig_, output_, time_s_[until] - time_s_[a]) + kBeyondSensor * error_);
+             largest_credible_change(rig_, output_, time_s_[until] - time_s_[a]) + kBeyondSensor * error_);
   }
   [[nodiscard]] bool steps(std::size_t i, std::size_t j) const {
-    return std::abs(values_[seen_[j]] - values_[seen_[i]]) > kMoving * error_;
+    return std::abs(values_[seen_[j]] - values_[seen_[i]]) > kMovingRatio * error_;
   }
 
   std::vector<double>& values_;
@@ -90,21 +87,22 @@ class Column {
 };
 
 /// "3 spikes (row 12 at 0.11 s: 1e+07; ...)"
-void say(const std::string& column, const char* what, const std::vector<BrokenRows>& broken,
-         const std::vector<double>& time_s, const std::vector<double>& values, std::size_t of,
-         Findings& findings) {
+void add_finding(const std::string& column, const char* what, const std::vector<BrokenRows>& broken,
+                 const std::vector<double>& time_s, const std::vector<double>& values, std::size_t of,
+                 Findings& findings) {
   if (broken.empty()) return;
   std::size_t rows = 0;
   std::string named;
   for (std::size_t i = 0; i < broken.size(); ++i) {
     rows += broken[i].last - broken[i].first + 1;
-    if (i >= kNamed) continue;
+    if (i >= kExamples) continue;
     named += (named.empty() ? "row " : "; row ") + std::to_string(broken[i].first + 1);
     if (broken[i].last > broken[i].first) named += " to " + std::to_string(broken[i].last + 1);
     named += " at " + number(time_s[broken[i].first]) + " s: " + number(values[broken[i].first]);
   }
-  if (broken.size() > kNamed) named += "; and " + std::to_string(broken.size() - kNamed) + " more";
-  if (static_cast<double>(rows) > kMostBroken * static_cast<double>(of) && std::string{what} == "spikes")
+  if (broken.size() > kExamples) named += "; and " + std::to_string(broken.size() - kExamples) + " more";
+  if (static_cast<double>(rows) > kLargestBrokenShare * static_cast<double>(of) &&
+      std::string{what} == "spikes")
     findings.problem(
         column, std::to_string(rows) + " of " + std::to_string(of) + " values are spikes (" + named + ")",
         "at most one in twenty may be broken");
@@ -114,12 +112,12 @@ void say(const std::string& column, const char* what, const std::vector<BrokenRo
 
 }  // namespace
 
-double believable_change(const configuration::Rig& rig, Output output, double time_s) {
-  constexpr double kOfADrive = 5, kSlowest = 0.1, kOfASwing = 3;
+double largest_credible_change(const configuration::Rig& rig, Output output, double time_s) {
+  constexpr double kDriveSpeedRatio = 5, kSlowestDrive = 0.1, kSwingSpeedRatio = 3;
   if (output == kTrolleyPosition || output == kSlewAngle)
-    return kOfADrive * std::max(rig.drives[output].max_speed, kSlowest) * time_s;
+    return kDriveSpeedRatio * std::max(rig.drives[output].max_speed, kSlowestDrive) * time_s;
   const double length_m = std::max(rig.start.position[plant::kHoist], 0.05);
-  return kOfASwing * 2 * std::sqrt(rig.plant.gravity_mps2 / length_m) * time_s;
+  return kSwingSpeedRatio * 2 * std::sqrt(rig.plant.gravity_mps2 / length_m) * time_s;
 }
 
 void leave_broken_out(recording::Table& table, const configuration::Rig& rig, Findings& findings) {
@@ -135,9 +133,9 @@ void leave_broken_out(recording::Table& table, const configuration::Rig& rig, Fi
     const std::vector<BrokenRows> spikes = column.spikes(), freezes = column.freezes();
     column.leave_out(spikes);
     column.leave_out(freezes);
-    say(found->name, "spikes", spikes, times, before, column.seen(), findings);
-    say(found->name, "values that do not change while it moves", freezes, times, before, column.seen(),
-        findings);
+    add_finding(found->name, "spikes", spikes, times, before, column.seen(), findings);
+    add_finding(found->name, "values that do not change while it moves", freezes, times, before,
+                column.seen(), findings);
   }
 }
 

@@ -1,14 +1,18 @@
 #pragma once
-/// Values that no motion makes: spikes, columns that freeze. They are left out, each named with row and time.
+/// Values that no motion explains: spikes and frozen columns. They are left out and named with row and time.
 #include "data/columns.hpp"
 
 namespace crane::diagnosis {
 
-/// Largest change of an output in a time that is believed, m or rad: of a drive five times its largest speed,
-/// of a swing three times the speed of a fall from upright.
-[[nodiscard]] double believable_change(const configuration::Rig& rig, Output output, double time_s);
+/// Sensor errors by which a spike or a reset exceeds the credible motion: normal noise does so once in 1e23
+/// rows.
+inline constexpr double kBeyondSensor = 10;
 
-/// Makes broken values of the rig's outputs NaN. A column with too many of them is a problem.
+/// Largest credible change of an output in a time, m or rad: of a drive at five times its largest speed, of a
+/// swing at three times the speed of a fall from upright.
+[[nodiscard]] double largest_credible_change(const configuration::Rig& rig, Output output, double time_s);
+
+/// Sets broken values of the rig's outputs to NaN. A column with too many spikes is a problem.
 /// @pre the times increase
 void leave_broken_out(recording::Table& table, const configuration::Rig& rig, Findings& findings);
 

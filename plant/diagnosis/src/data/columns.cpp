@@ -10,12 +10,12 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A drive asked for less stays where friction holds it.
+/// A smaller command may not overcome friction.
 constexpr double kStandingCommand_v = 0.5;
-/// Swing beyond a straight angle both ways is not radians.
+/// A larger swing is not in radians: more than half a turn.
 constexpr double kLargestSwing_rad = 3.3;
 
-double spread(std::span<const double> values) {
+double range_of(std::span<const double> values) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double value : values)
     if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
@@ -59,7 +59,7 @@ class Checks {
       columns_.load_mass_kg = mass->front();
   }
 
-  /// All drives that are measured, or none of them: then their motion is the support of the load.
+  /// All measured drives have a command, or none has: then their motion is that of the load's support.
   void find_commands() {
     bool any = false, swings = false;
     for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
@@ -90,7 +90,7 @@ class Checks {
   void check_values() {
     for (std::size_t i = 0; i < kOutputs; ++i) {
       if (columns_.outputs[i].values == nullptr) continue;
-      const double range = spread(*columns_.outputs[i].values);
+      const double range = range_of(*columns_.outputs[i].values);
       if (!(range > 0))
         judge_constant(static_cast<Output>(i));
       else if (i >= kRadialSwing && largest(*columns_.outputs[i].values) > kLargestSwing_rad)
@@ -109,13 +109,13 @@ class Checks {
     }
   }
 
-  /// An axis that is not asked to move, and the swing it would excite, may stand still.
+  /// An axis without a command to move, and its swing, may stand still.
   void judge_constant(Output output) {
     const Output drive = output == kTrolleyPosition || output == kRadialSwing ? kTrolleyPosition : kSlewAngle;
     const auto* command = columns_.commands[drive].values;
     const bool support = output < kRadialSwing && command == nullptr;
     const bool asked = !support && (command == nullptr || largest(*command) > kStandingCommand_v);
-    const bool measured = std::isfinite(spread(*columns_.outputs[output].values));
+    const bool measured = std::isfinite(range_of(*columns_.outputs[output].values));
     if (asked || !measured)
       findings_.problem(columns_.outputs[output].name, "constant or empty",
                         "a sensor that never changes says nothing");
@@ -147,8 +147,8 @@ class Checks {
     if (trolley == nullptr) return;
     const configuration::Drive& drive = rig_.drives[plant::kTrolley];
     const double travel = drive.high_limit - drive.low_limit;
-    if (spread(*trolley) > 5 * travel)
-      findings_.problem(columns_.outputs[kTrolleyPosition].name, "moves over " + number(spread(*trolley)),
+    if (range_of(*trolley) > 5 * travel)
+      findings_.problem(columns_.outputs[kTrolleyPosition].name, "moves over " + number(range_of(*trolley)),
                         "the rig's travel is " + number(travel) + " m; millimetres?");
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The columns of a table that a run is made of, and what is wrong with them.
+/// Columns of a run in a table, and their problems.
 #include <array>
 #include <sstream>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace crane::diagnosis {
 
-/// One column of the file; without values when it is not there or the rig has nothing that it could measure.
+/// One column of the file; no values if it is missing or the rig has no such sensor.
 struct Source {
   std::string name;
   const std::vector<double>* values = nullptr;
@@ -20,11 +20,11 @@ struct Columns {
   std::array<Source, kOutputs> outputs;
   std::array<Source, 2> commands;  ///< of trolley and slew
   Source cable;
-  const std::vector<double>* stretch = nullptr;  ///< number of the stretch that counts, by row
-  double load_mass_kg = 0;                       ///< 0: the rig's own
+  const std::vector<double>* stretch = nullptr;  ///< number of the stretch, by row
+  double load_mass_kg = 0;                       ///< 0: as in the rig file
 };
 
-/// What was noticed in one file.
+/// Problems and notes of one file.
 struct Findings {
   std::string file;
   std::vector<std::string> problems, notes;
@@ -35,14 +35,14 @@ struct Findings {
   void note(const std::string& text) { notes.push_back(file + ": " + text); }
 };
 
-/// Whether every row has a time of its own, in order. Rows that repeat a time are left out.
+/// Whether times increase. Rows that repeat a time are removed.
 [[nodiscard]] bool times_increase(recording::Table& table, Findings& findings);
 
-/// Finds the columns that the rig has, and what is wrong with their names, units and values.
+/// Finds the columns of the rig and checks their names, units and values.
 [[nodiscard]] Columns checked_columns(const recording::Table& table, const configuration::Rig& rig,
                                       Findings& findings);
 
-/// As messages say it.
+/// As in messages.
 [[nodiscard]] inline std::string number(double value) {
   std::ostringstream text;
   text.precision(6);

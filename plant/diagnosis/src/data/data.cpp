@@ -14,18 +14,18 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Shorter pieces say nothing about a crane: less than half a swing of a metre of cable.
+/// Shorter pieces are left out: less than half a swing of 1 m of cable.
 constexpr double kShortest_s = 1.0;
-/// A gap after which nothing is left of a state: of a load, in its periods; of drives alone, s.
+/// A longer gap loses the state: in periods of the load; of drives alone in s.
 constexpr double kLostPeriods = 1.0, kLost_s = 2.0;
-/// Slowest sampling that follows a swing, s; a clock may be off by a percent.
+/// Slowest sampling that follows a swing, with 1 % error of the clock, s.
 constexpr double kSlowestRow_s = 0.1 * 1.01;
-/// Faster than any file of a laboratory: rather a time in another unit.
+/// Faster sampling is a time in another unit, s.
 constexpr double kFastestRow_s = 1e-5;
-/// Rows of the grid for one that was measured: a file of gaps.
-constexpr double kMostlyGaps = 50;
-/// Of rows, s more than usual from one to the next: a row is missing.
-constexpr double kMissing = 1.5;
+/// Grid rows per measured row: more is a file of gaps.
+constexpr double kMostGridRowsPerRow = 50;
+/// Step over usual step: more is a missing row.
+constexpr double kMissingRowRatio = 1.5;
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
@@ -39,10 +39,10 @@ double lost_after_s(const configuration::Rig& rig) {
   return kLostPeriods * 2 * std::numbers::pi * std::sqrt(cable_m / rig.plant.gravity_mps2);
 }
 
-/// Cuts checked columns into runs.
-class Cutter {
+/// Splits checked columns into runs where the state is lost.
+class RunSplitter {
  public:
-  Cutter(const Columns& columns, const configuration::Rig& rig, Findings& findings)
+  RunSplitter(const Columns& columns, const configuration::Rig& rig, Findings& findings)
       : columns_(columns), rig_(rig), findings_(findings), grid_(grid_of(*columns.time_s)) {}
 
   std::vector<Run> runs() {
@@ -60,12 +60,12 @@ class Cutter {
     if (runs_.empty() && findings_.problems.empty())
       findings_.problem("time_s", "no piece without a gap lasts " + number(kShortest_s) + " s",
                         "record longer");
-    say();
+    add_notes();
     return std::move(runs_);
   }
 
  private:
-  /// A count that falls back to zero or wraps moves an axis further in one sample than it can.
+  /// Whether an axis moves further than it can: a counter that is reset or wraps.
   [[nodiscard]] bool jumps(std::size_t row) {
     bool any = false;
     for (std::size_t i = 0; i < kOutputs; ++i) {
@@ -76,13 +76,13 @@ class Cutter {
       if (before == kNone) continue;
       const double time_s = (*columns_.time_s)[row] - (*columns_.time_s)[before];
       const double most =
-          believable_change(rig_, static_cast<Output>(i), time_s) + kBeyondSensor * sensors_[i].error();
+          largest_credible_change(rig_, static_cast<Output>(i), time_s) + kBeyondSensor * sensors_[i].error();
       any = any || std::abs((*values)[row] - (*values)[before]) > most;
     }
     return any;
   }
 
-  [[nodiscard]] bool says_something(std::size_t row) {
+  [[nodiscard]] bool measured_or_commanded(std::size_t row) {
     bool measured = false, complete = true;
     for (const Source& source : columns_.outputs)
       if (source.values != nullptr) {
@@ -93,7 +93,7 @@ class Cutter {
     bool commanded = false;
     for (const Source& source : columns_.commands)
       if (source.values != nullptr) commanded = commanded || std::isfinite((*source.values)[row]);
-    if (!complete) named(incomplete_, row);
+    if (!complete) count_row(incomplete_, row);
     return measured || commanded;
   }
 
@@ -108,7 +108,7 @@ class Cutter {
       piece.clear();
     };
     for (std::size_t k = 0; k < t.size(); ++k) {
-      if (!says_something(k)) continue;
+      if (!measured_or_commanded(k)) continue;
       if (!piece.empty()) {
         const double step_s = t[k] - t[piece.back()];
         const bool other_stretch =
@@ -116,15 +116,15 @@ class Cutter {
         if (other_stretch) {
           finish();
         } else if (step_s > lost_s) {
-          named(gaps_, k);
+          count_row(gaps_, k);
           finish();
-        } else if (step_s > kMissing * grid_.row_s) {
+        } else if (step_s > kMissingRowRatio * grid_.row_s) {
           dropped_rows_ += static_cast<std::size_t>(std::lround(step_s / grid_.row_s)) - 1;
         }
       }
       if (piece.empty()) last_seen_.fill(kNone);
       if (jumps(k)) {
-        named(resets_, k);
+        count_row(resets_, k);
         finish();
       }
       piece.push_back(k);
@@ -139,7 +139,8 @@ class Cutter {
       ++short_pieces_;
       return;
     }
-    if (t[rows.back()] - t[rows.front()] > kMostlyGaps * grid_.period_s * static_cast<double>(rows.size())) {
+    if (t[rows.back()] - t[rows.front()] >
+        kMostGridRowsPerRow * grid_.period_s * static_cast<double>(rows.size())) {
       findings_.problem("time_s", "rows come every " + number(grid_.row_s) + " s, and most are missing",
                         "one in fifty has to be there");
       return;
@@ -155,7 +156,7 @@ class Cutter {
   struct Named {
     std::size_t count = 0, first = 0;
   };
-  static void named(Named& all, std::size_t row) {
+  static void count_row(Named& all, std::size_t row) {
     if (all.count++ == 0) all.first = row;
   }
   /// "row 12 at 0.11 s"
@@ -164,7 +165,7 @@ class Cutter {
            (all.count > 1 ? ", ..." : "");
   }
 
-  void say() {
+  void add_notes() {
     const auto note = [&](std::size_t count, const std::string& what) {
       if (count > 0) findings_.note(std::to_string(count) + " " + what);
     };
@@ -184,8 +185,6 @@ class Cutter {
   }
 
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  /// As for spikes (broken.cpp).
-  static constexpr double kBeyondSensor = 10;
 
   const Columns& columns_;
   const configuration::Rig& rig_;
@@ -216,7 +215,7 @@ Loaded load_run(const recording::Table& table, const configuration::Rig& rig, co
   if (timed) leave_broken_out(kept, rig, findings);
   const Columns columns = checked_columns(kept, rig, findings);
   if (!findings.problems.empty()) throw DataError(findings.problems);
-  std::vector<Run> runs = Cutter(columns, rig, findings).runs();
+  std::vector<Run> runs = RunSplitter(columns, rig, findings).runs();
   find_swapped(runs, rig, findings);
   if (!findings.problems.empty()) throw DataError(findings.problems);
   return {std::move(runs), std::move(findings.notes)};

@@ -9,55 +9,56 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Nothing of a crane moves faster than 100 samples a second show.
+/// 100 samples per second resolve the motion of a crane.
 constexpr double kFinest_s = 0.01;
-/// Of the steps, the share that a second, shorter sample time has to make up; and how much shorter it is.
-constexpr double kShare = 0.1, kShorter = 0.75;
-/// Shortest grid period of rows that come irregularly, s, and as a share of the median step.
+/// A second, shorter sample time: least share of the steps, largest ratio to the median.
+constexpr double kSecondRateShare = 0.1, kSecondRateRatio = 0.75;
+/// Shortest grid period of irregular rows: in s, and as a share of the median step.
 constexpr double kLeastPeriod_s = 0.005, kLeastShare = 0.25;
-/// Rows this near to the grid, as a share of its period, are on it: 1 um at 1 m/s and 10 ms.
-constexpr double kOnGrid = 1e-4;
-/// Steps this near to a whole number of periods tell the period.
-constexpr double kRegular = 0.25;
-/// Nothing is measured there.
+/// Share of the period: nearer rows are on the grid (1 um at 1 m/s and 10 ms).
+constexpr double kOnGridTolerance = 1e-4;
+/// Share of a period: nearer to a whole number, a step determines the period.
+constexpr double kWholePeriodTolerance = 0.25;
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-/// Usual step: the median, or a shorter sample time that the file has, too.
+/// Median step, or a second, shorter sample time of the file.
 double usual_step(const std::vector<double>& steps) {
   const double middle = median(steps);
   std::vector<double> sorted = steps;
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(sorted.size()));
+  const auto at =
+      sorted.begin() + static_cast<std::ptrdiff_t>(kSecondRateShare * static_cast<double>(sorted.size()));
   std::nth_element(sorted.begin(), at, sorted.end());
-  if (*at >= kShorter * middle) return middle;
+  if (*at >= kSecondRateRatio * middle) return middle;
   return std::min(middle, std::max({*at, kLeastPeriod_s, kLeastShare * middle}));
 }
 
-/// The period of which the steps are multiples, near a guess: their sum over how many there are.
+/// The period of which most steps are multiples, near a guess; else the guess. Of such rows the jitter of the
+/// times adds up to nothing, so that all short steps count: without the uneven ones the grid would slip.
 double period_near(const std::vector<double>& steps, double guess_s) {
-  double time = 0, count = 0;
+  double time = 0, count = 0, regular = 0;
   for (const double step : steps) {
     const double periods = std::round(step / guess_s);
-    if (periods < 1 || periods > 2 || std::abs(step / guess_s - periods) > kRegular) continue;
+    if (periods < 1 || periods > 2) continue;
     time += step, count += periods;
+    if (std::abs(step / guess_s - periods) <= kWholePeriodTolerance) regular += periods;
   }
-  return count > 0.5 * static_cast<double>(steps.size()) ? time / count : guess_s;
+  return regular > 0.5 * static_cast<double>(steps.size()) ? time / count : guess_s;
 }
 
-/// Grid row of every row; of rows that crowd, all but one get none: that with most measured values, of these
-/// the nearest.
-class Places {
+/// Grid row of each row. Of several candidates the row with the most measured values wins, then the nearest.
+class GridAssignment {
  public:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-  /// @param values measured in every row
-  Places(const std::vector<double>& at, const std::vector<std::size_t>& values, const Grid& grid)
+  /// @param values number of measured values of each row
+  GridAssignment(const std::vector<double>& at, const std::vector<std::size_t>& values, const Grid& grid)
       : of_row_(at.size(), kNone) {
     for (std::size_t i = 0; i < at.size(); ++i) {
       const double place = at[i] / grid.period_s;
       auto node = static_cast<std::size_t>(std::max(0.0, std::round(place)));
       const bool taken = i > 0 && !row_at_.empty() && node < row_at_.size();
       if (taken && grid.rows_in_period == 1 && std::abs(static_cast<double>(row_at_.size()) - place) < 1) {
-        node = row_at_.size();  // a row that comes early: the next place is free
+        node = row_at_.size();  // early row: the next grid row is free
       } else if (taken) {
         const std::size_t other = row_at_[node];
         const auto distance = [&](std::size_t row) {
@@ -72,14 +73,14 @@ class Places {
       row_at_[node] = i;
       of_row_[i] = node;
     }
-    // The last rows of a fast file may end before the grid's next row, to which they are no neighbours.
+    // The end of a fast file may lie before the next grid row, and not near it.
     if (grid.rows_in_period > 1 && last_offset(at, grid) * static_cast<double>(grid.rows_in_period) < -0.5) {
       of_row_[row_at_.back()] = kNone;
       row_at_.pop_back();
       while (row_at_.back() == kNone) row_at_.pop_back();
     }
   }
-  /// Of the last row that has a place, in periods.
+  /// Offset of the last assigned row, in periods.
   [[nodiscard]] double last_offset(const std::vector<double>& at, const Grid& grid) const {
     return at[row_at_.back()] / grid.period_s - static_cast<double>(row_at_.size() - 1);
   }
@@ -90,8 +91,8 @@ class Places {
   std::vector<std::size_t> of_row_, row_at_;
 };
 
-/// A command that is not known holds the last one; before the first one it holds that.
-std::vector<double> held(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
+/// A missing command is the last one; before the first one, the first.
+std::vector<double> held_command(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
   double last = 0;
   for (const std::size_t row : rows)
     if (std::isfinite(values[row])) {
@@ -103,13 +104,12 @@ std::vector<double> held(const std::vector<double>& values, const std::vector<st
   return result;
 }
 
-/// Rows that were lost between two of a file.
+/// Rows lost between two rows of a file.
 struct LostRows {
-  std::size_t after = 0, count = 0;  ///< the row before them, and how many
+  std::size_t after = 0, count = 0;  ///< after: the row before them
 };
 
-/// Between rows at these times, where the rows around are at the usual distance: a stretch of another sample
-/// time has lost none.
+/// Lost rows have a neighbouring step of usual length: a stretch of another sample time has none.
 std::vector<LostRows> lost_rows(const std::vector<double>& at, double row_s) {
   constexpr double kLost = 1.5;  // usual distances
   const auto usual = [&](std::size_t k) { return k + 1 < at.size() && at[k + 1] - at[k] < kLost * row_s; };
@@ -120,10 +120,9 @@ std::vector<LostRows> lost_rows(const std::vector<double>& at, double row_s) {
   return lost;
 }
 
-/// The commands with those of lost rows, which have lost their command, too: straight between the ones
-/// around.
-std::vector<TimedCommand> with_lost(const std::vector<TimedCommand>& commands,
-                                    const std::vector<LostRows>& lost) {
+/// The commands with those of lost rows, interpolated linearly.
+std::vector<TimedCommand> with_interpolated_commands(const std::vector<TimedCommand>& commands,
+                                                     const std::vector<LostRows>& lost) {
   std::vector<TimedCommand> all;
   auto next = lost.begin();
   for (std::size_t k = 0; k < commands.size(); ++k) {
@@ -142,10 +141,9 @@ std::vector<TimedCommand> with_lost(const std::vector<TimedCommand>& commands,
   return all;
 }
 
-/// Whether a command changes across lost rows by more than it does from row to row around them: an edge, that
-/// may have been anywhere in them.
+/// Whether the command changes more across lost rows than around them: an edge at an unknown time.
 bool has_edge(const std::vector<TimedCommand>& commands, const LostRows& lost, plant::Axis axis) {
-  constexpr double kEdge = 2;  // times what the larger change around would make of all rows
+  constexpr double kEdge = 2;  // times the larger change per row around
   const auto change = [&](std::size_t k) {
     return k + 1 < commands.size() ? std::abs(commands[k + 1].drive_v[axis] - commands[k].drive_v[axis]) : 0;
   };
@@ -154,8 +152,7 @@ bool has_edge(const std::vector<TimedCommand>& commands, const LostRows& lost, p
   return change(k) > kEdge * around * static_cast<double>(lost.count + 1);
 }
 
-/// Marks the rows of the grid that may have lost an edge of their command, and the one after them: the way
-/// that the edge made and the speed that it left are two unknowns.
+/// Marks the grid rows that may have lost an edge, and the next one: distance and speed are two unknowns.
 void mark_edges(const std::vector<LostRows>& lost, Run& run) {
   for (const plant::Axis axis : {plant::kTrolley, plant::kSlew})
     for (const LostRows& one : lost) {
@@ -169,7 +166,7 @@ void mark_edges(const std::vector<LostRows>& lost, Run& run) {
     }
 }
 
-/// Measured where it is, straight between, the rig's own where it never is.
+/// Measured, interpolated linearly; without any measurement that of the rig file.
 std::vector<double> cable_on_grid(const Run& run, const std::vector<double>& seen, double rigs_own_m) {
   std::vector<double> time_s, length_m;
   for (std::size_t k = 0; k < seen.size(); ++k)
@@ -197,7 +194,7 @@ Grid grid_of(const std::vector<double>& time_s) {
   Grid grid;
   grid.row_s = usual_step(steps);
   const bool uniform = std::all_of(steps.begin(), steps.end(), [&](double step) {
-    return std::abs(step - grid.row_s) <= kOnGrid * grid.row_s;
+    return std::abs(step - grid.row_s) <= kOnGridTolerance * grid.row_s;
   });
   if (!uniform) grid.row_s = period_near(steps, grid.row_s);
   constexpr double kFastest_s = 1e-6;  // faster is refused
@@ -216,25 +213,27 @@ Run on_grid(const Columns& columns, const std::vector<std::size_t>& rows, const 
   for (const Source& source : columns.outputs)
     for (std::size_t r = 0; source.values != nullptr && r < rows.size(); ++r)
       values[r] += std::isfinite((*source.values)[rows[r]]) ? 1 : 0;
-  const Places places(at, values, grid);
+  const GridAssignment assignment(at, values, grid);
   Run run;
   run.period_s = grid.period_s;
   run.start_s = t[rows.front()];
-  // The instant of the last row must not lie behind the end of the grid.
-  const std::size_t count = places.count() + (places.last_offset(at, grid) > kOnGrid ? 1 : 0);
+  // The time of the last row must not lie after the grid.
+  const std::size_t count =
+      assignment.count() + (assignment.last_offset(at, grid) > kOnGridTolerance ? 1 : 0);
   std::vector<double> cable(count, kNotMeasured);
   run.offset_s.assign(count, 0.0);
   for (std::size_t i = 0; i < kOutputs; ++i)
     if (columns.outputs[i].values != nullptr) run.measured[i].assign(count, kNotMeasured);
   bool own_times = false;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const std::size_t node = places.of_row(r);
-    if (node == Places::kNone) {
+    const std::size_t node = assignment.of_row(r);
+    if (node == GridAssignment::kNone) {
       left_out.crowded += grid.rows_in_period == 1 ? 1 : 0;
       continue;
     }
     const double offset_s = at[r] - static_cast<double>(node) * grid.period_s;
-    if (std::abs(offset_s) > kOnGrid * grid.period_s) run.offset_s[node] = offset_s, own_times = true;
+    if (std::abs(offset_s) > kOnGridTolerance * grid.period_s)
+      run.offset_s[node] = offset_s, own_times = true;
     for (std::size_t i = 0; i < kOutputs; ++i)
       if (columns.outputs[i].values != nullptr) run.measured[i][node] = (*columns.outputs[i].values)[rows[r]];
     if (columns.cable.values != nullptr) cable[node] = (*columns.cable.values)[rows[r]];
@@ -245,12 +244,12 @@ Run on_grid(const Columns& columns, const std::vector<std::size_t>& rows, const 
   for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
     run.commanded[axis] = columns.commands[axis].values != nullptr;
     if (!run.commanded[axis]) continue;
-    const std::vector<double> volts = held(*columns.commands[axis].values, rows);
+    const std::vector<double> volts = held_command(*columns.commands[axis].values, rows);
     for (std::size_t r = 0; r < rows.size(); ++r) run.commands[r].drive_v[axis] = volts[r];
   }
   const std::vector<LostRows> lost = lost_rows(at, grid.row_s);
   mark_edges(lost, run);
-  run.commands = with_lost(run.commands, lost);
+  run.commands = with_interpolated_commands(run.commands, lost);
   run.command_v = mean_commands(run.commands, run.period_s, count);
   if (!own_times) run.offset_s.clear();
   if (!own_times && grid.rows_in_period == 1 && count == run.commands.size()) {

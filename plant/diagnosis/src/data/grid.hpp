@@ -1,11 +1,10 @@
 #pragma once
-/// Rows at their own times, put on the grid that a replay goes by.
+/// Assigns rows at their own times to an equidistant grid.
 ///
-/// A replay takes fixed steps. Each row belongs to the grid row nearest to it and keeps its distance from it:
-/// the prediction is evaluated at the row's own instant inside the step that it falls into, with that step's
-/// acceleration. Measured error of the swing over 8 s, the motion of the support known at jittered rows only:
-/// below 5e-5 rad at 100 Hz, 3.0e-4 rad at 29 Hz, an eighth of an encoder's count and a third of a camera's
-/// noise (data_grid_test). Rows that were not measured are NaN.
+/// A row belongs to the nearest grid row and keeps its time offset: the prediction is evaluated at the row's
+/// own time inside a step. Error of the swing over 8 s, with the support known at jittered rows: below 5e-5
+/// rad at 100 Hz (1/8 of an encoder count), 3.0e-4 rad at 29 Hz (1/3 of a camera's noise; data_grid_test).
+/// Missing rows are NaN.
 #include <vector>
 
 #include "data/columns.hpp"
@@ -14,24 +13,24 @@ namespace crane::diagnosis {
 
 /// Periods of the grid and of the rows.
 struct Grid {
-  double row_s = 0;     ///< usual time from a row to the next
-  double period_s = 0;  ///< a whole number of them, 10 ms at most unless the rows are further apart
+  double row_s = 0;     ///< usual time between rows
+  double period_s = 0;  ///< rows_in_period * row_s: at most 10 ms, or one row
   std::size_t rows_in_period = 1;
 };
 /// @param time_s increasing, at least two
 [[nodiscard]] Grid grid_of(const std::vector<double>& time_s);
 
-/// What was left out.
+/// Rows that were left out.
 struct LeftOut {
   std::size_t crowded = 0;  ///< rows closer together than the grid
-  bool own_times = false;   ///< some rows lie between those of the grid
+  bool own_times = false;   ///< some rows have a time offset
 };
 /// @param rows of the columns, increasing
-/// @param cable_m where no column measures it
+/// @param cable_m without a measured cable length
 [[nodiscard]] Run on_grid(const Columns& columns, const std::vector<std::size_t>& rows, const Grid& grid,
                           double cable_m, LeftOut& left_out);
 
-/// Means of the command over `count` steps from 0 on, each held until the next one.
+/// Mean of the command over each of `count` steps from 0 on; a command holds until the next.
 [[nodiscard]] std::vector<plant::PerAxis> mean_commands(const std::vector<TimedCommand>& commands,
                                                         double step_s, std::size_t count);
 

@@ -9,38 +9,36 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A clear jump is so many counts and so many times the changes of speed around it.
-constexpr double kCounts = 12, kClear = 4;
-constexpr std::size_t kFewest = 5;
-/// ... and beyond what motion and sensor make likely: false jumps that are accepted in a run, on average,
-/// where the steps around are noise with the tails of a Laplace distribution.
+/// A clear jump exceeds so many counts and so many times the changes of the steps around it.
+constexpr double kClearCounts = 12, kClearJumpRatio = 4;
+constexpr std::size_t kFewestClearJumps = 5;
+/// Expected false jumps of a run, if the steps around are noise with Laplace tails.
 constexpr double kFalseJumps = 0.01;
-/// Rows on each side that tell the noise of the steps around a row.
+/// Rows on each side that estimate the noise of the steps.
 constexpr std::size_t kNoiseRows = 50;
-/// Of an encoder that is known to lose counts, jumps of this share of the usual one are believed, where the
-/// motion around is rough, too.
+/// An encoder that loses counts: share of the usual jump beyond which a jump is credible.
 constexpr double kUsualShare = 0.4;
-/// Steps on one side of a jump that tell the acceleration, and the next ones, which tell the speed.
-constexpr std::size_t kSide = 6, kBeside = 3;
-constexpr int kRounds = 4;
+/// Steps on one side of a jump that estimate the acceleration, and the nearest ones, which estimate the
+/// speed.
+constexpr std::size_t kSideSteps = 6, kNearestSteps = 3;
+constexpr int kMostRemovalRounds = 4;
 
 struct Jump {
-  std::size_t row = 0;  ///< the first one after it
+  std::size_t row = 0;  ///< first row after the jump
   double size = 0;
 };
 
-/// Rows of a run that were measured.
+/// Measured rows of a run.
 struct Rows {
   std::vector<std::size_t> row;
   std::vector<double> position;
-  std::vector<double> periods;  ///< from the row before
-  std::vector<double> slip;     ///< the most that the drive moves from the row before, from rest to rest
+  std::vector<double> periods;        ///< from the row before
+  std::vector<double> credible_slip;  ///< largest slip from the row before, from rest to rest
 };
 
-/// The most that a drive moves in a time t from rest to rest, accelerated for half of it and braked for the
-/// other half: a t^2 / 4. Motor and friction together make at most twice the acceleration of the largest
-/// command from `kSlipRows` rows before on.
-double slip_of(const Run& run, Output axis, double gain, std::size_t row, double time_s) {
+/// Largest slip in a time t from rest to rest, half accelerated, half braked: a t^2 / 4. Motor and friction
+/// together accelerate at most twice as much as the largest command of the last kSlipRows rows.
+double credible_slip_of(const Run& run, Output axis, double gain, std::size_t row, double time_s) {
   constexpr std::size_t kSlipRows = 5;
   double most_v = 0;
   for (std::size_t k = row - std::min(row, kSlipRows); k <= row; ++k)
@@ -56,14 +54,14 @@ Rows measured_rows(const Run& run, Output axis, double gain) {
     if (!run.seen(axis, k)) continue;
     const double time_s = rows.row.empty() ? run.period_s : run.instant_s(k) - run.instant_s(rows.row.back());
     rows.periods.push_back(regular ? 1 : time_s / run.period_s);
-    rows.slip.push_back(slip_of(run, axis, gain, k, time_s));
+    rows.credible_slip.push_back(credible_slip_of(run, axis, gain, k, time_s));
     rows.row.push_back(k);
     rows.position.push_back(run.measured[axis][k]);
   }
   return rows;
 }
 
-/// Of a period each: speeds, in other units.
+/// Steps per period, m or rad.
 std::vector<double> steps_of(const Rows& rows) {
   std::vector<double> steps;
   steps.reserve(rows.position.size());
@@ -72,7 +70,7 @@ std::vector<double> steps_of(const Rows& rows) {
   return steps;
 }
 
-/// How far each step lies from the mean of its neighbours; 0 at the ends.
+/// Step minus the mean of its neighbours; 0 at the ends.
 std::vector<double> deviations_of(const std::vector<double>& steps) {
   std::vector<double> deviations(steps.size(), 0.0);
   for (std::size_t k = 1; k + 1 < steps.size(); ++k)
@@ -80,8 +78,8 @@ std::vector<double> deviations_of(const std::vector<double>& steps) {
   return deviations;
 }
 
-/// What a deviation has to exceed not to be noise of the rows around: a Laplace distribution whose median
-/// deviation is that of these rows exceeds b ln(1/p) with probability p.
+/// Threshold of a deviation: a Laplace distribution with the median deviation of the rows around exceeds b
+/// ln(1/p) with probability p.
 double beyond_noise(const std::vector<double>& deviations, std::size_t k) {
   const std::size_t first = k - std::min(k, kNoiseRows),
                     last = std::min(k + kNoiseRows + 1, deviations.size());
@@ -99,31 +97,31 @@ std::vector<Jump> clear_jumps(const Rows& rows, double count) {
     const double rough = std::max(
         {std::abs(s[k + 1] - s[k - 1]), std::abs(s[k - 2] - s[k - 1]), std::abs(s[k + 2] - s[k + 1])});
     const double jump = size * rows.periods[k + 1];
-    if (std::abs(size) > kClear * rough && std::abs(size) > kCounts * count &&
-        std::abs(jump) > rows.slip[k + 1] && std::abs(size) > beyond_noise(deviations, k))
+    if (std::abs(size) > kClearJumpRatio * rough && std::abs(size) > kClearCounts * count &&
+        std::abs(jump) > rows.credible_slip[k + 1] && std::abs(size) > beyond_noise(deviations, k))
       found.push_back({k + 1, jump});
   }
   return found;
 }
 
-/// The step at `k` as those on one side of it have it, by their speed and acceleration; one of them may be a
-/// jump. @param towards -1 for those before, 1 for those after
+/// Step at `k`, extrapolated from one side by robust speed and acceleration. @param towards -1 for those
+/// before, 1 for those after
 std::optional<double> expected(const std::vector<double>& steps, std::size_t k, int towards) {
   std::vector<double> side, changes, guesses;
-  for (std::size_t d = 1; d <= kSide; ++d) {
+  for (std::size_t d = 1; d <= kSideSteps; ++d) {
     if (towards < 0 ? k < d : k + d >= steps.size()) break;
     side.push_back(steps[towards < 0 ? k - d : k + d]);
   }
-  if (side.size() < kSide) return std::nullopt;
+  if (side.size() < kSideSteps) return std::nullopt;
   for (std::size_t i = 0; i + 1 < side.size(); ++i) changes.push_back(side[i] - side[i + 1]);
   const double change = median(std::move(changes));
-  for (std::size_t i = 0; i < kBeside; ++i) guesses.push_back(side[i] + change * static_cast<double>(i + 1));
+  for (std::size_t i = 0; i < kNearestSteps; ++i)
+    guesses.push_back(side[i] + change * static_cast<double>(i + 1));
   return median(std::move(guesses));
 }
 
-/// Steps outside of what the motion before and after makes: one on the way from one speed to another, after
-/// an impact or a push, lies between. The size is by the motion before: a controller that sees the jump
-/// answers it.
+/// Steps outside the range of the steps expected from both sides. A step inside it is a change of speed, by
+/// an impact or a push. The size is relative to the motion before, because a controller reacts to the jump.
 std::vector<Jump> likely_jumps(const Rows& rows, double usual) {
   std::vector<Jump> found;
   const std::vector<double> steps = steps_of(rows);
@@ -133,13 +131,13 @@ std::vector<Jump> likely_jumps(const Rows& rows, double usual) {
     const double left = before.value_or(after.value_or(0)), right = after.value_or(left);
     const double outside = std::max(steps[k] - std::max(left, right), std::min(left, right) - steps[k]);
     const double periods = rows.periods[k + 1];
-    if (periods * outside > std::max(kUsualShare * usual, rows.slip[k + 1]))
+    if (periods * outside > std::max(kUsualShare * usual, rows.credible_slip[k + 1]))
       found.push_back({k + 1, periods * (steps[k] - left)});
   }
   return found;
 }
 
-void take_out(std::vector<double>& position, const std::vector<Jump>& jumps) {
+void subtract(std::vector<double>& position, const std::vector<Jump>& jumps) {
   double lost = 0;
   auto next = jumps.begin();
   for (std::size_t k = 0; k < position.size(); ++k) {
@@ -148,13 +146,13 @@ void take_out(std::vector<double>& position, const std::vector<Jump>& jumps) {
   }
 }
 
-/// A jump among several shows when these are taken out. @return all of them
-std::vector<Jump> mend(Rows& rows, double usual) {
+/// Removes jumps in rounds: a jump beside others appears when these are removed. @return all
+std::vector<Jump> remove_jumps(Rows& rows, double usual) {
   std::vector<Jump> all;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kMostRemovalRounds; ++round) {
     const std::vector<Jump> found = likely_jumps(rows, usual);
     if (found.empty()) break;
-    take_out(rows.position, found);
+    subtract(rows.position, found);
     all.insert(all.end(), found.begin(), found.end());
   }
   return all;
@@ -167,36 +165,36 @@ double median_size(const std::vector<Jump>& jumps) {
   return median(std::move(sizes));
 }
 
-double way_of(const std::vector<double>& position) {
-  double way = 0;
-  for (std::size_t k = 1; k < position.size(); ++k) way += std::abs(position[k] - position[k - 1]);
-  return way;
+double distance_of(const std::vector<double>& position) {
+  double distance = 0;
+  for (std::size_t k = 1; k < position.size(); ++k) distance += std::abs(position[k] - position[k - 1]);
+  return distance;
 }
 
-double gain_of(const configuration::Rig& rig, Output axis) {
+double drive_gain_of(const configuration::Rig& rig, Output axis) {
   return axis == kSlewAngle ? rig.plant.slew_gain_radps2pv : rig.plant.trolley_gain_mps2pv;
 }
 
 LosingEncoder measured(const std::vector<Run>& runs, Output axis, double gain, double usual) {
   LosingEncoder encoder{.axis = axis, .jump = usual};
-  double way = 0, squares = 0, deviations = 0;
+  double distance = 0, squares = 0, deviations = 0;
   for (const Run& run : runs) {
     if (!run.has(axis)) continue;
     Rows rows = measured_rows(run, axis, gain);
-    for (const Jump& jump : mend(rows, usual)) {
+    for (const Jump& jump : remove_jumps(rows, usual)) {
       ++encoder.jumps;
       encoder.lost += jump.size;
       squares += jump.size * jump.size;
       deviations += std::pow(std::abs(jump.size) - usual, 2);
     }
     encoder.duration_s += run.duration_s();
-    way += way_of(rows.position);
+    distance += distance_of(rows.position);
   }
-  constexpr double kOfAMedian = 1.25;  // its error against a mean's
+  constexpr double kMedianErrorRatio = 1.25;  // standard error of a median over that of a mean
   const auto count = static_cast<double>(std::max<std::size_t>(1, encoder.jumps));
-  encoder.jump_std_dev = kOfAMedian * std::sqrt(deviations) / count;
-  encoder.rate = way > 0 ? encoder.lost / way : 0;
-  encoder.rate_std_dev = way > 0 ? std::sqrt(squares) / way : 0;  // jumps come at random
+  encoder.jump_std_dev = kMedianErrorRatio * std::sqrt(deviations) / count;
+  encoder.rate = distance > 0 ? encoder.lost / distance : 0;
+  encoder.rate_std_dev = distance > 0 ? std::sqrt(squares) / distance : 0;  // jumps come at random
   return encoder;
 }
 
@@ -207,13 +205,13 @@ std::vector<LosingEncoder> losing_encoders(const std::vector<Run>& runs, const c
   for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
     const double counts_per_unit = rig.encoders[axis].counts_per_unit;
     if (!(counts_per_unit > 0)) continue;
-    const double gain = gain_of(rig, axis);
+    const double gain = drive_gain_of(rig, axis);
     std::vector<Jump> clear;
     for (const Run& run : runs) {
       const double count = std::max(1 / counts_per_unit, run.resolution[axis]);
       for (const Jump& jump : clear_jumps(measured_rows(run, axis, gain), count)) clear.push_back(jump);
     }
-    if (clear.size() >= kFewest) losing.push_back(measured(runs, axis, gain, median_size(clear)));
+    if (clear.size() >= kFewestClearJumps) losing.push_back(measured(runs, axis, gain, median_size(clear)));
   }
   return losing;
 }
@@ -222,8 +220,8 @@ std::vector<Run> put_back(std::vector<Run> runs, const std::vector<LosingEncoder
                           const configuration::Rig& rig) {
   for (const LosingEncoder& encoder : losing)
     for (Run& run : runs) {
-      Rows rows = measured_rows(run, encoder.axis, gain_of(rig, encoder.axis));
-      (void)mend(rows, encoder.jump);
+      Rows rows = measured_rows(run, encoder.axis, drive_gain_of(rig, encoder.axis));
+      (void)remove_jumps(rows, encoder.jump);
       for (std::size_t i = 0; i < rows.row.size(); ++i)
         run.measured[encoder.axis][rows.row[i]] = rows.position[i];
     }

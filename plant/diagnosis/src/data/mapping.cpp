@@ -11,7 +11,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// Columns of one file by the names of another's.
+/// Canonical table of one file.
 class Mapped {
  public:
   Mapped(const recording::Table& table, const Mapping& mapping, const std::string& name)
@@ -49,7 +49,7 @@ class Mapped {
     result_.columns.push_back({canonical, std::move(values)});
   }
 
-  /// What the mapping says of this run takes the place of a column.
+  /// Constants of the run replace columns.
   void add_values() {
     const auto found = mapping_.runs.find(short_name_);
     if (found == mapping_.runs.end()) return;
@@ -92,7 +92,7 @@ class Mapped {
     }
     return numbers;
   }
-  /// A time that is no number is not left out here: it is a problem of the data.
+  /// NaN is inside: a problem of the data, found later.
   static bool inside(const Stretch& stretch, double time_s) {
     return !(time_s < stretch.from_s) && !(time_s > stretch.to_s);
   }

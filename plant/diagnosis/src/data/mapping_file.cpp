@@ -16,7 +16,7 @@ std::string canonical_names() {
   return names;
 }
 
-/// A command in volts, or in what the amplifier makes of them.
+/// Unit of a command: V, or the output of the amplifier per volt.
 void read_unit(TomlTable& table, MappedColumn& mapped) {
   const bool command = mapped.canonical.ends_with("_voltage_v");
   if (!table.has("unit") && !table.has("per_volt")) return;

@@ -4,7 +4,7 @@
 
 namespace crane::diagnosis {
 
-/// @pre not empty
+/// Upper median. @pre not empty
 [[nodiscard]] inline double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

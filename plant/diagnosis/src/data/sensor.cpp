@@ -9,17 +9,17 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Differences of values are multiples of the step within this share of it, but for a share of strays (values
-/// printed with few digits, a spike).
-constexpr double kOfAStep = 0.05, kStrays = 0.02;
-/// Differences that rounding of doubles makes, as a share of the values.
-constexpr double kRounding = 1e-12;
-/// Larger numbers are none of a crane; their differences overflow.
+/// Differences of values are multiples of the step within this share of it, except a share of strays
+/// (values printed with few digits, a spike).
+constexpr double kLatticeTolerance = 0.05, kLargestStrayShare = 0.02;
+/// Rounding of doubles, as a share of the values.
+constexpr double kRoundingShare = 1e-12;
+/// Differences of larger numbers overflow.
 constexpr double kLargest = 1e50;
-/// The smallest difference seen may be several steps.
+/// Steps in the smallest difference, at most.
 constexpr int kMostSteps = 64;
-/// Standard deviation over median of the absolute values of a normal number.
-constexpr double kOfAMedianDeviation = 1.4826;
+/// Standard deviation over median absolute value, normal distribution.
+constexpr double kSigmaPerMedianDeviation = 1.4826;
 
 std::vector<double> finite(std::span<const double> values) {
   std::vector<double> kept;
@@ -28,13 +28,13 @@ std::vector<double> finite(std::span<const double> values) {
   return kept;
 }
 
-bool multiples(const std::vector<double>& differences, double step) {
+bool are_multiples(const std::vector<double>& differences, double step) {
   std::size_t strays = 0;
   for (const double difference : differences) {
     const double steps = difference / step;
-    strays += std::abs(steps - std::round(steps)) > kOfAStep ? 1 : 0;
+    strays += std::abs(steps - std::round(steps)) > kLatticeTolerance ? 1 : 0;
   }
-  return static_cast<double>(strays) <= kStrays * static_cast<double>(differences.size());
+  return static_cast<double>(strays) <= kLargestStrayShare * static_cast<double>(differences.size());
 }
 
 double resolution_of(std::vector<double> values) {
@@ -42,22 +42,22 @@ double resolution_of(std::vector<double> values) {
   const double largest = std::max(std::abs(values.front()), std::abs(values.back()));
   std::vector<double> differences;
   for (std::size_t k = 1; k < values.size(); ++k)
-    if (const double step = values[k] - values[k - 1]; step > kRounding * largest)
+    if (const double step = values[k] - values[k - 1]; step > kRoundingShare * largest)
       differences.push_back(step);
   if (differences.empty()) return 0;
   const double least = *std::min_element(differences.begin(), differences.end());
   for (int steps = 1; steps <= kMostSteps; ++steps)
-    if (multiples(differences, least / steps)) return least / steps;
+    if (are_multiples(differences, least / steps)) return least / steps;
   return least;
 }
 
-/// Third differences of a motion that is sampled fast vanish; of white noise their variance is 20 times its.
+/// Third differences of a smooth motion vanish; of white noise their variance is 20 times that of the noise.
 double noise_of(const std::vector<double>& x) {
   if (x.size() < 4) return 0;
   std::vector<double> thirds;
   for (std::size_t k = 3; k < x.size(); ++k)
     thirds.push_back(std::abs(x[k] - 3 * x[k - 1] + 3 * x[k - 2] - x[k - 3]));
-  return kOfAMedianDeviation * median(std::move(thirds)) / std::sqrt(20.0);
+  return kSigmaPerMedianDeviation * median(std::move(thirds)) / std::sqrt(20.0);
 }
 
 }  // namespace

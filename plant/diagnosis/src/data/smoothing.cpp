@@ -6,13 +6,13 @@
 
 namespace crane::diagnosis {
 
-Motion smooth(std::span<const double> measured, double period_s, int half_width) {
+Motion savitzky_golay(std::span<const double> measured, double period_s, int half_width) {
   const auto rows = static_cast<int>(measured.size());
   const int width = std::min(2 * half_width + 1, rows);
   constexpr int kOrder = 3;
   Motion motion;
   for (auto* values : {&motion.position, &motion.rate, &motion.acceleration}) values->resize(measured.size());
-  // The cubic's coefficients are fixed linear combinations of the samples, one set per place in the window.
+  // Coefficients of the cubic are linear in the samples, one set per place in the window.
   const int order = std::min(kOrder, width - 1);
   std::vector<Eigen::MatrixXd> weights(static_cast<std::size_t>(width));
   for (int centre = 0; centre < width; ++centre) {
@@ -36,13 +36,12 @@ Motion smooth(std::span<const double> measured, double period_s, int half_width)
 
 namespace {
 
-/// Second derivatives of the cubic spline at its knots, whose third derivative does not change at the second
-/// and the last knot but one ("not a knot"): a tridiagonal system, solved by elimination (C. de Boor, A
-/// Practical Guide to Splines, 1978, ch. IV).
-std::vector<double> bends_of(std::span<const double> t, std::span<const double> x) {
+/// Second derivatives of the cubic spline at its knots, with "not a knot" ends: a tridiagonal system (C. de
+/// Boor, A Practical Guide to Splines, 1978, ch. IV).
+std::vector<double> second_derivatives(std::span<const double> t, std::span<const double> x) {
   const std::size_t n = t.size();
-  std::vector<double> bend(n, 0.0), upper(n, 0.0);
-  if (n < 4) return bend;
+  std::vector<double> curvature(n, 0.0), upper(n, 0.0);
+  if (n < 4) return curvature;
   for (std::size_t k = 1; k + 1 < n; ++k) {
     const double before = t[k] - t[k - 1], after = t[k + 1] - t[k];
     double below = before, diagonal = 2 * (before + after), above = after;
@@ -51,23 +50,24 @@ std::vector<double> bends_of(std::span<const double> t, std::span<const double> 
     const double pivot = diagonal - below * upper[k - 1];
     const double turn = 6 * ((x[k + 1] - x[k]) / after - (x[k] - x[k - 1]) / before);
     upper[k] = above / pivot;
-    bend[k] = (turn - below * bend[k - 1]) / pivot;
+    curvature[k] = (turn - below * curvature[k - 1]) / pivot;
   }
-  for (std::size_t k = n - 2; k-- > 1;) bend[k] -= upper[k] * bend[k + 1];
-  const auto beyond = [&](std::size_t end, std::size_t near, std::size_t far) {
-    bend[end] = bend[near] + (bend[near] - bend[far]) * (t[end] - t[near]) / (t[near] - t[far]);
+  for (std::size_t k = n - 2; k-- > 1;) curvature[k] -= upper[k] * curvature[k + 1];
+  const auto extrapolate = [&](std::size_t end, std::size_t near, std::size_t far) {
+    curvature[end] =
+        curvature[near] + (curvature[near] - curvature[far]) * (t[end] - t[near]) / (t[near] - t[far]);
   };
-  beyond(0, 1, 2);
-  beyond(n - 1, n - 2, n - 3);
-  return bend;
+  extrapolate(0, 1, 2);
+  extrapolate(n - 1, n - 2, n - 3);
+  return curvature;
 }
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Position, speed and acceleration from sample to sample, in sensor noises; the jerk is white.
+/// State position, speed, acceleration, in multiples of the sensor noise; white jerk.
 struct WhiteJerk {
-  double variance_ps5 = 0;  ///< of the jerk, over the sensor's
+  double variance_ps5 = 0;  ///< of the jerk, over that of the sensor
 
   [[nodiscard]] static Matrix3d step(double h) {
     Matrix3d f;
@@ -82,25 +82,26 @@ struct WhiteJerk {
   }
 };
 
-/// What a filter knows at every sample, before and after it.
+/// Filter states and covariances before and after each sample.
 struct Filtered {
   std::vector<Vector3d> before, after;
   std::vector<Matrix3d> covariance_before, covariance_after;
-  double squares = 0, logs = 0;  ///< of the innovations over the sensor's variance, of their variances
+  double squares = 0, logs = 0;  ///< innovations over their variances, ln variances
   double count = 0;
-  /// Minus twice the log likelihood where the sensor's standard deviation is `noise`.
+  /// Minus twice the log likelihood for the sensor's standard deviation `noise`.
   [[nodiscard]] double misfit(double noise) const {
     return logs + 2 * count * std::log(noise) + squares / (noise * noise);
   }
 };
 
 Filtered filtered(std::span<const double> t, std::span<const double> x, const WhiteJerk& jerk) {
-  constexpr double kUnknown = 1e8;  // variance of the start, over the sensor's and what it makes in a sample
+  constexpr double kUnknownStart = 1e8;  // variance of the start, over that of the sensor
   const std::size_t n = t.size();
   const double h0 = (t[n - 1] - t[0]) / static_cast<double>(n - 1);
   Filtered f;
   Vector3d state{x[0], 0, 0};
-  Matrix3d covariance = Vector3d{kUnknown, kUnknown / (h0 * h0), kUnknown / std::pow(h0, 4)}.asDiagonal();
+  Matrix3d covariance =
+      Vector3d{kUnknownStart, kUnknownStart / (h0 * h0), kUnknownStart / std::pow(h0, 4)}.asDiagonal();
   for (std::size_t k = 0; k < n; ++k) {
     if (k > 0) {
       const Matrix3d step = WhiteJerk::step(t[k] - t[k - 1]);
@@ -109,10 +110,10 @@ Filtered filtered(std::span<const double> t, std::span<const double> x, const Wh
     }
     f.before.push_back(state);
     f.covariance_before.push_back(covariance);
-    const double surprise = x[k] - state[0], variance = covariance(0, 0) + 1;
-    if (k >= 3) f.squares += surprise * surprise / variance, f.logs += std::log(variance), ++f.count;
+    const double innovation = x[k] - state[0], variance = covariance(0, 0) + 1;
+    if (k >= 3) f.squares += innovation * innovation / variance, f.logs += std::log(variance), ++f.count;
     const Vector3d gain = covariance.col(0) / variance;
-    state += gain * surprise;
+    state += gain * innovation;
     covariance -= gain * covariance.row(0);
     f.after.push_back(state);
     f.covariance_after.push_back(covariance);
@@ -122,8 +123,8 @@ Filtered filtered(std::span<const double> t, std::span<const double> x, const Wh
 
 }  // namespace
 
-std::vector<double> without_noise(std::span<const double> time_s, std::span<const double> measured,
-                                  double least_noise) {
+std::vector<double> rts_smoothed(std::span<const double> time_s, std::span<const double> measured,
+                                 double least_noise) {
   constexpr std::size_t kFewest = 8;
   const std::size_t n = time_s.size();
   if (n < kFewest || !(least_noise > 0)) return {measured.begin(), measured.end()};
@@ -131,7 +132,7 @@ std::vector<double> without_noise(std::span<const double> time_s, std::span<cons
   Filtered likeliest;
   double least_misfit = 0;
   for (int half_decade = -8; half_decade <= 16; ++half_decade) {
-    // Of a jerk that moves the axis by so many noises in a sample.
+    // The jerk moves the axis by about 10^(half_decade / 4) noises per sample.
     Filtered tried = filtered(time_s, measured, {std::pow(10, 0.5 * half_decade) / std::pow(h, 5)});
     const double misfit = tried.misfit(std::max(least_noise, std::sqrt(tried.squares / tried.count)));
     if (!likeliest.after.empty() && misfit >= least_misfit) continue;
@@ -157,7 +158,7 @@ Motion spline_of(std::span<const double> time_s, std::span<const double> measure
   Motion motion;
   for (auto* values : {&motion.position, &motion.rate, &motion.acceleration}) values->assign(rows, 0.0);
   if (n == 0) return motion;
-  const std::vector<double> bend = bends_of(time_s, measured);
+  const std::vector<double> curvature = second_derivatives(time_s, measured);
   for (std::size_t row = 0, k = 0; row < rows; ++row) {
     const double at = static_cast<double>(row) * period_s;
     while (k + 2 < n && time_s[k + 1] <= at) ++k;
@@ -167,17 +168,17 @@ Motion spline_of(std::span<const double> time_s, std::span<const double> measure
     }
     const double h = time_s[k + 1] - time_s[k], b = (at - time_s[k]) / h, a = 1 - b;
     motion.position[row] = a * measured[k] + b * measured[k + 1] +
-                           h * h / 6 * ((a * a * a - a) * bend[k] + (b * b * b - b) * bend[k + 1]);
+                           h * h / 6 * ((a * a * a - a) * curvature[k] + (b * b * b - b) * curvature[k + 1]);
     motion.rate[row] = (measured[k + 1] - measured[k]) / h +
-                       h / 6 * ((3 * b * b - 1) * bend[k + 1] - (3 * a * a - 1) * bend[k]);
-    motion.acceleration[row] = a * bend[k] + b * bend[k + 1];
+                       h / 6 * ((3 * b * b - 1) * curvature[k + 1] - (3 * a * a - 1) * curvature[k]);
+    motion.acceleration[row] = a * curvature[k] + b * curvature[k + 1];
   }
   return motion;
 }
 
 Motion spline(std::span<const double> measured, double period_s) {
   constexpr std::size_t kFewest = 8;
-  if (measured.size() < kFewest) return smooth(measured, period_s, 1);
+  if (measured.size() < kFewest) return savitzky_golay(measured, period_s, 1);
   const boost::math::interpolators::cardinal_cubic_b_spline<double> through(measured.begin(), measured.end(),
                                                                             0, period_s);
   Motion motion{{measured.begin(), measured.end()}, {}, {}};

@@ -10,12 +10,12 @@ namespace {
 
 /// A correlation beyond the first is clear, below the second there is none: of 4 s of independent motion that
 /// is smoothed over 0.1 s, one in 1e6 exceeds the first.
-constexpr double kClearly = 0.8, kHardly = 0.4;
-constexpr double kShortestRun_s = 4, kSmoothed_s = 0.05;
+constexpr double kClearCorrelation = 0.8, kNoCorrelation = 0.4;
+constexpr double kShortestRun_s = 4, kCorrelationSmoothing_s = 0.05;
 
 Motion smoothed(const Run& run, Output output) {
-  const int half = std::max(3, static_cast<int>(std::lround(kSmoothed_s / run.period_s)));
-  return smooth(measured_on_grid(run, output), run.period_s, half);
+  const int half = std::max(3, static_cast<int>(std::lround(kCorrelationSmoothing_s / run.period_s)));
+  return savitzky_golay(measured_on_grid(run, output), run.period_s, half);
 }
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -29,8 +29,8 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-/// Of the swing with what moves it; 0 where either is not measured.
-double follows(const Run& run, const configuration::Rig& rig, Output swing, Output drive) {
+/// Of r'' + (g / l) r with the acceleration of the drive; 0 without one of the measurements.
+double correlation_with_drive(const Run& run, const configuration::Rig& rig, Output swing, Output drive) {
   if (!run.has(swing) || !run.has(drive)) return 0;
   const Motion load = smoothed(run, swing);
   std::vector<double> pull;
@@ -45,10 +45,10 @@ void find_swapped(const std::vector<Run>& runs, const configuration::Rig& rig, F
   bool swapped = false, turned = false;
   for (const Run& run : runs) {
     if (run.duration_s() < kShortestRun_s) continue;
-    const double own = follows(run, rig, kRadialSwing, kTrolleyPosition);
-    const double other = follows(run, rig, kTangentialSwing, kTrolleyPosition);
-    swapped = swapped || (std::abs(other) > kClearly && std::abs(own) < kHardly);
-    turned = turned || (own < -kClearly && std::abs(other) < kHardly);
+    const double own = correlation_with_drive(run, rig, kRadialSwing, kTrolleyPosition);
+    const double other = correlation_with_drive(run, rig, kTangentialSwing, kTrolleyPosition);
+    swapped = swapped || (std::abs(other) > kClearCorrelation && std::abs(own) < kNoCorrelation);
+    turned = turned || (own < -kClearCorrelation && std::abs(other) < kNoCorrelation);
   }
   if (swapped)
     findings.problem(std::string{kOutputNames[kRadialSwing]} + ", " + kOutputNames[kTangentialSwing],

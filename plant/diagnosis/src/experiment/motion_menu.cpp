@@ -17,14 +17,14 @@ using plant::kHoist;
 using plant::kSlew;
 using plant::kTrolley;
 
-/// Motions keep to this share of the reference's speed and acceleration and of the travel.
-constexpr double kShare = 0.8;
+/// Share of the reference's speed and acceleration, and of the travel.
+constexpr double kShareOfLimits = 0.8;
 constexpr double kFirstAction_s = 0.5;
-constexpr double kPause_s = 1.0;
+constexpr double kPauseBetween_s = 1.0;
 
 constexpr const char* name_of_axis(Axis axis) { return axis == kTrolley ? "trolley" : "slew"; }
 
-/// Whoever reads the scenario should not have to read fifteen digits.
+/// Four decimals in the scenario file.
 double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
 class Menu {
@@ -64,17 +64,17 @@ class Menu {
   void add(SafeMotion motion) {
     if (!motion.references.empty()) {
       const TimedExcitation& last = motion.references.back();
-      motion.duration_s = std::ceil(last.at_s + last.reference.duration_s + kPause_s);
+      motion.duration_s = std::ceil(last.at_s + last.reference.duration_s + kPauseBetween_s);
     }
     all_.push_back(std::move(motion));
   }
-  /// One more reference, after those there are.
+  /// Appends a reference after the others.
   void append(SafeMotion& motion, Axis axis, const std::vector<control::Sine>& sines,
               double duration_s) const {
     TimedExcitation next{.at_s = kFirstAction_s, .reference = {.axis = axis, .about = motion.start[axis]}};
     if (!motion.references.empty()) {
       const TimedExcitation& last = motion.references.back();
-      next.at_s = last.at_s + last.reference.duration_s + kPause_s;
+      next.at_s = last.at_s + last.reference.duration_s + kPauseBetween_s;
     }
     std::copy(sines.begin(), sines.end(), next.reference.sines.begin());
     next.reference.duration_s = duration_s;
@@ -94,15 +94,14 @@ class Menu {
     SafeMotion motion = begun(std::string{"break_away_"} + name_of_axis(axis),
                               std::string{"Let the "} + name_of_axis(axis) +
                                   " creep from rest to both sides, over and over, in short ways.");
-    constexpr double kFrequency_hz = 0.1, kWay_s = 0.05;  // as far as the reference goes in that time
+    constexpr double kFrequency_hz = 0.1, kWay_s = 0.05;  // distance at reference speed in that time
     const double way = std::min(kWay_s * rig_.drives[axis].reference_speed, amplitude(axis, kFrequency_hz));
     append(motion, axis, {{rounded(way), kFrequency_hz, 0}}, 40);
     add(std::move(motion));
   }
 
   void append_two_speeds(SafeMotion& motion, Axis axis) const {
-    // Slewing pulls the load outwards twice a period: twice the frequency has to stay away from the swing's
-    // too.
+    // The centripetal force acts at twice the frequency of slewing, which must not excite the swing either.
     const double fast_hz = rounded(0.35 * swing_hz_), slow_hz = rounded(fast_hz / 3);
     const double way = amplitude(axis, fast_hz);
     append(motion, axis, {{way, slow_hz, 0}}, std::round(1.5 / slow_hz));
@@ -173,18 +172,18 @@ class Menu {
   [[nodiscard]] double middle(Axis axis) const {
     return rounded(0.5 * (rig_.drives[axis].low_limit + rig_.drives[axis].high_limit));
   }
-  /// Largest of a sine that keeps to travel, speed and acceleration.
+  /// Largest amplitude of a sine inside travel, speed and acceleration.
   [[nodiscard]] double amplitude(Axis axis, double frequency_hz) const {
     const configuration::Drive& drive = rig_.drives[axis];
     const double rate = 2 * std::numbers::pi * frequency_hz;
     const double travel = 0.5 * (drive.high_limit - drive.low_limit) - drive.soft_margin;
     const double most =
         std::min({travel, drive.reference_speed / rate, drive.reference_acceleration / (rate * rate)});
-    return rounded(kShare * most);
+    return rounded(kShareOfLimits * most);
   }
 
   const configuration::Rig& rig_;
-  double swing_hz_;  ///< of the load: motions keep away from it
+  double swing_hz_;  ///< of the load: motions avoid it
   std::vector<Axis> axes_;
   std::vector<SafeMotion> all_;
 };

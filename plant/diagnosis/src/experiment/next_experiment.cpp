@@ -8,7 +8,7 @@
 
 #include "experiment/motion_menu.hpp"
 #include "experiment/safe_run.hpp"
-#include "noise/paces.hpp"
+#include "noise/motion_profile.hpp"
 #include "parallel.hpp"
 #include "search/compare.hpp"
 
@@ -19,15 +19,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPredicted_s = 2.5;
-constexpr double kBefore_s = 0.3;  // terms with a memory fill it; not compared
+constexpr double kExperimentWindow_s = 2.5;
+constexpr double kExperimentLead_s = 0.3;  // fills the memory of terms; not compared
 constexpr double kLeastSeparation = 10;
-constexpr int kRounds = 10;
-constexpr double kLeastApproach = 1;  // of the sum of squares
-constexpr double kLeastStep = 0.1;    // of the Gauss-Newton step
-constexpr std::size_t kEvery = 2;     // windows compared: enough to rank motions
+constexpr int kMostRefitRounds = 10;
+constexpr double kLeastDecrease = 1;        // of the sum of squares, for another round
+constexpr double kShortestStepShare = 0.1;  // of the Gauss-Newton step
+constexpr std::size_t kWindowStride = 2;    // every second window is compared: enough to rank motions
 
-/// Candidates that only one of the two has.
+/// Candidates of only one of the two.
 std::vector<const Candidate*> differing(const Effects& a, const Effects& b) {
   std::vector<const Candidate*> all;
   for (const auto& [one, other] : {std::pair{&a, &b}, {&b, &a}})
@@ -36,7 +36,7 @@ std::vector<const Candidate*> differing(const Effects& a, const Effects& b) {
   return all;
 }
 
-/// `other` with the values of `truth` of what both have: from there its refit begins.
+/// Start of the refit: `other` with the values of `truth` for common candidates.
 Effects beginning_at(const Effects& truth, Effects other) {
   for (Effect& effect : other)
     for (const Effect& shared : truth)
@@ -49,24 +49,25 @@ Crane with(Crane crane, const Effects& effects) {
   return crane;
 }
 
-/// Misfit of a crane to one run in one part, whitened, output by output; the starts of windows are solved for
-/// along the directions of the first crane that is asked.
-class Comparison {
+/// Whitened misfit of a crane to one run in one part. Starts of windows are projected out along the
+/// directions of the first crane.
+class WindowMisfit {
  public:
   /// @param gravity_mps2 for the swing's frequency
-  Comparison(const PreparedRun& run, Part part, double gravity_mps2, const Disturbances& disturbances)
+  WindowMisfit(const PreparedRun& run, Part part, double gravity_mps2, const Disturbances& disturbances)
       : run_(run), part_(part), outputs_(simulated_outputs(run, part)) {
     const double period_s = run.run.period_s;
-    rows_ = std::min(static_cast<std::size_t>(std::lround(kPredicted_s / period_s)), run.run.rows());
-    lead_ = static_cast<std::size_t>(std::lround(kBefore_s / period_s));
+    rows_ = std::min(static_cast<std::size_t>(std::lround(kExperimentWindow_s / period_s)), run.run.rows());
+    lead_ = static_cast<std::size_t>(std::lround(kExperimentLead_s / period_s));
     for (const Output output : outputs_)
       for (std::size_t w = 0; w < windows(); ++w) {
         const std::size_t first = first_of(w) + lead_, kept = rows_ - lead_;
-        const Passage passage =
+        const WindowMotion motion =
             part == Part::drive
-                ? Passage{period_s, 0, paces_of(run.on_grid[output], period_s, first, kept)}
-                : Passage{period_s, plant::swing_radps(gravity_mps2, run.run.cable_m[first]), Paces(kept)};
-        whiteners_.emplace_back(disturbances[output], passage);
+                ? WindowMotion{period_s, 0, motion_profile_of(run.on_grid[output], period_s, first, kept)}
+                : WindowMotion{period_s, plant::swing_radps(gravity_mps2, run.run.cable_m[first]),
+                               MotionProfile(kept)};
+        whiteners_.emplace_back(disturbances[output], motion);
       }
   }
 
@@ -93,8 +94,10 @@ class Comparison {
   }
 
  private:
-  [[nodiscard]] std::size_t windows() const { return (run_.run.rows() / rows_ + kEvery - 1) / kEvery; }
-  [[nodiscard]] std::size_t first_of(std::size_t window) const { return window * kEvery * rows_; }
+  [[nodiscard]] std::size_t windows() const {
+    return (run_.run.rows() / rows_ + kWindowStride - 1) / kWindowStride;
+  }
+  [[nodiscard]] std::size_t first_of(std::size_t window) const { return window * kWindowStride * rows_; }
   void whiten(std::size_t window, Eigen::Ref<MatrixXd> x) const {
     const auto kept = static_cast<Index>(rows_ - lead_);
     for (std::size_t i = 0; i < outputs_.size(); ++i)
@@ -123,7 +126,7 @@ class Comparison {
     }
     return kept_of(values);
   }
-  /// Orthonormal directions in which a change of the start moves the outputs.
+  /// Orthonormal directions of the start.
   [[nodiscard]] MatrixXd start_directions(const Replay& replay, std::size_t window,
                                           const std::vector<double>& start, const VectorXd& at) const {
     constexpr double kStep = 1e-4;
@@ -146,7 +149,7 @@ class Comparison {
   std::vector<MatrixXd> bases_;
 };
 
-/// The structured parts of one run in which what differs may show.
+/// Refits a hypothesis to one run, in the parts that its causes act on.
 class Refit {
  public:
   Refit(const Crane& base, const PreparedRun& run, const Disturbances& disturbances,
@@ -160,27 +163,27 @@ class Refit {
     if (any(&Candidate::load)) parts_.emplace_back(run, Part::load, g, disturbances);
   }
 
-  /// Of each part.
+  /// Misfit of each part.
   [[nodiscard]] std::vector<MatrixXd> misfits(const Effects& effects) {
     const Crane crane = with(base_, effects);
     std::vector<MatrixXd> all;
-    for (Comparison& part : parts_) all.push_back(part.misfit(crane));
+    for (WindowMisfit& part : parts_) all.push_back(part.misfit(crane));
     return all;
   }
 
-  /// Gauss-Newton from the values given, inside the bounds.
-  void approach(Effects& effects) {
+  /// Gauss-Newton with step halving, inside the bounds.
+  void fit(Effects& effects) {
     VectorXd residual = stacked(misfits(effects));
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kMostRefitRounds; ++round) {
       const VectorXd change = step(effects, residual);
       double gain = 0;
-      for (double share = 1; share > kLeastStep && gain <= 0; share *= 0.5) {
+      for (double share = 1; share > kShortestStepShare && gain <= 0; share *= 0.5) {
         const Effects next = moved(effects, share * change);
         const VectorXd after = stacked(misfits(next));
         gain = residual.squaredNorm() - after.squaredNorm();
         if (gain > 0) effects = next, residual = after;
       }
-      if (gain < kLeastApproach) return;
+      if (gain < kLeastDecrease) return;
     }
   }
 
@@ -212,11 +215,11 @@ class Refit {
   }
 
   Crane base_;
-  std::vector<Comparison> parts_;
+  std::vector<WindowMisfit> parts_;
 };
 
-/// Causes on one drive show only while that drive is asked to move.
-bool may_show(const SafeMotion& motion, const std::vector<const Candidate*>& causes) {
+/// Whether the motion excites the causes: those of one drive need a reference of that drive.
+bool excites(const SafeMotion& motion, const std::vector<const Candidate*>& causes) {
   const std::string& name = causes.front()->axis;
   const auto elsewhere = [&](const Candidate* cause) { return cause->axis != name; };
   if (std::any_of(causes.begin(), causes.end(), elsewhere) || (name != "trolley" && name != "slew"))
@@ -226,8 +229,8 @@ bool may_show(const SafeMotion& motion, const std::vector<const Candidate*>& cau
                      [axis](const TimedExcitation& part) { return part.reference.axis == axis; });
 }
 
-/// How far `rival`, refitted, stays from what `truth` gives, in the column that shows it most, in standard
-/// deviations of the noise. Nothing when the motion is not safe for that crane.
+/// Separation of `rival`, refitted, from `truth` in the most sensitive column, in standard deviations of the
+/// noise. Nothing if the motion is not safe for the true crane.
 std::optional<double> separation_of(const configuration::Rig& rig, const SafeMotion& motion,
                                     const Effects& truth, const Effects& rival,
                                     const Disturbances& disturbances) {
@@ -237,14 +240,14 @@ std::optional<double> separation_of(const configuration::Rig& rig, const SafeMot
   if (!run) return std::nullopt;
   Refit refit(base, *run, disturbances, differing(truth, rival));
   Effects nearest = beginning_at(truth, rival);
-  refit.approach(nearest);
+  refit.fit(nearest);
   const auto left = refit.misfits(nearest),
-             own = refit.misfits(truth);  // the replay of smoothed data errs a little
+             own = refit.misfits(truth);  // the replay of smoothed data has a small residual
   double most = 0;
   for (std::size_t part = 0; part < left.size(); ++part)
     for (Index i = 0; i < left[part].cols(); ++i) {
       const double more = left[part].col(i).squaredNorm() - own[part].col(i).squaredNorm();
-      most = std::max(most, std::sqrt(static_cast<double>(kEvery) * std::max(0.0, more)));
+      most = std::max(most, std::sqrt(static_cast<double>(kWindowStride) * std::max(0.0, more)));
     }
   return most;
 }
@@ -252,9 +255,9 @@ std::optional<double> separation_of(const configuration::Rig& rig, const SafeMot
 }  // namespace
 
 Disturbances disturbances_of(const Study& study) {
-  constexpr double kTellsNothing = 1e6;  // m or rad
+  constexpr double kUninformativeNoise = 1e6;  // m or rad
   Disturbances disturbances{};
-  for (Disturbance& disturbance : disturbances) disturbance.noise = kTellsNothing;
+  for (Disturbance& disturbance : disturbances) disturbance.noise = kUninformativeNoise;
   for (const Problem* problem : {&study.drive(), &study.load()})
     for (std::size_t i = 0; i < problem->disturbances().size(); ++i)
       disturbances[problem->outputs()[i]] = problem->disturbances()[i];
@@ -268,7 +271,7 @@ std::optional<NextExperiment> propose_experiment(const configuration::Rig& rig, 
   const auto menu = motion_menu(rig);
   std::vector<double> separations(menu.size(), 0.0);
   parallel_for(menu.size(), [&](std::size_t i) {
-    if (!may_show(menu[i], causes)) return;
+    if (!excites(menu[i], causes)) return;
     const auto one = separation_of(rig, menu[i], a, b, disturbances);
     const auto other = one ? separation_of(rig, menu[i], b, a, disturbances) : std::nullopt;
     if (other) separations[i] = std::min(*one, *other);

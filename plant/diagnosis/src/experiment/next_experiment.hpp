@@ -1,5 +1,5 @@
 #pragma once
-/// Which motion tells two hypotheses apart that the data cannot.
+/// The motion that separates two hypotheses best.
 #include <array>
 #include <optional>
 #include <vector>
@@ -10,17 +10,17 @@
 
 namespace crane::diagnosis {
 
-/// Noise and disturbance of each output, as learnt from the data there is.
+/// Disturbance of each output, as learnt from the data.
 using Disturbances = std::array<Disturbance, kOutputs>;
 
-/// Of the replays; an output that is not measured has so much noise that it tells nothing.
+/// Of the replays. An output without a measurement has noise of 1e6 m or rad: it does not count.
 [[nodiscard]] Disturbances disturbances_of(const Study& study);
 
-/// T-optimality (A. C. Atkinson, V. V. Fedorov, Biometrika 62 (1975) 57): of a menu of motions inside the
-/// rig's limits the one in which one hypothesis, refitted, comes least near to what the other one gives; each
-/// of the two takes the part of the truth once.
-/// @param a,b with their values as fitted to the data there is; what both have need not be told apart
-/// @return nothing when no motion separates them by ten standard deviations of the noise
+/// T-optimality (A. C. Atkinson, V. V. Fedorov, Biometrika 62 (1975) 57): the motion of the menu in which one
+/// hypothesis, refitted, stays furthest from the prediction of the other. Each is the truth once; the smaller
+/// separation counts.
+/// @param a,b hypotheses with fitted values; common causes are fixed
+/// @return nothing if no motion separates them by ten standard deviations of the noise
 [[nodiscard]] std::optional<NextExperiment> propose_experiment(const configuration::Rig& rig,
                                                                const Effects& a, const Effects& b,
                                                                const Disturbances& disturbances);

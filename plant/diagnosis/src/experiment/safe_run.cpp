@@ -19,7 +19,7 @@ constexpr double kSwingShare = 0.95;  // of the limit at which the crane trips
 
 double& rate(State& state, Axis axis) { return axis == kTrolley ? state.trolley_mps : state.slew_radps; }
 
-/// The crane under its loop, tick by tick.
+/// The crane under its position loop, tick by tick.
 class FollowedMotion {
  public:
   FollowedMotion(const configuration::Rig& rig, const Crane& crane, const SafeMotion& motion)
@@ -36,7 +36,7 @@ class FollowedMotion {
 
   [[nodiscard]] const State& state() const { return state_; }
 
-  /// Voltage of this tick, computed in the tick before; then the tick.
+  /// Applies the voltage computed in the previous tick. @return it
   plant::PerAxis tick(double time_s) {
     const plant::PerAxis command = next_;
     for (const Axis axis : {kTrolley, kSlew})
@@ -72,7 +72,7 @@ class FollowedMotion {
     return std::clamp(volt, -most, most);
   }
 
-  /// Semi-implicit; friction, steep around standstill, by its slope.
+  /// Semi-implicit Euler; friction, steep near standstill, linearised.
   void step(double h) {
     constexpr double kSmall = 1e-4;
     const plant::PerAxis friction = model_.friction_v(state_, actuation_.drive_v);

@@ -1,5 +1,5 @@
 #pragma once
-/// A motion of the menu as a crane would do it: synthetic data without noise.
+/// Simulated data of a motion of the menu, without noise.
 #include <optional>
 
 #include "crane/diagnosis/replay.hpp"
@@ -7,9 +7,9 @@
 
 namespace crane::diagnosis {
 
-/// The crane follows the motion under a simple position loop; the commands of that are replayed, so that
-/// whoever replays them with the same crane meets the same numbers.
-/// @return nothing when the crane leaves the limits of the rig's drives or swing
+/// The crane follows the motion under a position loop. The measurement is a replay of its commands, so that a
+/// replay with the same crane has no residual.
+/// @return nothing if the crane leaves the limits of travel or swing
 [[nodiscard]] std::optional<PreparedRun> safe_run(const configuration::Rig& rig, const Crane& crane,
                                                   const SafeMotion& motion);
 

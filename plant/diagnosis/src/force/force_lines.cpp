@@ -7,7 +7,7 @@
 #include <random>
 #include <sstream>
 
-#include "force/explained.hpp"
+#include "force/normal_equations.hpp"
 #include "parallel.hpp"
 #include "robust.hpp"
 
@@ -19,17 +19,17 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// Lines half a width apart in a run of 40 s.
+/// Spacing: half the width of a line in 40 s.
 constexpr double kLowest_hz = 0.1, kHighest_hz = 4, kSpacing_hz = 0.0125;
 constexpr std::size_t kLineFolds = 4;
 constexpr std::size_t kLineFlips = 99;
-/// Share of the loss of drives or load: a smaller line is of no consequence for the crane.
+/// Share of the loss: a smaller line is of no consequence for the crane.
 constexpr double kLineOfDrives = 0.025, kLineOfLoad = 0.012;
 
-/// A force with one frequency on one output, seen through every piece: cosine and sine of a run's own phase.
+/// A force of one frequency: cosine and sine on each piece. Each run has its own phase.
 struct Line {
   double hz = 0;
-  std::vector<Explained> pieces;
+  std::vector<NormalEquations> pieces;
 };
 
 Line line_at(const Pieces& pieces, double hz) {
@@ -42,43 +42,44 @@ Line line_at(const Pieces& pieces, double hz) {
       const double phase = turn * static_cast<double>(static_cast<Index>(piece.first) + k);
       waves(k, 0) = std::cos(phase), waves(k, 1) = std::sin(phase);
     }
-    line.pieces.push_back(explained(pieces, piece, std::move(waves)));
+    line.pieces.push_back(normal_equations(pieces, piece, std::move(waves)));
   }
   return line;
 }
 
-/// Sums over the pieces of one run, in or out of a fold.
-using ByRun = std::map<std::size_t, Explained>;
+/// Sums over the pieces of each run, inside or outside a fold.
+using ByRun = std::map<std::size_t, NormalEquations>;
 
-ByRun summed(const Pieces& pieces, const Line& line, const VectorXd& signs, std::size_t fold, bool inside) {
+ByRun summed_by_run(const Pieces& pieces, const Line& line, const VectorXd& signs, std::size_t fold,
+                    bool inside) {
   ByRun sums;
   for (std::size_t i = 0; i < line.pieces.size(); ++i) {
     if ((i % kLineFolds == fold) != inside) continue;
-    auto [of_run, fresh] = sums.try_emplace(pieces.all[i].run, Explained{2});
-    of_run->second.pull += signs[static_cast<Index>(i)] * line.pieces[i].pull;
-    of_run->second.curvature += line.pieces[i].curvature;
+    auto [of_run, fresh] = sums.try_emplace(pieces.all[i].run, NormalEquations{2});
+    of_run->second.score += signs[static_cast<Index>(i)] * line.pieces[i].score;
+    of_run->second.hessian += line.pieces[i].hessian;
   }
   return sums;
 }
 
-/// The best line, each fold predicted by the others: frequency and amplitude.
+/// The best line: frequency and amplitude of each fold are those of the others.
 struct Found {
   double gain = 0, hz = 0;
 };
-Found cross_validated(const Pieces& pieces, const std::vector<Line>& lines, const VectorXd& signs) {
+Found cross_validated_line(const Pieces& pieces, const std::vector<Line>& lines, const VectorXd& signs) {
   Found found;
   for (std::size_t fold = 0; fold < kLineFolds; ++fold) {
     const Line* best = nullptr;
     double most = 0;
     for (const Line& line : lines) {
       double gain = 0;
-      for (const auto& [run, sums] : summed(pieces, line, signs, fold, false))
-        gain += sums.pull.dot(wave_amplitude(sums));
+      for (const auto& [run, sums] : summed_by_run(pieces, line, signs, fold, false))
+        gain += sums.score.dot(wave_amplitude(sums));
       if (gain > most) most = gain, best = &line;
     }
     if (best == nullptr) continue;
-    const ByRun others = summed(pieces, *best, signs, fold, false);
-    for (const auto& [run, own] : summed(pieces, *best, signs, fold, true)) {
+    const ByRun others = summed_by_run(pieces, *best, signs, fold, false);
+    for (const auto& [run, own] : summed_by_run(pieces, *best, signs, fold, true)) {
       const auto known = others.find(run);
       if (known == others.end()) continue;
       const Vector2d x = wave_amplitude(known->second);
@@ -89,14 +90,15 @@ Found cross_validated(const Pieces& pieces, const std::vector<Line>& lines, cons
   return found;
 }
 
-/// The most that pieces with signs at random give.
-double by_luck(const Pieces& pieces, const std::vector<Line>& lines, std::uint64_t seed) {
+/// Largest gain under random signs of the pieces.
+double largest_by_sign_flips(const Pieces& pieces, const std::vector<Line>& lines, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<VectorXd> signs(kLineFlips, VectorXd::Ones(static_cast<Index>(pieces.all.size())));
   for (VectorXd& flip : signs)
     for (double& sign : flip) sign = (random() & 1U) != 0U ? 1.0 : -1.0;
   std::vector<double> gains(kLineFlips);
-  parallel_for(kLineFlips, [&](std::size_t i) { gains[i] = cross_validated(pieces, lines, signs[i]).gain; });
+  parallel_for(kLineFlips,
+               [&](std::size_t i) { gains[i] = cross_validated_line(pieces, lines, signs[i]).gain; });
   return *std::max_element(gains.begin(), gains.end());
 }
 
@@ -109,8 +111,10 @@ std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t s
   parallel_for(lines.size(), [&](std::size_t i) {
     lines[i] = line_at(pieces, kLowest_hz + kSpacing_hz * static_cast<double>(i));
   });
-  const Found found = cross_validated(pieces, lines, VectorXd::Ones(static_cast<Index>(pieces.all.size())));
-  if (found.gain < least * loss || found.gain <= by_luck(pieces, lines, seed)) return std::nullopt;
+  const Found found =
+      cross_validated_line(pieces, lines, VectorXd::Ones(static_cast<Index>(pieces.all.size())));
+  if (found.gain < least * loss || found.gain <= largest_by_sign_flips(pieces, lines, seed))
+    return std::nullopt;
   std::ostringstream name;
   name.precision(3);
   name << kOutputNames[pieces.output] << ": time, " << found.hz << " Hz";

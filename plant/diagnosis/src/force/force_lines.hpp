@@ -1,5 +1,5 @@
 #pragma once
-/// A force on drives or load that comes back in time, whatever the crane does: one line of the spectrum.
+/// Force of one frequency on drives or load: a line of the spectrum.
 #include <cstdint>
 #include <optional>
 
@@ -7,8 +7,8 @@
 
 namespace crane::diagnosis {
 
-/// The frequency at which such a force predicts the residual best, out of sample; nothing where flipping the
-/// signs of pieces, which leaves no line standing, does as well.
+/// The strongest line, cross-validated; nothing below a share of the loss, or if one of 99 random sign flips
+/// of the pieces gives as strong a line.
 /// @param seed of the sign flips
 [[nodiscard]] std::optional<Unexplained> find_force_line(const Pieces& pieces, std::uint64_t seed);
 

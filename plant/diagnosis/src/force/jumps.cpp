@@ -14,29 +14,32 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Squared standard deviations: the strongest of all places in all pieces of clean data comes to 20.
-constexpr double kClear = 50;
-constexpr std::size_t kFewest = 3;
-/// Rows at the ends of a piece, where a jump is as good as another start.
-constexpr std::size_t kMargin = 5;
+/// Chi-square of a jump, one degree of freedom; the largest in clean data is 20.
+constexpr double kClearJumpStatistic = 50;
+constexpr std::size_t kFewestJumpingPieces = 3;
+/// Rows at the ends of a piece, where a jump resembles another start.
+constexpr std::size_t kJumpMargin_rows = 5;
 
 /// One column per row at which the position, or the speed, may jump.
-MatrixXd jumps_in(const Piece& piece, bool of_speed) {
-  const auto rows = static_cast<Index>(piece.rows), margin = static_cast<Index>(kMargin);
+MatrixXd jumps_in(const Piece& piece, const Run& run, bool of_speed) {
+  const auto rows = static_cast<Index>(piece.rows), margin = static_cast<Index>(kJumpMargin_rows);
   MatrixXd all = MatrixXd::Zero(rows, std::max<Index>(0, rows - 2 * margin));
+  const auto instant_s = [&](Index row) {
+    return run.instant_s(piece.first + static_cast<std::size_t>(row));
+  };
   for (Index j = 0; j < all.cols(); ++j)
     for (Index k = j + margin; k < rows; ++k)
-      all(k, j) = of_speed ? static_cast<double>(k - j - margin + 1) : 1.0;
+      all(k, j) = of_speed ? instant_s(k) - instant_s(j + margin - 1) : 1.0;
   piece.whitener.apply(all);
   all -= piece.basis * (piece.basis.transpose() * all).eval();
   return all;
 }
 
-double strongest(const Piece& piece, bool of_speed) {
-  const MatrixXd all = jumps_in(piece, of_speed);
+double strongest_jump(const Piece& piece, const Run& run, bool of_speed) {
+  const MatrixXd all = jumps_in(piece, run, of_speed);
   if (all.cols() == 0) return 0;
-  const VectorXd pull = all.transpose() * piece.residual, curvature = all.colwise().squaredNorm();
-  return (pull.cwiseAbs2().array() / curvature.array().max(1e-12)).maxCoeff();
+  const VectorXd score = all.transpose() * piece.residual, hessian = all.colwise().squaredNorm();
+  return (score.cwiseAbs2().array() / hessian.array().max(1e-12)).maxCoeff();
 }
 
 }  // namespace
@@ -47,18 +50,20 @@ std::optional<Unexplained> find_jumps(const Pieces& pieces) {
   };
   std::vector<Strongest> found(pieces.all.size());
   parallel_for(found.size(), [&](std::size_t i) {
-    found[i] = {strongest(pieces.all[i], false), strongest(pieces.all[i], true)};
+    const Piece& piece = pieces.all[i];
+    const Run& run = (*pieces.runs)[piece.run].run;
+    found[i] = {strongest_jump(piece, run, false), strongest_jump(piece, run, true)};
   });
   std::size_t clear = 0;
   double gain = 0, rather_position = 0;
   for (const auto& [of_position, of_speed] : found) {
     const double stronger = std::max(of_position, of_speed);
-    if (stronger < kClear) continue;
+    if (stronger < kClearJumpStatistic) continue;
     ++clear;
     gain += loss_of(std::sqrt(stronger));
     rather_position += of_position - of_speed;
   }
-  if (clear < kFewest) return std::nullopt;
+  if (clear < kFewestJumpingPieces) return std::nullopt;
   const std::string axis = axis_of(pieces.output);
   return Unexplained{axis + (rather_position > 0 ? ": jumps of the position, " : ": jumps of the speed, ") +
                          std::to_string(clear) + " in " + std::to_string(found.size()) + " motions",

@@ -1,13 +1,13 @@
 #pragma once
-/// Moments at which a drive's residual changes all at once: an encoder that loses counts, a brake that grips.
+/// Jumps in the residual of a drive: an encoder that loses counts, a brake that grips.
 #include <optional>
 
 #include "force/unexplained.hpp"
 
 namespace crane::diagnosis {
 
-/// Of each piece the strongest jump of the position or of the speed. Nothing unless several pieces have one
-/// that noise and a coloured force do not make.
+/// The strongest jump of position or speed of each piece. Nothing unless kFewestJumpingPieces exceed
+/// kClearJumpStatistic.
 /// @param pieces of a drive
 [[nodiscard]] std::optional<Unexplained> find_jumps(const Pieces& pieces);
 

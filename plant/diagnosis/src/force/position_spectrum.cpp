@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "force/explained.hpp"
+#include "force/normal_equations.hpp"
 #include "parallel.hpp"
 #include "replay/travel.hpp"
 
@@ -16,13 +16,13 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr std::size_t kPlaces = 400;
-/// Of a line of the travelled distance.
-constexpr double kSpacing = 0.25;
-/// Five waves over the travel; longer ones are friction that depends on position.
-constexpr std::size_t kFirst = 20;
-/// Between two lines: a wave that is right in the middle of the travel has to be right at its ends.
-constexpr std::size_t kFiner = 8;
+constexpr std::size_t kLines = 400;
+/// Distance of lines, in 1 / travel.
+constexpr double kLineSpacing = 0.25;
+/// Five waves over the travel; longer ones are position-dependent friction.
+constexpr std::size_t kFirstLine = 20;
+/// Subdivisions between two lines: the phase has to fit over the whole travel.
+constexpr std::size_t kRefinement = 8;
 
 struct Wave {
   double per_length = 0, power = 0;
@@ -30,7 +30,7 @@ struct Wave {
 };
 
 Wave wave_of(const Pieces& drive, double per_length) {
-  Explained all{2};
+  NormalEquations all{2};
   for (const Piece& piece : drive.all) {
     MatrixXd waves(static_cast<Index>(piece.rows), 2);
     for (std::size_t k = 0; k < piece.rows; ++k) {
@@ -38,17 +38,17 @@ Wave wave_of(const Pieces& drive, double per_length) {
       const double turn = 2 * std::numbers::pi * per_length * middle;
       waves.row(static_cast<Index>(k)) << std::cos(turn), std::sin(turn);
     }
-    all += explained(drive, piece, std::move(waves));
+    all += normal_equations(drive, piece, std::move(waves));
   }
   const Vector2d amplitude = wave_amplitude(all);
-  return {per_length, all.pull.dot(amplitude), amplitude};
+  return {per_length, all.score.dot(amplitude), amplitude};
 }
 
-/// The strongest one nearer to `peak` than the lines beside it.
+/// The strongest wave between the neighbours of `peak`.
 Wave refined(const Pieces& drive, const Wave& peak, double spacing) {
-  std::vector<Wave> around(2 * kFiner - 1);
+  std::vector<Wave> around(2 * kRefinement - 1);
   parallel_for(around.size(), [&](std::size_t i) {
-    const double lines = (static_cast<double>(i) + 1) / kFiner - 1;
+    const double lines = (static_cast<double>(i) + 1) / kRefinement - 1;
     around[i] = wave_of(drive, peak.per_length + lines * spacing);
   });
   return *std::max_element(around.begin(), around.end(),
@@ -60,13 +60,13 @@ Wave refined(const Pieces& drive, const Wave& peak, double spacing) {
 std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count) {
   const double travel = travel_of(*drive.runs, drive.output).width();
   if (drive.all.empty() || !(travel > 0)) return {};
-  const double spacing = kSpacing / travel;
-  std::vector<Wave> lines(kPlaces);
-  parallel_for(kPlaces, [&](std::size_t line) {
-    if (line + 1 >= kFirst) lines[line] = wave_of(drive, spacing * static_cast<double>(line));
+  const double spacing = kLineSpacing / travel;
+  std::vector<Wave> lines(kLines);
+  parallel_for(kLines, [&](std::size_t line) {
+    if (line + 1 >= kFirstLine) lines[line] = wave_of(drive, spacing * static_cast<double>(line));
   });
   std::vector<std::size_t> peaks;
-  for (std::size_t line = kFirst; line + 1 < kPlaces; ++line)
+  for (std::size_t line = kFirstLine; line + 1 < kLines; ++line)
     if (lines[line].power >= lines[line - 1].power && lines[line].power >= lines[line + 1].power)
       peaks.push_back(line);
   std::sort(peaks.begin(), peaks.end(),

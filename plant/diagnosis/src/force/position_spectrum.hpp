@@ -1,5 +1,5 @@
 #pragma once
-/// Waves over position in what is unexplained of a drive.
+/// Spectrum over position of the unexplained force on a drive.
 #include <vector>
 
 #include "shooting/pieces.hpp"
@@ -11,8 +11,8 @@ struct PositionWave {
   double period = 0, amplitude = 0, phase_rad = 0;
 };
 
-/// Peaks of the spectrum over position of the force that explains the residual, strongest first.
-/// @param drive pieces of one
+/// Peaks of the spectrum, strongest first.
+/// @param drive pieces of a drive
 [[nodiscard]] std::vector<PositionWave> strongest_waves(const Pieces& drive, std::size_t count);
 
 }  // namespace crane::diagnosis

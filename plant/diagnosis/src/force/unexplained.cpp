@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "force/explained.hpp"
+#include "force/normal_equations.hpp"
 #include "parallel.hpp"
 #include "replay/travel.hpp"
 
@@ -15,25 +15,23 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kFolds = 4;
-/// A force that builds up after a reversal has done so within this share of the travel.
+constexpr std::size_t kPatternFolds = 4;
+/// Share of the travel within which a force builds up after a reversal.
 constexpr double kBuildUp = 0.25;
 
-/// Of a run and a row.
-using Along = std::function<double(std::size_t, std::size_t)>;
+/// Function of run and row.
+using RowFunction = std::function<double(std::size_t, std::size_t)>;
 
-/// A force that goes with `value`: an amplitude for each of some triangular bins over its extent, times
-/// `force`.
+/// Force as a function of `value`: an amplitude for each triangular bin over its range, times `force`.
 struct Variable {
   std::string name;
   GoesWith with = GoesWith::position;
   std::size_t bins = 1;
   Extent over;
-  Along value, force;
+  RowFunction value, force;
 };
 
-/// For every row the way since the axis last turned, with the sign of the direction and drawn out near 0:
-/// +-sqrt(way / far), at most 1.
+/// By row: +-sqrt(distance since the last reversal / far), at most 1, with the sign of the direction.
 std::vector<std::vector<double>> since_reversal(const Runs& runs, Output axis, double far) {
   std::vector<std::vector<double>> all;
   for (const PreparedRun& run : runs) {
@@ -41,7 +39,8 @@ std::vector<std::vector<double>> since_reversal(const Runs& runs, Output axis, d
     std::vector<double>& since = all.emplace_back();
     double direction = 1, turned_at = motion.position.empty() ? 0 : motion.position[0];
     for (std::size_t k = 0; k < motion.position.size(); ++k) {
-      if (direction * motion.rate[k] < -kStands) direction = -direction, turned_at = motion.position[k];
+      if (direction * motion.rate[k] < -kStandstillSpeed)
+        direction = -direction, turned_at = motion.position[k];
       const double way = std::max(0.0, direction * (motion.position[k] - turned_at));
       since.push_back(direction * std::sqrt(std::min(1.0, way / far)));
     }
@@ -58,15 +57,17 @@ std::vector<Variable> variables_of(const Runs& runs, Output axis) {
     for (const double v : run.motion[axis].rate) speeds.take(v);
     times.take(run.run.duration_s());
   }
-  const Along position = [&runs, axis](auto r, auto k) { return runs[r].motion[axis].position[k]; };
-  const Along speed = [&runs, axis](auto r, auto k) { return runs[r].motion[axis].rate[k]; };
-  const Along time = [&runs](auto r, auto k) { return static_cast<double>(k) * runs[r].run.period_s; };
-  const Along since = [all = since_reversal(runs, axis, kBuildUp * std::max(1e-3, travel.width()))](
-                          auto r, auto k) { return all[r][k]; };
-  const Along push = [](auto, auto) { return 1.0; };
-  const Along friction = [speed](auto r, auto k) { return std::copysign(1.0, speed(r, k)); };
-  const Along command = [&runs, axis](auto r, auto k) { return runs[r].run.command_v[k][axis]; };
-  const Along other_command = [&runs, other](auto r, auto k) { return runs[r].run.command_v[k][other]; };
+  const RowFunction position = [&runs, axis](auto r, auto k) { return runs[r].motion[axis].position[k]; };
+  const RowFunction speed = [&runs, axis](auto r, auto k) { return runs[r].motion[axis].rate[k]; };
+  const RowFunction time = [&runs](auto r, auto k) { return static_cast<double>(k) * runs[r].run.period_s; };
+  const RowFunction since = [all = since_reversal(runs, axis, kBuildUp * std::max(1e-3, travel.width()))](
+                                auto r, auto k) { return all[r][k]; };
+  const RowFunction push = [](auto, auto) { return 1.0; };
+  const RowFunction friction = [speed](auto r, auto k) { return std::copysign(1.0, speed(r, k)); };
+  const RowFunction command = [&runs, axis](auto r, auto k) { return runs[r].run.command_v[k][axis]; };
+  const RowFunction other_command = [&runs, other](auto r, auto k) {
+    return runs[r].run.command_v[k][other];
+  };
   return {{name + ": position", GoesWith::position, 16, travel, position, push},
           {name + ": position, closely", GoesWith::position, 64, travel, position, push},
           {name + ": speed", GoesWith::speed, 12, speeds, speed, push},
@@ -77,10 +78,10 @@ std::vector<Variable> variables_of(const Runs& runs, Output axis) {
           {name + ": command of the other drive", GoesWith::other_command, 1, times, time, other_command}};
 }
 
-/// Of every piece, one column a bin.
-std::vector<Explained> explained_by(const Pieces& pieces, const Variable& variable) {
+/// Of each piece, one pattern per bin.
+std::vector<NormalEquations> normal_equations_of(const Pieces& pieces, const Variable& variable) {
   const auto last = static_cast<double>(variable.bins - 1);
-  std::vector<Explained> all;
+  std::vector<NormalEquations> all;
   for (const Piece& piece : pieces.all) {
     MatrixXd forces = MatrixXd::Zero(static_cast<Index>(piece.rows), static_cast<Index>(variable.bins));
     for (Index k = 0; k < forces.rows(); ++k) {
@@ -90,39 +91,39 @@ std::vector<Explained> explained_by(const Pieces& pieces, const Variable& variab
       for (Index bin = 0; bin < forces.cols(); ++bin)
         forces(k, bin) = force * std::max(0.0, 1 - std::abs(at - static_cast<double>(bin)));
     }
-    all.push_back(explained(pieces, piece, std::move(forces)));
+    all.push_back(normal_equations(pieces, piece, std::move(forces)));
   }
   return all;
 }
 
-/// Decrease of the loss of pieces that did not take part in the fit; 0 unless all folds but one agree.
-double cross_validated(const std::vector<Explained>& pieces) {
-  const Index n = pieces[0].pull.size();
-  Explained all{n};
-  for (const Explained& piece : pieces) all += piece;
-  const double ridge = 1e-3 * all.curvature.trace() / static_cast<double>(n);
+/// Decrease of the loss of pieces outside the fit; 0 unless all folds but one have a gain.
+double cross_validated_gain(const std::vector<NormalEquations>& pieces) {
+  const Index n = pieces[0].score.size();
+  NormalEquations all{n};
+  for (const NormalEquations& piece : pieces) all += piece;
+  const double ridge = 1e-3 * all.hessian.trace() / static_cast<double>(n);
   double gain = 0;
   std::size_t agreeing = 0;
-  for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    Explained own{n}, others = all;
+  for (std::size_t fold = 0; fold < kPatternFolds; ++fold) {
+    NormalEquations own{n}, others = all;
     for (std::size_t w = 0; w < pieces.size(); ++w)
-      if (w * kFolds / pieces.size() == fold) own += pieces[w];
+      if (w * kPatternFolds / pieces.size() == fold) own += pieces[w];
     others -= own;
-    others.curvature.diagonal().array() += ridge + 1e-12;
-    const double gained = own.gain(others.curvature.ldlt().solve(others.pull));
+    others.hessian.diagonal().array() += ridge + 1e-12;
+    const double gained = own.gain(others.hessian.ldlt().solve(others.score));
     gain += gained;
     agreeing += gained > 0 ? 1 : 0;
   }
-  return agreeing + 1 >= kFolds ? gain : 0;
+  return agreeing + 1 >= kPatternFolds ? gain : 0;
 }
 
-/// Of a pattern over time, only what a constant of the same kind does not do.
-double gain_of(const Pieces& pieces, const Variable& variable) {
-  const double gain = cross_validated(explained_by(pieces, variable));
+/// Cross-validated gain; of a pattern over time, beyond that of a constant.
+double pattern_gain_of(const Pieces& pieces, const Variable& variable) {
+  const double gain = cross_validated_gain(normal_equations_of(pieces, variable));
   if (variable.with != GoesWith::time || gain <= 0) return gain;
   Variable constant = variable;
   constant.bins = 1;
-  return gain - std::max(0.0, cross_validated(explained_by(pieces, constant)));
+  return gain - std::max(0.0, cross_validated_gain(normal_equations_of(pieces, constant)));
 }
 
 }  // namespace
@@ -133,7 +134,7 @@ std::vector<Unexplained> find_unexplained(const Pieces& pieces) {
   const std::vector<Variable> variables = variables_of(*pieces.runs, pieces.output);
   const double loss = pieces.loss();
   std::vector<double> gains(variables.size());
-  parallel_for(variables.size(), [&](std::size_t v) { gains[v] = gain_of(pieces, variables[v]); });
+  parallel_for(variables.size(), [&](std::size_t v) { gains[v] = pattern_gain_of(pieces, variables[v]); });
   for (std::size_t v = 0; v < variables.size(); ++v)
     if (gains[v] > 0)
       found.push_back({variables[v].name, variables[v].with, pieces.output, gains[v], gains[v] / loss});

@@ -1,7 +1,6 @@
 #pragma once
-/// Is there anything left of a drive that no candidate explains? An extra force that is free in every bin of
-/// position, speed, way since the last reversal, command ..., tried one variable after the other, out of
-/// sample.
+/// Force on a drive that no candidate explains: free in each bin of one variable (position, speed, distance
+/// since the last reversal, command ...), cross-validated.
 #include <string>
 #include <vector>
 
@@ -18,7 +17,7 @@ struct Unexplained {
   double fraction = 0;  ///< of the pieces' loss
 };
 
-/// Strongest first; only those that predict.
+/// Those with a positive cross-validated gain, strongest first.
 /// @param pieces of a drive
 [[nodiscard]] std::vector<Unexplained> find_unexplained(const Pieces& pieces);
 

@@ -1,10 +1,9 @@
 #pragma once
-/// What sensor noise and an unknown force do to the residual of a window. The residual x of one output
-/// follows
-///   x'' = -w^2 x - c x' + a,   seen as x + noise,
-/// with a an acceleration of first-order colour; w is 0 for a drive, c 0 for a pendulum. An axis that sticks
-/// forgets the error of its speed; where it moves slowly, when exactly it breaks loose and comes to rest no
-/// friction law knows: white acceleration there.
+/// Noise model of the residual x of one output in a window (docs/diagnosis.md, 4):
+///   x'' = -w^2 x - c x' + a + u,   a' = -a / correlation_s + white,   measured: x + noise
+/// a: coloured acceleration. u: white acceleration at low speed, where the time of stick and slip cannot be
+/// predicted. w = 0 for a drive, c = 0 for a pendulum. An axis that sticks loses the error of its speed at
+/// turns and at rest.
 #include <vector>
 
 namespace crane::diagnosis {
@@ -14,28 +13,30 @@ struct Disturbance {
   double acceleration = 0;   ///< of a, m/s2 or rad/s2
   double correlation_s = 0;  ///< correlation time of a; 0: white
   double damping_ps = 0;     ///< c, 1/s
-  double friction = 0;       ///< standard deviation of the white acceleration at standstill, m/s2 or rad/s2
+  double friction = 0;       ///< standard deviation of u at standstill, m/s2 or rad/s2
   bool sticks = false;
   double misfit =
-      0;  ///< minus twice the log likelihood of the residuals it was learnt from, but for a constant
+      0;  ///< minus twice the log likelihood of the residuals it was learnt from, without constant
 };
 
-/// An axis that turns or comes to rest has forgotten what error its speed had; one that stands has none.
-enum class Going { on, turning, standing };
+/// moving: the error of the speed persists. turning: reverses or stops in this row, the error is lost.
+/// standing: at rest for several rows, no error.
+enum class MotionPhase { moving, turning, standing };
 
-/// How an axis moved, by row of a window.
-struct Pace {
-  double slow = 0;  ///< 0 at speed to 1 at standstill
-  Going going = Going::on;
-  bool seen = true;         ///< whether the row was measured
-  bool speed_open = false;  ///< whether an unknown command may have changed the speed in the row
+/// Motion of an axis in one row.
+struct RowMotion {
+  double slowness = 0;  ///< 0 at speed, 1 at standstill
+  MotionPhase phase = MotionPhase::moving;
+  bool seen = true;            ///< whether the row was measured
+  double offset_s = 0;         ///< instant of the measurement since the row's time on the grid
+  bool speed_unknown = false;  ///< an edge of the command may have been lost: speed unknown
 };
-using Paces = std::vector<Pace>;
+using MotionProfile = std::vector<RowMotion>;
 
-/// A window of one output: how long, how it moved.
-struct Passage {
-  double period_s = 0, natural_radps = 0;  ///< natural: of a pendulum; 0: a drive
-  Paces paces;                             ///< by row
+/// Motion of one output in a window.
+struct WindowMotion {
+  double period_s = 0, natural_radps = 0;  ///< natural_radps: of a pendulum; 0: a drive
+  MotionProfile profile;                   ///< by row
 };
 
 }  // namespace crane::diagnosis

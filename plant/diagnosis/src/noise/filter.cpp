@@ -5,20 +5,21 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Share of what friction does at standstill that is left when an axis stands: it creeps, the model's
-/// otherwise.
-constexpr double kStandingShare = 0.01;
-/// Variance of the way in a row that an unknown command leaves open, in noise variances.
-constexpr double kOpenSpeed = 1e6;
-/// Relative change of the variances from row to row below which the filter has come to its steady state.
-constexpr double kSteady = 1e-9;
+/// Share of u at rest: the axis creeps, unlike the model's.
+constexpr double kStandingFrictionShare = 0.01;
+/// Variance of the distance in a row after a lost edge of the command, in noise variances.
+constexpr double kUnknownSpeedVariance = 1e6;
+/// Relative change of the variances per row in the steady state of the filter.
+constexpr double kSteadyStateTolerance = 1e-9;
 
-bool steady(double before, double after) { return std::abs(after - before) <= kSteady * before; }
+bool steady(double before, double after) {
+  return std::abs(after - before) <= kSteadyStateTolerance * before;
+}
 
 }  // namespace
 
-Eigen::Matrix3d step_of(const Disturbance& d, const Passage& passage) {
-  const double t = passage.period_s, w = passage.natural_radps, c = d.damping_ps;
+Eigen::Matrix3d transition_of(const Disturbance& d, const WindowMotion& motion) {
+  const double t = motion.period_s, w = motion.natural_radps, c = d.damping_ps;
   const double kept = d.correlation_s > 0 ? std::exp(-t / d.correlation_s) : 0;
   Eigen::Matrix3d step;
   if (w > 0) {
@@ -38,18 +39,36 @@ Eigen::Matrix3d step_of(const Disturbance& d, const Passage& passage) {
   return step;
 }
 
-Prediction::Prediction(const Disturbance& d, const Passage& passage, double start_variance)
-    : passage_(passage), sticks_(d.sticks), step_(step_of(d, passage)), noise_variance_(d.noise * d.noise) {
-  const double a = d.acceleration * d.acceleration, t = passage.period_s;
+PredictionCovariance::PredictionCovariance(const Disturbance& d, const WindowMotion& motion,
+                                           double start_variance)
+    : motion_(motion),
+      sticks_(d.sticks),
+      step_(transition_of(d, motion)),
+      noise_variance_(d.noise * d.noise) {
+  const double a = d.acceleration * d.acceleration, t = motion.period_s;
   p_.xx = start_variance;
   p_.vv = start_variance / (t * t);
   p_.aa = a;
-  fresh_ = a * (1 - step_(2, 2) * step_(2, 2));
+  process_noise_ = a * (1 - step_(2, 2) * step_(2, 2));
   friction_ = std::pow(d.friction * t, 2);
-  open_ = kOpenSpeed * noise_variance_ / (t * t);
+  unknown_speed_ = kUnknownSpeedVariance * noise_variance_ / (t * t);
 }
 
-Prediction::Symmetric Prediction::carried(const Symmetric& p) const {
+PredictionCovariance::Update PredictionCovariance::update(std::size_t row) const {
+  const double offset_s = motion_.profile[row].offset_s;
+  if (offset_s == 0) {
+    const double f = p_.xx + noise_variance_;
+    return {Eigen::Vector3d{p_.xx, p_.xv, p_.xa} / f, f};
+  }
+  const Eigen::Vector3d h = measurement_after(offset_s);
+  const Eigen::Vector3d ph{p_.xx * h[0] + p_.xv * h[1] + p_.xa * h[2],
+                           p_.xv * h[0] + p_.vv * h[1] + p_.va * h[2],
+                           p_.xa * h[0] + p_.va * h[1] + p_.aa * h[2]};
+  const double f = h.dot(ph) + noise_variance_;
+  return {ph / f, f};
+}
+
+PredictionCovariance::Symmetric PredictionCovariance::propagated(const Symmetric& p) const {
   const auto row = [&](int i) {
     const double x = step_(i, 0), v = step_(i, 1), a = step_(i, 2);
     return Eigen::Vector3d{x * p.xx + v * p.xv + a * p.xa, x * p.xv + v * p.vv + a * p.va,
@@ -65,27 +84,29 @@ Prediction::Symmetric Prediction::carried(const Symmetric& p) const {
           .aa = kept * kept * p.aa};
 }
 
-void Prediction::advance(std::size_t row) {
-  const Pace& pace = passage_.paces[row];
-  const Going now = going(row);
-  const double friction = friction_ * (now == Going::standing ? kStandingShare : pace.slow);
-  // The same filter as in every row of a window in which nothing special happens.
-  const bool usual = pace.seen && now == Going::on && friction == 0 && !pace.speed_open;
+void PredictionCovariance::advance(std::size_t row) {
+  const RowMotion& row_motion = motion_.profile[row];
+  const MotionPhase now = phase(row);
+  const double friction =
+      friction_ * (now == MotionPhase::standing ? kStandingFrictionShare : row_motion.slowness);
+  // In an ordinary row the steady state is kept.
+  const bool usual = row_motion.seen && row_motion.offset_s == 0 && now == MotionPhase::moving &&
+                     friction == 0 && !row_motion.speed_unknown;
   if (usual && steady_) return;
   Symmetric p = p_;
-  if (pace.seen) {
-    const double f = variance();
-    p.xx -= p_.xx * p_.xx / f;
-    p.xv -= p_.xx * p_.xv / f;
-    p.xa -= p_.xx * p_.xa / f;
-    p.vv -= p_.xv * p_.xv / f;
-    p.va -= p_.xv * p_.xa / f;
-    p.aa -= p_.xa * p_.xa / f;
+  if (row_motion.seen) {
+    const auto [k, f] = update(row);
+    p.xx -= k[0] * k[0] * f;
+    p.xv -= k[0] * k[1] * f;
+    p.xa -= k[0] * k[2] * f;
+    p.vv -= k[1] * k[1] * f;
+    p.va -= k[1] * k[2] * f;
+    p.aa -= k[2] * k[2] * f;
   }
-  if (now != Going::on) p.xv = p.vv = p.va = 0;
-  p.vv += friction + (pace.speed_open ? open_ : 0);
-  p = carried(p);
-  p.aa += fresh_;
+  if (now != MotionPhase::moving) p.xv = p.vv = p.va = 0;
+  p.vv += friction + (row_motion.speed_unknown ? unknown_speed_ : 0);
+  p = propagated(p);
+  p.aa += process_noise_;
   steady_ = usual && steady(p_.xx, p.xx) && steady(p_.vv, p.vv) && steady(p_.aa, p.aa);
   p_ = p;
 }

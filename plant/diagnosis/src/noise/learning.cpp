@@ -12,21 +12,47 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int kSweeps = 8;
-/// Of the speed of a drive's residual.
+/// Grid of c of a drive.
 constexpr std::array kDampings_ps{0.0, 1.0, 4.0, 12.0};
-/// Of the force; 0: white.
+/// Grid of the correlation time of a; 0: white.
 constexpr std::array kCorrelations_s{0.0, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0};
-/// Decrease of minus twice the log likelihood that asks for another sweep.
+/// Least decrease of minus twice the log likelihood for another sweep.
 constexpr double kWorthASweep = 1;
+
+/// Windows from which summit and colour are found; all of them only choose among the neighbours of that.
+constexpr std::size_t kSample = 32;
+
+/// Windows of one output.
+struct Windows {
+  std::vector<VectorXd> residuals;
+  std::vector<WindowMotion> motions;
+};
+
+/// At most kSample of them, evenly spaced.
+Windows sample_of(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions) {
+  Windows sample;
+  const std::size_t all = residuals.size(), count = std::min(all, kSample);
+  for (std::size_t i = 0; i < count; ++i) {
+    sample.residuals.push_back(residuals[i * all / count]);
+    sample.motions.push_back(motions[i * all / count]);
+  }
+  return sample;
+}
+
+/// What a search tries of colour and damping: the whole grid, or the neighbours of what it has.
+enum class Reach { grid, neighbours };
 
 /// One number after the other, each on its grid, until nothing gets better. Accelerations are in noises.
 class Learning {
  public:
-  Learning(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages, double least_noise)
-      : residuals_(residuals), passages_(passages), least_noise_(least_noise) {}
+  Learning(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
+           double least_noise, Reach reach)
+      : residuals_(residuals), motions_(motions), least_noise_(least_noise), reach_(reach) {}
 
-  Disturbance run(const Disturbance& near) {
-    if (near.noise > 0) return search(in_noises(near));
+  /// From the noise of a similar residual.
+  Disturbance from(const Disturbance& near) { return search(in_noises(near)); }
+
+  Disturbance from_nothing() {
     Disturbance start;
     start.noise = 1;
     start.correlation_s = 0.2;
@@ -50,13 +76,14 @@ class Learning {
   Disturbance search(const Disturbance& start) {
     best_ = start;
     found_ = {};
-    found_ = likelihood(residuals_, passages_, best_, found_.variance);
+    found_ = likelihood(residuals_, motions_, best_, found_.variance);
     if (best_.acceleration == 0) begin();
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       const double before = found_.value;
       for (const double factor : {0.3, 0.7, 1.4, 3.0})
         try_with(best_.acceleration, factor * best_.acceleration);
-      for (const double correlation_s : kCorrelations_s) try_colour(correlation_s);
+      for (const double correlation_s : kCorrelations_s)
+        if (reaches(kCorrelations_s, best_.correlation_s, correlation_s)) try_colour(correlation_s);
       if (!pendulum()) try_drive();
       if (before - found_.value < kWorthASweep) break;
     }
@@ -65,12 +92,12 @@ class Learning {
     found.acceleration *= noise;
     found.friction *= noise;
     found.noise = std::max(noise, least_noise_);
-    found.misfit = std::isfinite(found_.value) ? found_.value : 0;  // residuals of nothing but zeros
+    found.misfit = std::isfinite(found_.value) ? found_.value : 0;  // all residuals are zero
     return found;
   }
 
-  /// A force of some size and colour, what friction does in its measure: the likelihood has several summits,
-  /// a weak slow force with a rough sensor is one, a strong fast one with a fine sensor another.
+  /// Grid of strength and colour: the likelihood has several maxima, for example a weak slow force with a
+  /// coarse sensor and a strong fast one with a fine sensor. u is proportional to a.
   void begin() {
     const Disturbance start = best_;
     const double share = start.friction;
@@ -81,13 +108,13 @@ class Learning {
         best_.correlation_s = correlation_s;
         best_.acceleration = std::pow(10, decade);
         best_.friction = share * best_.acceleration;
-        const Likelihood tried = likelihood(residuals_, passages_, best_, found_.variance);
+        const Likelihood tried = likelihood(residuals_, motions_, best_, found_.variance);
         if (tried.value < found_.value) found_ = tried, likeliest = best_;
       }
     best_ = likeliest;
   }
 
-  /// A force that lasts longer and is as strong at low frequencies, with every damping.
+  /// Another correlation time, at the same strength or the same power at low frequencies, with every damping.
   void try_colour(double correlation_s) {
     const Disturbance before = best_;
     const auto lasts = [](double s) { return std::max(s, kCorrelations_s[1] / 2); };
@@ -95,17 +122,27 @@ class Learning {
     for (const double share : {1.0, weaker})
       for (const double damping_ps : kDampings_ps) {
         if (pendulum() && damping_ps > 0) continue;
+        if (!reaches(kDampings_ps, before.damping_ps, damping_ps)) continue;
         Disturbance tried = before;
         tried.correlation_s = correlation_s;
         tried.acceleration *= share;
         tried.friction *= share;
         tried.damping_ps = damping_ps;
-        const Likelihood found = likelihood(residuals_, passages_, tried, found_.variance);
+        const Likelihood found = likelihood(residuals_, motions_, tried, found_.variance);
         if (found.value < found_.value) found_ = found, best_ = tried;
       }
   }
 
-  [[nodiscard]] bool pendulum() const { return passages_.at(0).natural_radps > 0; }
+  /// Whether a value of the grid is tried where another one is the best.
+  template <class Grid>
+  [[nodiscard]] bool reaches(const Grid& grid, double best, double value) const {
+    const auto place = [&grid](double of) {
+      return std::lower_bound(grid.begin(), grid.end(), of) - grid.begin();
+    };
+    return reach_ == Reach::grid || std::abs(place(best) - place(value)) <= 1;
+  }
+
+  [[nodiscard]] bool pendulum() const { return motions_.at(0).natural_radps > 0; }
 
   void try_drive() {
     for (const double damping_ps : kDampings_ps) try_with(best_.damping_ps, damping_ps);
@@ -113,13 +150,13 @@ class Learning {
       try_with(best_.friction, share * best_.acceleration);
   }
 
-  /// Keeps `value` in `number`, one of those of the best, if it makes the residuals likelier.
+  /// Sets `number`, a member of best_, to `value` if that is likelier.
   template <class Number>
   void try_with(Number& number, Number value) {
     const Number before = number;
     if (value == before) return;
     number = value;
-    const Likelihood tried = likelihood(residuals_, passages_, best_, found_.variance);
+    const Likelihood tried = likelihood(residuals_, motions_, best_, found_.variance);
     if (tried.value < found_.value)
       found_ = tried;
     else
@@ -127,17 +164,24 @@ class Learning {
   }
 
   const std::vector<VectorXd>& residuals_;
-  const std::vector<Passage>& passages_;
+  const std::vector<WindowMotion>& motions_;
   double least_noise_;
+  Reach reach_;
   Disturbance best_;
   Likelihood found_;
 };
 
 }  // namespace
 
-Disturbance learn(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages,
+Disturbance learn(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
                   double least_noise, const Disturbance& near) {
-  return Learning(residuals, passages, least_noise).run(near);
+  if (near.noise > 0) return Learning(residuals, motions, least_noise, Reach::grid).from(near);
+  if (residuals.size() <= kSample)
+    return Learning(residuals, motions, least_noise, Reach::grid).from_nothing();
+  const Windows sample = sample_of(residuals, motions);
+  const Disturbance found =
+      Learning(sample.residuals, sample.motions, least_noise, Reach::grid).from_nothing();
+  return Learning(residuals, motions, least_noise, Reach::neighbours).from(found);
 }
 
 }  // namespace crane::diagnosis

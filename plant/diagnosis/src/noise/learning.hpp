@@ -1,5 +1,5 @@
 #pragma once
-/// The disturbance that makes residuals likeliest.
+/// Maximum-likelihood estimate of a disturbance.
 #include <Eigen/Dense>
 #include <vector>
 
@@ -7,12 +7,12 @@
 
 namespace crane::diagnosis {
 
-/// @param residuals of windows, all of one output; lengths may differ
-/// @param passages one for each of them
+/// @param residuals of windows of one output; lengths may differ
+/// @param motions one for each of them
 /// @param least_noise of the sensor, m or rad
-/// @param near where to begin, if something is known
+/// @param near start of the search; noise 0: none
 [[nodiscard]] Disturbance learn(const std::vector<Eigen::VectorXd>& residuals,
-                                const std::vector<Passage>& passages, double least_noise,
+                                const std::vector<WindowMotion>& motions, double least_noise,
                                 const Disturbance& near = {});
 
 }  // namespace crane::diagnosis

@@ -15,10 +15,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Variance of an unknown start, in noise variances (of position, and of the way the speed makes in a row).
-constexpr double kUnknownStart = 1e8;
+/// Variance of an unknown start, in noise variances.
+constexpr double kUnknownStartVariance = 1e8;
 
-/// Sum of logarithms of numbers of at least 1, most of them taken of products.
+/// Sum of logarithms of numbers >= 1, by products.
 class SumOfLogs {
  public:
   void add(double number) {
@@ -32,39 +32,41 @@ class SumOfLogs {
   double sum_ = 0, product_ = 1;
 };
 
-/// Squares of innovations over their variances. A row that was not measured tells nothing.
+/// Squares of innovations over their variances, of measured rows.
 struct Innovations {
   std::vector<double> squares;
-  double logs = 0;  ///< of the variances
+  double logs = 0;  ///< sum of ln variance
 };
 
-Innovations innovations(const VectorXd& residual, const Passage& passage, const Disturbance& d) {
+Innovations innovations(const VectorXd& residual, const WindowMotion& motion, const Disturbance& d) {
   constexpr std::size_t kStart = 2;
   Innovations all;
   all.squares.reserve(static_cast<std::size_t>(residual.size()));
-  Prediction prediction(d, passage, kUnknownStart);
+  PredictionCovariance prediction(d, motion, kUnknownStartVariance);
   SumOfLogs logs;
-  const Matrix3d step = step_of(d, passage);
+  const Matrix3d step = transition_of(d, motion);
   Vector3d state = Vector3d::Zero();
   std::size_t seen = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(residual.size()); ++k) {
-    if (passage.paces[k].seen) {
-      const double surprise = residual[static_cast<Index>(k)] - state[0], f = prediction.variance();
+    const RowMotion& row = motion.profile[k];
+    if (row.seen) {
+      const auto [gain, f] = prediction.update(k);
+      const double innovation = residual[static_cast<Index>(k)] - measurement_after(row.offset_s).dot(state);
       if (seen++ >= kStart) {
         logs.add(f);
-        all.squares.push_back(surprise * surprise / f);
+        all.squares.push_back(innovation * innovation / f);
       }
-      state += prediction.gain() * surprise;
+      state += gain * innovation;
     }
-    state = advanced(step, state, prediction.going(k));
+    state = next_state(step, state, prediction.phase(k));
     prediction.advance(k);
   }
   all.logs = logs.value();
   return all;
 }
 
-/// Root of the mean loss less a normal residual's, by Newton's method in the logarithm of the variance.
-/// @param near a guess above 0
+/// Variance at which the mean loss is that of normal residuals: Newton's method in its logarithm.
+/// @param near guess, > 0
 double robust_variance(const std::vector<Innovations>& of_windows, double near) {
   constexpr int kRounds = 40;
   constexpr double kExact = 1e-5, kLongestStep = 3;
@@ -74,13 +76,13 @@ double robust_variance(const std::vector<Innovations>& of_windows, double near) 
     double slope = 0, count = 0;
     for (const Innovations& window : of_windows) {
       for (const double square : window.squares) {
-        const double z = square / (kFar * variance);
+        const double z = square / (kCauchyScaleSquared * variance);
         logs.add(1 + z);
         slope += z / (1 + z);
       }
       count += static_cast<double>(window.squares.size());
     }
-    const double step = (logs.value() - kMeanLoss / kFar * count) / slope;
+    const double step = (logs.value() - kMeanLoss / kCauchyScaleSquared * count) / slope;
     variance *= std::exp(std::clamp(step, -kLongestStep, kLongestStep));
     if (!(std::abs(step) > kExact)) break;
   }
@@ -89,11 +91,11 @@ double robust_variance(const std::vector<Innovations>& of_windows, double near) 
 
 }  // namespace
 
-Likelihood likelihood(const std::vector<VectorXd>& residuals, const std::vector<Passage>& passages,
+Likelihood likelihood(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
                       const Disturbance& d, double near) {
   std::vector<Innovations> of_windows(residuals.size());
   parallel_for(residuals.size(),
-               [&](std::size_t w) { of_windows[w] = innovations(residuals[w], passages[w], d); });
+               [&](std::size_t w) { of_windows[w] = innovations(residuals[w], motions[w], d); });
   double logs = 0, squares = 0, count = 0;
   for (const Innovations& window : of_windows) {
     logs += window.logs;

@@ -1,5 +1,5 @@
 #pragma once
-/// How likely a disturbance makes the residuals of windows.
+/// Likelihood of a disturbance, given residuals.
 #include <Eigen/Dense>
 #include <limits>
 #include <vector>
@@ -8,18 +8,17 @@
 
 namespace crane::diagnosis {
 
-/// Minus twice the log likelihood; the disturbance has noise 1, the common scale is profiled out. The scale
-/// is that whose mean loss is a normal residual's, so that slips count little.
+/// Minus twice the log likelihood of a disturbance with noise 1, the common scale profiled out. The scale is
+/// robust: the mean Cauchy loss is that of normal residuals.
 struct Likelihood {
   double value = std::numeric_limits<double>::infinity();
   double variance = 0;
 };
 
-/// Of the innovations of the disturbance's Kalman filter (filter.hpp), after two measured rows of each window
-/// that solve for its start.
-/// @param near a guess of the variance; 0: none
+/// By the innovations of the Kalman filter (filter.hpp). The first two measured rows of a window determine
+/// its start and do not count. @param near guess of the variance; 0: none
 [[nodiscard]] Likelihood likelihood(const std::vector<Eigen::VectorXd>& residuals,
-                                    const std::vector<Passage>& passages, const Disturbance& disturbance,
+                                    const std::vector<WindowMotion>& motions, const Disturbance& disturbance,
                                     double near);
 
 }  // namespace crane::diagnosis

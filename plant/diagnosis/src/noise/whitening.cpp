@@ -8,14 +8,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-Whitener::Whitener(const Disturbance& disturbance, const Passage& passage)
-    : step_(step_of(disturbance, passage)) {
-  Prediction prediction(disturbance, passage, 0);
-  for (std::size_t k = 0; k < passage.paces.size(); ++k) {
-    if (passage.paces[k].seen)
-      rows_.push_back({prediction.gain(), 1 / std::sqrt(prediction.variance()), prediction.going(k)});
+Whitener::Whitener(const Disturbance& disturbance, const WindowMotion& motion)
+    : step_(transition_of(disturbance, motion)) {
+  PredictionCovariance prediction(disturbance, motion, 0);
+  for (std::size_t k = 0; k < motion.profile.size(); ++k) {
+    const auto [gain, variance] = prediction.update(k);
+    if (motion.profile[k].seen)
+      rows_.push_back({measurement_after(motion.profile[k].offset_s), gain, 1 / std::sqrt(variance),
+                       prediction.phase(k)});
     else
-      rows_.push_back({Vector3d::Zero(), 0, prediction.going(k)});
+      rows_.push_back({Vector3d::Zero(), Vector3d::Zero(), 0, prediction.phase(k)});
     prediction.advance(k);
   }
 }
@@ -26,9 +28,9 @@ void Whitener::apply(Eigen::Ref<MatrixXd> x) const {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       double& value = x(static_cast<Index>(k), column);
       const Row& row = rows_[k];
-      const double surprise = value - state[0];
-      value = surprise * row.inverse_sd;
-      state = advanced(step_, state + row.gain * surprise, row.going);
+      const double innovation = value - row.measurement.dot(state);
+      value = innovation * row.inverse_sd;
+      state = next_state(step_, state + row.gain * innovation, row.phase);
     }
   }
 }

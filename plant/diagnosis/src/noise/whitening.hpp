@@ -1,6 +1,6 @@
 #pragma once
-/// The transform that makes a residual (disturbance.hpp) white: the innovations of its Kalman filter in units
-/// of their standard deviations.
+/// Whitening filter of a residual (disturbance.hpp): innovations of its Kalman filter over their standard
+/// deviations.
 #include <Eigen/Dense>
 #include <cmath>
 #include <vector>
@@ -11,19 +11,19 @@ namespace crane::diagnosis {
 
 class Whitener {
  public:
-  Whitener(const Disturbance& disturbance, const Passage& passage);
-  /// W x with W^T W the inverse covariance of the residual, to each column of x.
+  Whitener(const Disturbance& disturbance, const WindowMotion& motion);
+  /// x = W x, column by column; W^T W is the inverse covariance of the residual.
   void apply(Eigen::Ref<Eigen::MatrixXd> x) const;
-  /// Of the innovation of a row; 0 where nothing was measured.
+  /// ln f of a row; 0 if the row was not measured.
   [[nodiscard]] double log_variance(std::size_t row) const {
     return rows_[row].inverse_sd > 0 ? -2 * std::log(rows_[row].inverse_sd) : 0;
   }
 
  private:
   struct Row {
-    Eigen::Vector3d gain;
+    Eigen::Vector3d measurement, gain;
     double inverse_sd = 0;
-    Going going = Going::on;
+    MotionPhase phase = MotionPhase::moving;
   };
   Eigen::Matrix3d step_;
   std::vector<Row> rows_;

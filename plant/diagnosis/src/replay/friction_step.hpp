@@ -1,5 +1,5 @@
 #pragma once
-/// One axis over one step with stiff friction: v' = a - g f(v), f odd-like with a steep step at v = 0.
+/// One axis over one step with stiff friction: v' = a - g f(v), f nearly odd with a steep step at v = 0.
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -7,27 +7,27 @@
 
 namespace crane::diagnosis {
 
-/// Slower than this, friction's step at standstill is resolved implicitly.
-inline constexpr double kCreep = 0.004;
-/// Slower than this is standstill; a faster axis that turns inside a step comes to rest first.
-inline constexpr double kStandstill = 2e-4;
+/// m/s or rad/s: slower, the step of the friction at standstill is solved implicitly.
+inline constexpr double kImplicitSpeed = 0.004;
+/// m/s or rad/s: slower is standstill. A faster axis that reverses inside a step comes to rest first.
+inline constexpr double kRestSpeed = 2e-4;
 
-/// m/s or rad/s: a simulation that is lost, whose bracket rounding would close.
-inline constexpr double kLost = 1e6;
+/// m/s or rad/s: a diverged simulation; rounding would close the bracket of the root.
+inline constexpr double kDivergedSpeed = 1e6;
 
 struct FrictionStep {
   double speed = 0;     ///< at the end
-  double way = 0;       ///< covered
+  double distance = 0;  ///< covered in the step
   double friction = 0;  ///< mean [V]
 };
 
 /// Root of the increasing v + k f(v) - c.
-/// @param near a guess; an axis that sticks creeps on as it did
+/// @param near guess: an axis that sticks keeps its creep speed
 template <class Friction>
 double implicit_speed(double c, double k, Friction&& friction, double near = 0) {
   constexpr double kExact = 1e-9, kNear = 1e-5;
-  if (!(std::abs(c) < kLost && std::abs(near) < kLost)) return c;
-  // It grows at least as fast as v where friction does: so small, v is the root as exactly as it has to be.
+  if (!(std::abs(c) < kDivergedSpeed && std::abs(near) < kDivergedSpeed)) return c;
+  // Its slope is at least 1 where friction grows: |excess| bounds the error of v.
   const auto excess = [&](double v) {
     const double found = v + k * friction(v) - c;
     return std::abs(found) < kExact ? 0.0 : found;
@@ -37,11 +37,11 @@ double implicit_speed(double c, double k, Friction&& friction, double near = 0) 
   if (at_high > 0) {
     low = near - kNear, at_low = excess(low);
     if (at_low > 0)
-      high = low, at_high = at_low, low = std::min({c, 0.0, near}) - kCreep, at_low = excess(low);
+      high = low, at_high = at_low, low = std::min({c, 0.0, near}) - kImplicitSpeed, at_low = excess(low);
   } else {
     high = near + kNear, at_high = excess(high);
     if (at_high < 0)
-      low = high, at_low = at_high, high = std::max({c, 0.0, near}) + kCreep, at_high = excess(high);
+      low = high, at_low = at_high, high = std::max({c, 0.0, near}) + kImplicitSpeed, at_high = excess(high);
   }
   for (int grown = 0; at_low > 0 && grown < 20; ++grown) low *= 2, at_low = excess(low);
   for (int grown = 0; at_high < 0 && grown < 20; ++grown) high *= 2, at_high = excess(high);
@@ -53,24 +53,25 @@ double implicit_speed(double c, double k, Friction&& friction, double near = 0) 
   return 0.5 * (root.first + root.second);
 }
 
-/// @param v speed at the start, `a` acceleration without friction, `g` what a volt of friction takes from it
+/// @param v speed at the start. @param a acceleration without friction. @param g deceleration per volt of
+/// friction. @param h step [s]
 template <class Friction>
 FrictionStep friction_step(double v, double a, double g, double h, Friction&& friction) {
-  if (std::abs(v) > kCreep) {
+  if (std::abs(v) > kImplicitSpeed) {
     const double mean = v + 0.5 * h * (a - g * friction(v));
     const double f = friction(v + 0.5 * h * (a - g * friction(mean))), end = v + h * (a - g * f);
-    if (end * v > 0 && std::abs(end) > kCreep) return {end, 0.5 * h * (v + end), f};
+    if (end * v > 0 && std::abs(end) > kImplicitSpeed) return {end, 0.5 * h * (v + end), f};
   }
   const double slope = a - g * friction(v);
-  if (std::abs(v) > kStandstill && v * slope < 0 && std::abs(v) < h * std::abs(slope)) {
-    const double rest = h + v / slope;  // what is left of the step when it has come to rest
+  if (std::abs(v) > kRestSpeed && v * slope < 0 && std::abs(v) < h * std::abs(slope)) {
+    const double rest = h + v / slope;  // rest of the step after the stop
     const double after = implicit_speed(rest * a, rest * g, friction);
-    const double taken = h * g != 0 ? (v + h * a - after) / (h * g) : 0;
-    return {after, 0.5 * v * (h - rest) + 0.5 * after * rest, taken};
+    const double mean_friction = h * g != 0 ? (v + h * a - after) / (h * g) : 0;
+    return {after, 0.5 * v * (h - rest) + 0.5 * after * rest, mean_friction};
   }
   const double end = implicit_speed(v + h * a, h * g, friction, v);
-  const double taken = h * g != 0 ? (v + h * a - end) / (h * g) : 0;
-  return {end, 0.5 * h * (v + end), taken};
+  const double mean_friction = h * g != 0 ? (v + h * a - end) / (h * g) : 0;
+  return {end, 0.5 * h * (v + end), mean_friction};
 }
 
 }  // namespace crane::diagnosis

@@ -5,16 +5,15 @@
 #include <optional>
 
 #include "parallel.hpp"
-#include "replay/parts.hpp"
+#include "replay/crane_on_run.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
 constexpr double kSmoothing_s = 0.03;
 
-/// Standard deviation of a value that is rounded to whole steps of its sensor: those that the data show, else
-/// the counts of the rig file. What has neither is known to the least.
-std::array<double, kOutputs> noise_of_counts(const Run& run, const configuration::Rig& rig) {
+/// Standard deviation of rounding to the resolution that the data show, else to the counts of the rig file.
+std::array<double, kOutputs> quantisation_noise(const Run& run, const configuration::Rig& rig) {
   constexpr double kLeast = 1e-7;
   constexpr std::array<std::size_t, kOutputs> kEncoders{0, 1, 3, 4};
   std::array<double, kOutputs> noise{};
@@ -28,11 +27,11 @@ std::array<double, kOutputs> noise_of_counts(const Run& run, const configuration
 
 }  // namespace
 
-/// A drive's motion is not smoothed: that would take away from what excites the swing, a thousandth of the
-/// amplitude already with second differences of neighbours.
+/// A smoothed drive would excite the swing too little: by 0.1 % already with second differences.
 Motion motion_of(Output output, const std::vector<double>& measured, double period_s) {
   const bool drive = output == kTrolleyPosition || output == kSlewAngle;
-  return drive ? spline(measured, period_s) : smooth(measured, period_s, smoothing_half_width(period_s));
+  return drive ? spline(measured, period_s)
+               : savitzky_golay(measured, period_s, smoothing_half_width(period_s));
 }
 
 const char* name_of(Part part) {
@@ -45,9 +44,9 @@ int smoothing_half_width(double period_s) {
 
 namespace {
 
-/// What was seen of an output, at its own times.
-struct Seen {
-  Seen(const Run& run, Output output) {
+/// Measured values of an output, at their own times.
+struct Samples {
+  Samples(const Run& run, Output output) {
     for (std::size_t row = 0; row < run.rows(); ++row)
       if (run.seen(output, row)) {
         time_s.push_back(run.instant_s(row));
@@ -57,10 +56,10 @@ struct Seen {
   std::vector<double> time_s, values;
 };
 
-/// A drive moves the load by its acceleration: a coarse encoder's steps would shake it.
-void follow_drive(const Run& run, Output drive, PreparedRun& prepared) {
-  const Seen seen(run, drive);
-  const std::vector<double> smoothed = without_noise(seen.time_s, seen.values, prepared.least_noise[drive]);
+/// The drive's acceleration excites the load: steps of a coarse encoder are smoothed first.
+void prepare_drive(const Run& run, Output drive, PreparedRun& prepared) {
+  const Samples seen(run, drive);
+  const std::vector<double> smoothed = rts_smoothed(seen.time_s, seen.values, prepared.least_noise[drive]);
   prepared.motion[drive] = run.regular(drive) ? spline(smoothed, run.period_s)
                                               : spline_of(seen.time_s, smoothed, run.period_s, run.rows());
   prepared.on_grid[drive] = prepared.motion[drive].position;
@@ -70,26 +69,26 @@ void follow_drive(const Run& run, Output drive, PreparedRun& prepared) {
 
 std::vector<double> measured_on_grid(const Run& run, Output output) {
   if (run.regular(output)) return run.measured[output];
-  const Seen seen(run, output);
+  const Samples seen(run, output);
   return spline_of(seen.time_s, seen.values, run.period_s, run.rows()).position;
 }
 
 PreparedRun prepare(Run run, const configuration::Rig& rig) {
   PreparedRun prepared;
-  prepared.least_noise = noise_of_counts(run, rig);
+  prepared.least_noise = quantisation_noise(run, rig);
   for (const Output output : kAllOutputs) {
     if (!run.has(output)) continue;
     if (output == kTrolleyPosition || output == kSlewAngle) {
-      follow_drive(run, output, prepared);
+      prepare_drive(run, output, prepared);
     } else {
       prepared.on_grid[output] = measured_on_grid(run, output);
       prepared.motion[output] = motion_of(output, prepared.on_grid[output], run.period_s);
     }
   }
-  prepared.cable = smooth(run.cable_m, run.period_s, smoothing_half_width(run.period_s));
+  prepared.cable = savitzky_golay(run.cable_m, run.period_s, smoothing_half_width(run.period_s));
   for (const bool inner : {false, true})
-    prepared.half_way[inner ? 1 : 0] =
-        half_way_through_steps(prepared.motion, prepared.cable, steps_in(run.period_s, inner), run.period_s);
+    prepared.mid_step[inner ? 1 : 0] =
+        mid_step_kinematics(prepared.motion, prepared.cable, steps_in(run.period_s, inner), run.period_s);
   prepared.kind = rig.kind;
   prepared.run = std::move(run);
   return prepared;
@@ -105,46 +104,47 @@ std::vector<Output> simulated_outputs(const PreparedRun& run, Part part) {
   return outputs;
 }
 
-Replay::Replay(const PreparedRun& run, const Crane& crane) : parts_(std::make_unique<Parts>(run, crane)) {}
+Replay::Replay(const PreparedRun& run, const Crane& crane)
+    : crane_on_run_(std::make_unique<CraneOnRun>(run, crane)) {}
 Replay::~Replay() = default;
 Replay::Replay(Replay&&) noexcept = default;
 
 std::size_t Replay::start_size(Part part) const {
-  return 2 * (simulated_outputs(parts_->source, part).size() + parts_->ringing.size());
+  return 2 * (simulated_outputs(crane_on_run_->source, part).size() + crane_on_run_->ringing.size());
 }
 
 std::vector<double> Replay::measured_start(Part part, std::size_t first) const {
   std::vector<double> start;
-  for (const Output output : simulated_outputs(parts_->source, part)) {
-    const Motion& motion = parts_->given(output);
+  for (const Output output : simulated_outputs(crane_on_run_->source, part)) {
+    const Motion& motion = crane_on_run_->prescribed_motion(output);
     start.push_back(motion.position[first]);
     start.push_back(motion.rate[first]);
   }
-  for (const std::size_t i : parts_->ringing) {
-    start.push_back(parts_->inner_at[first][i].position);
-    start.push_back(parts_->inner_at[first][i].rate);
+  for (const std::size_t i : crane_on_run_->ringing) {
+    start.push_back(crane_on_run_->inner_at[first][i].position);
+    start.push_back(crane_on_run_->inner_at[first][i].rate);
   }
   return start;
 }
 
 std::vector<double> Replay::inner_start_scale() const {
   std::vector<double> scale;
-  for (const std::size_t i : parts_->ringing) {
+  for (const std::size_t i : crane_on_run_->ringing) {
     double position = 0, rate = 0;
-    for (const plant::InnerState& at : parts_->inner_at)
+    for (const plant::InnerState& at : crane_on_run_->inner_at)
       position += at[i].position * at[i].position, rate += at[i].rate * at[i].rate;
-    const auto rows = static_cast<double>(parts_->inner_at.size());
+    const auto rows = static_cast<double>(crane_on_run_->inner_at.size());
     scale.push_back(std::sqrt(position / rows));
     scale.push_back(std::sqrt(rate / rows));
   }
   return scale;
 }
 
-/// Outputs of a window at the rows' own instants: inside the step that an instant falls into the acceleration
-/// is that step's. What sensors add is known at the grid's times and goes straight between them.
-struct Replay::OwnTimes {
-  OwnTimes(const Run& measured, std::size_t first_row, std::span<const Output> simulated,
-           std::span<double> values)
+/// Outputs of a window at the rows' own times: constant acceleration inside the step that contains the time.
+/// Sensor errors are known at the grid's times and interpolated linearly.
+struct Replay::RowTimeOutputs {
+  RowTimeOutputs(const Run& measured, std::size_t first_row, std::span<const Output> simulated,
+                 std::span<double> values)
       : run(measured),
         first(first_row),
         rows(values.size() / simulated.size()),
@@ -153,9 +153,9 @@ struct Replay::OwnTimes {
     added.assign(values.size(), 0.0);
   }
 
-  void note_before(const plant::State& state) { before = state; }
-  /// @param step of `steps` after `row`, which has brought the crane from what was noted to `after`
-  void note_after(std::size_t row, int step, int steps, plant::State after) {
+  void begin_step(const plant::State& state) { before = state; }
+  /// @param step of `steps` after `row`. @param after state at its end
+  void end_step(std::size_t row, int step, int steps, plant::State after) {
     const double step_s = run.period_s / steps;
     for (const std::size_t near : {row, row + 1}) {
       if (near < first || near >= first + rows) continue;
@@ -172,13 +172,13 @@ struct Replay::OwnTimes {
       }
     }
   }
-  /// Whether the steps before a row have told its outputs.
-  [[nodiscard]] bool told(std::size_t row) const { return row > first && run.offset_s[row] < 0; }
-  /// @param reported, at by output at the grid's time of `row`
-  void note_sensor(std::size_t row, std::size_t i, double reported, double at) {
+  /// Whether steps before the row have set its outputs: its time is before the grid's.
+  [[nodiscard]] bool evaluated(std::size_t row) const { return row > first && run.offset_s[row] < 0; }
+  /// @param reported,at sensor value and coordinate of output i at the grid's time of `row`
+  void add_sensor_error(std::size_t row, std::size_t i, double reported, double at) {
     if (row - first < rows) added[i * rows + row - first] = reported - at;
   }
-  void add_sensors() {
+  void interpolate_sensor_errors() {
     for (std::size_t i = 0; i < outputs.size(); ++i)
       for (std::size_t k = 0; k < rows; ++k) {
         const double offset_s = run.offset_s[first + k];
@@ -198,83 +198,84 @@ struct Replay::OwnTimes {
 
 void Replay::run(Part part, std::size_t first, std::size_t rows, std::span<const double> start,
                  std::span<double> out) const {
-  const Parts& p = *parts_;
+  const CraneOnRun& p = *crane_on_run_;
   const double period_s = p.source.run.period_s;
   const std::vector<Output> outputs = simulated_outputs(p.source, part);
   if (outputs.empty()) return;
   std::array<bool, kOutputs> simulated{};
   for (const Output output : outputs) simulated[output] = true;
-  Course course(p.model, simulated, p.locks(simulated), p.step_s());
-  std::optional<OwnTimes> own_times;
-  if (!p.source.run.offset_s.empty()) own_times.emplace(p.source.run, first, outputs, out);
+  StepIntegrator integrator(p.model, simulated, p.locks(simulated), p.step_s());
+  std::optional<RowTimeOutputs> row_times;
+  if (!p.source.run.offset_s.empty()) row_times.emplace(p.source.run, first, outputs, out);
   const auto pass = [&](std::size_t row) {
     p.visit_steps(row, [&](int step, const plant::PerAxis& volts, bool changed) {
-      if (changed) course.new_command(volts);
+      if (changed) integrator.new_command(volts);
       const double middle = (step + 0.5) / p.steps;
-      for (std::size_t i = 0; i < course.led.size(); ++i)
-        if (course.led[i]) course.led_at[i] = between(p.inner[i], row, middle, period_s);
-      if (own_times) own_times->note_before(course.state);
-      course.step(p.half_way(row, step));
-      if (own_times) own_times->note_after(row, step, p.steps, course.state);
+      for (std::size_t i = 0; i < integrator.prescribed.size(); ++i)
+        if (integrator.prescribed[i])
+          integrator.prescribed_at[i] = between(p.inner[i], row, middle, period_s);
+      if (row_times) row_times->begin_step(integrator.state);
+      integrator.step(p.mid_step(row, step));
+      if (row_times) row_times->end_step(row, step, p.steps, integrator.state);
     });
-    course.follow(p.measured_at(row + 1));
+    integrator.prescribe(p.measured_at(row + 1));
   };
-  course.follow(p.measured_at(first));
+  integrator.prescribe(p.measured_at(first));
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    position_of(course.state, outputs[i]) = start[2 * i];
-    rate_of(course.state, outputs[i]) = start[2 * i + 1];
+    position_of(integrator.state, outputs[i]) = start[2 * i];
+    rate_of(integrator.state, outputs[i]) = start[2 * i + 1];
   }
-  if (!p.inner_at.empty()) course.inner = p.inner_at[first];
-  if (part == Part::load) course.led = p.led;
+  if (!p.inner_at.empty()) integrator.inner = p.inner_at[first];
+  if (part == Part::load) integrator.prescribed = p.prescribed;
   for (std::size_t i = 0, at = 2 * outputs.size(); at < start.size(); ++i, at += 2)
-    course.inner[p.ringing[i]] = {start[at], start[at + 1]};
+    integrator.inner[p.ringing[i]] = {start[at], start[at + 1]};
   std::optional<plant::Model> sensing;
   if (p.sensors) {
     sensing.emplace(p.crane.parameters, p.crane.terms, period_s);
-    p.give_past(*sensing, first);
+    p.warm_up_sensors(*sensing, first);
   }
   for (std::size_t k = 0; k < rows; ++k) {
     if (sensing) {
-      const plant::Measurement reported = sensing->measure(course.state);
+      const plant::Measurement reported = sensing->measure(integrator.state);
       for (std::size_t i = 0; i < outputs.size(); ++i) {
         const double value = measured_of(reported, outputs[i]);
-        if (own_times)
-          own_times->note_sensor(first + k, i, value, position_of(course.state, outputs[i]));
+        if (row_times)
+          row_times->add_sensor_error(first + k, i, value, position_of(integrator.state, outputs[i]));
         else
           out[i * rows + k] = value;
       }
     }
-    if (own_times ? !own_times->told(first + k) : !sensing)
+    if (row_times ? !row_times->evaluated(first + k) : !sensing)
       for (std::size_t i = 0; i < outputs.size(); ++i)
-        out[i * rows + k] = position_of(course.state, outputs[i]);
-    // An instant behind the last row's lies in the interval after it.
-    const bool beyond = own_times && k + 1 == rows && p.source.run.offset_s[first + k] > 0;
+        out[i * rows + k] = position_of(integrator.state, outputs[i]);
+    // A time after the grid's of the last row needs one more interval.
+    const bool beyond = row_times && k + 1 == rows && p.source.run.offset_s[first + k] > 0;
     if (k + 1 == rows && !(beyond && first + k + 1 < p.source.run.rows())) break;
     pass(first + k);
   }
-  if (own_times) own_times->add_sensors();
+  if (row_times) row_times->interpolate_sensor_errors();
 }
 
-Replay::Guided Replay::guided(Output axis) const {
-  const Parts& p = *parts_;
-  if (p.guided[axis]) return *p.guided[axis];
+Replay::Increments Replay::increments_along_measurement(Output axis) const {
+  const CraneOnRun& p = *crane_on_run_;
+  if (p.increments[axis]) return *p.increments[axis];
   const std::array<bool, kOutputs> none{};
   std::array<bool, kOutputs> drives{};
   for (const Output drive : simulated_outputs(p.source, Part::drive)) drives[drive] = true;
-  Course course(p.model, none, p.locks(drives), p.source.run.period_s);
+  StepIntegrator integrator(p.model, none, p.locks(drives), p.source.run.period_s);
   const std::size_t rows = p.source.run.rows();
   const double h = p.step_s();
-  Guided drive{p.given(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
+  Increments drive{p.prescribed_motion(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
   for (std::size_t row = 0; row + 1 < rows; ++row) {
-    if (!p.inner_at.empty()) course.inner = p.inner_at[row];
-    const Measured middle = p.measured_half_way(row);
+    if (!p.inner_at.empty()) integrator.inner = p.inner_at[row];
+    const MeasuredKinematics middle = p.measured_mid_row(row);
     double acceleration = 0;
     p.visit_steps(row, [&](int, const plant::PerAxis& volts, bool changed) {
       if (changed) {
-        course.new_command(volts);
-        acceleration = acceleration_of(course.accelerations(middle), axis);
+        integrator.new_command(volts);
+        acceleration = acceleration_of(integrator.accelerations(middle), axis);
       }
-      drive.move(row, acceleration, h);
+      drive.add_step(row, acceleration, h);
     });
   }
   return drive;

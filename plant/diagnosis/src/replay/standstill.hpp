@@ -1,7 +1,7 @@
 #pragma once
 namespace crane::diagnosis {
 
-/// Slower than this [m/s or rad/s], an axis with friction stands.
-inline constexpr double kStands = 0.01;
+/// m/s or rad/s: a slower axis is at rest.
+inline constexpr double kStandstillSpeed = 0.01;
 
 }  // namespace crane::diagnosis

@@ -1,5 +1,5 @@
 #pragma once
-/// How far measured values reach.
+/// Range of measured values.
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -15,7 +15,7 @@ struct Extent {
   [[nodiscard]] double middle() const { return 0.5 * (low + high); }
 };
 
-/// Of all runs. Its width is negative when none has the output.
+/// Over all runs. The width is negative when no run has the output.
 [[nodiscard]] inline Extent travel_of(const std::vector<PreparedRun>& runs, Output output) {
   Extent travel;
   for (const PreparedRun& run : runs)

@@ -30,7 +30,7 @@ std::string extended_rig_text(const configuration::Rig& rig, const Diagnosis& di
   out << "# " << rig.name << " with what measured data showed it to lack. " << diagnosis.sentence << '\n'
       << "extends = " << quoted_toml(std::filesystem::absolute(rig.path).lexically_normal().string())
       << "\nname = " << quoted_toml(rig.name + "_extended") << '\n';
-  // An array of the extending file replaces the base's: the rig's own terms come first.
+  // The array of the extending file replaces that of the base: it repeats the rig's own terms.
   std::vector<plant::TermSetting> terms = rig.terms;
   terms.insert(terms.end(), diagnosis.extension.begin(), diagnosis.extension.end());
   for (std::size_t i = 0; i < terms.size(); ++i) {

@@ -1,5 +1,7 @@
 #include "crane/diagnosis/report.hpp"
 
+#include "rules.hpp"
+
 namespace crane::diagnosis {
 namespace {
 
@@ -26,7 +28,7 @@ ordered_json causes_json(const std::vector<Cause>& causes) {
 ordered_json candidates_json(const std::vector<Ranked>& ranking) {
   ordered_json json = ordered_json::array();
   for (const Ranked& ranked : ranking) {
-    // A pair of effects may have two parameters of one name, so that they are a list here.
+    // A list: two effects may have a parameter of the same name.
     ordered_json parameters = ordered_json::array();
     for (const Estimate& e : ranked.parameters)
       parameters.push_back({{"name", e.name}, {"value", e.value}, {"std", e.std_dev}, {"unit", e.unit}});
@@ -65,6 +67,17 @@ ordered_json excitation_json(const std::vector<Visibility>& excitation) {
   return json;
 }
 
+ordered_json rules_json() {
+  ordered_json json = ordered_json::array();
+  for (const Rule& rule : rules::kAll)
+    json.push_back({{"name", rule.name},
+                    {"value", rule.value},
+                    {"unit", rule.unit},
+                    {"meaning", rule.meaning},
+                    {"source", rule.source}});
+  return json;
+}
+
 ordered_json motion_json(const NextExperiment& next) {
   return {{"name", next.name}, {"description", next.description}, {"separation", next.separation}};
 }
@@ -94,6 +107,7 @@ ordered_json to_json(const Diagnosis& diagnosis) {
           {"candidates", candidates_json(diagnosis.ranking)},
           {"excitation", excitation_json(diagnosis.excitation)},
           {"detection_p_value", diagnosis.detection_p_value},
+          {"rules", rules_json()},
           {"notes", diagnosis.notes},
           {"runtime_s", diagnosis.runtime_s}};
 }

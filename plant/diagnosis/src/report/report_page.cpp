@@ -11,16 +11,16 @@ namespace {
 using report::Cell;
 using report::Tone;
 
-constexpr std::size_t kMostPoints = 1500;  // of a curve or cloud: finer than a screen shows
+constexpr std::size_t kMostPoints = 1500;  // of a curve or cloud: the resolution of a screen
 constexpr std::size_t kMostCandidates = 20;
-constexpr double kIn95 = 1.96;
-constexpr double kLargestPlain = 1e7;  // of the numbers written without an exponent
+constexpr double kNormalQuantile95 = 1.96;
+constexpr double kLargestPlain = 1e7;  // largest number without an exponent
 constexpr int kMeasuredColor = 8;      // grey
 
 std::string significant(double value, int digits = 4) {
   if (!std::isfinite(value)) return "-";
   std::array<char, 32> text{};
-  // 44210, not 4.421e+04: tables are compared by eye.
+  // 44210, not 4.421e+04.
   const bool is_large = std::abs(value) >= std::pow(10, digits) && std::abs(value) < kLargestPlain;
   if (is_large)
     std::snprintf(text.data(), text.size(), "%.0f", value);
@@ -40,8 +40,8 @@ std::string with_intervals(const std::vector<Estimate>& estimates) {
   std::string text;
   for (const Estimate& e : estimates)
     text += (text.empty() ? "" : ", ") + e.name + " " + significant(e.value, 3) + " [" +
-            significant(e.value - kIn95 * e.std_dev, 3) + ", " + significant(e.value + kIn95 * e.std_dev, 3) +
-            "]" + unit_of(e);
+            significant(e.value - kNormalQuantile95 * e.std_dev, 3) + ", " +
+            significant(e.value + kNormalQuantile95 * e.std_dev, 3) + "]" + unit_of(e);
   return text;
 }
 
@@ -78,7 +78,7 @@ report::Table causes_table(const std::string& title, const std::vector<Cause>& c
   return table;
 }
 
-/// A gain whose interval holds zero is none that these data prove.
+/// A gain whose interval contains zero is not proven.
 std::string gain_sentence(const HeldOut& held_out) {
   const auto [low, high] = held_out.gain_ci95;
   const std::string interval = " (95 % interval " + percent(low) + " to " + percent(high) + ").";
@@ -102,7 +102,7 @@ report::Section verdict_section(const Diagnosis& diagnosis) {
   return section;
 }
 
-/// In mm or mrad; "-" where there is none.
+/// In mm or mrad; "-" without a value.
 Cell in_milli(const std::map<std::string, double>& values, const std::string& column) {
   const auto found = values.find(column);
   return {found == values.end() ? "-" : significant(1000 * found->second, 3)};
@@ -206,7 +206,7 @@ report::Section candidates_section(const Diagnosis& diagnosis) {
       .rows = {}};
   for (const Ranked& ranked : diagnosis.ranking) {
     if (table.rows.size() == kMostCandidates) break;
-    // The score test looks at one candidate, and resampled data vote on one.
+    // Score test and votes are of single candidates.
     const bool alone = ranked.label.find(" + ") == std::string::npos;
     table.rows.push_back({{ranked.label},
                           {significant(ranked.train_gain, 4)},
@@ -292,7 +292,7 @@ report::Section next_section(const Diagnosis& diagnosis, const configuration::Ri
   return section;
 }
 
-/// What was held out, with what it lasts: an axis that rests there proves nothing about its drive.
+/// Number of hypotheses; held-out runs with their durations.
 std::string summary_of(const Diagnosis& diagnosis, const std::vector<Run>& test) {
   std::string held_out;
   for (const Run& run : test)

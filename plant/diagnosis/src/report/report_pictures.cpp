@@ -11,10 +11,10 @@ namespace {
 using plot::CurvePanel;
 using plot::CurveStyle;
 
-// Points of a curve and of a cloud: finer than a screen shows.
+// Points of a curve and of a cloud: the resolution of a screen.
 constexpr std::size_t kMostDrawn = 1500, kMostDots = 600;
 
-/// Points that are numbers; a picture needs at least one.
+/// Finite points only.
 plot::NamedCurve curve(const std::string& name, CurveStyle style, const std::vector<double>& x,
                        const std::vector<double>& y) {
   plot::NamedCurve result{name, style, {}};

@@ -18,7 +18,7 @@ bool is_swing(const std::string& column) {
   return column == kOutputNames[kRadialSwing] || column == kOutputNames[kTangentialSwing];
 }
 
-/// Free motions of a start that is off: position and speed of a drive, both phases of a swing.
+/// Free motions of a wrong start: position and speed of a drive, cosine and sine of a swing.
 Eigen::MatrixXd free_motions(bool swing, double swing_radps, Eigen::Index rows, double period_s) {
   Eigen::MatrixXd motions(rows, 2);
   for (Eigen::Index k = 0; k < rows; ++k) {
@@ -77,7 +77,8 @@ class ViewBuilder {
 
  private:
   [[nodiscard]] std::vector<double> rate(Output output) const {
-    return smooth(measured_on_grid(run_, output), run_.period_s, smoothing_half_width(run_.period_s)).rate;
+    return savitzky_golay(measured_on_grid(run_, output), run_.period_s, smoothing_half_width(run_.period_s))
+        .rate;
   }
   [[nodiscard]] std::vector<double> command() const {
     std::vector<double> volts;
@@ -89,7 +90,7 @@ class ViewBuilder {
     auto found = std::find_if(view_.against.begin(), view_.against.end(),
                               [&](const Abscissa& a) { return a.label == label; });
     if (found == view_.against.end()) found = view_.against.insert(found, {label, {}});
-    // A run that lacks a column leaves a gap.
+    // NaN for runs without the column.
     found->values.resize(view_.baseline.size() - rows_, std::nan(""));
     found->values.insert(found->values.end(), values.begin(), values.end());
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a simulation leaves of the held-out data, column by column, beside what it may depend on.
+/// Residuals of the held-out data by column, with the variables that they may depend on.
 #include <string>
 #include <vector>
 
@@ -7,13 +7,13 @@
 
 namespace crane::diagnosis {
 
-/// Something the residual is drawn against.
+/// Variable that the residual is plotted against.
 struct Abscissa {
   std::string label;  ///< "speed [m/s]"
   std::vector<double> values;
 };
 
-/// Runs one after the other; residuals in mm or mrad, simulation in windows of about two seconds.
+/// Residuals in mm or mrad in windows of about 2 s, runs one after the other.
 struct ResidualView {
   std::string column;
   std::string unit;
@@ -23,11 +23,11 @@ struct ResidualView {
 
 /// "mm" or "mrad".
 [[nodiscard]] std::string residual_unit(const std::string& column);
-/// File and its directory: every run of `crane run` is called recording.mcap.
+/// Directory and file: every recording of `crane run` has the same file name.
 [[nodiscard]] std::string short_name(const std::string& run);
 
-/// The simulation of a whole run drifts away from what starts it; so the free motion that a wrong start would
-/// give is taken out of every window, straight for a drive and swinging for a load.
+/// A simulation of a whole run drifts: the free motion of a wrong start is removed from each window, a
+/// straight line for a drive and a swing for a load.
 [[nodiscard]] std::vector<ResidualView> residual_views(const Diagnosis& diagnosis,
                                                        const configuration::Rig& rig,
                                                        const std::vector<Run>& test);

@@ -6,14 +6,11 @@
 #include <random>
 #include <string_view>
 
+#include "rules.hpp"
+
 namespace crane::diagnosis {
 namespace {
 
-/// What takes less than such a share of the error that is left off the columns that it acts on is of no
-/// consequence for the crane; beside other effects it may only make up for a form that is not exactly theirs.
-constexpr double kLeastAlone = 0.01, kLeastBeside = 0.2;
-/// Chance that luck makes the best of all candidates acceptable; the held-out runs then have to confirm it.
-constexpr double kLuckOfTheBest = 0.05;
 constexpr int kVotes = 500;
 
 }  // namespace
@@ -92,26 +89,52 @@ bool same(const Effects& a, const Effects& b) {
          std::all_of(a.begin(), a.end(), [&](const Effect& e) { return has(b, e.candidate); });
 }
 
-double luck_of_values(const Fitted& fitted, const Fitted& before, double held_out_nats) {
+namespace {
+
+double additional_values(const Fitted& fitted, const Fitted& before) {
   const std::size_t more = fitted.parameters - std::min(fitted.parameters, before.parameters);
-  const double freedom = static_cast<double>(std::max<std::size_t>(1, more));
-  const double ratio = sum(before.deviance) - sum(fitted.deviance) + 2 * freedom + 2 * held_out_nats;
-  return ratio > 0 ? boost::math::gamma_q(0.5 * freedom, 0.5 * ratio) : 1;
+  return static_cast<double>(std::max<std::size_t>(1, more));
+}
+
+/// By how much the scores of the additional values scatter more from block to block than the curvature says:
+/// tr(H^-1 J) by value, Takeuchi's penalty halved. 1 of a likelihood; about 2 of two views of the same data
+/// that are added as if they were independent.
+double dispersion(const Fitted& fitted, const Fitted& before) {
+  const double penalty = sum(fitted.left_out) - sum(before.left_out);
+  return std::max(1.0, 0.5 * penalty / additional_values(fitted, before));
+}
+
+/// Chance that chi-square of the additional values, as dispersed as their scores are, is larger.
+double chance_of(double ratio, const Fitted& fitted, const Fitted& before) {
+  if (!(ratio > 0)) return 1;
+  const double freedom = additional_values(fitted, before);
+  return boost::math::gamma_q(0.5 * freedom, 0.5 * ratio / dispersion(fitted, before));
+}
+
+}  // namespace
+
+double luck_of_values(const Fitted& fitted, const Fitted& before, double held_out_nats) {
+  const double ratio = (sum(before.deviance) - before.price) - (sum(fitted.deviance) - fitted.price);
+  return chance_of(ratio + 2 * held_out_nats, fitted, before);
+}
+
+double luck_of_loss(const Fitted& fitted, const Fitted& before, double held_out_nats) {
+  return chance_of(-2 * held_out_nats, fitted, before);
 }
 
 bool is_luck(double chance, std::size_t candidates) {
-  return chance * static_cast<double>(candidates) >= kLuckOfTheBest;
+  return chance * static_cast<double>(candidates) >= rules::kLuckOfTheBest;
 }
 
 bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates) {
-  const double least = before.effects.empty() ? kLeastAlone : kLeastBeside;
+  const double least = before.effects.empty() ? rules::kLeastAlone : rules::kLeastBeside;
   return share_of_error(fitted, before) > least &&
          !is_luck(luck_of(fitted.deviance, before.deviance), candidates) &&
          !is_luck(luck_of_values(fitted, before), candidates);
 }
 
 bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
-  return block_wins(fitted.deviance, base.deviance, seed) > 1 - kSignificant;
+  return block_wins(fitted.deviance, base.deviance, seed) > 1 - rules::kSignificant;
 }
 
 namespace {

@@ -8,15 +8,12 @@
 
 namespace crane::diagnosis {
 
-/// A score this unlikely by luck is something.
-inline constexpr double kSignificant = 0.01;
-
 [[nodiscard]] bool has(const Effects& effects, const Candidate* candidate);
 
 /// "command_delay (trolley) + payload_mass"
 [[nodiscard]] std::string label_of(const Effects& effects);
 
-/// By the likelihood of the training data, each block left out of the fit.
+/// By the likelihood of the training data with the price of the values.
 [[nodiscard]] bool less(const Fitted& a, const Fitted& b);
 
 /// The same candidates, whatever their values.
@@ -37,10 +34,15 @@ inline constexpr double kSignificant = 0.01;
 [[nodiscard]] double luck_of(const Blocks& now, const Blocks& before);
 
 /// Chance that as many more values as `fitted` has make the data likelier by as much: the likelihood ratio is
-/// chi-square distributed (Wilks, Ann. Math. Statist. 9 (1938) 60). A block that is left out of its fit costs
-/// a part of that, 2 per value in all.
+/// chi-square distributed (Wilks, Ann. Math. Statist. 9 (1938) 60), that of a composite likelihood after
+/// division by the dispersion of its scores (Varin, Reid, Firth, Statist. Sinica 21 (2011) 5, section 2.3).
 /// @param held_out_nats by which `fitted` makes held-out data likelier, that count as well
 [[nodiscard]] double luck_of_values(const Fitted& fitted, const Fitted& before, double held_out_nats = 0);
+/// Chance that as many more values as `fitted` has, where none of them is needed, make held-out data
+/// unlikelier by as much: values that are known from as many data as they are tried on cost half a chi-square
+/// of them.
+/// @param held_out_nats by which `fitted` makes held-out data likelier
+[[nodiscard]] double luck_of_loss(const Fitted& fitted, const Fitted& before, double held_out_nats);
 /// Whether a chance is luck where the best of so many candidates has it (Bonferroni).
 [[nodiscard]] bool is_luck(double chance, std::size_t candidates);
 

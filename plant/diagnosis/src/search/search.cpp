@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "rules.hpp"
 #include "search/compare.hpp"
 
 namespace crane::diagnosis {
@@ -57,7 +58,7 @@ class Search {
         for (std::size_t i = 0; i < std::min(kBeam, level.size()); ++i) {
           request_.progress(share_done(size, i), "is there another effect?");
           const double luck = extend(level[i], kExtensions);
-          if (i == 0 && luck > kSignificant && found.best.deviance.size() >= kFewBlocks) break;
+          if (i == 0 && luck > rules::kSignificant && found.best.deviance.size() >= kFewBlocks) break;
         }
         level = settle();
         if (level.empty()) break;
@@ -128,7 +129,7 @@ class Search {
       found_.excitation = scores.excitation;
       for (const Score& score : scores.best) p_value_[score.candidate] = score.p_value;
     }
-    if (!there.effects.empty() && scores.p_value > kSignificant) return scores.p_value;
+    if (!there.effects.empty() && scores.p_value > rules::kSignificant) return scores.p_value;
     for (const Score& score : strongest(scores, count)) {
       const Effects start = begin(there, score);
       if (!there.effects.empty() && known(start)) continue;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "noise/learning.hpp"
-#include "noise/paces.hpp"
+#include "noise/motion_profile.hpp"
 #include "parallel.hpp"
 #include "robust.hpp"
 
@@ -15,10 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Shorter ones say nothing beyond their start; longer ones are cut.
+/// A shorter piece is all start; a longer one is divided.
 constexpr double kShortestPiece_s = 0.15, kLongestPiece_s = 2;
-/// Over a longer gap nobody knows the speed that the model is asked at; rows further apart than this have
-/// gaps of their own distance, so many times.
+/// The speed is unknown in a longer gap: the larger of both, the second in usual row spacings.
 constexpr double kUnknownSpeed_s = 0.1, kUnknownRows = 2.5;
 
 struct MovingStretch {
@@ -26,11 +25,11 @@ struct MovingStretch {
   std::vector<double> position;
 };
 
-/// Rows at which the measured motion is only what a spline makes of a gap.
+/// Rows inside gaps, where the motion is that of the spline.
 std::vector<bool> unknown_rows(const Run& run, Output axis) {
   std::vector<bool> unknown(run.rows(), false);
   if (run.regular(axis)) return unknown;
-  const double longest_s = std::max(kUnknownSpeed_s, kUnknownRows * usual_distance_s(run, axis));
+  const double longest_s = std::max(kUnknownSpeed_s, kUnknownRows * usual_row_spacing_s(run, axis));
   for (std::size_t row = 0, after = 0; row < run.rows(); ++row) {
     if (!run.seen(axis, row)) continue;
     if (run.instant_s(row) - (after > 0 ? run.instant_s(after - 1) : 0) > longest_s)
@@ -41,15 +40,15 @@ std::vector<bool> unknown_rows(const Run& run, Output axis) {
   return unknown;
 }
 
-/// Where the axis of a run moves without a rest.
-std::vector<MovingStretch> stretches_of(const PreparedRun& run, std::size_t number, Output axis) {
+/// Stretches in which the axis moves without a rest.
+std::vector<MovingStretch> moving_stretches(const PreparedRun& run, std::size_t number, Output axis) {
   const std::vector<double>& rate = run.motion[axis].rate;
   const auto shortest = static_cast<std::size_t>(kShortestPiece_s / run.run.period_s);
   const auto longest = static_cast<std::size_t>(kLongestPiece_s / run.run.period_s);
   const std::vector<bool> unknown = unknown_rows(run.run, axis);
   std::vector<MovingStretch> all;
   for (std::size_t first = 0, row = 0; row <= rate.size(); ++row) {
-    const bool moves = row < rate.size() && std::abs(rate[row]) >= kStands && !unknown[row];
+    const bool moves = row < rate.size() && std::abs(rate[row]) >= kStandstillSpeed && !unknown[row];
     const bool goes_on = moves && (row == first || rate[row] * rate[row - 1] > 0);
     if (goes_on) continue;
     const std::size_t rows = row - first, count = (rows + longest - 1) / longest;
@@ -60,8 +59,8 @@ std::vector<MovingStretch> stretches_of(const PreparedRun& run, std::size_t numb
   return all;
 }
 
-/// In place: from rest, by accelerations that last a row each.
-void integrate(MatrixXd& x, double period_s) {
+/// In place, from rest; each acceleration lasts one row.
+void integrate_twice(MatrixXd& x, double period_s) {
   Eigen::RowVectorXd way = Eigen::RowVectorXd::Zero(x.cols()), speed = way;
   for (Index k = 0; k < x.rows(); ++k) {
     const Eigen::RowVectorXd acceleration = x.row(k);
@@ -71,31 +70,32 @@ void integrate(MatrixXd& x, double period_s) {
   }
 }
 
-/// Where the model is at the rows' own instants, from rest at `first`: between two rows of the grid the
-/// acceleration is what it makes of the speed there.
-VectorXd way_of(const Run& run, const Replay::Guided& drive, std::size_t first, std::size_t row_count) {
+/// Distance of the model from rest at `first`, at the rows' own times, by the increments of each row.
+VectorXd model_distance(const Run& run, const Replay::Increments& drive, std::size_t first,
+                        std::size_t row_count) {
   VectorXd way(static_cast<Index>(row_count));
   std::vector<double> position{0}, speed{0};
   for (std::size_t k = 0; k < row_count; ++k) {
     way[static_cast<Index>(k)] = position[k];
-    position.push_back(position[k] + run.period_s * speed[k] + drive.way[first + k]);
-    speed.push_back(speed[k] + drive.speed[first + k]);
+    position.push_back(position[k] + run.period_s * speed[k] + drive.distance[first + k]);
+    speed.push_back(speed[k] + drive.speed_change[first + k]);
   }
   if (run.offset_s.empty()) return way;
   for (std::size_t k = 0; k < row_count; ++k) {
     const double offset_s = run.offset_s[first + k];
     const std::size_t from = offset_s < 0 && k > 0 ? k - 1 : k;
     const double t = from < k ? offset_s + run.period_s : offset_s, share = t / run.period_s;
-    way[static_cast<Index>(k)] = position[from] + t * speed[from] + share * share * drive.way[first + from];
+    way[static_cast<Index>(k)] =
+        position[from] + t * speed[from] + share * share * drive.distance[first + from];
   }
   return way;
 }
 
-/// In what the sensor shows: a scale of it must not make errors smaller. 0 where nothing was measured.
-VectorXd left_of(const PreparedRun& run, const Replay::Guided& drive, Output axis, std::size_t first,
-                 std::size_t row_count) {
+/// In units of the sensor value: a scale of the sensor must not reduce the residual. 0 in missing rows.
+VectorXd piece_residual(const PreparedRun& run, const Replay::Increments& drive, Output axis,
+                        std::size_t first, std::size_t row_count) {
   const auto rows = static_cast<Index>(row_count);
-  const VectorXd way = way_of(run.run, drive, first, row_count);
+  const VectorXd way = model_distance(run.run, drive, first, row_count);
   const std::vector<double>&shown = run.motion[axis].position, &true_position = drive.position;
   const std::size_t last = first + row_count - 1;
   const double scale = (shown[last] - shown[first]) / (true_position[last] - true_position[first]);
@@ -108,26 +108,32 @@ VectorXd left_of(const PreparedRun& run, const Replay::Guided& drive, Output axi
   return left;
 }
 
-Passage passage_of(const PreparedRun& run, const MovingStretch& at, Output axis) {
-  Passage passage{run.run.period_s, 0, paces_of(run.on_grid[axis], run.run.period_s, at.first, at.rows)};
-  for (std::size_t k = 0; k < at.rows; ++k)
-    passage.paces[k].going = Going::on, passage.paces[k].seen = run.run.seen(axis, at.first + k),
-    passage.paces[k].speed_open = run.run.may_have_lost_edge(axis, at.first + k);
-  return passage;
+WindowMotion window_motion_of(const PreparedRun& run, const MovingStretch& at, Output axis) {
+  WindowMotion motion{run.run.period_s, 0,
+                      motion_profile_of(run.on_grid[axis], run.run.period_s, at.first, at.rows)};
+  for (std::size_t k = 0; k < at.rows; ++k) {
+    const std::size_t row = at.first + k;
+    motion.profile[k].phase = MotionPhase::moving;
+    motion.profile[k].seen = run.run.seen(axis, row);
+    motion.profile[k].offset_s = run.run.offset_at_s(row);
+    motion.profile[k].speed_unknown = run.run.may_have_lost_edge(axis, row);
+  }
+  return motion;
 }
 
-/// Of position and speed at the start, whitened.
-MatrixXd start_of(const Whitener& whitener, std::size_t rows) {
+/// Whitened changes at the rows' own instants that position and speed at the start make.
+MatrixXd start_basis(const Whitener& whitener, const Run& run, std::size_t first, std::size_t rows) {
   MatrixXd directions(static_cast<Index>(rows), 2);
   directions.col(0).setOnes();
-  directions.col(1).setLinSpaced(0, 1);
+  for (std::size_t k = 0; k < rows; ++k)
+    directions(static_cast<Index>(k), 1) = run.instant_s(first + k) - run.instant_s(first);
   whitener.apply(directions);
   return Eigen::HouseholderQR<MatrixXd>(directions).householderQ() *
          MatrixXd::Identity(directions.rows(), directions.cols());
 }
 
-/// Whitens first.
-void take_start_out(const Piece& piece, VectorXd& residual) {
+/// Whitens the residual and projects the start out.
+void marginalise_start(const Piece& piece, VectorXd& residual) {
   piece.whitener.apply(residual);
   residual -= piece.basis * (piece.basis.transpose() * residual).eval();
 }
@@ -148,29 +154,29 @@ double Pieces::squares() const {
 
 Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis, const Disturbance& known) {
   std::vector<VectorXd> left;
-  std::vector<Passage> passages;
+  std::vector<WindowMotion> motions;
   std::vector<MovingStretch> stretches;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!runs[r].run.has(axis)) continue;
-    const Replay::Guided drive = crane[r].guided(axis);
-    for (MovingStretch& stretch : stretches_of(runs[r], r, axis)) {
+    const Replay::Increments drive = crane[r].increments_along_measurement(axis);
+    for (MovingStretch& stretch : moving_stretches(runs[r], r, axis)) {
       const auto from = drive.position.begin() + static_cast<std::ptrdiff_t>(stretch.first);
       stretch.position.assign(from, from + static_cast<std::ptrdiff_t>(stretch.rows));
-      left.push_back(left_of(runs[r], drive, axis, stretch.first, stretch.rows));
-      passages.push_back(passage_of(runs[r], stretch, axis));
+      left.push_back(piece_residual(runs[r], drive, axis, stretch.first, stretch.rows));
+      motions.push_back(window_motion_of(runs[r], stretch, axis));
       stretches.push_back(std::move(stretch));
     }
   }
   Pieces pieces{&runs, axis, known, {}};
   if (stretches.empty()) return pieces;
-  if (!(known.noise > 0)) pieces.disturbance = learn(left, passages, runs[0].least_noise[axis]);
+  if (!(known.noise > 0)) pieces.disturbance = learn(left, motions, runs[0].least_noise[axis]);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     auto& [run, first, rows, position] = stretches[i];
     Piece piece{
-        run, first, rows, std::move(position), Whitener(pieces.disturbance, passages[i]), std::move(left[i]),
+        run, first, rows, std::move(position), Whitener(pieces.disturbance, motions[i]), std::move(left[i]),
         {}};
-    piece.basis = start_of(piece.whitener, rows);
-    take_start_out(piece, piece.residual);
+    piece.basis = start_basis(piece.whitener, runs[run].run, first, rows);
+    marginalise_start(piece, piece.residual);
     pieces.all.push_back(std::move(piece));
   }
   return pieces;
@@ -181,12 +187,12 @@ std::vector<VectorXd> residuals_of(const Pieces& pieces, const Replays& crane) {
   std::vector<VectorXd> residuals(pieces.all.size());
   parallel_for(runs.size(), [&](std::size_t r) {
     if (!runs[r].run.has(pieces.output)) return;
-    const Replay::Guided drive = crane[r].guided(pieces.output);
+    const Replay::Increments drive = crane[r].increments_along_measurement(pieces.output);
     for (std::size_t i = 0; i < residuals.size(); ++i) {
       const Piece& piece = pieces.all[i];
       if (piece.run != r) continue;
-      residuals[i] = left_of(runs[r], drive, pieces.output, piece.first, piece.rows);
-      take_start_out(piece, residuals[i]);
+      residuals[i] = piece_residual(runs[r], drive, pieces.output, piece.first, piece.rows);
+      marginalise_start(piece, residuals[i]);
     }
   });
   return residuals;
@@ -208,8 +214,8 @@ Pieces pieces_of(const Problem& problem, const Fits& fits, std::size_t output) {
   return pieces;
 }
 
-MatrixXd made_by(const Pieces& pieces, const Piece& piece, MatrixXd forces) {
-  if (!pieces.of_load()) integrate(forces, (*pieces.runs)[piece.run].run.period_s);
+MatrixXd response_to(const Pieces& pieces, const Piece& piece, MatrixXd forces) {
+  if (!pieces.of_load()) integrate_twice(forces, (*pieces.runs)[piece.run].run.period_s);
   piece.whitener.apply(forces);
   forces -= piece.basis * (piece.basis.transpose() * forces).eval();
   return forces;

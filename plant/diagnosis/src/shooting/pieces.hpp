@@ -1,15 +1,14 @@
 #pragma once
-/// Pieces of one output's residual that a missing force shows in.
+/// Pieces of the residual of one output that are linear in a missing force.
 ///
-/// Drives: pieces of the way between two rests. The model at the measured speed, with the measured command
-/// and swing, says how the axis accelerates; twice integrated, from a start of its own that is projected
-/// away, this leaves of the measured position what a missing force has made, and that is linear in it. When
-/// the axis breaks loose, and what friction does where it stands, plays no part.
+/// Drives: equation error (docs/diagnosis.md, 2) between two rests. The model's acceleration at the measured
+/// speed, command and swing is integrated twice; the start is projected out. Stick, slip and standstill have
+/// no part in it.
 ///
-/// Swing: the windows of the load's replay. A pendulum's answer, once free motion is taken out, is the force
-/// times a constant.
+/// Swing: windows of the load's replay. Without free motion the response of a pendulum is proportional to the
+/// force.
 ///
-/// Forces are in units of their own: patterns of force are told by their shape.
+/// Forces have arbitrary units: only the shape of a pattern counts.
 #include "replay/standstill.hpp"
 #include "shooting/problem.hpp"
 
@@ -17,10 +16,10 @@ namespace crane::diagnosis {
 
 struct Piece {
   std::size_t run = 0, first = 0, rows = 0;
-  std::vector<double> position;  ///< of a drive by row [m or rad], the errors of its sensor undone
+  std::vector<double> position;  ///< of a drive by row [m or rad], sensor terms inverted
   Whitener whitener;
-  Eigen::VectorXd residual;  ///< whitened, without what the start can make
-  Eigen::MatrixXd basis;     ///< orthonormal: what the start can make, whitened
+  Eigen::VectorXd residual;  ///< whitened, start projected out
+  Eigen::MatrixXd basis;     ///< orthonormal, whitened: directions of the start
 };
 
 struct Pieces {
@@ -34,18 +33,17 @@ struct Pieces {
   [[nodiscard]] double squares() const;
 };
 
-/// Of a drive. @param runs outlive the pieces
-/// @param known noise and disturbance; learnt from the pieces themselves when its noise is 0
+/// Pieces of a drive. @param runs outlive the pieces
+/// @param known disturbance; noise 0: learnt from the pieces
 [[nodiscard]] Pieces pieces_of(const Runs& runs, const Replays& crane, Output axis,
                                const Disturbance& known = {});
-/// What another crane leaves of each piece of a drive, whitened in the same way, without what the start can
-/// make.
+/// Residuals of another crane on the pieces of a drive: whitened alike, start projected out.
 [[nodiscard]] std::vector<Eigen::VectorXd> residuals_of(const Pieces& pieces, const Replays& crane);
-/// @param problem of the load, its runs outlive the pieces
+/// Pieces of a swing. @param problem of the load; its runs outlive the pieces
 /// @param output index into its outputs
 [[nodiscard]] Pieces pieces_of(const Problem& problem, const Fits& fits, std::size_t output);
 
-/// What forces on a piece, row x pattern, make of its residual: whitened, without what the start can make.
-[[nodiscard]] Eigen::MatrixXd made_by(const Pieces& pieces, const Piece& piece, Eigen::MatrixXd forces);
+/// Response of the residual to forces on a piece (row x pattern): whitened, start projected out.
+[[nodiscard]] Eigen::MatrixXd response_to(const Pieces& pieces, const Piece& piece, Eigen::MatrixXd forces);
 
 }  // namespace crane::diagnosis

@@ -9,19 +9,18 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A spline through measured motion misses g^2 / 32 of an acceleration that changes inside a gap of g: 0.5 mm
-/// of 1 m/s2 in a sixteenth of two seconds.
-constexpr double kBlindPeriods = 1.0 / 16, kBlindRows = 2.5;
-/// Fewer measured rows of an output do not tell a start.
+/// A spline misses g^2 / 32 of an acceleration that changes inside a gap g: 0.5 mm of 1 m/s2 in 2 s / 16.
+constexpr double kLongestGap_periods = 1.0 / 16, kLongestGap_rows = 2.5;
+/// Measured rows of an output that determine a start.
 constexpr std::size_t kFewestRows = 8;
 
 struct Span {
-  std::size_t first = 0, last = 0;  ///< last: one behind
+  std::size_t first = 0, last = 0;  ///< last: exclusive
 };
 
 }  // namespace
 
-double usual_distance_s(const Run& run, Output output) {
+double usual_row_spacing_s(const Run& run, Output output) {
   std::vector<double> distances;
   for (std::size_t row = 0, before = run.rows(); row < run.rows(); ++row) {
     if (!run.seen(output, row)) continue;
@@ -57,17 +56,18 @@ std::vector<Span> outside_gaps(const Run& run, Output output, double longest_s,
 std::vector<Span> spans_of(const Run& run, Part part, double natural_radps) {
   std::vector<Span> spans{{0, run.rows()}};
   if (!(natural_radps > 0)) return spans;
-  const double blind_s = kBlindPeriods * 2 * std::numbers::pi / natural_radps;
+  const double blind_s = kLongestGap_periods * 2 * std::numbers::pi / natural_radps;
   for (const Output output : kAllOutputs) {
     const bool drive = output == kTrolleyPosition || output == kSlewAngle;
     if (run.measured[output].empty() || drive == (part == Part::drive)) continue;
     if (run.regular(output)) continue;
-    spans = outside_gaps(run, output, std::max(blind_s, kBlindRows * usual_distance_s(run, output)), spans);
+    spans = outside_gaps(run, output, std::max(blind_s, kLongestGap_rows * usual_row_spacing_s(run, output)),
+                         spans);
   }
   return spans;
 }
 
-bool tells_a_start(const PreparedRun& run, Part part, const Window& window) {
+bool determines_start(const PreparedRun& run, Part part, const Window& window) {
   return std::ranges::all_of(simulated_outputs(run, part), [&](Output output) {
     std::size_t seen = 0;
     for (std::size_t k = window.first; k < window.first + window.rows; ++k)
@@ -94,7 +94,7 @@ std::vector<Window> windows_of(const Runs& runs, Part part, double window_s, dou
       const std::size_t length = (rows - lead) / count;
       for (std::size_t w = 0; w < count; ++w) {
         const Window window{i, span.first + lead + w * length, length, lead};
-        if (tells_a_start(runs[i], part, window)) windows.push_back(window);
+        if (determines_start(runs[i], part, window)) windows.push_back(window);
       }
     }
   }

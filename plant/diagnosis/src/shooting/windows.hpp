@@ -1,25 +1,25 @@
 #pragma once
-/// Where the windows of a part lie: around the gaps in what moves it.
+/// Windows of a part, outside gaps of the motion that excites it.
 #include <vector>
 
 #include "crane/diagnosis/replay.hpp"
 
 namespace crane::diagnosis {
 
-/// Rows compared; the replay begins `lead` rows earlier so that sensors and filters have a past.
+/// Rows that are compared. The replay starts `lead` rows earlier, which fill the memory of sensors.
 struct Window {
   std::size_t run = 0, first = 0, rows = 0, lead = 0;
 };
 
-/// Rows of runs in windows of about `window_s`, each run divided into equal parts; an infinite one is a whole
-/// run. A window does not reach over a gap in which the measured motion that the part goes by, of the drives
-/// for the load and of the load for the drives, is not known: longer than a sixteenth of the load's period
-/// and than two and a half of the column's own rows. It has at least some measured rows of every output.
-/// @param natural_radps of the swing; 0: not known, no gap ends a window
+/// Divides each run into equal windows of about `window_s`; kWholeRun: one window. A window ends at a gap of
+/// the prescribed motion (of the drives for the load, of the load for the drives) that is longer than
+/// kLongestGap_periods of the load and kLongestGap_rows of the column. It has at least kFewestRows measured
+/// rows of each output.
+/// @param natural_radps of the swing; 0: gaps do not end windows
 [[nodiscard]] std::vector<Window> windows_of(const Runs& runs, Part part, double window_s, double lead_s,
                                              double natural_radps);
 
-/// Distance of measured rows of an output, s: half of them are nearer together.
-[[nodiscard]] double usual_distance_s(const Run& run, Output output);
+/// Median time between measured rows of an output, s.
+[[nodiscard]] double usual_row_spacing_s(const Run& run, Output output);
 
 }  // namespace crane::diagnosis

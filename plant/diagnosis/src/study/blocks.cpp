@@ -124,7 +124,7 @@ double sum(const Blocks& blocks) { return std::accumulate(blocks.begin(), blocks
 Blocks blocks_of(const Problem& problem, const Fits& fits) {
   Blocks blocks(visit_blocks(problem, 0, [](auto...) {}), 0.0);
   visit_blocks(problem, 0, [&](std::size_t w, std::size_t block, Index row) {
-    const double price = fits[w].start_price / static_cast<double>(fits[w].residual.size());
+    const double price = fits[w].start_log_determinant / static_cast<double>(fits[w].residual.size());
     blocks[block] += loss_of(fits[w].residual[row]) + price;
   });
   return blocks;

@@ -7,7 +7,7 @@ namespace crane::diagnosis {
 /// Changes of the whitened outputs per unit, by value of the effects and window or piece; empty where it does
 /// not show.
 struct Study::Slopes {
-  std::vector<std::vector<Eigen::VectorXd>> drive, under_way, load;
+  std::vector<std::vector<Eigen::VectorXd>> drive, equation_error, load;
 };
 
 /// Scores of a set of directions.

@@ -4,7 +4,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
-#include "search/compare.hpp"
+#include "rules.hpp"
 #include "study/blocks.hpp"
 
 namespace crane::diagnosis {
@@ -16,10 +16,10 @@ using Eigen::Index;
 double beyond(double p) { return std::sqrt(2.0) * boost::math::erfc_inv(2 * p); }
 
 /// Standard deviations of an amount that is found with a chance of kPower, where the largest of `tests`
-/// scores comes from nothing with kSignificant (Bonferroni).
+/// scores comes from nothing with rules::kSignificant (Bonferroni).
 double found_at(std::size_t tests, bool one_sided) {
   const double sides = one_sided ? 1 : 2;
-  return beyond(kSignificant / (sides * static_cast<double>(tests))) + beyond(1 - kPower);
+  return beyond(rules::kSignificant / (sides * static_cast<double>(tests))) + beyond(1 - kPower);
 }
 
 /// Of an amount alone: what the learnt noise makes, and not less than the blocks scatter.

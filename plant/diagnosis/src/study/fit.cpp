@@ -116,8 +116,8 @@ double total_loss(const Evaluation& at, Loss loss) {
   if (loss == Loss::robust) return at.loss;
   double sum = 0;
   for (const Fits* fits : {&at.drive, &at.load})
-    for (const WindowFit& fit : *fits) sum += fit.residual.squaredNorm() + fit.start_price;
-  for (const VectorXd& residual : at.under_way) sum += residual.squaredNorm();
+    for (const WindowFit& fit : *fits) sum += fit.residual.squaredNorm() + fit.start_log_determinant;
+  for (const VectorXd& residual : at.equation_error) sum += residual.squaredNorm();
   return sum;
 }
 
@@ -133,6 +133,18 @@ std::array<double, kOutputs> errors_of(const std::vector<std::pair<const Problem
                  static_cast<double>(squares.size());
     }
   return errors;
+}
+
+}  // namespace
+
+namespace {
+
+/// Schwarz's price of a value, ln N of N blocks, over Akaike's, 2: a superfluous value is chosen the less
+/// often the more data there are (G. Schwarz, Ann. Statist. 6 (1978) 461; for composite likelihoods X. Gao,
+/// P. X. Song, J. Am. Stat. Assoc. 105 (2010) 1531).
+double schwarz_over_akaike(const Blocks& left_out) {
+  const auto blocks = std::count_if(left_out.begin(), left_out.end(), [](double cost) { return cost > 0; });
+  return std::max(1.0, 0.5 * std::log(std::max<double>(1, static_cast<double>(blocks))));
 }
 
 }  // namespace
@@ -213,8 +225,9 @@ Blocks Study::deviance_of(const Body& body, const Evaluation& at) {
     for (std::size_t i = 0; i < more.size(); ++i) deviance[first + i] += more[i];
   };
   add(0, log_variances_of(body.drive));
-  const std::vector<double> of_pieces = body.under_way.log_variances();
-  for (std::size_t i = 0; i < of_pieces.size(); ++i) deviance[body.under_way.windows()[i]] += of_pieces[i];
+  const std::vector<double> of_pieces = body.equation_error.log_variances();
+  for (std::size_t i = 0; i < of_pieces.size(); ++i)
+    deviance[body.equation_error.windows()[i]] += of_pieces[i];
   add(at.drive_blocks, log_variances_of(body.load));
   return deviance;
 }
@@ -222,7 +235,9 @@ Blocks Study::deviance_of(const Body& body, const Evaluation& at) {
 void Study::judge_by_likelihood(Fitted& fitted) const {
   fitted.noise = noise();
   fitted.deviance = deviance_of(train_, fitted.train);
-  for (std::size_t i = 0; i < fitted.left_out.size(); ++i) fitted.deviance[i] += fitted.left_out[i];
+  const double schwarz = schwarz_over_akaike(fitted.left_out);
+  for (std::size_t i = 0; i < fitted.left_out.size(); ++i) fitted.deviance[i] += schwarz * fitted.left_out[i];
+  fitted.price = schwarz * sum(fitted.left_out);
   fitted.error = errors_of({{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}});
   if (whole_runs_.empty()) return;
   const Fits whole = whole_runs_.fit(replays_of(train_.runs, with(fitted.effects)));
@@ -247,7 +262,8 @@ Noise Study::noise_of(const Fitted& fitted, const Noise& unchanged) const {
   Noise noise = unchanged;
   if (!train_.drive.empty() && (parts.drive || unchanged.drive.empty())) {
     noise.drive = train_.drive.disturbances_of(fitted.train.drive);
-    noise.under_way = train_.under_way.disturbances_of(replays_of(train_.runs, with(fitted.effects)));
+    noise.equation_error =
+        train_.equation_error.disturbances_of(replays_of(train_.runs, with(fitted.effects)));
   }
   if (!train_.load.empty() && (parts.load || unchanged.load.empty()))
     noise.load = train_.load.disturbances_of(fitted.train.load);
@@ -257,7 +273,7 @@ Noise Study::noise_of(const Fitted& fitted, const Noise& unchanged) const {
 Fitted Study::screened(const Effects& effects, const Fitted& near) const {
   Fitted fitted = fit(effects, near.train.loss - kLeastGain, near.train);
   fitted.leaves = noise_of(fitted, near.leaves);
-  for (const auto* of : {&fitted.leaves.drive, &fitted.leaves.under_way, &fitted.leaves.load})
+  for (const auto* of : {&fitted.leaves.drive, &fitted.leaves.equation_error, &fitted.leaves.load})
     for (const Disturbance& disturbance : *of) fitted.misfit += disturbance.misfit;
   return fitted;
 }

@@ -172,14 +172,15 @@ std::vector<Visibility> Study::excitation(const std::vector<Score>& places, cons
   for (const Slopes& of_place : slopes) {
     std::vector<double>& own = information.emplace_back(of_place.drive.size(), 0.0);
     for (std::size_t probe = 0; probe < own.size(); ++probe)
-      for (const auto* part : {&of_place.drive[probe], &of_place.under_way[probe], &of_place.load[probe]})
+      for (const auto* part :
+           {&of_place.drive[probe], &of_place.equation_error[probe], &of_place.load[probe]})
         for (const VectorXd& change : *part) own[probe] += change.squaredNorm();
   }
   const std::vector<Direction> directions = strongest_directions(places, information);
   Slopes all;
   for (const Direction& d : directions) {
     all.drive.push_back(slopes[d.place].drive[d.probe]);
-    all.under_way.push_back(slopes[d.place].under_way[d.probe]);
+    all.equation_error.push_back(slopes[d.place].equation_error[d.probe]);
     all.load.push_back(slopes[d.place].load[d.probe]);
   }
   return visibility_of(candidates_, places, directions, block_scores(at, all));
@@ -201,7 +202,7 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
     judge(directions[i], scores[i]);
     if (as_it_stands)
       scores[i].gain = as_it_is(at.drive, all.drive.back()) + as_it_is(at.load, all.load.back()) +
-                       as_it_is(at.under_way, all.under_way.back());
+                       as_it_is(at.equation_error, all.equation_error.back());
     scores[i].gain += own;
     const double loss = (candidate.drive ? at.drive_loss : 0) + (candidate.load ? at.load_loss : 0);
     scores[i].share = loss > 0 ? scores[i].gain / loss : 0;

@@ -17,14 +17,15 @@ using Eigen::VectorXd;
 /// too late or not at all: in longer windows these, not the error, make the residual.
 constexpr double kSwingWindow_s = 2, kDriveWindow_s = 1;
 
-Evaluation summed(const Study::Body& body, Fits of_drive, Fits of_load, std::vector<VectorXd> under_way) {
+Evaluation summed(const Study::Body& body, Fits of_drive, Fits of_load,
+                  std::vector<VectorXd> equation_error) {
   Evaluation result;
   result.drive = std::move(of_drive);
   result.load = std::move(of_load);
-  result.under_way = std::move(under_way);
+  result.equation_error = std::move(equation_error);
   result.blocks = blocks_of(body.drive, result.drive);
-  for (std::size_t i = 0; i < result.under_way.size(); ++i)
-    result.blocks[body.under_way.windows()[i]] += loss_of(result.under_way[i]);
+  for (std::size_t i = 0; i < result.equation_error.size(); ++i)
+    result.blocks[body.equation_error.windows()[i]] += loss_of(result.equation_error[i]);
   const Blocks more = blocks_of(body.load, result.load);
   result.drive_blocks = result.blocks.size();
   result.drive_loss = sum(result.blocks);
@@ -82,20 +83,20 @@ void Study::learn_disturbance(const Effects& effects) {
   const Replays crane = replays_of(train_.runs, with(effects));
   for (Problem* train : {&train_.drive, &train_.load})
     if (!train->empty()) train->learn_disturbance(crane);
-  train_.under_way.learn_disturbance(crane);
+  train_.equation_error.learn_disturbance(crane);
   evaluate_base();
 }
 
 void Study::whiten_training(const Noise& noise) {
   if (!train_.drive.empty()) train_.drive.whiten_with(noise.drive);
   if (!train_.load.empty()) train_.load.whiten_with(noise.load);
-  train_.under_way.whiten_with(noise.under_way, replays_of(train_.runs, base_));
+  train_.equation_error.whiten_with(noise.equation_error, replays_of(train_.runs, base_));
 }
 
 void Study::whiten_test(const Noise& noise) {
   if (!test_.drive.empty()) test_.drive.whiten_with(noise.drive);
   if (!test_.load.empty()) test_.load.whiten_with(noise.load);
-  test_.under_way.whiten_with(noise.under_way, replays_of(test_.runs, base_));
+  test_.equation_error.whiten_with(noise.equation_error, replays_of(test_.runs, base_));
 }
 
 void Study::whiten_with(const Noise& noise) {
@@ -104,13 +105,13 @@ void Study::whiten_with(const Noise& noise) {
 }
 
 Noise Study::noise() const {
-  return {train_.drive.disturbances(), train_.under_way.disturbances(), train_.load.disturbances()};
+  return {train_.drive.disturbances(), train_.equation_error.disturbances(), train_.load.disturbances()};
 }
 
 void Study::evaluate_base() { base_train_ = evaluated(train_, replays_of(train_.runs, base_)); }
 
 Evaluation Study::evaluated(const Body& body, const Replays& base) const {
-  return summed(body, fit_of(body.drive, base), fit_of(body.load, base), body.under_way.residuals(base));
+  return summed(body, fit_of(body.drive, base), fit_of(body.load, base), body.equation_error.residuals(base));
 }
 
 Evaluation Study::evaluated_again(const Fitted& fitted) const {
@@ -119,7 +120,7 @@ Evaluation Study::evaluated_again(const Fitted& fitted) const {
     return problem.empty() ? Fits{} : problem.fit_again(crane, near);
   };
   return summed(train_, again(train_.drive, fitted.train.drive), again(train_.load, fitted.train.load),
-                train_.under_way.residuals(crane));
+                train_.equation_error.residuals(crane));
 }
 
 Evaluation Study::evaluate(const Body& body, const Effects& effects, const Evaluation& near) const {
@@ -131,7 +132,7 @@ Evaluation Study::evaluate(const Body& body, const Effects& effects, const Evalu
   }
   return summed(body, in_drive ? body.drive.fit_near(crane, near.drive) : near.drive,
                 in_load ? body.load.fit_near(crane, near.load) : near.load,
-                in_drive ? body.under_way.residuals(crane) : near.under_way);
+                in_drive ? body.equation_error.residuals(crane) : near.equation_error);
 }
 
 Evaluation Study::train(const Effects& effects) const { return train(effects, base_train_); }
@@ -147,14 +148,15 @@ double Study::add_slope(const Crane& crane, const Evaluation& at, double step, S
   const bool in_load = parts.load && !train_.load.empty();
   using Changes = std::vector<VectorXd>;
   slopes.drive.push_back(in_drive ? train_.drive.change(replays, at.drive, step, &of_drive) : Changes{});
-  slopes.under_way.push_back(in_drive ? train_.under_way.change(replays, at.under_way, step) : Changes{});
+  slopes.equation_error.push_back(in_drive ? train_.equation_error.change(replays, at.equation_error, step)
+                                           : Changes{});
   slopes.load.push_back(in_load ? train_.load.change(replays, at.load, step, &of_load) : Changes{});
   return of_drive + of_load;
 }
 
 BlockScores Study::block_scores(const Evaluation& at, const Slopes& slopes, Loss loss) const {
   BlockScores drive = diagnosis::block_scores(train_.drive, at.drive, slopes.drive, loss);
-  add_scores(train_.under_way.windows(), at.under_way, slopes.under_way, loss, drive);
+  add_scores(train_.equation_error.windows(), at.equation_error, slopes.equation_error, loss, drive);
   return joined(drive, diagnosis::block_scores(train_.load, at.load, slopes.load, loss));
 }
 

@@ -9,8 +9,8 @@
 #include "crane/diagnosis/candidate.hpp"
 #include "crane/diagnosis/diagnosis.hpp"
 #include "robust.hpp"
+#include "shooting/equation_error.hpp"
 #include "shooting/problem.hpp"
-#include "shooting/under_way.hpp"
 
 namespace crane::diagnosis {
 
@@ -29,7 +29,8 @@ inline constexpr double kBlock_s = 2.0;
 /// A body of data around one crane.
 struct Evaluation {
   Fits drive, load;
-  std::vector<Eigen::VectorXd> under_way;  ///< whitened residuals of the drives along the measured motion
+  std::vector<Eigen::VectorXd>
+      equation_error;  ///< whitened residuals of the drives along the measured motion
   Blocks blocks;
   std::size_t drive_blocks = 0;  ///< the first of them
   double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
@@ -37,7 +38,7 @@ struct Evaluation {
 
 /// Noise and disturbance: by output of the drives, of the same along the measured motion, and of the load.
 struct Noise {
-  std::vector<Disturbance> drive, under_way, load;
+  std::vector<Disturbance> drive, equation_error, load;
 };
 
 struct Fitted {
@@ -46,9 +47,10 @@ struct Fitted {
   Noise noise;        ///< that it is whitened with
   Noise leaves;       ///< learnt from what it left when it was screened
   double misfit = 0;  ///< minus twice the log likelihood of that, the starts of windows left free
-  /// Minus twice the log likelihood of the training data by block, each as if it was left out of the fit.
+  /// Minus twice the log likelihood of the training data by block, with the price of the fitted values.
   Blocks deviance;
-  Blocks left_out;  ///< of that, what every block costs more for being left out
+  double price = 0;  ///< of the values, contained in `deviance`
+  Blocks left_out;   ///< what every block costs more when it is left out of the fit (Takeuchi's penalty)
   /// Error of the simulation in windows, mean over the windows of the rms of each [m or rad].
   std::array<double, kOutputs> error{};
   /// The same of swings over whole runs. Of drives the smallest error of friction integrates into position.
@@ -149,7 +151,7 @@ class Study {
     Body& operator=(const Body&) = delete;
     const Runs& runs;
     Problem drive, load;
-    UnderWay under_way{drive};
+    EquationError equation_error{drive};
   };
 
  private:

@@ -4,8 +4,9 @@
 #include <limits>
 
 #include "crane/diagnosis/diagnosis.hpp"
-#include "crane/diagnosis/moment.hpp"
+#include "crane/diagnosis/kinematics.hpp"
 #include "experiment/next_experiment.hpp"
+#include "rules.hpp"
 #include "search/compare.hpp"
 #include "search/held_out.hpp"
 #include "search/intervals.hpp"
@@ -15,20 +16,6 @@
 
 namespace crane::diagnosis {
 namespace {
-
-/// A smaller share of the held-out error is not worth a name.
-constexpr double kWorthwhile = 0.03;
-/// Share of resamples of the held-out data that the extended model makes likelier.
-constexpr double kHeldOutWin = 0.95;
-/// A simulated motion of less than this share of the measured one is none.
-constexpr double kStandsStill = 0.1;
-/// Errors of a swing over whole runs in open loop may grow by that much: phase drifts. Of drives nothing is
-/// asked there, where the smallest error of friction integrates into position.
-constexpr double kWorseOverWholeRuns = 1.25;
-/// Of the squares of a motion over whole runs that the base model follows, the extended model has to follow
-/// at least this share: friction that is off by a little lets an axis drift, one that holds it fast explains
-/// nothing.
-constexpr double kStillFollowed = 0.5;
 
 void give_values(const Fitted& best, Diagnosis& result) {
   const std::vector<Estimate> values = estimates(best);
@@ -52,7 +39,8 @@ bool acts_on(const Effects& effects, const std::string& column) {
   });
 }
 
-/// Whether the extended model loses over whole runs what the base model followed of a motion.
+/// Whether the extended model loses over whole runs what the base model followed of a motion: friction that
+/// is off by a little lets an axis drift, friction that holds it fast explains nothing.
 bool loses_motion(const HeldOut& held_out, const std::string& column) {
   const auto squares = [&column](const std::map<std::string, double>& rms) {
     const auto found = rms.find(column);
@@ -61,7 +49,7 @@ bool loses_motion(const HeldOut& held_out, const std::string& column) {
   const double moved = squares(held_out.whole_held_value_rms);
   const double followed_before = moved - squares(held_out.whole_baseline_rms);
   const double followed = moved - squares(held_out.whole_extended_rms);
-  return followed_before > 0 && followed < kStillFollowed * followed_before;
+  return followed_before > 0 && followed < rules::kStillFollowed * followed_before;
 }
 
 /// Whether the error where the effects act is smaller by a share that is worth a name, in windows or over
@@ -69,32 +57,48 @@ bool loses_motion(const HeldOut& held_out, const std::string& column) {
 bool worthwhile(const HeldOut& held_out, const Effects& effects) {
   const auto smaller = [&](const auto& before, const auto& after) {
     return std::ranges::any_of(before, [&](const auto& column) {
-      return acts_on(effects, column.first) && after.at(column.first) < (1 - kWorthwhile) * column.second;
+      return acts_on(effects, column.first) &&
+             after.at(column.first) < (1 - rules::kWorthwhile) * column.second;
     });
   };
   return smaller(held_out.baseline_rms, held_out.extended_rms) ||
          smaller(held_out.whole_baseline_rms, held_out.whole_extended_rms);
 }
 
-/// Why held-out runs do not speak for the extended model; empty when they do.
-std::string held_out_doubt(const HeldOut& held_out, const Effects& effects) {
+/// What held-out runs say about the extended model.
+struct Proof {
+  enum class Outcome {
+    proven,
+    unlikely,        ///< they are not likelier beyond doubt
+    no_consequence,  ///< they are likelier, and no error is smaller by a share that matters
+    refuted,         ///< they contradict it
+  };
+  Outcome outcome = Outcome::proven;
+  std::string why;  ///< of all outcomes but `proven`
+};
+
+Proof proof_of(const HeldOut& held_out, const Effects& effects) {
+  using enum Proof::Outcome;
   const bool nothing_held_out = held_out.baseline_rms.empty();
-  if (effects.empty() || nothing_held_out) return "";
-  if (!(held_out.likelier > kHeldOutWin))
-    return "held-out runs: the extended model does not make them likelier beyond doubt";
-  if (!worthwhile(held_out, effects)) return "held-out runs: the extended model hardly simulates them better";
+  if (effects.empty() || nothing_held_out) return {};
+  const std::string runs = "held-out runs: ";
   for (const auto& [column, motion] : held_out.whole_extended_motion)
-    if (acts_on(effects, column) && motion < kStandsStill)
-      return "held-out runs: " + column + " moves, and stands still in the extended model";
-  for (const auto& [column, before] : held_out.whole_baseline_rms)
-    if (column.starts_with("swing") && acts_on(effects, column) &&
-        held_out.whole_extended_rms.at(column) > kWorseOverWholeRuns * before)
-      return "held-out runs: over whole runs the extended model simulates " + column + " worse";
-  for (const auto& [column, before] : held_out.whole_baseline_rms)
-    if (!column.starts_with("swing") && acts_on(effects, column) && loses_motion(held_out, column))
-      return "held-out runs: over whole runs the extended model follows " + column +
-             " less than half as well as the base model";
-  return "";
+    if (acts_on(effects, column) && motion < rules::kStandsStill)
+      return {refuted, runs + column + " moves, and stands still in the extended model"};
+  for (const auto& [column, before] : held_out.whole_baseline_rms) {
+    if (!acts_on(effects, column)) continue;
+    if (column.starts_with("swing") &&
+        held_out.whole_extended_rms.at(column) > rules::kWorseOverWholeRuns * before)
+      return {refuted, runs + "over whole runs the extended model simulates " + column + " worse"};
+    if (!column.starts_with("swing") && loses_motion(held_out, column))
+      return {refuted, runs + "over whole runs the extended model follows " + column +
+                           " less than half as well as the base model"};
+  }
+  if (!(held_out.likelier > rules::kHeldOutWin))
+    return {unlikely, runs + "the extended model does not make them likelier beyond doubt"};
+  if (!worthwhile(held_out, effects))
+    return {no_consequence, runs + "the extended model hardly simulates them better"};
+  return {};
 }
 
 /// The verdict is "none" after all.
@@ -111,6 +115,26 @@ struct Data {
   Runs train, test;
 };
 
+/// Whether nothing is wrong where the held-out runs do not prove what was found. What shows in training only
+/// is an error that has another cause. What training and held-out data together do not make likely is luck,
+/// if held-out data lose no more by it than superfluous values cost. Then, and where it is of no consequence,
+/// the residual of the base model decides.
+/// @param found its `best` is unproven
+bool nothing_wrong(Study& study, const Hypotheses& found, const Proof& proof, const HeldOut& held_out,
+                   std::uint64_t seed) {
+  const std::size_t candidates = study.candidates().size();
+  const bool matters = share_of_error(found.best, found.base) >= rules::kWorthwhile;
+  const bool luck = is_luck(luck_of_values(found.best, found.base, held_out.nats), candidates) &&
+                    is_luck(luck_of_loss(found.best, found.base, held_out.nats), candidates);
+  if (matters && !luck && proof.outcome != Proof::Outcome::no_consequence) return false;
+  Hypotheses base = found;
+  base.best = found.base;
+  study.whiten_with(found.base.noise);
+  const bool nothing = judge(study, base, {}, seed).diagnosis.verdict == Verdict::none;
+  study.whiten_with(found.best.noise);
+  return nothing;
+}
+
 /// @param study of data in which what `losing` encoders lost is put back
 /// @param as_measured of the data before that; `study` itself where nothing was lost
 Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measured,
@@ -121,35 +145,33 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   request.progress(0.85, "what is left");
   auto [result, rival] = judge(study, found, losing, request.seed);
   result.excitation = found.excitation;
-  const bool matters = share_of_error(found.best, found.base) >= kWorthwhile;
-  if (!found.best.effects.empty()) {
+  Fitted best = found.best;
+  if (!best.effects.empty()) {
     request.progress(0.88, "how well the data know it");
-    found.best = with_intervals(study, found.best, request.seed);
-    give_values(found.best, result);
+    best = with_intervals(study, best, request.seed);
+    give_values(best, result);
   }
   request.progress(0.92, "held-out runs");
-  result.held_out = held_out(study, as_measured, found.best.effects, request.seed);
-  if (!result.held_out.baseline_rms.empty() && !found.best.effects.empty()) {
-    const Blocks before = study.held_out_deviance(found.base), now = study.held_out_deviance(found.best);
+  result.held_out = held_out(study, as_measured, best.effects, request.seed);
+  if (!result.held_out.baseline_rms.empty() && !best.effects.empty()) {
+    const Blocks before = study.held_out_deviance(found.base), now = study.held_out_deviance(best);
     result.held_out.nats = 0.5 * (sum(before) - sum(now));
     result.held_out.likelier = block_wins(now, before, request.seed);
   }
-  if (const std::string why = held_out_doubt(result.held_out, found.best.effects); !why.empty()) {
-    // What hardly shows in training and not at all out of it is luck, and so is what all data together do not
-    // make likely. What shows in training only is an error that has another cause.
-    const bool luck =
-        is_luck(luck_of_values(found.best, found.base, result.held_out.nats), study.candidates().size());
-    if (losing.empty() && result.remainder.from.empty() && (!matters || luck)) {
-      found.best = found.base;
+  const Proof proof = proof_of(result.held_out, best.effects);
+  if (proof.outcome != Proof::Outcome::proven) {
+    if (losing.empty() && result.remainder.from.empty() &&
+        nothing_wrong(study, found, proof, result.held_out, request.seed)) {
+      best = found.base;
       nothing_found(result);
       result.held_out = held_out(study, as_measured, {}, request.seed);
     } else {
-      doubt(result, why);
+      doubt(result, proof.why);
     }
   }
   if (result.verdict == Verdict::ambiguous) {
     request.progress(0.95, "which motion would tell them apart");
-    result.next_experiment = propose_experiment(rig, found.best.effects, rival, disturbances_of(study));
+    result.next_experiment = propose_experiment(rig, best.effects, rival, disturbances_of(study));
   }
   if (!losing.empty()) as_measured.whiten_with(study.noise());
   name_losing(losing, study, as_measured, result);
@@ -159,7 +181,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
     result.attempted.assign(first, result.causes.end());
     result.causes.erase(first, result.causes.end());
   }
-  result.traces = traces(study, as_measured, found.best.effects);
+  result.traces = traces(study, as_measured, best.effects);
   request.progress(1, "done");
   return result;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "crane/diagnosis/moment.hpp"
+#include "crane/diagnosis/kinematics.hpp"
 #include "replay/standstill.hpp"
 
 namespace crane::diagnosis {
@@ -84,7 +84,7 @@ void hold_resting_drives(Runs& train, Runs& test) {
   for (const Output drive : {kTrolleyPosition, kSlewAngle}) {
     const auto moves = [drive](const PreparedRun& run) {
       const std::vector<double>& rate = run.motion[drive].rate;
-      const auto rows = std::ranges::count_if(rate, [](double v) { return std::abs(v) >= kStands; });
+      const auto rows = std::ranges::count_if(rate, [](double v) { return std::abs(v) >= kStandstillSpeed; });
       return static_cast<double>(rows) * run.run.period_s >= kLeastMoving_s;
     };
     if (std::ranges::any_of(train, moves)) continue;

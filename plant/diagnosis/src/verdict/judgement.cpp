@@ -8,25 +8,12 @@
 #include <sstream>
 
 #include "robust.hpp"
+#include "rules.hpp"
 #include "search/compare.hpp"
 #include "verdict/leftovers.hpp"
 
 namespace crane::diagnosis {
 namespace {
-
-/// Mean loss of the whitened residual beyond which noise and a coloured force cannot have made it: they keep
-/// to 1 within a few percent.
-constexpr double kWorst = 1.25;
-/// What is left of a swing, as a share, beyond which no disturbance is to blame, however likely one is that
-/// makes it: the right model leaves a few hundredths. One of less than so much [rad] is not asked. Drives are
-/// not: where one sticks and slips, the right model leaves as much.
-constexpr double kNotFollowed = 0.4, kMoves = 0.01;
-/// Disturbance that is credible on a load, rms, as a share of its weight: half a newton on two kilograms, as
-/// wind and hands at a laboratory's crane make it. A model that lacks a larger force lacks more than a
-/// disturbance.
-constexpr double kCredibleForce = 0.03;
-constexpr double kClearWin = 0.8;
-constexpr double kRunnerUp = 0.1;
 
 /// 1 where noise and disturbance are as learnt.
 double mean_loss(const Problem& problem, const Fits& fits) {
@@ -47,7 +34,9 @@ double share_not_followed(const Problem& problem, const Fits& fits, std::size_t 
     moved += (measured.array() - measured.mean()).matrix().squaredNorm();
     count += static_cast<double>(measured.size());
   }
-  return moved > kMoves * kMoves * count ? std::sqrt(sum(problem.squares_left(fits, output)) / moved) : 0;
+  return moved > rules::kSwings * rules::kSwings * count
+             ? std::sqrt(sum(problem.squares_left(fits, output)) / moved)
+             : 0;
 }
 
 /// Force on the load that the simulation lacks, rms, as a share of the load's weight: that of a pendulum of
@@ -108,10 +97,11 @@ class Judgement {
     const double load = mean_loss(study_.load(), best_.train.load),
                  drives = mean_loss(study_.drive(), best_.train.drive);
     Remainder& remainder = result_.remainder;
-    if (std::max(load, drives) > kWorst) {
-      remainder.predictable_fraction = 1 - kWorst / std::max(load, drives);
-      remainder.from.push_back(std::string{load > kWorst ? "more in the swing" : "more in the drives"} +
-                               " than sensor noise and a coloured force leave");
+    if (std::max(load, drives) > rules::kWorstLoss) {
+      remainder.predictable_fraction = 1 - rules::kWorstLoss / std::max(load, drives);
+      remainder.from.push_back(
+          std::string{load > rules::kWorstLoss ? "more in the swing" : "more in the drives"} +
+          " than sensor noise and a coloured force leave");
       return true;
     }
     if (const std::string lacking = not_followed(); !lacking.empty()) {
@@ -134,9 +124,9 @@ class Judgement {
     const Fits fits = plain.fit(replays_of(plain.runs(), study_.with(best_.effects)));
     const std::vector<Output>& outputs = plain.outputs();
     for (std::size_t output = 0; output < outputs.size(); ++output) {
-      if (share_not_followed(plain, fits, output) <= kNotFollowed) continue;
+      if (share_not_followed(plain, fits, output) <= rules::kNotFollowed) continue;
       const double force = lacking_force(plain, fits, output, study_.natural_radps());
-      if (force > kCredibleForce)
+      if (force > rules::kCredibleForce)
         return (std::ostringstream{} << std::setprecision(2) << "the simulation of "
                                      << kOutputNames[outputs[output]] << " lacks a force on the load of "
                                      << 100 * force << " % of its weight, rms")
@@ -162,12 +152,12 @@ class Judgement {
     for (const Effect& effect : best_.effects) frequency_[effect.candidate] += left;
     bool clear = true, known = true;
     for (const Effect& effect : best_.effects) {
-      clear = clear && frequency_[effect.candidate] >= kClearWin;
+      clear = clear && frequency_[effect.candidate] >= rules::kClearWin;
       known = known && effect.candidate->changes_known_parameter;
     }
     std::vector<const Candidate*> rivals;
     for (const auto& [candidate, share] : frequency_)
-      if (share >= kRunnerUp && !has(best_.effects, candidate)) rivals.push_back(candidate);
+      if (share >= rules::kRunnerUp && !has(best_.effects, candidate)) rivals.push_back(candidate);
     result_.verdict = !clear && !rivals.empty() ? Verdict::ambiguous
                       : known                   ? Verdict::parameter
                                                 : Verdict::named;
@@ -219,7 +209,7 @@ std::string said(const Diagnosis& d) {
   for (const Cause& cause : d.causes) {
     const std::string name = cause.name + (cause.axis.empty() ? "" : " (" + cause.axis + ")");
     add(names, " and ", name);
-    add(cause.resampling_frequency >= kClearWin ? clear : contested, " and ", name);
+    add(cause.resampling_frequency >= rules::kClearWin ? clear : contested, " and ", name);
   }
   for (const std::string& rival : d.ambiguous_with) add(rivals, ", ", rival);
   switch (d.verdict) {

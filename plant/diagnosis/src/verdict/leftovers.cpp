@@ -4,24 +4,10 @@
 
 #include "force/force_lines.hpp"
 #include "force/jumps.hpp"
+#include "rules.hpp"
 
 namespace crane::diagnosis {
 namespace {
-
-/// Share of the drives' loss beyond which an unexplained pattern is taken seriously: the right model leaves
-/// up to 0.4 percent.
-constexpr double kPattern = 0.008;
-/// Luck makes patterns of so many noise variances, in short data as in long.
-constexpr double kLuck = 15;
-/// A pattern this large against all that is wrong with the base model makes the names beside it doubtful. A
-/// term's form is not exactly the effect's, so that more may be left of what it is a law of. Several laws of
-/// the same take any form together.
-constexpr double kDoubtful = 0.04, kDoubtfulOfItsOwn = 0.1, kDoubtfulOfSeveralLaws = 0.01;
-/// No term of a drive changes with time.
-constexpr double kDoubtfulOverTime = 0.01;
-/// So does one that is this large against what one of the names explains on its axis: it may be there for
-/// what is left.
-constexpr double kDoubtfulOfOneName = 0.5;
 
 double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
   double sum = 0;
@@ -34,12 +20,14 @@ bool of_its_own(const Candidate& candidate, const Unexplained& left) {
   return candidate.law == left.with && candidate.axis == axis_of(left.output);
 }
 
-/// Beside the effects, as a share of the base model's loss.
+/// Beside the effects, as a share of the base model's loss. A term's form is not exactly the effect's, so
+/// that more may be left of what one of them is a law of; several laws of the same variable take any form
+/// together. No term of a drive changes with time.
 double believable(const Unexplained& left, const Effects& effects) {
-  if (left.with == GoesWith::time) return kDoubtfulOverTime;
+  if (left.with == GoesWith::time) return rules::kDoubtfulOverTime;
   const auto laws = std::count_if(effects.begin(), effects.end(),
                                   [&](const Effect& effect) { return of_its_own(*effect.candidate, left); });
-  return laws == 0 ? kDoubtful : laws == 1 ? kDoubtfulOfItsOwn : kDoubtfulOfSeveralLaws;
+  return laws == 0 ? rules::kDoubtful : laws == 1 ? rules::kDoubtfulOfItsOwn : rules::kDoubtfulOfSeveralLaws;
 }
 
 /// Of each of the effects, what it takes off the squares of a drive's pieces; infinite on another axis.
@@ -67,9 +55,10 @@ double weakest(const Effects& effects, const std::vector<double>& explained, con
 
 bool doubtful(const Pattern& pattern, const Effects& effects) {
   const Unexplained& u = pattern.what;
-  const bool counts = u.with == GoesWith::frequency || (u.fraction > kPattern && u.gain > kLuck);
+  const bool counts =
+      u.with == GoesWith::frequency || (u.fraction > rules::kPattern && u.gain > rules::kPatternLuck);
   return counts && (effects.empty() || u.gain > believable(u, effects) * pattern.of_base ||
-                    u.gain > kDoubtfulOfOneName * pattern.of_weakest);
+                    u.gain > rules::kDoubtfulOfOneName * pattern.of_weakest);
 }
 
 std::vector<Pattern> what_is_left(const Study& study, const Hypotheses& hypotheses,

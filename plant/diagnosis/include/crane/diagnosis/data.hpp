@@ -1,6 +1,6 @@
 #pragma once
-/// Measured data as the diagnosis takes them: runs on the grid that a replay goes by, measurements and
-/// commands at their own times, checked.
+/// Measured data of the diagnosis: checked runs on an equidistant grid, with measurements and commands at
+/// their own times.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace crane::diagnosis {
 
-/// What sensors report and a simulation has to reproduce.
+/// Sensor values that the simulation predicts.
 enum Output : std::size_t { kTrolleyPosition = 0, kSlewAngle = 1, kRadialSwing = 2, kTangentialSwing = 3 };
 inline constexpr std::size_t kOutputs = 4;
 /// Coordinate of each output.
@@ -28,34 +28,33 @@ inline constexpr auto kOutputNames = [] {
   return names;
 }();
 
-/// Of the drive, or the direction of the swing.
+/// Axis of the drive, or direction of the swing.
 [[nodiscard]] constexpr const char* axis_of(Output output) {
   return plant::kCoordinates[kCoordinateOf[output]].axis;
 }
 
-/// Volts of the drives from a time on, until the next one.
+/// Drive voltages from `time_s` until the next command.
 struct TimedCommand {
   double time_s = 0;  ///< since row 0 of its run
   plant::PerAxis drive_v{};
 };
 
-/// A run on a grid of equal periods. Row k: the measurement at its own instant near start + k periods, the
-/// command from there on. A row that was not measured is NaN: it is simulated, and never compared.
+/// A run on an equidistant grid. Row k has the measurement nearest to start + k periods, at its own time, and
+/// the command from there on. NaN: not measured; such a row is simulated and not compared.
 struct Run {
   std::string name;                       ///< "train_1.csv", with ", part 2" where the state was lost
   double period_s = 0;                    ///< of the grid, > 0
   double start_s = 0;                     ///< time of row 0
   std::vector<plant::PerAxis> command_v;  ///< mean of the period; 0 for a drive without a column
-  std::array<std::vector<double>, kOutputs> measured;  ///< m or rad; empty when there is no such column
-  std::vector<double> cable_m;                         ///< measured, or the rig's own
-  std::vector<double> offset_s;  ///< by row, of its instant from the grid's, within a period; empty: none
-  std::vector<TimedCommand> commands;         ///< as they were given; empty: one a row, `command_v`
-  std::array<bool, 2> commanded{true, true};  ///< whether the command of trolley and slew is known
-  /// By row, of trolley and slew: whether an edge of the command may have been lost with the row; empty:
-  /// nowhere.
+  std::array<std::vector<double>, kOutputs> measured;  ///< m or rad; empty without a column
+  std::vector<double> cable_m;                         ///< measured, or that of the rig file
+  std::vector<double> offset_s;        ///< time of the row relative to the grid, within a period; empty: none
+  std::vector<TimedCommand> commands;  ///< at their own times; empty: `command_v` holds from row to row
+  std::array<bool, 2> commanded{true, true};  ///< trolley, slew: the command is known
+  /// Trolley, slew; by row: an edge of the command may have been lost with the row. Empty: nowhere.
   std::array<std::vector<bool>, 2> edge_lost;
-  double load_mass_kg = 0;  ///< of this run; 0: the rig's own
-  /// Smallest step of each sensor that the data show; 0: not known.
+  double load_mass_kg = 0;  ///< 0: as in the rig file
+  /// Resolution of each sensor, as the data show it, m or rad; 0: unknown.
   std::array<double, kOutputs> resolution{};
 
   [[nodiscard]] std::size_t rows() const { return command_v.size(); }
@@ -64,25 +63,27 @@ struct Run {
   [[nodiscard]] bool seen(Output output, std::size_t row) const {
     return std::isfinite(measured[output][row]);
   }
-  /// Instant of a row since row 0.
+  /// Time of a row since row 0.
   [[nodiscard]] double instant_s(std::size_t row) const {
-    return static_cast<double>(row) * period_s + (offset_s.empty() ? 0.0 : offset_s[row]);
+    return static_cast<double>(row) * period_s + offset_at_s(row);
   }
+  /// Instant of a row since its time on the grid.
+  [[nodiscard]] double offset_at_s(std::size_t row) const { return offset_s.empty() ? 0.0 : offset_s[row]; }
   /// @param drive trolley or slew
   [[nodiscard]] bool may_have_lost_edge(Output drive, std::size_t row) const {
     return !edge_lost[drive].empty() && edge_lost[drive][row];
   }
-  /// Whether every row was measured, at the grid's times.
+  /// Whether every row was measured at the time of the grid.
   [[nodiscard]] bool regular(Output output) const;
 };
 
-/// What was noticed and what was done about it; nothing is mended without a word here.
+/// Runs of one file; the notes name everything that was left out or changed.
 struct Loaded {
   std::vector<Run> runs;
   std::vector<std::string> notes;
 };
 
-/// The data cannot be used; one line per problem: "file: column: what is wrong: rule".
+/// The data cannot be used. One line per problem: "file: column: what is wrong: rule".
 class DataError : public std::runtime_error {
  public:
   explicit DataError(std::vector<std::string> problems);
@@ -92,34 +93,33 @@ class DataError : public std::runtime_error {
   std::vector<std::string> problems_;
 };
 
-/// Checks a table of canonical columns against the rig. Rows keep their own times: dropped rows, jitter and
-/// two sample times cost nothing but what was not measured. A run is cut only where its state is lost: after
-/// a gap of a whole swing (two seconds without a load), and where a position is set to another value. Angles
-/// that look like degrees, counts that wrap, constant and missing columns, time that does not increase and
-/// pieces too short are problems or notes.
+/// Checks a table of canonical columns against the rig. Rows keep their own times: jitter, dropped rows and
+/// two sample times lose no measured value. A run is cut where its state is lost: after a gap of one period
+/// of the load (2 s without a load), and where a position is reset. Wrong units, constant or missing columns,
+/// times that do not increase and short pieces are problems or notes.
 /// @param name of the file, for messages
 /// @throws DataError with all problems of the table
 [[nodiscard]] Loaded load_run(const recording::Table& table, const configuration::Rig& rig,
                               const std::string& name);
 
-/// By sample.
+/// By sample: m or rad, per s, per s2.
 struct Motion {
   std::vector<double> position, rate, acceleration;
 };
-/// From a measured position by a local cubic over 2 half_width + 1 samples: no phase lag; exact for cubics.
-/// At the ends the window is one-sided.
-[[nodiscard]] Motion smooth(std::span<const double> measured, double period_s, int half_width);
-/// A measured position without the noise of its sensor, at the samples' own, increasing times: the
-/// fixed-interval smoother (H. E. Rauch, F. Tung, C. T. Striebel, AIAA J. 3 (1965) 1445) of a motion whose
-/// jerk is white, as strong as makes the samples likeliest.
+/// Local cubic over 2 half_width + 1 samples: no phase lag, exact for cubics; one-sided at the ends (A.
+/// Savitzky, M. J. E. Golay, Anal. Chem. 36 (1964) 1627).
+[[nodiscard]] Motion savitzky_golay(std::span<const double> measured, double period_s, int half_width);
+/// Position without sensor noise: fixed-interval smoother (H. E. Rauch, F. Tung, C. T. Striebel, AIAA J. 3
+/// (1965) 1445) of a motion with white jerk, whose strength maximises the likelihood of the samples.
+/// @param time_s of the samples, increasing
 /// @param least_noise of the sensor, standard deviation, > 0
-[[nodiscard]] std::vector<double> without_noise(std::span<const double> time_s,
-                                                std::span<const double> measured, double least_noise);
-/// From a measured position by the cubic spline through the samples: its acceleration, straight between them
-/// and integrated twice, gives them back.
+[[nodiscard]] std::vector<double> rts_smoothed(std::span<const double> time_s,
+                                               std::span<const double> measured, double least_noise);
+/// Cubic spline through the samples. The acceleration, linear between samples and integrated twice,
+/// reproduces them.
 [[nodiscard]] Motion spline(std::span<const double> measured, double period_s);
-/// The cubic spline through samples at their own, increasing times, at the instants 0, period, ... of
-/// `rows` rows. A period before the first sample and after the last one it stands still.
+/// Cubic spline through samples at their own, increasing times, evaluated at 0, period, ... for `rows` rows.
+/// Constant from one period outside of the samples on.
 [[nodiscard]] Motion spline_of(std::span<const double> time_s, std::span<const double> measured,
                                double period_s, std::size_t rows);
 

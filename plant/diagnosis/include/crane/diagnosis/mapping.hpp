@@ -1,6 +1,6 @@
 #pragma once
-/// Another laboratory's columns, names, units, signs and zeros, turned into the canonical ones, and which of
-/// its rows count (docs/data.md). A mapping file:
+/// Converts another laboratory's columns to canonical names, units, signs and zeros, and selects rows
+/// (docs/data.md). A mapping file:
 ///
 ///   from_s = 0.2                                    # canonical time; to_s likewise
 ///   [columns]
@@ -10,7 +10,7 @@
 ///   trolley_voltage_v = { column = "current_a", unit = "A", per_volt = 0.5 }
 ///   cable_length_m = { value = 0.7 }
 ///   [enable]
-///   column = "torque_enable"                        # rows in which it is not 0
+///   column = "torque_enable"                        # rows where it is not 0
 ///   [stretches]
 ///   "sac.csv" = [0.0, 3.9]                          # from, to, from, to ...
 ///   [runs."heavy.csv"]
@@ -33,16 +33,16 @@ struct MappedColumn {
   double factor = 1;               ///< canonical units per unit of the column, > 0
   int sign = 1;                    ///< 1 or -1
   double offset = 0;               ///< canonical unit; added last
-  std::vector<std::string> times;  ///< columns that multiply it row by row
-  std::string unit;                ///< of a command that is no voltage, for messages
+  std::vector<std::string> times;  ///< columns that multiply it, row by row
+  std::string unit;                ///< of a command other than V, for messages
 };
 
-/// Times between which rows count, both included.
+/// Closed interval of times whose rows count.
 struct Stretch {
   double from_s = -std::numeric_limits<double>::infinity(), to_s = std::numeric_limits<double>::infinity();
 };
 
-/// What is known of one run beside its rows; 0: what the rig file says.
+/// Constants of one run; 0: as in the rig file.
 struct RunValues {
   double cable_length_m = 0, load_mass_kg = 0;
 };
@@ -56,20 +56,20 @@ struct Mapping {
   std::map<std::string, RunValues> runs;  ///< likewise
 };
 
-/// Column of `canonical` that counts the stretches of the rows that are left, where there are several:
-/// between them nothing is known of the crane.
+/// Column of `canonical` with the number of the stretch, if there are several: the state is lost between
+/// stretches.
 inline constexpr const char* kStretchColumn = "stretch";
-/// Column of the mass of the load, kg, the same in all rows, where a mapping gives it.
+/// Column of the load mass [kg], constant, if the mapping gives it.
 inline constexpr const char* kLoadMassColumn = "load_mass_kg";
 
 /// @throws configuration::ConfigurationError with every problem as "file:line: name = value: rule"
 [[nodiscard]] Mapping load_mapping(const std::filesystem::path& file);
 [[nodiscard]] Mapping parse_mapping(const std::string& text, const std::string& file);
 
-/// Canonical columns only, in their order, in the rows that count. A column that the mapping does not name is
-/// taken as it is where it has a canonical name already.
-/// @param name of the file, for messages and for what the mapping says of this file
-/// @throws DataError naming every column that the mapping wants and the table lacks
+/// Canonical columns in canonical order, in the rows that count. Columns that already have a canonical name
+/// and are not mapped are kept.
+/// @param name of the file, for messages and for the mapping's stretches and runs
+/// @throws DataError naming every column that the mapping needs and the table lacks
 [[nodiscard]] recording::Table canonical(const recording::Table& table, const Mapping& mapping,
                                          const std::string& name);
 

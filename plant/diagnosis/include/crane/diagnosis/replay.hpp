@@ -1,19 +1,18 @@
 #pragma once
-/// The measured command, and where wanted the measured motion, through the model: structured replays.
+/// Structured replays: the model driven by measured signals.
 ///   whole  command -> positions and swing
 ///   drive  command and measured swing -> positions: fails when drives or friction are wrong
 ///   load   measured motion -> swing: fails when the load or its sensors are wrong
 ///
-/// Fixed steps of at most 5 ms (2.5 ms when a term has coordinates of its own), drift-kick-drift, second
-/// order. Friction is taken at the mid-point of a step and implicitly around standstill, where tanh(v / v_s)
-/// is stiff; a reversal inside a step is met exactly. A command that terms delay or smooth changes from step
-/// to step, not from row to row.
+/// Fixed leapfrog steps (step_integrator.hpp). Friction acts at the mid-point of a step, implicitly near
+/// standstill, where tanh(v / v_s) is stiff; a reversal inside a step is located. A delayed or filtered
+/// command changes from step to step.
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "crane/diagnosis/data.hpp"
-#include "crane/diagnosis/moment.hpp"
+#include "crane/diagnosis/kinematics.hpp"
 #include "crane/plant/model.hpp"
 
 namespace crane::diagnosis {
@@ -22,43 +21,40 @@ enum class Part { whole, drive, load };
 inline constexpr std::array kParts{Part::whole, Part::drive, Part::load};
 [[nodiscard]] const char* name_of(Part part);
 
-/// The crane that is simulated.
+/// The simulated crane.
 struct Crane {
   plant::Parameters parameters;
   std::vector<plant::TermSetting> terms;
 };
 
-/// A run with what every replay of it needs.
+/// A run with the signals that all its replays share.
 struct PreparedRun {
   Run run;
   configuration::RigKind kind = configuration::RigKind::tower;
-  std::array<Motion, kOutputs> motion;  ///< smoothed; empty without a measurement
-  /// What was measured, at the grid's times: only where a replay follows it and where a start begins. What is
-  /// compared is `run.measured`, at its own times.
+  std::array<Motion, kOutputs> motion;  ///< smoothed, by row of the grid; empty without a measurement
+  /// Measured positions interpolated to the grid, for starts and prescribed motion. `run.measured`, at its
+  /// own times, is what predictions are compared with.
   std::array<std::vector<double>, kOutputs> on_grid;
   Motion cable;
-  /// Along `motion`, in steps without and with coordinates of terms' own; what every replay goes by.
-  std::array<std::vector<Measured>, 2> half_way;
-  std::array<double, kOutputs> least_noise{};  ///< what counting alone makes, m or rad
+  /// `motion` in the middle of each step: [0] without, [1] with inner coordinates.
+  std::array<std::vector<MeasuredKinematics>, 2> mid_step;
+  std::array<double, kOutputs> least_noise{};  ///< quantisation noise, standard deviation, m or rad
 };
 [[nodiscard]] PreparedRun prepare(Run run, const configuration::Rig& rig);
 
-/// Samples over which positions are smoothed for their rates and accelerations, each way: 30 ms.
+/// Half width of the Savitzky-Golay filter, in samples: 30 ms, at least 3 samples.
 [[nodiscard]] int smoothing_half_width(double period_s);
 
-/// A measured position with its rate and acceleration: a drive's as the spline through it, a swing's
-/// smoothed.
+/// Kinematics of a measured position: of a drive by a spline, of a swing by a Savitzky-Golay filter.
 [[nodiscard]] Motion motion_of(Output output, const std::vector<double>& measured, double period_s);
-/// What a run measured at the grid's times: the values themselves where it is regular, else a spline through
-/// them.
+/// Measured values at the grid's times: unchanged on a regular grid, else of a spline through them.
 [[nodiscard]] std::vector<double> measured_on_grid(const Run& run, Output output);
 
-/// Which outputs a part simulates on a run; the order is that of Output. A drive without a command is none of
-/// them: it goes where it was measured.
+/// Outputs that a part simulates, in the order of Output. A drive without a command is prescribed.
 [[nodiscard]] std::vector<Output> simulated_outputs(const PreparedRun& run, Part part);
 
-/// One crane on one run: command terms have gone over the whole of it, the errors of the crane's sensors are
-/// taken out of the measured motion, its terms' own coordinates have followed that motion.
+/// One crane on one run. The constructor filters the command of the whole run, inverts the crane's sensor
+/// terms on the measured motion, and simulates inner coordinates along that motion.
 class Replay {
  public:
   /// @param run outlives the replay
@@ -66,40 +62,38 @@ class Replay {
   ~Replay();
   Replay(Replay&&) noexcept;
 
-  /// Numbers that start a window of a part: position and rate per simulated output, then those of the model's
-  /// inner coordinates that ring on by themselves. Inner coordinates that are not given begin where the
-  /// measured motion of the whole run has brought them, and in a replay of the load go where it brings them:
-  /// what the motors' measured speed shows of impacts has corrected that.
+  /// Size of the start of a window: position and rate of each simulated output, then of each inner coordinate
+  /// that rings freely. Other inner coordinates start where the simulation along the measured motion has
+  /// them; a replay of the load prescribes them from there.
   [[nodiscard]] std::size_t start_size(Part part) const;
-  /// How far those of the inner coordinates go along the measured motion, rms over the run.
+  /// Rms of ringing inner coordinates along the measured motion: position and rate of each.
   [[nodiscard]] std::vector<double> inner_start_scale() const;
-  /// What the measurement says about them at row `first`.
+  /// Measured start at row `first`, of start_size(part).
   [[nodiscard]] std::vector<double> measured_start(Part part, std::size_t first) const;
-  /// Rows first ... first + rows - 1 from `start` at the grid's row `first`, each at its own instant; `out`
-  /// takes output by output.
+  /// Simulates rows first ... first + rows - 1 from `start` at the grid's row `first`.
+  /// @param out outputs one after the other, each row at its own time
   /// @param start as long as start_size(part), or without the inner coordinates
   /// @pre first + rows <= rows of the run; sizes fit
   void run(Part part, std::size_t first, std::size_t rows, std::span<const double> start,
            std::span<double> out) const;
-  /// A drive along the measured motion, by row: where it was, the errors of its sensor undone, and what the
-  /// model's acceleration makes of speed and way until the next row.
-  struct Guided {
-    std::vector<double> position;  ///< m or rad
-    std::vector<double> speed;     ///< gained, m/s or rad/s
-    std::vector<double> way;       ///< gone from rest, m or rad
+  /// The model's motion of a drive from each row to the next, evaluated along the measured motion.
+  struct Increments {
+    std::vector<double> position;      ///< measured, sensor terms inverted, m or rad
+    std::vector<double> speed_change;  ///< m/s or rad/s
+    std::vector<double> distance;      ///< from rest, m or rad
 
-    void move(std::size_t row, double acceleration, double step_s) {
-      way[row] += step_s * (speed[row] + 0.5 * step_s * acceleration);
-      speed[row] += step_s * acceleration;
+    void add_step(std::size_t row, double acceleration, double step_s) {
+      distance[row] += step_s * (speed_change[row] + 0.5 * step_s * acceleration);
+      speed_change[row] += step_s * acceleration;
     }
   };
   /// @pre the axis is measured
-  [[nodiscard]] Guided guided(Output axis) const;
+  [[nodiscard]] Increments increments_along_measurement(Output axis) const;
 
  private:
-  struct Parts;
-  struct OwnTimes;
-  std::unique_ptr<Parts> parts_;
+  struct CraneOnRun;
+  struct RowTimeOutputs;
+  std::unique_ptr<CraneOnRun> crane_on_run_;
 };
 
 using Runs = std::vector<PreparedRun>;

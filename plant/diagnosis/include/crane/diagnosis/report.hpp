@@ -1,6 +1,5 @@
 #pragma once
-/// What `crane diagnose` leaves behind: report.json, report.html, extended.toml, pictures and, where one is
-/// proposed, the next experiment as a scenario.
+/// Files of `crane diagnose`: report.json, report.html, extended.toml, pictures, next_experiment.toml.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -15,18 +14,17 @@ namespace crane::diagnosis {
 /// report.json; fields in docs/diagnosis.md.
 [[nodiscard]] nlohmann::ordered_json to_json(const Diagnosis& diagnosis);
 
-/// What `crane diagnose --check` prints with --json.
+/// Output of `crane diagnose --check --json`.
 [[nodiscard]] nlohmann::ordered_json to_json(const Check& check);
 
-/// A rig file that extends that of `rig` (by its absolute path) with the terms of the diagnosis after its
-/// own.
+/// A rig file that extends `rig` (absolute path) by the terms of the diagnosis.
 [[nodiscard]] std::string extended_rig_text(const configuration::Rig& rig, const Diagnosis& diagnosis);
 
-/// @param test the held-out runs that were given to diagnose()
+/// @param test the held-out runs of diagnose()
 [[nodiscard]] report::Page report_page(const Diagnosis& diagnosis, const configuration::Rig& rig,
                                        const std::vector<Run>& test);
 
-/// A file cannot be written; names it.
+/// A file cannot be written; the message names it.
 class ReportError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "crane/diagnosis/course.hpp"
+#include "crane/diagnosis/step_integrator.hpp"
 #include "crane/plant/model.hpp"
 #include "crane/twin/columns.hpp"
 
@@ -37,10 +37,10 @@ class Predictor {
   [[nodiscard]] const PerColumn& predicted() const { return predicted_; }
 
  private:
-  [[nodiscard]] std::array<diagnosis::Moment, kColumns> given(const Known& now) const;
+  [[nodiscard]] std::array<diagnosis::Kinematics, kColumns> given(const Known& now) const;
 
   std::unique_ptr<plant::Model> model_;
-  std::optional<diagnosis::Course> course_;
+  std::optional<diagnosis::StepIntegrator> integrator_;
   PerColumn slip_;
   Mask simulated_{};
   Known before_;

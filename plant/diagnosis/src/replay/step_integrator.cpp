@@ -1,4 +1,4 @@
-#include "crane/diagnosis/course.hpp"
+#include "crane/diagnosis/step_integrator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,27 +15,27 @@ int steps_in(double period_s, bool inner_coordinates) {
   return std::max(1, static_cast<int>(std::ceil(period_s / longest_s - 1e-9)));
 }
 
-Course::Course(const plant::Model& model, const std::array<bool, kOutputs>& simulated,
-               const plant::Locks& locks, double step_s)
+StepIntegrator::StepIntegrator(const plant::Model& model, const std::array<bool, kOutputs>& simulated,
+                               const plant::Locks& locks, double step_s)
     : model_(model), simulated_(simulated), h_(step_s) {
   actuation_.locks = locks;
 }
 
-void Course::new_command(const plant::PerAxis& drive_v) {
+void StepIntegrator::new_command(const plant::PerAxis& drive_v) {
   actuation_.drive_v = drive_v;
   gains_known_ = false;
 }
 
-void Course::step(const Measured& at) {
-  const State middle = half_way(at);
+void StepIntegrator::step(const MeasuredKinematics& at) {
+  const State middle = mid_step(at);
   plant::InnerState inner_middle = inner;
   for (std::size_t i = 0; i < model_.inner_coordinates(); ++i) {
     inner_middle[i].position += 0.5 * h_ * inner[i].rate;
     inner_middle[i].rate += 0.5 * h_ * last_inner_[i];
   }
   plant::InnerAccelerations inner_acceleration{};
-  actuation_.led = led;
-  lead(inner_middle, inner_acceleration);
+  actuation_.led = prescribed;
+  prescribe_inner(inner_middle, inner_acceleration);
   plant::PerAxis friction{};
   if (simulated_[kTrolleyPosition] || simulated_[kSlewAngle]) friction = move_drives(middle, inner_middle);
   if (simulated_[kRadialSwing] || simulated_[kTangentialSwing] || model_.inner_coordinates() > 0) {
@@ -47,14 +47,14 @@ void Course::step(const Measured& at) {
   }
 }
 
-plant::Accelerations Course::accelerations(const Measured& at) {
-  const State there = half_way(at);
+plant::Accelerations StepIntegrator::accelerations(const MeasuredKinematics& at) {
+  const State there = mid_step(at);
   plant::InnerAccelerations ignored{};
   return model_.accelerations(there, actuation_, model_.friction_v(there, actuation_.drive_v), inner,
                               ignored);
 }
 
-void Course::follow(const Measured& at) {
+void StepIntegrator::prescribe(const MeasuredKinematics& at) {
   for (const Output output : kAllOutputs) {
     if (simulated_[output]) continue;
     position_of(state, output) = at.output[output].position;
@@ -64,7 +64,7 @@ void Course::follow(const Measured& at) {
   state.cable_mps = at.cable.rate;
 }
 
-State Course::half_way(const Measured& at) {
+State StepIntegrator::mid_step(const MeasuredKinematics& at) {
   State middle = state;
   for (const Output output : kAllOutputs) {
     if (simulated_[output]) {
@@ -82,7 +82,7 @@ State Course::half_way(const Measured& at) {
   return middle;
 }
 
-void Course::kick(Output output, double acceleration) {
+void StepIntegrator::kick(Output output, double acceleration) {
   double& rate = rate_of(state, output);
   const double before = rate;
   rate += h_ * acceleration;
@@ -90,15 +90,16 @@ void Course::kick(Output output, double acceleration) {
   last_[output] = acceleration;
 }
 
-void Course::lead(plant::InnerState& inner_middle, plant::InnerAccelerations& accelerations) const {
+void StepIntegrator::prescribe_inner(plant::InnerState& inner_middle,
+                                     plant::InnerAccelerations& accelerations) const {
   for (std::size_t i = 0; i < model_.inner_coordinates(); ++i) {
-    if (!led[i]) continue;
-    inner_middle[i] = {led_at[i].position, led_at[i].rate};
-    accelerations[i] = led_at[i].acceleration;
+    if (!prescribed[i]) continue;
+    inner_middle[i] = {prescribed_at[i].position, prescribed_at[i].rate};
+    accelerations[i] = prescribed_at[i].acceleration;
   }
 }
 
-void Course::kick_inner(const plant::InnerAccelerations& accelerations) {
+void StepIntegrator::kick_inner(const plant::InnerAccelerations& accelerations) {
   for (std::size_t i = 0; i < model_.inner_coordinates(); ++i) {
     const double before = inner[i].rate;
     inner[i].rate += h_ * accelerations[i];
@@ -107,7 +108,7 @@ void Course::kick_inner(const plant::InnerAccelerations& accelerations) {
   }
 }
 
-plant::PerAxis Course::move_drives(const State& middle, const plant::InnerState& inner_middle) {
+plant::PerAxis StepIntegrator::move_drives(const State& middle, const plant::InnerState& inner_middle) {
   plant::InnerAccelerations ignored{};
   const plant::Accelerations a = model_.accelerations(middle, actuation_, {}, inner_middle, ignored);
   const plant::PerAxis free{a.trolley_mps2, a.slew_radps2, 0};
@@ -127,7 +128,7 @@ plant::PerAxis Course::move_drives(const State& middle, const plant::InnerState&
     friction[axis] = done.friction;
     last_[axis] = (done.speed - rate_of(state, axis)) / h_;
     rate_of(state, axis) = done.speed;
-    position_of(state, axis) += done.way;
+    position_of(state, axis) += done.distance;
   }
   last_friction_ = friction;
   return friction;

@@ -1,5 +1,5 @@
 #pragma once
-/// One instant of a run: measured coordinates between two samples, and a State's coordinates by Output.
+/// Measured kinematics at one instant, interpolated between rows, and access to a State by Output.
 #include "crane/diagnosis/data.hpp"
 #include "crane/plant/model.hpp"
 
@@ -7,28 +7,30 @@ namespace crane::diagnosis {
 
 inline constexpr std::array kAllOutputs{kTrolleyPosition, kSlewAngle, kRadialSwing, kTangentialSwing};
 
-struct Moment {
+/// m or rad, per s, per s2.
+struct Kinematics {
   double position = 0, rate = 0, acceleration = 0;
 };
-/// @param share of the period after `row`, in [0, 1]; zeros for a coordinate that was not measured
-[[nodiscard]] Moment between(const Motion& motion, std::size_t row, double share, double period_s);
+/// Cubic Hermite interpolation of position and rate, linear of the acceleration.
+/// @param share of the period after `row`, in [0, 1]. @return zeros for a coordinate without a measurement
+[[nodiscard]] Kinematics between(const Motion& motion, std::size_t row, double share, double period_s);
 
 /// The same at a row.
-[[nodiscard]] inline Moment at_row(const Motion& motion, std::size_t row) {
+[[nodiscard]] inline Kinematics at_row(const Motion& motion, std::size_t row) {
   if (motion.position.empty()) return {};
   return {motion.position[row], motion.rate[row], motion.acceleration[row]};
 }
 
-/// Everything that is measured, at one instant; zeros for what is not.
-struct Measured {
-  std::array<Moment, kOutputs> output;
-  Moment cable;
+/// All measured coordinates at one instant; zeros without a measurement.
+struct MeasuredKinematics {
+  std::array<Kinematics, kOutputs> output;
+  Kinematics cable;
 };
 
-/// What is measured half-way through every one of `steps` equal steps from each row to the next, step by
-/// step; as far as the last row.
-[[nodiscard]] std::vector<Measured> half_way_through_steps(const std::array<Motion, kOutputs>& motion,
-                                                           const Motion& cable, int steps, double period_s);
+/// Kinematics at the middle of each of the `steps` equal steps of every period, in order of time.
+[[nodiscard]] std::vector<MeasuredKinematics> mid_step_kinematics(const std::array<Motion, kOutputs>& motion,
+                                                                  const Motion& cable, int steps,
+                                                                  double period_s);
 
 inline constexpr std::array kPositionOf{&plant::State::trolley_m, &plant::State::slew_rad,
                                         &plant::State::radial_rad, &plant::State::tangential_rad};

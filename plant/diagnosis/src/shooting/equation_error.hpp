@@ -1,32 +1,32 @@
 #pragma once
-/// The drives along the measured motion, between two rests (pieces.hpp): the part of the residual that
-/// does not hang on when exactly an axis breaks loose, beside the windows of the drives' replay.
+/// Equation error of the drives (pieces.hpp): the view of the drives that does not depend on the time of
+/// stick and slip, beside the windows of their replay.
 #include "shooting/pieces.hpp"
 
 namespace crane::diagnosis {
 
-class UnderWay {
+class EquationError {
  public:
   /// @param drive of the same runs; outlives this
-  explicit UnderWay(const Problem& drive) : drive_(drive) {}
+  explicit EquationError(const Problem& drive) : drive_(drive) {}
 
-  /// Learns noise and disturbance of each axis from what `crane` leaves, and whitens with them from now on.
+  /// Learns the disturbance of each axis from the residual of `crane`, and whitens with it.
   void learn_disturbance(const Replays& crane);
-  /// Whitens with these, by output of the drives, from now on. @param crane any of these runs
+  /// Whitens with these, by output of the drives. @param crane any, on these runs
   void whiten_with(const std::vector<Disturbance>& disturbances, const Replays& crane);
   [[nodiscard]] std::vector<Disturbance> disturbances() const;
-  /// Of what another crane leaves, by output of the drives, whatever was learnt before.
+  /// Disturbances of the residual of `crane`, by output of the drives.
   [[nodiscard]] std::vector<Disturbance> disturbances_of(const Replays& crane) const;
 
-  /// Whitened residual of every piece, without what its start can make.
+  /// Whitened residual of each piece, start projected out.
   [[nodiscard]] std::vector<Eigen::VectorXd> residuals(const Replays& crane) const;
-  /// Change of the outputs against the crane that left `at`, per unit.
+  /// Slopes: (at - residuals of crane) / step.
   [[nodiscard]] std::vector<Eigen::VectorXd> change(const Replays& crane,
                                                     const std::vector<Eigen::VectorXd>& at,
                                                     double step) const;
-  /// Of the innovations of every piece, summed.
+  /// Sum of ln f of each piece.
   [[nodiscard]] std::vector<double> log_variances() const;
-  /// Of every piece the window of the drives' replay that it belongs to.
+  /// Window of the drives' replay that each piece belongs to.
   [[nodiscard]] const std::vector<std::size_t>& windows() const { return windows_; }
 
  private:

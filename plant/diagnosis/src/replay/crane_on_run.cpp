@@ -1,4 +1,4 @@
-#include "replay/parts.hpp"
+#include "replay/crane_on_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,8 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A motor has been struck when its speed changes from row to row by so many times what half of its changes
-/// beyond the model's keep to.
-constexpr double kStruck = 15;
+/// Change of a motor's speed from row to row, beyond the model's, over its running median: more is an impact.
+constexpr double kImpactRatio = 15;
 
 bool has_sensor_term(const Crane& crane) {
   return std::any_of(crane.terms.begin(), crane.terms.end(), [](const plant::TermSetting& term) {
@@ -32,27 +31,28 @@ bool has_inner_coordinates(const Crane& crane) {
 
 }  // namespace
 
-Replay::Parts::Parts(const PreparedRun& prepared, const Crane& the_crane)
+Replay::CraneOnRun::CraneOnRun(const PreparedRun& prepared, const Crane& the_crane)
     : source(prepared),
       crane(loaded_as(prepared.run, the_crane)),
       steps(steps_in(prepared.run.period_s, has_inner_coordinates(crane))),
       model(crane.parameters, crane.terms, step_s()),
       sensors(has_sensor_term(crane)) {
   ringing = model.ringing_coordinates();
-  std::fill_n(led.begin(), model.inner_coordinates(), true);
-  for (const std::size_t i : ringing) led[i] = false;
+  std::fill_n(prescribed.begin(), model.inner_coordinates(), true);
+  for (const std::size_t i : ringing) prescribed[i] = false;
   const auto in_a_row = static_cast<std::size_t>(steps), all = prepared.run.rows() * in_a_row;
   const bool fine = !prepared.run.commands.empty();
-  const std::vector<plant::PerAxis> given =
+  const std::vector<plant::PerAxis> prescribed_motion =
       fine ? mean_commands(prepared.run.commands, step_s(), all) : std::vector<plant::PerAxis>{};
   drive_v.reserve(all);
   for (std::size_t at = 0; at < all; ++at)
-    drive_v.push_back(model.drive_voltage(fine ? given[at] : prepared.run.command_v[at / in_a_row]));
-  if (sensors) undo_sensors();
-  if (model.inner_coordinates() > 0) follow_inner();
+    drive_v.push_back(
+        model.drive_voltage(fine ? prescribed_motion[at] : prepared.run.command_v[at / in_a_row]));
+  if (sensors) invert_sensors();
+  if (model.inner_coordinates() > 0) simulate_inner_coordinates();
 }
 
-plant::Locks Replay::Parts::locks(const std::array<bool, kOutputs>& simulated) const {
+plant::Locks Replay::CraneOnRun::locks(const std::array<bool, kOutputs>& simulated) const {
   const bool loaded = crane.parameters.load_mass_kg > 0;
   plant::Locks locks;
   locks.axis = {!simulated[kTrolleyPosition], !simulated[kSlewAngle], true};
@@ -61,24 +61,24 @@ plant::Locks Replay::Parts::locks(const std::array<bool, kOutputs>& simulated) c
   return locks;
 }
 
-Measured Replay::Parts::measured_at(std::size_t row) const {
-  Measured at;
-  for (const Output output : kAllOutputs) at.output[output] = at_row(given(output), row);
+MeasuredKinematics Replay::CraneOnRun::measured_at(std::size_t row) const {
+  MeasuredKinematics at;
+  for (const Output output : kAllOutputs) at.output[output] = at_row(prescribed_motion(output), row);
   at.cable = at_row(source.cable, row);
   return at;
 }
 
-Measured Replay::Parts::measured_half_way(std::size_t row) const {
-  Measured at;
+MeasuredKinematics Replay::CraneOnRun::measured_mid_row(std::size_t row) const {
+  MeasuredKinematics at;
   for (const Output output : kAllOutputs)
-    at.output[output] = between(given(output), row, 0.5, source.run.period_s);
+    at.output[output] = between(prescribed_motion(output), row, 0.5, source.run.period_s);
   at.cable = between(source.cable, row, 0.5, source.run.period_s);
   return at;
 }
 
-/// What the coordinates were when the sensors reported what was measured: a drive's to a millionth of its
-/// encoder's scale, the swing's to first order, for to undo a delay again and again makes noise of it.
-void Replay::Parts::undo_sensors() {
+/// Fixed-point inversion of the sensor terms. Drives: kRounds rounds, to 1e-6 of the encoder's scale. Swing:
+/// one round, because repeated inversion of a delay amplifies noise.
+void Replay::CraneOnRun::invert_sensors() {
   constexpr int kRounds = 5;
   const Run& run = source.run;
   const std::array<std::vector<double>, kOutputs>& measured = source.on_grid;
@@ -98,70 +98,70 @@ void Replay::Parts::undo_sensors() {
   }
   for (const Output output : kAllOutputs)
     if (run.has(output)) corrected[output] = motion_of(output, values[output], run.period_s);
-  corrected_half_way = half_way_through_steps(corrected, source.cable, steps, run.period_s);
+  corrected_mid_step = mid_step_kinematics(corrected, source.cable, steps, run.period_s);
 }
 
-void Replay::Parts::give_past(plant::Model& sensing, std::size_t row) const {
+void Replay::CraneOnRun::warm_up_sensors(plant::Model& sensing, std::size_t row) const {
   constexpr double kLongestMemory_s = 0.5;  // of a mean over time (swing_moving_average)
   const auto memory = static_cast<std::size_t>(kLongestMemory_s / source.run.period_s);
   for (std::size_t k = row - std::min(row, memory); k < row; ++k) {
     plant::State at;
     for (const Output output : kAllOutputs)
-      if (source.run.has(output)) position_of(at, output) = given(output).position[k];
+      if (source.run.has(output)) position_of(at, output) = prescribed_motion(output).position[k];
     at.cable_m = source.run.cable_m[k];
     (void)sensing.measure(at);
   }
 }
 
-/// What the motors' speeds show of impacts between a row and the next, beside what usually is unexplained.
-plant::PerAxis Replay::Parts::impacts_after(std::size_t row, std::array<RunningMedian, 2>& usual) const {
+/// Changes of the motors' speeds from a row to the next that only impacts explain.
+plant::PerAxis Replay::CraneOnRun::impacts_after(std::size_t row, std::array<RunningMedian, 2>& usual) const {
   plant::PerAxis unexplained{};
   for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
-    if (!guided[axis]) continue;
-    const double from = given(axis).rate[row], to = given(axis).rate[row + 1];
-    if (std::abs(from) < kStands || std::abs(to) < kStands || from * to < 0) continue;
-    const double change = to - from - guided[axis]->speed[row];
-    if (std::abs(change) > kStruck * usual[axis].value()) unexplained[axis] = change;
+    if (!increments[axis]) continue;
+    const double from = prescribed_motion(axis).rate[row], to = prescribed_motion(axis).rate[row + 1];
+    if (std::abs(from) < kStandstillSpeed || std::abs(to) < kStandstillSpeed || from * to < 0) continue;
+    const double change = to - from - increments[axis]->speed_change[row];
+    if (std::abs(change) > kImpactRatio * usual[axis].value()) unexplained[axis] = change;
     usual[axis].take(std::abs(change));
   }
   return unexplained;
 }
 
-/// The terms' own coordinates are not measured, but what drives them is: they follow it through the whole
-/// run. Flanks of a gap that meet a little early or late would soon meet at quite other times: what the
-/// motors' measured speed shows of impacts corrects them.
-void Replay::Parts::follow_inner() {
+/// Inner coordinates are simulated along the measured motion of the whole run. The times of impacts in a gap
+/// are chaotic: impacts seen in the motors' measured speed correct the prescribed coordinates.
+void Replay::CraneOnRun::simulate_inner_coordinates() {
   const std::array<bool, kOutputs> none{};
   std::array<bool, kOutputs> drives{};
   for (const Output drive : simulated_outputs(source, Part::drive)) drives[drive] = true;
-  const bool correcting = std::find(led.begin(), led.end(), true) != led.end();
-  Course course(model, none, locks(none), step_s()), motors(model, none, locks(drives), step_s());
+  const bool correcting = std::find(prescribed.begin(), prescribed.end(), true) != prescribed.end();
+  StepIntegrator integrator(model, none, locks(none), step_s()), motors(model, none, locks(drives), step_s());
   const std::size_t rows = source.run.rows();
   for (const Output axis : {kTrolleyPosition, kSlewAngle})
     if (correcting && drives[axis])
-      guided[axis] = Guided{given(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
+      increments[axis] =
+          Increments{prescribed_motion(axis).position, std::vector<double>(rows), std::vector<double>(rows)};
   std::array<RunningMedian, 2> usual;
-  course.follow(measured_at(0));
+  integrator.prescribe(measured_at(0));
   for (std::size_t row = 0; row < rows; ++row) {
-    inner_at.push_back(course.inner);
+    inner_at.push_back(integrator.inner);
     if (row + 1 == rows) break;
     visit_steps(row, [&](int step, const plant::PerAxis& volts, bool changed) {
-      const Measured& at = half_way(row, step);
-      if (changed) course.new_command(volts), motors.new_command(volts);
+      const MeasuredKinematics& at = mid_step(row, step);
+      if (changed) integrator.new_command(volts), motors.new_command(volts);
       if (correcting) {
-        motors.inner = course.inner;
+        motors.inner = integrator.inner;
         const plant::Accelerations a = motors.accelerations(at);
         for (const Output axis : {kTrolleyPosition, kSlewAngle})
-          if (drives[axis]) guided[axis]->move(row, acceleration_of(a, axis), step_s());
+          if (drives[axis]) increments[axis]->add_step(row, acceleration_of(a, axis), step_s());
       }
-      course.step(at);
+      integrator.step(at);
     });
-    course.follow(measured_at(row + 1));
+    integrator.prescribe(measured_at(row + 1));
     if (!correcting) continue;
-    model.correct(course.state, impacts_after(row, usual), inner_at.back(), course.inner);
+    model.correct(integrator.state, impacts_after(row, usual), inner_at.back(), integrator.inner);
   }
   for (std::size_t i = 0; i < model.inner_coordinates(); ++i) {
-    if (!led[i]) continue;
+    if (!prescribed[i]) continue;
     std::vector<double> way;
     for (const plant::InnerState& at : inner_at) way.push_back(at[i].position);
     inner[i] = spline(way, source.run.period_s);

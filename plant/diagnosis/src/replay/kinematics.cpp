@@ -1,10 +1,10 @@
-#include "crane/diagnosis/moment.hpp"
+#include "crane/diagnosis/kinematics.hpp"
 
 #include <algorithm>
 
 namespace crane::diagnosis {
 
-Moment between(const Motion& motion, std::size_t row, double share, double period_s) {
+Kinematics between(const Motion& motion, std::size_t row, double share, double period_s) {
   if (motion.position.empty()) return {};
   const std::size_t next = std::min(row + 1, motion.position.size() - 1);
   const double p0 = motion.position[row], p1 = motion.position[next];
@@ -16,15 +16,15 @@ Moment between(const Motion& motion, std::size_t row, double share, double perio
           .acceleration = (1 - s) * motion.acceleration[row] + s * motion.acceleration[next]};
 }
 
-std::vector<Measured> half_way_through_steps(const std::array<Motion, kOutputs>& motion, const Motion& cable,
-                                             int steps, double period_s) {
-  std::vector<Measured> all;
+std::vector<MeasuredKinematics> mid_step_kinematics(const std::array<Motion, kOutputs>& motion,
+                                                    const Motion& cable, int steps, double period_s) {
+  std::vector<MeasuredKinematics> all;
   const std::size_t rows = cable.position.size();
   all.reserve(rows * static_cast<std::size_t>(steps));
   for (std::size_t row = 0; row + 1 < rows; ++row)
     for (int step = 0; step < steps; ++step) {
       const double share = (step + 0.5) / steps;
-      Measured& at = all.emplace_back();
+      MeasuredKinematics& at = all.emplace_back();
       for (const Output output : kAllOutputs)
         at.output[output] = between(motion[output], row, share, period_s);
       at.cable = between(cable, row, share, period_s);

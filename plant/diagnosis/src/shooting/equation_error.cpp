@@ -1,4 +1,4 @@
-#include "shooting/under_way.hpp"
+#include "shooting/equation_error.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -15,14 +15,14 @@ std::size_t window_of(const std::vector<Window>& windows, const Piece& piece) {
 
 }  // namespace
 
-void UnderWay::learn_disturbance(const Replays& crane) {
+void EquationError::learn_disturbance(const Replays& crane) {
   axes_.clear();
   if (drive_.empty()) return;
   for (const Output axis : drive_.outputs()) axes_.push_back(pieces_of(drive_.runs(), crane, axis));
   find_windows();
 }
 
-void UnderWay::whiten_with(const std::vector<Disturbance>& disturbances, const Replays& crane) {
+void EquationError::whiten_with(const std::vector<Disturbance>& disturbances, const Replays& crane) {
   axes_.clear();
   if (drive_.empty()) return;
   for (std::size_t i = 0; i < disturbances.size(); ++i)
@@ -30,26 +30,26 @@ void UnderWay::whiten_with(const std::vector<Disturbance>& disturbances, const R
   find_windows();
 }
 
-std::vector<Disturbance> UnderWay::disturbances() const {
+std::vector<Disturbance> EquationError::disturbances() const {
   std::vector<Disturbance> all;
   for (const Pieces& axis : axes_) all.push_back(axis.disturbance);
   return all;
 }
 
-std::vector<Disturbance> UnderWay::disturbances_of(const Replays& crane) const {
+std::vector<Disturbance> EquationError::disturbances_of(const Replays& crane) const {
   std::vector<Disturbance> all;
   if (drive_.empty()) return all;
   for (const Output axis : drive_.outputs()) all.push_back(pieces_of(drive_.runs(), crane, axis).disturbance);
   return all;
 }
 
-void UnderWay::find_windows() {
+void EquationError::find_windows() {
   windows_.clear();
   for (const Pieces& axis : axes_)
     for (const Piece& piece : axis.all) windows_.push_back(window_of(drive_.windows(), piece));
 }
 
-std::vector<double> UnderWay::log_variances() const {
+std::vector<double> EquationError::log_variances() const {
   std::vector<double> all;
   for (const Pieces& axis : axes_)
     for (const Piece& piece : axis.all) {
@@ -60,15 +60,16 @@ std::vector<double> UnderWay::log_variances() const {
   return all;
 }
 
-std::vector<Eigen::VectorXd> UnderWay::residuals(const Replays& crane) const {
+std::vector<Eigen::VectorXd> EquationError::residuals(const Replays& crane) const {
   std::vector<Eigen::VectorXd> all;
   for (const Pieces& axis : axes_)
     for (Eigen::VectorXd& residual : residuals_of(axis, crane)) all.push_back(std::move(residual));
   return all;
 }
 
-std::vector<Eigen::VectorXd> UnderWay::change(const Replays& crane, const std::vector<Eigen::VectorXd>& at,
-                                              double step) const {
+std::vector<Eigen::VectorXd> EquationError::change(const Replays& crane,
+                                                   const std::vector<Eigen::VectorXd>& at,
+                                                   double step) const {
   std::vector<Eigen::VectorXd> changes = residuals(crane);
   for (std::size_t i = 0; i < changes.size(); ++i) changes[i] = (at[i] - changes[i]) / step;
   return changes;

@@ -1,0 +1,55 @@
+#pragma once
+/// Integrates the crane in fixed leapfrog steps (drift-kick-drift, second order). Some outputs are simulated,
+/// the others prescribed as measured.
+#include <array>
+
+#include "crane/diagnosis/kinematics.hpp"
+#include "crane/plant/model.hpp"
+
+namespace crane::diagnosis {
+
+/// Number of steps in a period: of at most 5 ms, 2.5 ms with inner coordinates, which may ring at 25 Hz.
+[[nodiscard]] int steps_in(double period_s, bool inner_coordinates);
+
+class StepIntegrator {
+ public:
+  /// @param model outlives the integrator
+  StepIntegrator(const plant::Model& model, const std::array<bool, kOutputs>& simulated,
+                 const plant::Locks& locks, double step_s);
+
+  plant::State state;
+  plant::InnerState inner{};
+  /// Inner coordinates that are prescribed, and their kinematics in the middle of the next step.
+  std::array<bool, plant::kMostInner> prescribed{};
+  std::array<Kinematics, plant::kMostInner> prescribed_at{};
+
+  void new_command(const plant::PerAxis& drive_v);
+  /// Advances simulated outputs by one step; `prescribe` sets the others.
+  /// @param at measured, in the middle of the step
+  void step(const MeasuredKinematics& at);
+  /// Of the model at measured kinematics.
+  [[nodiscard]] plant::Accelerations accelerations(const MeasuredKinematics& at);
+  /// Sets outputs that are not simulated, and the cable, to measured kinematics.
+  void prescribe(const MeasuredKinematics& at);
+
+ private:
+  [[nodiscard]] plant::State mid_step(const MeasuredKinematics& at);
+  void kick(Output output, double acceleration);
+  /// Replaces the extrapolated state of prescribed inner coordinates.
+  void prescribe_inner(plant::InnerState& inner, plant::InnerAccelerations& accelerations) const;
+  void kick_inner(const plant::InnerAccelerations& accelerations);
+  /// Implicit friction, axis by axis, with the last value of the other axis.
+  plant::PerAxis move_drives(const plant::State& middle, const plant::InnerState& inner_middle);
+
+  const plant::Model& model_;
+  std::array<bool, kOutputs> simulated_;
+  double h_;
+  plant::Actuation actuation_;
+  std::array<double, kOutputs> last_{};
+  std::array<double, plant::kMostInner> last_inner_{};
+  plant::PerAxis last_friction_{};
+  std::array<plant::PerAxis, plant::kAxes> gain_{};  ///< acceleration per volt of friction
+  bool gains_known_ = false;
+};
+
+}  // namespace crane::diagnosis
