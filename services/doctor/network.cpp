@@ -194,9 +194,12 @@ Findings judge_processes_heard(const Heard& heard) {
     findings.push_back({Grade::problem, "net", "no_ticks",
                         "crane/state has no sample: the clock master makes no ticks",
                         "in lockstep `crane run` advances the ticks; in real time start the stack anew"});
-  if (findings.empty())
+  const bool complete =
+      std::ranges::none_of(findings, [](const Finding& finding) { return finding.grade == Grade::problem; });
+  if (complete)
     findings.push_back({Grade::good, "net", "processes",
-                        std::to_string(heard.nodes.size()) + " processes are heard, none has lost a tick",
+                        std::to_string(heard.nodes.size()) + " processes are heard" +
+                            (findings.empty() ? ", none has lost a tick" : ""),
                         ""});
   return findings;
 }

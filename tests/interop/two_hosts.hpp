@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -44,7 +45,8 @@ class TwoHosts {
           run("ip -n " + near_ + " link set cn" + id + " up").exit_code == 0 &&
           run("ip -n " + far_ + " link set cf" + id + " up").exit_code == 0 &&
           run("ip -n " + near_ + " link set lo up").exit_code == 0 &&
-          run("ip -n " + far_ + " link set lo up").exit_code == 0;
+          run("ip -n " + far_ + " link set lo up").exit_code == 0 && has_carrier(near_, "cn" + id) &&
+          has_carrier(far_, "cf" + id);
   }
   ~TwoHosts() {
     run("ip netns del " + near_);
@@ -71,6 +73,16 @@ class TwoHosts {
   static constexpr const char* kFar = "10.77.0.2";
 
  private:
+  /// Waits for the carrier: the kernel reports it up to seconds after both ends are up.
+  static bool has_carrier(const std::string& host, const std::string& device) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    do {
+      if (run("ip -n " + host + " link show " + device).output.find("state UP") != std::string::npos)
+        return true;
+    } while (std::chrono::steady_clock::now() < end);
+    return false;
+  }
+
   std::string near_, far_;
   bool ok_ = false;
 };

@@ -214,7 +214,7 @@ std::vector<SafeMotion> motion_menu(const configuration::Rig& rig) { return Menu
 std::string scenario_text(const SafeMotion& motion, const configuration::Rig& rig) {
   using recording::shortest;
   std::ostringstream out;
-  out << "# A motion of the menu that tells causes apart (docs/diagnosis.md), inside the limits of "
+  out << "# One of the experiments that distinguish causes (docs/diagnosis.md), within the limits of "
       << rig.name << ".\n"
       << "description = \"" << motion.description << "\"\n"
       << "duration_s = " << shortest(motion.duration_s) << "\ncontrollers = [\"none\"]\n";
