@@ -112,8 +112,8 @@ std::string zsh_completion(const std::vector<Command>& commands) {
 
 std::string man_page(const std::vector<Command>& commands, const std::string& version) {
   const auto& root = commands.front();
-  std::string page = ".TH CRANE 1 \"\" \"crane " + version + "\" \"Crane control\"\n.ad l\n.SH NAME\ncrane \\- " +
-                     troff(root.meaning) +
+  std::string page = ".TH CRANE 1 \"\" \"crane " + version +
+                     "\" \"Crane control\"\n.ad l\n.SH NAME\ncrane \\- " + troff(root.meaning) +
                      "\n.SH SYNOPSIS\n.B crane\n.I COMMAND\n[\\fIOPTION\\fR ...]\n.SH DESCRIPTION\n.nf\n" +
                      troff(root.footer) + "\n.fi\n.SH COMMANDS\n";
   for (const auto& command : commands) {
