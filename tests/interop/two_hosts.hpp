@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -73,13 +72,14 @@ class TwoHosts {
   static constexpr const char* kFar = "10.77.0.2";
 
  private:
-  /// Waits for the carrier: the kernel reports it up to seconds after both ends are up.
+  /// Waits for the carrier: the kernel reports it up to seconds after both ends are up. Between two looks it
+  /// waits for a message of the kernel, because each look delays the report.
   static bool has_carrier(const std::string& host, const std::string& device) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
-    do {
-      if (run("ip -n " + host + " link show " + device).output.find("state UP") != std::string::npos)
-        return true;
-    } while (std::chrono::steady_clock::now() < end);
+    for (int i = 0; i < 30; ++i) {
+      const std::string on_host = "ip -n " + host + " ";
+      if (run(on_host + "link show " + device).output.find("state UP") != std::string::npos) return true;
+      run("timeout 1 " + on_host + "monitor link dev " + device + " | grep -q -m 1 'state UP'");
+    }
     return false;
   }
 
