@@ -1,12 +1,13 @@
 #include "dashboard/bounded_process.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <sys/stat.h>
 
 #include <csignal>
-#include <thread>
+#include <fstream>
 
 #include "../recording/temporary_directory.hpp"
+#include "child_exit.hpp"
 
 namespace crane::dashboard {
 namespace {
@@ -23,12 +24,11 @@ class BoundedProcessTest : public testing::Test {
     return std::make_unique<BoundedProcess>("/bin/bash", std::vector<std::string>{"-c", script},
                                             directory_ / "output", directory_ / "errors", bounds);
   }
-  /// Polls until it has ended.
-  static BoundedProcess::End end_of(BoundedProcess& process) {
-    for (const auto give_up = std::chrono::steady_clock::now() + 30s;
-         std::chrono::steady_clock::now() < give_up; std::this_thread::sleep_for(5ms))
+  /// Waits until it has ended, or until its time is over.
+  static BoundedProcess::End end_of(BoundedProcess& process, const Bounds& bounds = kWide) {
+    ends_within(process.pid(), bounds.time);
+    for (;;)
       if (auto end = process.poll()) return *end;
-    return {-2, "still runs"};
   }
   [[nodiscard]] std::string output() const { return contents_of(directory_ / "output"); }
   recording::TemporaryDirectory directory_;
@@ -42,8 +42,9 @@ TEST_F(BoundedProcessTest, LeavesItsOutputItsErrorsAndItsExitCode) {
 }
 
 TEST_F(BoundedProcessTest, EndsWhenItsTimeIsOver) {
-  const auto process = shell("sleep 60", {1s, 1ULL << 32U, 1ULL << 20U});
-  const auto end = end_of(*process);
+  const Bounds bounds{1s, 1ULL << 32U, 1ULL << 20U};
+  const auto process = shell("sleep 60", bounds);
+  const auto end = end_of(*process, bounds);
   EXPECT_EQ(end.exit_code, -1);
   EXPECT_EQ(end.how, "took longer than 1 s");
 }
@@ -70,17 +71,15 @@ TEST_F(BoundedProcessTest, HasNoDescriptorsOfItsParentAndTheLowestPriority) {
 }
 
 TEST_F(BoundedProcessTest, TakesWhatItHasStartedWithIt) {
-  auto process = shell("sleep 60 & echo $!; wait");
-  for (int i = 0; i < 2000 && output().empty(); ++i) std::this_thread::sleep_for(5ms);
-  const auto grandchild = static_cast<pid_t>(std::stol(output()));
+  const auto pipe = directory_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  auto process = shell("sleep 60 & echo $! > " + pipe.string() + "; wait");
+  pid_t grandchild = 0;
+  std::ifstream{pipe} >> grandchild;  // opens when the script writes
+  ASSERT_GT(grandchild, 0);
   ASSERT_EQ(::kill(grandchild, 0), 0);
   process.reset();
-  const auto gone = [grandchild] {  // ended, or a zombie that nobody has waited for
-    const auto stat = contents_of("/proc/" + std::to_string(grandchild) + "/stat");
-    return stat.empty() || stat.find(") Z") != std::string::npos;
-  };
-  for (int i = 0; i < 2000 && !gone(); ++i) std::this_thread::sleep_for(5ms);
-  EXPECT_TRUE(gone());
+  EXPECT_TRUE(ends_within(grandchild, 10s));
 }
 
 }  // namespace

@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "../recording/temporary_directory.hpp"
+#include "child_exit.hpp"
 
 namespace crane::dashboard {
 namespace {
 
-using namespace std::chrono_literals;
 using recording::contents_of;
 using recording::put_contents;
 
@@ -38,13 +38,12 @@ class JobsTest : public testing::Test {
     return {};
   }
   nlohmann::json ended(std::uint64_t id) {
-    for (int i = 0; i < 4000; ++i) {
+    for (;;) {
       jobs_.poll();
       const auto now = job(id);
       if (now["state"] != "waiting" && now["state"] != "running") return now;
-      std::this_thread::sleep_for(5ms);
+      await_end_of_a_child();
     }
-    return job(id);
   }
   recording::TemporaryDirectory directory_;
   Jobs jobs_{directory_ / "crane", "rig.toml", directory_ / "work"};
@@ -75,16 +74,14 @@ TEST_F(JobsTest, RefuseWhatCannotBeReviewedOrDiagnosed) {
 }
 
 TEST_F(JobsTest, TellTheProgressOfADiagnosis) {
-  stand_in("echo 'progress 0.25 fits friction' >&2; read < " + (directory_ / "pipe").string());
+  stand_in("echo 'progress 0.25 fits friction' >&2; exec < " + (directory_ / "pipe").string() + "; read");
   ASSERT_EQ(::mkfifo((directory_ / "pipe").c_str(), 0600), 0);
   const auto started = jobs_.diagnose({run("run.csv")}, {run("run.csv")});
   ASSERT_EQ(started.problem, "");
-  nlohmann::json seen;
-  for (int i = 0; i < 4000 && seen["progress"] != 0.25; ++i) {
-    jobs_.poll();
-    seen = job(started.id);
-    std::this_thread::sleep_for(5ms);
-  }
+  const std::ofstream opened{directory_ / "pipe"};  // opens when the script reads, after its progress
+  jobs_.poll();
+  const nlohmann::json seen = job(started.id);
+  EXPECT_EQ(seen["progress"], 0.25);
   EXPECT_EQ(seen["doing"], "fits friction");
   EXPECT_EQ(seen["runs"], nlohmann::json({"run.csv", "run.csv"}));
   EXPECT_TRUE(jobs_.cancel(started.id));

@@ -1,5 +1,5 @@
-// The crane in three dimensions. Drawn with lines at once; with light and surfaces as soon as a graphics processor has been found:
-// without one every surface costs the processor that may also run the crane (50 to 200 ms a picture instead of 2).
+// The crane in three dimensions: first as lines, then with light and surfaces if the computer has a graphics processor. Without one,
+// drawing surfaces would load the processor that may also run the crane.
 import { Orbit } from "./orbit.js";
 import { WireScene } from "./wire_scene.js";
 

@@ -1,4 +1,4 @@
-// The crane as lines and shaded boxes on a flat canvas: a picture takes about 2 ms without a graphics processor.
+// The crane as lines and shaded boxes on a flat canvas, for computers without a graphics processor.
 import { begin, polyline } from "./drawing.js";
 import { loadInJibFrame, plannedPath } from "./geometry.js";
 import { FIELD_OF_VIEW_DEG } from "./orbit.js";
