@@ -145,8 +145,10 @@ BENCHMARK(mujoco_runge_kutta)->RangeMultiplier(2)->Range(1, 16);
 
 /// The fewest steps with which the error is not larger than that of the fast method.
 void mujoco_with_the_error_of_fast(benchmark::State& run) {
+  // Both reach the error of the reference itself, so that the last few percent tell nothing.
+  constexpr double kAsExact = 1.1;
   ByPlant own{simulator::Method::fast};
-  const double permitted = error_of(own);
+  const double permitted = kAsExact * error_of(own);
   int steps = 1;
   for (; steps < 1024; steps *= 2) {
     ByMujoco mujoco{steps};

@@ -1,7 +1,7 @@
 #pragma once
 /// Integrates plant::Model over a span with constant command, by one of two methods:
 ///   cvode  SUNDIALS CVODE (BDF, variable order and step): the reference and the default
-///   fast   one-step methods (fast_solver.cpp): 6 to 8 times faster with the same error
+///   fast   one-step methods (fast_solver.cpp): 15 to 27 times faster (docs/benchmarks.md)
 ///
 /// Every span starts anew: CVODE with order 1, because the command changes in steps and the history of the
 /// previous span belongs to another right-hand side. The result depends on the arguments only, not on earlier
