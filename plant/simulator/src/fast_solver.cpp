@@ -1,19 +1,20 @@
-/// The fast method: one-step formulas with error control, each step by the cheaper of two.
-///   explicit  Dormand and Prince, order 5(4): a tick of 10 ms without standstill is one step of 7
-///   evaluations implicit  RODAS, order 4(3), L-stable: at the standstill of an axis, where its friction
-///   rises steeply with
-///             the speed and would hold an explicit step below 1 ms; a tick at rest is one step of 16
-/// Sources: J. R. Dormand, P. J. Prince, J. Comp. Appl. Math. 6 (1980) 19; E. Hairer, G. Wanner, Solving
-/// Ordinary Differential Equations II, 2nd ed., Springer 1996, section IV.7.
+/// The fast method: one-step formulas with error control (one_step_formulas.hpp). Each step takes the cheaper
+/// formula.
+///
+/// Explicit, Dormand and Prince, order 5(4): a tick of 10 ms without standstill is one step of 7 evaluations.
+///
+/// Implicit, RODAS, order 4(3), L-stable: at standstill the friction of an axis rises steeply with its speed
+/// and limits an explicit step to less than 1 ms. A tick at rest is one implicit step of 16 evaluations.
 ///
 /// An event ends the step in which a watched distance changes its sign. The time of the event is found by
 /// repeating the step with other lengths.
+#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
+#include "one_step_formulas.hpp"
 #include "solver.hpp"
 
 namespace crane::simulator {
@@ -35,87 +36,6 @@ constexpr double kShortest_s = 1e-11;
 /// The time of an event is found to this [s].
 constexpr double kEventTime_s = 1e-13;
 constexpr int kMostEventTrials = 60;
-
-/// RODAS for y' = f(y) with Jacobian J, in the form without products by J:
-///   (I / (h gamma) - J) u_i = f(y + sum_j a_ij u_j) + sum_j c_ij u_j / h,  y_1 = y + sum_i m_i u_i
-/// The last stage is the difference to the embedded formula of order 3.
-struct Rodas {
-  static constexpr std::size_t kStages = 6;
-  static constexpr double kGamma = 0.25;
-  static constexpr std::array<std::array<double, 5>, kStages> kA{
-      {{},
-       {1.544},
-       {0.9466785280815826, 0.2557011698983284},
-       {3.314825187068521, 2.896124015972201, 0.9986419139977817},
-       {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
-       {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1}}};
-  static constexpr std::array<std::array<double, 5>, kStages> kC{
-      {{},
-       {-5.6688},
-       {-2.430093356833875, -0.2063599157091915},
-       {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
-       {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
-       {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054}}};
-};
-
-/// Solves dense equations of fixed size. With kSize known, the compiler unrolls the loops.
-template <std::size_t kSize>
-class Lu {
- public:
-  using Column = std::array<double, kSize>;
-  using Matrix = std::array<Column, kSize>;  ///< rows
-
-  /// Factors P A = L U with partial pivoting. A singular matrix gives values that are no numbers.
-  void factor(const Matrix& matrix) {
-    rows_ = matrix;
-    for (std::size_t k = 0; k < kSize; ++k) order_[k] = k;
-    for (std::size_t k = 0; k < kSize; ++k) {
-      std::size_t pivot = k;
-      for (std::size_t i = k + 1; i < kSize; ++i)
-        if (std::abs(rows_[i][k]) > std::abs(rows_[pivot][k])) pivot = i;
-      if (pivot != k) {
-        std::swap(rows_[k], rows_[pivot]);
-        std::swap(order_[k], order_[pivot]);
-      }
-      inverse_[k] = 1 / rows_[k][k];
-      for (std::size_t i = k + 1; i < kSize; ++i) {
-        const double factor = rows_[i][k] *= inverse_[k];
-        for (std::size_t j = k + 1; j < kSize; ++j) rows_[i][j] -= factor * rows_[k][j];
-      }
-    }
-  }
-  [[nodiscard]] Column solve(const Column& right) const {
-    Column x;
-    for (std::size_t i = 0; i < kSize; ++i) {
-      x[i] = right[order_[i]];
-      for (std::size_t j = 0; j < i; ++j) x[i] -= rows_[i][j] * x[j];
-    }
-    for (std::size_t i = kSize; i-- > 0;) {
-      for (std::size_t j = i + 1; j < kSize; ++j) x[i] -= rows_[i][j] * x[j];
-      x[i] *= inverse_[i];
-    }
-    return x;
-  }
-
- private:
-  Matrix rows_{};
-  std::array<std::size_t, kSize> order_{};
-  Column inverse_{};  ///< of the pivots
-};
-
-struct DormandPrince {
-  static constexpr std::size_t kStages = 7;
-  static constexpr std::array<std::array<double, 6>, kStages> kA{
-      {{},
-       {1.0 / 5},
-       {3.0 / 40, 9.0 / 40},
-       {44.0 / 45, -56.0 / 15, 32.0 / 9},
-       {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-       {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-       {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}}};
-  static constexpr std::array<double, kStages> kError{
-      71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
-};
 
 /// @tparam kInner  0, or the most inner coordinates that a model can have; those that it has not stay 0
 template <std::size_t kInner>
@@ -155,6 +75,7 @@ class FastSolver final : public Solver {
 
  private:
   static constexpr std::size_t kHalf = kRigid + kInner;
+  using Matrix = Eigen::Matrix<double, kHalf, kHalf>;
   using Vector = std::array<double, 2 * kHalf>;
 
   struct Trial {
@@ -239,9 +160,9 @@ class FastSolver final : public Solver {
     Vector at = y_;
     for (std::size_t i = 0; i < 2 * kHalf; ++i) {
       auto& block = i < kHalf ? by_position_ : by_rate_;
-      const std::size_t column = i % kHalf;
-      if (is_fixed(column)) {
-        for (auto& row : block) row[column] = 0;
+      const auto column = static_cast<Eigen::Index>(i % kHalf);
+      if (is_fixed(i % kHalf)) {
+        block.col(column).setZero();
         continue;
       }
       const double kept = at[i];
@@ -249,7 +170,7 @@ class FastSolver final : public Solver {
       const double inverse = 1 / (at[i] - kept);
       const Vector moved = slope_at(at);
       for (std::size_t j = 0; j < kHalf; ++j)
-        block[j][column] = (moved[kHalf + j] - slope_[kHalf + j]) * inverse;
+        block(static_cast<Eigen::Index>(j), column) = (moved[kHalf + j] - slope_[kHalf + j]) * inverse;
       at[i] = kept;
     }
   }
@@ -265,11 +186,7 @@ class FastSolver final : public Solver {
   [[nodiscard]] Trial implicit_step(double h) {
     using F = Rodas;
     const double w = 1 / (h * F::kGamma), inverse_w = h * F::kGamma;
-    typename Lu<kHalf>::Matrix matrix;
-    for (std::size_t i = 0; i < kHalf; ++i)
-      for (std::size_t j = 0; j < kHalf; ++j)
-        matrix[i][j] = (i == j ? w : 0) - by_rate_[i][j] - by_position_[i][j] * inverse_w;
-    lu_.factor(matrix);
+    lu_.compute(w * Matrix::Identity() - by_rate_ - inverse_w * by_position_);
     std::array<Vector, F::kStages> u;
     Trial trial{.end = y_, .order = 4};
     for (std::size_t i = 0; i < F::kStages; ++i) {
@@ -286,17 +203,14 @@ class FastSolver final : public Solver {
     return trial;
   }
   [[nodiscard]] Vector solved(const Vector& r, double inverse_w) const {
-    std::array<double, kHalf> right;
-    for (std::size_t i = 0; i < kHalf; ++i) {
-      double pull = 0;
-      for (std::size_t j = 0; j < kHalf; ++j) pull += by_position_[i][j] * r[j];
-      right[i] = r[kHalf + i] + pull * inverse_w;
-    }
-    const auto rates = lu_.solve(right);
+    using Half = Eigen::Matrix<double, kHalf, 1>;
+    const Eigen::Map<const Half> of_positions(r.data()), of_rates(&r[kHalf]);
+    const Half rates = lu_.solve(of_rates + inverse_w * (by_position_ * of_positions));
     Vector u;
     for (std::size_t i = 0; i < kHalf; ++i) {
-      u[i] = (r[i] + rates[i]) * inverse_w;
-      u[kHalf + i] = rates[i];
+      const double rate = rates[static_cast<Eigen::Index>(i)];
+      u[i] = (r[i] + rate) * inverse_w;
+      u[kHalf + i] = rate;
     }
     return u;
   }
@@ -371,9 +285,10 @@ class FastSolver final : public Solver {
   Tolerances tolerances_;
   const plant::Actuation* actuation_ = nullptr;
   const Watch* watch_ = nullptr;
-  Vector y_{}, slope_{};                                  ///< at the beginning of the step
-  typename Lu<kHalf>::Matrix by_position_{}, by_rate_{};  ///< A and B at the beginning of an implicit step
-  Lu<kHalf> lu_;
+  Vector y_{}, slope_{};  ///< at the beginning of the step
+  /// A and B at the beginning of an implicit step.
+  Matrix by_position_ = Matrix::Zero(), by_rate_ = Matrix::Zero();
+  Eigen::PartialPivLU<Matrix> lu_;
   bool implicit_ = false;  ///< formula of the last step
   long evaluations_ = 0;
 };
