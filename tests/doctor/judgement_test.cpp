@@ -60,8 +60,10 @@ TEST(Doctor, NamesAClockThatDiffers) {
   auto heard = whole_loop();
   heard.clock_offset_s["process " + std::to_string(crane_SOURCE_PLANT)] = -40;
   const auto found = judge_processes_heard(heard);
-  ASSERT_EQ(found.size(), 1U);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].grade, Grade::advice);
   EXPECT_THAT(found[0].what, HasSubstr("40 s behind"));
+  EXPECT_EQ(found[1].grade, Grade::good);
 }
 
 TEST(Doctor, OfSilenceSaysTheOptionThatWouldHelp) {
