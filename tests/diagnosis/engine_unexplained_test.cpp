@@ -18,11 +18,16 @@ namespace {
 constexpr double kTick_s = 0.01;
 constexpr double kViscous_vspm = 0.4;
 
-/// A drive axis with viscous friction in a random walk of commands. @param extra_v on top, of time, position
-/// and speed @param latest_step of the 20 of a tick: rows come up to so much after their tick
+struct Setup {
+  unsigned latest_step = 0;     ///< of the 20 of a tick: rows come up to so much after their tick
+  double disturbance_v = 0.02;  ///< rms, correlation time 1 s
+};
+
+/// A drive axis with viscous friction under random commands. @param extra_v additional voltage, of time,
+/// position and speed
 template <class Extra>
 PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned seed, Extra&& extra_v,
-                  unsigned latest_step = 0) {
+                  const Setup& setup = {}) {
   constexpr int kSteps = 20;
   std::mt19937 random(seed), late(seed + 100);
   std::normal_distribution<double> normal;
@@ -33,12 +38,12 @@ PreparedRun moved(const configuration::Rig& rig, double duration_s, unsigned see
   double x = 0, v = 0, u = 0, push = 0;
   for (int k = 0; k < duration_s / kTick_s; ++k) {
     if (k % 50 == 0) u = 0.5 * normal(random) - 0.6 * x;
-    push += (-push * kTick_s + 0.02 * std::sqrt(2 * kTick_s) * normal(random)) / 1.0;
+    push += (-push * kTick_s + setup.disturbance_v * std::sqrt(2 * kTick_s) * normal(random)) / 1.0;
     run.command_v.push_back({u, 0, 0});
     run.cable_m.push_back(1);
     const double count = 1e-5 * normal(random);
-    const int row_at = static_cast<int>(late() % (latest_step + 1));
-    if (latest_step > 0) run.offset_s.push_back(row_at * kTick_s / kSteps);
+    const int row_at = static_cast<int>(late() % (setup.latest_step + 1));
+    if (setup.latest_step > 0) run.offset_s.push_back(row_at * kTick_s / kSteps);
     for (int step = 0; step < kSteps; ++step) {
       if (step == row_at) run.measured[kTrolleyPosition].push_back(x + count);
       const double t = kTick_s * (k + static_cast<double>(step) / kSteps);
@@ -74,10 +79,11 @@ Left left_of(Extra&& extra_v) {
 
 double nothing(double, double, double) { return 0; }
 
-/// The speed that a piece starts with takes the axis as far as the row's own instant.
-TEST(EquationError, LeavesOfRowsThatComeLateAsLittleAsOfRegularOnes) {
+/// The speed at the start of a piece counts to the rows' own instants.
+TEST(EquationError, OfLateRowsIsAsSmallAsOfRegularRows) {
   const configuration::Rig rig = axis_with_viscous_friction();
-  const Runs regular{moved(rig, 30, 1, nothing)}, late{moved(rig, 30, 1, nothing, 8)};
+  const Runs regular{moved(rig, 30, 1, nothing, {.disturbance_v = 0})},
+      late{moved(rig, 30, 1, nothing, {.latest_step = 8, .disturbance_v = 0})};
   const Crane crane{rig.plant, rig.terms};
   const Pieces of_regular = pieces_of(regular, replays_of(regular, crane), kTrolleyPosition);
   const Pieces of_late = pieces_of(late, replays_of(late, crane), kTrolleyPosition, of_regular.disturbance);
@@ -85,8 +91,8 @@ TEST(EquationError, LeavesOfRowsThatComeLateAsLittleAsOfRegularOnes) {
   EXPECT_FALSE(find_jumps(of_late));
 }
 
-/// What a scale of 7 % leaves to second order would be 2 mm of 40 cm.
-TEST(EquationError, ErrorsOfTheEncoderAreUndoneAndNeverMakeTheResidualSmaller) {
+/// An inversion to first order only would leave 2 mm of 40 cm at a scale of 7 %.
+TEST(EquationError, InvertsAScaleOfTheEncoderAndKeepsTheResidualInSensorUnits) {
   constexpr double kScale = 0.93;
   const configuration::Rig rig = axis_with_viscous_friction();
   const Runs as_it_was{moved(rig, 30, 1, nothing)};

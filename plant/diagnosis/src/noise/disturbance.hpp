@@ -28,7 +28,6 @@ struct RowMotion {
   double slowness = 0;  ///< 0 at speed, 1 at standstill
   MotionPhase phase = MotionPhase::moving;
   bool seen = true;            ///< whether the row was measured
-  double offset_s = 0;         ///< instant of the measurement since the row's time on the grid
   bool speed_unknown = false;  ///< an edge of the command may have been lost: speed unknown
 };
 using MotionProfile = std::vector<RowMotion>;

@@ -54,20 +54,6 @@ PredictionCovariance::PredictionCovariance(const Disturbance& d, const WindowMot
   unknown_speed_ = kUnknownSpeedVariance * noise_variance_ / (t * t);
 }
 
-PredictionCovariance::Update PredictionCovariance::update(std::size_t row) const {
-  const double offset_s = motion_.profile[row].offset_s;
-  if (offset_s == 0) {
-    const double f = p_.xx + noise_variance_;
-    return {Eigen::Vector3d{p_.xx, p_.xv, p_.xa} / f, f};
-  }
-  const Eigen::Vector3d h = measurement_after(offset_s);
-  const Eigen::Vector3d ph{p_.xx * h[0] + p_.xv * h[1] + p_.xa * h[2],
-                           p_.xv * h[0] + p_.vv * h[1] + p_.va * h[2],
-                           p_.xa * h[0] + p_.va * h[1] + p_.aa * h[2]};
-  const double f = h.dot(ph) + noise_variance_;
-  return {ph / f, f};
-}
-
 PredictionCovariance::Symmetric PredictionCovariance::propagated(const Symmetric& p) const {
   const auto row = [&](int i) {
     const double x = step_(i, 0), v = step_(i, 1), a = step_(i, 2);
@@ -90,18 +76,18 @@ void PredictionCovariance::advance(std::size_t row) {
   const double friction =
       friction_ * (now == MotionPhase::standing ? kStandingFrictionShare : row_motion.slowness);
   // In an ordinary row the steady state is kept.
-  const bool usual = row_motion.seen && row_motion.offset_s == 0 && now == MotionPhase::moving &&
-                     friction == 0 && !row_motion.speed_unknown;
+  const bool usual =
+      row_motion.seen && now == MotionPhase::moving && friction == 0 && !row_motion.speed_unknown;
   if (usual && steady_) return;
   Symmetric p = p_;
   if (row_motion.seen) {
-    const auto [k, f] = update(row);
-    p.xx -= k[0] * k[0] * f;
-    p.xv -= k[0] * k[1] * f;
-    p.xa -= k[0] * k[2] * f;
-    p.vv -= k[1] * k[1] * f;
-    p.va -= k[1] * k[2] * f;
-    p.aa -= k[2] * k[2] * f;
+    const double f = variance();
+    p.xx -= p_.xx * p_.xx / f;
+    p.xv -= p_.xx * p_.xv / f;
+    p.xa -= p_.xx * p_.xa / f;
+    p.vv -= p_.xv * p_.xv / f;
+    p.va -= p_.xv * p_.xa / f;
+    p.aa -= p_.xa * p_.xa / f;
   }
   if (now != MotionPhase::moving) p.xv = p.vv = p.va = 0;
   p.vv += friction + (row_motion.speed_unknown ? unknown_speed_ : 0);

@@ -17,23 +17,15 @@ namespace crane::diagnosis {
   return step * state;
 }
 
-/// Measurement H of the state that is measured so long after the row's time: H x = x + t x' + t^2 a / 2.
-[[nodiscard]] inline Eigen::Vector3d measurement_after(double offset_s) {
-  return {1, offset_s, 0.5 * offset_s * offset_s};
-}
-
 /// Covariance P of the predicted state along a window, in squares of the disturbance's units.
 class PredictionCovariance {
  public:
   /// @param start_variance of x, and of the distance that x' covers in a row
   PredictionCovariance(const Disturbance& disturbance, const WindowMotion& motion, double start_variance);
 
-  struct Update {
-    Eigen::Vector3d gain;
-    double variance = 0;  ///< f, of the innovation
-  };
-  /// Of the measurement in a row, at its own instant.
-  [[nodiscard]] Update update(std::size_t row) const;
+  /// Variance f of the innovation.
+  [[nodiscard]] double variance() const { return p_.xx + noise_variance_; }
+  [[nodiscard]] Eigen::Vector3d gain() const { return Eigen::Vector3d{p_.xx, p_.xv, p_.xa} / variance(); }
   [[nodiscard]] MotionPhase phase(std::size_t row) const {
     return sticks_ ? motion_.profile[row].phase : MotionPhase::moving;
   }

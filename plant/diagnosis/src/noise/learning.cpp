@@ -19,40 +19,15 @@ constexpr std::array kCorrelations_s{0.0, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0};
 /// Least decrease of minus twice the log likelihood for another sweep.
 constexpr double kWorthASweep = 1;
 
-/// Windows from which summit and colour are found; all of them only choose among the neighbours of that.
-constexpr std::size_t kSample = 32;
-
-/// Windows of one output.
-struct Windows {
-  std::vector<VectorXd> residuals;
-  std::vector<WindowMotion> motions;
-};
-
-/// At most kSample of them, evenly spaced.
-Windows sample_of(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions) {
-  Windows sample;
-  const std::size_t all = residuals.size(), count = std::min(all, kSample);
-  for (std::size_t i = 0; i < count; ++i) {
-    sample.residuals.push_back(residuals[i * all / count]);
-    sample.motions.push_back(motions[i * all / count]);
-  }
-  return sample;
-}
-
-/// What a search tries of colour and damping: the whole grid, or the neighbours of what it has.
-enum class Reach { grid, neighbours };
-
-/// One number after the other, each on its grid, until nothing gets better. Accelerations are in noises.
+/// Coordinate search on grids. Accelerations are in multiples of the noise.
 class Learning {
  public:
   Learning(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
-           double least_noise, Reach reach)
-      : residuals_(residuals), motions_(motions), least_noise_(least_noise), reach_(reach) {}
+           double least_noise)
+      : residuals_(residuals), motions_(motions), least_noise_(least_noise) {}
 
-  /// From the noise of a similar residual.
-  Disturbance from(const Disturbance& near) { return search(in_noises(near)); }
-
-  Disturbance from_nothing() {
+  Disturbance run(const Disturbance& near) {
+    if (near.noise > 0) return search(in_noises(near));
     Disturbance start;
     start.noise = 1;
     start.correlation_s = 0.2;
@@ -82,8 +57,7 @@ class Learning {
       const double before = found_.value;
       for (const double factor : {0.3, 0.7, 1.4, 3.0})
         try_with(best_.acceleration, factor * best_.acceleration);
-      for (const double correlation_s : kCorrelations_s)
-        if (reaches(kCorrelations_s, best_.correlation_s, correlation_s)) try_colour(correlation_s);
+      for (const double correlation_s : kCorrelations_s) try_colour(correlation_s);
       if (!pendulum()) try_drive();
       if (before - found_.value < kWorthASweep) break;
     }
@@ -122,7 +96,6 @@ class Learning {
     for (const double share : {1.0, weaker})
       for (const double damping_ps : kDampings_ps) {
         if (pendulum() && damping_ps > 0) continue;
-        if (!reaches(kDampings_ps, before.damping_ps, damping_ps)) continue;
         Disturbance tried = before;
         tried.correlation_s = correlation_s;
         tried.acceleration *= share;
@@ -131,15 +104,6 @@ class Learning {
         const Likelihood found = likelihood(residuals_, motions_, tried, found_.variance);
         if (found.value < found_.value) found_ = found, best_ = tried;
       }
-  }
-
-  /// Whether a value of the grid is tried where another one is the best.
-  template <class Grid>
-  [[nodiscard]] bool reaches(const Grid& grid, double best, double value) const {
-    const auto place = [&grid](double of) {
-      return std::lower_bound(grid.begin(), grid.end(), of) - grid.begin();
-    };
-    return reach_ == Reach::grid || std::abs(place(best) - place(value)) <= 1;
   }
 
   [[nodiscard]] bool pendulum() const { return motions_.at(0).natural_radps > 0; }
@@ -166,7 +130,6 @@ class Learning {
   const std::vector<VectorXd>& residuals_;
   const std::vector<WindowMotion>& motions_;
   double least_noise_;
-  Reach reach_;
   Disturbance best_;
   Likelihood found_;
 };
@@ -175,13 +138,7 @@ class Learning {
 
 Disturbance learn(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
                   double least_noise, const Disturbance& near) {
-  if (near.noise > 0) return Learning(residuals, motions, least_noise, Reach::grid).from(near);
-  if (residuals.size() <= kSample)
-    return Learning(residuals, motions, least_noise, Reach::grid).from_nothing();
-  const Windows sample = sample_of(residuals, motions);
-  const Disturbance found =
-      Learning(sample.residuals, sample.motions, least_noise, Reach::grid).from_nothing();
-  return Learning(residuals, motions, least_noise, Reach::neighbours).from(found);
+  return Learning(residuals, motions, least_noise).run(near);
 }
 
 }  // namespace crane::diagnosis

@@ -48,15 +48,13 @@ Innovations innovations(const VectorXd& residual, const WindowMotion& motion, co
   Vector3d state = Vector3d::Zero();
   std::size_t seen = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(residual.size()); ++k) {
-    const RowMotion& row = motion.profile[k];
-    if (row.seen) {
-      const auto [gain, f] = prediction.update(k);
-      const double innovation = residual[static_cast<Index>(k)] - measurement_after(row.offset_s).dot(state);
+    if (motion.profile[k].seen) {
+      const double innovation = residual[static_cast<Index>(k)] - state[0], f = prediction.variance();
       if (seen++ >= kStart) {
         logs.add(f);
         all.squares.push_back(innovation * innovation / f);
       }
-      state += gain * innovation;
+      state += prediction.gain() * innovation;
     }
     state = next_state(step, state, prediction.phase(k));
     prediction.advance(k);

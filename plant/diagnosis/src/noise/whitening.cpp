@@ -12,12 +12,10 @@ Whitener::Whitener(const Disturbance& disturbance, const WindowMotion& motion)
     : step_(transition_of(disturbance, motion)) {
   PredictionCovariance prediction(disturbance, motion, 0);
   for (std::size_t k = 0; k < motion.profile.size(); ++k) {
-    const auto [gain, variance] = prediction.update(k);
     if (motion.profile[k].seen)
-      rows_.push_back({measurement_after(motion.profile[k].offset_s), gain, 1 / std::sqrt(variance),
-                       prediction.phase(k)});
+      rows_.push_back({prediction.gain(), 1 / std::sqrt(prediction.variance()), prediction.phase(k)});
     else
-      rows_.push_back({Vector3d::Zero(), Vector3d::Zero(), 0, prediction.phase(k)});
+      rows_.push_back({Vector3d::Zero(), 0, prediction.phase(k)});
     prediction.advance(k);
   }
 }
@@ -28,7 +26,7 @@ void Whitener::apply(Eigen::Ref<MatrixXd> x) const {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       double& value = x(static_cast<Index>(k), column);
       const Row& row = rows_[k];
-      const double innovation = value - row.measurement.dot(state);
+      const double innovation = value - state[0];
       value = innovation * row.inverse_sd;
       state = next_state(step_, state + row.gain * innovation, row.phase);
     }

@@ -21,7 +21,7 @@ class Whitener {
 
  private:
   struct Row {
-    Eigen::Vector3d measurement, gain;
+    Eigen::Vector3d gain;
     double inverse_sd = 0;
     MotionPhase phase = MotionPhase::moving;
   };

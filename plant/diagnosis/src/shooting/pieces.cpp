@@ -115,7 +115,6 @@ WindowMotion window_motion_of(const PreparedRun& run, const MovingStretch& at, O
     const std::size_t row = at.first + k;
     motion.profile[k].phase = MotionPhase::moving;
     motion.profile[k].seen = run.run.seen(axis, row);
-    motion.profile[k].offset_s = run.run.offset_at_s(row);
     motion.profile[k].speed_unknown = run.run.may_have_lost_edge(axis, row);
   }
   return motion;

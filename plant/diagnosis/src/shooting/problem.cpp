@@ -50,7 +50,6 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
                                   : MotionProfile(window.rows);
       for (std::size_t k = 0; k < window.rows; ++k) {
         profile[k].seen = run.run.seen(output, window.first + k);
-        profile[k].offset_s = run.run.offset_at_s(window.first + k);
         profile[k].speed_unknown =
             part == Part::drive && run.run.may_have_lost_edge(output, window.first + k);
       }

@@ -65,10 +65,8 @@ struct Run {
   }
   /// Time of a row since row 0.
   [[nodiscard]] double instant_s(std::size_t row) const {
-    return static_cast<double>(row) * period_s + offset_at_s(row);
+    return static_cast<double>(row) * period_s + (offset_s.empty() ? 0.0 : offset_s[row]);
   }
-  /// Instant of a row since its time on the grid.
-  [[nodiscard]] double offset_at_s(std::size_t row) const { return offset_s.empty() ? 0.0 : offset_s[row]; }
   /// @param drive trolley or slew
   [[nodiscard]] bool may_have_lost_edge(Output drive, std::size_t row) const {
     return !edge_lost[drive].empty() && edge_lost[drive][row];
