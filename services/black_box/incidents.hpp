@@ -28,7 +28,7 @@ class Incidents {
   static constexpr std::int64_t kLongest_ns = 60'000'000'000;
   static constexpr std::int64_t kKept_ns = kBefore_ns + kLongest_ns + kAfter_ns;
 
-  /// @param started_ns  earlier samples are not kept: they come from the events of others
+  /// @param started_ns  older samples, from the history of writers of crane/event, are discarded
   explicit Incidents(std::int64_t started_ns) : started_ns_{started_ns}, history_{kKept_ns} {}
 
   void add(const SamplePtr& sample);
@@ -36,7 +36,7 @@ class Incidents {
   /// @return an incident that is complete; at most one per call
   [[nodiscard]] std::optional<Incident> poll(std::int64_t now_ns, std::int64_t log_now_ns, bool ends = false);
 
-  /// Ignores causes after this time: when a stack ends, each of its processes misses the others.
+  /// Ignores causes after this time: when a stack ends, each process detects the loss of the others.
   void ignore_causes_after(std::int64_t log_time_ns) { ends_ns_ = log_time_ns; }
 
   [[nodiscard]] std::size_t bytes() const { return history_.bytes(); }
@@ -51,7 +51,7 @@ class Incidents {
   History history_;
   observation::Traffic traffic_;
   FaultTimeline timeline_;
-  std::optional<Incident> open_;    ///< does not have its samples yet
+  std::optional<Incident> open_;    ///< incident whose samples are not yet complete
   std::uint64_t newest_fault_ = 0;  ///< newest fault of the open incident
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The commands as data, read from what --help prints: for completion and the man page.
+/// The commands as data, parsed from the text of --help, for shell completion and the manual page.
 #include <string>
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
-/// What each path answers. No sockets: the session reads a request and sends the answer. docs/dashboard.md
-/// lists the paths.
+/// Answers the requests to each HTTP path (docs/dashboard.md lists the paths). No sockets: the session reads
+/// a request and sends the answer.
 #include <functional>
 #include <string>
 #include <string_view>
@@ -16,13 +16,13 @@ using Answer = std::function<void(ApiAnswer)>;
 
 class Api {
  public:
-  /// @param send  hands a request of the operator to the thread of the bus; empty: nobody operates
+  /// @param send  passes a request of the operator to the bus thread; empty: nobody may operate
   Api(Model& model, const AccessRules& rules, std::function<void(const stack::Wish&, Answered)> send,
       std::function<ServerCounts()> counts, const RunsOptions& runs);
 
   /// Calls `answer` once: at once, or when the supervisor has answered.
   void handle(const ApiRequest& request, Answer answer);
-  /// Starts waiting jobs and notices what has ended.
+  /// Starts waiting jobs and collects finished ones.
   void poll() { runs_.poll(); }
 
  private:

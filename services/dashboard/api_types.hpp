@@ -1,5 +1,5 @@
 #pragma once
-/// A request and its answer, without sockets.
+/// An HTTP request and its answer, without sockets.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -20,7 +20,8 @@ struct ApiAnswer {
   std::string media_type = "application/json";
   std::string body;
   std::string_view file{};  ///< not empty: bytes that live as long as the program; `body` is then unused
-  bool report = false;      ///< a page with scripts in it: it gets an origin of its own and reaches nothing
+  bool report = false;      ///< true: a page with scripts; sent with the policy `sandbox`, so that it cannot
+                            ///< access the dashboard
 };
 
 [[nodiscard]] ApiAnswer json_answer(const nlohmann::ordered_json& json, unsigned status = 200);

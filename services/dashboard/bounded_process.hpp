@@ -1,6 +1,6 @@
 #pragma once
-/// A program that computes something for the page, with bounds that the kernel keeps, behind every other
-/// process of this computer.
+/// A child process that computes for the page at the lowest priority. The kernel enforces its limits of time,
+/// memory and file size.
 #include <sys/types.h>
 
 #include <chrono>
@@ -24,7 +24,7 @@ class BoundedProcess {
   BoundedProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                  const std::filesystem::path& output, const std::filesystem::path& errors,
                  const Bounds& bounds);
-  /// Kills it with all that it has started.
+  /// Kills the process and all its children.
   ~BoundedProcess();
   BoundedProcess(const BoundedProcess&) = delete;
   BoundedProcess& operator=(const BoundedProcess&) = delete;
@@ -33,7 +33,7 @@ class BoundedProcess {
     int exit_code = -1;  ///< -1: a signal
     std::string how;     ///< "exit code 2", "took longer than 60 s"
   };
-  /// Does not wait. @return nothing while it runs
+  /// Does not wait. @return nothing while the process runs
   [[nodiscard]] std::optional<End> poll();
   [[nodiscard]] pid_t pid() const { return pid_; }
 

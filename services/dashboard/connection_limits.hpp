@@ -1,5 +1,5 @@
 #pragma once
-/// How many connections, and how many bytes of answers, clients may hold at a time. Pure: no sockets.
+/// Limits the number of connections and the bytes of unread answers. Pure: no sockets.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -8,30 +8,30 @@
 namespace crane::dashboard {
 
 inline constexpr std::size_t kMostConnections = 64;
-/// Of them for other computers, so that a flood from there leaves room for the operator at the rig.
+/// Connections from other computers: a flood from there leaves room for the operator at the rig.
 inline constexpr std::size_t kMostForeignConnections = 48;
-/// Of them for one address: one computer does not shut out the others. A browser opens seven.
+/// Connections from one address: one computer cannot shut out the others. A browser opens seven.
 inline constexpr std::size_t kMostOfOneAddress = 16;
-/// Answers that clients have asked for and not read yet: four times the longest history of a topic.
+/// Bytes of answers that clients have not read yet: four times the longest history of a topic.
 inline constexpr std::size_t kMostAnswers_bytes = 32U << 20U;
 
 class ConnectionLimits {
  public:
-  /// @return false: the connection is refused, and nothing is counted
+  /// @return false when the connection is refused; it is then not counted
   [[nodiscard]] bool admit(const std::string& address, bool foreign);
   void release(const std::string& address, bool foreign);
   [[nodiscard]] std::size_t open() const { return open_; }
 
-  /// @return false: too much is waiting, and nothing is counted
+  /// @return false when too many bytes wait; the new ones are then not counted
   [[nodiscard]] bool reserve(std::size_t bytes);
   void free(std::size_t bytes) { answers_bytes_ -= bytes; }
 
  private:
   std::size_t open_ = 0, foreign_ = 0, answers_bytes_ = 0;
-  std::map<std::string, std::size_t> of_address_;  ///< of other computers only
+  std::map<std::string, std::size_t> of_address_;  ///< connections by address; other computers only
 };
 
-/// One admitted connection: counts as long as it lives.
+/// One admitted connection; counts during its lifetime.
 class Admission {
  public:
   /// @return null when the connection is refused
@@ -41,7 +41,7 @@ class Admission {
   Admission(const Admission&) = delete;
   Admission& operator=(const Admission&) = delete;
 
-  /// Replaces what was reserved before. @return false: the answer must not be kept
+  /// Replaces the reservation. @return false when the answer must not be stored
   [[nodiscard]] bool reserve(std::size_t bytes);
 
  private:

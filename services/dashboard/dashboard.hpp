@@ -10,13 +10,13 @@ namespace crane::dashboard {
 
 struct Options {
   std::string listen = "127.0.0.1";
-  unsigned short port = 8765;  ///< where viewers of foxglove.websocket.v1 look first; 0: any free port
+  unsigned short port = 8765;  ///< default port of foxglove.websocket.v1; 0: any free port
   std::string token_file;
   std::vector<std::string> host_names, other_origins;
   bool read_only = false;
   std::string runs;  ///< directory of recordings for the views Runs and Diagnose; empty: none
   std::string rig;   ///< name or path of a rig file; empty: unknown
-  int parent = 0;    ///< process that this one ends with; 0: none
+  int parent = 0;    ///< process id of the parent; this process ends when the parent ends; 0: none
   runtime::BusOptions bus;
 };
 [[nodiscard]] Options default_options();
@@ -25,7 +25,7 @@ void add_options(CLI::App& app, Options& options);
 /// Runs until a stop signal. @return exit code. @throws ConfigurationError, std::runtime_error
 int run(const Options& options);
 
-/// Starts crane_dashboard as a child, on the vendor of the tools; it prints its address when it serves.
+/// Starts crane_dashboard as a child, on the vendor of the tools; it prints its address when it is ready.
 void launch(stack::ChildProcesses& children, runtime::BusOptions bus, const std::string& rig,
             const std::string& runs, unsigned short port);
 

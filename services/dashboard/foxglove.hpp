@@ -1,6 +1,6 @@
 #pragma once
-/// foxglove.websocket.v1: what viewers (Foxglove, Lichtblick, PlotJuggler) and the dashboard's own page
-/// speak. Pure: texts and bytes.
+/// The protocol foxglove.websocket.v1 of viewers (Foxglove, Lichtblick, PlotJuggler) and of the dashboard's
+/// own page. Pure: texts and bytes.
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
@@ -14,8 +14,8 @@
 
 namespace crane::dashboard {
 
-/// Sub-protocols of the WebSocket. The page's own is the same protocol with many messages in one frame: a
-/// frame for each of a thousand samples a second costs a browser, and the dashboard, more than the samples.
+/// Sub-protocols of the WebSocket. That of the page has many messages in one frame, because a separate frame
+/// for each of a thousand samples per second costs browser and dashboard more than the samples.
 inline constexpr std::string_view kViewerProtocol = "foxglove.websocket.v1";
 inline constexpr std::string_view kPageProtocol = "crane.batch.v1";
 
@@ -35,7 +35,7 @@ inline constexpr std::size_t kDocuments = 4;
 [[nodiscard]] std::string advertise();
 [[nodiscard]] std::string status_message(const std::string& what);
 
-// What a client says.
+// Messages of a client.
 struct Subscribe {
   struct Entry {
     std::uint32_t id = 0, channel = 0;
@@ -59,7 +59,7 @@ class ProtocolError : public std::runtime_error {
 };
 inline constexpr std::size_t kLongestMessage_bytes = 65536;
 inline constexpr std::size_t kMostSubscriptions = 64;
-/// @throws ProtocolError for everything that is no message of a client
+/// @throws ProtocolError when the text or the bytes are not a message of a client
 [[nodiscard]] ClientMessage parse_client_message(std::string_view text);
 
 template <class T>
@@ -71,8 +71,8 @@ void append_little_endian(std::string& out, T value) {
 [[nodiscard]] std::string message_head(std::uint32_t subscription, std::int64_t time_ns);
 [[nodiscard]] std::string time_message(std::int64_t time_ns);
 
-/// Many messages as one frame of kPageProtocol: of each its kind (1 text, 2 data), its length (uint32) and
-/// its bytes. Takes from `queue` until it is empty or the frame is full.
+/// One frame of kPageProtocol with many messages, each as kind (1 text, 2 data), length (uint32) and bytes.
+/// Takes messages from `queue` until it is empty or the frame is full.
 [[nodiscard]] std::string batch_of(SendQueue& queue);
 
 }  // namespace crane::dashboard

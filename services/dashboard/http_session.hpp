@@ -1,5 +1,5 @@
 #pragma once
-/// One HTTP connection: requests one after the other, each within bounds; a WebSocket begins as one.
+/// One HTTP connection: handles requests one after the other, each within limits; may become a WebSocket.
 #include <boost/asio/ip/tcp.hpp>
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Hands items from one thread to another. Bounded: an item that does not fit is refused and counted, so that
-/// the thread which puts never waits for the one which takes.
+/// Bounded queue between two threads. A full queue refuses and counts items, so that the producer never waits
+/// for the consumer.
 #include <cstdint>
 #include <mutex>
 #include <utility>

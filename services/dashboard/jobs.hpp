@@ -1,6 +1,5 @@
 #pragma once
-/// Reviews and diagnoses that the page asks for: one at a time, each a bounded child process, the others
-/// wait.
+/// Reviews and diagnoses requested by the page. Each is a bounded child process; one runs, the others wait.
 #include <deque>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -13,7 +12,7 @@
 
 namespace crane::dashboard {
 
-/// A directory that ends with this object.
+/// A temporary directory, deleted with this object.
 class WorkDirectory {
  public:
   WorkDirectory();  ///< @throws std::runtime_error
@@ -30,28 +29,28 @@ class Jobs {
  public:
   enum class State : std::uint8_t { waiting, running, done, failed, cancelled };
   static constexpr std::size_t kMostWaiting = 8;
-  static constexpr std::size_t kMostKept = 24;  ///< with those that have ended; the oldest go
+  static constexpr std::size_t kMostKept = 24;  ///< jobs including ended ones; the oldest are deleted
   static constexpr Bounds kReview{std::chrono::seconds{60}, 2ULL << 30U, 64ULL << 20U};
   static constexpr Bounds kDiagnosis{std::chrono::seconds{1200}, 4ULL << 30U, 64ULL << 20U};
 
-  /// @param program  `crane`  @param rig  of a diagnosis; empty: unknown, no diagnosis is possible
-  /// @param directory  exists, and is this object's own
+  /// @param program  `crane`  @param rig  rig file of a diagnosis; empty: no diagnosis is possible
+  /// @param directory  exists; used by this object only
   Jobs(std::filesystem::path program, std::string rig, std::filesystem::path directory);
 
   struct Answer {
     std::uint64_t id = 0;
-    std::string problem;  ///< empty: the job waits or runs, or was done before
-    bool busy = false;    ///< the problem passes
+    std::string problem;  ///< empty: the job waits, runs or is done
+    bool busy = false;    ///< true: the problem is temporary
   };
   [[nodiscard]] Answer review(const Run& run);
   [[nodiscard]] Answer diagnose(const std::vector<Run>& train, const std::vector<Run>& test);
-  /// @return false when no job with this number waits or runs
+  /// @return false when the job with this number neither waits nor runs
   bool cancel(std::uint64_t id);
 
-  /// Starts what waits, notices what has ended. Does not wait.
+  /// Starts waiting jobs and collects finished ones. Does not wait.
   void poll();
   [[nodiscard]] nlohmann::ordered_json json() const;
-  /// A file of a finished job; nothing when it is not there. @param name  "report.html", "result.json"
+  /// A file of a finished job; nothing when it does not exist. @param name  "report.html", "result.json"
   [[nodiscard]] std::optional<std::string> file_of(std::uint64_t id, const char* name) const;
 
  private:

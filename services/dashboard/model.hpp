@@ -1,5 +1,5 @@
 #pragma once
-/// Everything the dashboard knows, fed sample by sample. Used by one thread, that of the network.
+/// All data of the dashboard, updated sample by sample. Used by the network thread only.
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace crane::dashboard {
 
-/// What the dashboard was started with.
+/// Start options of the dashboard.
 struct About {
   std::string version, crane;
   std::uint32_t domain = 0;
@@ -28,7 +28,7 @@ class Model {
   void add(const observation::SamplePtr& sample);
   /// Programs of this crane whose samples are dropped.
   void set_other_versions(std::vector<bus::OtherVersion> others) { other_versions_ = std::move(others); }
-  /// Brings the documents up to date. @return those that have changed
+  /// Updates the documents. @return those that have changed
   [[nodiscard]] std::vector<Document> poll(std::int64_t now_ns, std::int64_t log_now_ns);
   /// JSON text of a document.
   [[nodiscard]] const std::string& text(Document document) const {

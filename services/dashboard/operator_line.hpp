@@ -1,6 +1,5 @@
 #pragma once
-/// Carries what the page asks for from the thread of the network to the request desk in the thread of the
-/// bus.
+/// Passes requests of the page from the network thread to the request desk in the bus thread.
 #include <optional>
 
 #include "dashboard/connection_limits.hpp"
@@ -18,7 +17,7 @@ class OperatorLine {
 
   /// May be called by any thread. @return false when too many requests wait
   bool ask(const stack::Wish& wish, Answered answered) { return asked_.put({wish, std::move(answered)}); }
-  /// Sends what was asked for and takes the answers. Of the thread of the bus.
+  /// Sends the requests and takes the answers. Called by the bus thread.
   void poll();
 
  private:
@@ -27,7 +26,7 @@ class OperatorLine {
     Answered answered;
   };
   std::optional<RequestDesk> desk_;
-  Inbox<Asked> asked_{kMostConnections};  ///< one of each connection at most: none is refused
+  Inbox<Asked> asked_{kMostConnections};  ///< at most one per connection, so that none is refused
 };
 
 }  // namespace crane::dashboard

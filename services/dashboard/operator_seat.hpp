@@ -1,5 +1,6 @@
 #pragma once
-/// One operator at a time: who takes the seat gets a key, and the others watch. Pure; time is an argument.
+/// One operator at a time: the client that takes the seat gets a key; the others watch. Pure; time is an
+/// argument.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,15 +10,14 @@ namespace crane::dashboard {
 
 class OperatorSeat {
  public:
-  /// A holder who is silent for so long has lost the seat: his browser renews every 3 s, so that two messages
-  /// may be lost.
+  /// A holder that is silent for this time loses the seat. Its browser renews every 3 s: two messages may be
+  /// lost.
   static constexpr std::int64_t kHeldFor_ns = 10'000'000'000;
   static constexpr std::size_t kLongestName = 32;
 
-  /// Takes the free seat. @param key  new key, which no one else knows. @return false when another one holds
-  /// it
+  /// Takes the free seat. @param key  new secret key. @return false when another client holds the seat
   bool take(std::string_view name, std::string key, std::int64_t now_ns);
-  /// @return true when `key` holds the seat; the time then begins anew
+  /// Restarts the time of the seat. @return true when `key` holds the seat
   bool renew(std::string_view key, std::int64_t now_ns);
   /// @return true when `key` held the seat
   bool release(std::string_view key, std::int64_t now_ns);

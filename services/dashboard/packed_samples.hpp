@@ -7,7 +7,7 @@
 
 namespace crane::dashboard {
 
-/// Of every sample the log time (int64), the number of bytes (uint32) and the CDR bytes, all little endian.
+/// For every sample: log time (int64), number of bytes (uint32), CDR bytes; little endian.
 [[nodiscard]] std::string packed(const std::vector<observation::SamplePtr>& samples);
 
 }  // namespace crane::dashboard

@@ -1,5 +1,5 @@
 #pragma once
-/// The files of the page, inside the program: there is no path of a disk that a request could reach.
+/// The files of the page, embedded in the program: a request cannot reach the file system.
 #include <span>
 #include <string_view>
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Sends the requests of the page on crane/request and waits for the supervisor's answers, without blocking.
-/// Used by the thread of the bus.
+/// Sends the requests of the page on crane/request and collects the supervisor's answers without blocking.
+/// Used by the bus thread.
 #include <functional>
 #include <list>
 
@@ -10,7 +10,7 @@ namespace crane::dashboard {
 
 struct Reply {
   bool accepted = false;
-  std::string reason;  ///< why not
+  std::string reason;  ///< reason of the refusal
 };
 using Answered = std::function<void(Reply)>;
 
@@ -18,18 +18,19 @@ class RequestDesk {
  public:
   explicit RequestDesk(bus::Bus& bus);
 
-  /// Requests that wait for an answer. Stops do not count: those of one kind are one request.
+  /// Maximum number of requests that wait for an answer. Stops do not count: all stops of one kind share one
+  /// request.
   static constexpr std::size_t kMostWaiting = 16;
 
   void send(const stack::Wish& wish, Answered answered);
-  /// Takes answers, repeats stops, and gives up what is not answered in time.
+  /// Takes answers, repeats stops, and abandons requests that are not answered in time.
   void poll(std::int64_t now_ns);
 
  private:
   struct Pending {
     stack::Wish wish;
-    std::vector<Answered> answered;  ///< of all who ask for the same stop
-    std::vector<std::uint64_t> ids;  ///< of the request and its repetitions, until they are answered
+    std::vector<Answered> answered;  ///< callbacks of all clients that requested the same stop
+    std::vector<std::uint64_t> ids;  ///< ids of the request and of its repetitions, until they are answered
     std::int64_t sent_ns = 0, repeat_ns = 0;
     bool done = false;
   };

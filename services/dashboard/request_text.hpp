@@ -1,5 +1,5 @@
 #pragma once
-/// The body of POST /api/request as a request of an operator. Pure.
+/// Parses the body of POST /api/request. Pure.
 #include <stdexcept>
 #include <string_view>
 
@@ -17,7 +17,7 @@ class BadRequest : public std::runtime_error {
 /// "move" (with "trolley_m", "slew_rad", "hoist_m")}. @throws BadRequest
 [[nodiscard]] stack::Wish wish_of_text(std::string_view body);
 
-/// Stop and emergency stop: everyone who may operate may stop, also without the seat.
+/// True for stop and emergency stop, which need no seat.
 [[nodiscard]] bool is_stop(crane_RequestKind kind);
 
 }  // namespace crane::dashboard

@@ -1,5 +1,5 @@
 #pragma once
-/// What the page draws of a rig file: kind, load, soft limits, and how the planner moves.
+/// Data of a rig file for the page: kind, load, soft limits, and limits of the planner.
 #include <string>
 
 #include "crane/configuration/rig.hpp"

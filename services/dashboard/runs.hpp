@@ -1,6 +1,6 @@
 #pragma once
-/// Recordings that the page may open: files of one directory and of its subdirectories, and what was
-/// uploaded. A run is chosen by the name that the list gives it: no text of a request becomes a path.
+/// Recordings that the page may open: files of one directory and its subdirectories, and uploaded files. A
+/// request names a run by its entry in the list; request text never becomes a path.
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,20 +15,20 @@ struct Run {
   std::filesystem::path file;
   std::uintmax_t bytes = 0;
   std::int64_t changed_s = 0;  ///< s since 1970
-  bool recording = false;      ///< MCAP; otherwise CSV, which can be diagnosed and not reviewed
+  bool recording = false;      ///< true: MCAP; false: CSV, which can be diagnosed but not reviewed
   [[nodiscard]] bool too_large() const;
 };
 
 class Runs {
  public:
-  static constexpr std::uintmax_t kLargest_bytes = 256U << 20U;  ///< of a run that is opened
-  static constexpr std::size_t kMostListed = 500;                ///< the newest
-  static constexpr std::size_t kMostVisited = 20'000;  ///< entries of the directory that are looked at
-  static constexpr int kDeepest = 2;                   ///< subdirectories in one another
+  static constexpr std::uintmax_t kLargest_bytes = 256U << 20U;  ///< largest run that is opened
+  static constexpr std::size_t kMostListed = 500;                ///< the newest runs are listed
+  static constexpr std::size_t kMostVisited = 20'000;            ///< directory entries that are examined
+  static constexpr int kDeepest = 2;                             ///< levels of subdirectories
   static constexpr std::uintmax_t kMostUploads_bytes = 64U << 20U;
   static constexpr std::size_t kMostUploads = 32;
 
-  /// @param directory  empty: none  @param uploads  exists; empty: nothing can be uploaded
+  /// @param directory  empty: none  @param uploads  existing directory; empty: uploads are refused
   Runs(std::filesystem::path directory, std::filesystem::path uploads)
       : directory_{std::move(directory)}, uploads_{std::move(uploads)} {}
 
@@ -37,7 +37,7 @@ class Runs {
   [[nodiscard]] std::vector<Run> list() const;
   [[nodiscard]] std::optional<Run> find(std::string_view name) const;
 
-  /// Keeps an uploaded file. @return why it was refused; empty: it is there as "upload:NAME"
+  /// Stores an uploaded file as "upload:NAME". @return reason of a refusal; empty when stored
   [[nodiscard]] std::string keep(std::string_view name, std::string_view bytes) const;
 
  private:

@@ -8,10 +8,10 @@
 
 namespace crane::dashboard {
 
-/// What the dashboard may open and start.
+/// Files and programs that the dashboard may use.
 struct RunsOptions {
-  std::filesystem::path program;    ///< `crane`; empty: nothing is started and nothing uploaded
-  std::filesystem::path directory;  ///< of recordings; empty: none
+  std::filesystem::path program;    ///< `crane`; empty: jobs and uploads are refused
+  std::filesystem::path directory;  ///< directory of recordings; empty: none
   std::string rig;                  ///< rig file of a diagnosis; empty: unknown
 };
 
@@ -22,9 +22,9 @@ class RunsApi {
  public:
   explicit RunsApi(const RunsOptions& options);
 
-  /// @return nothing when the path is not one of these
+  /// @return nothing when the path does not belong to these views
   [[nodiscard]] std::optional<ApiAnswer> get(std::string_view path);
-  /// Of a visitor who may operate. @throws BadRequest
+  /// @pre the visitor may operate. @throws BadRequest
   [[nodiscard]] std::optional<ApiAnswer> post(const ApiRequest& request);
   void poll() { jobs_.poll(); }
 
@@ -37,7 +37,7 @@ class RunsApi {
   std::optional<WorkDirectory> work_;
   Runs runs_;
   Jobs jobs_;
-  bool starts_;  ///< true: `crane` is there to review and diagnose
+  bool starts_;  ///< true: reviews and diagnoses can be started
   std::string listed_;
   std::int64_t listed_ns_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// What waits to be sent to one client, and what is given up when the client is slow. Pure: no sockets.
+/// Messages that wait to be sent to one client; drops samples when the client is slow. Pure: no sockets.
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -12,12 +12,12 @@ using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 
 enum class Keep : std::uint8_t {
   may_drop,  ///< a sample of every tick: dropped while the client is slow, and counted
-  newest,    ///< a document that replaces the one before: only the newest of its channel waits
+  newest,    ///< a document that replaces its predecessor: only the newest of each channel waits
   always     ///< an event, a reply, an answer to the client: never dropped
 };
 
 struct Outgoing {
-  std::uint32_t channel = 0;  ///< names the document of Keep::newest
+  std::uint32_t channel = 0;  ///< channel of a Keep::newest document
   Keep keep = Keep::always;
   bool binary = true;
   std::string head;  ///< differs from client to client
@@ -30,10 +30,10 @@ class SendQueue {
  public:
   /// Waiting bytes above which samples are dropped: about 3 s of all topics at 100 Hz.
   static constexpr std::size_t kDropAbove_bytes = 1U << 20U;
-  /// Waiting bytes at which the client is given up: it then connects anew and gets every document again.
+  /// Waiting bytes at which the client is disconnected: it reconnects and gets every document again.
   static constexpr std::size_t kGiveUpAbove_bytes = 4U << 20U;
 
-  /// @return false when the client has to be given up
+  /// @return false when the client must be disconnected
   [[nodiscard]] bool put(Outgoing message);
   [[nodiscard]] bool empty() const { return waiting_.empty(); }
   [[nodiscard]] Outgoing take();

@@ -1,6 +1,6 @@
 #pragma once
-/// One port for pages, /api, /metrics and the WebSockets of viewers. Asynchronous, in one thread; it holds a
-/// bounded number of connections, each with bounded memory and time.
+/// One port for pages, /api, /metrics and the WebSockets of viewers. Asynchronous, in one thread. The number
+/// of connections, and the memory and time of each, are bounded.
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -15,15 +15,16 @@ namespace crane::dashboard {
 
 class ViewerSession;
 
-/// The bounds of the server, beside those of connection_limits.hpp.
+/// Bounds of the server; connection_limits.hpp states those of the connections.
 inline constexpr std::uint32_t kLongestHeader_bytes = 8192;
 inline constexpr std::uint64_t kLongestBody_bytes = 4096;
 inline constexpr std::chrono::seconds kUploadPatience{120};  ///< for an upload of 16 MB
-inline constexpr std::chrono::seconds kRequestPatience{10};  ///< for a whole request; also between two
-/// A wrong token is answered so late, and holds its connection for as long: at most 64 guesses a second.
+inline constexpr std::chrono::seconds kRequestPatience{
+    10};  ///< for a whole request, and between two requests
+/// Delay of the answer to a wrong token. It occupies its connection meanwhile: at most 64 guesses per second.
 inline constexpr std::chrono::milliseconds kGuessDelay{1000};
-inline constexpr std::chrono::seconds kViewerPatience{20};  ///< a silent viewer is pinged, then given up
-/// Period of the frames that the page gets, and of the documents.
+inline constexpr std::chrono::seconds kViewerPatience{20};  ///< a silent viewer is pinged, then disconnected
+/// Period of the frames to the page and of the documents.
 inline constexpr std::chrono::milliseconds kFramePeriod{33};
 
 class Server {
@@ -32,12 +33,12 @@ class Server {
   Server(const std::string& address, unsigned short port, About about, AccessRules rules,
          std::function<void(const stack::Wish&, Answered)> send, const RunsOptions& runs = {});
 
-  /// Serves until stop(). Called by one thread, which then owns everything here.
+  /// Serves until stop(). The calling thread then owns all members.
   void run();
   /// May be called by any thread.
   void stop();
-  /// Hands over samples. May be called by any thread, and never blocks it: when this server is too busy,
-  /// samples are lost and counted.
+  /// Passes samples to the server. May be called by any thread and never blocks: samples are dropped and
+  /// counted when the server is too busy.
   void put(std::vector<observation::SamplePtr> samples);
   /// May be called by any thread.
   void set_other_versions(std::vector<bus::OtherVersion> others);
@@ -51,7 +52,7 @@ class Server {
   [[nodiscard]] const AccessRules& rules() const { return rules_; }
   void join(const std::shared_ptr<ViewerSession>& viewer) { viewers_.insert(viewer); }
   void leave(const std::shared_ptr<ViewerSession>& viewer);
-  /// One upload at a time: the others are refused. @return false when one is under way
+  /// Permits one upload at a time. @return false while another upload is in progress
   [[nodiscard]] bool begin_upload() { return !std::exchange(uploads_, true); }
   void end_upload() { uploads_ = false; }
   void give_up() { ++counts_.given_up_clients; }
@@ -72,13 +73,13 @@ class Server {
   Model model_;
   Api api_;
   Inbox<std::vector<observation::SamplePtr>> inbox_{kMostBatches};
-  static constexpr std::size_t kMostBatches = 1000;  ///< some seconds of the bus
+  static constexpr std::size_t kMostBatches = 1000;  ///< several seconds of bus traffic
   std::set<std::shared_ptr<ViewerSession>> viewers_;
   std::shared_ptr<ConnectionLimits> limits_ = std::make_shared<ConnectionLimits>();
   ServerCounts counts_;
   bool uploads_ = false;
   std::string session_id_ = random_token();
-  static constexpr std::uint64_t kMostFailuresTold = 20;  ///< a stranger does not fill a disk with messages
+  static constexpr std::uint64_t kMostFailuresTold = 20;  ///< an attacker must not fill a disk with messages
   std::uint64_t failures_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// In which state the crane is, why, what to do about it, and what the supervisor would answer now.
+/// State of the crane, its cause and remedy, and the supervisor's answer to each possible request.
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
@@ -9,11 +9,11 @@ namespace crane::dashboard {
 
 class Situation {
  public:
-  /// Silence after which what was heard counts no more; the supervisor publishes every tick.
+  /// Age at which the newest sample becomes invalid; the supervisor publishes every tick.
   static constexpr std::int64_t kSilent_ns = 1'000'000'000;
 
   void add(const observation::Sample& sample);
-  /// Changes only when something changes that an operator acts on.
+  /// Changes only when information for the operator changes.
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 
   [[nodiscard]] const std::optional<msg::SupervisorStatus>& supervisor() const { return supervisor_; }
@@ -25,7 +25,7 @@ class Situation {
   std::int64_t supervisor_ns_ = 0, state_ns_ = 0;  ///< monotonic arrival
 };
 
-/// JSON text; bytes of the bus that are no UTF-8 are replaced.
+/// JSON text; bytes from the bus that are not valid UTF-8 are replaced.
 [[nodiscard]] std::string text_of(const nlohmann::ordered_json& json);
 
 }  // namespace crane::dashboard

@@ -1,5 +1,6 @@
 #pragma once
-/// The operator token, in a file that its owner alone can read: neither a command line nor a URL shows it.
+/// The operator token, in a file that only its owner can read, so that neither a command line nor a URL shows
+/// it.
 #include <filesystem>
 #include <string>
 
@@ -7,7 +8,7 @@ namespace crane::dashboard {
 
 inline constexpr std::size_t kShortestToken = 16;
 
-/// Reads the token; creates the file with a random one when it does not exist.
+/// Reads the token; creates the file with a random token when it does not exist.
 /// @throws configuration::ConfigurationError when others can read the file or the token is too short
 [[nodiscard]] std::string read_or_make_token(const std::filesystem::path& file);
 

@@ -1,6 +1,5 @@
 #pragma once
-/// One WebSocket: a viewer that speaks foxglove.websocket.v1, or the page, which gets the same messages many
-/// in a frame.
+/// One WebSocket: a viewer with foxglove.websocket.v1, or the page, which gets the same messages in batches.
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
@@ -22,7 +21,7 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
   void send_sample(const observation::SamplePtr& sample);
   void send_document(Document document, const Bytes& text, std::int64_t time_ns);
   void send_time(std::int64_t time_ns);
-  /// Sends what waits. The page's frames leave with the beat of the server, those of a viewer at once.
+  /// Sends waiting messages: to the page once per frame period of the server, to a viewer at once.
   void flush();
   [[nodiscard]] std::uint64_t dropped() const { return queue_.dropped(); }
 
@@ -48,9 +47,9 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
   SendQueue queue_;
   Outgoing sending_;
   std::string batch_;
-  std::map<std::uint32_t, std::uint32_t> subscriptions_;  ///< channel -> number that the client chose
+  std::map<std::uint32_t, std::uint32_t> subscriptions_;  ///< channel -> subscription id of the client
   std::int64_t allowance_from_ns_ = 0;
-  int messages_ = 0;  ///< of the client, since allowance_from_ns_; its pings count, too
+  int messages_ = 0;  ///< messages and pings of the client since allowance_from_ns_
 };
 
 void start_viewer_session(boost::asio::ip::tcp::socket socket, ViewerSession::UpgradeRequest request,

@@ -1,6 +1,6 @@
 #pragma once
-/// Participants of every domain, from what they announce by multicast (RTPS 2.5, 8.5.3 SPDP): the doctor
-/// hears a crane in a domain that it has not joined.
+/// Participants of every domain, from their multicast announcements (RTPS 2.5, 8.5.3 SPDP): the doctor finds
+/// a crane in a domain that it has not joined.
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -19,11 +19,11 @@ struct Announced {
   bool operator==(const Announced&) const = default;
 };
 
-/// The announcement of this project's programs in a datagram. @return nothing for any other datagram
+/// Decodes the announcement of a program of this project. @return nothing for any other datagram
 [[nodiscard]] std::optional<bus::Announcement> announcement_in(std::span<const std::uint8_t> datagram);
 
-/// Listens in all domains on the interfaces with these addresses; each participant is returned once. Hears
-/// nothing of participants that discover by unicast (loop-back, --peer).
+/// Listens in all domains on the interfaces with these addresses; returns each participant once. Participants
+/// with unicast discovery (loop-back, --peer) are not found.
 [[nodiscard]] std::vector<Announced> listen_for_announcements(const std::vector<std::string>& addresses,
                                                               std::chrono::milliseconds duration);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// `crane doctor`: why a crane is not heard, and what of this computer hinders it.
+/// `crane doctor`: checks network, real-time settings and board, and names the remedy for each problem.
 #include <string>
 
 #include "crane/runtime/process.hpp"
@@ -9,8 +9,8 @@ namespace crane::doctor {
 
 struct Options {
   bool network = true, real_time = true, hardware = true;
-  std::string rig = "virginia_tech_tower";  ///< period of the loop, board
-  double duration_s = 3;                    ///< of listening, and of measuring the timer
+  std::string rig = "virginia_tech_tower";  ///< determines the period of the loop and the board
+  double duration_s = 3;                    ///< duration of listening and of the timer measurement
   int priority = 50;                        ///< SCHED_FIFO priority of the loop
   runtime::BusOptions bus;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// What the doctor says: one line each, with the remedy.
+/// A finding of the doctor: one line, with the remedy.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -7,14 +7,14 @@
 namespace crane::doctor {
 
 enum class Grade : std::uint8_t {
-  good,    ///< checked, nothing to do
-  advice,  ///< works, and could fail under load or later
-  problem  ///< does not work; `crane doctor` then ends with 1
+  good,    ///< checked, no action needed
+  advice,  ///< works, but could fail under load or later
+  problem  ///< does not work; `crane doctor` exits with code 1
 };
 
 struct Finding {
   Grade grade = Grade::good;
-  std::string room;    ///< "net", "rt", "hw"
+  std::string room;    ///< area of the check: "net", "rt", "hw"
   std::string code;    ///< lower_snake name, stable for scripts
   std::string what;    ///< one line
   std::string remedy;  ///< empty for Grade::good

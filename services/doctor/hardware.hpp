@@ -1,5 +1,5 @@
 #pragma once
-/// Is the board of the rig file there, and may this user open it? Nothing is written to it.
+/// Checks that the board of the rig file exists and that this user may open it. Writes nothing to the board.
 #include "crane/configuration/rig.hpp"
 #include "doctor/finding.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Network interfaces: are the addresses of --interface those of this computer, up, and does multicast pass?
+/// Checks the network interfaces of --interface: address of this computer, up, multicast passes.
 #include <string>
 #include <vector>
 
@@ -15,15 +15,15 @@ struct Interface {
   bool up = false, carrier = false, multicast = false;
   [[nodiscard]] bool loop_back() const { return address.starts_with("127."); }
 };
-/// With IPv4 addresses.
+/// Interfaces with an IPv4 address.
 [[nodiscard]] std::vector<Interface> own_interfaces();
 
 enum class Multicast : std::uint8_t { passes, send_refused, not_heard };
-/// Sends a datagram to the discovery group on the interface, and listens whether it comes back through the
-/// input rules of this computer.
+/// Sends a datagram to the discovery group on the interface, and checks that it comes back through the input
+/// rules (firewall) of this computer.
 [[nodiscard]] Multicast try_multicast(const std::string& address);
 
-/// @param passes  tells whether multicast passes on an address; not called for addresses without multicast
+/// @param passes  true when multicast passes on an address; not called for addresses without multicast
 template <class TryMulticast>
 [[nodiscard]] Findings judge_interfaces(const std::vector<std::string>& wanted, bool unicast_peers,
                                         const std::vector<Interface>& own, TryMulticast passes);

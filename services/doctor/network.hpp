@@ -1,5 +1,5 @@
 #pragma once
-/// Who is heard on the bus, who should be, and why he is not.
+/// Compares the processes found on the bus with the expected ones, and finds the cause of each difference.
 #include <chrono>
 #include <map>
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace crane::doctor {
 
-/// A writer that was found, and that does not match.
+/// A discovered writer whose quality of service does not match.
 struct Refused {
   std::string topic, policy;
-  std::string wanted;  ///< what the readers of this project ask for
+  std::string wanted;  ///< value that the readers of this project require
   bool operator==(const Refused&) const = default;
 };
 
-/// What a participant of the asked crane has heard.
+/// Observations of a participant of the requested crane.
 struct Heard {
   std::map<std::uint32_t, msg::NodeStatus> nodes;  ///< by node number
   std::map<std::string, double> clock_offset_s;    ///< by process: its clock minus the clock of this computer
@@ -29,7 +29,7 @@ struct Heard {
 };
 [[nodiscard]] Heard listen_on(bus::Bus& bus, std::chrono::milliseconds duration);
 
-/// What the user has asked for, and what this computer knows besides.
+/// Requested crane and domain, and further facts about this computer.
 struct Asked {
   std::string crane;
   std::uint32_t domain = 0;
@@ -37,15 +37,15 @@ struct Asked {
   bool secure = false;
 };
 
-/// Not empty when nobody is heard: where the crane is instead.
+/// Not empty when no process was found: where the crane runs instead.
 [[nodiscard]] Findings judge_silence(const Asked& asked, const Heard& heard,
                                      const std::vector<LocalProcess>& local,
                                      const std::vector<Announced>& announced);
 /// Processes of the loop that are missing, starting, or far behind; clocks.
 [[nodiscard]] Findings judge_processes_heard(const Heard& heard);
-/// Writers and programs that do not fit.
+/// Writers and programs that are not compatible.
 [[nodiscard]] Findings judge_mismatches(const Heard& heard);
-/// Discovery by unicast asks a bounded number of ports of each computer.
+/// Unicast discovery probes a limited number of ports of each computer.
 [[nodiscard]] Findings judge_number_of_participants(const std::vector<LocalProcess>& local,
                                                     std::uint32_t domain);
 

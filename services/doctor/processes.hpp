@@ -17,17 +17,17 @@ struct LocalProcess {
   std::vector<std::string> interfaces{"127.0.0.1"};
   bool secure = false;
   bool stopped = false;  ///< by a signal or a debugger
-  /// Of the control loop; the others are tools.
+  /// True for a process of the control loop; false for a tool.
   [[nodiscard]] bool in_loop() const;
 };
 
-/// What a command line says. @param arguments  the program first
+/// Parses a command line. @param arguments  begin with the program
 [[nodiscard]] LocalProcess process_from(const std::vector<std::string>& arguments);
 
 /// Processes of this project in this network namespace. @param proc  "/proc"
 [[nodiscard]] std::vector<LocalProcess> local_processes(const std::filesystem::path& proc = "/proc");
 
-/// Stopped processes, and two of one program: of the crane and domain.
+/// Stopped processes and duplicate programs of this crane and domain.
 [[nodiscard]] Findings judge_processes(const std::vector<LocalProcess>& processes, const std::string& crane,
                                        std::uint32_t domain);
 

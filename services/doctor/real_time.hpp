@@ -1,5 +1,5 @@
 #pragma once
-/// What this computer gives a real-time loop: permission, memory, buffers, and how late its timer wakes.
+/// Checks the computer for a real-time loop: scheduling permission, locked memory, buffers, timer lateness.
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -17,7 +17,7 @@ struct Permissions {
 
 struct Buffers {
   std::int64_t largest_bytes = 0;  ///< net.core.rmem_max
-  std::int64_t lost = 0;           ///< datagrams since the start of the computer that found a full buffer
+  std::int64_t lost = 0;  ///< datagrams lost because of a full buffer since the start of the computer
   std::int64_t received = 0;
 };
 /// @param proc  "/proc"
@@ -30,7 +30,7 @@ struct Lateness {
   double p99_us = 0, max_us = 0;
   std::size_t intolerable = 0;  ///< ticks that the bridge would count as overruns
 };
-/// Wakes at absolute times as the clock master does. @param period_s  of the rig
+/// Sleeps until absolute times, as the clock master does. @param period_s  of the rig
 [[nodiscard]] Lateness measure_lateness(double period_s, std::chrono::milliseconds duration, int priority);
 /// An overrun is a tick that begins more than half a period late (docs/architecture.md, Clocks).
 [[nodiscard]] std::int64_t tolerable_ns(double period_s);

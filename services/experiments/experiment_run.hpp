@@ -50,7 +50,7 @@ struct ExperimentResult {
                                         const configuration::Rig* twin = nullptr,
                                         simulator::Method integrator = simulator::Method::cvode);
 
-/// The same with components of one's own, in the order of stack_with(). @throws RunError
+/// Same, with custom components in the order of stack_with(). @throws RunError
 [[nodiscard]] RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components,
                                         const configuration::Rig& started,
                                         const control::Controller& controller,

@@ -1,10 +1,10 @@
 #pragma once
-/// What went wrong, in the order of time: the first cause of each stop, and what followed from it. Pure.
+/// Faults in the order of time: the first cause of each stop, and its consequences. Pure.
 ///
 /// Notes are: a new cause of the supervisor, a new latch of the bridge, a warning or an error on crane/event,
-/// and a process that is no longer heard. Notes less than kQuiet_ns apart belong to one fault. The earliest
-/// is its first cause; an event that announces a cause or a latch is the same note; a process that fell
-/// silent before the stop comes before it, however late its silence is noticed.
+/// and a process that has become silent. Notes less than kQuiet_ns apart belong to one fault. The earliest is
+/// its first cause. An event that announces a cause or a latch is the same note. A process that became silent
+/// before the stop precedes it, even when its silence is detected later.
 #include <deque>
 #include <functional>
 #include <map>
@@ -21,7 +21,7 @@ struct Note {
     order,
     warning,
     fault
-  };                       ///< order: an operator or the idle time asked for it
+  };                       ///< order: requested by an operator or by the idle time
   std::int64_t at_ns = 0;  ///< ns since 1970
   std::uint64_t tick = 0;
   Kind kind = Kind::fault;
@@ -30,16 +30,15 @@ struct Note {
   std::string explanation, remedy;
   std::string key{};       ///< equal for a cause or latch and the event that announces it
   bool event = false;      ///< true: from crane/event
-  bool announced = false;  ///< true: the event and what it announces are this one note
+  bool announced = false;  ///< true: this note combines an event with the cause or latch that it announces
 };
 
 struct Fault {
   std::uint64_t number = 0;                  ///< 1, 2, ...
   std::vector<Note> notes;                   ///< the first cause, then its consequences
-  std::uint64_t left_out = 0;                ///< consequences that were not kept
+  std::uint64_t left_out = 0;                ///< number of discarded consequences
   std::int64_t last_ns = 0, cleared_ns = 0;  ///< cleared_ns: READY, HOLD or RUN again; 0: not yet
-  /// Samples from 10 s before to 5 s after the first cause, by topic; empty until then, and when it is too
-  /// old.
+  /// Samples from 10 s before to 5 s after the first cause, by topic; empty until then, and for old faults.
   std::map<std::size_t, std::vector<SamplePtr>> moment;
   bool moment_taken = false;
 };
@@ -51,7 +50,7 @@ class FaultTimeline {
   static constexpr std::size_t kMostFaults = 100, kMostNotes = 40, kMostMoments = 8;
 
   void add(const Sample& sample);
-  /// Notices silent processes, and keeps the data around a fault once they are complete.
+  /// Detects silent processes, and stores the data around a fault when they are complete.
   /// @return true when a fault is new or has changed since the last call
   bool poll(std::int64_t now_ns, std::int64_t log_now_ns, const Traffic& traffic, const History& history);
 
@@ -61,7 +60,7 @@ class FaultTimeline {
 
  private:
   void put(Note note);
-  /// @return true when `note` and one that is there are the same thing, told by a topic and by an event
+  /// @return true when `note` and a stored note report the same fact, one by a topic and one by an event
   static bool merge(Fault& fault, const Note& note);
   void add_status(const Sample& sample, const msg::SupervisorStatus& status);
   void add_state(const Sample& sample, const msg::State& state);

@@ -1,5 +1,5 @@
 #pragma once
-/// Takes the samples of every topic. It reads what the tools read; the loop does not notice it.
+/// Receives the samples of every topic, as the tools do, without effect on the control loop.
 #include <functional>
 #include <vector>
 
@@ -13,7 +13,7 @@ class Observer {
   using Deliver = std::function<void(std::vector<SamplePtr>)>;
   Observer(bus::Bus& bus, Deliver deliver);
 
-  /// Takes and hands on what has arrived. Waits at most 20 ms.
+  /// Passes on the samples that have arrived. Waits at most 20 ms.
   void poll();
 
  private:
@@ -22,7 +22,8 @@ class Observer {
   std::vector<bus::CdrSubscriber> readers_;
 };
 
-/// The clock of Sample::log_time_ns: ns since 1970 when this process began, and monotonic from then on.
+/// The clock of Sample::log_time_ns: wall clock (ns since 1970) at the start of this process plus monotonic
+/// time.
 [[nodiscard]] std::int64_t log_now_ns();
 
 }  // namespace crane::observation

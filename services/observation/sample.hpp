@@ -1,5 +1,5 @@
 #pragma once
-/// One sample of the bus as the dashboard passes it on: the bytes that recordings store, not decoded.
+/// One sample of the bus as undecoded bytes, in the form in which recordings store it.
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -9,7 +9,7 @@
 namespace crane::observation {
 
 struct Sample {
-  std::size_t topic = 0;  ///< place in topics::kAll
+  std::size_t topic = 0;  ///< index in topics::kAll
   msg::Header header{};
   std::int64_t source_time_ns = 0;   ///< clock of the writer, ns since 1970
   std::int64_t arrival_time_ns = 0;  ///< monotonic clock of this process
@@ -17,7 +17,7 @@ struct Sample {
   std::int64_t log_time_ns = 0;      ///< arrival, ns since 1970; a change of the system clock causes no jump
   std::vector<std::uint8_t> cdr;     ///< plain CDR with its 4-byte encapsulation header
 };
-/// Shared by history and clients; never changed after it was made.
+/// Shared by history and clients; never changes after construction.
 using SamplePtr = std::shared_ptr<const Sample>;
 
 [[nodiscard]] inline const topics::Description& topic_of(const Sample& sample) {

@@ -1,7 +1,7 @@
 #pragma once
-/// Who runs and what flows between them: rates, losses, delays of every topic, and the status of every
-/// process. Delay and jitter are those of the writing: from the latching of the encoders until the writer has
-/// sent the sample. They do not depend on when this process, which has no priority, comes to take it.
+/// Traffic of the bus: rates, losses and delays of every topic, and the status of every process. Delay and
+/// jitter are those of the writer: from the latching of the encoders until the writer has sent the sample.
+/// They do not depend on when this process, which has no real-time priority, receives the sample.
 #include <array>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -12,7 +12,7 @@
 
 namespace crane::observation {
 
-/// Upper bounds of the delay histogram, µs; one more bin holds what is longer.
+/// Upper bounds of the delay histogram, µs; one more bin counts longer delays.
 inline constexpr std::array<double, 9> kDelayBounds_us{100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000};
 
 struct TopicTraffic {
@@ -22,19 +22,19 @@ struct TopicTraffic {
   /// hosts.
   std::optional<Spread> delay_us;
   std::array<std::uint64_t, kDelayBounds_us.size() + 1> delay_histogram{};  ///< since the start
-  crane_Source writer = crane_SOURCE_NONE;  ///< kind of process that wrote last
+  crane_Source writer = crane_SOURCE_NONE;  ///< kind of process that wrote the newest sample
 };
 
 class Traffic {
  public:
   /// Interval over which rates and delays are computed.
   static constexpr std::int64_t kWindow_ns = 1'000'000'000;
-  /// A process reports itself once a second. One of the loop counts as silent after two missing reports; twin
-  /// and recorder have no priority, and a busy computer delays them by seconds.
+  /// A process reports once a second. A process of the loop counts as silent after two missing reports. Twin
+  /// and recorder have no real-time priority: a busy computer delays their reports by seconds.
   static constexpr std::int64_t kSilent_ns = 2'500'000'000, kSilentWithoutPriority_ns = 10'000'000'000;
 
   void add(const Sample& sample);
-  /// Ends the window when it is over. @return true when the figures are new
+  /// Closes the window at its end. @return true when new figures are available
   bool poll(std::int64_t now_ns);
 
   struct Heard {

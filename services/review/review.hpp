@@ -12,7 +12,7 @@
 
 namespace crane::review {
 
-/// State of the supervisor from a time on.
+/// State of the supervisor, with the time at which it began.
 struct Phase {
   std::int64_t at_ns = 0;
   std::uint64_t tick = 0;

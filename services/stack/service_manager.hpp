@@ -1,5 +1,5 @@
 #pragma once
-/// What a service manager (systemd, Type=notify) is told: sd_notify(3) without its library.
+/// Notifies a service manager (systemd, Type=notify): the protocol of sd_notify(3) without its library.
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -8,11 +8,11 @@ namespace crane::stack {
 
 class ServiceManager {
  public:
-  /// Reads NOTIFY_SOCKET and WATCHDOG_USEC. Without them nothing is told to anybody.
+  /// Reads NOTIFY_SOCKET and WATCHDOG_USEC. Without them all calls have no effect.
   ServiceManager();
-  /// "The stack is ready"; from then on alive() is expected.
+  /// Reports that the stack is ready. Afterwards the manager expects alive().
   void ready();
-  /// Call often; tells the watchdog at a third of its period. The manager stops a stack that is silent.
+  /// Call often; notifies the watchdog at a third of its period. The manager stops a silent stack.
   void alive(std::int64_t now_ns);
   void stopping();
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of the simulated crane by the keys of the rig file.
+/// Parameters of the simulated crane, accessed by the keys of the rig file.
 #include <string>
 
 #include "crane/configuration/rig.hpp"
@@ -8,11 +8,11 @@
 namespace crane::sweep {
 
 struct Number {
-  double* value = nullptr;  ///< nullptr: the rig has no such number
+  double* value = nullptr;  ///< nullptr: the rig has no such parameter
   fields::Range range;
 };
-/// A number of [plant], [start] or of a term of the model. A parameter that the term leaves at its default is
-/// found, too. @return the number; its pointer is valid until the rig changes
+/// Finds a number of [plant], [start] or of a model term, even if the term leaves it at its default.
+/// @return the number; its pointer is valid until the rig changes
 [[nodiscard]] Number number_of(configuration::Rig& rig, const std::string& key);
 
 /// Uniform in [0, 1), the same on every machine, independent for different seeds and indices.

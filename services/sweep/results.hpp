@@ -1,6 +1,6 @@
 #pragma once
-/// Results of a sweep: a log that grows with each run and lets an interrupted sweep continue, and the table
-/// and page that are made of it.
+/// Results of a sweep: a log with one line per run, from which an interrupted sweep continues, and the table
+/// and page that are generated from it.
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ namespace crane::sweep {
 using Result = nlohmann::ordered_json;
 
 [[nodiscard]] Result result_of(const Run& run, const experiment::ComparedRun& outcome);
-/// Of a run whose process has ended without a result.
+/// Result of a run whose process ended without one.
 [[nodiscard]] Result failed(const Run& run, const std::string& failure);
 
 /// The log belongs to another sweep or cannot be read or written. what() names the file and the remedy.
@@ -28,7 +28,7 @@ class LogError : public std::runtime_error {
 /// One line per finished run. A line that was cut off when the program was killed is removed.
 class Log {
  public:
-  /// Opens the log of this sweep, or begins it. @throws LogError
+  /// Opens the log of this sweep, or creates it. @throws LogError
   Log(std::filesystem::path file, const Sweep& sweep);
   ~Log();
   Log(const Log&) = delete;
@@ -49,7 +49,7 @@ class Log {
 };
 
 /// CSV, one row per run in the order of their numbers: run, scenario, rig, variant, controller, seed, the
-/// drawn values by their keys, stopped_because, and the figures. @pre results has every run of the sweep
+/// drawn values under their keys, stopped_because, and the figures. @pre results has every run of the sweep
 [[nodiscard]] std::string csv_of(const Sweep& sweep, const std::map<std::size_t, Result>& results);
 
 /// Runs with equal scenario, rig, variant and controller.

@@ -1,9 +1,10 @@
 #pragma once
-/// A sweep: every controller with every variant on every rig in every scenario, many times with other true
-/// cranes. A sweep file (TOML) lists them; a run is one experiment in lockstep, in one process.
+/// A sweep: every combination of scenario, rig, variant and controller, repeated with randomly drawn
+/// parameters of the simulated crane. A sweep file (TOML) lists them. A run is one experiment in lockstep, in
+/// one process.
 ///
-/// Run numbers count scenario, rig, variant, controller and seed in this order, the seed fastest. A seed
-/// draws the same true crane for every controller and variant.
+/// Run numbers count scenario, rig, variant, controller and seed in this order; the seed varies fastest. A
+/// seed draws the same crane for every controller and variant.
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,7 +17,7 @@
 
 namespace crane::sweep {
 
-/// One number of the simulated crane, uniformly distributed over the seeds.
+/// One parameter of the simulated crane, uniformly distributed over the seeds.
 struct Draw {
   std::string key;  ///< key of the rig file: "plant.load_mass_kg", "start.swing_radial_rad", or
                     ///< "model.terms.NAME.AXIS.PARAMETER"
@@ -42,7 +43,7 @@ struct Sweep {
   [[nodiscard]] std::size_t size() const;
 };
 
-/// Names in the sweep file that are rigs and scenarios, to files. @throws configuration::ConfigurationError
+/// Converts names of rigs and scenarios in the sweep file to files. @throws configuration::ConfigurationError
 struct Finder {
   std::filesystem::path (*rig)(const std::string& name_or_path);
   std::filesystem::path (*scenario)(const std::string& name_or_path);
@@ -63,13 +64,13 @@ struct Run {
 };
 [[nodiscard]] Run run_of(const Sweep& sweep, std::size_t number);
 
-/// The rig of a run: with the start of the scenario, then the drawn values, then the variant.
+/// The rig of a run: applies the start of the scenario, then the drawn values, then the variant.
 [[nodiscard]] configuration::Rig started_rig(const Sweep& sweep, const Run& run);
 
 /// Runs one experiment. Every failure is a result.
 [[nodiscard]] experiment::ComparedRun simulate(const Sweep& sweep, const Run& run);
 
-/// Text that differs between sweeps whose results differ.
+/// Identification of a sweep: sweeps with different results have different texts.
 [[nodiscard]] std::string identity_of(const Sweep& sweep);
 
 }  // namespace crane::sweep

@@ -1,9 +1,9 @@
 #pragma once
-/// Runs a sweep on several processes and leaves its files:
+/// Runs a sweep on several processes and writes its files:
 ///   sweep.jsonl  one line per finished run; an interrupted sweep continues from it
 ///   runs.csv     every run with its figures
 ///   sweep.html   tables and distributions
-/// Equal sweeps give equal bytes of runs.csv and sweep.html, with any number of processes.
+/// The bytes of runs.csv and sweep.html do not depend on the number of processes.
 #include <functional>
 #include <string>
 
@@ -12,7 +12,7 @@
 namespace crane::sweep {
 
 struct Progress {
-  std::size_t done = 0, all = 0;  ///< runs, those of earlier calls included
+  std::size_t done = 0, all = 0;  ///< number of runs, including those of earlier calls
   std::size_t new_runs = 0;       ///< finished in this call
   double elapsed_s = 0;           ///< of this call
 };

@@ -1,8 +1,8 @@
 #pragma once
-/// Quiet time of a new writer of crane/command. The bridge obeys a new writer only after the writer has
-/// requested no volts, no open brake, no homing and no watchdog permission for kQuiet_s. A supervisor is
-/// quiet for longer (self-test, then 1 s without a cause before a reset). A program that commands at once
-/// moves nothing, even when no supervisor runs; discovery reports the second writer within the quiet time.
+/// Quiet time of a new writer of crane/command. The bridge executes the commands of a new writer only after
+/// kQuiet_s of quiet commands: 0 V, closed brakes, no homing, no watchdog permission. A supervisor is quiet
+/// for longer (self-test, then 1 s without a cause before a reset). A program that commands a motion at once
+/// moves nothing, even when no supervisor runs; discovery reports a second writer within the quiet time.
 /// Pure.
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
-/// Names of all protections of supervisor, bridge and bus. A build with CRANE_MUTATION can switch one of them
-/// off; tests/campaign then shows that a fault has an effect without it. In every other build `enabled` is
-/// the constant true, and the compiler removes the check.
+/// Names of all protections of supervisor, bridge and bus. A build with CRANE_MUTATION can disable one of
+/// them; tests/campaign then shows that a fault violates an invariant without it. In every other build
+/// `enabled` is the constant true, and the compiler removes the check.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace crane::protection {
 
-// Supervisor: command echo, gate, requests and brakes; supervisor/src/rules.cpp has the names of the rules.
+// Supervisor: command echo, gate, requests and brakes; supervisor/src/rules.cpp names the rules.
 // Bridge: checks in the order of hardware_bridge/src/checks.cpp. Bus: checksum and writer binding.
 #define CRANE_PROTECTIONS(X)   \
   X(supervisor_echo)           \

@@ -15,7 +15,7 @@ struct MotionMemory {
 };
 
 /// Takes the positions of one tick. The speed is the difference of the positions divided by the difference of
-/// the sample times, so that late ticks do not falsify it. A sample that is not newer is ignored.
+/// the sample times, so that late ticks do not distort it. A sample that is not newer is ignored.
 void observe(const Limits& limits, double now_s, double sampled_s, const PerAxis& position,
              MotionMemory& memory) noexcept;
 

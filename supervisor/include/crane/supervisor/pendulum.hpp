@@ -5,17 +5,17 @@
 /// r: horizontal position of the load, p: of the trolley, z: height of the load relative to the jib, h: its
 /// depth below the jib. All of them are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
-/// needs no drive, no friction and no load mass. The mean of e over kMean samples is summed as a vector
-/// (run_length.hpp) and reduced by the tolerances: a zero error of kZero_rad, wind of kWind_mps2 and a
-/// damping ratio of kDamping in any direction; a cable that is k times the measured one leaves e = (1 - k)
-/// dr', so that kCableTolerance of the change of the swing rate dr' counts along dr' only. When the sum
-/// exceeds kSpeed_mps and the quantisation of the swing rate, a swing encoder has failed, or the encoder of
-/// the axis that carries the load.
+/// does not depend on drives, friction or load mass. The mean of e over kMean samples is summed as a vector
+/// (run_length.hpp) and reduced by the tolerances. Those for the zero error kZero_rad, wind kWind_mps2 and
+/// damping ratio kDamping apply in any direction. A cable k times as long as measured leaves e = (1 - k) dr',
+/// so that kCableTolerance of the change of the swing rate dr' applies along dr' only. When the sum exceeds
+/// kSpeed_mps plus the quantisation of the swing rate, a swing encoder or the encoder of the axis that
+/// carries the load has failed.
 ///
 /// Push: a pushed load gains its speed within one or two samples and swings as a pendulum afterwards. One sum
 /// per kPush_s that exceeds the limit within kPush_ticks is tolerated when at least half of it is a change of
 /// the swing rate in the same direction. It is not tolerated when a swing encoder that was counting does not
-/// change for kStands_ticks afterwards: no push stops a load exactly.
+/// change for kStands_ticks afterwards, because a push does not stop a load exactly.
 ///
 /// Detection time of a frozen swing encoder with the error a, rad:
 ///   (kSpeed_mps + noise) / (g (|a| - kZero_rad) - kWind_mps2) + (kMean + 2) ticks.

@@ -1,7 +1,7 @@
 #pragma once
 /// Restart of the bridge beside a running supervisor. The new bridge sets its counters to [start] of the rig
-/// file and its swing encoders to zero. These values are wrong when an axis stood elsewhere or the load
-/// swung; the supervisor compares them with its last samples of the old bridge.
+/// file and its swing encoders to zero. These values are wrong when an axis was at another position or the
+/// load was swinging; the supervisor compares them with its last samples of the old bridge.
 #include "crane/supervisor/motion.hpp"
 
 namespace crane::supervisor {
@@ -22,7 +22,7 @@ struct RestartMemory {
 void take_over(const Limits& limits, double now_s, const MotionMemory& before, const AxisFlags& known,
                const PerAxis* position, RestartMemory& memory) noexcept;
 
-/// A load that moves soon after the restart swung when the new bridge set its swing encoders to zero.
+/// A load that moves soon after the restart was swinging when the new bridge set its swing encoders to zero.
 void watch_load(const Limits& limits, double now_s, double swing_radial_rad, double swing_tangential_rad,
                 RestartMemory& memory) noexcept;
 

@@ -2,8 +2,8 @@
 /// One-sided cumulative sum (CUSUM), used by the model checks of the supervisor:
 ///   S := max(0, S + e),  alarm when S > threshold
 /// e is a change of speed minus the largest change that the model permits within its tolerances. While the
-/// crane obeys the model within its tolerances, S does not exceed the noise of two speed samples: the noise
-/// of the samples between them cancels. There is no false alarm then. For an additional random disturbance,
+/// crane stays within these tolerances, S does not exceed the noise of two speed samples, because the noise
+/// of the samples between them cancels: there is no false alarm. For an additional random disturbance,
 /// average_run_length() gives the mean time to a false alarm.
 #include <cmath>
 

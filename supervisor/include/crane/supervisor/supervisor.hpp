@@ -1,6 +1,6 @@
 #pragma once
-/// One tick of the supervisor: sample and demand in, command and status out. Pure; samples.hpp converts from
-/// and to the topics.
+/// One tick of the supervisor. Input: sample and demand; output: command and status. Pure; samples.hpp
+/// converts from and to the topics.
 #include "crane/supervisor/gate.hpp"
 #include "crane/supervisor/homing.hpp"
 #include "crane/supervisor/motion.hpp"

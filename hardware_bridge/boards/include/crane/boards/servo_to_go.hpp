@@ -1,5 +1,5 @@
 #pragma once
-/// Driver of the Servo-to-Go ISA card, models 1 and 2 (docs/hardware.md has registers and wiring).
+/// Driver of the Servo-to-Go ISA card, models 1 and 2 (docs/hardware.md describes registers and wiring).
 ///
 /// Counters: all counters in use are latched within a few port accesses before the first byte is read. They
 ///   are preset at the start (start_counts()).

@@ -80,7 +80,8 @@ class SharedFile {
   std::size_t mapped_ = 0;
 };
 
-/// Waits for the semaphore and continues after signals. @return false after `duration_ns` of CLOCK_MONOTONIC
+/// Waits for the semaphore; a signal does not end the wait. @return false after `duration_ns` of
+/// CLOCK_MONOTONIC
 [[nodiscard]] bool wait_for(sem_t& semaphore, std::int64_t duration_ns);
 
 /// Name of the shared memory for the emulated rig of a crane.

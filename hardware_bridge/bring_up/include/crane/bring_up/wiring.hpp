@@ -1,10 +1,10 @@
 #pragma once
 /// Finds wiring faults from the reaction of the rig to small pushes of each drive. Pure functions.
 ///
-/// With one open brake only one axis can move, so that the counter that changes is the encoder of this axis.
-/// The load shows the true direction, because it stays behind when its suspension point moves. Of drive, axis
-/// encoder and swing encoder, the one that contradicts the other two has the wrong sign. Of several
-/// explanations, the one with the fewest faults is reported.
+/// Only the axis with the open brake can move, so that the changing counter is its encoder. The load shows
+/// the true direction, because it lags behind its suspension point. Of drive, axis encoder and swing encoder,
+/// the one that contradicts the other two has the wrong sign. If several explanations fit, the one with the
+/// fewest faults is reported.
 #include <array>
 #include <string>
 #include <string_view>
@@ -22,7 +22,7 @@ inline constexpr std::size_t kSwings = 2;
 
 /// Evidence from the pushes of one axis.
 struct AxisEvidence {
-  bool limit_open = false;     ///< true: a limit switch was open, so that the axis was not moved
+  bool limit_open = false;     ///< true: a limit switch was open; the axis was not moved
   bool closed_at_rest = true;  ///< true: the brake contact reported closed with brake line and relay off
   /// True: the brake contact reported closed with closed relay and brake line off.
   bool closed_in_use = true;
@@ -62,7 +62,7 @@ enum class Fault {
   relay_stuck,            ///< the relay stays closed without toggles of the watchdog output
   relay_dead,             ///< the relay does not close while the watchdog output toggles
   limit_open,             ///< a limit switch is open: the axis was not moved
-  brake_contact,          ///< the brake holds, and its contact reports open
+  brake_contact,          ///< the brake holds, but its contact reports open
   brake_stays_open,       ///< the axis moves against the brake, and the contact reports open
   brake_slips,            ///< the axis moves against the brake, and the contact reports closed
   brake_stays_closed,     ///< the contact reports closed with the brake line on
@@ -75,10 +75,10 @@ enum class Fault {
   swing_sign,             ///< the swing angle has the wrong sign
   encoders_swapped,       ///< the counter of another encoder follows the axis
   drives_swapped,         ///< the voltage moves another axis
-  encoder_dead,           ///< the axis moves, and its counter does not change
+  encoder_dead,           ///< the axis moves, but its counter does not change
   drive_dead,             ///< the voltage moves no axis
   drive_or_encoder_dead,  ///< no counter changes; no load shows which of them is dead
-  swing_dead              ///< the load swings, and its counter does not change
+  swing_dead              ///< the load swings, but its counter does not change
 };
 [[nodiscard]] std::string_view name_of(Fault fault);  ///< "encoder_sign"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a participant says of itself in its USER_DATA, which both vendors exchange at discovery.
+/// Announcement of a participant in its USER_DATA, which both vendors exchange at discovery.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,12 +8,12 @@
 namespace crane::bus {
 
 struct Announcement {
-  std::uint32_t version = 0;  ///< of its messages
+  std::uint32_t version = 0;  ///< MESSAGES_VERSION of the program
   std::string crane, participant;
   bool operator==(const Announcement&) const = default;
 };
 
-/// @return nothing when `user_data` is not that of a program of this project
+/// @return nothing when `user_data` does not come from a program of this project
 [[nodiscard]] std::optional<Announcement> parse_announcement(std::string_view user_data);
 
 }  // namespace crane::bus

@@ -73,7 +73,7 @@ enum class EventKind : std::uint8_t {
   deadline_missed,    ///< no sample within EndpointOptions::deadline
   liveliness_lost,    ///< a writer has not asserted its liveliness within its lease
   liveliness_gained,  ///< a writer is alive again
-  incompatible_qos,   ///< a counterpart was found, and its quality of service does not match
+  incompatible_qos,   ///< a counterpart was found, but its quality of service does not match
   sample_lost         ///< the middleware lost a sample
 };
 [[nodiscard]] std::string_view to_string(EventKind kind);

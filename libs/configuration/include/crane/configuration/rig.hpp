@@ -86,12 +86,12 @@ struct Start {
   bool operator==(const Start&) const = default;
 };
 
-/// Planning of moves, for every controller whose reference is no step.
+/// Planning of moves, for every controller whose reference is not a step.
 struct Planning {
   bool limits_jerk = false;  ///< S-curve instead of bang-coast-bang
   control::Shaping shaping = control::Shaping::none;
   double planned_swing_rad = 0.17453292519943295;  ///< largest swing of a time-optimal plan
-  double planned_volt_share = 0.95;  ///< share of the volts that a plan uses; tracking has the rest
+  double planned_volt_share = 0.95;  ///< share of the volts that a plan uses; the rest is left for tracking
   double planning_time_s = 0.05;     ///< time from the request of a move to the start of its plan
 
   bool operator==(const Planning&) const = default;

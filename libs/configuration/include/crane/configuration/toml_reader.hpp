@@ -64,13 +64,13 @@ class TomlTable {
   /// [[key]]: array of tables, empty when the key is absent.
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);
 
-  /// finish() then reports no unknown key of this table.
+  /// Accepts all keys of this table: finish() reports none of them as unknown.
   void ignore_unknown();
 
-  /// Notes a problem of the value of `key`: "file:line: name = value: rule". Without such a key the problem
+  /// Adds a problem of the value of `key`: "file:line: name = value: rule". Without such a key the problem
   /// has the line of the table and no value.
   void problem(std::string_view key, const std::string& rule);
-  /// Notes a problem of the table as a whole: "file:line: name: rule".
+  /// Adds a problem of the table as a whole: "file:line: name: rule".
   void problem(const std::string& rule);
   /// "file:line: " of the key, or of the table if the key is absent.
   [[nodiscard]] std::string place(std::string_view key) const;

@@ -1,6 +1,6 @@
 #pragma once
-/// Pendulum observer: the state of the crane at the time when the command of this tick acts (one tick ahead),
-/// from positions, encoder angles of the swing, and the volts that act. It replaces differentiators and
+/// Pendulum observer: predicts the state of the crane for the time when the command of this tick acts (one
+/// tick ahead) from positions, swing encoder angles and applied volts. It replaces differentiators and
 /// low-pass filters as the input of the laws (Design::swing_observer).
 ///
 /// Prediction: the nonlinear equations of the tower (plant/equations.hpp) with the nominal parameters, the
@@ -13,7 +13,8 @@
 /// plane:
 ///   phi'' = (equations) + (g/L) e,   measured = phi + o
 /// A constant force and an encoder offset have the same effect on the measured angle, (g/L)(e + o): no
-/// observer can separate them. This one counts the constant part as offset and the slow changes as force.
+/// observer can separate them. This observer attributes the constant part to the offset and slow changes to
+/// the force.
 #include <Eigen/Core>
 
 #include "crane/control/law.hpp"
@@ -63,7 +64,7 @@ class PendulumObserver {
 /// unknown force holds the load, so that wind does not displace the crane.
 [[nodiscard]] Measurement at_effect(const CraneEstimate& estimate) noexcept;
 
-/// Puts a pendulum observer in front of the law. A law that has an observer is returned unchanged.
+/// Wraps the law in a pendulum observer. A law that already has an observer is returned unchanged.
 [[nodiscard]] std::unique_ptr<Law> with_observer(std::unique_ptr<Law> law, const Design& design);
 /// The law of `controller`, behind a pendulum observer when design.swing_observer is true.
 [[nodiscard]] std::unique_ptr<Law> tracking_law(const Controller& controller, const Design& design);

@@ -1,7 +1,7 @@
 #pragma once
 /// Describes one number, switch, text or choice in a section of a rig file. The tables of fields are declared
-/// beside the structs that they describe. Reader and writer of rig files, the checks and the tables in
-/// docs/rig_file.md use them.
+/// beside the structs that they describe. Reader, writer and checks of rig files, and the tables in
+/// docs/rig_file.md, use them.
 #include <array>
 #include <cstddef>
 #include <string>

@@ -6,7 +6,7 @@
 
 namespace crane::plot {
 
-/// gnuplot is missing or failed, or a file cannot be written; says what to do.
+/// gnuplot is missing or failed, or a file cannot be written. what() names the remedy.
 class PictureError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -90,7 +90,7 @@ struct Page {
 };
 
 /// @return the HTML text of the page. @throws std::invalid_argument, with the names of plot and series, when
-///   x, y and upper differ in length, when x decreases or is not finite, or when a picture is no SVG
+///   x, y and upper differ in length, when x decreases or is not finite, or when a picture is not an SVG
 [[nodiscard]] std::string to_html(const Page& page);
 
 /// The file cannot be written. what() names the file.

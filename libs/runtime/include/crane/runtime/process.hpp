@@ -62,7 +62,7 @@ void add_loop_options(CLI::App& app, LoopOptions& options);
                                                            const configuration::Rig& rig);
 
 /// Start-up number of a process: random, never 0. Start-up numbers are compared for equality only, so that
-/// the clocks of the hosts have no influence.
+/// clock differences between hosts have no effect.
 [[nodiscard]] std::uint32_t random_epoch();
 
 /// Time for which a process searches for another writer before it writes. Discovery across vendors can take

@@ -25,7 +25,7 @@ struct JoinPolicy {
 struct JoinCounts {
   std::uint64_t completed = 0;  ///< ticks with all inputs
   std::uint64_t lost = 0;       ///< ticks with a missing input or a missing leader
-  std::uint64_t late = 0;       ///< samples of a tick that is finished already
+  std::uint64_t late = 0;       ///< samples of a tick that is already finished
   std::uint64_t duplicate = 0;  ///< second samples of one tick
   std::uint64_t ahead = 0;      ///< samples of a tick that cannot have begun yet
 };
@@ -95,7 +95,7 @@ class TickInput {
   JoinPolicy policy_;
   std::vector<std::optional<T>> ring_;
   std::optional<std::uint64_t> newest_;
-  std::int64_t newest_ns_ = 0;  ///< when it was taken
+  std::int64_t newest_ns_ = 0;  ///< time at which the newest sample was taken
 };
 
 enum class JoinResult : std::uint8_t {

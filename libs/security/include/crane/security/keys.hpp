@@ -8,8 +8,8 @@
 ///   rig DIR/ROLE/VENDOR/          certificate.pem, key.pem, permissions.smime of one identity
 ///
 /// A role has one identity per DDS implementation. The participant whose certificate has the subject with the
-/// lower hash starts the handshake. Fast DDS understands a handshake with Cyclone DDS only when Cyclone DDS
-/// starts it.
+/// lower hash starts the handshake. A handshake between Fast DDS and Cyclone DDS succeeds only when Cyclone
+/// DDS starts it.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -24,7 +24,7 @@ namespace crane::security {
 struct Identity {
   std::filesystem::path identity_ca, certificate, key, permissions_ca, governance, permissions;
 };
-/// Returns paths only, and reads no file.
+/// Returns the paths only; reads no file.
 [[nodiscard]] Identity identity(const std::filesystem::path& directory, std::string_view role,
                                 std::string_view vendor);
 

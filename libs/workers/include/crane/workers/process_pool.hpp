@@ -1,6 +1,6 @@
 #pragma once
-/// Runs tasks 0 ... count - 1, each in a process of its own (fork). A crash or an endless loop costs its task
-/// and no other, and tasks share no memory. The next task starts when a process has ended. Call it while this
+/// Runs tasks 0 ... count - 1, each in a separate process (fork). Tasks share no memory; a crash or an
+/// endless loop affects its own task only. The next task starts when a process has ended. Call it while this
 /// process has one thread: a fork copies the calling thread only.
 #include <cstddef>
 #include <functional>
@@ -9,12 +9,12 @@
 
 namespace crane::workers {
 
-/// Sends records of a task to the parent process. A process that the task forks may send, too, while the task
+/// Sends records of a task to the parent process. A process that the task forks may also send, while the task
 /// waits for it.
 class Outbox {
  public:
   explicit Outbox(int descriptor) : descriptor_{descriptor} {}
-  /// Ends the process when the parent has gone.
+  /// Ends the process when the parent has ended.
   void send(std::string_view record) const;
 
  private:
@@ -30,7 +30,7 @@ struct Tasks {
   std::function<void(std::size_t task, std::string record)> take;
   /// In this process, when the process of the task has ended, after its last record. May be empty.
   std::function<void(std::size_t task, const std::string& failure)> ended{};
-  /// true: kill the running tasks and return. Asked after each event. May be empty.
+  /// true: kill the running tasks and return. Called after each event. May be empty.
   std::function<bool()> cancelled{};
 };
 
@@ -40,7 +40,7 @@ struct Tasks {
 ///   are killed first
 void run(const Tasks& tasks);
 
-/// Tasks::ended for tasks that must not fail. @throws std::runtime_error for a failure
+/// A Tasks::ended for tasks that must not fail. @throws std::runtime_error for a failure
 void require_success(std::size_t task, const std::string& failure);
 
 /// Number of processors that this process may use, at least 1.

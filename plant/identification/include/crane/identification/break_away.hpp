@@ -9,7 +9,7 @@ namespace crane::identification {
 struct BreakAwayOptions {
   double start_speed = 0.002;  ///< speed above which the axis counts as moving, m/s or rad/s, > 0
   double rest_s = 0.2;         ///< minimum time at rest before a break-away, > 0
-  double window_s = 0.05;      ///< distance in time of the two positions that give the speed, > 0
+  double window_s = 0.05;      ///< time between the two positions that determine the speed, > 0
 };
 
 struct BreakAway {
@@ -17,8 +17,8 @@ struct BreakAway {
   double drive_v = 0;  ///< voltage in the middle of the window, V, signed
 };
 
-/// All break-aways in the direction of the voltage, in order of time. The bias of drive_v is b start_speed by
-/// the speed threshold (b: viscous friction), and half the window times the slope of the voltage.
+/// All break-aways in the direction of the voltage, in order of time. drive_v has a bias: b start_speed from
+/// the speed threshold (b: viscous friction), plus half the window times the slope of the voltage.
 /// @throws IdentificationError as estimate_friction does for the series, @throws std::invalid_argument
 [[nodiscard]] std::vector<BreakAway> break_aways(const AxisRun& run, const BreakAwayOptions& options);
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Recomputes Tables 3.1 to 3.5: the regression of section 3.1 for the test problem, with several
 /// zero-velocity bands and cut-off frequencies. Source: H. M. Omar, Control of Gantry and Tower Cranes,
-/// Virginia Tech, 2003. The source does not state all settings of its simulation. These settings agree best
-/// with its tables: 100 Hz, 60 s, continuous PD, x and u filtered, v from the model.
+/// Virginia Tech, 2003. The source does not state all settings of its simulation. These settings reproduce
+/// its tables best: 100 Hz, 60 s, continuous PD, x and u filtered, v from the model.
 #include <array>
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
-/// Terms: effects that are not part of the basic equations of motion, for example friction or wind. Each term
-/// has a name, parameters and a place where it acts. Rig files activate terms. Simulator and diagnosis use
-/// the same list. A term consists of one file in src/terms and one line in src/terms/registered.def.
+/// Terms: effects beyond the basic equations of motion, for example friction or wind. Each term has a name,
+/// parameters and a place where it acts. Rig files activate terms. Simulator and diagnosis use the same list.
+/// A term consists of one file in src/terms and one line in src/terms/registered.def.
 #include <memory>
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
 /// Tests whether the residual is still in control, and finds the cause that explains a deviation best.
-/// docs/twin.md has the equations.
+/// docs/twin.md states the equations.
 #include <cstdint>
 #include <optional>
 #include <span>
