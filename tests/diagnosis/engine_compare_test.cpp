@@ -103,6 +103,21 @@ TEST_F(Compared, AValueThatIsLuckMakesHeldOutDataALittleUnlikelierAtMost) {
   EXPECT_FALSE(is_luck(luck_of_loss(fitted, base, -30), kCandidates));
 }
 
+TEST_F(Compared, AnIntervalThatReachesNoEffectIsLuckOfTheLeastSureOne) {
+  const auto neutral_at = [](double null) {
+    FreeParameter parameter;
+    parameter.null = null;
+    return parameter;
+  };
+  effect.parameters = {neutral_at(1), neutral_at(0)};
+  other.parameters = {neutral_at(0)};
+  fitted.effects = {{&effect, {1.5, 0.1}}, {&other, {-0.196}}};
+  fitted.std_dev = {0.1, 0.09, 0.1};
+  EXPECT_NEAR(luck_of_interval(fitted), 0.05, 1e-4);  // 1.96 standard deviations
+  fitted.std_dev[2] = 0.02;
+  EXPECT_NEAR(luck_of_interval(fitted), 5.7e-7, 1e-8);  // 5, of the surer of two values
+}
+
 TEST_F(Compared, AnEffectOfATenthOfTheBlocksIsOne) {
   for (std::size_t i = 0; i < kBlocks; i += 10) fitted.deviance[i] -= 20;
   EXPECT_TRUE(is_accepted());

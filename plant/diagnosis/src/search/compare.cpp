@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string_view>
 
@@ -120,6 +121,20 @@ double luck_of_values(const Fitted& fitted, const Fitted& before, double held_ou
 
 double luck_of_loss(const Fitted& fitted, const Fitted& before, double held_out_nats) {
   return chance_of(-2 * held_out_nats, fitted, before);
+}
+
+double luck_of_interval(const Fitted& fitted) {
+  double most = 0;
+  std::size_t i = 0;
+  for (const Effect& effect : fitted.effects) {
+    double surest = 0;
+    for (std::size_t k = 0; k < effect.values.size(); ++k, ++i) {
+      const double distance = std::abs(effect.values[k] - effect.candidate->parameters[k].null);
+      if (fitted.std_dev[i] > 0) surest = std::max(surest, distance / fitted.std_dev[i]);
+    }
+    most = std::max(most, std::erfc(surest / std::numbers::sqrt2));
+  }
+  return most;
 }
 
 bool is_luck(double chance, std::size_t candidates) {

@@ -43,6 +43,10 @@ namespace crane::diagnosis {
 /// of them.
 /// @param held_out_nats by which `fitted` makes held-out data likelier
 [[nodiscard]] double luck_of_loss(const Fitted& fitted, const Fitted& before, double held_out_nats);
+/// Chance that the least sure of the effects is none: of the value that differs most from that of no effect,
+/// in standard deviations of its interval (A. Wald, Trans. Amer. Math. Soc. 54 (1943) 426).
+/// @param fitted with its intervals
+[[nodiscard]] double luck_of_interval(const Fitted& fitted);
 /// Whether a chance is luck where the best of so many candidates has it (Bonferroni).
 [[nodiscard]] bool is_luck(double chance, std::size_t candidates);
 

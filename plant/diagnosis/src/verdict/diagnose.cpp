@@ -13,6 +13,7 @@
 #include "verdict/excitation.hpp"
 #include "verdict/judgement.hpp"
 #include "verdict/losing_encoders.hpp"
+#include "verdict/resolution.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -119,13 +120,14 @@ struct Data {
 /// is an error that has another cause. What training and held-out data together do not make likely is luck,
 /// if held-out data lose no more by it than superfluous values cost. Then, and where it is of no consequence,
 /// the residual of the base model decides.
-/// @param found its `best` is unproven
-bool nothing_wrong(Study& study, const Hypotheses& found, const Proof& proof, const HeldOut& held_out,
-                   std::uint64_t seed) {
+/// @param best the unproven one, with its intervals
+bool nothing_wrong(Study& study, const Hypotheses& found, const Fitted& best, const Proof& proof,
+                   const HeldOut& held_out, std::uint64_t seed) {
   const std::size_t candidates = study.candidates().size();
   const bool matters = share_of_error(found.best, found.base) >= rules::kWorthwhile;
-  const bool luck = is_luck(luck_of_values(found.best, found.base, held_out.nats), candidates) &&
-                    is_luck(luck_of_loss(found.best, found.base, held_out.nats), candidates);
+  const bool luck = is_luck(luck_of_interval(best), candidates) ||
+                    (is_luck(luck_of_values(found.best, found.base, held_out.nats), candidates) &&
+                     is_luck(luck_of_loss(found.best, found.base, held_out.nats), candidates));
   if (matters && !luck && proof.outcome != Proof::Outcome::no_consequence) return false;
   Hypotheses base = found;
   base.best = found.base;
@@ -160,8 +162,8 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   }
   const Proof proof = proof_of(result.held_out, best.effects);
   if (proof.outcome != Proof::Outcome::proven) {
-    if (losing.empty() && result.remainder.from.empty() &&
-        nothing_wrong(study, found, proof, result.held_out, request.seed)) {
+    if (losing.empty() && result.verdict != Verdict::unknown &&
+        nothing_wrong(study, found, best, proof, result.held_out, request.seed)) {
       best = found.base;
       nothing_found(result);
       result.held_out = held_out(study, as_measured, {}, request.seed);
@@ -169,6 +171,8 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
       doubt(result, proof.why);
     }
   }
+  if (result.verdict != Verdict::none && result.verdict != Verdict::unknown)
+    name_what_rows_show(study, found, best.effects, result);
   if (result.verdict == Verdict::ambiguous) {
     request.progress(0.95, "which motion would tell them apart");
     result.next_experiment = propose_experiment(rig, best.effects, rival, disturbances_of(study));
