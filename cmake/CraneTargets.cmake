@@ -38,6 +38,7 @@ function(crane_library name)
     target_compile_features(crane_${name} INTERFACE cxx_std_20)
   endif()
   add_library(crane::${name} ALIAS crane_${name})
+  set_property(GLOBAL APPEND PROPERTY CRANE_LIBRARIES crane_${name})  # for tests/structure
 endfunction()
 
 # crane_executable(NAME SOURCES ... LINK ...): program NAME in bin/.

@@ -1,13 +1,14 @@
 # Reads crane.idl: a comment line "topic NAME: QOS [every_tick], written by SOURCE ..." above a struct makes the struct a topic.
-# Writes topics.def with
+# Writes
 #   CRANE_MESSAGE(CraneState)                       every struct
 #   CRANE_TOPIC(state, CraneState, "crane/state", loop, true, only(crane_SOURCE_PLANT))
-#   CRANE_CAUSE(swing_limit, "SWING_LIMIT")         every enumerator of Cause
+#   CRANE_CAUSE(swing_limit, "SWING_LIMIT")         every enumerator of Cause, in causes.def
+#   CRANE_STATE(stop_c1, "STOP_C1")                 every enumerator of SupervisorState, in states.def
 function(crane_write_topics idl output)
   file(READ ${idl} text)
   string(REPLACE ";" "," text "${text}")
   string(REGEX REPLACE "[][]" "|" text "${text}")  # CMake does not split a list inside brackets
-  string(REGEX MATCHALL "// *topic [^\n]+|@final struct [A-Za-z]+|CAUSE_[A-Z_]+" items "${text}")
+  string(REGEX MATCHALL "// *topic [^\n]+|@final struct [A-Za-z]+|(CAUSE|STATE)_[A-Z0-9_]+" items "${text}")
   set(lines "// Written by idl/topics.cmake from crane.idl.")
   set(pending "")
   foreach(item IN LISTS items)
@@ -19,11 +20,12 @@ function(crane_write_topics idl output)
         string(APPEND topics "\nCRANE_TOPIC(${CMAKE_MATCH_1}, ${type}, \"crane/${CMAKE_MATCH_1}\", ${CMAKE_MATCH_2})")
       endforeach()
       set(pending "")
-    elseif(item MATCHES "^CAUSE_([A-Z_]+)$")
-      set(name ${CMAKE_MATCH_1})
+    elseif(item MATCHES "^(CAUSE|STATE)_([A-Z0-9_]+)$")
+      set(kind ${CMAKE_MATCH_1})
+      set(name ${CMAKE_MATCH_2})
       string(TOLOWER ${name} lower)
-      if(NOT "${causes}" MATCHES "\"${name}\"")
-        string(APPEND causes "\nCRANE_CAUSE(${lower}, \"${name}\")")
+      if(NOT "${${kind}_list}" MATCHES "\"${name}\"")
+        string(APPEND ${kind}_list "\nCRANE_${kind}(${lower}, \"${name}\")")
       endif()
     elseif(item MATCHES "^// *topic ([a-z_]+): (loop|script|status|log)( every_tick)?, written by ([A-Z_ ]+|every process)$")
       set(name ${CMAKE_MATCH_1})
@@ -47,5 +49,6 @@ function(crane_write_topics idl output)
     message(FATAL_ERROR "crane.idl: the topics ${pending} have no struct")
   endif()
   file(CONFIGURE OUTPUT ${output}/crane/topics.def CONTENT "${lines}${messages}${topics}\n" @ONLY)
-  file(CONFIGURE OUTPUT ${output}/crane/causes.def CONTENT "${lines}${causes}\n" @ONLY)
+  file(CONFIGURE OUTPUT ${output}/crane/causes.def CONTENT "${lines}${CAUSE_list}\n" @ONLY)
+  file(CONFIGURE OUTPUT ${output}/crane/states.def CONTENT "${lines}${STATE_list}\n" @ONLY)
 endfunction()

@@ -72,11 +72,29 @@ std::vector<Reason> drive_reasons() {
           latched(crane_LATCH_ENCODER_FROZEN)};
 }
 
+Injection lost_demand(double watched_s) {
+  return {.expectation = {.reasons = {because(crane_CAUSE_DEMAND_STALE)},
+                          .detection_ms = 50,
+                          .communication = true},
+          .watched_s = watched_s};
+}
+Injection lost_command() {
+  return {.expectation = {
+              .reasons = {latched(crane_LATCH_COMMAND_STALE)}, .detection_ms = 60, .communication = true}};
+}
+Injection lost_state() {
+  return {.expectation = {.reasons = {because(crane_CAUSE_STATE_STALE), latched(crane_LATCH_COMMAND_STALE)},
+                          .detection_ms = 60,
+                          .communication = true}};
+}
+Injection nothing() { return {.expectation = {}, .watched_s = 0.6}; }
+
 namespace {
 std::vector<Hazard> every_hazard() {
   std::vector<Hazard> all;
-  for (const auto part : {process_hazards(), encoder_hazards(), drive_hazards(), load_hazards(),
-                          brake_hazards(), faulty_supervisor_hazards(), request_hazards(), start_hazards()})
+  for (const auto part :
+       {process_hazards(), sample_hazards(), encoder_hazards(), drive_hazards(), load_hazards(),
+        brake_hazards(), faulty_supervisor_hazards(), request_hazards(), start_hazards()})
     all.insert(all.end(), part.begin(), part.end());
   std::ranges::sort(all, {}, &Hazard::number);
   return all;

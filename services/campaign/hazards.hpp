@@ -58,6 +58,7 @@ struct Hazard {
 
 // One source per group.
 [[nodiscard]] std::span<const Hazard> process_hazards();
+[[nodiscard]] std::span<const Hazard> sample_hazards();
 [[nodiscard]] std::span<const Hazard> encoder_hazards();
 [[nodiscard]] std::span<const Hazard> drive_hazards();
 [[nodiscard]] std::span<const Hazard> load_hazards();
@@ -94,6 +95,15 @@ inline constexpr double kClear_s =
 void emergency_stop(Bench& bench);
 /// Reasons that may be reported first for a faulty drive or encoder.
 [[nodiscard]] std::vector<Reason> drive_reasons();
+
+/// Expectations when a process misses every sample of a topic.
+[[nodiscard]] Injection lost_demand(double watched_s = 1);
+[[nodiscard]] Injection lost_command();
+/// The supervisor counts missing states, the bridge counts missing commands; the phase decides which of them
+/// detects the fault first.
+[[nodiscard]] Injection lost_state();
+/// Expects that the crane continues.
+[[nodiscard]] Injection nothing();
 
 [[nodiscard]] inline Reason because(crane_Cause cause) { return {cause, crane_LATCH_NONE}; }
 [[nodiscard]] inline Reason latched(crane_LatchReason reason) { return {crane_CAUSE_BRIDGE_LATCHED, reason}; }

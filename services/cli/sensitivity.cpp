@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "cli/text_table.hpp"
+#include "crane/fields/angle.hpp"
 #include "crane/plant/pendulum.hpp"
 #include "crane/recording/csv.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 using control::Design;
 using experiments::PlannedRun;
 
-constexpr double kSwingDegrees = 180 / std::numbers::pi;
+using fields::kDegPerRad;
 
 void change_cable(PlannedRun& plan, double ratio) {
   const double length_m = plan.scenario.start[plant::kHoist].value_or(plan.rig.start.position[plant::kHoist]);
@@ -105,7 +106,7 @@ std::string cell(const experiment::ComparedRun* run) {
   if (!run->metrics) return "-";
   const auto& settling_s = run->metrics->settling_time_s;
   return (settling_s ? fixed(*settling_s, 2) : "-") + " / " +
-         fixed(run->metrics->residual_swing_rad * kSwingDegrees, 2);
+         fixed(run->metrics->residual_swing_rad * kDegPerRad, 2);
 }
 
 template <class Field>
@@ -154,9 +155,9 @@ void write_sensitivity_csv(std::ostream& out, std::span<const DepartedRun> runs)
     if (run.metrics && run.metrics->settling_time_s)
       out << recording::shortest(*run.metrics->settling_time_s);
     out << ',';
-    number([](const auto& m) { return m.residual_swing_rad * kSwingDegrees; });
-    number([](const auto& m) { return m.largest_swing_radial_rad * kSwingDegrees; });
-    number([](const auto& m) { return m.largest_swing_tangential_rad * kSwingDegrees; });
+    number([](const auto& m) { return m.residual_swing_rad * kDegPerRad; });
+    number([](const auto& m) { return m.largest_swing_radial_rad * kDegPerRad; });
+    number([](const auto& m) { return m.largest_swing_tangential_rad * kDegPerRad; });
     out << run.stopped_because << '\n';
   }
 }

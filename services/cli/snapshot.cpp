@@ -1,20 +1,20 @@
 #include "cli/snapshot.hpp"
 
 #include <array>
-#include <numbers>
 #include <ostream>
 
 #include "cli/sample_json.hpp"
 #include "cli/text_table.hpp"
 #include "cli/tool_bus.hpp"
 #include "crane/bridge/last_line.hpp"
+#include "crane/fields/angle.hpp"
 #include "crane/supervisor/states.hpp"
 #include "observation/traffic.hpp"
 
 namespace crane::cli {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
+using fields::kDegPerRad;
 
 template <class T>
 void keep_newest(bus::Subscriber<T>& subscriber, std::optional<T>& newest) {
@@ -66,13 +66,13 @@ void print_axes(std::ostream& out, const msg::State& state) {
   TextTable table{{"axis", "position", "", "speed", "", "volts", "brake"}};
   table.add({"trolley", fixed(state.trolley_position_m, 4), "m", fixed(state.trolley_speed_mps, 4), "m/s",
              fixed(state.applied_v[0], 3), brake(0)});
-  table.add({"slew", fixed(state.slew_angle_rad * kDegrees, 2), "deg",
-             fixed(state.slew_speed_radps * kDegrees, 2), "deg/s", fixed(state.applied_v[1], 3), brake(1)});
+  table.add({"slew", fixed(state.slew_angle_rad * kDegPerRad, 2), "deg",
+             fixed(state.slew_speed_radps * kDegPerRad, 2), "deg/s", fixed(state.applied_v[1], 3), brake(1)});
   table.add({"hoist", fixed(state.cable_length_m, 4), "m", fixed(state.cable_speed_mps, 4), "m/s",
              fixed(state.applied_v[2], 3), brake(2)});
   table.print(out);
-  out << "swing  radial " << fixed(state.swing_radial_rad * kDegrees, 2) << " deg, tangential "
-      << fixed(state.swing_tangential_rad * kDegrees, 2) << " deg  (tick " << state.header.tick << ")\n";
+  out << "swing  radial " << fixed(state.swing_radial_rad * kDegPerRad, 2) << " deg, tangential "
+      << fixed(state.swing_tangential_rad * kDegPerRad, 2) << " deg  (tick " << state.header.tick << ")\n";
 }
 
 void print_twin(std::ostream& out, const msg::Twin& twin) {

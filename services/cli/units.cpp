@@ -2,8 +2,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <span>
+
+#include "crane/fields/angle.hpp"
 
 namespace crane::cli {
 namespace {
@@ -13,7 +14,7 @@ struct Unit {
   double factor;
 };
 constexpr Unit kLengths[]{{"", 1}, {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}};
-constexpr Unit kAngles[]{{"", 1}, {"rad", 1}, {"deg", std::numbers::pi / 180}};
+constexpr Unit kAngles[]{{"", 1}, {"rad", 1}, {"deg", fields::kRadPerDeg}};
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");

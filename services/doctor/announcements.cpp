@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 
+#include "crane/bus/ports.hpp"
 #include "crane/runtime/process.hpp"
 #include "doctor/interfaces.hpp"
 
@@ -16,8 +17,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::uint32_t kDomains = 101;                        // 0..100, as --domain permits
-constexpr std::uint16_t kFirstPort = 7400, kDomainGain = 250;  // 9.6.2.3: PB, DG; d0 = 0
+constexpr std::uint32_t kDomains = 101;  // 0..100, as --domain permits
 
 /// Little or big endian, as the sender chose.
 class Reader {
@@ -92,7 +92,7 @@ class Socket {
     ::setsockopt(descriptor_, SOL_SOCKET, SO_REUSEPORT, &on, sizeof on);  // as the vendors do
     sockaddr_in own{};
     own.sin_family = AF_INET;
-    own.sin_port = htons(static_cast<std::uint16_t>(kFirstPort + kDomainGain * domain));
+    own.sin_port = htons(static_cast<std::uint16_t>(bus::first_port(domain)));
     ::inet_pton(AF_INET, kDiscoveryGroup, &own.sin_addr);  // only what was sent to the group
     open_ = ::bind(descriptor_, reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0;
     for (const auto& address : addresses) {

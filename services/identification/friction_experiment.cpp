@@ -25,10 +25,6 @@ constexpr double kRamp_vps = 0.4;
 constexpr int kBreakAways = 4;
 constexpr double kStepSpacing_s = 6;
 
-const char* start_key(std::size_t axis) {
-  return axis == plant::kTrolley ? "trolley_position_m" : "slew_angle_rad";
-}
-
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out{file};
   out << text;
@@ -155,7 +151,8 @@ class Experiment {
     std::string text = "# Made by crane identify for " + rig_.name + ".\ndescription = \"" + description +
                        "\"\nduration_s = " + shortest(duration_s) + "\n\n[start]\n";
     for (const std::size_t i : {plant::kTrolley, plant::kSlew})
-      if (rig_.drives[i].present) text += std::string{start_key(i)} + " = " + shortest(start_[i]) + "\n";
+      if (rig_.drives[i].present)
+        text += std::string{plant::kCoordinates[i].column} + " = " + shortest(start_[i]) + "\n";
     return text;
   }
 
@@ -247,10 +244,10 @@ class Experiment {
         run_part(name, rig,
                  scenario_text("a step each way, " + name, 2 * kStepSpacing_s) +
                      excitation_text(kBegin_s, up) + excitation_text(kBegin_s + kStepSpacing_s, down));
-    const bool trolley = options_.axis == plant::kTrolley;
+    const plant::Coordinate& axis = plant::kCoordinates[options_.axis];
     Steps steps;
-    steps.measured = *table.find(trolley ? "trolley_position_m" : "slew_angle_rad");
-    auto reference = *table.find(trolley ? "trolley_reference_m" : "slew_reference_rad");
+    steps.measured = *table.find(axis.column);
+    auto reference = *table.find(axis.reference);
     for (std::size_t k = 1; k < reference.size(); ++k)  // a missing reference, possible in real time
       if (!std::isfinite(reference[k])) reference[k] = reference[k - 1];
     steps.model = id::linear_response(loop_, reference, steps.measured.front());

@@ -27,11 +27,10 @@ using SamplePtr = std::shared_ptr<const Sample>;
 /// @return true when `sample` belongs to `topic` and was decoded to `out`
 template <class T>
 [[nodiscard]] bool decode(const topics::Topic<T>& topic, const Sample& sample, T& out) {
-  constexpr std::size_t kEncapsulation_bytes = 4;
-  if (topic_of(sample).name != topic.description.name || sample.cdr.size() < kEncapsulation_bytes)
+  if (topic_of(sample).name != topic.description.name || sample.cdr.size() < bus::kEncapsulation_bytes)
     return false;
   return bus::CdrCodec::of(*topic.description.descriptor)
-      .decode(std::span{sample.cdr}.subspan(kEncapsulation_bytes), false, &out);
+      .decode(std::span{sample.cdr}.subspan(bus::kEncapsulation_bytes), false, &out);
 }
 
 }  // namespace crane::observation

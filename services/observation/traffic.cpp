@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "crane/runtime/process_name.hpp"
+
 namespace crane::observation {
 namespace {
 
@@ -59,22 +61,7 @@ ordered_json json_of(const Traffic::Heard& heard, std::int64_t now_ns) {
 
 }  // namespace
 
-const char* source_name(crane_Source source) {
-  constexpr std::array kNames{"nobody",
-                              "plant",
-                              "hardware_bridge",
-                              "trajectory_planner",
-                              "tracking",
-                              "anti_swing",
-                              "friction_compensation",
-                              "supervisor",
-                              "operator",
-                              "recorder",
-                              "monitor",
-                              "twin"};
-  const auto index = static_cast<std::size_t>(source);
-  return index < kNames.size() ? kNames[index] : "unknown";
-}
+const char* source_name(crane_Source source) { return runtime::process_name(source); }
 
 const char* phase_name(crane_NodePhase phase) {
   constexpr std::array kNames{"starting", "ready", "stopping"};

@@ -9,15 +9,13 @@
 namespace crane::recorder {
 namespace {
 
-constexpr std::size_t kEncapsulationBytes = 4;
-
 std::int64_t wall_ns() {
   return std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count();
 }
 
 bool is_error(const topics::Description& topic, const std::vector<std::uint8_t>& cdr) {
   msg::Event event{};
-  const auto body = std::span{cdr}.subspan(kEncapsulationBytes);
+  const auto body = std::span{cdr}.subspan(bus::kEncapsulation_bytes);
   return bus::CdrCodec::of(*topic.descriptor).decode(body, false, &event) &&
          event.severity == crane_SEVERITY_ERROR;
 }

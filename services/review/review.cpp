@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
+
+#include "crane/bus/cdr.hpp"
+#include "crane/fields/angle.hpp"
+#include "crane/runtime/convert.hpp"
 
 namespace crane::review {
 namespace {
@@ -11,7 +14,7 @@ namespace {
 using observation::Note;
 using observation::Sample;
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
+using fields::kDegPerRad;
 constexpr std::int64_t kYear2000_ns = 946'684'800'000'000'000;  // recordings of simulations begin at time 0
 
 std::size_t topic_index(const std::string& name) {
@@ -21,10 +24,9 @@ std::size_t topic_index(const std::string& name) {
 
 /// Every sample begins with its header: little endian, without padding.
 msg::Header header_of(recording::Bytes cdr) {
-  constexpr std::size_t kEncapsulation_bytes = 4;
   msg::Header header{};
   std::uint32_t source = 0;
-  const auto* at = cdr.data() + kEncapsulation_bytes;
+  const auto* at = cdr.data() + bus::kEncapsulation_bytes;
   std::memcpy(&header.tick, at, 8);
   std::memcpy(&header.sample_time_ns, at + 8, 8);
   std::memcpy(&source, at + 16, 4);
@@ -87,9 +89,8 @@ class Reader {
     auto& curves = review_.curves;
     const double period_s = curves.time_s.empty() ? 0 : time_s - curves.time_s.back();
     curves.time_s.push_back(time_s);
-    const std::array position{state.trolley_position_m, state.slew_angle_rad, state.cable_length_m},
-        speed{state.trolley_speed_mps, state.slew_speed_radps, state.cable_speed_mps},
-        scale{1.0, kDegPerRad, 1.0};
+    const std::array position = runtime::positions(state), speed = runtime::speeds(state),
+                     scale{1.0, kDegPerRad, 1.0};
     const bool armed = status_.state == crane_STATE_HOLD || status_.state == crane_STATE_RUN;
     for (std::size_t i = 0; i < 3; ++i) {
       const double wanted = reference_.header.epoch != 0 ? reference_.axis[i].position : NAN;

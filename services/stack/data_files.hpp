@@ -1,10 +1,16 @@
 #pragma once
 /// Finds rig, scenario and sweep files by name: "maneuver_1" is deploy/scenarios/maneuver_1.toml of this
 /// installation.
+#include <array>
 #include <filesystem>
 #include <string>
 
 namespace crane::stack {
+
+/// Rig of every command that gets no other.
+inline constexpr const char* kDefaultRig = "virginia_tech_tower";
+/// Scenarios of `crane demo` and `crane run --compare`.
+inline constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
 
 /// @return the file itself, or the installed file with this name. @throws configuration::ConfigurationError
 /// with

@@ -7,6 +7,7 @@
 #include "crane/experiment/variant.hpp"
 #include "crane/runtime/process.hpp"
 #include "crane/simulator/component.hpp"
+#include "stack/data_files.hpp"
 #include "sweep/draw.hpp"
 #include "sweep/sweep.hpp"
 
@@ -96,7 +97,6 @@ class Problems {
 };
 
 void load_cases(const Wishes& wishes, const Finder& finder, Problems& problems, Sweep& sweep) {
-  constexpr const char* kDefaultRig = "virginia_tech_tower";
   for (const auto& name : wishes.scenarios) {
     experiment::Scenario wish;
     std::filesystem::path path;
@@ -106,7 +106,7 @@ void load_cases(const Wishes& wishes, const Finder& finder, Problems& problems, 
     });
     if (!found) continue;
     Names rigs = wishes.rigs;
-    if (rigs.empty()) rigs.push_back(wish.rig.empty() ? kDefaultRig : wish.rig);
+    if (rigs.empty()) rigs.push_back(wish.rig.empty() ? stack::kDefaultRig : wish.rig);
     for (const auto& rig_name : rigs)
       problems.collect([&] {
         auto rig = configuration::load_rig(finder.rig(rig_name));

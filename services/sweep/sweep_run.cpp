@@ -81,8 +81,8 @@ std::vector<Group> run_sweep(const Sweep& sweep, const RunOptions& options) {
   Crew{sweep, options, log}.work();
   if (log.results().size() < sweep.size()) return {};
   auto groups = groups_of(sweep, log.results());
-  write_text(options.directory / "runs.csv", csv_of(sweep, log.results()));
-  report::write_html(options.directory / "sweep.html", page_of(sweep, groups));
+  write_text(options.directory / kRunsFile, csv_of(sweep, log.results()));
+  report::write_html(options.directory / kPageFile, page_of(sweep, groups));
   return groups;
 }
 

@@ -11,6 +11,9 @@
 
 namespace crane::sweep {
 
+inline constexpr const char* kRunsFile = "runs.csv";
+inline constexpr const char* kPageFile = "sweep.html";
+
 struct Progress {
   std::size_t done = 0, all = 0;  ///< number of runs, including those of earlier calls
   std::size_t new_runs = 0;       ///< finished in this call

@@ -32,61 +32,62 @@ Judged judge_named(const Diagnosis& found, const std::vector<HiddenEffect>& hidd
   return there > 0 || (alike > 0 && !too_many) ? Judged::partly : Judged::wrong;
 }
 
-/// Parameter of truth and library: library = factor * truth.
-struct Shared {
-  std::string_view cause, truth, library;
-  double factor = 1;
-};
 // Conventions of the truth: asymmetry is the whole difference of the directions, the jib tilts down, swing
 // sensors turn the other way.
 constexpr std::array kShared{
-    Shared{"coulomb_friction", "coulomb_v", "level_v"},
-    Shared{"viscous_friction", "viscous_vspm", "vspm"},
-    Shared{"direction_asymmetry", "coulomb_difference_v", "coulomb_v", 0.5},
-    Shared{"direction_asymmetry", "viscous_difference_vspm", "viscous_vspm", 0.5},
-    Shared{"motor_gain", "factor", "factor"},
-    Shared{"command_offset", "offset_v", "offset_v"},
-    Shared{"command_dead_zone", "width_v", "width_v"},
-    Shared{"command_delay", "delay_s", "delay_s"},
-    Shared{"torque_ripple", "amplitude_v", "amplitude_v"},
-    Shared{"torque_ripple", "wavelength", "period"},
-    Shared{"backlash", "gap", "gap"},
-    Shared{"payload_mass", "mass_change_kg", "delta_kg"},
-    Shared{"cable_length", "length_change_m", "delta_m"},
-    Shared{"load_linear_drag", "coefficient_nspm", "coefficient_nspm"},
-    Shared{"load_quadratic_drag", "coefficient_ns2pm2", "coefficient_ns2pm2"},
-    Shared{"steady_wind", "force_n", "force_n"},
-    Shared{"steady_wind", "direction_rad", "direction_rad"},
-    Shared{"swing_pivot_friction", "coulomb_nm", "coulomb_nm"},
-    Shared{"swing_pivot_friction", "viscous_nmsprad", "viscous_nmsprad"},
-    Shared{"jib_tilt", "tilt_rad", "angle_rad", -1},
-    Shared{"double_pendulum", "sling_m", "lower_length_m"},
-    Shared{"swing_offset", "offset_rad", "offset_rad"},
-    Shared{"swing_misalignment", "angle_rad", "angle_rad", -1},
-    Shared{"swing_scale", "factor", "factor"},
-    Shared{"position_scale", "factor", "factor"},
-    Shared{"swing_delay", "delay_s", "delay_s"},
-    Shared{"swing_moving_average", "window_s", "window_s"},
+    SharedParameter{"coulomb_friction", "coulomb_v", "level_v"},
+    SharedParameter{"viscous_friction", "viscous_vspm", "vspm"},
+    SharedParameter{"direction_asymmetry", "coulomb_difference_v", "coulomb_v", 0.5},
+    SharedParameter{"direction_asymmetry", "viscous_difference_vspm", "viscous_vspm", 0.5},
+    SharedParameter{"motor_gain", "factor", "factor"},
+    SharedParameter{"command_offset", "offset_v", "offset_v"},
+    SharedParameter{"command_dead_zone", "width_v", "width_v"},
+    SharedParameter{"command_delay", "delay_s", "delay_s"},
+    SharedParameter{"torque_ripple", "amplitude_v", "amplitude_v"},
+    SharedParameter{"torque_ripple", "wavelength", "period"},
+    SharedParameter{"backlash", "gap", "gap"},
+    SharedParameter{"payload_mass", "mass_change_kg", "delta_kg"},
+    SharedParameter{"cable_length", "length_change_m", "delta_m"},
+    SharedParameter{"load_linear_drag", "coefficient_nspm", "coefficient_nspm"},
+    SharedParameter{"load_quadratic_drag", "coefficient_ns2pm2", "coefficient_ns2pm2"},
+    SharedParameter{"steady_wind", "force_n", "force_n"},
+    SharedParameter{"steady_wind", "direction_rad", "direction_rad"},
+    SharedParameter{"swing_pivot_friction", "coulomb_nm", "coulomb_nm"},
+    SharedParameter{"swing_pivot_friction", "viscous_nmsprad", "viscous_nmsprad"},
+    SharedParameter{"jib_tilt", "tilt_rad", "angle_rad", -1},
+    SharedParameter{"double_pendulum", "sling_m", "lower_length_m"},
+    SharedParameter{"swing_offset", "offset_rad", "offset_rad"},
+    SharedParameter{"swing_misalignment", "angle_rad", "angle_rad", -1},
+    SharedParameter{"swing_scale", "factor", "factor"},
+    SharedParameter{"position_scale", "factor", "factor"},
+    SharedParameter{"swing_delay", "delay_s", "delay_s"},
+    SharedParameter{"swing_moving_average", "window_s", "window_s"},
 };
 
 }  // namespace
 
 const char* name_of(Judged judged) { return kNames[static_cast<std::size_t>(judged)]; }
 
+std::span<const SharedParameter> shared_parameters() { return kShared; }
+
+const std::vector<ConfoundedGroup>& confounded_groups() {
+  static const std::vector<ConfoundedGroup> kGroups{
+      {{"command_delay", "actuator_lag"}, "two frequencies"},
+      {{"swing_delay", "swing_moving_average"}, "two cable lengths"},
+      {{"direction_asymmetry", "jib_tilt", "command_offset"}, "break-away, payload"},
+      {{"steady_wind", "swing_offset", "jib_tilt"}, "half a turn"},
+      {{"stribeck_friction", "position_dependent_friction"}, "the same places at several speeds"},
+      {{"motor_gain", "position_scale"}, "a load"},
+      {{"cable_elasticity", "cable_length"}, "no experiment: the bounce of the load is not measured"}};
+  return kGroups;
+}
+
 bool confounded(const std::string& a, const std::string& b) {
-  static const std::vector<std::vector<std::string>> groups{
-      {"command_delay", "actuator_lag"},
-      {"swing_delay", "swing_moving_average"},
-      {"direction_asymmetry", "jib_tilt", "command_offset"},
-      {"steady_wind", "swing_offset", "jib_tilt"},
-      {"stribeck_friction", "position_dependent_friction"},
-      {"motor_gain", "position_scale"},
-      {"cable_elasticity", "cable_length"}};
-  const auto holds = [](const std::vector<std::string>& group, const std::string& name) {
-    return std::find(group.begin(), group.end(), name) != group.end();
+  const auto holds = [](const ConfoundedGroup& group, const std::string& name) {
+    return std::find(group.causes.begin(), group.causes.end(), name) != group.causes.end();
   };
-  return std::any_of(groups.begin(), groups.end(),
-                     [&](const auto& group) { return holds(group, a) && holds(group, b); });
+  return std::any_of(confounded_groups().begin(), confounded_groups().end(),
+                     [&](const ConfoundedGroup& group) { return holds(group, a) && holds(group, b); });
 }
 
 Judged judge(const Diagnosis& found, const std::vector<HiddenEffect>& answer) {
@@ -122,7 +123,7 @@ std::vector<Compared> compared(const Diagnosis& found, const std::vector<HiddenE
   for (const HiddenEffect& hidden : answer)
     for (const Cause& cause : found.causes) {
       if (!fits(cause, hidden)) continue;
-      for (const Shared& shared : kShared) {
+      for (const SharedParameter& shared : kShared) {
         const auto truth = hidden.parameters.find(std::string{shared.truth});
         if (shared.cause != cause.name || truth == hidden.parameters.end()) continue;
         for (const Estimate& e : cause.parameters)

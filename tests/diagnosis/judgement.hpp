@@ -1,7 +1,9 @@
 #pragma once
 /// Comparison of a diagnosis with the answer.
 #include <ostream>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sealed_case.hpp"
@@ -11,7 +13,7 @@ namespace crane::diagnosis::score {
 enum class Judged {
   right,       ///< exactly the hidden causes; "none" without any; "unknown" outside the library
   among,       ///< ambiguous, hidden cause among the rivals
-  group,       ///< another cause of the same confounded group (docs/diagnosis.md, Limits)
+  group,       ///< another cause of the same confounded group
   beside,      ///< hidden cause and another one
   partly,      ///< some of several causes, or confounded ones
   unsure,      ///< "unknown" for a cause of the library
@@ -25,8 +27,21 @@ inline void PrintTo(Judged judged, std::ostream* out) { *out << name_of(judged);
 
 [[nodiscard]] Judged judge(const Diagnosis& found, const std::vector<HiddenEffect>& answer);
 
-/// Whether two causes are confounded.
+/// Causes whose effects are alike until the experiment changes. docs/diagnosis.md shows the groups.
+struct ConfoundedGroup {
+  std::vector<std::string> causes;
+  std::string separated_by;  ///< change of the experiment
+};
+[[nodiscard]] const std::vector<ConfoundedGroup>& confounded_groups();
+/// Whether two causes are in one group.
 [[nodiscard]] bool confounded(const std::string& a, const std::string& b);
+
+/// Parameter of truth and library: library = factor * truth.
+struct SharedParameter {
+  std::string_view cause, truth, library;
+  double factor = 1;
+};
+[[nodiscard]] std::span<const SharedParameter> shared_parameters();
 
 /// An estimated parameter of a hidden cause, and its true value.
 struct Compared {

@@ -9,9 +9,9 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <regex>
 #include <set>
 
+#include "crane/plant/term.hpp"
 #include "simulated_motion.hpp"
 
 namespace crane::test {
@@ -57,17 +57,28 @@ class TwinTest : public testing::Test {
   Twin twin_{rig(), design()};
 };
 
-TEST(TwinDocument, ListsTheCausesThatTheTwinNames) {
+TEST(TwinDocument, ShowsTheTableOfTheCauses) {
   std::ifstream in{CRANE_RIGS "/../../docs/twin.md"};
-  const std::string text{std::istreambuf_iterator<char>{in}, {}};
-  const auto begin = text.find("## Causes");
-  const auto section = text.substr(begin, text.find("\n## ", begin) - begin);
-  std::set<std::string> shown, named{twin::kEncoderSlip, twin::kLoadPushed, twin::kUnknown};
-  const std::regex row{"\n\\| `([a-z_]+)` \\|"};
-  for (std::sregex_iterator it{section.begin(), section.end(), row}, end; it != end; ++it)
-    shown.insert((*it)[1]);
-  for (const auto& hypothesis : twin::hypotheses_for(rig())) named.insert(hypothesis.cause);
-  EXPECT_EQ(shown, named);
+  const std::string text{std::istreambuf_iterator<char>{in}, {}}, before = "<!-- causes of the twin -->\n";
+  const auto begin = text.find(before) + before.size();
+  EXPECT_EQ(text.substr(begin, text.find("<!-- end -->", begin) - begin), twin::cause_table());
+}
+
+TEST(Causes, AreTermsOfTheModelWithTheParameterThatHasTheSize) {
+  for (const auto& kind : twin::cause_kinds()) {
+    if (kind.parameter == nullptr) continue;
+    const auto* term = plant::find_term(kind.name);
+    ASSERT_NE(term, nullptr) << kind.name;
+    EXPECT_NE(plant::find_parameter(*term, kind.parameter), nullptr) << kind.name << ' ' << kind.parameter;
+  }
+}
+
+TEST(Causes, WithReferenceSizesAreTheHypothesesOfATowerCrane) {
+  std::set<std::string> hypotheses, with_sizes;
+  for (const auto& hypothesis : twin::hypotheses_for(rig())) hypotheses.insert(hypothesis.cause);
+  for (const auto& kind : twin::cause_kinds())
+    if (!kind.sizes.empty()) with_sizes.insert(kind.name);
+  EXPECT_EQ(hypotheses, with_sizes);
 }
 
 TEST_F(TwinTest, PredictsItsOwnPlantWithinItsBand) {

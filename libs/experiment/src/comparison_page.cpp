@@ -1,17 +1,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "comparison_tables.hpp"
 #include "crane/experiment/comparison.hpp"
+#include "crane/fields/angle.hpp"
 
 namespace crane::experiment {
 namespace {
 
 using Value = std::function<double(const Sample&)>;
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
+using fields::kDegPerRad;
 // Ticks between drawn points. Finer than the resolution of a screen; halves the size of the page.
 constexpr std::size_t kDrawEvery = 2;
 constexpr int kReferenceColor = 8;  // grey

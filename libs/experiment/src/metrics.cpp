@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <stdexcept>
+
+#include "crane/fields/angle.hpp"
+#include "crane/plant/coordinates.hpp"
 
 namespace crane::experiment {
 namespace {
@@ -121,24 +123,27 @@ std::vector<Move> moves_of(const Scenario& scenario) {
 }  // namespace
 
 std::vector<Sample> samples_from(const recording::Table& table) {
+  using plant::kCoordinates;
   const std::vector<double>* time = table.find("time_s");
   if (time == nullptr) throw std::invalid_argument("the table has no column time_s");
   std::vector<Sample> samples(table.rows());
-  const auto fill = [&](const char* column, auto&& place) {
+  const auto fill = [&](const std::string& column, auto&& place) {
     const std::vector<double>* values = table.find(column);
     for (std::size_t row = 0; values != nullptr && row < samples.size(); ++row)
       place(samples[row]) = (*values)[row];
   };
-  const auto per_axis = [&](const std::array<const char*, kAxes>& columns, plant::PerAxis Sample::*member) {
+  const auto per_axis = [&](const char* plant::Coordinate::*column, plant::PerAxis Sample::*member) {
     for (std::size_t axis = 0; axis < kAxes; ++axis)
-      fill(columns[axis], [=](Sample& sample) -> double& { return (sample.*member)[axis]; });
+      fill(kCoordinates[axis].*column, [=](Sample& sample) -> double& { return (sample.*member)[axis]; });
   };
   fill("time_s", [](Sample& sample) -> double& { return sample.time_s; });
-  fill("swing_radial_rad", [](Sample& sample) -> double& { return sample.swing_radial_rad; });
-  fill("swing_tangential_rad", [](Sample& sample) -> double& { return sample.swing_tangential_rad; });
-  per_axis({"trolley_position_m", "slew_angle_rad", "cable_length_m"}, &Sample::position);
-  per_axis({"trolley_reference_m", "slew_reference_rad", "hoist_reference_m"}, &Sample::reference);
-  per_axis({"trolley_voltage_v", "slew_voltage_v", "hoist_voltage_v"}, &Sample::drive_v);
+  fill(kCoordinates[plant::kSwingRadial].column,
+       [](Sample& sample) -> double& { return sample.swing_radial_rad; });
+  fill(kCoordinates[plant::kSwingTangential].column,
+       [](Sample& sample) -> double& { return sample.swing_tangential_rad; });
+  per_axis(&plant::Coordinate::column, &Sample::position);
+  per_axis(&plant::Coordinate::reference, &Sample::reference);
+  per_axis(&plant::Coordinate::command_v, &Sample::drive_v);
   const std::vector<double>* ticks = table.find("tick");
   for (std::size_t row = 0; row < samples.size(); ++row)
     samples[row].tick = ticks == nullptr ? row : static_cast<std::uint64_t>((*ticks)[row]);
@@ -176,20 +181,20 @@ Metrics evaluate(std::span<const Sample> run, const Maneuver& maneuver) {
 }
 
 nlohmann::ordered_json to_json(const Metrics& m) {
-  constexpr double kDeg = 180 / std::numbers::pi;
+  using fields::kDegPerRad;
   return {{"settling_time_s", or_null(m.settling_time_s)},
           {"trolley_overshoot_percent", or_null(m.overshoot_percent[0])},
           {"slew_overshoot_percent", or_null(m.overshoot_percent[1])},
           {"hoist_overshoot_percent", or_null(m.overshoot_percent[2])},
           {"trolley_deviation_m", or_null(m.deviation[0])},
-          {"slew_deviation_deg", or_null(m.deviation[1], kDeg)},
+          {"slew_deviation_deg", or_null(m.deviation[1], kDegPerRad)},
           {"hoist_deviation_m", or_null(m.deviation[2])},
           {"trolley_final_error_m", m.final_error[0]},
-          {"slew_final_error_deg", m.final_error[1] * kDeg},
+          {"slew_final_error_deg", m.final_error[1] * kDegPerRad},
           {"hoist_final_error_m", m.final_error[2]},
-          {"largest_swing_radial_deg", m.largest_swing_radial_rad * kDeg},
-          {"largest_swing_tangential_deg", m.largest_swing_tangential_rad * kDeg},
-          {"residual_swing_deg", m.residual_swing_rad * kDeg},
+          {"largest_swing_radial_deg", m.largest_swing_radial_rad * kDegPerRad},
+          {"largest_swing_tangential_deg", m.largest_swing_tangential_rad * kDegPerRad},
+          {"residual_swing_deg", m.residual_swing_rad * kDegPerRad},
           {"trolley_largest_v", m.largest_v[0]},
           {"slew_largest_v", m.largest_v[1]},
           {"hoist_largest_v", m.largest_v[2]},

@@ -1,22 +1,23 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <numbers>
 #include <ostream>
 
 #include "metrics_cells.hpp"
 
+#include "crane/fields/angle.hpp"
+
 namespace crane::experiment {
 namespace {
 
-constexpr double kDeg = 180 / std::numbers::pi;
+using fields::kDegPerRad;
 using Row = std::vector<std::string>;
 
 /// Overshoot of a moved axis, "14.3 %"; deviation of an unmoved axis, "17.4 cm" or "2.1 deg".
 std::string overshoot(const Metrics& metrics, std::size_t axis) {
   if (metrics.overshoot_percent[axis]) return fixed(*metrics.overshoot_percent[axis], 1) + " %";
   const double deviation = metrics.deviation[axis].value_or(0);
-  return axis == plant::kSlew ? fixed(deviation * kDeg, 1) + " deg" : fixed(deviation * 100, 1) + " cm";
+  return axis == plant::kSlew ? fixed(deviation * kDegPerRad, 1) + " deg" : fixed(deviation * 100, 1) + " cm";
 }
 
 constexpr std::size_t kTextColumns = 2;  // aligned left, the others right
@@ -50,9 +51,9 @@ std::vector<std::string> metrics_cells(const Metrics& m) {
   return {m.settling_time_s ? fixed(*m.settling_time_s, 2) : "-",
           overshoot(m, plant::kTrolley),
           overshoot(m, plant::kSlew),
-          fixed(m.largest_swing_radial_rad * kDeg, 1),
-          fixed(m.largest_swing_tangential_rad * kDeg, 1),
-          fixed(m.residual_swing_rad * kDeg, 2),
+          fixed(m.largest_swing_radial_rad * kDegPerRad, 1),
+          fixed(m.largest_swing_tangential_rad * kDegPerRad, 1),
+          fixed(m.residual_swing_rad * kDegPerRad, 2),
           fixed(m.largest_v[plant::kTrolley], 1),
           fixed(m.largest_v[plant::kSlew], 1),
           std::to_string(m.lost_ticks)};

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
+#include "crane/fields/angle.hpp"
 #include "crane/plot/gnuplot.hpp"
 
 namespace crane::experiment {
@@ -14,7 +14,7 @@ namespace {
 using plot::quoted;
 using recording::shortest;
 
-constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+using fields::kDegPerRad;
 constexpr double kWidth = 900, kPanelHeight = 215, kTop = 62, kBottom = 58;  // pixels
 
 // Colours of Okabe and Ito, distinguishable with colour blindness and in grey.
@@ -63,13 +63,13 @@ std::string data_block(std::span<const Sample> run, double zero_s) {
     if (s.time_s < zero_s) continue;
     const auto cell = [&text](double value, double scale = 1) { text += shortest(in(value, scale)) + " "; };
     cell(s.time_s - zero_s);
-    constexpr plant::PerAxis kScale{1, kDegreesPerRadian, 1};
+    constexpr plant::PerAxis kScale{1, kDegPerRad, 1};
     for (std::size_t axis = 0; axis < plant::kAxes; ++axis) {
       cell(s.position[axis], kScale[axis]);
       cell(s.reference[axis], kScale[axis]);
     }
-    cell(s.swing_radial_rad, kDegreesPerRadian);
-    cell(s.swing_tangential_rad, kDegreesPerRadian);
+    cell(s.swing_radial_rad, kDegPerRad);
+    cell(s.swing_tangential_rad, kDegPerRad);
     for (const double volts : s.drive_v) cell(volts);
     text += "\n";
   }
@@ -91,7 +91,7 @@ std::vector<Panel> panels_of(const Maneuver& maneuver) {
   panels.push_back({"swing [deg]",
                     {{kRadial, "radial", kBlue, kSolid}, {kTangential, "tangential", kOrange, kSolid}},
                     1,
-                    kSettlingSwing_rad * kDegreesPerRadian});
+                    kSettlingSwing_rad * kDegPerRad});
   panels.push_back(
       {"drive [V]", {{kTrolleyV, "trolley", kBlue, kSolid}, {kSlewV, "slew", kOrange, kSolid}}, 1});
   if (hoisting) panels.back().curves.push_back({kHoistV, "hoist", kGreen, kSolid});
@@ -151,17 +151,17 @@ double value_of(const Sample& s, int column) {
     case kTrolleyRef:
       return s.reference[0];
     case kSlew:
-      return s.position[1] * kDegreesPerRadian;
+      return s.position[1] * kDegPerRad;
     case kSlewRef:
-      return s.reference[1] * kDegreesPerRadian;
+      return s.reference[1] * kDegPerRad;
     case kHoist:
       return s.position[2];
     case kHoistRef:
       return s.reference[2];
     case kRadial:
-      return s.swing_radial_rad * kDegreesPerRadian;
+      return s.swing_radial_rad * kDegPerRad;
     case kTangential:
-      return s.swing_tangential_rad * kDegreesPerRadian;
+      return s.swing_tangential_rad * kDegPerRad;
     case kTrolleyV:
       return s.drive_v[0];
     case kSlewV:

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "crane/configuration/extended_file.hpp"
 #include "crane/experiment/variant.hpp"
+#include "crane/fields/angle.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/plant/parameter_fields.hpp"
 #include "crane/recording/csv.hpp"
@@ -19,7 +19,7 @@ using configuration::Rig;
 using configuration::TomlTable;
 using recording::shortest;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
+using fields::kRadPerDeg;
 constexpr Range kLoads = fields::field_of(plant::kParameterFields, "load_mass_kg").range;
 constexpr Range kTimes = Range::closed(0, 86'400);
 using plant::kPositions;

@@ -4,12 +4,15 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "crane/plant/coordinates.hpp"
 #include "crane/recording/schema.hpp"
 
 namespace crane::recording {
 namespace {
 
 using nlohmann::ordered_json;
+using plant::kAxes, plant::kCoordinates, plant::kTrolley, plant::kSlew, plant::kHoist, plant::kSwingRadial,
+    plant::kSwingTangential;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -28,17 +31,24 @@ class RowWriter {
   std::size_t next_ = 0;
 };
 
+/// "trolley_control_v", ...
+std::array<std::string, kAxes> columns_of_drives(const char* quantity) {
+  std::array<std::string, kAxes> columns;
+  for (std::size_t i = 0; i < kAxes; ++i) columns[i] = std::string{kCoordinates[i].name} + quantity;
+  return columns;
+}
+
 void canonical_cells(RowWriter& row, const msg::State& state, double time_s) {
   row.cell("time_s", time_s);
-  row.cell("trolley_voltage_v", state.applied_v[0]);
-  row.cell("slew_voltage_v", state.applied_v[1]);
-  row.cell("trolley_position_m", state.trolley_position_m);
-  row.cell("slew_angle_rad", state.slew_angle_rad);
-  row.cell("swing_radial_rad", state.swing_radial_rad);
-  row.cell("swing_tangential_rad", state.swing_tangential_rad);
-  row.cell("cable_length_m", state.cable_length_m);
+  row.cell(kCoordinates[kTrolley].command_v, state.applied_v[kTrolley]);
+  row.cell(kCoordinates[kSlew].command_v, state.applied_v[kSlew]);
+  row.cell(kCoordinates[kTrolley].column, state.trolley_position_m);
+  row.cell(kCoordinates[kSlew].column, state.slew_angle_rad);
+  row.cell(kCoordinates[kSwingRadial].column, state.swing_radial_rad);
+  row.cell(kCoordinates[kSwingTangential].column, state.swing_tangential_rad);
+  row.cell(kCoordinates[kHoist].column, state.cable_length_m);
   row.cell("tick", static_cast<double>(state.header.tick));
-  row.cell("hoist_voltage_v", state.applied_v[2]);
+  row.cell(kCoordinates[kHoist].command_v, state.applied_v[kHoist]);
 }
 
 msg::State state_from(const ordered_json& j) {
@@ -50,21 +60,21 @@ msg::State state_from(const ordered_json& j) {
   state.cable_length_m = j.at("cable_length_m");
   state.swing_radial_rad = j.at("swing_radial_rad");
   state.swing_tangential_rad = j.at("swing_tangential_rad");
-  for (std::size_t i = 0; i < 3; ++i) state.applied_v[i] = j.at("applied_v").at(i);
+  for (std::size_t i = 0; i < kAxes; ++i) state.applied_v[i] = j.at("applied_v").at(i);
   return state;
 }
 
 msg::Reference reference_from(const ordered_json& j) {
   msg::Reference reference{};
   reference.header.tick = j.at("header").at("tick");
-  for (std::size_t i = 0; i < 3; ++i) reference.axis[i].position = j.at("axis").at(i).at("position");
+  for (std::size_t i = 0; i < kAxes; ++i) reference.axis[i].position = j.at("axis").at(i).at("position");
   return reference;
 }
 
 msg::Demand demand_from(const ordered_json& j) {
   msg::Demand demand{};
   demand.header.tick = j.at("header").at("tick");
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < kAxes; ++i) {
     demand.control_v[i] = j.at("control_v").at(i);
     demand.friction_v[i] = j.at("friction_v").at(i);
   }
@@ -73,9 +83,11 @@ msg::Demand demand_from(const ordered_json& j) {
 
 /// Converts the state by its name, because the numbers of an older recording may differ.
 msg::SupervisorStatus supervisor_from(const ordered_json& j) {
-  static const std::array kNames{"STATE_BOOT",    "STATE_SELFTEST", "STATE_LOCKED", "STATE_READY",
-                                 "STATE_ARMING",  "STATE_HOLD",     "STATE_RUN",    "STATE_STOP_C1",
-                                 "STATE_STOP_C0", "STATE_ESTOP",    "STATE_FAULT"};
+  static constexpr std::array kNames{
+#define CRANE_STATE(name, text) "STATE_" text,
+#include "crane/states.def"
+#undef CRANE_STATE
+  };
   msg::SupervisorStatus status{};
   status.header.tick = j.at("header").at("tick");
   const auto* const found = std::find(kNames.begin(), kNames.end(), j.at("state").get<std::string>());
@@ -101,6 +113,8 @@ Table RunTable::table() const {
 }
 
 Table RunTable::table(std::int64_t zero_time_ns) const {
+  const auto control_columns = columns_of_drives("_control_v"),
+             friction_columns = columns_of_drives("_friction_v");
   Table result;
   RowWriter row{result};
   for (const auto& [tick, of] : rows_) {
@@ -111,15 +125,11 @@ Table RunTable::table(std::int64_t zero_time_ns) const {
     const auto reference = [&of = of](std::size_t axis) {
       return of.reference ? of.reference->axis[axis].position : kMissing;
     };
-    row.cell("trolley_reference_m", reference(0));
-    row.cell("slew_reference_rad", reference(1));
-    row.cell("hoist_reference_m", reference(2));
-    row.cell("trolley_control_v", of.demand ? of.demand->control_v[0] : kMissing);
-    row.cell("slew_control_v", of.demand ? of.demand->control_v[1] : kMissing);
-    row.cell("hoist_control_v", of.demand ? of.demand->control_v[2] : kMissing);
-    row.cell("trolley_friction_v", of.demand ? of.demand->friction_v[0] : kMissing);
-    row.cell("slew_friction_v", of.demand ? of.demand->friction_v[1] : kMissing);
-    row.cell("hoist_friction_v", of.demand ? of.demand->friction_v[2] : kMissing);
+    for (std::size_t i = 0; i < kAxes; ++i) row.cell(kCoordinates[i].reference, reference(i));
+    for (std::size_t i = 0; i < kAxes; ++i)
+      row.cell(control_columns[i].c_str(), of.demand ? of.demand->control_v[i] : kMissing);
+    for (std::size_t i = 0; i < kAxes; ++i)
+      row.cell(friction_columns[i].c_str(), of.demand ? of.demand->friction_v[i] : kMissing);
     row.cell("supervisor_state", of.supervisor ? static_cast<double>(of.supervisor->state) : kMissing);
   }
   return result;

@@ -1,25 +1,15 @@
 #include "crane/runtime/writer_binding.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "crane/protection.hpp"
+#include "crane/runtime/process_name.hpp"
 
 namespace crane::runtime {
 namespace {
 
 using protection::enabled;
 using enum protection::Protection;
-
-constexpr std::array<const char*, 12> kSourceNames{
-    "nobody",     "plant",    "bridge",   "planner", "tracking", "anti_swing", "friction_compensation",
-    "supervisor", "operator", "recorder", "monitor", "twin"};
-static_assert(kSourceNames.size() == crane_SOURCE_TWIN + 1);
-
-std::string name_of(crane_Source source) {
-  const auto number = static_cast<std::size_t>(source);
-  return number < kSourceNames.size() ? kSourceNames[number] : "source " + std::to_string(number);
-}
 
 }  // namespace
 
@@ -64,7 +54,7 @@ void WriterBinding::watch(std::int64_t now_ns, int matched) {
 
 std::string WriterBinding::rival() const {
   if (!rival_) return "a writer that has sent no sample yet";
-  return "a writer that calls itself " + name_of(rival_->source) + ", start-up number " +
+  return std::string{"a writer that calls itself "} + process_name(rival_->source) + ", start-up number " +
          std::to_string(rival_->epoch);
 }
 

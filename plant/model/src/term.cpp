@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "crane/plant/coordinates.hpp"
+
 namespace crane::plant {
 
 #define CRANE_TERM(kind) TermKind kind();
@@ -11,12 +13,6 @@ namespace crane::plant {
 #undef CRANE_TERM
 
 namespace {
-
-const TermParameter* find_parameter(const TermKind& kind, std::string_view name) {
-  const auto found = std::find_if(kind.parameters.begin(), kind.parameters.end(),
-                                  [&](const TermParameter& p) { return p.name == name; });
-  return found == kind.parameters.end() ? nullptr : &*found;
-}
 
 template <class List, class Text>
 std::string listed(const List& entries, Text text) {
@@ -71,6 +67,19 @@ const TermKind* find_term(std::string_view name) {
   return found == kinds.end() ? nullptr : &*found;
 }
 
+const TermParameter* find_parameter(const TermKind& kind, std::string_view name) {
+  const auto found = std::find_if(kind.parameters.begin(), kind.parameters.end(),
+                                  [&](const TermParameter& p) { return p.name == name; });
+  return found == kind.parameters.end() ? nullptr : &*found;
+}
+
+std::string_view unit_on(std::string_view axis, std::string_view unit) {
+  constexpr std::string_view kOr = " or ";
+  const std::size_t either = unit.find(kOr);
+  if (either == std::string_view::npos || axis.empty()) return unit;
+  return axis == kCoordinates[kSlew].axis ? unit.substr(either + kOr.size()) : unit.substr(0, either);
+}
+
 std::vector<std::string> problems(const std::vector<TermSetting>& settings) {
   std::vector<std::string> found;
   for (std::size_t i = 0; i < settings.size(); ++i) {
@@ -95,8 +104,8 @@ std::unique_ptr<Term> make_term(const TermSetting& setting) {
 }
 
 Axis drive_axis(std::string_view name) noexcept {
-  if (name == "trolley") return kTrolley;
-  return name == "slew" ? kSlew : kHoist;
+  if (name == kCoordinates[kTrolley].name) return kTrolley;
+  return name == kCoordinates[kSlew].name ? kSlew : kHoist;
 }
 
 }  // namespace crane::plant

@@ -1,7 +1,11 @@
 #include "crane/twin/hypothesis.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+
+#include "crane/plant/term.hpp"
 
 namespace crane::twin {
 namespace {
@@ -9,13 +13,104 @@ namespace {
 using configuration::Rig;
 using configuration::RigKind;
 
-constexpr double kFriction_v = 0.1, kMuchFriction_v = 0.4, kGain = 0.05, kMuchGain = 0.1, kSlip = 0.01,
-                 kOffset_rad = 0.01;
-constexpr double kPayloadShare = 0.1, kCableShare = 0.03;
+const std::array kKinds{
+    CauseKind{"coulomb_friction",
+              "level_v",
+              {0.1, 0.2, 0.4},
+              true,
+              1,
+              "V",
+              "Coulomb friction of a drive",
+              "check bearings, guides and brake of the AXIS, then run crane identify friction"},
+    CauseKind{"viscous_friction",
+              "vspm",
+              {0.1},
+              false,
+              1,
+              "V at the reference speed",
+              "viscous friction of a drive",
+              "check bearings, guides and brake of the AXIS, then run crane identify friction"},
+    CauseKind{"motor_gain",
+              "factor",
+              {0.05, 0.1},
+              true,
+              100,
+              "%",
+              "gain of amplifier, supply or motor of a drive",
+              "check amplifier, supply and motor of the AXIS"},
+    CauseKind{"position_drift",
+              "rate",
+              {0.01},
+              false,
+              100,
+              "% of the path",
+              "a position encoder slips during motion",
+              "check the coupling of the encoder of the AXIS, then home it"},
+    CauseKind{kEncoderSlip,
+              nullptr,
+              {},
+              false,
+              1,
+              "3 counts; more for a drive",
+              "an encoder has jumped",
+              "stop the crane, check coupling and cable of the encoder, and home the axis"},
+    CauseKind{"payload_mass",
+              "delta_kg",
+              {0.1},
+              false,
+              100,
+              "%",
+              "the load mass has changed",
+              "weigh the load and correct load_mass_kg in the rig file"},
+    CauseKind{"cable_length",
+              "delta_m",
+              {0.03},
+              false,
+              100,
+              "%",
+              "the cable length differs from the measurement of the hoist",
+              "measure from the jib to the load's centre and home the hoist"},
+    CauseKind{"swing_offset",
+              "offset_rad",
+              {0.01},
+              false,
+              1000,
+              "mrad",
+              "zero error of a swing encoder",
+              "let the load hang at rest and zero the swing encoder again"},
+    CauseKind{kLoadPushed,
+              nullptr,
+              {},
+              false,
+              1,
+              "limited by the noise",
+              "a person or the wind has pushed the load; not a fault",
+              "no action needed: a person or the wind has pushed the load"},
+    CauseKind{kUnknown,
+              nullptr,
+              {},
+              false,
+              1,
+              "",
+              "no cause explains half of the residual",
+              "record a few minutes of motion and run crane diagnose"}};
 
-Hypothesis hypothesis(const std::string& cause, const std::string& axis, const std::string& parameter,
-                      double null, double reference, const std::string& unit, const std::string& remedy) {
-  return {cause, axis, {{cause, axis, {{parameter, null + reference}}}}, {}, reference, false, unit, remedy};
+std::string about_axis(std::string text, const std::string& axis) {
+  constexpr std::string_view kPlaceholder = "AXIS";
+  const std::size_t at = text.find(kPlaceholder);
+  return at == std::string::npos ? text : text.replace(at, kPlaceholder.size(), axis);
+}
+
+/// @param reference  deviation of the parameter from its default
+Hypothesis hypothesis(const CauseKind& kind, const std::string& axis, double reference) {
+  const plant::TermParameter& parameter =
+      *plant::find_parameter(*plant::find_term(kind.name), kind.parameter);
+  return {.cause = kind.name,
+          .axis = axis,
+          .terms = {{kind.name, axis, {{kind.parameter, parameter.default_value + reference}}}},
+          .reference = reference,
+          .unit = std::string{plant::unit_on(axis, parameter.unit)},
+          .remedy = about_axis(kind.remedy, axis)};
 }
 
 /// Coulomb friction of the axis in the rig file, minimum of both directions, V.
@@ -33,67 +128,89 @@ double dry_friction_v(const Rig& rig, const std::string& axis) {
 
 /// The effect of Coulomb friction is not proportional to its size, because friction can hold a drive.
 /// Therefore there are several reference sizes of either sign.
-void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis,
-                      const std::string& remedy) {
-  const double most_lost_v = 0.6 * dry_friction_v(rig, axis);
+void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis) {
+  const CauseKind& kind = cause_kind("coulomb_friction");
+  const double least_v = kind.sizes.front(), most_lost_v = 0.6 * dry_friction_v(rig, axis);
   const auto add = [&](double size_v) {
-    list.push_back(hypothesis("coulomb_friction", axis, "level_v", 0, size_v, "V", remedy));
-    list.back().only_near = size_v != kFriction_v;
+    list.push_back(hypothesis(kind, axis, size_v));
+    list.back().only_near = size_v != least_v;
   };
   double lost_v = 0;
-  for (const double size_v : {kFriction_v, 2 * kFriction_v, kMuchFriction_v}) {
+  for (const double size_v : kind.sizes) {
     add(size_v);
     const double less_v = std::min(size_v, most_lost_v);
-    if (less_v >= kFriction_v && less_v > lost_v) add(-less_v);
+    if (less_v >= least_v && less_v > lost_v) add(-less_v);
     lost_v = less_v;
   }
 }
 
-void add_drive(std::vector<Hypothesis>& list, const Rig& rig, const std::string& axis,
-               const configuration::Drive& drive) {
-  const bool slew = axis == "slew";
-  const double viscous = kFriction_v / std::max(drive.reference_speed, 1e-3);
-  const std::string look =
-      "check bearings, guides and brake of the " + axis + ", then run crane identify friction";
-  add_dry_friction(list, rig, axis, look);
-  list.push_back(hypothesis("viscous_friction", axis, "vspm", 0, viscous, slew ? "V s/rad" : "V s/m", look));
-  // The effect of the gain is not proportional either: a weaker drive is held longer by friction.
-  for (const double gain : {kGain, kMuchGain, -kGain, -kMuchGain}) {
-    list.push_back(hypothesis("motor_gain", axis, "factor", 1, gain, "1",
-                              "check amplifier, supply and motor of the " + axis));
-    list.back().only_near = gain != kGain;
-  }
-  Hypothesis slipping;
-  slipping.cause = "position_drift";
-  slipping.axis = axis;
-  slipping.reference = kSlip;
-  slipping.unit = slew ? "rad/rad" : "m/m";
-  slipping.remedy = "check the coupling of the encoder of the " + axis + ", then home it";
-  slipping.slip[slew ? diagnosis::kSlewAngle : diagnosis::kTrolleyPosition] = kSlip;
-  list.push_back(slipping);
+/// The effect of the gain is not proportional either: a weaker drive is held longer by friction.
+void add_gain(std::vector<Hypothesis>& list, const std::string& axis) {
+  const CauseKind& kind = cause_kind("motor_gain");
+  for (const double sign : {1.0, -1.0})
+    for (const double size : kind.sizes) {
+      list.push_back(hypothesis(kind, axis, sign * size));
+      list.back().only_near = sign * size != kind.sizes.front();
+    }
 }
 
-void add_swing_offset(std::vector<Hypothesis>& list, const std::string& axis) {
-  list.push_back(hypothesis("swing_offset", axis, "offset_rad", 0, kOffset_rad, "rad",
-                            "let the load hang at rest and zero the swing encoder again"));
+void add_drive(std::vector<Hypothesis>& list, const Rig& rig, plant::Axis drive, diagnosis::Output encoder) {
+  const std::string axis = plant::kCoordinates[drive].axis;
+  add_dry_friction(list, rig, axis);
+  const CauseKind& viscous = cause_kind("viscous_friction");
+  list.push_back(
+      hypothesis(viscous, axis, viscous.sizes.front() / std::max(rig.drives[drive].reference_speed, 1e-3)));
+  add_gain(list, axis);
+  // A slip changes the measured value only: it is added to the prediction, not to the model.
+  const CauseKind& slipping = cause_kind("position_drift");
+  list.push_back(hypothesis(slipping, axis, slipping.sizes.front()));
+  list.back().terms.clear();
+  list.back().slip[encoder] = slipping.sizes.front();
+}
+
+void add_load(std::vector<Hypothesis>& list, const char* cause, const std::string& axis, double per_size) {
+  const CauseKind& kind = cause_kind(cause);
+  list.push_back(hypothesis(kind, axis, kind.sizes.front() * per_size));
+}
+
+/// "±0.1, ±0.2 and ±0.4 V"
+std::string sizes_text(const CauseKind& kind) {
+  std::string text;
+  for (std::size_t i = 0; i < kind.sizes.size(); ++i) {
+    std::array<char, 32> number{};
+    std::snprintf(number.data(), number.size(), "%g", kind.shown_per_size * kind.sizes[i]);
+    text += i == 0 ? "" : i + 1 < kind.sizes.size() ? ", " : " and ";
+    text += (kind.either_sign ? "±" : "") + std::string{number.data()};
+  }
+  return text + (text.empty() ? "" : " ") + kind.sizes_text;
 }
 
 }  // namespace
 
+std::span<const CauseKind> cause_kinds() { return kKinds; }
+
+const CauseKind& cause_kind(std::string_view name) {
+  return *std::ranges::find(kKinds, name, [](const CauseKind& kind) { return std::string_view{kind.name}; });
+}
+
+std::string cause_table() {
+  std::string table = "| cause | reference size | meaning |\n|---|---|---|\n";
+  for (const CauseKind& kind : kKinds)
+    table += std::string{"| `"} + kind.name + "` | " + sizes_text(kind) + " | " + kind.meaning + " |\n";
+  return table;
+}
+
 std::vector<Hypothesis> hypotheses_for(const Rig& rig) {
   std::vector<Hypothesis> list;
-  const auto& trolley = rig.drives[plant::kTrolley];
-  const auto& slew = rig.drives[plant::kSlew];
-  if (trolley.present) add_drive(list, rig, "trolley", trolley);
-  if (slew.present) add_drive(list, rig, "slew", slew);
+  const bool trolley = rig.drives[plant::kTrolley].present, slew = rig.drives[plant::kSlew].present;
+  if (trolley) add_drive(list, rig, plant::kTrolley, diagnosis::kTrolleyPosition);
+  if (slew) add_drive(list, rig, plant::kSlew, diagnosis::kSlewAngle);
   if (!rig.has_load()) return list;
-  if (trolley.present || slew.present)
-    list.push_back(hypothesis("payload_mass", "", "delta_kg", 0, kPayloadShare * rig.plant.load_mass_kg, "kg",
-                              "weigh the load and correct load_mass_kg in the rig file"));
-  list.push_back(hypothesis("cable_length", "", "delta_m", 0, kCableShare * rig.start.position[plant::kHoist],
-                            "m", "measure from the jib to the load's centre and home the hoist"));
-  add_swing_offset(list, "radial");
-  if (rig.kind == RigKind::tower) add_swing_offset(list, "tangential");
+  if (trolley || slew) add_load(list, "payload_mass", "", rig.plant.load_mass_kg);
+  add_load(list, "cable_length", "", rig.start.position[plant::kHoist]);
+  add_load(list, "swing_offset", diagnosis::axis_of(diagnosis::kRadialSwing), 1);
+  if (rig.kind == RigKind::tower)
+    add_load(list, "swing_offset", diagnosis::axis_of(diagnosis::kTangentialSwing), 1);
   return list;
 }
 

@@ -54,7 +54,7 @@ Finding Judge::best_fit() const {
   const bool outside = all > kOutside * in_control && !named_hypothesis_;
   if (list.empty() || (outside && list.front().gain < kUnexplained * all)) {
     found.cause = kUnknown;
-    found.remedy = "record a few minutes of motion and run crane diagnose";
+    found.remedy = cause_kind(kUnknown).remedy;
     return found;
   }
   describe(list, all, std::max(1.0, in_control), found);

@@ -205,8 +205,7 @@ void Twin::watch_steps() {
     finding.axis = coordinate_of(i).axis;
     finding.unit = slip ? coordinate_of(i).unit : "rad/s";
     finding.size = step->size;
-    finding.remedy = slip ? "stop the crane, check coupling and cable of the encoder, and home the axis"
-                          : "no action needed: a person or the wind has pushed the load";
+    finding.remedy = cause_kind(finding.cause).remedy;
     finding.column = i;
     judge_.found(finding);
     // The residual of a step must not count as evidence for another cause.

@@ -67,7 +67,7 @@ int analyse_fuzzy(const std::string& rig, bool as_json) {
 
 void add_analyse_fuzzy(CLI::App& analyse, Action& chosen) {
   struct FuzzyOptions {
-    std::string rig = "virginia_tech_tower";
+    std::string rig = stack::kDefaultRig;
     bool json = false;
   };
   auto options = std::make_shared<FuzzyOptions>();

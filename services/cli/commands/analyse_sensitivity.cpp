@@ -30,7 +30,7 @@ struct SensitivityOptions {
                                        "delayed_1",
                                        "delayed_2",
                                        "fuzzy_printed"};
-  std::string rig = "virginia_tech_tower", out = "out/sensitivity";
+  std::string rig = stack::kDefaultRig, out = "out/sensitivity";
   bool json = false;
 };
 

@@ -24,7 +24,7 @@ namespace {
 
 struct BenchOptions {
   stack::LaunchOptions launch;
-  std::string rig = "virginia_tech_tower";
+  std::string rig = stack::kDefaultRig;
   double seconds = 60;
   bool json = false;
 };

@@ -11,6 +11,7 @@
 #include "crane/bridge/component.hpp"
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/picture.hpp"
+#include "crane/runtime/convert.hpp"
 #include "dashboard/dashboard.hpp"
 #include "experiments/realtime_session.hpp"
 #include "recorder/recorder.hpp"
@@ -26,19 +27,17 @@ using namespace std::chrono_literals;
 
 struct DemoOptions {
   stack::LaunchOptions launch;
-  std::string rig = "virginia_tech_tower";
+  std::string rig = stack::kDefaultRig;
   std::string plant = "sim";
   std::string out = "out/demo";
   double seconds_per_maneuver = 10;
   bool dashboard = false;
 };
 
-constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
-
 /// Moves to the start of the scenario.
 void go_to_start(experiments::RealtimeSession& session, const experiment::Scenario& scenario) {
   const auto& state = *session.state();
-  const std::array<double, 3> here{state.trolley_position_m, state.slew_angle_rad, state.cable_length_m};
+  const auto here = runtime::positions(state);
   constexpr double kThere = 0.005;  // largest distance from the start that needs no move, m, rad
   std::array<bool, 3> selected{};
   std::array<double, 3> target{};
@@ -103,7 +102,7 @@ int demo(DemoOptions options) {
   const auto rig = configuration::load_rig(options.launch.rig);
   const std::string controller{runtime::chosen_controller(options.launch.controller, rig).name};
   std::vector<experiment::Scenario> scenarios;
-  for (const auto* name : kManeuvers)
+  for (const auto* name : stack::kManeuvers)
     scenarios.push_back(experiment::load_scenario(stack::find_scenario(name), &rig));
   fs::create_directories(options.out);
 

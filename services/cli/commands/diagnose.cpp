@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using diagnosis::Diagnosis;
 
 struct DiagnoseOptions {
-  std::string rig = "virginia_tech_tower", mapping, out = "out/diagnose";
+  std::string rig = stack::kDefaultRig, mapping, out = "out/diagnose";
   std::vector<std::string> train, test;
   std::optional<double> from_s, to_s;
   std::uint64_t seed = 1;

@@ -62,8 +62,9 @@ void add_doctor(CLI::App& app, Action& chosen) {
                     "real-time permission, locked memory, receive buffers, lateness of the timer");
   command->add_flag("--hw", options->hardware, "the board of the rig file");
   command->add_flag("--json", options->json, "one JSON array");
-  command->add_option("--rig", options->rig,
-                      "rig file or name: period of the loop, board; default: virginia_tech_tower");
+  command->add_option(
+      "--rig", options->rig,
+      std::string{"rig file or name: period of the loop, board; default: "} + stack::kDefaultRig);
   command
       ->add_option("--duration", options->examined.duration_s,
                    "time to listen, and to measure the timer, in s")

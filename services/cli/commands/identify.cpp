@@ -21,7 +21,7 @@ namespace id = identification;
 
 struct IdentifyOptions {
   identification::FrictionExperimentOptions experiment;
-  std::string rig = "virginia_tech_tower", axis, out = "out/identify", from;
+  std::string rig = stack::kDefaultRig, axis, out = "out/identify", from;
   std::string clock = "lockstep", plant = "sim";
   double from_s = 0, to_s = 1e9;
   bool json = false, no_picture = false;

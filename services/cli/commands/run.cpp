@@ -23,7 +23,6 @@ namespace crane::cli {
 namespace {
 
 using Names = std::vector<std::string>;
-constexpr const char* kDefaultRig = "virginia_tech_tower";
 
 struct RunOptions {
   Names scenarios, controllers, variants;
@@ -52,7 +51,7 @@ void add_plans(const std::string& name, const RunOptions& options,
   const auto wish = experiment::load_scenario(file);
   const auto rig = configuration::load_rig(stack::find_rig(!options.rig.empty() ? options.rig
                                                            : !wish.rig.empty()  ? wish.rig
-                                                                                : kDefaultRig));
+                                                                                : stack::kDefaultRig));
   const auto scenario = experiment::load_scenario(file, &rig);
   const Names as_it_is{""};
   const auto variants = first_given(options.variants, wish.variants,
@@ -72,7 +71,7 @@ std::vector<experiments::PlannedRun> plans_of(const RunOptions& options) {
   if (options.scenarios.empty() && !options.compare)
     throw configuration::ConfigurationError(
         {"scenario: give at least one, or --compare, which runs maneuver_1, maneuver_2 and maneuver_3"});
-  const Names maneuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
+  const Names maneuvers(stack::kManeuvers.begin(), stack::kManeuvers.end());
   for (const auto& name : options.scenarios.empty() ? maneuvers : options.scenarios)
     add_plans(name, options, plans);
   return plans;
@@ -238,8 +237,9 @@ void add_run(CLI::App& app, Action& chosen) {
                    "changes of the rig, see below; default: those of the scenario, else none; with "
                    "--compare the first eight")
       ->delimiter(',');
-  command->add_option("--rig", options->rig,
-                      std::string{"rig file or name; default: that of the scenario, else "} + kDefaultRig);
+  command->add_option(
+      "--rig", options->rig,
+      std::string{"rig file or name; default: that of the scenario, else "} + stack::kDefaultRig);
   command
       ->add_option("--integrator", options->integrator,
                    "of the simulated plant: cvode, the reference; or fast, with --in-process or --compare")

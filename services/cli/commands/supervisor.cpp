@@ -23,11 +23,11 @@ struct ExplainOptions {
 
 template <class T>
 void keep_last(const topics::Topic<T>& topic, const recording::Message& message, std::optional<T>& last) {
-  constexpr std::size_t kEncapsulation_bytes = 4;
-  if (message.channel->topic != topic.description.name || message.data.size() < kEncapsulation_bytes) return;
+  if (message.channel->topic != topic.description.name || message.data.size() < bus::kEncapsulation_bytes)
+    return;
   T sample{};
   if (bus::CdrCodec::of(*topic.description.descriptor)
-          .decode(message.data.subspan(kEncapsulation_bytes), false, &sample))
+          .decode(message.data.subspan(bus::kEncapsulation_bytes), false, &sample))
     last = sample;
 }
 

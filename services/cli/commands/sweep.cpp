@@ -71,8 +71,8 @@ int run(const SweepOptions& options) {
     return runtime::kExitFailed;
   }
   std::cout << sweep::summary_of(groups);
-  std::cerr << sweep.size() << " runs: " << (directory / "runs.csv").string() << ", "
-            << (directory / "sweep.html").string() << '\n';
+  std::cerr << sweep.size() << " runs: " << (directory / sweep::kRunsFile).string() << ", "
+            << (directory / sweep::kPageFile).string() << '\n';
   return runtime::kExitDone;
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 struct UpOptions {
   stack::LaunchOptions launch;
-  std::string rig = "virginia_tech_tower";
+  std::string rig = stack::kDefaultRig;
   std::string plant = "sim";
   std::string record;
   std::filesystem::path black_box = black_box::default_directory();

@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 
+#include "crane/bus/ports.hpp"
 #include "discovery.hpp"
 #include "vendor_log.hpp"
 
@@ -81,8 +82,8 @@ Domain::Domain(const Options& options) : number_{options.domain} {
     const dds_entity_t entity =
         checked_entity(dds_create_domain(number_, wanted.c_str()),
                        "cannot open domain " + std::to_string(number_) + " on " + options.interfaces.front() +
-                           "; is the interface up, and are UDP ports " +
-                           std::to_string(7400 + 250 * number_) + " and up free?");
+                           "; is the interface up, and are UDP ports " + std::to_string(first_port(number_)) +
+                           " and up free?");
     domains.by_number.emplace(number_, Open{entity, wanted, 1});
     return;
   }

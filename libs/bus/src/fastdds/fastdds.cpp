@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "announcement.hpp"
+#include "crane/bus/ports.hpp"
 #include "discovery.hpp"
 #include "fastdds/endpoints.hpp"
 #include "fastdds/security.hpp"
@@ -174,7 +175,7 @@ class FastBackEnd final : public BackEnd {
       number_.keep();
       throw Error{"Fast DDS: cannot create participant in domain " + std::to_string(options.domain) + " on " +
                   options.interfaces.front() + "; is the interface up, and are UDP ports " +
-                  std::to_string(7400 + 250 * options.domain) + " and up free?"};
+                  std::to_string(first_port(options.domain)) + " and up free?"};
     }
     dds::PublisherQos publisher_qos = dds::PUBLISHER_QOS_DEFAULT;
     publisher_qos.partition().push_back(options.crane.c_str());

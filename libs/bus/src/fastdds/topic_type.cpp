@@ -10,7 +10,6 @@ namespace crane::bus::fastdds {
 namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
-constexpr std::size_t kEncapsulationBytes = 4;
 constexpr std::uint8_t kPlainBigEndian = 0;
 constexpr std::uint8_t kPlainLittleEndian = 1;
 }  // namespace
@@ -18,28 +17,28 @@ constexpr std::uint8_t kPlainLittleEndian = 1;
 TopicType::TopicType(const dds_topic_descriptor_t& descriptor) : codec_{CdrCodec::of(descriptor)} {
   setName(descriptor.m_typename);
   constexpr std::size_t kPadding = 3;  // RTPS pads a payload to a multiple of four
-  m_typeSize = static_cast<std::uint32_t>(codec_.max_encoded_bytes() + kEncapsulationBytes + kPadding);
+  m_typeSize = static_cast<std::uint32_t>(codec_.max_encoded_bytes() + kEncapsulation_bytes + kPadding);
   m_isGetKeyDefined = codec_.has_key();
   auto_fill_type_object(false);  // a Cyclone DDS writer does not match a Fast DDS reader with a type object
   auto_fill_type_information(false);
 }
 
 bool TopicType::serialize(void* sample, rtps::SerializedPayload_t* payload) {
-  if (payload->max_size < kEncapsulationBytes) return false;
+  if (payload->max_size < kEncapsulation_bytes) return false;
   const std::size_t bytes =
-      codec_.encode(sample, {payload->data + kEncapsulationBytes, payload->max_size - kEncapsulationBytes});
+      codec_.encode(sample, {payload->data + kEncapsulation_bytes, payload->max_size - kEncapsulation_bytes});
   if (bytes == 0) return false;
-  std::memset(payload->data, 0, kEncapsulationBytes);
+  std::memset(payload->data, 0, kEncapsulation_bytes);
   payload->data[1] = kPlainLittleEndian;
   payload->encapsulation = CDR_LE;
-  payload->length = static_cast<std::uint32_t>(bytes + kEncapsulationBytes);
+  payload->length = static_cast<std::uint32_t>(bytes + kEncapsulation_bytes);
   return true;
 }
 
 bool TopicType::deserialize(rtps::SerializedPayload_t* payload, void* sample) {
   const std::span<const std::uint8_t> bytes{payload->data, payload->length};
-  const bool plain = bytes.size() >= kEncapsulationBytes && bytes[0] == 0 && bytes[1] <= kPlainLittleEndian;
-  if (plain && codec_.decode(bytes.subspan(kEncapsulationBytes), bytes[1] == kPlainBigEndian, sample))
+  const bool plain = bytes.size() >= kEncapsulation_bytes && bytes[0] == 0 && bytes[1] <= kPlainLittleEndian;
+  if (plain && codec_.decode(bytes.subspan(kEncapsulation_bytes), bytes[1] == kPlainBigEndian, sample))
     return true;
   std::memset(sample, 0, codec_.sample_bytes());  // all zeros is a sample with a wrong CRC
   return true;

@@ -3,12 +3,11 @@
 #include <cmath>
 
 #include "crane/fields/range.hpp"
+#include "crane/plant/coordinates.hpp"
 #include "tower.hpp"
 
 namespace crane::control {
 namespace {
-
-constexpr std::array<const char*, 2> kPlanned{"trolley", "slew"};
 
 /// State of the plan, at rest before its start and after its end.
 PlanState plan_state_at(const time_optimal::Tower& tower, const Plan& plan, double time_s) noexcept {
@@ -45,7 +44,7 @@ std::vector<std::string> problems(const PlanProblem& problem) {
   };
   const PlanLimits& l = problem.limits;
   for (std::size_t i = 0; i < 2; ++i) {
-    const std::string axis = kPlanned[i];
+    const std::string axis = plant::kCoordinates[i].name;
     require(l.low[i] < l.high[i], axis + " low", l.low[i],
             "must be below the high limit: widen the limits of the drive");
     require(problem.from[i] > l.low[i] && problem.from[i] < l.high[i], axis + " start", problem.from[i],

@@ -10,6 +10,9 @@
 
 namespace crane::bus {
 
+/// Header of a CDR payload in messages and recordings: encoding and options.
+inline constexpr std::size_t kEncapsulation_bytes = 4;
+
 /// Layout of one message type.
 class CdrCodec {
  public:

@@ -13,11 +13,19 @@
 #include <string_view>
 #include <vector>
 
+#include "crane/plant/coordinates.hpp"
+
 namespace crane::recording {
 
 inline constexpr std::array<std::string_view, 8> kCanonicalColumns{
-    "time_s",         "trolley_voltage_v", "slew_voltage_v",       "trolley_position_m",
-    "slew_angle_rad", "swing_radial_rad",  "swing_tangential_rad", "cable_length_m"};
+    "time_s",
+    plant::kCoordinates[plant::kTrolley].command_v,
+    plant::kCoordinates[plant::kSlew].command_v,
+    plant::kCoordinates[plant::kTrolley].column,
+    plant::kCoordinates[plant::kSlew].column,
+    plant::kCoordinates[plant::kSwingRadial].column,
+    plant::kCoordinates[plant::kSwingTangential].column,
+    plant::kCoordinates[plant::kHoist].column};
 
 /// Columns of equal length.
 struct Table {

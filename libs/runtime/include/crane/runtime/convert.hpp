@@ -5,9 +5,17 @@
 
 namespace crane::runtime {
 
+/// m, rad, m: trolley, slew, cable.
+[[nodiscard]] inline std::array<double, control::kAxes> positions(const msg::State& state) {
+  return {state.trolley_position_m, state.slew_angle_rad, state.cable_length_m};
+}
+[[nodiscard]] inline std::array<double, control::kAxes> speeds(const msg::State& state) {
+  return {state.trolley_speed_mps, state.slew_speed_radps, state.cable_speed_mps};
+}
+
 [[nodiscard]] inline control::Measurement measurement(const msg::State& state) {
-  return {.position = {state.trolley_position_m, state.slew_angle_rad, state.cable_length_m},
-          .speed = {state.trolley_speed_mps, state.slew_speed_radps, state.cable_speed_mps},
+  return {.position = positions(state),
+          .speed = speeds(state),
           .swing_radial_rad = state.swing_radial_rad,
           .swing_radial_radps = state.swing_radial_radps,
           .swing_tangential_rad = state.swing_tangential_rad,

@@ -20,13 +20,14 @@ struct Coordinate {
   const char* unit;       ///< "m" or "rad"
   const char* column;     ///< canonical column of a table; key in [start] of a rig file
   const char* command_v;  ///< canonical column of the command; nullptr for a coordinate without a drive
+  const char* reference;  ///< column of the planner's reference; nullptr for a coordinate without a drive
 };
 inline constexpr std::array<Coordinate, kCoordinateCount> kCoordinates{{
-    {"trolley", "trolley", "m", "trolley_position_m", "trolley_voltage_v"},
-    {"slew", "slew", "rad", "slew_angle_rad", "slew_voltage_v"},
-    {"hoist", "hoist", "m", "cable_length_m", "hoist_voltage_v"},
-    {"swing_radial", "radial", "rad", "swing_radial_rad", nullptr},
-    {"swing_tangential", "tangential", "rad", "swing_tangential_rad", nullptr},
+    {"trolley", "trolley", "m", "trolley_position_m", "trolley_voltage_v", "trolley_reference_m"},
+    {"slew", "slew", "rad", "slew_angle_rad", "slew_voltage_v", "slew_reference_rad"},
+    {"hoist", "hoist", "m", "cable_length_m", "hoist_voltage_v", "hoist_reference_m"},
+    {"swing_radial", "radial", "rad", "swing_radial_rad", nullptr, nullptr},
+    {"swing_tangential", "tangential", "rad", "swing_tangential_rad", nullptr, nullptr},
 }};
 
 /// "trolley", "slew", "hoist"

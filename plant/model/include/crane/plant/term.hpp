@@ -106,7 +106,7 @@ enum class ActsOn {
 /// One parameter of a term. A term whose parameters all have their defaults has no effect.
 struct TermParameter {
   std::string_view name;
-  std::string_view unit;
+  std::string_view unit;  ///< "V s/m or V s/rad": that of trolley and hoist, or that of the slew axis
   double default_value = 0;
   double low = 0;  ///< permitted range [low, high]
   double high = 0;
@@ -129,6 +129,10 @@ struct TermKind {
 [[nodiscard]] const std::vector<TermKind>& term_kinds();
 /// @return nullptr when no term has this name
 [[nodiscard]] const TermKind* find_term(std::string_view name);
+/// @return nullptr when the term has no parameter of this name
+[[nodiscard]] const TermParameter* find_parameter(const TermKind& kind, std::string_view name);
+/// @return TermParameter::unit on an axis: "V s/m or V s/rad" is one of both
+[[nodiscard]] std::string_view unit_on(std::string_view axis, std::string_view unit);
 
 /// @return all problems as "terms[2] drive_friction: name = value: rule"; empty when there are none
 [[nodiscard]] std::vector<std::string> problems(const std::vector<TermSetting>& settings);

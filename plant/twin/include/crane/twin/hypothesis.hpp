@@ -1,6 +1,7 @@
 #pragma once
 /// Causes that the twin can name. Most causes are a term of plant/model with a reference size. A deviation
 /// below half of the reference size raises no event.
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,31 @@
 
 namespace crane::twin {
 
+/// One row of the table of the causes. docs/twin.md shows the table.
+struct CauseKind {
+  const char* name;           ///< of the term; of the step of the residual; or "unknown"
+  const char* parameter;      ///< of the term that has the size; nullptr: the cause is no term of the model
+  std::vector<double> sizes;  ///< reference sizes; empty: no hypothesis
+  bool either_sign;           ///< a hypothesis for each sign
+  double shown_per_size;      ///< factor from `sizes` to the unit in `sizes_text`
+  const char* sizes_text;     ///< what the document prints behind `sizes`, or instead of them
+  const char* meaning;
+  const char* remedy;  ///< AXIS stands for the name of the axis
+};
+
+inline constexpr const char* kEncoderSlip = "encoder_slip";
+inline constexpr const char* kLoadPushed = "load_pushed";
+inline constexpr const char* kUnknown = "unknown";
+
+/// All causes, in the order of the document.
+[[nodiscard]] std::span<const CauseKind> cause_kinds();
+/// @pre a cause has this name
+[[nodiscard]] const CauseKind& cause_kind(std::string_view name);
+/// The table as Markdown.
+[[nodiscard]] std::string cause_table();
+
 struct Hypothesis {
-  std::string cause;                      ///< name of the term
+  std::string cause;                      ///< CauseKind::name
   std::string axis;                       ///< axis of the term; may be empty
   std::vector<plant::TermSetting> terms;  ///< the term with the reference size; empty for a slipping encoder
   PerColumn slip{};        ///< reference size of a slipping encoder, which is not part of the model
@@ -21,14 +45,8 @@ struct Hypothesis {
   std::string remedy;
 };
 
-/// Causes without a hypothesis: an encoder that jumps, a push of the load, and a deviation that no hypothesis
-/// explains. docs/twin.md lists all causes.
-inline constexpr const char* kEncoderSlip = "encoder_slip";
-inline constexpr const char* kLoadPushed = "load_pushed";
-inline constexpr const char* kUnknown = "unknown";
-
-/// Causes that apply to a rig: friction and gain of each drive, slipping position encoders, payload, cable
-/// length, zero of the swing encoders.
+/// Hypotheses that apply to a rig: friction and gain of each drive, slipping position encoders, payload,
+/// cable length, zero of the swing encoders.
 [[nodiscard]] std::vector<Hypothesis> hypotheses_for(const configuration::Rig& rig);
 
 }  // namespace crane::twin
