@@ -36,8 +36,8 @@ inline constexpr Rule kRunnerUp{"runner_up", 0.1, "1", "share of block resamples
 
 // A name of a law that acts at low speed only (verdict/resolution.cpp).
 inline constexpr Rule kRowsToShow{
-    "rows_to_show", 2, "rows", "least rows between the speed at which a law of friction ends and standstill",
-    "sampling theorem: one row does not tell a curve"};
+    "rows_to_show", 1, "rows", "least rows between the speed at which a law of friction ends and standstill",
+    "definition: below it most stops show no row of the law"};
 
 // Proof on held-out runs (verdict/diagnose.cpp).
 inline constexpr Rule kHeldOutWin{"held_out_win", 0.95, "1",
