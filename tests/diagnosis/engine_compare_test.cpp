@@ -103,19 +103,24 @@ TEST_F(Compared, AValueThatIsLuckMakesHeldOutDataALittleUnlikelierAtMost) {
   EXPECT_FALSE(is_luck(luck_of_loss(fitted, base, -30), kCandidates));
 }
 
-TEST_F(Compared, AnIntervalThatReachesNoEffectIsLuckOfTheLeastSureOne) {
+TEST_F(Compared, AnIntervalOfTheAmountThatContainsNoEffectIsLuck) {
   const auto neutral_at = [](double null) {
     FreeParameter parameter;
     parameter.null = null;
     return parameter;
   };
-  effect.parameters = {neutral_at(1), neutral_at(0)};
+  effect.parameters = {neutral_at(1), neutral_at(0)};  // a factor and a decay speed, which is no amount
   other.parameters = {neutral_at(0)};
   fitted.effects = {{&effect, {1.5, 0.1}}, {&other, {-0.196}}};
   fitted.std_dev = {0.1, 0.09, 0.1};
-  EXPECT_NEAR(luck_of_interval(fitted), 0.05, 1e-4);  // 1.96 standard deviations
-  fitted.std_dev[2] = 0.02;
-  EXPECT_NEAR(luck_of_interval(fitted), 5.7e-7, 1e-8);  // 5, of the surer of two values
+  EXPECT_NEAR(luck_of_interval(fitted), 0.05, 1e-4);  // 1.96 standard deviations of `other`
+  fitted.std_dev = {0.1, 0.09, 0.02};
+  EXPECT_NEAR(luck_of_interval(fitted), 5.7e-7, 1e-8);  // 5 of the factor
+  fitted.std_dev = {0.5, 1e-6, 0.02};
+  EXPECT_NEAR(luck_of_interval(fitted), 0.3173, 1e-4);  // 1 of the factor, however exact its decay speed is
+  effect.amount_count = 2;
+  fitted.std_dev = {0.5, 0.02, 0.02};
+  EXPECT_NEAR(luck_of_interval(fitted), 5.7e-7, 1e-8);  // 5 of the second amount
 }
 
 TEST_F(Compared, AnEffectOfATenthOfTheBlocksIsOne) {

@@ -125,13 +125,14 @@ double luck_of_loss(const Fitted& fitted, const Fitted& before, double held_out_
 
 double luck_of_interval(const Fitted& fitted) {
   double most = 0;
-  std::size_t i = 0;
+  std::size_t first = 0;
   for (const Effect& effect : fitted.effects) {
     double surest = 0;
-    for (std::size_t k = 0; k < effect.values.size(); ++k, ++i) {
+    for (std::size_t k = 0; k < effect.candidate->amount_count; ++k) {
       const double distance = std::abs(effect.values[k] - effect.candidate->parameters[k].null);
-      if (fitted.std_dev[i] > 0) surest = std::max(surest, distance / fitted.std_dev[i]);
+      if (fitted.std_dev[first + k] > 0) surest = std::max(surest, distance / fitted.std_dev[first + k]);
     }
+    first += effect.values.size();
     most = std::max(most, std::erfc(surest / std::numbers::sqrt2));
   }
   return most;
@@ -200,25 +201,15 @@ std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitt
   return picked;
 }
 
-namespace {
-
-/// "m/s or rad/s" is one of both where the axis is known.
-std::string unit_on(const std::string& axis, const std::string& unit) {
-  const std::size_t either = unit.find(" or ");
-  if (either == std::string::npos || (axis != "trolley" && axis != "slew")) return unit;
-  return axis == "trolley" ? unit.substr(0, either) : unit.substr(either + 4);
-}
-
-}  // namespace
-
 std::vector<Estimate> estimates(const Fitted& f) {
   std::vector<Estimate> all;
   std::size_t i = 0;
   for (const Effect& effect : f.effects)
     for (std::size_t k = 0; k < effect.values.size(); ++k, ++i)
-      all.push_back({effect.candidate->parameters[k].name,
-                     unit_on(effect.candidate->axis, effect.candidate->parameters[k].unit), effect.values[k],
-                     f.std_dev[i]});
+      all.push_back(
+          {effect.candidate->parameters[k].name,
+           std::string{plant::unit_on(effect.candidate->axis, effect.candidate->parameters[k].unit)},
+           effect.values[k], f.std_dev[i]});
   return all;
 }
 

@@ -43,9 +43,10 @@ namespace crane::diagnosis {
 /// of them.
 /// @param held_out_nats by which `fitted` makes held-out data likelier
 [[nodiscard]] double luck_of_loss(const Fitted& fitted, const Fitted& before, double held_out_nats);
-/// Chance that the least sure of the effects is none: of the value that differs most from that of no effect,
-/// in standard deviations of its interval (A. Wald, Trans. Amer. Math. Soc. 54 (1943) 426).
-/// @param fitted with its intervals
+/// Chance that the amount of the least certain effect is none (A. Wald, Trans. Amer. Math. Soc. 54 (1943)
+/// 426): two-sided tail of the normal distribution at the amount, in standard deviations of its interval. Of
+/// two amounts the more certain one counts. 0 to 1; 0 without effects.
+/// @param fitted with std_dev from with_intervals()
 [[nodiscard]] double luck_of_interval(const Fitted& fitted);
 /// Whether a chance is luck where the best of so many candidates has it (Bonferroni).
 [[nodiscard]] bool is_luck(double chance, std::size_t candidates);

@@ -97,6 +97,7 @@ Candidate two_amounts(const std::string& cause, const std::string& axis, std::ve
   c.cause = cause;
   c.axis = axis;
   c.parameters = std::move(both);
+  c.amount_count = 2;
   Shape shape;
   for (std::size_t i = 0; i < 2; ++i) {
     std::vector<double> values{c.parameters[0].null, c.parameters[1].null};

@@ -1,6 +1,7 @@
 #include "verdict/resolution.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "rules.hpp"
 #include "search/compare.hpp"
@@ -20,19 +21,12 @@ plant::State place_of(const Runs& runs) {
   return at;
 }
 
-/// Speed below which the effect acts, m/s or rad/s; 0: it acts at any speed.
-double speed_limit_of(const Effect& effect) {
-  for (std::size_t i = 0; i < effect.values.size(); ++i)
-    if (effect.candidate->parameters[i].name == std::string_view{"decay_speed"}) return effect.values[i];
-  return 0;
-}
-
 bool shown(const Study& study, const Effects& effects, const Effect& effect) {
-  const double speed = speed_limit_of(effect);
+  const Candidate& candidate = *effect.candidate;
   const Runs& runs = study.drive().runs();
-  if (!(speed > 0) || runs.empty()) return true;
-  const plant::Axis axis =
-      effect.candidate->drive_output() == kTrolleyPosition ? plant::kTrolley : plant::kSlew;
+  if (!candidate.decay_speed || runs.empty()) return true;
+  const double speed = effect.values[*candidate.decay_speed];
+  const plant::Axis axis = candidate.drive_output() == kTrolleyPosition ? plant::kTrolley : plant::kSlew;
   return rows_to_stop(study.with(effects), axis, speed, place_of(runs), runs.front().run.period_s) >=
          rules::kRowsToShow;
 }
