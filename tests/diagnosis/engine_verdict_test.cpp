@@ -1,13 +1,11 @@
 /// Verdicts in words.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "data_of_truth.hpp"
 #include "verdict/judgement.hpp"
 #include "verdict/losing_encoders.hpp"
-#include "verdict/resolution.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -52,8 +50,8 @@ TEST(Sentence, OfADoubtGivesTheReasonAndNoCause) {
             "Something is wrong that no known cause explains (trolley: friction by position).");
 }
 
-/// Data of a drive axis at 100 Hz. Its motor gives 1.7 m/s2 per volt against 1 V and 2.8 V s/m of friction.
-class DriveAxis : public testing::Test {
+/// Beside the verdict on the rest of the model.
+class EncoderThatLosesCounts : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     truth::Case request;
@@ -65,71 +63,6 @@ class DriveAxis : public testing::Test {
   }
   static void TearDownTestSuite() { study_.reset(), data_.reset(); }
 
-  static inline std::optional<DataOfTruth> data_;
-  static inline std::optional<Study> study_;
-};
-
-TEST_F(DriveAxis, StopsFromALowSpeedWithinARow) {
-  EXPECT_NEAR(rows_to_stop(study_->base(), plant::kTrolley, 0.01, {}, 0.01), 0.01 / (1.7 * 1.028 * 0.01),
-              1e-6);
-}
-
-/// Beside viscous friction, which acts at any speed and takes a fifth off the error by itself.
-class LawOfLowSpeed : public DriveAxis {
- protected:
-  static const Candidate* candidate(const std::string& name) {
-    return &*std::ranges::find(study_->candidates(), name, &Candidate::cause);
-  }
-  /// @param nats by which viscous friction alone makes each of 90 blocks likelier
-  static Diagnosis named_with(double decay_speed, double nats) {
-    const Effect friction{candidate("viscous_friction"), {1}};
-    Hypotheses hypotheses;
-    Fitted alone;
-    hypotheses.base.deviance.assign(90, 100);
-    alone.deviance.assign(90, 100 - nats);
-    alone.deviance[7] -= 0.5 * nats;
-    hypotheses.base.error[kTrolleyPosition] = 1;
-    alone.error[kTrolleyPosition] = 0.8;
-    alone.effects = {friction};
-    alone.parameters = 1;
-    hypotheses.all = {alone};
-    Diagnosis diagnosis = of(
-        Verdict::named, {cause("stribeck_friction", "trolley", 1), cause("viscous_friction", "trolley", 1)});
-    name_what_rows_show(*study_, hypotheses, {{candidate("stribeck_friction"), {0.5, decay_speed}}, friction},
-                        diagnosis);
-    return diagnosis;
-  }
-};
-
-TEST_F(LawOfLowSpeed, IsNamedWhereRowsShowIt) {
-  const Diagnosis found = named_with(0.1, 1);
-  EXPECT_EQ(found.verdict, Verdict::named);
-  EXPECT_EQ(found.causes.size(), 2U);
-  EXPECT_TRUE(found.remainder.from.empty());
-}
-
-TEST_F(LawOfLowSpeed, IsNotNamedWhereTheAxisStopsBetweenTwoRows) {
-  const Diagnosis found = named_with(0.005, 1);
-  EXPECT_EQ(found.verdict, Verdict::named);
-  ASSERT_EQ(found.causes.size(), 1U);
-  EXPECT_EQ(found.causes[0].name, "viscous_friction");
-  EXPECT_EQ(found.attempted.at(0).name, "stribeck_friction");
-  EXPECT_EQ(found.remainder.from.at(0),
-            "trolley: friction at speeds that the rows are too far apart to show");
-}
-
-TEST_F(LawOfLowSpeed, LeavesAnUnknownErrorWhereNothingElseExplainsAnything) {
-  const Diagnosis found = named_with(0.005, 0);
-  EXPECT_EQ(found.verdict, Verdict::unknown);
-  EXPECT_EQ(
-      found.sentence,
-      "Something is wrong that no known cause explains (trolley: friction at speeds that the rows are too "
-      "far apart to show).");
-}
-
-/// Beside the verdict on the rest of the model.
-class EncoderThatLosesCounts : public DriveAxis {
- protected:
   static Diagnosis named_beside(Diagnosis diagnosis) {
     const LosingEncoder encoder{.axis = kTrolleyPosition,
                                 .jumps = 7,
@@ -142,6 +75,9 @@ class EncoderThatLosesCounts : public DriveAxis {
     name_losing({encoder}, *study_, *study_, diagnosis);
     return diagnosis;
   }
+
+  static inline std::optional<DataOfTruth> data_;
+  static inline std::optional<Study> study_;
 };
 
 TEST_F(EncoderThatLosesCounts, IsNamedAlone) {

@@ -34,11 +34,6 @@ inline constexpr Rule kClearWin{"clear_win", 0.8, "1", "share of block resamples
 inline constexpr Rule kRunnerUp{"runner_up", 0.1, "1", "share of block resamples that makes a rival",
                                 "level of the vote"};
 
-// A name of a law that acts at low speed only (verdict/resolution.cpp).
-inline constexpr Rule kRowsToShow{
-    "rows_to_show", 1, "rows", "least rows between the speed at which a law of friction ends and standstill",
-    "definition: below it most stops show no row of the law"};
-
 // Proof on held-out runs (verdict/diagnose.cpp).
 inline constexpr Rule kHeldOutWin{"held_out_win", 0.95, "1",
                                   "share of resampled held-out blocks that the extended model makes likelier",
@@ -88,29 +83,12 @@ inline constexpr Rule kDoubtfulOfOneName{"doubtful_of_one_name", 0.5, "1",
                                          "pattern over what one of the names explains on its axis",
                                          "read off examples"};
 
-inline constexpr std::array kAll{kLuckOfTheBest,
-                                 kSignificant,
-                                 kLeastAlone,
-                                 kLeastBeside,
-                                 kClearWin,
-                                 kRunnerUp,
-                                 kRowsToShow,
-                                 kHeldOutWin,
-                                 kWorthwhile,
-                                 kStandsStill,
-                                 kWorseOverWholeRuns,
-                                 kStillFollowed,
-                                 kWorstLoss,
-                                 kNotFollowed,
-                                 kSwings,
-                                 kCredibleForce,
-                                 kPattern,
-                                 kPatternLuck,
-                                 kDoubtful,
-                                 kDoubtfulOfItsOwn,
-                                 kDoubtfulOfSeveralLaws,
-                                 kDoubtfulOverTime,
-                                 kDoubtfulOfOneName};
+inline constexpr std::array kAll{
+    kLuckOfTheBest,    kSignificant,      kLeastAlone,  kLeastBeside,      kClearWin,
+    kRunnerUp,         kHeldOutWin,       kWorthwhile,  kStandsStill,      kWorseOverWholeRuns,
+    kStillFollowed,    kWorstLoss,        kNotFollowed, kSwings,           kCredibleForce,
+    kPattern,          kPatternLuck,      kDoubtful,    kDoubtfulOfItsOwn, kDoubtfulOfSeveralLaws,
+    kDoubtfulOverTime, kDoubtfulOfOneName};
 
 }  // namespace rules
 }  // namespace crane::diagnosis

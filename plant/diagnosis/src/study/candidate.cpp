@@ -96,13 +96,12 @@ class Builder {
                                    {free_parameter("direction_asymmetry", "coulomb_v", -3, 3, 0.02),
                                     free_parameter("direction_asymmetry", "viscous_vspm", -20, 20, 0.05)}),
                        sides));
-    Candidate stribeck = reaching(
-        shaped("stribeck_friction", axis, free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
-               {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
-               {{0.01}, {0.03}, {0.08}, {0.2}}),
-        excesses);
-    stribeck.decay_speed = 1;
-    add_force(GoesWith::speed, std::move(stribeck));
+    add_force(GoesWith::speed,
+              reaching(shaped("stribeck_friction", axis,
+                              free_parameter("stribeck_friction", "excess_v", 0, 5, 0.05),
+                              {free_parameter("stribeck_friction", "decay_speed", 0.003, 0.5, 0.002)},
+                              {{0.01}, {0.03}, {0.08}, {0.2}}),
+                       excesses));
     add_tight_spots(axis, output);
     add_ripple(axis, output);
     add_force(GoesWith::position,

@@ -13,7 +13,6 @@
 #include "verdict/excitation.hpp"
 #include "verdict/judgement.hpp"
 #include "verdict/losing_encoders.hpp"
-#include "verdict/resolution.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -171,8 +170,6 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
       doubt(result, proof.why);
     }
   }
-  if (result.verdict != Verdict::none && result.verdict != Verdict::unknown)
-    name_what_rows_show(study, found, best.effects, result);
   if (result.verdict == Verdict::ambiguous) {
     request.progress(0.95, "which motion would tell them apart");
     result.next_experiment = propose_experiment(rig, best.effects, rival, disturbances_of(study));

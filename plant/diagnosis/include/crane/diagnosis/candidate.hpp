@@ -33,11 +33,9 @@ struct Candidate {
   std::string axis;                  ///< "trolley", "slew", "radial", "tangential" or empty
   bool drive = false, load = false;  ///< replays that it changes
   std::vector<FreeParameter> parameters;
-  /// Number of leading parameters that are amounts: at their `null` there is no effect, whatever the others
-  /// are.
+  /// Number of leading parameters that are amounts: with all of them at `null` there is no effect, whatever
+  /// the other parameters are.
   std::size_t amount_count = 1;
-  /// Index of the parameter above whose value, a speed, the effect decays; none: it acts at any speed.
-  std::optional<std::size_t> decay_speed;
   std::vector<Shape> shapes;
   bool one_sided = false;  ///< the amount is >= 0 or <= 0
   /// A wave over position. Its loss has many minima in the phase: its shapes are the strongest waves of the
