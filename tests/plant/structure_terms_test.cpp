@@ -170,6 +170,43 @@ TEST(DoublePendulum, KeepsTheMomentumAlongTheJib) {
   EXPECT_GT(std::abs(a.trolley_mps2), 1e-3);
 }
 
+TEST(DoublePendulum, KeepsItsEnergyInWideSwings) {
+  constexpr double kShare = 0.45, kUpper_m = 0.5, kLower_m = 0.3;
+  const Parameters p;
+  const Model model{p, {{"double_pendulum", "", {{"lower_share", kShare}, {"lower_length_m", kLower_m}}}}};
+  const auto unit = [](double phi, double theta) {
+    return Eigen::Vector3d{-std::cos(theta) * std::sin(phi), std::sin(theta),
+                           -std::cos(theta) * std::cos(phi)};
+  };
+  const auto energy = [&](const StructureMotion& m) {
+    const State& s = m.state;
+    const auto& [phi, theta] = std::pair{m.inner[0], m.inner[1]};
+    constexpr double kStep = 1e-6;  // s, central difference of the directions
+    const auto at = [&](double t, double share_of_lower) {
+      return unit(
+          s.radial_rad + share_of_lower * phi.position + t * (s.radial_radps + share_of_lower * phi.rate),
+          s.tangential_rad + share_of_lower * theta.position +
+              t * (s.tangential_radps + share_of_lower * theta.rate));
+    };
+    const Eigen::Vector3d hook = kUpper_m * at(0, 0), load = hook + kLower_m * at(0, 1);
+    const Eigen::Vector3d hook_mps = kUpper_m * (at(kStep, 0) - at(-kStep, 0)) / (2 * kStep);
+    const Eigen::Vector3d load_mps = hook_mps + kLower_m * (at(kStep, 1) - at(-kStep, 1)) / (2 * kStep);
+    return (1 - kShare) * (hook_mps.squaredNorm() / 2 + p.gravity_mps2 * hook.z()) +
+           kShare * (load_mps.squaredNorm() / 2 + p.gravity_mps2 * load.z());
+  };
+  StructureMotion motion{
+      {.radial_rad = 0.9, .tangential_rad = -0.5, .cable_m = kUpper_m, .radial_radps = -0.7},
+      {{{-0.4, 2}, {0.6, -1}}}};
+  const double start = energy(motion);
+  double largest_rad = 0;
+  for (int i = 0; i < 5000; ++i) {
+    motion = test::step(model, motion, held(), kStep_s);
+    largest_rad = std::max(largest_rad, std::abs(motion.inner[0].position));
+  }
+  EXPECT_NEAR(energy(motion), start, 1e-6);  // J/kg, of 4 J/kg
+  EXPECT_GT(largest_rad, 0.5);
+}
+
 TEST(DoublePendulum, SwingsTheSameOverGroundWhenTheCraneTurnsAboutIt) {
   const Model model{{}, {{"double_pendulum", "", {{"lower_share", 0.4}, {"lower_length_m", 0.3}}}}};
   constexpr double kTurning = 0.7;

@@ -16,6 +16,8 @@ constexpr std::size_t kFirst = 10, kExtensions = 5;
 constexpr std::size_t kBeam = 2;
 /// Of the single effects, those all of whose pairs are fitted: two may explain together what neither does.
 constexpr std::size_t kPaired = 3;
+/// Candidates that are tried in the place of an effect.
+constexpr std::size_t kExchanged = 2;
 /// Hypotheses of a size that are settled: the likeliest, before their fits know their own noise.
 constexpr std::size_t kSettled = 4;
 
@@ -63,6 +65,7 @@ class Search {
         level = settle();
         if (level.empty()) break;
         settle_parts_of(level.front());
+        level = with(std::move(level), exchanged(level.front()));
         if (!accept_one_of(level)) break;
       }
     }
@@ -109,6 +112,19 @@ class Search {
       keep(fitted);
       if (rest.size() == found_.best.effects.size()) accept(fitted);
     }
+  }
+
+  /// The same hypothesis with one effect replaced by another one: what was best beside fewer effects is not
+  /// always best beside all of them.
+  /// @pre settle_parts_of(given)
+  std::vector<Fitted> exchanged(const Fitted& given) {
+    const Fitted whole = given;
+    for (std::size_t i = 0; i < whole.effects.size(); ++i) {
+      Effects rest = whole.effects;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      extend(*of_all(rest), kExchanged);
+    }
+    return settle();
   }
 
   /// Flipping the signs of fewer blocks proves nothing about what is left beside a fitted effect.
@@ -162,10 +178,13 @@ class Search {
     return level;
   }
 
+  [[nodiscard]] std::vector<Fitted>::iterator of_all(const Effects& effects) {
+    return std::ranges::find_if(found_.all, [&](const Fitted& f) { return same(f.effects, effects); });
+  }
+
   /// Of the same effects the likelier fit stays.
   void keep(const Fitted& fitted) {
-    const auto known = std::find_if(found_.all.begin(), found_.all.end(),
-                                    [&](const Fitted& f) { return same(f.effects, fitted.effects); });
+    const auto known = of_all(fitted.effects);
     if (known == found_.all.end())
       found_.all.push_back(fitted);
     else if (less(fitted, *known))
@@ -178,11 +197,14 @@ class Search {
            std::any_of(tried_.begin(), tried_.end(), is_there);
   }
 
-  /// Of as many effects the likelier hypothesis is the better one; more of them have to be worth it.
+  /// Of as many effects, or of no more values, the likelier hypothesis is the better one; more of both have
+  /// to be worth it.
   bool accept(const Fitted& fitted) {
-    const bool as_many = fitted.effects.size() == found_.best.effects.size();
-    if (as_many && !less(fitted, found_.best)) return false;
-    if (!accepted(fitted, as_many ? found_.base : found_.best, study_.candidates().size())) return false;
+    const Fitted& best = found_.best;
+    const bool no_larger =
+        fitted.effects.size() == best.effects.size() || fitted.parameters <= best.parameters;
+    if (no_larger && !less(fitted, best)) return false;
+    if (!accepted(fitted, no_larger ? found_.base : best, study_.candidates().size())) return false;
     found_.best = fitted;
     return true;
   }
@@ -240,8 +262,7 @@ class Search {
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
       Effects rest = whole.effects;
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-      const auto fitted = std::find_if(found_.all.begin(), found_.all.end(),
-                                       [&](const Fitted& f) { return same(f.effects, rest); });
+      const auto fitted = of_all(rest);
       if (fitted == found_.all.end()) study_.whiten_training(found_.base.noise);
       fewer.push_back(fitted != found_.all.end() ? *fitted
                                                  : study_.settled(study_.screened(rest, found_.base)));

@@ -7,6 +7,7 @@
 
 #include "replay/travel.hpp"
 #include "study/candidate_shapes.hpp"
+#include "study/load_candidates.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -47,15 +48,19 @@ class Builder {
       return std::any_of(runs_.begin(), runs_.end(),
                          [&](const PreparedRun& r) { return r.run.has(output) && r.run.commanded[output]; });
     };
-    const bool load = rig_.has_load();
     for (const auto& [axis, output, scale] :
          {std::tuple{"trolley", kTrolleyPosition, 1.0}, std::tuple{"slew", kSlewAngle, 2.0}}) {
       if (driven(output)) add_axis(axis, output, scale);
       if (!driven(output) && measured(output) && travelled(output) > kResting) add_support_sensor(axis);
     }
-    driven_ = driven(kTrolleyPosition) || driven(kSlewAngle);
-    radial_ = load && measured(kRadialSwing), tangential_ = load && measured(kTangentialSwing);
-    if (radial_ || tangential_) add_load(measured(kTrolleyPosition), measured(kSlewAngle));
+    if (rig_.has_load())
+      add_load_candidates(rig_, runs_,
+                          {.trolley = measured(kTrolleyPosition),
+                           .slew = measured(kSlewAngle),
+                           .driven = driven(kTrolleyPosition) || driven(kSlewAngle),
+                           .radial = measured(kRadialSwing),
+                           .tangential = measured(kTangentialSwing)},
+                          all_);
     return std::move(all_);
   }
 
@@ -183,86 +188,6 @@ class Builder {
     add_force(GoesWith::position, std::move(ripple));
   }
 
-  void add_load(bool trolley, bool slew) {
-    const double m = rig_.plant.load_mass_kg, g = rig_.plant.gravity_mps2;
-    const double length = rig_.start.position[plant::kHoist];
-    if (driven_) add(amount("payload_mass", "", "delta_kg", -0.9 * m, 10 * m, 0.05 * m), true, true, true);
-    add(amount("cable_length", "", "delta_m", -0.7 * length, 2 * length, 0.005), true, true, true);
-    add(amount("load_linear_drag", "", "coefficient_nspm", 0, 50 * m, 0.02 * m), false, true);
-    add(amount("load_quadratic_drag", "", "coefficient_ns2pm2", 0, 50 * m, 0.05 * m), false, true);
-    if (trolley || slew || (radial_ && tangential_))
-      add(turned("steady_wind", "", free_parameter("steady_wind", "force_n", 0, 2 * m, 0.005 * m * g),
-                 free_parameter("steady_wind", "direction_rad", -7, 7, 0.02), {}, {{}}),
-          true, true);
-    add_pivot_friction();
-    if (trolley) add(amount("jib_tilt", "", "angle_rad", -0.2, 0.2, 0.005), true, true);
-    add_structures(slew);
-    add_swing_sensors(trolley || slew);
-  }
-
-  /// Settings a resonance may begin its fit with lie about as far apart as two seconds tell frequencies. An
-  /// elastic cable is not among the candidates: its bounce is never measured, and free to start in every
-  /// window it explains the disturbance of clean data.
-  void add_structures(bool slew) {
-    const auto square = [](double hz) { return std::pow(2 * std::numbers::pi * hz, 2); };
-    const double most_raised = 0.5 * rig_.start.position[plant::kHoist];
-    std::vector<std::vector<double>> jibs, slings;
-    for (const double hz : {1.4, 2.0, 2.8, 4.0, 5.6})
-      for (const double share : {0.15, 0.6}) jibs.push_back({1 / square(hz), 0.03, share});
-    // The measured length reaches to the hook or to the load.
-    for (const double hz : {1.2, 1.6, 2.1, 2.6, 3.2, 4.0}) {
-      const double sling = rig_.plant.gravity_mps2 / (0.35 * square(hz));
-      for (const double raised : {0.0, std::min(sling, most_raised)}) slings.push_back({0.65, sling, raised});
-    }
-    if (slew)
-      add(at_once("jib_flexibility", "",
-                  {free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
-                   free_parameter("jib_flexibility", "damping_ratio", 0.001, 0.5, 0.01),
-                   free_parameter("jib_flexibility", "jib_share", 0, 0.9, 0.05)},
-                  jibs),
-          true, true);
-    add(at_once("double_pendulum", "",
-                {free_parameter("double_pendulum", "lower_share", 0.03, 0.85, 0.001),
-                 free_parameter("double_pendulum", "lower_length_m", 0.03, 2, 0.0001),
-                 free_parameter("double_pendulum", "hook_raised_m", 0, most_raised, 0.001)},
-                slings),
-        false, true);
-  }
-
-  void add_pivot_friction() {
-    const double m = rig_.plant.load_mass_kg, length = rig_.start.position[plant::kHoist];
-    const double inertia = m * length * length;
-    std::vector<std::string> ways;
-    if (radial_) ways.emplace_back("radial");
-    if (tangential_) ways.emplace_back("tangential");
-    if (ways.size() == 2) ways.emplace_back("");
-    for (const std::string& way : ways)
-      add(two_amounts(
-              "swing_pivot_friction", way,
-              {free_parameter("swing_pivot_friction", "viscous_nmsprad", 0, 10 * inertia, 0.02 * inertia),
-               free_parameter("swing_pivot_friction", "coulomb_nm", 0, inertia, 0.005 * inertia)}),
-          false, true);
-  }
-
-  /// @param drive whether drives are measured: the load pulls at them as it swings, not as it is measured to
-  void add_swing_sensors(bool drive) {
-    std::vector<std::string> ways;
-    if (radial_) ways.emplace_back("radial");
-    if (tangential_) ways.emplace_back("tangential");
-    for (const std::string& way : ways) {
-      add(amount("swing_offset", way, "offset_rad", -0.3, 0.3, 0.005), drive, true);
-      add(amount("swing_scale", way, "factor", 0.5, 2, 0.01), drive, true);
-    }
-    if (ways.size() == 2) {
-      add(amount("swing_misalignment", "", "angle_rad", -0.6, 0.6, 0.01), drive, true);
-      ways.emplace_back("");
-    }
-    for (const std::string& way : ways) {
-      add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), drive, true);
-      add(amount("swing_moving_average", way, "window_s", 0, 0.5, 0.02), drive, true);
-    }
-  }
-
   /// No axis goes less far.
   [[nodiscard]] double travelled(Output output) const {
     return std::max(travel_of(runs_, output).width(), 1e-3);
@@ -270,8 +195,6 @@ class Builder {
 
   const configuration::Rig& rig_;
   const std::vector<PreparedRun>& runs_;
-  bool radial_ = false, tangential_ = false;
-  bool driven_ = false;  ///< whether any drive is compared
   std::vector<Candidate> all_;
 };
 

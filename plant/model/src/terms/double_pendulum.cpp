@@ -6,8 +6,32 @@
 namespace crane::plant {
 namespace {
 
+/// Direction of a cable and its derivatives, in the jib frame: e(phi, theta) of (2.11).
+struct Direction {
+  Direction(double phi, double theta, double phi_rate, double theta_rate, double turn) {
+    const double sf = std::sin(phi), cf = std::cos(phi), st = std::sin(theta), ct = std::cos(theta);
+    unit = {-ct * sf, st, -ct * cf};
+    by_phi = {-ct * cf, 0, ct * sf};
+    by_theta = {st * sf, ct, st * cf};
+    rate = phi_rate * by_phi + theta_rate * by_theta;
+    rate_over_ground = rate + turn * Eigen::Vector3d{-unit.y(), unit.x(), 0};
+    const Eigen::Vector3d by_phi_phi{ct * sf, 0, ct * cf}, by_phi_theta{st * cf, 0, -st * sf};
+    bend = phi_rate * phi_rate * by_phi_phi + 2 * phi_rate * theta_rate * by_phi_theta -
+           theta_rate * theta_rate * unit;
+  }
+  Eigen::Vector3d unit, by_phi, by_theta;  ///< e, its derivatives by the angles
+  Eigen::Vector3d rate, rate_over_ground;  ///< e' in the turning jib frame, and relative to the ground
+  Eigen::Vector3d bend;                    ///< e'' in the jib frame without phi'' and theta''
+};
+
+/// Tensions of both cables divided by the mass of the hook, m/s^2.
+struct Tensions {
+  double upper = 0, lower = 0;
+};
+
 /// The inner coordinates are the angles of the lower cable relative to the upper cable. Their initial value 0
-/// puts the load in line with the upper cable, for any initial swing.
+/// puts the load in line with the upper cable, for any initial swing. Both cables are taut. The tensions
+/// neglect the acceleration of the suspension point and of the hoist along the cable.
 class DoublePendulum final : public Term {
  public:
   explicit DoublePendulum(const TermSetting& s)
@@ -26,30 +50,48 @@ class DoublePendulum final : public Term {
   void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
                        Forces& sum) const noexcept override {
     if (lower_share_ == 0) return;
-    const double phi = state.radial_rad + inner[0].position, theta = state.tangential_rad + inner[1].position;
-    const double weight_n = ratio() * crane.load_mass_kg * crane.gravity_mps2;
-    const Eigen::Vector3d down_cable{-std::cos(theta) * std::sin(phi), std::sin(theta),
-                                     -std::cos(theta) * std::cos(phi)};
-    add_load_force(state, weight_n * down_cable, sum);
+    const Direction upper = upper_cable(state), lower = lower_cable(state, inner);
+    const double force_n = crane.load_mass_kg * tensions(crane, state, upper, lower).lower;
+    add_load_force(state, force_n * lower.unit, sum);
   }
 
+  /// Newton's law of both masses, subtracted: l e_2'' = T_1 / m_1 e_1 - (...) e_2, projected on the
+  /// derivatives of e_2, which are orthogonal to e_2 and to each other.
   void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
                   const Inner* inner, double* acceleration) const noexcept override {
     if (lower_share_ == 0) return;
-    const double stiffness = crane.gravity_mps2 / lower_length_m_ * (1 + ratio());
-    const double phi = state.radial_rad + inner[0].position, theta = state.tangential_rad + inner[1].position;
-    const double phi_rate = state.radial_radps + inner[0].rate;
-    const double theta_rate = state.tangential_radps + inner[1].rate;
+    const Direction upper = upper_cable(state), lower = lower_cable(state, inner);
     const double turn = state.slew_radps, turning = drives.slew_radps2;
-    acceleration[0] = stiffness * (std::sin(state.radial_rad) - std::sin(phi)) - 2 * turn * theta_rate -
-                      turning * theta + turn * turn * phi - drives.radial_radps2;
-    acceleration[1] = stiffness * (std::sin(state.tangential_rad) - std::sin(theta)) + 2 * turn * phi_rate +
-                      turning * phi + turn * turn * theta - drives.tangential_radps2;
+    const Eigen::Vector3d& e = lower.unit;
+    const Eigen::Vector3d rotation = 2 * turn * Eigen::Vector3d{-lower.rate.y(), lower.rate.x(), 0} +
+                                     turning * Eigen::Vector3d{-e.y(), e.x(), 0} -
+                                     turn * turn * Eigen::Vector3d{e.x(), e.y(), 0};
+    const Eigen::Vector3d bending =
+        tensions(crane, state, upper, lower).upper / lower_length_m_ * upper.unit - rotation - lower.bend;
+    acceleration[0] = lower.by_phi.dot(bending) / lower.by_phi.squaredNorm() - drives.radial_radps2;
+    acceleration[1] = lower.by_theta.dot(bending) - drives.tangential_radps2;
   }
 
  private:
-  /// Mass below the hook / mass of the hook.
-  [[nodiscard]] double ratio() const { return lower_share_ / (1 - lower_share_); }
+  [[nodiscard]] static Direction upper_cable(const State& s) {
+    return {s.radial_rad, s.tangential_rad, s.radial_radps, s.tangential_radps, s.slew_radps};
+  }
+  [[nodiscard]] static Direction lower_cable(const State& s, const Inner* inner) {
+    return {s.radial_rad + inner[0].position, s.tangential_rad + inner[1].position,
+            s.radial_radps + inner[0].rate, s.tangential_radps + inner[1].rate, s.slew_radps};
+  }
+  /// Newton's law of both masses along the cables, whose lengths do not change:
+  ///   T_1 / m_1 - c T_2 / m_1 = g cos_1 + L |e_1'|^2,   T_2 / m_1 = mu (c T_1 / m_1 + l |e_2'|^2)
+  /// with c = e_1 . e_2 and the share mu of the lower mass.
+  [[nodiscard]] Tensions tensions(const Parameters& crane, const State& state, const Direction& upper,
+                                  const Direction& lower) const {
+    const double c = upper.unit.dot(lower.unit);
+    const double upper_pull =
+        -crane.gravity_mps2 * upper.unit.z() + state.cable_m * upper.rate_over_ground.squaredNorm();
+    const double lower_pull = lower_share_ * lower_length_m_ * lower.rate_over_ground.squaredNorm();
+    const double tension = (upper_pull + c * lower_pull) / (1 - lower_share_ * c * c);
+    return {.upper = tension, .lower = lower_share_ * c * tension + lower_pull};
+  }
   double lower_share_, lower_length_m_, hook_raised_m_;
 };
 
@@ -58,10 +100,10 @@ class DoublePendulum final : public Term {
 TermKind double_pendulum() {
   return {.name = "double_pendulum",
           .equation =
-              "hook (1 - mu) m at L - u, load mu m at l below: l phi_2'' = g (1 + r)(sin(phi) - sin(phi_2)) "
-              "+ rotation of the frame, likewise theta; F = mu m g along the lower cable on the hook; "
-              "r = mu / (1 - mu)",
-          .source = "Newton's law of both masses with the cables' tensions at rest; exact for small angles",
+              "hook (1 - mu) m at L - u, load mu m at l below: l e_2'' = T_1 e_1 / m_1 - (T_2 / m_1 + T_2 / "
+              "m_2) e_2 "
+              "with the tensions that keep both lengths; F = T_2 along the lower cable on the hook",
+          .source = "Newton's law of both masses; exact where the suspension point is at rest",
           .acts_on = ActsOn::structure,
           .axes = {""},
           .parameters =

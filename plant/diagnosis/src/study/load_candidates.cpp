@@ -1,0 +1,143 @@
+#include "study/load_candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "study/candidate_shapes.hpp"
+#include "study/swing_lines.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+class LoadBuilder {
+ public:
+  LoadBuilder(const configuration::Rig& rig, const std::vector<PreparedRun>& runs, const LoadData& data,
+              std::vector<Candidate>& all)
+      : rig_{rig}, runs_{runs}, data_{data}, all_{all} {}
+
+  void build() {
+    const double m = rig_.plant.load_mass_kg, g = rig_.plant.gravity_mps2;
+    const double length = rig_.start.position[plant::kHoist];
+    if (data_.driven)
+      add(amount("payload_mass", "", "delta_kg", -0.9 * m, 10 * m, 0.05 * m), true, true, true);
+    add(amount("cable_length", "", "delta_m", -0.7 * length, 2 * length, 0.005), true, true, true);
+    add(amount("load_linear_drag", "", "coefficient_nspm", 0, 50 * m, 0.02 * m), false, true);
+    add(amount("load_quadratic_drag", "", "coefficient_ns2pm2", 0, 50 * m, 0.05 * m), false, true);
+    if (data_.trolley || data_.slew || (data_.radial && data_.tangential))
+      add(turned("steady_wind", "", free_parameter("steady_wind", "force_n", 0, 2 * m, 0.005 * m * g),
+                 free_parameter("steady_wind", "direction_rad", -7, 7, 0.02), {}, {{}}),
+          true, true);
+    add_pivot_friction();
+    if (data_.trolley) add(amount("jib_tilt", "", "angle_rad", -0.2, 0.2, 0.005), true, true);
+    add_structures();
+    add_swing_sensors();
+  }
+
+ private:
+  void add(Candidate candidate, bool drive, bool load, bool known = false) {
+    candidate.drive = drive;
+    candidate.load = load;
+    candidate.changes_known_parameter = known;
+    all_.push_back(std::move(candidate));
+  }
+
+  /// Settings a resonance may begin its fit with lie about as far apart as two seconds tell frequencies. An
+  /// elastic cable is not among the candidates: its bounce is never measured, and free to start in every
+  /// window it explains the disturbance of clean data.
+  void add_structures() {
+    const auto square = [](double hz) { return std::pow(2 * std::numbers::pi * hz, 2); };
+    const double most_raised = 0.7 * rig_.start.position[plant::kHoist];
+    std::vector<std::vector<double>> jibs, slings;
+    for (const double hz : {1.4, 2.0, 2.8, 4.0, 5.6})
+      for (const double share : {0.15, 0.6}) jibs.push_back({1 / square(hz), 0.03, share});
+    // The measured length reaches to the hook or to the load.
+    for (const double hz : {1.2, 1.6, 2.1, 2.6, 3.2, 4.0}) {
+      const double sling = rig_.plant.gravity_mps2 / (0.35 * square(hz));
+      for (const double raised : {0.0, std::min(sling, most_raised)}) slings.push_back({0.65, sling, raised});
+    }
+    add_slings_of_lines(most_raised, slings);
+    if (data_.slew)
+      add(at_once("jib_flexibility", "",
+                  {free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
+                   free_parameter("jib_flexibility", "damping_ratio", 0.001, 0.5, 0.01),
+                   free_parameter("jib_flexibility", "jib_share", 0, 0.9, 0.05)},
+                  jibs),
+          true, true);
+    Candidate two_cables =
+        at_once("double_pendulum", "",
+                {free_parameter("double_pendulum", "lower_share", 0.03, 0.85, 0.001),
+                 free_parameter("double_pendulum", "lower_length_m", 0.03, 2, 0.0001),
+                 free_parameter("double_pendulum", "hook_raised_m", 0, most_raised, 0.001)},
+                slings);
+    two_cables.rings = true;
+    add(std::move(two_cables), false, true);
+  }
+
+  /// The strongest line of the swing and another one may be the natural frequencies of two cables. In a wide
+  /// swing the faster one is lower than in a small one.
+  void add_slings_of_lines(double most_raised, std::vector<std::vector<double>>& slings) const {
+    constexpr std::size_t kLines = 3;
+    const double measured_m = rig_.start.position[plant::kHoist];
+    const std::vector<double> lines = swing_lines(runs_, kLines);
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      for (const double wide : {1.0, 1.05, 1.1})
+        for (const double share : {0.4, 0.7, 0.95})
+          for (const TwoCables& cables :
+               cables_with(std::min(lines[0], lines[i]), wide * std::max(lines[0], lines[i]), share,
+                           rig_.plant.gravity_mps2)) {
+            const double raised = measured_m - cables.upper_m;
+            if (raised >= 0 && raised <= most_raised)
+              slings.push_back({cables.lower_share, cables.lower_m, raised});
+          }
+  }
+
+  void add_pivot_friction() {
+    const double m = rig_.plant.load_mass_kg, length = rig_.start.position[plant::kHoist];
+    const double inertia = m * length * length;
+    std::vector<std::string> ways;
+    if (data_.radial) ways.emplace_back("radial");
+    if (data_.tangential) ways.emplace_back("tangential");
+    if (ways.size() == 2) ways.emplace_back("");
+    for (const std::string& way : ways)
+      add(two_amounts(
+              "swing_pivot_friction", way,
+              {free_parameter("swing_pivot_friction", "viscous_nmsprad", 0, 10 * inertia, 0.02 * inertia),
+               free_parameter("swing_pivot_friction", "coulomb_nm", 0, inertia, 0.005 * inertia)}),
+          false, true);
+  }
+
+  void add_swing_sensors() {
+    // The load pulls at the drives as it swings, not as it is measured to.
+    const bool drive = data_.trolley || data_.slew;
+    std::vector<std::string> ways;
+    if (data_.radial) ways.emplace_back("radial");
+    if (data_.tangential) ways.emplace_back("tangential");
+    for (const std::string& way : ways) {
+      add(amount("swing_offset", way, "offset_rad", -0.3, 0.3, 0.005), drive, true);
+      add(amount("swing_scale", way, "factor", 0.5, 2, 0.01), drive, true);
+    }
+    if (ways.size() == 2) {
+      add(amount("swing_misalignment", "", "angle_rad", -0.6, 0.6, 0.01), drive, true);
+      ways.emplace_back("");
+    }
+    for (const std::string& way : ways) {
+      add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), drive, true);
+      add(amount("swing_moving_average", way, "window_s", 0, 0.5, 0.02), drive, true);
+    }
+  }
+
+  const configuration::Rig& rig_;
+  const std::vector<PreparedRun>& runs_;
+  const LoadData& data_;
+  std::vector<Candidate>& all_;
+};
+
+}  // namespace
+
+void add_load_candidates(const configuration::Rig& rig, const std::vector<PreparedRun>& runs,
+                         const LoadData& data, std::vector<Candidate>& all) {
+  if (data.radial || data.tangential) LoadBuilder(rig, runs, data, all).build();
+}
+
+}  // namespace crane::diagnosis
