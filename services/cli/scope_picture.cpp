@@ -13,7 +13,8 @@ using observation::Capture, observation::Field, observation::FieldTable;
 using recording::LeafType;
 
 constexpr std::size_t kLargestPanel = 10;  // rows of a curve
-constexpr std::size_t kFrame = 4;          // rows beside the panels: title, axis, labels of the axis, prompt
+constexpr std::size_t kFrame =
+    5;  // rows beside the panels: title, axis, its labels, name of the file, prompt
 
 /// Unit on the screen: degrees instead of radians.
 struct Display {
@@ -43,7 +44,7 @@ std::string value_text(const LeafType& leaf, double value) {
 std::vector<double> times_of(const Capture& capture) {
   std::vector<double> times_s;
   const auto zero_ns = capture.rows.empty() ? 0 : capture.rows[capture.trigger.value_or(0)].time_ns;
-  for (const auto& row : capture.rows) times_s.push_back(static_cast<double>(row.time_ns - zero_ns) * 1e-9);
+  for (const auto& row : capture.rows) times_s.push_back(static_cast<double>(row.time_ns - zero_ns) / 1e9);
   return times_s;
 }
 

@@ -118,14 +118,18 @@ RankedTable processes(const TopModel& model, std::int64_t now_ns) {
   return table;
 }
 
-RankedTable topics_of(const TopModel& model, bool with_trends, bool with_silent) {
+/// Topics that are shown: all, those with samples, those of the loop with samples.
+enum class Shown : std::uint8_t { all, heard, loop };
+
+RankedTable topics_of(const TopModel& model, bool with_trends, Shown shown) {
   std::vector<RankedTable::Column> columns{{"topic", 9}, {"rate Hz", 9},      {"lost", 8},   {"late", 4},
                                            {"dup", 2},   {"delay p50 us", 3}, {"p99 us", 7}, {"max us", 6}};
   if (with_trends) columns.push_back({"delay p99 (else rate), last 30 s", 5});
   RankedTable table{columns};
   for (std::size_t i = 0; i < topics::kAll.size(); ++i) {
     const auto& topic = model.traffic().topic(i);
-    if (topic.counts.samples == 0 && !with_silent) continue;
+    if (topic.counts.samples == 0 && shown != Shown::all) continue;
+    if (!topics::kAll[i].every_tick && shown == Shown::loop) continue;
     const bool counted = topics::kAll[i].every_tick && topic.counts.samples > 0;
     const auto count = [counted](std::uint64_t n) { return counted ? std::to_string(n) : std::string{"-"}; };
     const auto delay = [&topic](double Spread::*share) {
@@ -162,13 +166,13 @@ std::string sparkline(const std::deque<double>& values) {
 std::string top_text(const TopModel& model, const TopView& view, std::int64_t now_ns,
                      std::int64_t log_now_ns) {
   const auto width = view.size ? static_cast<std::size_t>(view.size->columns) : kUnlimited;
-  const auto text = [&](bool with_silent) {
-    return head(model, view.title, log_now_ns) + '\n' + processes(model, now_ns).text(width) + '\n' +
-           topics_of(model, view.trends, with_silent).text(width);
-  };
-  auto all = text(true);
-  if (!view.size || std::ranges::count(all, '\n') <= view.size->rows) return all;
-  return text(false);
+  std::string text;
+  for (const auto shown : {Shown::all, Shown::heard, Shown::loop}) {
+    text = head(model, view.title, log_now_ns) + '\n' + processes(model, now_ns).text(width) + '\n' +
+           topics_of(model, view.trends, shown).text(width);
+    if (!view.size || std::ranges::count(text, '\n') <= view.size->rows) break;
+  }
+  return text;
 }
 
 }  // namespace crane::cli

@@ -41,8 +41,9 @@ TEST(Curve, PeakOfOneSampleAmongThousandsIsVisible) {
 }
 
 TEST(Curve, MissingValuesInterruptIt) {
+  // A constant lies in the middle, 1.5 points below the highest: rounded to point 1.
   const std::vector<double> time_s{0, 1, 2, 3}, values{0, kNaN, kNaN, 0};
-  EXPECT_EQ(draw_curve(time_s, values, {.columns = 2, .rows = 1, .from_s = 0, .to_s = 3}), "        1 ┤⠄⠠\n");
+  EXPECT_EQ(draw_curve(time_s, values, {.columns = 2, .rows = 1, .from_s = 0, .to_s = 3}), "        1 ┤⠂⠐\n");
   const std::vector<double> none{kNaN, kNaN, kNaN, kNaN};
   EXPECT_EQ(draw_curve(time_s, none, {.columns = 2, .rows = 1, .from_s = 0, .to_s = 3}), "        1 ┤  \n");
   EXPECT_FALSE(extent_of(none));
@@ -52,7 +53,7 @@ TEST(Curve, MarkIsALineWhereTheCurveLeavesRoom) {
   const std::vector<double> time_s{-1, 1}, values{0, 0};
   const auto text =
       draw_curve(time_s, values, {.columns = 5, .rows = 3, .from_s = -1, .to_s = 1, .mark_s = 0});
-  EXPECT_THAT(text, testing::StartsWith("        1 ┤  ┊  \n          │⠤"));
+  EXPECT_THAT(text, testing::StartsWith("        1 ┤  ┊  \n          │⠒⠒⠒⠒⠒\n"));
   EXPECT_THAT(draw_time_axis({.columns = 5, .rows = 3, .from_s = -1, .to_s = 1, .mark_s = 0}),
               HasSubstr("└┬─▲─┬"));
 }

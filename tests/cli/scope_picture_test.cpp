@@ -22,9 +22,10 @@ class ScopePicture : public testing::Test {
     selection_.add("supervisor.state");
     for (std::uint64_t tick = 100; tick <= 130; ++tick) {
       const double swing_rad = (static_cast<double>(tick) - 110) * fields::kRadPerDeg;
-      capture_.rows.push_back({tick,
-                               static_cast<std::int64_t>(tick) * 10'000'000,
-                               {swing_rad, tick < 110 ? crane_STATE_RUN * 1.0 : crane_STATE_STOP_C1 * 1.0}});
+      capture_.rows.push_back(
+          {tick,
+           static_cast<std::int64_t>(tick) * 10'000'000,
+           {swing_rad, static_cast<double>(tick < 110 ? crane_STATE_RUN : crane_STATE_STOP_C1)}});
     }
     capture_.trigger = 10;
   }
@@ -55,8 +56,9 @@ TEST_F(ScopePicture, FitsTheTerminal) {
     std::string line;
     std::getline(lines, line);
     while (std::getline(lines, line))
-      if (line.find("┤") != std::string::npos || line.find("│") != std::string::npos)
+      if (line.find("┤") != std::string::npos || line.find("│") != std::string::npos) {
         EXPECT_LE(width_of(line), static_cast<std::size_t>(size.columns));
+      }
   }
 }
 

@@ -145,7 +145,7 @@ TEST_F(Views, ScopeFindsTheSameTickLiveAndInTheRecording) {
   EXPECT_NEAR(table.find("time_s")->front(), -0.2, 0.011);
   EXPECT_NEAR(table.find("time_s")->back(), 0.5, 0.011);
   for (std::size_t i = 0; i < table.rows(); ++i)
-    if (table.find("time_s")->at(i) == 0) EXPECT_EQ(table.find("tick")->at(i), static_cast<double>(tick));
+    EXPECT_EQ(table.find("time_s")->at(i) == 0, table.find("tick")->at(i) == static_cast<double>(tick));
 }
 
 TEST_F(Views, ScopeThatWaitsInVainSaysWhatItSaw) {
