@@ -21,12 +21,6 @@ void keep_newest(bus::Subscriber<T>& subscriber, std::optional<T>& newest) {
   while (const auto sample = subscriber.take()) newest = sample;
 }
 
-const char* remedy(const msg::SupervisorStatus& status) {
-  return status.cause == crane_CAUSE_NONE
-             ? ""
-             : supervisor::remedy_for(static_cast<supervisor::Cause>(status.cause));
-}
-
 void print_nodes(std::ostream& out, const Snapshot& snapshot) {
   TextTable table{{"process", "vendor", "pid", "phase", "controller", "ticks", "lost", "late", "duplicate",
                    "rejected", "step mean us", "max us"}};
@@ -37,25 +31,6 @@ void print_nodes(std::ostream& out, const Snapshot& snapshot) {
                std::to_string(node.rejected_samples), fixed(node.step_mean_us, 1),
                fixed(node.step_max_us, 1)});
   table.print(out);
-}
-
-void print_supervisor(std::ostream& out, const msg::SupervisorStatus& status) {
-  out << "supervisor  " << supervisor::name_of(static_cast<supervisor::State>(status.state));
-  if (status.cause != crane_CAUSE_NONE)
-    out << " because of " << supervisor::name_of(static_cast<supervisor::Cause>(status.cause)) << ": "
-        << remedy(status);
-  out << '\n';
-  if (status.cause != crane_CAUSE_HOMING_FAILED) return;
-  const auto failure = static_cast<supervisor::HomingFailure>(status.homing_failure);
-  out << "homing      " << supervisor::name_of(failure) << ": " << supervisor::remedy_for(failure) << '\n';
-}
-
-/// Prints the latched reason of the bridge, if any.
-void print_latch(std::ostream& out, const msg::State& state) {
-  if (state.latch_reason == crane_LATCH_NONE) return;
-  const auto reason = static_cast<bridge::Reason>(state.latch_reason);
-  out << "bridge      stopped the crane: " << bridge::name_of(reason) << ", "
-      << bridge::explanation_of(reason) << ": " << bridge::remedy_for(reason) << '\n';
 }
 
 void print_axes(std::ostream& out, const msg::State& state) {
@@ -90,6 +65,30 @@ void print_twin(std::ostream& out, const msg::Twin& twin) {
 }
 
 }  // namespace
+
+const char* remedy(const msg::SupervisorStatus& status) {
+  return status.cause == crane_CAUSE_NONE
+             ? ""
+             : supervisor::remedy_for(static_cast<supervisor::Cause>(status.cause));
+}
+
+void print_supervisor(std::ostream& out, const msg::SupervisorStatus& status) {
+  out << "supervisor  " << supervisor::name_of(static_cast<supervisor::State>(status.state));
+  if (status.cause != crane_CAUSE_NONE)
+    out << " because of " << supervisor::name_of(static_cast<supervisor::Cause>(status.cause)) << ": "
+        << remedy(status);
+  out << '\n';
+  if (status.cause != crane_CAUSE_HOMING_FAILED) return;
+  const auto failure = static_cast<supervisor::HomingFailure>(status.homing_failure);
+  out << "homing      " << supervisor::name_of(failure) << ": " << supervisor::remedy_for(failure) << '\n';
+}
+
+void print_latch(std::ostream& out, const msg::State& state) {
+  if (state.latch_reason == crane_LATCH_NONE) return;
+  const auto reason = static_cast<bridge::Reason>(state.latch_reason);
+  out << "bridge      stopped the crane: " << bridge::name_of(reason) << ", "
+      << bridge::explanation_of(reason) << ": " << bridge::remedy_for(reason) << '\n';
+}
 
 Snapshot listen(bus::Bus& bus, double timeout_s) {
   // Discovery is complete after this time without a new process. With keys a handshake precedes it, which is

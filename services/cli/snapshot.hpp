@@ -26,5 +26,11 @@ struct Snapshot {
 [[nodiscard]] nlohmann::ordered_json to_json(const Snapshot& snapshot);
 /// Prints the processes, the state of the supervisor with cause and remedy, and the axes.
 void print(std::ostream& out, const Snapshot& snapshot);
+/// Prints the state of the supervisor with cause and remedy.
+void print_supervisor(std::ostream& out, const msg::SupervisorStatus& status);
+/// Prints the latched reason of the bridge, if any.
+void print_latch(std::ostream& out, const msg::State& state);
+/// What the operator does about the cause; empty without a cause.
+[[nodiscard]] const char* remedy(const msg::SupervisorStatus& status);
 
 }  // namespace crane::cli

@@ -42,6 +42,7 @@ ordered_json json_of(const topics::Description& topic, const TopicTraffic& traff
 
 ordered_json json_of(const Traffic::Heard& heard, std::int64_t now_ns) {
   const auto& node = heard.status;
+  const auto rate_hz = heard.tick_rate_hz ? ordered_json(*heard.tick_rate_hz) : ordered_json(nullptr);
   return {{"name", node.name},
           {"vendor", node.vendor},
           {"pid", node.pid},
@@ -49,6 +50,7 @@ ordered_json json_of(const Traffic::Heard& heard, std::int64_t now_ns) {
           {"controller", node.controller},
           {"silent", heard.silent(now_ns)},
           {"ticks", node.ticks},
+          {"tick_rate_hz", rate_hz},
           {"lost", node.lost_ticks},
           {"late", node.late_samples},
           {"duplicate", node.duplicate_samples},
@@ -94,11 +96,27 @@ void Traffic::add(const Sample& sample) {
     if (line.delays_us.size() < kMostDelays) line.delays_us.push_back(delay_us);
     if (delay_us >= 0 && delay_us < kLongestDelay_us) ++line.figures.delay_histogram[bin_of(delay_us)];
   }
-  if (msg::NodeStatus status; decode(topics::node, sample, status)) {
-    constexpr std::size_t kMostNodes = 64;
-    if (nodes_.size() < kMostNodes || nodes_.contains(status.node))
-      nodes_[status.node] = {status, sample.arrival_time_ns, sample.log_time_ns};
+  if (msg::NodeStatus status; decode(topics::node, sample, status)) add_status(sample, status);
+}
+
+void Traffic::add_status(const Sample& sample, const msg::NodeStatus& status) {
+  constexpr std::size_t kMostNodes = 64;
+  constexpr std::int64_t kShortest_ns = 500'000'000;  // a change of phase is reported between two reports
+  const auto found = nodes_.find(status.node);
+  if (found == nodes_.end() && nodes_.size() >= kMostNodes) return;
+  Heard heard{status, sample.arrival_time_ns, sample.log_time_ns, sample.source_time_ns};
+  if (found != nodes_.end()) {
+    const auto& before = found->second;
+    const auto interval_ns = heard.source_time_ns - before.source_time_ns;
+    const bool same_start =
+        before.status.header.epoch == status.header.epoch && status.ticks >= before.status.ticks;
+    if (same_start && interval_ns >= kShortest_ns)
+      heard.tick_rate_hz =
+          static_cast<double>(status.ticks - before.status.ticks) * 1e9 / static_cast<double>(interval_ns);
+    else if (same_start)
+      heard.tick_rate_hz = before.tick_rate_hz;
   }
+  nodes_[status.node] = heard;
 }
 
 bool Traffic::poll(std::int64_t now_ns) {

@@ -40,6 +40,9 @@ class Traffic {
   struct Heard {
     msg::NodeStatus status{};
     std::int64_t arrival_ns = 0, log_time_ns = 0;
+    std::int64_t source_time_ns = 0;  ///< clock of the writer
+    /// Completed ticks per second between the last two reports; nothing for fewer than two of one start.
+    std::optional<double> tick_rate_hz{};
     [[nodiscard]] bool silent(std::int64_t now_ns) const;
   };
   [[nodiscard]] const std::map<std::uint32_t, Heard>& nodes() const { return nodes_; }
@@ -55,6 +58,7 @@ class Traffic {
   };
   std::vector<Line> topics_ = lines();
   static std::vector<Line> lines();
+  void add_status(const Sample& sample, const msg::NodeStatus& status);
   std::map<std::uint32_t, Heard> nodes_;
   std::int64_t window_ends_ns_ = 0;
 };

@@ -38,6 +38,8 @@ TEST(Completion, OfBashKnowsCommandsSubcommandsAndOptions) {
   EXPECT_EQ(completed_by_bash("crane topic e", 2), "echo\n");
   EXPECT_THAT(completed_by_bash("crane topic echo crane/state --co", 4), HasSubstr("--count"));
   EXPECT_THAT(completed_by_bash("crane --domain 3 up --bl", 4), HasSubstr("--black-box"));
+  EXPECT_EQ(completed_by_bash("crane to", 1), "top topic\n");
+  EXPECT_EQ(completed_by_bash("crane scope --tr", 2), "--trigger\n");
   EXPECT_EQ(completed_by_bash("crane no_such_", 1), "\n");
 }
 
@@ -52,6 +54,7 @@ TEST(ManualPage, HasEveryCommandAndNoErrorOfTroff) {
   const auto page = printed({"man"});
   EXPECT_THAT(page, HasSubstr(".SS crane doctor"));
   EXPECT_THAT(page, HasSubstr("\\-\\-net"));
+  for (const char* command : {".SS crane top\n", ".SS crane scope\n"}) EXPECT_THAT(page, HasSubstr(command));
   recording::put_contents(directory / "crane.1", page);
   const auto formatted =
       run_program("/usr/bin/groff", {"-man", "-Tutf8", "-ww", "-z", (directory / "crane.1").string()});

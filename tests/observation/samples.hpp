@@ -8,6 +8,7 @@
 namespace crane::observation {
 
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+inline constexpr std::int64_t kLoopPeriod_ns = kSecond_ns / 100;
 
 template <class T>
 SamplePtr sample_of(const topics::Topic<T>& topic, T message, std::int64_t at_ns, std::uint64_t tick = 1) {

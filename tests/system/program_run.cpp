@@ -101,6 +101,13 @@ bool ProgramRun::wait_for(const std::string& text, std::chrono::milliseconds pat
   return true;
 }
 
+bool ProgramRun::wait_for_error(const std::string& text, std::chrono::milliseconds patience) {
+  const auto give_up = steady_clock::now() + patience;
+  while (errors_.find(text) == std::string::npos)
+    if (!read_some(give_up)) return false;
+  return true;
+}
+
 std::optional<int> ProgramRun::wait(std::chrono::milliseconds patience) {
   const auto give_up = steady_clock::now() + patience;
   while (read_some(give_up)) {

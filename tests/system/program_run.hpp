@@ -21,8 +21,11 @@ class ProgramRun {
   std::optional<int> wait(std::chrono::milliseconds patience);
   /// Waits for `text` on standard output. @return false when the program ended or `patience` passed
   bool wait_for(const std::string& text, std::chrono::milliseconds patience);
+  /// The same on standard error.
+  bool wait_for_error(const std::string& text, std::chrono::milliseconds patience);
   void send(int signal) const;
 
+  [[nodiscard]] pid_t pid() const { return pid_; }
   [[nodiscard]] const std::string& output() const { return output_; }
   [[nodiscard]] const std::string& errors() const { return errors_; }
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
-#include <utility>
-#include <vector>
+
+#include "crane/fields/nearest_name.hpp"
 
 namespace crane::configuration {
 namespace {
@@ -30,21 +29,6 @@ Split split_unit(std::string_view key) {
   return {key.substr(0, underscore), suffix};
 }
 
-/// Levenshtein's distance: insertions, deletions and substitutions that make one word of the other.
-std::size_t edit_distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t substituted = diagonal + (from[i] == to[j] ? 0U : 1U);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 KeyHint key_hint(std::string_view unknown, const std::set<std::string, std::less<>>& known) {
@@ -55,16 +39,8 @@ KeyHint key_hint(std::string_view unknown, const std::set<std::string, std::less
       return {"unit must be " + std::string(right.unit) + ": " + key, key};
     }
   }
-  KeyHint hint;
-  std::size_t nearest = std::max<std::size_t>(2, unknown.size() / 3) + 1;
-  for (const auto& key : known) {
-    const std::size_t distance = edit_distance(unknown, key);
-    if (distance < nearest) {
-      nearest = distance;
-      hint = {"unknown key; did you mean " + key + "?", key};
-    }
-  }
-  return hint;
+  const std::string meant = fields::nearest_name(unknown, known);
+  return meant.empty() ? KeyHint{} : KeyHint{"unknown key; did you mean " + meant + "?", meant};
 }
 
 }  // namespace crane::configuration

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -28,6 +29,21 @@ const std::map<std::string, Kind, std::less<>> kPrimitives{{"boolean", Kind::boo
                                                            {"unsigned long long", Kind::uint64},
                                                            {"float", Kind::float32},
                                                            {"double", Kind::float64}};
+
+/// Units in brackets at the begin of a comment: "// [m, rad, m of cable] measured position" has m, rad, m.
+std::vector<std::string> units_in(std::string_view comment) {
+  const auto open = comment.find_first_not_of("/< ");
+  const auto close = comment.find(']');
+  if (open == std::string_view::npos || comment[open] != '[' || close == std::string_view::npos) return {};
+  std::vector<std::string> units;
+  for (auto rest = comment.substr(open + 1, close - open - 1); !rest.empty();) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    const auto item = rest.substr(std::min(rest.find_first_not_of(' '), comma), comma);
+    units.emplace_back(item.substr(0, std::min(item.find_first_of(" ,"), item.size())));
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return units;
+}
 
 /// Recursive-descent parser.
 class Parser {
@@ -143,6 +159,7 @@ class Parser {
   /// One member declaration: type name [n], name ...;
   void fields(Structure& of) {
     Field field;
+    const std::size_t first = of.fields.size();
     while (accept("@")) {
       if (word() != "key") fail("only @final and @key are supported");
       field.key = true;
@@ -163,6 +180,8 @@ class Parser {
       of.fields.push_back(std::move(named));
     } while (accept(","));
     expect(";");
+    const auto units = units_in(tokens_[at_ - 1].comment);
+    for (std::size_t i = first; i < of.fields.size(); ++i) of.fields[i].units = units;
   }
 
   void type_of(Field& field) {

@@ -46,6 +46,8 @@ std::vector<Token> tokens_of(std::string_view text) {
       length = token_length(text);
       if (length == 0) fail_at(line, std::string{"unexpected '"} + text.front() + "'");
       tokens.push_back({text.substr(0, length), line});
+    } else if (text.starts_with("//") && !tokens.empty() && tokens.back().line == line) {
+      tokens.back().comment = text.substr(0, length);
     }
     line +=
         static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length), '\n'));

@@ -1,5 +1,6 @@
 #pragma once
-/// Splits an IDL text into tokens: words, numbers and punctuation, without comments.
+/// Splits an IDL text into tokens: words, numbers and punctuation. A comment belongs to the token before it
+/// on its line.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@ namespace crane::recording {
 struct Token {
   std::string_view text;  ///< empty: end of the text
   int line = 1;
+  std::string_view comment{};  ///< "// ..." behind the token, on the same line; empty: none
 };
 
 /// The last token is an empty end token. @throws SchemaError for a character that IDL does not have

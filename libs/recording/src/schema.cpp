@@ -4,7 +4,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
-#include "schema_layout.hpp"
+#include "leaf_walk.hpp"
 
 namespace crane::recording {
 namespace {
@@ -155,23 +155,6 @@ void flatten_into(const ordered_json& value, const std::string& name, std::vecto
   }
 }
 
-void columns_into(const Structure& type, const std::string& prefix, std::vector<std::string>& names) {
-  for (const Field& field : type.fields)
-    for (std::uint32_t i = 0; i < field.count; ++i) {
-      const std::string name = prefix + field.name + (field.is_array ? "[" + std::to_string(i) + "]" : "");
-      if (field.kind == Kind::structure)
-        columns_into(*field.structure, name + ".", names);
-      else
-        names.push_back(name);
-    }
-}
-
-const Structure& find(const IdlTypes& types, std::string_view type) {
-  const auto found = types.structures.find(type);
-  if (found == types.structures.end()) throw std::out_of_range("the schema has no type " + std::string{type});
-  return found->second;
-}
-
 }  // namespace
 
 Schema::Schema(std::string_view idl_text) {
@@ -191,17 +174,11 @@ bool Schema::contains(std::string_view type) const { return types_->structures.c
 std::vector<std::string> Schema::types() const { return types_->order; }
 
 ordered_json Schema::decode(std::string_view type, std::span<const std::uint8_t> payload) const {
-  const Structure& structure = find(*types_, type);
+  const Structure& structure = structure_named(*types_, type);
   Decoder decoder{structure, payload};
   ordered_json sample = decoder.structure(structure);
   decoder.finish();
   return sample;
-}
-
-std::vector<std::string> Schema::columns(std::string_view type) const {
-  std::vector<std::string> names;
-  columns_into(find(*types_, type), "", names);
-  return names;
 }
 
 std::vector<Leaf> flatten(const ordered_json& sample) {

@@ -39,6 +39,7 @@ struct Field {
   std::uint32_t count = 1;       ///< elements of the array
   std::uint32_t max_length = 0;  ///< string: maximum length without the terminator; 0: unbounded
   bool key = false;
+  std::vector<std::string> units;  ///< by index of the innermost array; empty: the name ends in the unit
   const Enumeration* enumeration = nullptr;
   const Structure* structure = nullptr;
 };

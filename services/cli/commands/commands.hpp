@@ -15,6 +15,8 @@ void add_demo(CLI::App& app, Action& chosen);
 void add_run(CLI::App& app, Action& chosen);
 void add_sweep(CLI::App& app, Action& chosen);
 void add_status(CLI::App& app, Action& chosen);
+void add_top(CLI::App& app, Action& chosen);
+void add_scope(CLI::App& app, Action& chosen);
 void add_reset(CLI::App& app, Action& chosen);
 void add_arm(CLI::App& app, Action& chosen);
 void add_home(CLI::App& app, Action& chosen);

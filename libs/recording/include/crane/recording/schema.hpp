@@ -27,6 +27,19 @@ class DecodeError : public std::runtime_error {
 };
 
 struct IdlTypes;
+class NumberReader;
+
+/// Type of an elementary value.
+struct LeafType {
+  enum class Kind : std::uint8_t { number, boolean, enumeration, text };
+  std::string name;  ///< "axis[1].position"
+  Kind kind = Kind::number;
+  /// "m", "rad/s"; empty: none. The comment of the field declares it where it depends on an index
+  /// (idl/README.md); otherwise the name of the field ends in it.
+  std::string unit;
+  std::string enumeration;               ///< name of its type; empty for other kinds
+  std::vector<std::string> enumerators;  ///< by number; empty for other kinds
+};
 
 class Schema {
  public:
@@ -48,6 +61,10 @@ class Schema {
   /// Names of all elementary values: "header.tick", "applied_v[0]". @throws std::out_of_range for an unknown
   /// type
   [[nodiscard]] std::vector<std::string> columns(std::string_view type) const;
+  /// Types of all elementary values, in the order of columns(). @throws std::out_of_range for an unknown type
+  [[nodiscard]] std::vector<LeafType> leaves(std::string_view type) const;
+  /// Reader of samples of this type as numbers (numbers.hpp). @throws std::out_of_range for an unknown type
+  [[nodiscard]] NumberReader number_reader(std::string_view type) const;
 
  private:
   std::shared_ptr<const IdlTypes> types_;

@@ -1,0 +1,123 @@
+#pragma once
+/// Expressions of named values, such as the trigger of `crane scope`:
+///   abs(state.swing_radial_rad) > 5deg and not rising(supervisor.state == STATE_RUN)
+///
+/// Grammar, weakest first: or; and; not; < <= > >= == != (one per pair of operands); + -; * /; unary -;
+/// numbers with units (5deg, 20 ms, 0.1 m/s), names, ( ), abs(x), min(x, ...), max(x, ...),
+/// rising(condition). All values are computed in SI units. Both sides of a comparison, sum or difference have
+/// the same quantity; a number without unit adopts that of the other side, in SI units. rising(c) is true in
+/// the row in which c becomes true; it is unknown while c has not been false.
+///
+/// A missing value is NaN. A comparison with a missing value is neither true nor false; `and`, `or`, `not`
+/// treat it as unknown (Kleene): false and unknown is false, true or unknown is true.
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crane/fields/unit.hpp"
+
+namespace crane::expression {
+
+/// Kind of a value.
+struct Type {
+  enum class Kind : std::uint8_t { quantity, condition, enumeration };
+  Kind kind = Kind::quantity;
+  fields::Dimension dimension{};  ///< of a quantity
+  std::string enumeration{};      ///< name of the enumeration
+  bool operator==(const Type&) const = default;
+};
+
+/// What a name stands for.
+struct Symbol {
+  Type type{};
+  bool constant = false;
+  double value = 0;        ///< of a constant
+  std::size_t column = 0;  ///< of a field: index in the row of values
+  double factor = 1;       ///< of a field: SI value of one unit of the column
+};
+
+/// Meaning of the names in an expression.
+struct Vocabulary {
+  std::function<std::optional<Symbol>(std::string_view name)> find;
+  /// Rule for an unknown name: "no topic 'stat'; did you mean state?"
+  std::function<std::string(std::string_view name)> explain;
+};
+
+struct Problem {
+  std::size_t position = 0;  ///< first character, from 0
+  std::string what;          ///< the value and the rule
+};
+
+/// what() has all problems: the text, a line with a mark below the character, and the rule, for each.
+class Error : public std::runtime_error {
+ public:
+  Error(std::string_view text, std::vector<Problem> problems);
+  [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+/// What evaluation remembers between rows.
+struct Memory {
+  std::vector<double> previous;  ///< last known condition of each rising()
+  std::vector<double> stack;
+};
+
+class Expression {
+ public:
+  /// @throws Error with all problems
+  Expression(std::string_view text, const Vocabulary& vocabulary);
+
+  [[nodiscard]] const Type& type() const { return type_; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] Memory memory() const;
+  /// @param row  values by Symbol::column. @return SI value; of a condition 1, 0, or NaN: unknown
+  [[nodiscard]] double evaluate(std::span<const double> row, Memory& memory) const;
+
+  enum class Code : std::uint8_t {
+    number,
+    column,
+    negate,
+    add,
+    subtract,
+    multiply,
+    divide,
+    absolute,
+    smaller,  // of two
+    larger,   // of two
+    less,
+    less_equal,
+    greater,
+    greater_equal,
+    equal,
+    unequal,
+    both,
+    either,
+    invert,
+    rising
+  };
+  /// Operation on a stack.
+  struct Step {
+    Code code = Code::number;
+    double value = 0;       ///< number; factor of a column
+    std::size_t index = 0;  ///< column; number of the rising()
+  };
+
+ private:
+  std::string text_;
+  Type type_;
+  std::vector<Step> steps_;
+  std::size_t risings_ = 0;
+};
+
+/// An expression that is a condition. @throws Error
+[[nodiscard]] Expression condition(std::string_view text, const Vocabulary& vocabulary);
+
+}  // namespace crane::expression

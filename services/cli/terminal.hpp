@@ -1,0 +1,44 @@
+#pragma once
+/// Views that refresh in place on the terminal of the command.
+#include <termios.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace crane::cli {
+
+struct TerminalSize {
+  int columns = 80, rows = 24;
+};
+/// True: standard output is a terminal.
+[[nodiscard]] bool output_is_terminal();
+/// Of standard output; 80 x 24 when it is no terminal.
+[[nodiscard]] TerminalSize terminal_size();
+
+/// Characters of a UTF-8 text, each one column wide.
+[[nodiscard]] std::size_t width_of(std::string_view text);
+/// The first `columns` characters.
+[[nodiscard]] std::string_view cut(std::string_view text, std::size_t columns);
+/// Lines of `text` that fit: each cut to the columns; the last line says how many lines are left out.
+[[nodiscard]] std::string fitted(std::string_view text, const TerminalSize& size);
+
+/// The alternate screen of the terminal, without cursor and echo. The destructor restores the terminal.
+class Screen {
+ public:
+  Screen();
+  ~Screen();
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  /// Replaces the picture by the lines of `text` that fit.
+  void show(std::string_view text);
+  /// True after the key q, at any time before. Does not wait.
+  [[nodiscard]] bool quit_requested();
+
+ private:
+  std::optional<termios> settings_;  ///< to restore; nothing: standard input is no terminal
+  bool quit_ = false;
+};
+
+}  // namespace crane::cli

@@ -1,0 +1,24 @@
+#pragma once
+/// Text of `crane top`.
+#include <deque>
+#include <string>
+
+#include "cli/terminal.hpp"
+#include "cli/top_model.hpp"
+
+namespace crane::cli {
+
+struct TopView {
+  std::string title;                 ///< first line: crane and domain
+  std::optional<TerminalSize> size;  ///< nothing: as wide and long as necessary
+  bool trends = false;               ///< shows the last windows as a curve of blocks
+};
+/// State, largest swing, last fault, processes, topics. Columns that do not fit are left out, the least
+/// important first; topics without samples are left out when the rows do not suffice.
+[[nodiscard]] std::string top_text(const TopModel& model, const TopView& view, std::int64_t now_ns,
+                                   std::int64_t log_now_ns);
+
+/// One block for each value, its height relative to the largest value.
+[[nodiscard]] std::string sparkline(const std::deque<double>& values);
+
+}  // namespace crane::cli
