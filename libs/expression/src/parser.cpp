@@ -111,7 +111,7 @@ class Parser {
   }
 
   Operand comparison() {
-    const Operand left = sum();
+    Operand left = sum();
     const auto* const chosen = comparison_here();
     if (chosen == nullptr) return left;
     const auto position = peek().position;
@@ -185,7 +185,7 @@ class Parser {
     if (is("(")) {
       if (++depth_ > kDeepest) fail("nested deeper than " + std::to_string(kDeepest));
       ++at_;
-      const Operand inner = disjunction();
+      Operand inner = disjunction();
       expect(")");
       --depth_;
       return inner;
