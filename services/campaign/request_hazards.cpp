@@ -163,8 +163,8 @@ Injection stop_ignored(Bench& bench, Random& random) {
 
 constexpr std::array kRequestHazards{
     Hazard{.number = 32, .name = "request that must be refused", .inject = refused},
-    Hazard{.number = 35, .name = "bridge starts anew", .inject = bridge_restarts},
-    Hazard{.number = 36, .name = "nobody asks for anything", .prepare = soon_idle, .inject = idle},
+    Hazard{.number = 35, .name = "bridge restarts", .inject = bridge_restarts},
+    Hazard{.number = 36, .name = "no request", .prepare = soon_idle, .inject = idle},
     Hazard{.number = 37, .name = "operator stops", .inject = operator_stops},
     Hazard{.number = 38, .name = "controllers ignore a stop", .every = 6, .inject = stop_ignored},
 };
