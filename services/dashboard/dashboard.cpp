@@ -53,23 +53,25 @@ Options default_options() {
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--listen", options.listen,
-                 "address to serve on; 0.0.0.0: all, then everybody who reaches this computer may look")
+  app.add_option(
+         "--listen", options.listen,
+         "address to serve on; 0.0.0.0: every address, so that everyone who reaches this computer may watch")
       ->capture_default_str();
-  app.add_option("--port", options.port, "port of pages, viewers, /api and /metrics; 0: any free port")
+  app.add_option("--port", options.port, "TCP port for page, viewers, /api and /metrics; 0: any free port")
       ->capture_default_str();
   app.add_option("--operator-token", options.token_file,
-                 "file with the token that every operator gives, on this computer, too; it is made when it "
+                 "file with the token that operators must enter, also on this computer; created if it "
                  "does not exist");
-  app.add_flag("--read-only", options.read_only, "nobody operates through this dashboard");
+  app.add_flag("--read-only", options.read_only, "refuse every operation");
+  app.add_option("--host-name", options.host_names,
+                 "permit browsers to open this dashboard under this host name, in addition to addresses and "
+                 "localhost (repeatable)");
   app.add_option(
-      "--host-name", options.host_names,
-      "name under which browsers open this dashboard, beside its addresses and localhost (repeatable)");
-  app.add_option("--allow-origin", options.other_origins,
-                 "origin of another page that may look: https://app.foxglove.dev (repeatable)");
-  app.add_option("--rig", options.rig, "rig file or name: soft limits and planned paths are then drawn");
+      "--allow-origin", options.other_origins,
+      "permit another page with this origin to watch, for example https://app.foxglove.dev (repeatable)");
+  app.add_option("--rig", options.rig, "rig file or name; the page then draws soft limits and planned paths");
   app.add_option("--runs", options.runs,
-                 "directory with recordings and experiments: the page lists, compares and diagnoses them")
+                 "directory of recordings that the page lists, compares and diagnoses")
       ->check(CLI::ExistingDirectory);
   app.add_option("--parent", options.parent, "process id that this process ends with")->group("");
   runtime::add_bus_options(app, options.bus);

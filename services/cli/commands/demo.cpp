@@ -160,7 +160,7 @@ void add_demo(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(5.0, 60.0))
       ->capture_default_str();
   command->add_flag("--dashboard", options->dashboard,
-                    "show everything in the browser; the crane then stays up until Ctrl-C");
+                    "show the run in a browser page; the stack then runs until Ctrl-C");
   runtime::add_bus_options(*command, options->launch.bus);
   command->footer("Examples: crane demo --controller delayed_1\n          crane demo --dashboard");
   command->callback([options, &chosen] { chosen = [options] { return demo(*options); }; });
