@@ -9,11 +9,11 @@ namespace {
 Injection bad_target(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
   const auto& drive = bench.setting().configured.drives[i];
-  stack::Wish wish{.kind = crane_REQUEST_MOVE};
-  wish.selected[i] = true;
-  wish.target[i] = random.pick(2) == 0 ? drive.high_limit + random.between(-0.9 * drive.soft_margin, 5)
-                                       : drive.low_limit - random.between(-0.9 * drive.soft_margin, 5);
-  bench.request(wish);
+  stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE};
+  wanted.selected[i] = true;
+  wanted.target[i] = random.pick(2) == 0 ? drive.high_limit + random.between(-0.9 * drive.soft_margin, 5)
+                                         : drive.low_limit - random.between(-0.9 * drive.soft_margin, 5);
+  bench.request(wanted);
   return refusal();
 }
 

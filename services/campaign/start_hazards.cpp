@@ -119,9 +119,9 @@ void request_homing(Bench& bench) {
   bench.run(kClear_s);
   bench.request(crane_REQUEST_RESET);
   bench.run(kClear_s);
-  stack::Wish wish{.kind = crane_REQUEST_HOME};
-  wish.selected[0] = true;
-  bench.request(wish);
+  stack::OperatorRequest wanted{.kind = crane_REQUEST_HOME};
+  wanted.selected[0] = true;
+  bench.request(wanted);
   bench.run(0.4);
 }
 

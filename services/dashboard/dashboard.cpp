@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "crane/configuration/rig.hpp"
-#include "dashboard/operator_line.hpp"
+#include "dashboard/request_queue.hpp"
 #include "dashboard/rig_text.hpp"
 #include "dashboard/server.hpp"
 #include "dashboard/token_file.hpp"
@@ -31,7 +31,7 @@ void check_address(const std::string& listen) {
 }
 
 std::unique_ptr<Server> open_server(const Options& options, About about, AccessRules rules,
-                                    std::function<void(const stack::Wish&, Answered)> send) {
+                                    std::function<void(const stack::OperatorRequest&, Answered)> send) {
   const RunsOptions runs{.program = stack::program_directory() / "crane",
                          .directory = options.runs,
                          .rig = options.rig.empty() ? "" : stack::find_rig(options.rig).string()};
@@ -100,20 +100,22 @@ int run(const Options& options) {
   std::unique_ptr<Server> server;
   observation::Observer observer{
       bus, [&server](std::vector<observation::SamplePtr> samples) { server->put(std::move(samples)); }};
-  OperatorLine line{bus, !options.read_only};
-  server = open_server(options, std::move(about), std::move(rules),
-                       [&server, &line](const stack::Wish& wish, const Answered& answered) {
-                         const auto back = [&server, answered](Reply reply) {
-                           server->post([answered, reply = std::move(reply)] { answered(reply); });
-                         };
-                         if (!line.ask(wish, back)) answered({false, "too many requests at once: try again"});
-                       });
+  RequestQueue request_queue{bus, !options.read_only};
+  server =
+      open_server(options, std::move(about), std::move(rules),
+                  [&server, &request_queue](const stack::OperatorRequest& wanted, const Answered& answered) {
+                    const auto back = [&server, answered](Reply reply) {
+                      server->post([answered, reply = std::move(reply)] { answered(reply); });
+                    };
+                    if (!request_queue.ask(wanted, back))
+                      answered({false, "too many requests at once: try again"});
+                  });
   std::cout << "dashboard: " << address_of(options.listen, server->port()) << std::endl;
   std::jthread network{[&server] { server->run(); }};
   constexpr std::int64_t kVersionsPeriod_ns = 1'000'000'000;
   for (std::int64_t due_ns = 0; !runtime::stop_requested();) {
     observer.poll();
-    line.poll();
+    request_queue.poll();
     if (runtime::monotonic_ns() < due_ns) continue;
     due_ns = runtime::monotonic_ns() + kVersionsPeriod_ns;
     server->set_other_versions(bus.other_versions());

@@ -69,13 +69,13 @@ experiment::NamedMetrics run_maneuver(experiments::RealtimeSession& session, bus
   session.start_table();
   const auto zero_ns = session.state()->header.sample_time_ns;
   for (auto& move : scenario.moves) {
-    stack::Wish wish{.kind = crane_REQUEST_MOVE};
+    stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE};
     for (std::size_t i = 0; i < 3; ++i) {
-      wish.selected[i] = move.target[i].has_value();
-      wish.target[i] = move.target[i].value_or(0);
+      wanted.selected[i] = move.target[i].has_value();
+      wanted.target[i] = move.target[i].value_or(0);
     }
     move.at_s = static_cast<double>(session.state()->header.sample_time_ns - zero_ns) * 1e-9;
-    session.request(wish, "move");
+    session.request(wanted, "move");
   }
   session.wait(std::chrono::nanoseconds{static_cast<std::int64_t>(options.seconds_per_maneuver * 1e9)});
   if (const auto state = session.status()->state; state != crane_STATE_HOLD && state != crane_STATE_RUN)

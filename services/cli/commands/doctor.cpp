@@ -23,7 +23,7 @@ void print_json(const doctor::Findings& findings) {
   auto list = nlohmann::ordered_json::array();
   for (const auto& finding : findings)
     list.push_back({{"grade", doctor::name_of(finding.grade)},
-                    {"room", finding.room},
+                    {"area", finding.area},
                     {"code", finding.code},
                     {"what", finding.what},
                     {"remedy", finding.remedy}});

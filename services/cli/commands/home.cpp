@@ -111,9 +111,9 @@ int home(const HomeOptions& options) {
   for (const auto axis : axes) {
     if (!first) acknowledge(bus, watch);
     first = false;
-    stack::Wish wish{.kind = crane_REQUEST_HOME};
-    wish.selected[axis] = true;
-    if (const auto answer = ask(bus, wish); !answer.accepted) return report("home", answer);
+    stack::OperatorRequest wanted{.kind = crane_REQUEST_HOME};
+    wanted.selected[axis] = true;
+    if (const auto answer = ask(bus, wanted); !answer.accepted) return report("home", answer);
     follow(watch, axis, options.timeout_s);
     std::cout << "home: " << plant::kCoordinates[axis].name << " done" << std::endl;
   }

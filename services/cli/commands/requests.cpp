@@ -28,8 +28,9 @@ void add(CLI::App& app, Action& chosen, const Verb& verb) {
   command->callback([options, confirmed, verb, &chosen] {
     chosen = [options, confirmed, verb] {
       auto bus = open_bus(*options, crane_SOURCE_OPERATOR);
-      const stack::Wish wish{.kind = verb.kind, .selected = {*confirmed, *confirmed, *confirmed}};
-      return report(verb.name, ask(bus, wish));
+      const stack::OperatorRequest wanted{.kind = verb.kind,
+                                          .selected = {*confirmed, *confirmed, *confirmed}};
+      return report(verb.name, ask(bus, wanted));
     };
   });
 }

@@ -34,8 +34,8 @@ struct RunOptions {
   std::string twin_rig;
 };
 
-Names first_given(const Names& said, const Names& wished, const Names& otherwise) {
-  return !said.empty() ? said : !wished.empty() ? wished : otherwise;
+Names first_given(const Names& by_user, const Names& by_scenario, const Names& otherwise) {
+  return !by_user.empty() ? by_user : !by_scenario.empty() ? by_scenario : otherwise;
 }
 
 Names every_controller() {
@@ -48,16 +48,16 @@ Names every_controller() {
 void add_plans(const std::string& name, const RunOptions& options,
                std::vector<experiments::PlannedRun>& plans) {
   const auto file = stack::find_scenario(name);
-  const auto wish = experiment::load_scenario(file);
-  const auto rig = configuration::load_rig(stack::find_rig(!options.rig.empty() ? options.rig
-                                                           : !wish.rig.empty()  ? wish.rig
-                                                                                : stack::kDefaultRig));
+  const auto defaults = experiment::load_scenario(file);
+  const auto rig = configuration::load_rig(stack::find_rig(!options.rig.empty()    ? options.rig
+                                                           : !defaults.rig.empty() ? defaults.rig
+                                                                                   : stack::kDefaultRig));
   const auto scenario = experiment::load_scenario(file, &rig);
   const Names as_it_is{""};
-  const auto variants = first_given(options.variants, wish.variants,
+  const auto variants = first_given(options.variants, defaults.variants,
                                     options.compare ? experiment::default_variants() : as_it_is);
   const auto controllers =
-      first_given(options.controllers, wish.controllers, options.compare ? every_controller() : as_it_is);
+      first_given(options.controllers, defaults.controllers, options.compare ? every_controller() : as_it_is);
   for (const auto& variant : variants) {
     (void)experiment::changed_by(rig, variant);  // reports unknown variants before the first run
     for (const auto& controller : controllers)
