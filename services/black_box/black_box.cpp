@@ -98,10 +98,10 @@ Options default_options() {
 
 void add_options(CLI::App& app, Options& options) {
   app.add_option("--out", options.directory, "directory of the recordings")->capture_default_str();
-  app.add_option("--files", options.files, "number of recordings that are kept; older ones are deleted")
+  app.add_option("--files", options.files, "number of recordings to keep; older recordings are deleted")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--rig", options.rig, "rig file or name, attached to each recording");
+  app.add_option("--rig", options.rig, "rig file or name to attach to each recording");
   app.add_option("--parent", options.parent, "process id that this process ends with")->group("");
   runtime::add_bus_options(app, options.bus);
 }

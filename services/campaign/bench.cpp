@@ -104,16 +104,17 @@ bool Bench::run_until(const std::function<bool()>& holds, double longest_s) {
   return holds();
 }
 
-void Bench::request(const stack::Wish& wish) {
-  last_request_ = operator_->send(wish);
-  note(wish.kind);
+void Bench::request(const stack::OperatorRequest& wanted) {
+  last_request_ = operator_->send(wanted);
+  note(wanted.kind);
   tick();
 }
 
 void Bench::request_without_id() {
   without_id_.emplace(*bus_, "campaign", 0);
-  stack::Wish wish{.kind = crane_REQUEST_MOVE, .selected = setting_.selected, .target = setting_.target};
-  last_request_ = without_id_->send(wish);
+  stack::OperatorRequest wanted{
+      .kind = crane_REQUEST_MOVE, .selected = setting_.selected, .target = setting_.target};
+  last_request_ = without_id_->send(wanted);
   tick();
 }
 
@@ -132,10 +133,11 @@ void Bench::restart_bridge() {
   stack_->restart(crane_SOURCE_PLANT, next_epoch_++);
 }
 
-void Bench::request(crane_RequestKind kind) { request(stack::Wish{.kind = kind}); }
+void Bench::request(crane_RequestKind kind) { request(stack::OperatorRequest{.kind = kind}); }
 
 void Bench::request_move() {
-  request(stack::Wish{.kind = crane_REQUEST_MOVE, .selected = setting_.selected, .target = setting_.target});
+  request(stack::OperatorRequest{
+      .kind = crane_REQUEST_MOVE, .selected = setting_.selected, .target = setting_.target});
 }
 
 std::optional<msg::Reply> Bench::reply() {

@@ -111,7 +111,7 @@ constexpr std::array kBrakeHazards{
     Hazard{.number = 24, .name = "brake fails to close", .prepare = broken_brake, .inject = brake_stays_open},
     Hazard{.number = 25, .name = "brake fails to open", .inject = brake_closes},
     Hazard{.number = 45,
-           .name = "worn brake, bridge that is silent",
+           .name = "worn brake, silent bridge",
            .prepare = worn_brake,
            .inject = slides_without_latch},
     Hazard{.number = 31, .name = "e-stop and limit switches", .inject = inputs_pressed},

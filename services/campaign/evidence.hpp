@@ -13,7 +13,7 @@
 
 namespace crane::campaign {
 
-inline constexpr double kDriveDetection_ms = 30;     ///< hazard 20 of docs/safety.md
+inline constexpr double kDriveDetection_ms = 30;     ///< hazard 20
 inline constexpr double kEncoderDetection_ms = 100;  ///< hazard 16 and 19
 
 /// Sums the unexplained speed of one axis. Call once per tick, after the tick.

@@ -14,17 +14,17 @@ namespace {
 constexpr double kPause_s = 0.5, kLongestMove_s = 40, kShare_s = 900;  // longest time of one crane
 
 /// A move to any permitted target on any axes.
-stack::Wish random_move(const Setting& setting, Random& random) {
-  stack::Wish wish{.kind = crane_REQUEST_MOVE};
+stack::OperatorRequest random_move(const Setting& setting, Random& random) {
+  stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE};
   bool any = false;
   for (std::size_t i = 0; i < kAxes; ++i) {
     const auto& drive = setting.configured.drives[i];
-    wish.selected[i] = drive.present && (random.pick(2) == 0 || i == setting.axis);
-    any = any || wish.selected[i];
-    wish.target[i] = random.between(drive.low_limit + drive.soft_margin + 1e-6,
-                                    drive.high_limit - drive.soft_margin - 1e-6);
+    wanted.selected[i] = drive.present && (random.pick(2) == 0 || i == setting.axis);
+    any = any || wanted.selected[i];
+    wanted.target[i] = random.between(drive.low_limit + drive.soft_margin + 1e-6,
+                                      drive.high_limit - drive.soft_margin - 1e-6);
   }
-  return wish;
+  return wanted;
 }
 
 /// True when the crane was stopped, and not by its operator.

@@ -151,7 +151,7 @@ Injection bridge_alone(Bench& bench, Random& random) {
 /// 0 V to the supervisor's own voltage. Detection time: the bridge obeys in the next tick and reports the
 /// voltage one tick later; two states in a row prove the forgery.
 Injection forged(Bench& bench, Random& random) {
-  constexpr double kTolerance_v = 0.2;  // converter and scale, docs/safety.md
+  constexpr double kTolerance_v = 0.2;  // converter steps and an error of the scale
   const std::size_t i = bench.axis();
   const double volts_v = random.sign() * random.between(2, 8);
   auto shows = std::make_shared<bool>(false);
@@ -172,7 +172,7 @@ Injection forged(Bench& bench, Random& random) {
 }
 
 constexpr std::array kFaultySupervisorHazards{
-    Hazard{.number = 41, .name = "bridge beside a faulty supervisor", .inject = bridge_alone},
+    Hazard{.number = 41, .name = "supervisor faulty", .inject = bridge_alone},
     Hazard{.number = 43, .name = "commands forged under the supervisor's name", .inject = forged},
 };
 

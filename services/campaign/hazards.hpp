@@ -1,5 +1,5 @@
 #pragma once
-/// The hazards of docs/safety.md. Each hazard injects a fault on the test bench and states the expected
+/// The hazards of docs/campaign.md. Each hazard injects a fault on the test bench and states the expected
 /// reaction.
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ struct Injection {
 };
 
 struct Hazard {
-  int number;  ///< 1 to 31: docs/safety.md; 32 and above: requests, start-up and supervisors
+  int number;  ///< docs/campaign.md refers to it
   const char* name;
   TestBed test_bed = TestBed::campaign;
   const char* verified_by = "";  ///< for other test beds than the campaign: where the hazard is verified

@@ -104,12 +104,13 @@ constexpr std::array kProcessHazards{
     Hazard{.number = 3, .name = "supervisor killed or hung", .inject = supervisor_gone},
     Hazard{.number = 4, .name = "bridge killed or hung", .inject = bridge_gone},
     Hazard{.number = 11, .name = "flood of requests", .inject = flood},
-    Hazard{.number = 12, .name = "20 % loss", .inject = loss},
-    Hazard{.number = 13, .name = "partition", .inject = partition},
+    Hazard{.number = 12, .name = "loss of 20 % of the samples", .inject = loss},
+    Hazard{.number = 13, .name = "partition of the network", .inject = partition},
     Hazard{.number = 26,
            .name = "wall-clock jump",
            .test_bed = TestBed::process,
-           .verified_by = "time is an argument of every component; processes read CLOCK_MONOTONIC only"},
+           .verified_by =
+               "no test: time is an argument of every component, and processes read CLOCK_MONOTONIC only"},
     Hazard{.number = 27, .name = "CPU starvation", .inject = starved},
 };
 

@@ -38,6 +38,14 @@ std::string to_string(const Reason& reason) {
   return cause + ": " + std::string{bridge::name_of(static_cast<bridge::Reason>(reason.latch))};
 }
 
+std::string hazard_table() {
+  std::string text = "| hazard | fault | tested by |\n|---|---|---|\n";
+  for (const Hazard& hazard : hazards())
+    text += "| " + std::to_string(hazard.number) + " | " + hazard.name + " | " +
+            (hazard.test_bed == TestBed::campaign ? "campaign" : hazard.verified_by) + " |\n";
+  return text;
+}
+
 std::string describe(const Result& result) {
   std::ostringstream text;
   text << to_string(result.tuple) << ": "

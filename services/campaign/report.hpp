@@ -17,6 +17,10 @@ namespace crane::campaign {
 [[nodiscard]] std::string line_of(const Result& result);
 [[nodiscard]] std::optional<Result> result_from(const std::string& line);
 
+/// The hazards as Markdown, as docs/campaign.md shows them.
+[[nodiscard]] std::string hazard_table();
+
+/// Results, one row per hazard.
 class Table {
  public:
   void add(const Result& result);

@@ -9,11 +9,11 @@ namespace {
 Injection bad_target(Bench& bench, Random& random) {
   const std::size_t i = bench.axis();
   const auto& drive = bench.setting().configured.drives[i];
-  stack::Wish wish{.kind = crane_REQUEST_MOVE};
-  wish.selected[i] = true;
-  wish.target[i] = random.pick(2) == 0 ? drive.high_limit + random.between(-0.9 * drive.soft_margin, 5)
-                                       : drive.low_limit - random.between(-0.9 * drive.soft_margin, 5);
-  bench.request(wish);
+  stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE};
+  wanted.selected[i] = true;
+  wanted.target[i] = random.pick(2) == 0 ? drive.high_limit + random.between(-0.9 * drive.soft_margin, 5)
+                                         : drive.low_limit - random.between(-0.9 * drive.soft_margin, 5);
+  bench.request(wanted);
   return refusal();
 }
 
@@ -163,8 +163,8 @@ Injection stop_ignored(Bench& bench, Random& random) {
 
 constexpr std::array kRequestHazards{
     Hazard{.number = 32, .name = "request that must be refused", .inject = refused},
-    Hazard{.number = 35, .name = "bridge starts anew", .inject = bridge_restarts},
-    Hazard{.number = 36, .name = "nobody asks for anything", .prepare = soon_idle, .inject = idle},
+    Hazard{.number = 35, .name = "bridge restarts", .inject = bridge_restarts},
+    Hazard{.number = 36, .name = "no request", .prepare = soon_idle, .inject = idle},
     Hazard{.number = 37, .name = "operator stops", .inject = operator_stops},
     Hazard{.number = 38, .name = "controllers ignore a stop", .every = 6, .inject = stop_ignored},
 };

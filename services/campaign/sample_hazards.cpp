@@ -198,8 +198,8 @@ Injection unauthorised(Bench& bench, Random& random) {
 }
 
 constexpr std::array kSampleHazards{
-    Hazard{.number = 5, .name = "stale, duplicate, out of order", .inject = stale},
-    Hazard{.number = 6, .name = "not finite, out of range", .inject = not_finite},
+    Hazard{.number = 5, .name = "samples stale, duplicate, out of order", .inject = stale},
+    Hazard{.number = 6, .name = "values not finite, out of range", .inject = not_finite},
     Hazard{.number = 7, .name = "step or jerk of a voltage", .inject = jumping},
     Hazard{.number = 8, .name = "corrupted payload", .inject = corrupted},
     Hazard{.number = 9, .name = "second writer", .inject = second_writer},

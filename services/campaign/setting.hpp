@@ -9,7 +9,7 @@
 
 namespace crane::campaign {
 
-/// The six moments of docs/safety.md.
+/// The six moments of docs/campaign.md.
 enum class Moment : std::uint8_t {
   armed_idle,         ///< HOLD without a request
   brake_release,      ///< the tick in which the brakes are commanded open

@@ -119,9 +119,9 @@ void request_homing(Bench& bench) {
   bench.run(kClear_s);
   bench.request(crane_REQUEST_RESET);
   bench.run(kClear_s);
-  stack::Wish wish{.kind = crane_REQUEST_HOME};
-  wish.selected[0] = true;
-  bench.request(wish);
+  stack::OperatorRequest wanted{.kind = crane_REQUEST_HOME};
+  wanted.selected[0] = true;
+  bench.request(wanted);
   bench.run(0.4);
 }
 
@@ -168,7 +168,7 @@ Injection zero_lost(Bench& bench, Random& /*random*/) {
   return {.expectation = {.reasons = {because(crane_CAUSE_NOT_HOMED)}, .detection_ms = 10}};
 }
 
-constexpr const char* kRecorder = "the recorder is a process beside the loop: tests/recording, tests/cli";
+constexpr const char* kRecorder = "tests/recording, tests/cli: the recorder is a process outside the loop";
 
 constexpr std::array kStartHazards{
     Hazard{.number = 28, .name = "bad configuration", .prepare = bad_limits, .inject = never_armed},
@@ -181,19 +181,19 @@ constexpr std::array kStartHazards{
            .test_bed = TestBed::process,
            .verified_by = kRecorder},
     Hazard{.number = 33,
-           .name = "switched on at a bad place",
+           .name = "power-on outside the limits",
            .from_power_on = true,
            .prepare = bad_start,
            .inject = reset_at_a_bad_start},
     Hazard{.number = 34, .name = "self-test fails", .from_power_on = true, .inject = self_test_fails},
     Hazard{.number = 39,
-           .name = "homing, and zeros that are lost",
+           .name = "homing fails, position lost",
            .every = 3,
            .from_power_on = true,
            .prepare = homing_rig,
            .inject = homing},
-    Hazard{.number = 40, .name = "arming that fails", .every = 2, .inject = arming_fails},
-    Hazard{.number = 42, .name = "zero lost while armed", .inject = zero_lost},
+    Hazard{.number = 40, .name = "arming fails", .every = 2, .inject = arming_fails},
+    Hazard{.number = 42, .name = "position lost while armed", .inject = zero_lost},
 };
 
 }  // namespace

@@ -15,13 +15,13 @@ namespace {
 
 using namespace crane;
 
-constexpr const char* kFooter = R"(A first session, the stack in one terminal, you in another:
-  crane status                      who runs, in which state the crane is and what to do about it
-  crane reset && crane arm          from LOCKED by way of READY to HOLD
+constexpr const char* kFooter = R"(A first session, while `crane up` runs in another terminal:
+  crane status                      shows the processes, the state of the crane, and the next step
+  crane reset && crane arm          leads from LOCKED through READY to HOLD
   crane move --trolley 1.05 --slew 90deg --wait
   crane topic echo crane/state --count 1
   crane record run.mcap --duration 10
-Exit code: 0 done, 1 it did not work (the reason is on standard error), 2 bad arguments or files.
+Exit code: 0 done, 1 failed (the reason is on standard error), 2 bad arguments or files.
 `crane COMMAND --help` explains a command.)";
 
 /// All commands in the order of --help.

@@ -21,12 +21,12 @@ bool may_be_repeated(crane_RequestKind kind) {
 
 class Conversation {
  public:
-  Conversation(bus::Bus& bus, const stack::Wish& wish)
+  Conversation(bus::Bus& bus, const stack::OperatorRequest& wanted)
       : bus_{bus},
-        wish_{wish},
+        wanted_{wanted},
         client_{bus, "crane " + std::to_string(::getpid()), first_id()},
         supervisor_{bus.subscriber(topics::supervisor)} {
-    if (wish.kind == crane_REQUEST_MOVE) planner_ = bus.subscriber(topics::reference);
+    if (wanted.kind == crane_REQUEST_MOVE) planner_ = bus.subscriber(topics::reference);
   }
 
   void find_listeners(double timeout_s) {
@@ -44,8 +44,8 @@ class Conversation {
     std::optional<Answer> answer;
     wait_until(bus_, timeout_s, [&] {
       const auto now_ns = runtime::monotonic_ns();
-      if (sent_.empty() || (may_be_repeated(wish_.kind) && now_ns >= repeat_at_ns)) {
-        sent_.push_back(client_.send(wish_));
+      if (sent_.empty() || (may_be_repeated(wanted_.kind) && now_ns >= repeat_at_ns)) {
+        sent_.push_back(client_.send(wanted_));
         repeat_at_ns = now_ns + kRepeat_ns;
       }
       answer = take_answer();
@@ -67,7 +67,7 @@ class Conversation {
     while (supervisor_.take()) heard_supervisor_ = true;
     while (planner_ && planner_->take()) heard_reference_ = true;
     if (client_.listeners() == 0 || client_.answerers() == 0) return false;
-    if (may_be_repeated(wish_.kind)) return true;
+    if (may_be_repeated(wanted_.kind)) return true;
     if (!heard_supervisor_ || !heard_planner()) return false;
     client_.receive();
     if (client_.take_reply(stack::OperatorClient::kProbe, crane_SOURCE_SUPERVISOR)) return true;
@@ -87,7 +87,7 @@ class Conversation {
   }
 
   bus::Bus& bus_;
-  const stack::Wish& wish_;
+  const stack::OperatorRequest& wanted_;
   stack::OperatorClient client_;
   bus::Subscriber<msg::SupervisorStatus> supervisor_;
   std::optional<bus::Subscriber<msg::Reference>> planner_;
@@ -99,8 +99,8 @@ class Conversation {
 
 }  // namespace
 
-Answer ask(bus::Bus& bus, const stack::Wish& wish, const Patience& patience) {
-  Conversation conversation{bus, wish};
+Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience) {
+  Conversation conversation{bus, wanted};
   conversation.find_listeners(patience.find_s);
   return conversation.exchange(patience.reply_s);
 }

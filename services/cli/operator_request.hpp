@@ -28,7 +28,7 @@ struct Patience {
 /// Stop and emergency stop are sent as soon as one receiver is found, and are repeated until they are
 /// answered. A move is sent after the trajectory planner has been found, too.
 /// @throws NoAnswer
-[[nodiscard]] Answer ask(bus::Bus& bus, const stack::Wish& wish, const Patience& patience = {});
+[[nodiscard]] Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience = {});
 
 /// Prints "accepted" on standard output, or the reason on standard error. @return exit code
 int report(const char* what, const Answer& answer);

@@ -56,7 +56,8 @@ ApiAnswer problem_answer(unsigned status, const std::string& what) {
   return json_answer({{"error", what}}, status);
 }
 
-Api::Api(Model& model, const AccessRules& rules, std::function<void(const stack::Wish&, Answered)> send,
+Api::Api(Model& model, const AccessRules& rules,
+         std::function<void(const stack::OperatorRequest&, Answered)> send,
          std::function<ServerCounts()> counts, const RunsOptions& runs)
     : model_{model}, rules_{rules}, send_{std::move(send)}, counts_{std::move(counts)}, runs_{runs} {}
 
@@ -134,7 +135,7 @@ void Api::post(const ApiRequest& request, Answer answer) {
       request.target.starts_with(kUploadPath) ? "application/octet-stream" : "application/json";
   if (!request.content_type.starts_with(wanted))
     return answer(problem_answer(415, "content type " + wanted + " is expected"));
-  const bool stops = request.target == "/api/request" && is_stop(wish_of_text(request.body).kind);
+  const bool stops = request.target == "/api/request" && is_stop(operator_request_of(request.body).kind);
   const auto why_not =
       stops ? why_not_stop(rules_, request.visitor) : why_not_operate(rules_, request.visitor);
   if (!why_not.empty()) return answer(problem_answer(403, why_not));
@@ -165,10 +166,10 @@ ApiAnswer Api::take_seat(const ApiRequest& request) {
 }
 
 void Api::request(const ApiRequest& request, Answer answer) {
-  const auto wish = wish_of_text(request.body);
-  if (!is_stop(wish.kind) && !model_.seat().renew(request.seat_key, runtime::monotonic_ns()))
+  const auto wanted = operator_request_of(request.body);
+  if (!is_stop(wanted.kind) && !model_.seat().renew(request.seat_key, runtime::monotonic_ns()))
     return answer(problem_answer(409, "take the controls first: one operator at a time"));
-  send_(wish, [answer = std::move(answer)](const Reply& reply) {
+  send_(wanted, [answer = std::move(answer)](const Reply& reply) {
     answer(json_answer({{"accepted", reply.accepted}, {"reason", reply.reason}}));
   });
 }

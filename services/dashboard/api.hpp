@@ -7,7 +7,7 @@
 
 #include "dashboard/api_types.hpp"
 #include "dashboard/metrics.hpp"
-#include "dashboard/request_desk.hpp"
+#include "dashboard/request_sender.hpp"
 #include "dashboard/runs_api.hpp"
 
 namespace crane::dashboard {
@@ -17,8 +17,9 @@ using Answer = std::function<void(ApiAnswer)>;
 class Api {
  public:
   /// @param send  passes a request of the operator to the bus thread; empty: nobody may operate
-  Api(Model& model, const AccessRules& rules, std::function<void(const stack::Wish&, Answered)> send,
-      std::function<ServerCounts()> counts, const RunsOptions& runs);
+  Api(Model& model, const AccessRules& rules,
+      std::function<void(const stack::OperatorRequest&, Answered)> send, std::function<ServerCounts()> counts,
+      const RunsOptions& runs);
 
   /// Calls `answer` once: at once, or when the supervisor has answered.
   void handle(const ApiRequest& request, Answer answer);
@@ -35,7 +36,7 @@ class Api {
 
   Model& model_;
   const AccessRules& rules_;
-  std::function<void(const stack::Wish&, Answered)> send_;
+  std::function<void(const stack::OperatorRequest&, Answered)> send_;
   std::function<ServerCounts()> counts_;
   RunsApi runs_;
 };

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "crane/configuration/rig.hpp"
-#include "dashboard/operator_line.hpp"
+#include "dashboard/request_queue.hpp"
 #include "dashboard/rig_text.hpp"
 #include "dashboard/server.hpp"
 #include "dashboard/token_file.hpp"
@@ -31,7 +31,7 @@ void check_address(const std::string& listen) {
 }
 
 std::unique_ptr<Server> open_server(const Options& options, About about, AccessRules rules,
-                                    std::function<void(const stack::Wish&, Answered)> send) {
+                                    std::function<void(const stack::OperatorRequest&, Answered)> send) {
   const RunsOptions runs{.program = stack::program_directory() / "crane",
                          .directory = options.runs,
                          .rig = options.rig.empty() ? "" : stack::find_rig(options.rig).string()};
@@ -53,23 +53,25 @@ Options default_options() {
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--listen", options.listen,
-                 "address to serve on; 0.0.0.0: all, then everybody who reaches this computer may look")
+  app.add_option(
+         "--listen", options.listen,
+         "address to serve on; 0.0.0.0: every address, so that everyone who reaches this computer may watch")
       ->capture_default_str();
-  app.add_option("--port", options.port, "port of pages, viewers, /api and /metrics; 0: any free port")
+  app.add_option("--port", options.port, "TCP port for page, viewers, /api and /metrics; 0: any free port")
       ->capture_default_str();
   app.add_option("--operator-token", options.token_file,
-                 "file with the token that every operator gives, on this computer, too; it is made when it "
+                 "file with the token that operators must enter, also on this computer; created if it "
                  "does not exist");
-  app.add_flag("--read-only", options.read_only, "nobody operates through this dashboard");
+  app.add_flag("--read-only", options.read_only, "refuse every operation");
+  app.add_option("--host-name", options.host_names,
+                 "permit browsers to open this dashboard under this host name, in addition to addresses and "
+                 "localhost (repeatable)");
   app.add_option(
-      "--host-name", options.host_names,
-      "name under which browsers open this dashboard, beside its addresses and localhost (repeatable)");
-  app.add_option("--allow-origin", options.other_origins,
-                 "origin of another page that may look: https://app.foxglove.dev (repeatable)");
-  app.add_option("--rig", options.rig, "rig file or name: soft limits and planned paths are then drawn");
+      "--allow-origin", options.other_origins,
+      "permit another page with this origin to watch, for example https://app.foxglove.dev (repeatable)");
+  app.add_option("--rig", options.rig, "rig file or name; the page then draws soft limits and planned paths");
   app.add_option("--runs", options.runs,
-                 "directory with recordings and experiments: the page lists, compares and diagnoses them")
+                 "directory of recordings that the page lists, compares and diagnoses")
       ->check(CLI::ExistingDirectory);
   app.add_option("--parent", options.parent, "process id that this process ends with")->group("");
   runtime::add_bus_options(app, options.bus);
@@ -98,20 +100,22 @@ int run(const Options& options) {
   std::unique_ptr<Server> server;
   observation::Observer observer{
       bus, [&server](std::vector<observation::SamplePtr> samples) { server->put(std::move(samples)); }};
-  OperatorLine line{bus, !options.read_only};
-  server = open_server(options, std::move(about), std::move(rules),
-                       [&server, &line](const stack::Wish& wish, const Answered& answered) {
-                         const auto back = [&server, answered](Reply reply) {
-                           server->post([answered, reply = std::move(reply)] { answered(reply); });
-                         };
-                         if (!line.ask(wish, back)) answered({false, "too many requests at once: try again"});
-                       });
+  RequestQueue request_queue{bus, !options.read_only};
+  server =
+      open_server(options, std::move(about), std::move(rules),
+                  [&server, &request_queue](const stack::OperatorRequest& wanted, const Answered& answered) {
+                    const auto back = [&server, answered](Reply reply) {
+                      server->post([answered, reply = std::move(reply)] { answered(reply); });
+                    };
+                    if (!request_queue.ask(wanted, back))
+                      answered({false, "too many requests at once: try again"});
+                  });
   std::cout << "dashboard: " << address_of(options.listen, server->port()) << std::endl;
   std::jthread network{[&server] { server->run(); }};
   constexpr std::int64_t kVersionsPeriod_ns = 1'000'000'000;
   for (std::int64_t due_ns = 0; !runtime::stop_requested();) {
     observer.poll();
-    line.poll();
+    request_queue.poll();
     if (runtime::monotonic_ns() < due_ns) continue;
     due_ns = runtime::monotonic_ns() + kVersionsPeriod_ns;
     server->set_other_versions(bus.other_versions());

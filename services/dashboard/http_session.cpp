@@ -117,7 +117,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
                          .body = request.body(),
                          .seat_key = text_of(request["X-Crane-Seat"]),
                          .visitor = visitor()};
-    stream_.expires_never();  // the supervisor answers within 2 s, and RequestDesk if it does not
+    stream_.expires_never();  // the supervisor answers within 2 s, and RequestSender if it does not
     server_.api().handle(api, [self = shared_from_this(), head = request.method() == http::verb::head,
                                keep = request.keep_alive()](ApiAnswer answer) {
       if (answer.status == 403) self->server_.refuse();

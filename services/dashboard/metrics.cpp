@@ -107,8 +107,8 @@ std::string metrics(const Model& model, const ServerCounts& counts, std::int64_t
              static_cast<double>(model.history().bytes()));
   page.counter("crane_dashboard_dropped_messages_total", "Samples that slow clients did not get.",
                counts.dropped_messages);
-  page.counter("crane_dashboard_given_up_clients_total", "Clients that were too slow for events.",
-               counts.given_up_clients);
+  page.counter("crane_dashboard_slow_clients_total", "Clients that were too slow for events.",
+               counts.slow_clients);
   page.counter("crane_dashboard_lost_samples_total", "Samples that the dashboard was too busy to take.",
                counts.lost_samples);
   page.counter("crane_dashboard_refused_requests_total", "Requests refused for origin, host or token.",

@@ -10,7 +10,7 @@ namespace crane::dashboard {
 struct ServerCounts {
   std::size_t viewers = 0, connections = 0;
   std::uint64_t dropped_messages = 0;  ///< samples that slow clients did not get
-  std::uint64_t given_up_clients = 0;
+  std::uint64_t slow_clients = 0;
   std::uint64_t lost_samples = 0;  ///< samples dropped because this process was too busy
   std::uint64_t refused_requests = 0;
 };

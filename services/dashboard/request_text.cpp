@@ -27,21 +27,21 @@ void refuse_unknown(const json& body, const std::vector<std::string>& known) {
       throw BadRequest(key.substr(0, 64) + ": this kind of request has no such field");
 }
 
-void read_move(const json& body, stack::Wish& wish) {
+void read_move(const json& body, stack::OperatorRequest& wanted) {
   refuse_unknown(body, {"kind", kTargets[0], kTargets[1], kTargets[2]});
   for (std::size_t i = 0; i < kTargets.size(); ++i) {
     const auto found = body.find(kTargets[i]);
     if (found == body.end()) continue;
     if (!found->is_number() || !std::isfinite(found->get<double>()))
       throw BadRequest(std::string{kTargets[i]} + ": must be a finite number");
-    wish.selected[i] = true;
-    wish.target[i] = found->get<double>();
+    wanted.selected[i] = true;
+    wanted.target[i] = found->get<double>();
   }
-  if (std::ranges::none_of(wish.selected, [](bool selected) { return selected; }))
+  if (std::ranges::none_of(wanted.selected, [](bool selected) { return selected; }))
     throw BadRequest("move: give trolley_m, slew_rad or hoist_m");
 }
 
-void read_home(const json& body, stack::Wish& wish) {
+void read_home(const json& body, stack::OperatorRequest& wanted) {
   refuse_unknown(body, {"kind", "axis"});
   const auto names = plant::drive_names();
   const auto axis = body.find("axis");
@@ -49,20 +49,20 @@ void read_home(const json& body, stack::Wish& wish) {
                          ? std::ranges::find(names, axis->get<std::string>())
                          : names.end();
   if (found == names.end()) throw BadRequest("axis: must be trolley, slew or hoist");
-  wish.selected[static_cast<std::size_t>(found - names.begin())] = true;
+  wanted.selected[static_cast<std::size_t>(found - names.begin())] = true;
 }
 
-void read_reset(const json& body, stack::Wish& wish) {
+void read_reset(const json& body, stack::OperatorRequest& wanted) {
   refuse_unknown(body, {"kind", "confirm_positions"});
   const auto confirm = body.find("confirm_positions");
   if (confirm == body.end()) return;
   if (!confirm->is_boolean()) throw BadRequest("confirm_positions: must be true or false");
-  wish.selected.fill(confirm->get<bool>());
+  wanted.selected.fill(confirm->get<bool>());
 }
 
 }  // namespace
 
-stack::Wish wish_of_text(std::string_view text) {
+stack::OperatorRequest operator_request_of(std::string_view text) {
   constexpr int kDeepest = 2;
   const auto body = json::parse(
       text,
@@ -78,16 +78,16 @@ stack::Wish wish_of_text(std::string_view text) {
                                              [](const auto& k) { return std::string{k.first}; })
                          : kKinds.end();
   if (found == kKinds.end()) throw BadRequest("kind: must be reset, arm, disarm, stop, estop, home or move");
-  stack::Wish wish{.kind = found->second};
-  if (wish.kind == crane_REQUEST_MOVE)
-    read_move(body, wish);
-  else if (wish.kind == crane_REQUEST_HOME)
-    read_home(body, wish);
-  else if (wish.kind == crane_REQUEST_RESET)
-    read_reset(body, wish);
+  stack::OperatorRequest wanted{.kind = found->second};
+  if (wanted.kind == crane_REQUEST_MOVE)
+    read_move(body, wanted);
+  else if (wanted.kind == crane_REQUEST_HOME)
+    read_home(body, wanted);
+  else if (wanted.kind == crane_REQUEST_RESET)
+    read_reset(body, wanted);
   else
     refuse_unknown(body, {"kind"});
-  return wish;
+  return wanted;
 }
 
 bool is_stop(crane_RequestKind kind) { return kind == crane_REQUEST_STOP || kind == crane_REQUEST_ESTOP; }

@@ -15,7 +15,7 @@ class BadRequest : public std::runtime_error {
 
 /// {"kind": "reset" (with "confirm_positions"), "arm", "disarm", "stop", "estop", "home" (with "axis") or
 /// "move" (with "trolley_m", "slew_rad", "hoist_m")}. @throws BadRequest
-[[nodiscard]] stack::Wish wish_of_text(std::string_view body);
+[[nodiscard]] stack::OperatorRequest operator_request_of(std::string_view body);
 
 /// True for stop and emergency stop, which need no seat.
 [[nodiscard]] bool is_stop(crane_RequestKind kind);

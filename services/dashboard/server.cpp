@@ -18,7 +18,7 @@ using boost::system::error_code;
 }  // namespace
 
 Server::Server(const std::string& address, unsigned short port, About about, AccessRules rules,
-               std::function<void(const stack::Wish&, Answered)> send, const RunsOptions& runs)
+               std::function<void(const stack::OperatorRequest&, Answered)> send, const RunsOptions& runs)
     : acceptor_{context_},
       timer_{context_},
       retry_{context_},
@@ -41,7 +41,7 @@ void Server::run() {
     try {
       context_.run();
     } catch (const std::exception& error) {  // costs the connection whose handler threw, not the dashboard
-      if (++failures_ <= kMostFailuresTold)
+      if (++failures_ <= kMostReportedFailures)
         std::cerr << "crane dashboard: a connection failed: " << error.what() << '\n';
     }
   }

@@ -31,7 +31,7 @@ class Server {
  public:
   /// @param send  see Api. @throws boost::system::system_error when the port cannot be opened
   Server(const std::string& address, unsigned short port, About about, AccessRules rules,
-         std::function<void(const stack::Wish&, Answered)> send, const RunsOptions& runs = {});
+         std::function<void(const stack::OperatorRequest&, Answered)> send, const RunsOptions& runs = {});
 
   /// Serves until stop(). The calling thread then owns all members.
   void run();
@@ -55,7 +55,7 @@ class Server {
   /// Permits one upload at a time. @return false while another upload is in progress
   [[nodiscard]] bool begin_upload() { return !std::exchange(uploads_, true); }
   void end_upload() { uploads_ = false; }
-  void give_up() { ++counts_.given_up_clients; }
+  void count_slow_client() { ++counts_.slow_clients; }
   void refuse() { ++counts_.refused_requests; }
   [[nodiscard]] const std::string& session_id() const { return session_id_; }
 
@@ -79,7 +79,8 @@ class Server {
   ServerCounts counts_;
   bool uploads_ = false;
   std::string session_id_ = random_token();
-  static constexpr std::uint64_t kMostFailuresTold = 20;  ///< an attacker must not fill a disk with messages
+  static constexpr std::uint64_t kMostReportedFailures =
+      20;  ///< an attacker must not fill a disk with messages
   std::uint64_t failures_ = 0;
 };
 

@@ -182,7 +182,7 @@ void ViewerSession::send_text(std::string text) {
 void ViewerSession::put(Outgoing message) {
   if (!open_) return;
   if (!queue_.put(std::move(message))) {
-    server_.give_up();
+    server_.count_slow_client();
     end();
   }
 }

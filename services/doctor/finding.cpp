@@ -12,7 +12,7 @@ const char* name_of(Grade grade) {
 std::string line_of(const Finding& finding) {
   std::string grade = name_of(finding.grade);
   grade.resize(9, ' ');
-  return grade + finding.room + "  " + finding.what + (finding.remedy.empty() ? "" : ": " + finding.remedy);
+  return grade + finding.area + "  " + finding.what + (finding.remedy.empty() ? "" : ": " + finding.remedy);
 }
 
 }  // namespace crane::doctor

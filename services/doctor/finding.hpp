@@ -14,7 +14,7 @@ enum class Grade : std::uint8_t {
 
 struct Finding {
   Grade grade = Grade::good;
-  std::string room;    ///< area of the check: "net", "rt", "hw"
+  std::string area;    ///< area of the check: "net", "rt", "hw"
   std::string code;    ///< lower_snake name, stable for scripts
   std::string what;    ///< one line
   std::string remedy;  ///< empty for Grade::good

@@ -113,12 +113,12 @@ class LockstepRun {
 
   template <class Condition>
   void until(Condition condition, const std::string& what) {
-    auto give_up_ns = runtime::monotonic_ns() + kPatience_ns;
+    auto deadline_ns = runtime::monotonic_ns() + kPatience_ns;
     while (!condition()) {
       pump_();
-      if (collect()) give_up_ns = runtime::monotonic_ns() + kPatience_ns;
+      if (collect()) deadline_ns = runtime::monotonic_ns() + kPatience_ns;
       operator_.receive();
-      if (runtime::monotonic_ns() > give_up_ns)
+      if (runtime::monotonic_ns() > deadline_ns)
         throw RunError("waited " + std::to_string(kPatience_ns / 1'000'000'000) + " s for " + what);
       if (runtime::stop_requested()) throw RunError("interrupted");
     }
@@ -190,35 +190,36 @@ class LockstepRun {
 
   void schedule_actions() {
     for (const auto& move : scenario_.moves) {
-      stack::Wish wish{.kind = crane_REQUEST_MOVE};
-      wish.apply_tick = outcome_.hold_tick + ticks(move.at_s);
-      for (std::size_t i = 0; i < wish.target.size(); ++i) {
-        wish.selected[i] = move.target[i].has_value();
-        wish.target[i] = move.target[i].value_or(0);
+      stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE};
+      wanted.apply_tick = outcome_.hold_tick + ticks(move.at_s);
+      for (std::size_t i = 0; i < wanted.target.size(); ++i) {
+        wanted.selected[i] = move.target[i].has_value();
+        wanted.target[i] = move.target[i].value_or(0);
       }
-      request(wish, {crane_SOURCE_SUPERVISOR});
+      request(wanted, {crane_SOURCE_SUPERVISOR});
     }
     for (const auto& excitation : scenario_.excitations) {
-      stack::Wish wish = stack::wish_of(excitation.reference);
-      wish.apply_tick = outcome_.hold_tick + ticks(excitation.at_s);
-      request(wish, {crane_SOURCE_SUPERVISOR});
+      stack::OperatorRequest wanted = stack::request_to_follow(excitation.reference);
+      wanted.apply_tick = outcome_.hold_tick + ticks(excitation.at_s);
+      request(wanted, {crane_SOURCE_SUPERVISOR});
     }
     for (const auto& kick : scenario_.kicks) {
-      stack::Wish wish{.kind = crane_REQUEST_KICK, .target = {kick.radial_radps, kick.tangential_radps, 0}};
-      wish.apply_tick = outcome_.hold_tick + ticks(kick.at_s);
-      request(wish, {clock_master_});
+      stack::OperatorRequest wanted{.kind = crane_REQUEST_KICK,
+                                    .target = {kick.radial_radps, kick.tangential_radps, 0}};
+      wanted.apply_tick = outcome_.hold_tick + ticks(kick.at_s);
+      request(wanted, {clock_master_});
     }
   }
 
   /// Sends a request for an exact tick and waits until all `sources` have confirmed it. The first of
   /// `sources` decides about the request.
-  void request(stack::Wish wish, std::initializer_list<crane_Source> sources) {
-    wish.apply_tick = std::max(wish.apply_tick, frontier_ + 1);
-    const auto id = operator_.send(wish);
+  void request(stack::OperatorRequest wanted, std::initializer_list<crane_Source> sources) {
+    wanted.apply_tick = std::max(wanted.apply_tick, frontier_ + 1);
+    const auto id = operator_.send(wanted);
     for (const auto source : sources)
       until([&] { return operator_.take_reply(id, source, true).has_value(); },
             "a confirmation of a request");
-    verdicts_.push_back({id, *sources.begin(), wish.apply_tick});
+    verdicts_.push_back({id, *sources.begin(), wanted.apply_tick});
   }
 
   /// Takes the decisions about the requests whose tick has passed.

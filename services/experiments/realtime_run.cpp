@@ -16,21 +16,21 @@ using namespace std::chrono_literals;
 
 struct Action {
   double at_s;
-  stack::Wish wish;
+  stack::OperatorRequest wanted;
 };
 
 std::vector<Action> actions_of(const experiment::Scenario& scenario) {
   std::vector<Action> actions;
   for (const auto& move : scenario.moves) {
-    stack::Wish wish{.kind = crane_REQUEST_MOVE};
-    for (std::size_t i = 0; i < wish.target.size(); ++i) {
-      wish.selected[i] = move.target[i].has_value();
-      wish.target[i] = move.target[i].value_or(0);
+    stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE};
+    for (std::size_t i = 0; i < wanted.target.size(); ++i) {
+      wanted.selected[i] = move.target[i].has_value();
+      wanted.target[i] = move.target[i].value_or(0);
     }
-    actions.push_back({move.at_s, wish});
+    actions.push_back({move.at_s, wanted});
   }
   for (const auto& excitation : scenario.excitations)
-    actions.push_back({excitation.at_s, stack::wish_of(excitation.reference)});
+    actions.push_back({excitation.at_s, stack::request_to_follow(excitation.reference)});
   std::ranges::stable_sort(actions, {}, &Action::at_s);
   return actions;
 }
@@ -40,14 +40,14 @@ std::vector<Action> actions_of(const experiment::Scenario& scenario) {
 constexpr auto kPatience = 30s;
 
 void go_to_scenario_start(RealtimeSession& session, const experiment::Scenario& scenario) {
-  stack::Wish wish;
+  stack::OperatorRequest wanted;
   bool any = false;
-  for (std::size_t i = 0; i < wish.target.size(); ++i) {
+  for (std::size_t i = 0; i < wanted.target.size(); ++i) {
     if (!scenario.start[i]) continue;
-    any = wish.selected[i] = true;
-    wish.target[i] = *scenario.start[i];
+    any = wanted.selected[i] = true;
+    wanted.target[i] = *scenario.start[i];
   }
-  if (any) session.move_to(wish.selected, wish.target, kPatience);
+  if (any) session.move_to(wanted.selected, wanted.target, kPatience);
 }
 
 void wait_until(RealtimeSession& session, std::int64_t time_ns) {
@@ -88,7 +88,7 @@ recording::Table run_in_realtime(const RealtimeRunOptions& options, const experi
   const auto zero_ns = session.state()->header.sample_time_ns;
   for (const Action& action : actions_of(scenario)) {
     wait_until(session, zero_ns + ns(action.at_s));
-    session.request(action.wish, action.wish.kind == crane_REQUEST_MOVE ? "move" : "follow");
+    session.request(action.wanted, action.wanted.kind == crane_REQUEST_MOVE ? "move" : "follow");
   }
   wait_until(session, zero_ns + ns(scenario.end_s()));
   const auto table = session.table().table(zero_ns);

@@ -48,9 +48,9 @@ void RealtimeSession::take(std::chrono::nanoseconds timeout) {
 
 template <class Condition>
 bool RealtimeSession::until(Condition condition, std::chrono::nanoseconds patience) {
-  const auto give_up_ns = runtime::monotonic_ns() + patience.count();
+  const auto deadline_ns = runtime::monotonic_ns() + patience.count();
   while (!condition()) {
-    const auto left_ns = give_up_ns - runtime::monotonic_ns();
+    const auto left_ns = deadline_ns - runtime::monotonic_ns();
     if (left_ns <= 0) return false;
     take(std::chrono::nanoseconds{std::min<std::int64_t>(left_ns, 20'000'000)});
   }
@@ -61,8 +61,8 @@ void RealtimeSession::wait(std::chrono::nanoseconds duration) {
   until([] { return false; }, duration);
 }
 
-std::string RealtimeSession::refusal_of(const stack::Wish& wish, const std::string& what) {
-  const auto id = operator_.send(wish);
+std::string RealtimeSession::refusal_of(const stack::OperatorRequest& wanted, const std::string& what) {
+  const auto id = operator_.send(wanted);
   std::optional<msg::Reply> reply;
   if (!until([&] { return (reply = operator_.take_reply(id, crane_SOURCE_SUPERVISOR)).has_value(); },
              std::chrono::seconds{2}))
@@ -70,18 +70,18 @@ std::string RealtimeSession::refusal_of(const stack::Wish& wish, const std::stri
   return reply->accepted ? "" : reply->reason;
 }
 
-void RealtimeSession::request(const stack::Wish& wish, const std::string& what) {
-  if (const auto refusal = refusal_of(wish, what); !refusal.empty())
+void RealtimeSession::request(const stack::OperatorRequest& wanted, const std::string& what) {
+  if (const auto refusal = refusal_of(wanted, what); !refusal.empty())
     throw SessionError(what + " refused: " + refusal);
 }
 
 /// A reset needs causes that have been inactive for a second. Each lost tick on a loaded computer restarts
 /// this second.
-void RealtimeSession::request_with_patience(const stack::Wish& wish, const std::string& what) {
+void RealtimeSession::request_with_patience(const stack::OperatorRequest& wanted, const std::string& what) {
   constexpr int kTries = 30;
   std::string refusal;
   for (int i = 0; i < kTries; ++i) {
-    refusal = refusal_of(wish, what);
+    refusal = refusal_of(wanted, what);
     if (refusal.empty()) return;
     wait(std::chrono::milliseconds{300});
   }

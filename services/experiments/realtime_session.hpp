@@ -23,9 +23,9 @@ class RealtimeSession {
   RealtimeSession(bus::Bus& bus, std::function<void()> meanwhile);
 
   /// Sends a request and waits for the supervisor's answer. @throws SessionError when refused
-  void request(const stack::Wish& wish, const std::string& what);
+  void request(const stack::OperatorRequest& wanted, const std::string& what);
   /// Repeats the request for some seconds, because a reset needs causes that have been inactive for a second.
-  void request_with_patience(const stack::Wish& wish, const std::string& what);
+  void request_with_patience(const stack::OperatorRequest& wanted, const std::string& what);
   /// From LOCKED to HOLD: reset, then arm. @throws SessionError
   void arm();
   /// Waits until the supervisor is in `wanted`. @throws SessionError after `patience` or in a stop state
@@ -44,7 +44,7 @@ class RealtimeSession {
 
  private:
   /// @return reason of the supervisor's refusal; empty when accepted. @throws SessionError without an answer
-  std::string refusal_of(const stack::Wish& wish, const std::string& what);
+  std::string refusal_of(const stack::OperatorRequest& wanted, const std::string& what);
   void take(std::chrono::nanoseconds timeout);
   template <class Condition>
   bool until(Condition condition, std::chrono::nanoseconds patience);

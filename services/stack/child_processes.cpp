@@ -69,10 +69,10 @@ void ChildProcesses::stop(std::chrono::milliseconds patience) noexcept {
       ::kill(child.pid, SIGTERM);
       ::kill(child.pid, SIGCONT);  // a stopped process must continue to handle SIGTERM
     }
-  const auto give_up = std::chrono::steady_clock::now() + patience;
+  const auto deadline = std::chrono::steady_clock::now() + patience;
   for (auto& child : children_) {
     while (child.running && ::waitpid(child.pid, nullptr, WNOHANG) == 0) {
-      if (std::chrono::steady_clock::now() > give_up) ::kill(child.pid, SIGKILL);
+      if (std::chrono::steady_clock::now() > deadline) ::kill(child.pid, SIGKILL);
       std::this_thread::sleep_for(std::chrono::milliseconds{2});
     }
     child.running = false;

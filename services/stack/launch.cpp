@@ -73,14 +73,14 @@ void wait_until_ready(ChildProcesses& children, const std::vector<runtime::Compo
   auto statuses = bus.subscriber(topics::node);
   std::set<std::string> missing;
   for (const auto& spec : specs) missing.insert(std::string{spec.name});
-  const auto give_up_ns = runtime::monotonic_ns() + std::chrono::nanoseconds{patience}.count();
+  const auto deadline_ns = runtime::monotonic_ns() + std::chrono::nanoseconds{patience}.count();
   while (!missing.empty()) {
     bus.wait(std::chrono::milliseconds{20});
     while (const auto status = statuses.take())
       if (status->phase == crane_PHASE_READY) missing.erase(status->name);
     if (const auto ended = children.ended()) throw std::runtime_error(describe(*ended));
     if (runtime::stop_requested()) throw std::runtime_error("interrupted");
-    if (runtime::monotonic_ns() < give_up_ns) continue;
+    if (runtime::monotonic_ns() < deadline_ns) continue;
     std::string names;
     for (const auto& name : missing) names += (names.empty() ? "" : ", ") + name;
     throw std::runtime_error("not ready after " + std::to_string(patience.count()) + " ms: " + names +

@@ -7,14 +7,14 @@
 
 namespace crane::stack {
 
-Wish wish_of(const control::Excitation& excitation) {
-  Wish wish{.kind = crane_REQUEST_FOLLOW};
-  wish.selected[excitation.axis] = true;
-  wish.target[excitation.axis] = excitation.about;
+OperatorRequest request_to_follow(const control::Excitation& excitation) {
+  OperatorRequest wanted{.kind = crane_REQUEST_FOLLOW};
+  wanted.selected[excitation.axis] = true;
+  wanted.target[excitation.axis] = excitation.about;
   for (const auto& sine : excitation.sines)
-    wish.sines.push_back({sine.amplitude, sine.frequency_hz, sine.phase_rad});
-  wish.duration_s = excitation.duration_s;
-  return wish;
+    wanted.sines.push_back({sine.amplitude, sine.frequency_hz, sine.phase_rad});
+  wanted.duration_s = excitation.duration_s;
+  return wanted;
 }
 
 OperatorClient::OperatorClient(bus::Bus& bus, std::string client, std::uint64_t first_id)
@@ -23,19 +23,19 @@ OperatorClient::OperatorClient(bus::Bus& bus, std::string client, std::uint64_t 
       client_{std::move(client)},
       next_id_{first_id} {}
 
-std::uint64_t OperatorClient::send(const Wish& wish) {
+std::uint64_t OperatorClient::send(const OperatorRequest& wanted) {
   msg::Request request{};
   request.id = next_id_++;
   runtime::assign(request.client, client_);
-  request.kind = wish.kind;
-  request.apply_tick = wish.apply_tick;
-  for (std::size_t i = 0; i < wish.selected.size(); ++i) {
-    request.selected[i] = wish.selected[i];
-    request.target[i] = wish.target[i];
+  request.kind = wanted.kind;
+  request.apply_tick = wanted.apply_tick;
+  for (std::size_t i = 0; i < wanted.selected.size(); ++i) {
+    request.selected[i] = wanted.selected[i];
+    request.target[i] = wanted.target[i];
   }
-  request.until_tick = wish.until_tick;
-  std::copy_n(wish.sines.begin(), std::min(wish.sines.size(), std::size(request.sine)), request.sine);
-  request.duration_s = wish.duration_s;
+  request.until_tick = wanted.until_tick;
+  std::copy_n(wanted.sines.begin(), std::min(wanted.sines.size(), std::size(request.sine)), request.sine);
+  request.duration_s = wanted.duration_s;
   if (!requests_.publish(request))
     throw bus::Error("the request could not be sent: the middleware refused it");
   return request.id;

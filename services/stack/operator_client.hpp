@@ -12,7 +12,7 @@
 namespace crane::stack {
 
 /// Content of a request, without header, id and client.
-struct Wish {
+struct OperatorRequest {
   crane_RequestKind kind = crane_REQUEST_NONE;
   std::array<bool, 3> selected{};
   std::array<double, 3> target{};   ///< move: m, rad, m of cable; kick: rad/s radial, tangential
@@ -23,7 +23,7 @@ struct Wish {
 };
 
 /// Request to follow an excitation.
-[[nodiscard]] Wish wish_of(const control::Excitation& excitation);
+[[nodiscard]] OperatorRequest request_to_follow(const control::Excitation& excitation);
 
 class OperatorClient {
  public:
@@ -35,7 +35,7 @@ class OperatorClient {
   /// Number of processes that can reply.
   [[nodiscard]] int answerers() const { return replies_.matched(); }
   /// @return id of the request
-  std::uint64_t send(const Wish& wish);
+  std::uint64_t send(const OperatorRequest& wanted);
   /// Sends a request that is always refused, because its id is 0 (kProbe). The reply proves that requests
   /// reach the supervisor and replies reach this client; other readers of crane/request do not reply.
   void probe();

@@ -23,7 +23,7 @@ using Names = std::vector<std::string>;
 constexpr int kMostSeeds = 1'000'000;
 constexpr std::size_t kMostRuns = 10'000'000;
 
-struct Wishes {
+struct Choices {
   Names scenarios, rigs;
 };
 
@@ -37,12 +37,12 @@ Names list(TomlTable& root, const std::string& key) {
   return names;
 }
 
-Wishes read_wishes(TomlTable& root, Sweep& sweep) {
-  Wishes wishes;
+Choices read_choices(TomlTable& root, Sweep& sweep) {
+  Choices choices;
   sweep.description = root.text("description", "");
   if (!root.has("scenarios")) root.problem("scenarios", "must list at least one scenario");
-  wishes.scenarios = list(root, "scenarios");
-  wishes.rigs = list(root, "rigs");
+  choices.scenarios = list(root, "scenarios");
+  choices.rigs = list(root, "rigs");
   const Names methods{simulator::kMethodNames.begin(), simulator::kMethodNames.end()};
   sweep.integrator = simulator::method_named(root.choice("integrator", methods, methods.front()));
   sweep.variants = list(root, "variants");
@@ -53,7 +53,7 @@ Wishes read_wishes(TomlTable& root, Sweep& sweep) {
   for (const auto& name : sweep.controllers)
     if (control::find_controller(name) == nullptr)
       root.problem("controllers", "no controller has the name " + name);
-  return wishes;
+  return choices;
 }
 
 void read_seeds(TomlTable& root, Sweep& sweep) {
@@ -96,17 +96,17 @@ class Problems {
   std::vector<std::string> lines_;
 };
 
-void load_cases(const Wishes& wishes, const Finder& finder, Problems& problems, Sweep& sweep) {
-  for (const auto& name : wishes.scenarios) {
-    experiment::Scenario wish;
+void load_cases(const Choices& choices, const Finder& finder, Problems& problems, Sweep& sweep) {
+  for (const auto& name : choices.scenarios) {
+    experiment::Scenario defaults;
     std::filesystem::path path;
     const bool found = problems.collect([&] {
       path = finder.scenario(name);
-      wish = experiment::load_scenario(path);
+      defaults = experiment::load_scenario(path);
     });
     if (!found) continue;
-    Names rigs = wishes.rigs;
-    if (rigs.empty()) rigs.push_back(wish.rig.empty() ? stack::kDefaultRig : wish.rig);
+    Names rigs = choices.rigs;
+    if (rigs.empty()) rigs.push_back(defaults.rig.empty() ? stack::kDefaultRig : defaults.rig);
     for (const auto& rig_name : rigs)
       problems.collect([&] {
         auto rig = configuration::load_rig(finder.rig(rig_name));
@@ -163,11 +163,11 @@ Sweep parse_sweep(const std::string& text, const std::string& file, const Finder
   TomlTable root{text, file};
   Sweep sweep;
   sweep.name = std::filesystem::path{file}.stem().string();
-  const Wishes wishes = read_wishes(root, sweep);
+  const Choices choices = read_choices(root, sweep);
   read_seeds(root, sweep);
   Problems problems;
   const bool readable = problems.collect([&] { root.finish(); });
-  load_cases(wishes, finder, problems, sweep);
+  load_cases(choices, finder, problems, sweep);
   if (sweep.variants.empty()) sweep.variants.emplace_back();
   if (sweep.controllers.empty()) sweep.controllers.emplace_back();
   if (readable) {

@@ -199,7 +199,7 @@ TEST_F(Observers, RequestToNobodySaysWhereItLooked) {
 }
 
 constexpr Patience kPatience{.find_s = 10, .reply_s = 10};
-const stack::Wish kMove{.kind = crane_REQUEST_MOVE, .selected = {true}, .target = {1.0}};
+const stack::OperatorRequest kMove{.kind = crane_REQUEST_MOVE, .selected = {true}, .target = {1.0}};
 
 TEST_F(Observers, MoveIsOverWhenThePlannerHasTakenItUpAndTheCraneIsHeld) {
   const FakeSupervisor supervisor{crane_, true, Planner::listening};

@@ -8,23 +8,24 @@ namespace crane::dashboard {
 namespace {
 
 TEST(RequestText, AMoveNamesTheAxesThatItMoves) {
-  const auto wish = wish_of_text(R"({"kind":"move","trolley_m":1.05,"slew_rad":-0.5})");
-  EXPECT_EQ(wish.kind, crane_REQUEST_MOVE);
-  EXPECT_EQ(wish.selected, (std::array{true, true, false}));
-  EXPECT_EQ(wish.target, (std::array{1.05, -0.5, 0.0}));
+  const auto wanted = operator_request_of(R"({"kind":"move","trolley_m":1.05,"slew_rad":-0.5})");
+  EXPECT_EQ(wanted.kind, crane_REQUEST_MOVE);
+  EXPECT_EQ(wanted.selected, (std::array{true, true, false}));
+  EXPECT_EQ(wanted.target, (std::array{1.05, -0.5, 0.0}));
 }
 
 TEST(RequestText, HomeAndResetHaveTheirFields) {
-  EXPECT_EQ(wish_of_text(R"({"kind":"home","axis":"hoist"})").selected, (std::array{false, false, true}));
-  EXPECT_EQ(wish_of_text(R"({"kind":"reset"})").selected, (std::array{false, false, false}));
-  EXPECT_EQ(wish_of_text(R"({"kind":"reset","confirm_positions":true})").selected,
+  EXPECT_EQ(operator_request_of(R"({"kind":"home","axis":"hoist"})").selected,
+            (std::array{false, false, true}));
+  EXPECT_EQ(operator_request_of(R"({"kind":"reset"})").selected, (std::array{false, false, false}));
+  EXPECT_EQ(operator_request_of(R"({"kind":"reset","confirm_positions":true})").selected,
             (std::array{true, true, true}));
 }
 
 TEST(RequestText, OnlyStopsNeedNoSeat) {
   for (const auto* kind : {"reset", "arm", "disarm", "stop", "estop"}) {
-    const auto wish = wish_of_text(R"({"kind":")" + std::string{kind} + "\"}");
-    EXPECT_EQ(is_stop(wish.kind), std::string_view{kind}.ends_with("stop")) << kind;
+    const auto wanted = operator_request_of(R"({"kind":")" + std::string{kind} + "\"}");
+    EXPECT_EQ(is_stop(wanted.kind), std::string_view{kind}.ends_with("stop")) << kind;
   }
 }
 
@@ -36,7 +37,7 @@ TEST(RequestText, WhatIsNoRequestOfAnOperatorIsRefused) {
         R"({"kind":"move","trolley_m":null})", R"({"kind":"arm","trolley_m":1})", R"({"kind":"home"})",
         R"({"kind":"home","axis":"jib"})", R"({"kind":"reset","confirm_positions":1})",
         R"({"kind":"move","trolley_m":[[[1]]]})"})
-    EXPECT_THROW((void)wish_of_text(text), BadRequest) << text;
+    EXPECT_THROW((void)operator_request_of(text), BadRequest) << text;
 }
 
 TEST(RequestText, MutatedRequestsEitherParseOrAreRefused) {
@@ -48,7 +49,7 @@ TEST(RequestText, MutatedRequestsEitherParseOrAreRefused) {
     auto text = seed;
     for (int n = 0; n <= i % 3; ++n) text[where(random)] = static_cast<char>(what(random));
     try {
-      for (const double target : wish_of_text(text).target) EXPECT_TRUE(std::isfinite(target)) << text;
+      for (const double target : operator_request_of(text).target) EXPECT_TRUE(std::isfinite(target)) << text;
     } catch (const BadRequest&) {
     }
   }

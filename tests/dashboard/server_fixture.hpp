@@ -25,16 +25,16 @@ using nlohmann::json;
 class ServerTest : public testing::Test {
  protected:
   explicit ServerTest(AccessRules rules = {}, const RunsOptions& runs = {})
-      : server_{
-            "127.0.0.1",
-            0,
-            {.version = "0", .crane = "test", .domain = 0, .rig = ""},
-            std::move(rules),
-            [this](const stack::Wish& wish, const Answered& answered) {
-              ++asked_;
-              answered({wish.kind != crane_REQUEST_ARM, wish.kind == crane_REQUEST_ARM ? "not READY" : ""});
-            },
-            runs} {}
+      : server_{"127.0.0.1",
+                0,
+                {.version = "0", .crane = "test", .domain = 0, .rig = ""},
+                std::move(rules),
+                [this](const stack::OperatorRequest& wanted, const Answered& answered) {
+                  ++asked_;
+                  answered({wanted.kind != crane_REQUEST_ARM,
+                            wanted.kind == crane_REQUEST_ARM ? "not READY" : ""});
+                },
+                runs} {}
   ~ServerTest() override { server_.stop(); }
 
   tcp::socket connect() {

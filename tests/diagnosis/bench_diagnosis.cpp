@@ -114,27 +114,31 @@ int main(int argc, char** argv) {
       "Scores the diagnosis on data with hidden effects that share no code with it, and prints the table "
       "of targets.\nEvery set is appended to the file of results as one line of JSON; sets that are "
       "there are not computed again,\nso that a long score may be interrupted, continued and lengthened."};
-  app.add_option("--deck", options.deck,
-                 "truth: cranes of tests/truth; mujoco: those of tests/truth_mujoco, with wide nuisance")
+  app.add_option(
+         "--deck", options.deck,
+         "truth: cranes of tests/truth; mujoco: cranes of tests/truth_mujoco, with widely varied conditions")
       ->check(CLI::IsMember({"truth", "mujoco"}))
       ->capture_default_str();
-  app.add_option("--sets", options.sets,
-                 "how many in all; of twelve of the truth 3 clean, 6 single, 1 pair, 1 outside, 1 alike; of "
-                 "twenty of MuJoCo 5, 9, 2, 2, 2")
+  app.add_option(
+         "--sets", options.sets,
+         "total number of sets; of 12 sets of truth 3 are clean, 6 have one cause, 1 a pair, 1 a cause "
+         "outside the library, 1 confounded causes; of 20 sets of mujoco 5, 9, 2, 2, 2")
       ->capture_default_str();
   app.add_option("--first-seed", options.first_seed,
-                 "of set 0; set k has the k-th after it; of MuJoCo that of the deck")
+                 "truth: seed of set 0, set k has this seed plus k; mujoco: seed of the deck")
       ->capture_default_str();
-  app.add_option("--processes", options.processes, "sets under way at once")
+  app.add_option("--processes", options.processes, "number of sets at the same time")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  app.add_option("--results", options.results, "file of results")->capture_default_str();
-  app.add_flag("--quiet", options.quiet, "print nothing about single sets: a deck that is to stay unseen");
-  app.add_option("--only", options.only, "sets of this kind only")
+  app.add_option("--results", options.results,
+                 "file with one JSON line per set; sets that it contains are not repeated")
+      ->capture_default_str();
+  app.add_flag("--quiet", options.quiet, "print only tables, nothing about single sets");
+  app.add_option("--only", options.only, "diagnose only sets of this kind")
       ->check(CLI::IsMember({"clean", "single", "outside", "pair", "confounded"}));
   app.footer(
       "Example: bench_diagnosis --sets 1200 --results score.jsonl\n"
-      "         bench_diagnosis --sets 0 --results score.jsonl        tables of what there is");
+      "         bench_diagnosis --sets 0 --results score.jsonl        only prints the tables");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

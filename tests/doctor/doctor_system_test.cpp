@@ -47,7 +47,7 @@ std::vector<std::string> lines(const Findings& findings) {
 std::vector<std::string> lines(const Answer& answer) {
   Findings findings;
   for (const auto& one : nlohmann::json::parse(answer.output.substr(answer.output.find("[\n"))))
-    findings.push_back({Grade::good, one["room"], one["code"], one["what"], one["remedy"]});
+    findings.push_back({Grade::good, one["area"], one["code"], one["what"], one["remedy"]});
   return lines(findings);
 }
 

@@ -24,11 +24,11 @@ std::string number_of(const std::string& name) {
 
 experiments::PlannedRun plan_of(const std::string& figure) {
   const auto file = stack::find_scenario(figure);
-  const Scenario wish = load_scenario(file);
+  const Scenario defaults = load_scenario(file);
   const auto rig =
-      configuration::load_rig(stack::find_rig(wish.rig.empty() ? "virginia_tech_tower" : wish.rig));
-  return {load_scenario(file, &rig), rig, control::find_controller(wish.controllers.at(0)),
-          wish.variants.empty() ? "" : wish.variants.front()};
+      configuration::load_rig(stack::find_rig(defaults.rig.empty() ? "virginia_tech_tower" : defaults.rig));
+  return {load_scenario(file, &rig), rig, control::find_controller(defaults.controllers.at(0)),
+          defaults.variants.empty() ? "" : defaults.variants.front()};
 }
 
 class Figure : public testing::TestWithParam<std::string> {};

@@ -100,7 +100,7 @@ TEST_P(HomingOn, CountsThatAreLostLaterTakeTheZeroAndHomingHelps) {  // hazard 1
     inputs.raw_counts[1] += static_cast<std::int32_t>(lost_counts);
   };
   crane.run(21);
-  stack::Wish to_and_fro{
+  stack::OperatorRequest to_and_fro{
       .kind = crane_REQUEST_FOLLOW, .selected = {false, true, false}, .target = {0, 0.35, 0}};
   to_and_fro.sines = {{0.4, 0.025, 0}};  // slow, so that the load is at rest when the brakes close
   to_and_fro.duration_s = 60;

@@ -98,8 +98,8 @@ class LockstepCrane {
     return passed_s;
   }
   /// @return reason of the refusal; empty when accepted
-  std::string ask(const stack::Wish& wish) {
-    const auto id = operator_->send(wish);
+  std::string ask(const stack::OperatorRequest& wanted) {
+    const auto id = operator_->send(wanted);
     tick();
     tick();
     operator_->receive();
@@ -107,11 +107,11 @@ class LockstepCrane {
     if (!reply) return "no answer";
     return reply->accepted ? "" : reply->reason;
   }
-  std::string ask(crane_RequestKind kind) { return ask(stack::Wish{.kind = kind}); }
+  std::string ask(crane_RequestKind kind) { return ask(stack::OperatorRequest{.kind = kind}); }
   std::string home(std::size_t axis) {
-    stack::Wish wish{.kind = crane_REQUEST_HOME};
-    wish.selected[axis] = true;
-    return ask(wish);
+    stack::OperatorRequest wanted{.kind = crane_REQUEST_HOME};
+    wanted.selected[axis] = true;
+    return ask(wanted);
   }
   /// Resets and homes; ends when the brakes are closed again.
   void begin_homing(std::size_t axis) {

@@ -35,7 +35,7 @@ TEST_P(EncoderDies, AsAMoveBeginsAndTheAxisStopsInsideItsLimits) {
     if (!frozen) frozen = inputs.raw_counts[axis];
     inputs.raw_counts[axis] = *frozen;
   };
-  stack::Wish move{.kind = crane_REQUEST_MOVE};
+  stack::OperatorRequest move{.kind = crane_REQUEST_MOVE};
   move.selected[axis] = true;
   move.target[axis] = start + distance;
   ASSERT_EQ(crane.ask(move), "");

@@ -33,9 +33,9 @@ class BlackBox : public testing::Test {
   /// Repeats the request while it is refused: during the self-test, or until all inputs have been complete
   /// for a second.
   void ask_until_accepted(const std::string& request) {
-    const auto give_up = std::chrono::steady_clock::now() + 10s;
+    const auto deadline = std::chrono::steady_clock::now() + 10s;
     while (run_program(program(), with_bus({request}, crane)).exit_code != 0)
-      ASSERT_LT(std::chrono::steady_clock::now(), give_up) << request;
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << request;
   }
   /// Reset, armed and moving.
   void start_a_move() {
@@ -66,9 +66,9 @@ class BlackBox : public testing::Test {
 TEST_F(BlackBox, RecordsAStopWithTheRigFileAndTheProcesses) {
   start_a_move();
   ask({"estop"});
-  for (const auto give_up = std::chrono::steady_clock::now() + 15s; files().empty();
+  for (const auto deadline = std::chrono::steady_clock::now() + 15s; files().empty();
        std::this_thread::sleep_for(20ms))
-    ASSERT_LT(std::chrono::steady_clock::now(), give_up) << up.errors();
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline) << up.errors();
   ASSERT_EQ(files().size(), 1U);
   const auto found = review::review(files()[0]);
   EXPECT_THAT(review::sentences(found).front(), HasSubstr("The first cause is OPERATOR_ESTOP"));

@@ -81,9 +81,9 @@ void RunningStack::start_again(const std::string& component) {
 }
 
 bool RunningStack::until(const std::function<bool()>& condition, std::chrono::milliseconds patience) {
-  const auto give_up = std::chrono::steady_clock::now() + patience;
+  const auto deadline = std::chrono::steady_clock::now() + patience;
   for (observer_->take(); !condition(); observer_->take()) {
-    if (std::chrono::steady_clock::now() > give_up) return false;
+    if (std::chrono::steady_clock::now() > deadline) return false;
     session_->wait(5ms);
   }
   return true;

@@ -29,9 +29,9 @@ std::unique_ptr<SharedFile> find(const std::string& name, SharedLines*& lines) {
 }  // namespace
 
 LinkedRig::LinkedRig(const std::string& name) {
-  const auto give_up_ns = monotonic_ns() + kPatience_ns;
+  const auto deadline_ns = monotonic_ns() + kPatience_ns;
   while (!(file_ = find(name, lines_))) {
-    if (monotonic_ns() > give_up_ns || runtime::stop_requested())
+    if (monotonic_ns() > deadline_ns || runtime::stop_requested())
       throw BoardError(
           "the emulated rig of this crane does not run: start crane_emulated_rig with the same --crane "
           "and --domain, or use `crane up --plant hardware`");

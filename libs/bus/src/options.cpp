@@ -39,12 +39,12 @@ std::vector<std::string> addresses_of_this_host(unsigned flags = 0) {
 void await_carrier(const Options& options, std::vector<std::string>& problems) {
   constexpr std::chrono::seconds kPatience{5};
   constexpr std::chrono::milliseconds kPause{50};
-  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
   for (const auto& wanted : options.interfaces)
     for (;;) {
       const auto running = addresses_of_this_host(IFF_UP | IFF_RUNNING);
       if (std::find(running.begin(), running.end(), wanted) != running.end()) break;
-      if (std::chrono::steady_clock::now() > give_up) {
+      if (std::chrono::steady_clock::now() > deadline) {
         problems.push_back(
             "interfaces: the interface of " + wanted +
             " is down or has no carrier: plug in its cable, set it up (ip link), and start again");

@@ -55,19 +55,17 @@ void add_bus_options(CLI::App& app, BusOptions& options) {
       ->capture_default_str();
   app.add_option("--crane", options.crane, "name of the crane: separates several cranes in one domain")
       ->capture_default_str();
-  app.add_option(
-         "--interface", options.interfaces,
-         "address of a network interface to use (repeatable); with 127.0.0.1 no sample leaves this host")
+  app.add_option("--interface", options.interfaces,
+                 "address of a network interface to use (repeatable); 127.0.0.1: no sample leaves this host")
       ->capture_default_str();
   app.add_option("--peer", options.peers,
                  "address of a host to discover by unicast (repeatable); disables multicast discovery");
-  auto* secure =
-      app.add_option("--secure", options.secure,
-                     "directory of keys (crane keys make): only programs with keys of the same authority "
-                     "take part, each with the rights of its role, and everything is encrypted");
-  app.add_flag(
-         "--insecure", options.insecure,
-         "write beyond the loop-back without keys: every host that reaches --interface can command the crane")
+  auto* secure = app.add_option(
+      "--secure", options.secure,
+      "directory of keys (crane keys make): encrypt all traffic, and accept only programs with "
+      "keys of the same authority, each with the rights of its role");
+  app.add_flag("--insecure", options.insecure,
+               "permit --interface without keys: every host that reaches it can then command the crane")
       ->excludes(secure);
 }
 

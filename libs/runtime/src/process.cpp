@@ -107,7 +107,7 @@ void add_loop_options(CLI::App& app, LoopOptions& options) {
   app.add_option("--priority", options.priority, "SCHED_FIFO priority in realtime, 0: ordinary scheduling")
       ->check(CLI::Range(0, 98))
       ->capture_default_str();
-  app.add_option("--parent", options.parent, "process id; this process ends when that process ends; 0: none");
+  app.add_option("--parent", options.parent, "end when the process with this id ends; 0: never");
   app.add_flag("--verbose", options.verbose, "log every detail");
 }
 

@@ -65,13 +65,13 @@ int main(int argc, char** argv) {
       "A crane with an emulated Servo-to-Go card, for the hardware bridge of the same crane and domain.",
       "crane_emulated_rig"};
   Options options;
-  app.add_option("--rig", options.rig, "rig file: what the crane is and how it is wired")->required();
+  app.add_option("--rig", options.rig, "rig file: the crane and its wiring")->required();
   app.add_option("--crane", options.crane, "name of the crane")->capture_default_str();
   app.add_option("--domain", options.domain, "DDS domain of the bridge")->capture_default_str();
-  app.add_option("--clock", options.clock, "realtime, or lockstep: time runs when the bridge says so")
+  app.add_option("--clock", options.clock, "realtime; or lockstep: the bridge advances the time")
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
-  app.add_option("--model", options.model, "of the Servo-to-Go card")
+  app.add_option("--model", options.model, "model of the Servo-to-Go card")
       ->check(CLI::Range(1, 2))
       ->capture_default_str();
   app.add_option("--priority", options.priority, "SCHED_FIFO priority in realtime, 0: ordinary scheduling")

@@ -1,6 +1,6 @@
 #pragma once
-/// Judges one run by the invariants of docs/safety.md. The judge uses topics, limits of the rig file and the
-/// true state, and shares no code with supervisor and bridge.
+/// Judges one run by the invariants of docs/campaign.md. The judge uses topics, limits of the rig file and
+/// the true state, and shares no code with supervisor and bridge.
 #include <string>
 
 #include "campaign/judge/record.hpp"

@@ -23,13 +23,14 @@ void require_directory(const std::filesystem::path& directory) {
 }
 
 void add_analyse(CLI::App& app, Action& chosen) {
-  auto* command = app.add_subcommand("analyse", "Poles, damping maps, gain curves, rules, sensitivity");
+  auto* command = app.add_subcommand(
+      "analyse", "Compute poles, damping maps, gain curves, fuzzy rules and sensitivity of the control laws");
   command->footer(R"(Examples:
   crane analyse damping --out out/damping          figures 3.16, 3.17, 3.19 from the exact roots
   crane analyse gains --out out/gains              figures 3.5, 3.6, 3.10
-  crane analyse fuzzy                              Table 3.7 beside the rules generated anew
+  crane analyse fuzzy                              Table 3.7 compared with the generated rules
   crane analyse sensitivity --scenario maneuver_1 --controller delayed_1 --out out/sensitivity
-docs/analysis.md says what they show.)");
+Figures and tables are those of the dissertation; docs/analysis.md explains them.)");
   add_analyse_damping(*command, chosen);
   add_analyse_gains(*command, chosen);
   add_analyse_fuzzy(*command, chosen);

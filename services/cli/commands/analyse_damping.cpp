@@ -224,7 +224,7 @@ void add_analyse_damping(CLI::App& analyse, Action& chosen) {
   auto options = std::make_shared<DampingOptions>();
   auto* command = analyse.add_subcommand(
       "damping",
-      "Map the damping of tracking PD with a linear anti-swing law over its two gains (exact roots)");
+      "Compute the damping of tracking PD with a linear anti-swing law as a map over its two gains");
   std::vector<std::string> names;
   for (const auto& kind : analysis::kAntiSwingKinds) names.emplace_back(kind.name);
   command->add_option("law", options->laws, "pd, delayed_1, delayed_2; default: all")
@@ -238,15 +238,14 @@ void add_analyse_damping(CLI::App& analyse, Action& chosen) {
   command->add_option("--tracking", options->tracking, "K_p of the tracking PD; K_d = 2 sqrt(K_p)")
       ->check(CLI::Range(0.01, 1e4))
       ->capture_default_str();
-  command
-      ->add_option("--highest", options->highest,
-                   "largest considered frequency of roots, in load frequencies")
+  command->add_option("--highest", options->highest, "ignore roots above this frequency, in load frequencies")
       ->check(CLI::Range(0.1, 100.0))
       ->capture_default_str();
   command->add_option("--out", options->out, "directory for damping_LAW.csv and damping_LAW.svg");
   command->add_flag("--json", options->json, "print the points as JSON");
   command->footer(
-      "Gains are for normalised time and the tower sign (docs/equations.md): K_ps, K_del < 0.\n"
+      "The roots are exact. Gains are for normalised time and the tower sign (docs/equations.md), so that\n"
+      "K_ps and K_del are negative.\n"
       "Examples: crane analyse damping --pade 20 --out out/damping\n"
       "          crane analyse damping pd --range=-40:-10:61 4:12:61");
   command->callback([options, &chosen] { chosen = [options] { return analyse_damping(*options); }; });

@@ -72,7 +72,9 @@ void add_analyse_fuzzy(CLI::App& analyse, Action& chosen) {
   };
   auto options = std::make_shared<FuzzyOptions>();
   auto* command = analyse.add_subcommand("fuzzy", "Compare the printed with the generated fuzzy rules");
-  command->add_option("--rig", options->rig, "rig file or name; its design gives the rules")
+  command
+      ->add_option("--rig", options->rig,
+                   "rig file or name; the rules are generated for its controller parameters")
       ->capture_default_str();
   command->add_flag("--json", options->json, "print as JSON");
   command->footer("Example: crane analyse fuzzy");

@@ -145,7 +145,7 @@ void add_analyse_gains(CLI::App& analyse, Action& chosen) {
   auto* command = analyse.add_subcommand(
       "gains", "Compute gains and poles of gain scheduling over cable length, load and trolley position");
   command->add_option("--rig", options->rig,
-                      "rig file or name; default: the parameters of the source's figures");
+                      "rig file or name; default: the parameters of the dissertation's figures");
   command->add_option("--out", options->out, "directory for figure_3_5, 3_6 and 3_10, each .csv and .svg");
   command->add_flag("--json", options->json, "print the curves as JSON");
   command->footer("Example: crane analyse gains --rig virginia_tech_tower --out out/gains");

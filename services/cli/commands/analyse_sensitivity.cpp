@@ -181,9 +181,8 @@ void add_analyse_sensitivity(CLI::App& analyse, Action& chosen) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "print the runs as JSON");
   command->footer(
-      "Each run changes one quantity relative to the nominal value of the controllers; about 30 "
-      "runs\n"
-      "for each scenario and controller, in this process, without DDS.\n"
+      "Each run changes one quantity; the controllers keep their nominal values. About 30 runs for each\n"
+      "scenario and controller, in this process, without DDS.\n"
       "Example: crane analyse sensitivity --scenario maneuver_1 maneuver_3 --controller delayed_1");
   command->callback([options, &chosen] { chosen = [options] { return analyse_sensitivity(*options); }; });
 }

@@ -179,7 +179,7 @@ int bench_loop(BenchOptions options) {
 void add_bench(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<BenchOptions>();
   auto* command = app.add_subcommand(
-      "bench", "Measure the stack on this computer, and the diagnosis with hidden effects");
+      "bench", "Measure times of the stack on this computer, and the score of crane diagnose");
   command->require_subcommand(1);
   auto* loop =
       command->add_subcommand("loop", "Measure lost ticks and latency in real time, compared with raw UDP");

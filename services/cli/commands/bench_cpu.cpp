@@ -112,7 +112,9 @@ void add_bench_cpu(CLI::App& bench, Action& chosen) {
   auto* command = bench.add_subcommand(
       "cpu", "Measure the processor time per tick of each process (loop and DDS threads) in real time");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command->add_option("--plant", options->plant, "hardware (the bridge) or sim")
+  command
+      ->add_option("--plant", options->plant,
+                   "hardware: the bridge with the board of the rig file; sim: the simulated plant")
       ->check(CLI::IsMember({"hardware", "sim"}))
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "duration in s")

@@ -28,8 +28,8 @@ int bench_diagnosis(std::vector<std::string> arguments) {
 }  // namespace
 
 void add_bench_diagnosis(CLI::App& bench, Action& chosen) {
-  auto* command = bench.add_subcommand(
-      "diagnosis", "Score crane diagnose with hidden effects: naming, false alarms, gain, intervals");
+  auto* command =
+      bench.add_subcommand("diagnosis", "Score crane diagnose on generated data with known, hidden causes");
   command->prefix_command();
   command->set_help_flag();  // the program handles --help and all options
   command->footer("Example: crane bench diagnosis --sets 1200 --results score.jsonl");

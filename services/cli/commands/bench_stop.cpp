@@ -138,7 +138,7 @@ int bench_stop(BenchStopOptions options) {
 void add_bench_stop(CLI::App& bench, Action& chosen) {
   auto options = std::make_shared<BenchStopOptions>();
   auto* command = bench.add_subcommand("stop",
-                                       "Kill or stop the bridge at full speed (emulated board, real time); "
+                                       "Kill the bridge while the emulated crane moves at full speed; "
                                        "measure the time until the brakes are closed");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
   command->add_option("--runs", options->runs, "number of runs; half with SIGKILL, half with SIGSTOP")

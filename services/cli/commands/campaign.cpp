@@ -34,11 +34,10 @@ Selection selection_of(const CampaignOptions& options) {
   for (const int number : options.hazards)
     if (find_hazard(number) == nullptr)
       throw configuration::ConfigurationError(
-          {"--hazard " + std::to_string(number) + ": there is none; see --list"});
+          {"--hazard " + std::to_string(number) + ": unknown; see --list"});
   for (const auto& name : options.moments) {
     const auto moment = moment_named(name);
-    if (!moment)
-      throw configuration::ConfigurationError({"--moment " + name + ": there is none; see --list"});
+    if (!moment) throw configuration::ConfigurationError({"--moment " + name + ": unknown; see --list"});
     selection.moments.push_back(*moment);
   }
   if (options.seed) selection.first_seed = *options.seed, selection.seeds = 1;
@@ -48,13 +47,7 @@ Selection selection_of(const CampaignOptions& options) {
 int list() {
   std::cout << "moments:";
   for (std::size_t m = 0; m < kMoments; ++m) std::cout << ' ' << name_of(static_cast<Moment>(m));
-  std::cout << "\nhazards:\n";
-  for (const auto& hazard : hazards())
-    std::cout << "  " << hazard.number << "  " << hazard.name
-              << (hazard.test_bed == TestBed::campaign
-                      ? ""
-                      : std::string{" (tested elsewhere: "} + hazard.verified_by + ")")
-              << '\n';
+  std::cout << "\n\n" << hazard_table();
   return 0;
 }
 
@@ -103,8 +96,8 @@ int run_free(const CampaignOptions& options) {
             << found.trips.size() << " false trips\n";
   for (const auto& line : found.trips) std::cout << line;
   std::cout << found.limits.size()
-            << " stops that the truth confirms: a move has crossed a limit, or a controller does not come to "
-               "rest\n";
+            << " stops that the true state confirms: a move has crossed a limit, or a controller has not "
+               "come to rest\n";
   for (const auto& line : found.limits) std::cout << line;
   return found.trips.empty() ? 0 : 1;
 }
@@ -116,7 +109,7 @@ int run(const CampaignOptions& options) {
   const auto all = tuples(selection_of(options));
   if (options.seed && all.size() == 1) return run_single(options, all.front());
   if (!options.record.empty())
-    throw configuration::ConfigurationError({"--record: name one --hazard, --moment and --seed"});
+    throw configuration::ConfigurationError({"--record needs exactly one --hazard, --moment and --seed"});
   return run_many(options);
 }
 
@@ -124,23 +117,27 @@ int run(const CampaignOptions& options) {
 
 void add_campaign(CLI::App& app, Action& chosen) {
   auto* command = app.add_subcommand(
-      "campaign", "Faults on simulated cranes, judged by the invariants of docs/safety.md");
+      "campaign", "Inject faults into simulated cranes and check the safety invariants (docs/campaign.md)");
   auto options = std::make_shared<CampaignOptions>();
-  command->add_option("--hazard", options->hazards, "hazards by number (default: all)");
-  command->add_option("--moment", options->moments, "moments by name (default: all)");
-  command->add_option("--seed", options->seed,
-                      "this seed only; with one hazard and one moment: one run, described in full");
-  command->add_option("--first-seed", options->first_seed, "first seed");
-  command->add_option("--seeds", options->seeds, "number of seeds; about 200 runs each");
-  command->add_option("--jobs", options->jobs, "processes that work at the same time")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--record", options->record, "MCAP file of the one run");
+  command->add_option("--hazard", options->hazards, "numbers of the hazards (default: all); see --list");
+  command->add_option("--moment", options->moments,
+                      "moments at which the fault begins (default: all); see --list");
+  command->add_option(
+      "--seed", options->seed,
+      "run only this seed; with one --hazard and one --moment: print a full description of the run");
+  command->add_option("--first-seed", options->first_seed,
+                      "first seed; a seed selects rig, controller, move and details of the fault");
+  command->add_option("--seeds", options->seeds, "number of seeds; about 240 runs each");
+  command->add_option("--jobs", options->jobs, "number of runs at the same time")->check(CLI::PositiveNumber);
+  command->add_option("--record", options->record,
+                      "write an MCAP recording of the run; needs one --hazard, --moment and --seed");
   command->add_option("--log", options->log,
-                      "file with one line per run; runs that it contains are not repeated");
-  command->add_option("--fault-free", options->fault_free_h,
-                      "instead: this number of hours of virtual time without faults");
-  command->add_flag("--json", options->json, "table as JSON");
-  command->add_flag("--list", options->list, "hazards and moments");
+                      "append a line per run to this file, and skip the runs that it already contains");
+  command->add_option(
+      "--fault-free", options->fault_free_h,
+      "run this number of hours of virtual time without faults instead, and report false trips");
+  command->add_flag("--json", options->json, "print the table of results as JSON");
+  command->add_flag("--list", options->list, "print moments and hazards");
   command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });
 }
 

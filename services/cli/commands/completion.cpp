@@ -11,7 +11,7 @@ namespace crane::cli {
 void add_completion(CLI::App& app, Action& chosen) {
   auto shell = std::make_shared<std::string>();
   auto* command =
-      app.add_subcommand("completion", "Print the completion of commands and options for a shell");
+      app.add_subcommand("completion", "Print a script that completes commands and options in a shell");
   command->add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
   command->footer(
       "Examples: source <(crane completion bash)\n"

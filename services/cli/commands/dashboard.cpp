@@ -24,13 +24,14 @@ void add_dashboard(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<dashboard::Options>(dashboard::default_options());
   auto* command = app.add_subcommand(
       "dashboard",
-      "Serve a page that shows and operates a running crane, and its data to viewers (docs/dashboard.md)");
+      "Serve a browser page to watch and operate a running crane, and live data for other viewers");
   dashboard::add_options(*command, *options);
   command->footer(
       "Examples: crane dashboard                                   then open http://127.0.0.1:8765/\n"
-      "          crane dashboard --listen 0.0.0.0 --operator-token token    others look; with the token they "
-      "operate\n"
-      "Foxglove, Lichtblick and PlotJuggler connect to ws://127.0.0.1:8765 (foxglove.websocket.v1).");
+      "          crane dashboard --listen 0.0.0.0 --operator-token token    other computers may watch, "
+      "and operate with the token\n"
+      "Foxglove, Lichtblick and PlotJuggler connect to ws://127.0.0.1:8765 (foxglove.websocket.v1).\n"
+      "docs/dashboard.md explains views and permissions.");
   command->callback([options, &chosen] { chosen = [options] { return serve(*options); }; });
 }
 

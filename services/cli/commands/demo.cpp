@@ -69,13 +69,13 @@ experiment::NamedMetrics run_maneuver(experiments::RealtimeSession& session, bus
   session.start_table();
   const auto zero_ns = session.state()->header.sample_time_ns;
   for (auto& move : scenario.moves) {
-    stack::Wish wish{.kind = crane_REQUEST_MOVE};
+    stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE};
     for (std::size_t i = 0; i < 3; ++i) {
-      wish.selected[i] = move.target[i].has_value();
-      wish.target[i] = move.target[i].value_or(0);
+      wanted.selected[i] = move.target[i].has_value();
+      wanted.target[i] = move.target[i].value_or(0);
     }
     move.at_s = static_cast<double>(session.state()->header.sample_time_ns - zero_ns) * 1e-9;
-    session.request(wish, "move");
+    session.request(wanted, "move");
   }
   session.wait(std::chrono::nanoseconds{static_cast<std::int64_t>(options.seconds_per_maneuver * 1e9)});
   if (const auto state = session.status()->state; state != crane_STATE_HOLD && state != crane_STATE_RUN)
@@ -160,7 +160,7 @@ void add_demo(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(5.0, 60.0))
       ->capture_default_str();
   command->add_flag("--dashboard", options->dashboard,
-                    "show everything in the browser; the crane then stays up until Ctrl-C");
+                    "show the run in a browser page; the stack then runs until Ctrl-C");
   runtime::add_bus_options(*command, options->launch.bus);
   command->footer("Examples: crane demo --controller delayed_1\n          crane demo --dashboard");
   command->callback([options, &chosen] { chosen = [options] { return demo(*options); }; });

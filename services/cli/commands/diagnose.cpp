@@ -159,29 +159,33 @@ int diagnose(const DiagnoseOptions& options) {
 
 void add_diagnose(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<DiagnoseOptions>();
-  auto* command = app.add_subcommand("diagnose", "Find errors of the simulation from measured data");
+  auto* command = app.add_subcommand(
+      "diagnose", "Find the causes of differences between measured data and the simulation");
   command->add_option("--rig", options->rig, "rig file or name of the simulation")->capture_default_str();
-  command->add_option("--train", options->train, "runs for training: CSV or MCAP")->required();
-  command->add_option("--test", options->test, "runs for the test of the gain (held out): CSV or MCAP");
+  command->add_option("--train", options->train, "measured runs to fit: CSV or MCAP (repeatable)")
+      ->required();
+  command->add_option(
+      "--test", options->test,
+      "other measured runs, which only confirm the result (held out): CSV or MCAP (repeatable)");
   command
       ->add_option("--mapping", options->mapping,
                    "file that describes the columns of another laboratory's CSV files")
       ->check(CLI::ExistingFile);
-  command->add_option("--from", options->from_s, "s: rows of all files before this time do not count");
-  command->add_option("--to", options->to_s, "s: rows of all files after this time do not count");
+  command->add_option("--from", options->from_s, "ignore rows before this time, in s; applies to all files");
+  command->add_option("--to", options->to_s, "ignore rows after this time, in s; applies to all files");
   command
       ->add_option("--out", options->out,
                    "directory for report.html, report.json, extended.toml and pictures")
       ->capture_default_str();
   command
       ->add_option("--effects", options->effects,
-                   "largest number of causes; a smaller number takes less time")
+                   "largest number of simultaneous causes to search for; a smaller number takes less time")
       ->check(CLI::Range(1, 3))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of the resampling")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the random resampling")->capture_default_str();
   command->add_flag(
       "--check", options->check,
-      "report what --train can show of each candidate and what to record next, without a verdict");
+      "without a verdict: report the smallest detectable size of each cause, and what to record next");
   command->add_flag("--json", options->json, "print report.json");
   command->add_flag("--progress", options->progress, "print lines \"progress SHARE TEXT\" on standard error");
   command->add_flag("--no-picture", options->no_picture, "do not draw SVG files");
@@ -189,11 +193,13 @@ void add_diagnose(CLI::App& app, Action& chosen) {
       "Example: crane diagnose --rig virginia_tech_tower --train a.csv b.mcap --test c.csv --out "
       "out/diagnose\n"
       "         crane run maneuver_1 --rig out/diagnose/extended.toml\n"
-      "Verdicts: none (nothing these data could show is wrong), named (the model lacks this), parameter (a "
-      "value of\n"
-      "the rig file is off), ambiguous (several explain it; a next experiment is proposed), unknown "
-      "(something is\n"
-      "wrong that no known cause explains). Every verdict is exit code 0; data that cannot be used are 2.\n"
+      "Verdicts:\n"
+      "  none        these data show no error of the simulation\n"
+      "  named       the simulation lacks these causes\n"
+      "  parameter   a value of the rig file is wrong\n"
+      "  ambiguous   several causes explain the data equally; the next experiment distinguishes them\n"
+      "  unknown     the simulation is wrong, and no known cause explains it\n"
+      "Exit code: 0 for every verdict, 2 for data that cannot be used.\n"
       "docs/diagnosis.md explains method, files and limits.");
   command->callback([options, &chosen] { chosen = [options] { return diagnose(*options); }; });
 }

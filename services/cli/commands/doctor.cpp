@@ -23,7 +23,7 @@ void print_json(const doctor::Findings& findings) {
   auto list = nlohmann::ordered_json::array();
   for (const auto& finding : findings)
     list.push_back({{"grade", doctor::name_of(finding.grade)},
-                    {"room", finding.room},
+                    {"area", finding.area},
                     {"code", finding.code},
                     {"what", finding.what},
                     {"remedy", finding.remedy}});
@@ -55,29 +55,31 @@ void add_doctor(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<DoctorOptions>();
   options->examined.bus = tool_bus();
   auto* command = app.add_subcommand(
-      "doctor", "Say why a crane is not heard and what of this computer hinders it, each with its remedy");
+      "doctor", "Find faults of network, real-time settings and board, each with its remedy");
   command->add_flag("--net", options->network,
-                    "interfaces, multicast, processes, wrong domain or crane, versions, quality of service");
+                    "check interfaces, multicast, processes, domain and crane, versions, quality of service");
   command->add_flag("--rt", options->real_time,
-                    "real-time permission, locked memory, receive buffers, lateness of the timer");
-  command->add_flag("--hw", options->hardware, "the board of the rig file");
-  command->add_flag("--json", options->json, "one JSON array");
+                    "check real-time permission, locked memory, receive buffers, lateness of the timer");
+  command->add_flag("--hw", options->hardware, "check that the board of the rig file is accessible");
+  command->add_flag("--json", options->json, "print the findings as a JSON array");
   command->add_option(
       "--rig", options->rig,
       std::string{"rig file or name: period of the loop, board; default: "} + stack::kDefaultRig);
   command
       ->add_option("--duration", options->examined.duration_s,
-                   "time to listen, and to measure the timer, in s")
+                   "duration of listening and of the timer measurement in s")
       ->check(CLI::Range(0.5, 3600.0))
       ->capture_default_str();
-  command->add_option("--priority", options->examined.priority, "SCHED_FIFO priority of the loop")
+  command
+      ->add_option("--priority", options->examined.priority,
+                   "SCHED_FIFO priority with which the timer is measured")
       ->check(CLI::Range(1, 98))
       ->capture_default_str();
   runtime::add_bus_options(*command, options->examined.bus);
   command->footer(
       "Example: crane doctor --net --interface 192.168.1.5\n"
-      "Without --net, --rt or --hw: --net and --rt, and with --rig --hw, too. Exit code 1: at least one "
-      "problem (docs/doctor.md).");
+      "Default: --net --rt; with --rig also --hw. Exit code 1: at least one problem. docs/doctor.md lists\n"
+      "the findings.");
   command->callback([options, &chosen] { chosen = [options] { return examine(*options); }; });
 }
 

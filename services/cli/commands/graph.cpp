@@ -24,8 +24,8 @@ int draw(const std::string& format, stack::Extent extent) {
 
 void add_graph(CLI::App& app, Action& chosen) {
   auto format = std::make_shared<std::string>("mermaid");
-  auto* command = app.add_subcommand(
-      "graph", "Show the wiring of a stack: the topics that each process reads and writes, with the purpose");
+  auto* command =
+      app.add_subcommand("graph", "Show the topics that each process reads and writes, with their purpose");
   command
       ->add_option(
           "--format", *format,
@@ -35,7 +35,7 @@ void add_graph(CLI::App& app, Action& chosen) {
       ->capture_default_str();
   auto command_path = std::make_shared<bool>(false);
   command->add_flag("--command-path", *command_path,
-                    "mermaid: only the topics between a request and the volts");
+                    "mermaid: only the topics between a request and the drive voltages");
   command->footer("Example: crane graph --format dot | dot -Tsvg > wiring.svg");
   command->callback([format, command_path, &chosen] {
     chosen = [format, command_path] {

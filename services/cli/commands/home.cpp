@@ -111,9 +111,9 @@ int home(const HomeOptions& options) {
   for (const auto axis : axes) {
     if (!first) acknowledge(bus, watch);
     first = false;
-    stack::Wish wish{.kind = crane_REQUEST_HOME};
-    wish.selected[axis] = true;
-    if (const auto answer = ask(bus, wish); !answer.accepted) return report("home", answer);
+    stack::OperatorRequest wanted{.kind = crane_REQUEST_HOME};
+    wanted.selected[axis] = true;
+    if (const auto answer = ask(bus, wanted); !answer.accepted) return report("home", answer);
     follow(watch, axis, options.timeout_s);
     std::cout << "home: " << plant::kCoordinates[axis].name << " done" << std::endl;
   }
@@ -125,7 +125,7 @@ int home(const HomeOptions& options) {
 void add_home(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<HomeOptions>();
   auto* command =
-      app.add_subcommand("home", "Home axes: they creep to their marks, so that their positions are known");
+      app.add_subcommand("home", "Home axes: each moves slowly to its mark, which makes its position known");
   command
       ->add_option("--axis", options->axes,
                    "trolley, slew or hoist (repeatable); default: all axes that are not homed")
@@ -136,8 +136,8 @@ void add_home(CLI::App& app, Action& chosen) {
   runtime::add_bus_options(*command, options->bus);
   command->footer(
       "Example: crane reset && crane home && sleep 2 && crane reset && crane arm\n"
-      "The crane must be READY. Only the brake of the axis that is being homed opens. The axis creeps to\n"
-      "its limit switch or mark ([homing] in the rig file), backs off, and approaches it again slowly.\n"
+      "The crane must be READY. Only the brake of the axis that is being homed opens. The axis moves\n"
+      "slowly to its limit switch or mark ([homing] in the rig file), backs off, and approaches it again.\n"
       "The final state is LOCKED. A person must stand at the emergency stop.");
   command->callback([options, &chosen] { chosen = [options] { return home(*options); }; });
 }

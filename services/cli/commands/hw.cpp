@@ -6,13 +6,13 @@
 namespace crane::cli {
 
 void add_hw(CLI::App& app, Action& chosen) {
-  auto* hw = app.add_subcommand("hw", "Bring up a rig: inspect, jog, calibrate, test the wiring");
+  auto* hw =
+      app.add_subcommand("hw", "Test wiring and calibration of a new rig, before its first use with a stack");
   hw->require_subcommand(1);
   hw->footer(
-      "Order, without a stack and with a person at the emergency stop: probe, selftest, calibrate, selftest "
-      "with the\n"
-      "calibrated file (docs/hardware.md). Every command leaves the board at 0 V with closed brakes, Ctrl-C "
-      "too.\n"
+      "Required: no stack runs, and a person stands at the emergency stop.\n"
+      "Order: probe, selftest, calibrate, selftest with the calibrated file (docs/hardware.md).\n"
+      "Every command leaves the board at 0 V with closed brakes, also after Ctrl-C.\n"
       "To rehearse: crane hw selftest --rig emulated_servo_to_go");
   add_hw_list(*hw, chosen);
   add_hw_probe(*hw, chosen);

@@ -26,11 +26,13 @@ std::function<void(std::int64_t)> sleeping() {
 
 void add_board_options(CLI::App& command, BoardOptions& options) {
   command.add_option("--rig", options.rig, "rig file or name: board, channels and lines")->required();
-  auto* wired = command.add_option("--wired-as", options.wired_as,
-                                   "board \"emulated\": rig file with the wiring of the emulated crane");
-  auto* crane = command.add_option("--crane", options.crane,
-                                   "board \"emulated\": --crane of a running crane_emulated_rig (real time); "
-                                   "default: a crane in this process");
+  auto* wired = command.add_option(
+      "--wired-as", options.wired_as,
+      "emulated board only: rig file with the wiring of the emulated crane, to rehearse faults");
+  auto* crane =
+      command.add_option("--crane", options.crane,
+                         "emulated board only: use the running crane_emulated_rig with this --crane; "
+                         "default: an emulated crane in this process");
   command.add_option("--domain", options.domain, "--domain of this crane_emulated_rig")->needs(crane);
   crane->excludes(wired);
 }

@@ -153,7 +153,8 @@ int probe(const LookOptions& options) {
 
 void add_hw_list(CLI::App& hw, Action& chosen) {
   auto options = std::make_shared<LookOptions>();
-  auto* command = hw.add_subcommand("list", "List the supported boards, or channels and lines of a rig file");
+  auto* command =
+      hw.add_subcommand("list", "List the supported boards, and channels and lines of a rig file");
   command->add_option("--rig", options->board.rig, "rig file or name");
   command->add_flag("--json", options->json, "one JSON object");
   command->footer("Example: crane hw list --rig emulated_servo_to_go");
@@ -166,7 +167,9 @@ void add_hw_probe(CLI::App& hw, Action& chosen) {
   add_board_options(*command, options->board);
   command->add_flag("--json", options->json, "one JSON object");
   command->footer(
-      "Counters start at [start] of the rig file. Analog outputs cannot be read back; 0 V was written.\n"
+      "Counters start at [start] of the rig file. Analog outputs cannot be read back: the column "
+      "\"written\"\n"
+      "shows the 0 V that the command has set.\n"
       "Example: crane hw probe --rig emulated_servo_to_go");
   command->callback([options, &chosen] { chosen = [options] { return probe(*options); }; });
 }

@@ -150,7 +150,7 @@ Added add(CLI::App& hw, Action& chosen, int (*action)(const HwMoveOptions&), con
 void add_largest_volts(CLI::App& command, HwMoveOptions& options) {
   command
       .add_option("--volts", options.largest_v,
-                  "largest voltage; pushes increase from 1 V until an axis moves")
+                  "largest voltage; the voltage increases from 1 V until the axis moves")
       ->check(CLI::Range(1.0, bring_up::kLargestJog_v))
       ->capture_default_str();
 }
@@ -166,17 +166,17 @@ void add_hw_jog(CLI::App& hw, Action& chosen) {
       ->required();
   command
       .add_option("--distance", options.distance,
-                  "distance after which the voltage ends, m or rad, up to 0.5; braking adds to it")
+                  "distance in m or rad after which the voltage ends, up to 0.5; the axis then brakes")
       ->capture_default_str();
   command.footer(
-      "Ends after 2 s, at a limit switch, at the emergency stop, or 0.3 s after the start when no counter "
-      "follows.\n"
+      "The motion ends after 2 s, at a limit switch, at the emergency stop, or after 0.3 s when no counter\n"
+      "changes.\n"
       "Example: crane hw jog --rig emulated_servo_to_go --axis trolley --volts 2");
 }
 
 void add_hw_selftest(CLI::App& hw, Action& chosen) {
   const auto [command, options] =
-      add(hw, chosen, selftest, "selftest", "Push each drive a little and report wiring faults");
+      add(hw, chosen, selftest, "selftest", "Move each drive a little and report wiring faults");
   add_largest_volts(command, options);
   command.add_flag("--json", options.json, "one JSON object");
   command.footer(
@@ -191,14 +191,14 @@ void add_hw_calibrate(CLI::App& hw, Action& chosen) {
   const auto [command, options] = add(hw, chosen, calibrate, "calibrate",
                                       "Determine signs, scales and position of the crane, step by step");
   add_largest_volts(command, options);
-  command.add_option("--out", options.out, "rig file to write; it extends the one of --rig")
+  command.add_option("--out", options.out, "rig file to write; it extends the file of --rig")
       ->capture_default_str();
   command.add_option("--answers", options.answers, "file with one answer per line; default: the terminal")
       ->check(CLI::ExistingFile);
   command.footer(
-      "Each axis moves by 10 cm (0.3 rad); three questions each: which way, how far, where it stands now. An "
-      "empty\n"
-      "answer to the last two means that the rig file is right. The load has to hang still at the start.\n"
+      "Each axis moves by 10 cm (0.3 rad). The command then asks for direction, distance and present\n"
+      "position. An empty answer to the last two questions keeps the value of the rig file. The load must\n"
+      "hang at rest at the start.\n"
       "Example: crane hw calibrate --rig my_crane.toml --out my_crane_calibrated.toml");
 }
 

@@ -162,12 +162,14 @@ void add_friction(CLI::App& identify, Action& chosen) {
                    "cut-off / sampling frequency of the zero-phase filter; 0: no filter")
       ->check(CLI::Range(0.0, 0.49))
       ->capture_default_str();
-  command->add_option("--from", options->from, "CSV file of a recorded run; no experiment is made")
+  command
+      ->add_option("--from", options->from,
+                   "evaluate this CSV file of a recorded run instead of an experiment")
       ->check(CLI::ExistingFile);
   command->add_option("--begin", options->from_s, "with --from: time_s of the first row used");
   command->add_option("--end", options->to_s, "with --from: time_s of the last row used");
   auto* clock =
-      command->add_option("--clock", options->clock, "lockstep; or realtime: as on a rig, takes five minutes")
+      command->add_option("--clock", options->clock, "lockstep, or realtime as on a rig (five minutes)")
           ->check(CLI::IsMember({"lockstep", "realtime"}))
           ->capture_default_str();
   command
@@ -180,7 +182,7 @@ void add_friction(CLI::App& identify, Action& chosen) {
   command->add_flag("--json", options->json, "print the estimates as JSON");
   command->add_flag("--no-picture", options->no_picture, "draw no picture");
   command->add_option("--dds-for", options->vendors,
-                      "NAME=VENDOR: another DDS implementation for one process");
+                      "NAME=VENDOR: DDS implementation of one process (repeatable)");
   runtime::add_bus_options(*command, experiment.bus);
   command->footer(
       "Example: crane identify friction --axis trolley --out out/trolley\n"
@@ -192,7 +194,7 @@ void add_friction(CLI::App& identify, Action& chosen) {
 }  // namespace
 
 void add_identify(CLI::App& app, Action& chosen) {
-  auto* identify = app.add_subcommand("identify", "Identify a crane from its own motion");
+  auto* identify = app.add_subcommand("identify", "Estimate friction and gain of a drive from its motion");
   identify->footer("Example: crane identify friction --axis slew --in-process");
   add_friction(*identify, chosen);
   auto json = std::make_shared<bool>(false);

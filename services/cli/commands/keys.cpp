@@ -87,23 +87,23 @@ void add_keys(CLI::App& app, Action& chosen) {
   keys->require_subcommand(1);
   keys->footer(
       "Example: crane keys make keys && crane up --secure keys --interface 192.0.2.7\n"
-      "Without keys every program that reaches the bus may command the crane. With them a program takes part "
-      "only\n"
-      "with a certificate of this crane's authority, writes only the topics of its role (crane keys show "
-      "DIR), and\n"
-      "everything is encrypted and authenticated (docs/safety.md).");
-  auto* make =
-      add_keys_command(*keys, "make", "Make authorities and an identity per role", options->directory);
-  make->add_option("--days", options->days, "how long they are valid")
+      "Without keys every program that reaches the bus can command the crane. With keys, only programs with "
+      "a\n"
+      "certificate of this crane's authority take part, each writes only the topics of its role (crane keys\n"
+      "show DIR), and all traffic is encrypted and authenticated (docs/security.md).");
+  auto* make = add_keys_command(*keys, "make", "Make the authorities and an identity for each role",
+                                options->directory);
+  make->add_option("--days", options->days, "validity of the certificates in days")
       ->check(CLI::Range(1, 36500))
       ->capture_default_str();
   make->callback(
       [options, &chosen] { chosen = [options] { return make_keys(options->directory, options->days); }; });
-  auto* show =
-      add_keys_command(*keys, "show", "List roles, what they may write, and until when", options->directory);
+  auto* show = add_keys_command(*keys, "show",
+                                "List the roles, the topics that each may write, and the end of validity",
+                                options->directory);
   show->callback([options, &chosen] { chosen = [options] { return show_keys(options->directory); }; });
-  auto* check =
-      add_keys_command(*keys, "check", "Say what stands against the use of the keys", options->directory);
+  auto* check = add_keys_command(*keys, "check", "Report problems of the keys: file, value, rule, remedy",
+                                 options->directory);
   check->callback([options, &chosen] { chosen = [options] { return check_keys(options->directory); }; });
 }
 

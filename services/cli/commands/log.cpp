@@ -132,7 +132,7 @@ CLI::App* add(CLI::App& log, Action& chosen, const Shared& options, int (*action
 void add_export(CLI::App& log, Action& chosen, const Shared& options) {
   auto* command = log.add_subcommand("export", "Write a recording in another format");
   auto* csv = add(*command, chosen, options, export_csv, "csv",
-                  "The run as one table, or one topic with all its fields");
+                  "Write the run as one table, or one topic with all its fields");
   csv->footer(
       "Example: crane log export csv run.mcap --out run.csv\n"
       "Without --topic: canonical columns (time_s, trolley_voltage_v, ...), one row per tick of "
@@ -151,14 +151,14 @@ void add_export(CLI::App& log, Action& chosen, const Shared& options) {
 void add_log(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<LogOptions>();
   auto* log = app.add_subcommand("log", "Inspect, check, repair and export recordings");
-  auto* described = add(*log, chosen, options, info, "info", "Topics, counts, times, metadata");
+  auto* described = add(*log, chosen, options, info, "info", "Show topics, counts, times and metadata");
   described->add_flag("--json", options->json, "one JSON object");
   described->footer("Example: crane log info run.mcap");
   auto* checked = add(*log, chosen, options, check, "check", "Read the whole file and verify every CRC");
   checked->add_flag("--json", options->json, "one JSON object");
   checked->footer("Example: crane log check run.mcap\nExit code 1 when anything is damaged.");
-  auto* repaired =
-      add(*log, chosen, options, repair, "repair", "Copy the readable part of a damaged recording");
+  auto* repaired = add(*log, chosen, options, repair, "repair",
+                       "Copy the readable part of a damaged recording to a new file");
   repaired->add_option("--out", options->out, "file to write; default: FILE with .repaired.mcap");
   repaired->footer("Example: crane log repair run.mcap --out saved.mcap");
   add_export(*log, chosen, options);

@@ -12,7 +12,7 @@ namespace crane::cli {
 namespace {
 
 struct MoveOptions {
-  stack::Wish wish{.kind = crane_REQUEST_MOVE};
+  stack::OperatorRequest wanted{.kind = crane_REQUEST_MOVE};
   bool wait = false;
   double timeout_s = 120;
   runtime::BusOptions bus = tool_bus();
@@ -21,22 +21,22 @@ struct MoveOptions {
 int move(const MoveOptions& options) {
   auto bus = open_bus(options.bus, crane_SOURCE_OPERATOR);
   MoveFollower follower{bus};
-  const auto answer = ask(bus, options.wish);
+  const auto answer = ask(bus, options.wanted);
   if (!answer.accepted || !options.wait) return report("move", answer);
   follower.follow(answer.id, options.timeout_s);
   std::cout << "move: done\n";
   return runtime::kExitDone;
 }
 
-void add_axis(CLI::App& command, stack::Wish& wish, std::size_t axis, const std::string& name,
+void add_axis(CLI::App& command, stack::OperatorRequest& wanted, std::size_t axis, const std::string& name,
               Dimension dimension, const std::string& help) {
   command
       .add_option_function<std::string>(
           name,
-          [&wish, axis, name, dimension](const std::string& text) {
+          [&wanted, axis, name, dimension](const std::string& text) {
             try {
-              wish.target[axis] = parse_quantity(text, dimension);
-              wish.selected[axis] = true;
+              wanted.target[axis] = parse_quantity(text, dimension);
+              wanted.selected[axis] = true;
             } catch (const UnitError& error) {
               throw CLI::ValidationError(name, error.what());
             }
@@ -50,10 +50,10 @@ void add_axis(CLI::App& command, stack::Wish& wish, std::size_t axis, const std:
 void add_move(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<MoveOptions>();
   auto* command = app.add_subcommand("move", "Move axes to new targets; the other axes do not move");
-  add_axis(*command, options->wish, 0, "--trolley", Dimension::length,
+  add_axis(*command, options->wanted, 0, "--trolley", Dimension::length,
            "trolley position on the jib: 1.05, 105cm");
-  add_axis(*command, options->wish, 1, "--slew", Dimension::angle, "slew angle: 1.57, 90deg");
-  add_axis(*command, options->wish, 2, "--hoist", Dimension::length, "cable length: 0.8, 80cm");
+  add_axis(*command, options->wanted, 1, "--slew", Dimension::angle, "slew angle: 1.57, 90deg");
+  add_axis(*command, options->wanted, 2, "--hoist", Dimension::length, "cable length: 0.8, 80cm");
   command->add_flag("--wait", options->wait,
                     "wait until the crane is in HOLD again, or print the reason of a failure");
   command->add_option("--timeout", options->timeout_s, "longest wait of --wait in s")
@@ -64,7 +64,7 @@ void add_move(CLI::App& app, Action& chosen) {
       "Example: crane move --trolley 1.05 --slew 90deg --wait\n"
       "A plain number is in m or rad. The crane must be armed (HOLD, or RUN to change the target).");
   command->callback([options, &chosen] {
-    const auto& axes = options->wish.selected;
+    const auto& axes = options->wanted.selected;
     if (!axes[0] && !axes[1] && !axes[2])
       throw CLI::ValidationError("move", "give at least one of --trolley, --slew, --hoist");
     chosen = [options] { return move(*options); };

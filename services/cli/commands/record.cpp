@@ -101,7 +101,7 @@ void add_record(CLI::App& app, Action& chosen) {
   runtime::add_bus_options(*command, options->bus);
   command->footer(
       "Example: crane record run.mcap --duration 60\n"
-      "The file is written every second and at every error, so that it is readable after a failure\n"
+      "The file is complete up to the last second, also after a failure\n"
       "(crane log info, crane log repair).");
   command->callback([options, &chosen] {
     check_file(*options);

@@ -42,7 +42,7 @@ int run(const ReviewOptions& options) {
 void add_review(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<ReviewOptions>();
   auto* command =
-      app.add_subcommand("review", "Say what happened in a recording, first cause first, and write a page");
+      app.add_subcommand("review", "Explain the stop in a recording, first cause first, and write a page");
   command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(CLI::ExistingFile);
   command->add_option("--out", options->out, "page to write; default: FILE with the extension .html");
   command->add_flag("--json", options->json, "print sentences, figures and curves as one JSON object");

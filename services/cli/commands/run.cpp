@@ -34,8 +34,8 @@ struct RunOptions {
   std::string twin_rig;
 };
 
-Names first_given(const Names& said, const Names& wished, const Names& otherwise) {
-  return !said.empty() ? said : !wished.empty() ? wished : otherwise;
+Names first_given(const Names& by_user, const Names& by_scenario, const Names& otherwise) {
+  return !by_user.empty() ? by_user : !by_scenario.empty() ? by_scenario : otherwise;
 }
 
 Names every_controller() {
@@ -48,16 +48,16 @@ Names every_controller() {
 void add_plans(const std::string& name, const RunOptions& options,
                std::vector<experiments::PlannedRun>& plans) {
   const auto file = stack::find_scenario(name);
-  const auto wish = experiment::load_scenario(file);
-  const auto rig = configuration::load_rig(stack::find_rig(!options.rig.empty() ? options.rig
-                                                           : !wish.rig.empty()  ? wish.rig
-                                                                                : stack::kDefaultRig));
+  const auto defaults = experiment::load_scenario(file);
+  const auto rig = configuration::load_rig(stack::find_rig(!options.rig.empty()    ? options.rig
+                                                           : !defaults.rig.empty() ? defaults.rig
+                                                                                   : stack::kDefaultRig));
   const auto scenario = experiment::load_scenario(file, &rig);
   const Names as_it_is{""};
-  const auto variants = first_given(options.variants, wish.variants,
+  const auto variants = first_given(options.variants, defaults.variants,
                                     options.compare ? experiment::default_variants() : as_it_is);
   const auto controllers =
-      first_given(options.controllers, wish.controllers, options.compare ? every_controller() : as_it_is);
+      first_given(options.controllers, defaults.controllers, options.compare ? every_controller() : as_it_is);
   for (const auto& variant : variants) {
     (void)experiment::changed_by(rig, variant);  // reports unknown variants before the first run
     for (const auto& controller : controllers)
@@ -224,52 +224,58 @@ std::string described_variants() {
 
 void add_run(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<RunOptions>();
-  auto* command = app.add_subcommand("run", "Run scenarios in lockstep or in real time and evaluate them");
+  auto* command = app.add_subcommand(
+      "run", "Run scenarios (files that describe moves) in simulated or real time, and evaluate them");
   command->add_option(
       "scenario", options->scenarios,
       "scenario files or names (maneuver_1, figure_4_10, ...); default with --compare: the three "
       "maneuvers");
-  command->add_option("--controller", options->controllers,
-                      "controller (repeatable); default: that of the scenario, else of the rig file; with "
-                      "--compare every controller");
+  command->add_option(
+      "--controller", options->controllers,
+      "controller (repeatable); default: the controller of the scenario, else of the rig file; with "
+      "--compare every controller");
   command
       ->add_option("--variants", options->variants,
-                   "changes of the rig, see below; default: those of the scenario, else none; with "
+                   "changes of the rig (list below); default: the variants of the scenario, else none; with "
                    "--compare the first eight")
       ->delimiter(',');
   command->add_option(
       "--rig", options->rig,
-      std::string{"rig file or name; default: that of the scenario, else "} + stack::kDefaultRig);
+      std::string{"rig file or name; default: the rig of the scenario, else "} + stack::kDefaultRig);
   command
       ->add_option("--integrator", options->integrator,
-                   "of the simulated plant: cvode, the reference; or fast, with --in-process or --compare")
+                   "integrator of the simulated plant: cvode (the reference), or fast (only with "
+                   "--in-process or --compare)")
       ->check(CLI::IsMember(Names{simulator::kMethodNames.begin(), simulator::kMethodNames.end()}))
       ->capture_default_str();
   command
       ->add_option("--plant", options->plant,
-                   "sim: simulated plant; hardware: the bridge on the emulated board of the rig file "
-                   "(emulated_servo_to_go); not with --compare")
+                   "sim: simulated plant; hardware: the bridge with the board of the rig file, in lockstep "
+                   "an emulated "
+                   "one (emulated_servo_to_go); not with --compare")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
   command
-      ->add_option("--clock", options->clock,
-                   "lockstep; or realtime: writes run.csv only, without kicks and initial swing; "
-                   "with --plant hardware also on a real board")
+      ->add_option(
+          "--clock", options->clock,
+          "lockstep: simulated time; realtime: also on a real board with --plant hardware; writes run.csv "
+          "only, and ignores kicks and initial swing of the scenario")
       ->check(CLI::IsMember({"lockstep", "realtime"}))
       ->capture_default_str();
   command->add_option("--out", options->out, "directory for recording, CSV, metrics and picture")
       ->capture_default_str();
-  command->add_flag("--compare", options->compare,
-                    "compare all runs, in this process: comparison.csv, comparison.md, comparison.html");
+  command->add_flag(
+      "--compare", options->compare,
+      "run all combinations in this process and write comparison.csv, comparison.md, comparison.html");
   command->add_flag("--in-process", options->in_process, "all components in this process, without DDS");
   command->add_flag("--json", options->json, "print metrics as JSON");
   command->add_flag("--no-picture", options->no_picture, "draw no picture");
   command->add_flag("--twin", options->twin,
-                    "run a live twin with the rig file without variants, and record crane/twin; "
+                    "run a live twin of the rig file (without variants), and record crane/twin; "
                     "not with --compare");
-  command->add_option("--twin-rig", options->twin_rig, "run a live twin with another rig file or name");
+  command->add_option("--twin-rig", options->twin_rig, "run a live twin of this rig file or name");
   command->add_option("--dds-for", options->vendors,
-                      "NAME=VENDOR: another DDS implementation for one process");
+                      "NAME=VENDOR: DDS implementation of one process (repeatable)");
   runtime::add_bus_options(*command, options->bus);
   command->footer(described_variants() +
                   "Examples: crane run maneuver_1 --controller delayed_1 --out out/m1\n"

@@ -73,14 +73,15 @@ int explain(const ExplainOptions& options) {
 }  // namespace
 
 void add_supervisor(CLI::App& app, Action& chosen) {
-  auto* group = app.add_subcommand("supervisor", "What the supervisor decides by");
+  auto* group = app.add_subcommand("supervisor", "Explain the decisions of the supervisor");
   group->require_subcommand(1);
   auto* command = group->add_subcommand(
-      "explain", "The rule table; with --live or --state: what the present state refuses, and why");
+      "explain",
+      "Print the rule table; with --live or --state the requests that the state refuses, with reasons");
   auto options = std::make_shared<ExplainOptions>();
-  command->add_option("--state", options->state, "recording whose last state is explained");
+  command->add_option("--state", options->state, "explain the last state of this recording");
   command->add_flag("--live", options->live, "explain the state of the running crane");
-  command->add_option("--timeout", options->timeout_s, "longest wait in s for the supervisor to be heard");
+  command->add_option("--timeout", options->timeout_s, "longest wait for the supervisor in s");
   runtime::add_bus_options(*command, options->bus);
   command->callback([options, &chosen] { chosen = [options] { return explain(*options); }; });
 }

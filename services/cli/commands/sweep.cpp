@@ -81,13 +81,11 @@ int run(const SweepOptions& options) {
 void add_sweep(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<SweepOptions>();
   auto* command = app.add_subcommand(
-      "sweep", "Run thousands of experiments in lockstep: scenarios, rigs, variants, controllers, seeds");
+      "sweep", "Run thousands of simulated experiments: scenarios, rigs, variants, controllers, seeds");
   command->add_option("file", options->file, "sweep file or name (friction_and_load, ...)")->required();
   command->add_option("--out", options->out, "directory for runs.csv, sweep.html and the log")
       ->capture_default_str();
-  command
-      ->add_option("--jobs", options->jobs,
-                   "processes that work at the same time; default: one per processor")
+  command->add_option("--jobs", options->jobs, "number of runs at the same time; default: one per processor")
       ->capture_default_str();
   command->add_flag("--check", options->check, "check the sweep file and print the number of runs");
   command->footer(
@@ -101,7 +99,7 @@ void add_sweep(CLI::App& app, Action& chosen) {
   key = "plant.load_mass_kg"
   low = 1.0
   high = 3.0
-Interrupted with Ctrl-C or killed, the same command continues. The results do not depend on --jobs.
+After Ctrl-C or a kill, the same command continues. The results do not depend on --jobs.
 Example: crane sweep friction_and_load --out out/friction_and_load)");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

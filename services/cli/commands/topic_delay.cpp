@@ -84,7 +84,8 @@ void add_topic_delay(CLI::App& topic, Action& chosen) {
       ->capture_default_str();
   command->footer(
       "Example: crane topic delay command --count 1000\n"
-      "Compares CLOCK_MONOTONIC of the clock master with that of this host: valid on the same host only.");
+      "The command compares the clock of the bridge with the clock of this host: use it on the host of the "
+      "bridge.");
   command->callback([options, &chosen] {
     if (!options->topic.topic->every_tick)
       throw CLI::ValidationError("NAME", std::string{options->topic.topic->name} +

@@ -80,8 +80,7 @@ int measure(const TopicHzOptions& options) {
 
 void add_topic_hz(CLI::App& topic, Action& chosen) {
   auto options = std::make_shared<TopicHzOptions>();
-  auto* command =
-      topic.add_subcommand("hz", "Measure rate (ticks and clock of the source), losses and arrival jitter");
+  auto* command = topic.add_subcommand("hz", "Measure rate, lost samples and arrival jitter of a topic");
   add_topic_options(*command, options->topic);
   command->add_option("--window", options->window_s, "interval between two lines in s")
       ->check(CLI::PositiveNumber)

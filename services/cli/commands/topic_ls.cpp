@@ -88,12 +88,11 @@ int list(const TopicLsOptions& options) {
 
 void add_topic_ls(CLI::App& topic, Action& chosen) {
   auto options = std::make_shared<TopicLsOptions>();
-  auto* command = topic.add_subcommand(
-      "ls", "List all topics with type, writers, samples, and rate by the clock of the source");
+  auto* command = topic.add_subcommand("ls", "List all topics with type, writers, samples and rate");
   command->add_option("--window", options->window_s, "duration of the measurement in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_flag("--json", options->json, "one JSON array");
+  command->add_flag("--json", options->json, "print one JSON array");
   runtime::add_bus_options(*command, options->bus);
   command->footer("Example: crane topic ls --window 5");
   command->callback([options, &chosen] { chosen = [options] { return list(*options); }; });

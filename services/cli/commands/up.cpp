@@ -163,36 +163,37 @@ int up(UpOptions options) {
 
 void add_up(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<UpOptions>();
-  auto* command = app.add_subcommand("up", "Run the stack until Ctrl-C");
+  auto* command = app.add_subcommand("up", "Start all processes of a crane (the stack); run until Ctrl-C");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
   command->add_option("--plant", options->plant, "sim: simulated plant; hardware: the board of the rig file")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
   command->add_option("--controller", options->launch.controller,
                       "controller; default: the controller of the rig file");
-  command->add_option("--clock", options->launch.clock, "realtime; or lockstep: as fast as possible")
+  command
+      ->add_option("--clock", options->launch.clock,
+                   "realtime; or lockstep: simulated time, as fast as possible")
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
   command->add_option("--record", options->record, "record every topic to this MCAP file");
   command
-      ->add_option("--black-box", options->black_box,
-                   "directory of the recordings around stops, faults and trips")
+      ->add_option("--black-box", options->black_box, "directory in which every stop and fault is recorded")
       ->capture_default_str();
-  command->add_flag("--no-black-box", options->no_black_box, "record no stop");
+  command->add_flag("--no-black-box", options->no_black_box, "do not record stops and faults");
   command->add_flag("--twin", options->twin,
-                    "run a live twin with the rig file: publishes crane/twin, and an event at a deviation");
+                    "run a live twin: a model beside the crane, which reports deviations (docs/twin.md)");
   command->add_option("--twin-rig", options->twin_rig,
-                      "run a live twin with another rig file, for example extended.toml of crane diagnose");
+                      "run a live twin of this rig file, for example extended.toml of crane diagnose");
   command->add_flag("--dashboard", options->dashboard,
-                    "serve a page that shows and operates this crane (docs/dashboard.md)");
+                    "serve a browser page to watch and operate this crane (docs/dashboard.md)");
   command->add_option("--dashboard-port", options->dashboard_port, "port of --dashboard")
       ->capture_default_str();
   command
       ->add_option("--dashboard-runs", options->dashboard_runs,
-                   "directory of recordings for --dashboard; default: that of the black box")
+                   "directory of recordings that the dashboard lists; default: the directory of --black-box")
       ->check(CLI::ExistingDirectory);
   command->add_option("--dds-for", options->vendors,
-                      "NAME=VENDOR: another DDS implementation for one process");
+                      "NAME=VENDOR: DDS implementation of one process (repeatable)");
   command->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")
       ->check(CLI::Range(0, 98))
       ->capture_default_str();

@@ -1,31 +1,33 @@
 #pragma once
-/// Passes requests of the page from the network thread to the request desk in the bus thread.
+/// Passes requests of the page from the network thread to the request sender in the bus thread.
 #include <optional>
 
 #include "dashboard/connection_limits.hpp"
 #include "dashboard/inbox.hpp"
-#include "dashboard/request_desk.hpp"
+#include "dashboard/request_sender.hpp"
 
 namespace crane::dashboard {
 
-class OperatorLine {
+class RequestQueue {
  public:
   /// @param operates  true: creates the writer of crane/request
-  OperatorLine(bus::Bus& bus, bool operates) {
-    if (operates) desk_.emplace(bus);
+  RequestQueue(bus::Bus& bus, bool operates) {
+    if (operates) sender_.emplace(bus);
   }
 
   /// May be called by any thread. @return false when too many requests wait
-  bool ask(const stack::Wish& wish, Answered answered) { return asked_.put({wish, std::move(answered)}); }
+  bool ask(const stack::OperatorRequest& wanted, Answered answered) {
+    return asked_.put({wanted, std::move(answered)});
+  }
   /// Sends the requests and takes the answers. Called by the bus thread.
   void poll();
 
  private:
   struct Asked {
-    stack::Wish wish;
+    stack::OperatorRequest wanted;
     Answered answered;
   };
-  std::optional<RequestDesk> desk_;
+  std::optional<RequestSender> sender_;
   Inbox<Asked> asked_{kMostConnections};  ///< at most one per connection, so that none is refused
 };
 

@@ -1,5 +1,5 @@
 // Floods of requests on their way to the supervisor, over the memory bus.
-#include "dashboard/request_desk.hpp"
+#include "dashboard/request_sender.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,28 +37,29 @@ class Desk : public testing::Test {
   bus::Subscriber<msg::Request> requests_ = supervisor_.subscriber(topics::request);
   bus::Publisher<msg::Reply> replies_ = supervisor_.publisher(topics::reply);
   bus::Bus bus_{on(network_, "dashboard", crane_SOURCE_OPERATOR)};
-  RequestDesk desk_{bus_};
+  RequestSender sender_{bus_};
 };
 
 TEST_F(Desk, AThousandStopsAtOnceAreOneRequestAndAllAreAnswered) {
   int answered = 0;
   for (int i = 0; i < 1000; ++i)
-    desk_.send({.kind = crane_REQUEST_ESTOP},
-               [&](const Reply& reply) { answered += reply.accepted ? 1 : 0; });
+    sender_.send({.kind = crane_REQUEST_ESTOP},
+                 [&](const Reply& reply) { answered += reply.accepted ? 1 : 0; });
   const auto sent = take_all();
   ASSERT_EQ(sent.size(), 1U);
   answer(sent.front(), true);
-  desk_.poll(runtime::monotonic_ns());
+  sender_.poll(runtime::monotonic_ns());
   EXPECT_EQ(answered, 1000);
 }
 
 TEST_F(Desk, AStopIsSentWhileManyOtherRequestsWait) {
   int refused = 0;
   for (int i = 0; i < 1000; ++i)
-    desk_.send({.kind = crane_REQUEST_RESET}, [&](const Reply& reply) { refused += reply.accepted ? 0 : 1; });
-  EXPECT_EQ(take_all().size(), RequestDesk::kMostWaiting);
-  EXPECT_EQ(refused, 1000 - static_cast<int>(RequestDesk::kMostWaiting));
-  desk_.send({.kind = crane_REQUEST_ESTOP}, [](const Reply&) {});
+    sender_.send({.kind = crane_REQUEST_RESET},
+                 [&](const Reply& reply) { refused += reply.accepted ? 0 : 1; });
+  EXPECT_EQ(take_all().size(), RequestSender::kMostWaiting);
+  EXPECT_EQ(refused, 1000 - static_cast<int>(RequestSender::kMostWaiting));
+  sender_.send({.kind = crane_REQUEST_ESTOP}, [](const Reply&) {});
   const auto sent = take_all();
   ASSERT_EQ(sent.size(), 1U);
   EXPECT_EQ(sent.front().kind, crane_REQUEST_ESTOP);
@@ -67,10 +68,10 @@ TEST_F(Desk, AStopIsSentWhileManyOtherRequestsWait) {
 TEST_F(Desk, WhatWasAnsweredMakesRoomAtOnce) {
   int accepted = 0;
   for (int i = 0; i < 1000; ++i) {
-    desk_.send({.kind = crane_REQUEST_RESET},
-               [&](const Reply& reply) { accepted += reply.accepted ? 1 : 0; });
+    sender_.send({.kind = crane_REQUEST_RESET},
+                 [&](const Reply& reply) { accepted += reply.accepted ? 1 : 0; });
     for (const auto& request : take_all()) answer(request, true);
-    desk_.poll(runtime::monotonic_ns());
+    sender_.poll(runtime::monotonic_ns());
   }
   EXPECT_EQ(accepted, 1000);
 }

@@ -14,21 +14,21 @@ struct Reply {
 };
 using Answered = std::function<void(Reply)>;
 
-class RequestDesk {
+class RequestSender {
  public:
-  explicit RequestDesk(bus::Bus& bus);
+  explicit RequestSender(bus::Bus& bus);
 
   /// Maximum number of requests that wait for an answer. Stops do not count: all stops of one kind share one
   /// request.
   static constexpr std::size_t kMostWaiting = 16;
 
-  void send(const stack::Wish& wish, Answered answered);
+  void send(const stack::OperatorRequest& wanted, Answered answered);
   /// Takes answers, repeats stops, and abandons requests that are not answered in time.
   void poll(std::int64_t now_ns);
 
  private:
   struct Pending {
-    stack::Wish wish;
+    stack::OperatorRequest wanted;
     std::vector<Answered> answered;  ///< callbacks of all clients that requested the same stop
     std::vector<std::uint64_t> ids;  ///< ids of the request and of its repetitions, until they are answered
     std::int64_t sent_ns = 0, repeat_ns = 0;

@@ -1,4 +1,4 @@
-#include "dashboard/request_desk.hpp"
+#include "dashboard/request_sender.hpp"
 
 #include <unistd.h>
 
@@ -18,30 +18,30 @@ constexpr std::int64_t kRepeat_ns = 100'000'000;  ///< a stop is repeated until 
 
 }  // namespace
 
-RequestDesk::RequestDesk(bus::Bus& bus)
+RequestSender::RequestSender(bus::Bus& bus)
     : client_{bus, "dashboard " + std::to_string(::getpid()), experiments::unique_first_id()} {}
 
-void RequestDesk::send(const stack::Wish& wish, Answered answered) {
-  if (is_stop(wish.kind)) {
-    if (auto* same = same_stop(wish.kind)) return same->answered.push_back(std::move(answered));
+void RequestSender::send(const stack::OperatorRequest& wanted, Answered answered) {
+  if (is_stop(wanted.kind)) {
+    if (auto* same = same_stop(wanted.kind)) return same->answered.push_back(std::move(answered));
   } else if (std::ranges::count_if(pending_, [](const Pending& p) {
-               return !p.done && !is_stop(p.wish.kind);
+               return !p.done && !is_stop(p.wanted.kind);
              }) >= static_cast<std::ptrdiff_t>(kMostWaiting)) {
     return answered({false, "too many requests wait for the supervisor: try again"});
   }
   const auto now_ns = runtime::monotonic_ns();
-  pending_.push_back({.wish = wish, .answered = {}, .ids = {}, .sent_ns = now_ns, .repeat_ns = now_ns});
+  pending_.push_back({.wanted = wanted, .answered = {}, .ids = {}, .sent_ns = now_ns, .repeat_ns = now_ns});
   pending_.back().answered.push_back(std::move(answered));
   advance(pending_.back(), now_ns);
 }
 
-RequestDesk::Pending* RequestDesk::same_stop(crane_RequestKind kind) {
+RequestSender::Pending* RequestSender::same_stop(crane_RequestKind kind) {
   const auto found =
-      std::ranges::find_if(pending_, [&](const Pending& p) { return !p.done && p.wish.kind == kind; });
+      std::ranges::find_if(pending_, [&](const Pending& p) { return !p.done && p.wanted.kind == kind; });
   return found == pending_.end() ? nullptr : &*found;
 }
 
-void RequestDesk::poll(std::int64_t now_ns) {
+void RequestSender::poll(std::int64_t now_ns) {
   client_.receive();
   for (auto& pending : pending_) advance(pending, now_ns);
   // An answered stop stays for as long as answers to its repetitions may come.
@@ -50,7 +50,7 @@ void RequestDesk::poll(std::int64_t now_ns) {
   });
 }
 
-void RequestDesk::advance(Pending& pending, std::int64_t now_ns) {
+void RequestSender::advance(Pending& pending, std::int64_t now_ns) {
   const auto finish = [&pending](const Reply& reply) {
     if (!std::exchange(pending.done, true))
       for (const auto& answered : pending.answered) answered(reply);
@@ -61,21 +61,21 @@ void RequestDesk::advance(Pending& pending, std::int64_t now_ns) {
     return finish({false, client_.listeners() == 0
                               ? "no supervisor is found: start a stack with `crane up`"
                               : "the supervisor did not answer within 2 s: look whether its ticks advance"});
-  const bool due = pending.ids.empty() || (is_stop(pending.wish.kind) && now_ns >= pending.repeat_ns);
+  const bool due = pending.ids.empty() || (is_stop(pending.wanted.kind) && now_ns >= pending.repeat_ns);
   if (due && (!pending.ids.empty() || client_.listeners() > 0)) publish(pending, now_ns);
 }
 
 /// What the middleware refuses is tried again with the next poll, until the time for an answer is over.
-void RequestDesk::publish(Pending& pending, std::int64_t now_ns) {
+void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
   try {
-    pending.ids.push_back(client_.send(pending.wish));
+    pending.ids.push_back(client_.send(pending.wanted));
     pending.repeat_ns = now_ns + kRepeat_ns;
   } catch (const bus::Error&) {
     pending.repeat_ns = now_ns;
   }
 }
 
-std::optional<Reply> RequestDesk::take_reply(Pending& pending) {
+std::optional<Reply> RequestSender::take_reply(Pending& pending) {
   for (auto id = pending.ids.begin(); id != pending.ids.end(); ++id)
     if (const auto reply = client_.take_reply(*id, crane_SOURCE_SUPERVISOR)) {
       pending.ids.erase(id);
