@@ -13,7 +13,7 @@
 #include "crane/supervisor/supervisor.hpp"
 #include "process/clock_offset.hpp"
 #include "process/command_echo.hpp"
-#include "process/jog_session.hpp"
+#include "process/jog_desk.hpp"
 #include "process/request_rules.hpp"
 #include "process/samples.hpp"
 #include "process/start_up_test.hpp"
@@ -41,8 +41,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
                   {crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_DISARM, crane_REQUEST_MOVE,
                    crane_REQUEST_FOLLOW, crane_REQUEST_JOG, crane_REQUEST_STOP, crane_REQUEST_ESTOP,
                    crane_REQUEST_HOME}},
-        jogs_{context.ports.input(topics::jog)},
-        session_{context.rig.period_s},
+        jogs_{context},
         commands_{context.ports.output(topics::command)},
         statuses_{context.ports.output(topics::supervisor)} {
     if (auto found = problems(limits_); !found.empty()) {
@@ -73,8 +72,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_arrived = true;
       input.demand_v = runtime::values(demand->total_v);
     }
-    take_jogs(tick, input.now_s);
-    input.reference_moving = is_moving(reference) || session_.held(input.now_s);
+    jogs_.take(tick, input.now_s);
+    input.reference_moving = is_moving(reference) || jogs_.session().held(input.now_s);
     input.bridge_restarted = restarts() > bridge_restarts_;
     bridge_restarts_ = restarts();
     input.second_writer =
@@ -119,39 +118,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     }
     if (ticks_to_take_up_ > 0) --ticks_to_take_up_;
     return reference_moving_ || ticks_to_take_up_ > 0;
-  }
-  /// Takes a bounded number of samples: a flood must not delay the step. An event names the first sample of a
-  /// stranger, and the first bad value, of each session.
-  void take_jogs(std::uint64_t tick, double now_s) {
-    constexpr int kMostPerTick = 64;
-    bus::SampleInfo info;
-    for (int taken = 0; taken < kMostPerTick; ++taken) {
-      const auto sample = jogs_.take(&info);
-      if (!sample) return;
-      if (!info.valid) continue;
-      const auto verdict = session_.take(*sample, info.writer, tick, now_s);
-      if (verdict == JogSession::Verdict::stranger && !told_stranger_) {
-        told_stranger_ = true;
-        node().warning("jog_stranger",
-                       "crane/jog has a sample of a writer that has no session: it has no effect",
-                       "request a session first (crane jog); one operator drives at a time");
-      } else if (verdict == JogSession::Verdict::released && sample->engaged && !told_unusable_) {
-        told_unusable_ = true;
-        node().warning(
-            "jog_unusable",
-            "a sample of crane/jog is late or has a deflection outside [-1, 1]: it counts as release",
-            "send the newest tick with each sample, and deflections from -1 to 1");
-      }
-    }
-  }
-  void begin_session(const msg::Request& request, double now_s) {
-    session_.begin(request, now_s);
-    told_stranger_ = told_unusable_ = false;
-  }
-  /// A session lasts until its stick is released and the reference is at rest, or the crane stops.
-  void end_session(State state, double now_s) {
-    const bool rests = state == State::hold && !session_.held(now_s);
-    if (rests || (state != State::hold && state != State::run)) session_.end();
   }
   [[nodiscard]] static double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns) / 1e9; }
   [[nodiscard]] std::int64_t periods_ns(double periods) const {
@@ -206,11 +172,12 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     const auto asked = collect(input);
     const auto output = supervisor::step(limits_, input, memory_);
     for (const auto& request : asked) answer(request, output, input.now_s);
-    end_session(output.state, input.now_s);
+    jogs_.end_with(output.state, input.now_s);
     const auto command = command_of(last_header_, output);
     commands_.publish(command);
     echo_.commanded(command);
-    statuses_.publish(status_of(last_header_, output, limits_, move_, session_.deflection(input.now_s)));
+    statuses_.publish(
+        status_of(last_header_, output, limits_, move_, jogs_.session().deflection(input.now_s)));
     announce(output);
   }
 
@@ -235,8 +202,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     if (moves_axes(request) && verdict.accepted) {
       move_ = accepted_move(request, move_.number + 1);
       ticks_to_take_up_ = kTicksToTakeUp;
-      session_.end();
-      if (request.kind == crane_REQUEST_JOG) begin_session(request, now_s);
+      jogs_.accepted(request, now_s);
     }
     requests_.reply(request, last_header_, verdict.accepted, verdict.reason);
   }
@@ -268,9 +234,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   CommandEcho echo_;
   ClockOffset bridge_clock_;
   runtime::RequestInbox requests_;
-  bus::Subscriber<msg::Jog> jogs_;
-  JogSession session_;
-  bool told_stranger_ = false, told_unusable_ = false;  ///< events of this session
+  JogDesk jogs_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;
   StartUpTest self_test_;

@@ -83,7 +83,7 @@ TEST_F(Jog, IgnoresASecondWriterThatCopiesTheWholeIdentity) {
 TEST_F(Jog, ReleasesAfterAHundredMillisecondsOfSilence) {
   session_.begin(request_, 1);
   take(sample(100), kOperator, 100);
-  EXPECT_NE(session_.deflection(1.1), kReleased);
+  EXPECT_NE(session_.deflection(1.099), kReleased);
   EXPECT_EQ(session_.deflection(1.101), kReleased);
   EXPECT_FALSE(session_.held(1.101));
 }
