@@ -2,14 +2,12 @@
 /// histories that end at full speed. The load is the pendulum of space_pendulum.hpp.
 ///   bench_stick [HISTORIES]    default 1000
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <vector>
 
-#include "crane/plant/pendulum.hpp"
 #include "space_pendulum.hpp"
 #include "stick_history.hpp"
 
@@ -20,7 +18,6 @@ using namespace crane::control::test;
 
 struct Stop {
   double residual_deg = 0;  ///< swing that remains when the reference is at rest
-  double early_deg = 0;     ///< largest swing later than 0.55 periods after the release
   double time_s = 0, way = 0;
 };
 
@@ -29,7 +26,7 @@ struct Motions {
   std::array<bool, kAxes> used;
 };
 
-/// A history, a second at full speed, and the release.
+/// A history of 4 s, 2 s at full speed, and the release.
 Stop stop_after(const StickLimits& limits, const Motions& motions, double cable_ratio, unsigned seed) {
   const double to_deg = 180 / std::numbers::pi;
   StickMemory memory;
@@ -50,17 +47,12 @@ Stop stop_after(const StickLimits& limits, const Motions& motions, double cable_
     const bool up = at[i].position < (axis.low + axis.high) / 2;
     full[i] = motions.used[i] ? (up ? 1 : -1) : 0;
   }
-  const double turn_s = 2.0;
-  for (double t = 0; t < turn_s; t += limits.period_s) tick(full);
+  constexpr double kFull_s = 2;
+  for (double t = 0; t < kFull_s; t += limits.period_s) tick(full);
   Stop stop;
   const std::size_t axis = motions.used[kTrolley] ? kTrolley : kSlew;
   const double from = at[axis].position;
-  const double period_s = crane::plant::swing_period_s(9.81, at[kHoist].position);
-  while (!at_rest(memory) || stop.time_s < 0.55 * period_s) {
-    if (at_rest(memory) == false) stop.way = 0;
-    tick({});
-    stop.time_s += limits.period_s;
-  }
+  for (; !at_rest(memory); stop.time_s += limits.period_s) tick({});
   stop.way = std::abs(at[axis].position - from);
   stop.residual_deg = load.residual_rad() * to_deg;
   return stop;
