@@ -171,7 +171,9 @@ void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noex
 void Motion::jog(const std::array<bool, kAxes>& selected, std::uint64_t tick) noexcept {
   const auto now = at(tick);
   control::StickLimits limits;
-  limits.shaping = shaping_ == control::Shaping::none ? control::Shaping::zv : shaping_;
+  // EI leaves a swing of the load coordinate, which moves the trolley beyond the limits of the stick.
+  const bool robust = shaping_ == control::Shaping::zvd || shaping_ == control::Shaping::ei;
+  limits.shaping = robust ? control::Shaping::zvd : control::Shaping::zv;
   limits.period_s = rig_.period_s;
   limits.gravity_mps2 = rig_.design.crane.gravity_mps2;
   limits.longest_cable_m = now[control::kHoist].position;

@@ -126,7 +126,7 @@ TEST_P(HostileStick, NeverLeavesTheLimitsOfPositionSpeedAndAcceleration) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryShaper, HostileStick,
-                         testing::Values(Shaping::none, Shaping::zv, Shaping::zvd, Shaping::ei));
+                         testing::Values(Shaping::none, Shaping::zv, Shaping::zvd));
 
 TEST(Stick, StopsAtTheLimitWhenTheStickStaysDeflected) {
   Crane crane{tower_stick()};
