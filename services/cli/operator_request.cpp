@@ -24,9 +24,10 @@ class Conversation {
   Conversation(bus::Bus& bus, const stack::OperatorRequest& wanted)
       : bus_{bus},
         wanted_{wanted},
-        client_{bus, "crane " + std::to_string(::getpid()), first_id()},
+        client_{bus, client_name(), first_id()},
         supervisor_{bus.subscriber(topics::supervisor)} {
-    if (wanted.kind == crane_REQUEST_MOVE) planner_ = bus.subscriber(topics::reference);
+    if (wanted.kind == crane_REQUEST_MOVE || wanted.kind == crane_REQUEST_JOG)
+      planner_ = bus.subscriber(topics::reference);
   }
 
   void find_listeners(double timeout_s) {
@@ -98,6 +99,8 @@ class Conversation {
 };
 
 }  // namespace
+
+std::string client_name() { return "crane " + std::to_string(::getpid()); }
 
 Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience) {
   Conversation conversation{bus, wanted};

@@ -20,6 +20,9 @@ class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Client name of the requests of this program.
+[[nodiscard]] std::string client_name();
+
 struct Patience {
   double find_s = 5;   ///< longest time for the discovery of the receivers
   double reply_s = 2;  ///< longest time for the reply

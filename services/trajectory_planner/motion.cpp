@@ -47,7 +47,7 @@ double Motion::time_s(std::uint64_t tick) const noexcept {
 }
 
 void Motion::follow(const control::Measurement& measured, std::uint64_t tick) noexcept {
-  is_braking_ = false;
+  is_braking_ = stick_.follows = false;
   excitation_.reset();
   creeping_.reset();
   planned_.reset();
@@ -83,7 +83,7 @@ void Motion::start(const MoveTarget& move, std::uint64_t tick) {
   const bool swings =
       trajectory_[control::kTrolley].duration_s() > 0 || trajectory_[control::kSlew].duration_s() > 0;
   shaper_ = swings ? shaper() : control::Shaper{};
-  is_braking_ = false;
+  is_braking_ = stick_.follows = false;
   creeping_.reset();
   planned_.reset();
   excitation_.reset();
@@ -120,7 +120,7 @@ std::optional<control::PlanProblem> Motion::plan_for(const MoveTarget& move,
 
 void Motion::start(const control::PlanProblem& problem, const control::Plan& plan,
                    std::uint64_t tick) noexcept {
-  is_braking_ = false;
+  is_braking_ = stick_.follows = false;
   creeping_.reset();
   excitation_.reset();
   shaper_ = {};
@@ -135,7 +135,7 @@ void Motion::excite(const control::Excitation& excitation, std::uint64_t tick) {
   const auto now = at(tick);
   for (std::size_t i = 0; i < kAxes; ++i)
     trajectory_[i] = control::step_profile(now[i].position, now[i].position);
-  is_braking_ = false;
+  is_braking_ = stick_.follows = false;
   creeping_.reset();
   planned_.reset();
   shaper_ = {};
@@ -151,12 +151,14 @@ void Motion::creep(const std::array<double, kAxes>& speed, const control::Measur
   for (std::size_t i = 0; i < kAxes; ++i)
     creeping.start[i] = speed[i] != 0 ? measured.position[i] : now[i].position;
   creeping_ = creeping;
+  stick_.follows = false;
   planned_.reset();
   start_tick_ = tick;
 }
 
 void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noexcept {
   is_braking_ = true;
+  stick_.follows = false;
   creeping_.reset();
   planned_.reset();
   start_tick_ = tick;
@@ -166,7 +168,53 @@ void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noex
                    .deceleration = std::max(rig_.drives[i].reference_acceleration, 1e-3)};
 }
 
+void Motion::jog(const std::array<bool, kAxes>& selected, std::uint64_t tick) noexcept {
+  const auto now = at(tick);
+  control::StickLimits limits;
+  // EI leaves a swing of the load coordinate, which moves the trolley beyond the limits of the stick.
+  const bool robust = shaping_ == control::Shaping::zvd || shaping_ == control::Shaping::ei;
+  limits.shaping = robust ? control::Shaping::zvd : control::Shaping::zv;
+  limits.period_s = rig_.period_s;
+  limits.gravity_mps2 = rig_.design.crane.gravity_mps2;
+  limits.longest_cable_m = now[control::kHoist].position;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const auto& drive = rig_.drives[i];
+    if (!drive.present) continue;
+    const bool compensates = i == control::kTrolley && selected[control::kSlew];
+    limits.axis[i] = {.speed = selected[i] || compensates ? drive.reference_speed : 0,
+                      .acceleration = drive.reference_acceleration,
+                      .low = drive.low_limit + drive.soft_margin,
+                      .high = drive.high_limit - drive.soft_margin};
+  }
+  if (limits.axis[control::kHoist].speed > 0)
+    limits.longest_cable_m = std::max(limits.longest_cable_m, limits.axis[control::kHoist].high);
+  is_braking_ = false;
+  creeping_.reset();
+  planned_.reset();
+  excitation_.reset();
+  start_tick_ = tick;
+  stick_.limits = limits;
+  control::begin(limits, now, stick_.memory);
+  stick_.reference = now;
+  stick_.tick = tick;
+  stick_.follows = true;
+}
+
+void Motion::drive(const std::array<double, kAxes>& deflection, std::uint64_t tick) noexcept {
+  if (!stick_.follows) return;
+  constexpr std::uint64_t kMostTicks = 100;  // after a longer gap the supervisor has stopped the crane
+  if (tick > stick_.tick + kMostTicks) stick_.tick = tick - kMostTicks;
+  std::array<double, kAxes> wanted{};
+  for (std::size_t i = 0; i < kAxes; ++i) wanted[i] = deflection[i] * stick_.memory.limits[i].speed;
+  for (; stick_.tick < tick; ++stick_.tick) {
+    stick_.reference = control::step(stick_.limits, wanted, stick_.memory);
+    stick_.reference.feed_forward_v = control::feed_forward(rig_.design, stick_.limits, stick_.memory);
+  }
+  if (!control::at_rest(stick_.memory)) start_tick_ = tick;  // arrived() waits from the end of the motion
+}
+
 control::Reference Motion::at(std::uint64_t tick) const noexcept {
+  if (stick_.follows) return stick_.reference;
   if (creeping_) {
     control::Reference reference;
     for (std::size_t i = 0; i < kAxes; ++i)
@@ -190,12 +238,14 @@ control::Reference Motion::at(std::uint64_t tick) const noexcept {
 }
 
 bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept {
-  if (creeping_) return false;
+  if (creeping_ || (stick_.follows && !control::at_rest(stick_.memory))) return false;
   constexpr double kBand = 0.01;     // largest distance from the reference, m, rad
   constexpr double kSlow = 0.01;     // largest speed, m/s, rad/s
   constexpr double kLongest_s = 20;  // longest wait; friction may hold an axis outside the band
   const double profile_s = planned_ ? planned_->plan.duration_s : control::duration_s(trajectory_);
-  const double end_s = excitation_ ? excitation_->duration_s : profile_s + shaper_.delay_s();
+  const double end_s = stick_.follows ? 0
+                       : excitation_  ? excitation_->duration_s
+                                      : profile_s + shaper_.delay_s();
   if (time_s(tick) > end_s + kLongest_s) return true;
   const auto reference = at(tick);
   for (std::size_t i = 0; i < kAxes; ++i) {

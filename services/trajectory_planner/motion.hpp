@@ -9,6 +9,7 @@
 #include "crane/control/excitation.hpp"
 #include "crane/control/law.hpp"
 #include "crane/control/shaper.hpp"
+#include "crane/control/stick.hpp"
 #include "crane/control/time_optimal.hpp"
 #include "crane/control/trajectory.hpp"
 
@@ -43,7 +44,13 @@ class Motion {
   /// position, so that the axis stops close to a mark when it is detected, without the tracking error.
   void creep(const std::array<double, control::kAxes>& speed, const control::Measurement& measured,
              std::uint64_t tick) noexcept;
-  /// Reference at `tick`.
+  /// Begins to follow a stick from the present reference. Axes that are not selected do not follow it; the
+  /// trolley compensates the slewing in every session.
+  void jog(const std::array<bool, control::kAxes>& selected, std::uint64_t tick) noexcept;
+  /// While a stick is followed: the reference at `tick` for a deflection (share of the reference speed, -1 to
+  /// 1).
+  void drive(const std::array<double, control::kAxes>& deflection, std::uint64_t tick) noexcept;
+  /// Reference at `tick`; while a stick is followed, that of the last drive().
   [[nodiscard]] control::Reference at(std::uint64_t tick) const noexcept;
   /// True when the reference has ended and the crane is at rest at it.
   [[nodiscard]] bool arrived(const control::Measurement& measured, std::uint64_t tick) const noexcept;
@@ -73,6 +80,14 @@ class Motion {
     control::PlanProblem problem;
     control::Plan plan;
   };
+  struct Stick {
+    control::StickLimits limits;
+    control::StickMemory memory;
+    control::Reference reference;
+    std::uint64_t tick = 0;  ///< of the reference
+    bool follows = false;
+  };
+  Stick stick_;                     ///< replaces the profiles of all axes while it follows
   std::optional<Planned> planned_;  ///< replaces the profiles of trolley and slew
   bool is_braking_ = false;
   std::uint64_t start_tick_ = 0;

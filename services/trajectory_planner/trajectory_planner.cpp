@@ -85,9 +85,13 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       motion_.follow(measured, next);
     } else if (homing_) {
       motion_.creep(homing_speed_, measured, next);
-    } else if (status != nullptr) {
-      start_if_new(status->move, next);
-      begin_pending(next);
+    } else {
+      if (status != nullptr) {
+        start_if_new(status->move, next);
+        begin_pending(next);
+        deflection_ = runtime::values(status->jog_deflection);
+      }
+      motion_.drive(deflection_, next);
     }
     stopping_ = supervisor_ == crane_STATE_STOP_C1;
     publish(*state, next);
@@ -100,7 +104,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   void start_if_new(const msg::AcceptedMove& move, std::uint64_t tick) {
     if (!known_moves_ || move.number <= *known_moves_) return;
     known_moves_ = move_number_ = move.number;
-    if (move.kind == crane_REQUEST_FOLLOW)
+    if (move.kind == crane_REQUEST_JOG)
+      motion_.jog(target_of(move).selected, tick);
+    else if (move.kind == crane_REQUEST_FOLLOW)
       motion_.excite(excitation_of(move), tick);
     else if (const auto problem = worker_ ? motion_.plan_for(target_of(move), tick) : std::nullopt)
       pending_ = Pending{target_of(move), *problem, tick + planning_ticks_, worker_->ask(*problem)};
@@ -152,7 +158,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   control::ReferenceStart start_;
   std::optional<std::uint64_t> published_;
   crane_SupervisorState supervisor_ = crane_STATE_BOOT;
-  std::array<double, control::kAxes> homing_speed_{};
+  std::array<double, control::kAxes> homing_speed_{}, deflection_{};
   bool homing_ = false;
   int missing_statuses_ = 0;
   bool stopping_ = false;
@@ -171,7 +177,8 @@ runtime::ComponentSpec trajectory_planner_spec() {
       .source = crane_SOURCE_PLANNER,
       .runs_controller = true,
       .reads = {{&topics::state.description, "positions of the axes at the start of a move"},
-                {&topics::supervisor.description, "safety state, and the move that was accepted"}},
+                {&topics::supervisor.description,
+                 "safety state, the move that was accepted, and the checked deflection of the stick"}},
       .writes = {{&topics::reference.description, "reference of each axis for the next tick"}},
       .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
         return std::make_unique<TrajectoryPlanner>(context);

@@ -60,6 +60,7 @@ std::optional<Request> request_of(crane_RequestKind kind) {
       return Request::disarm;
     case crane_REQUEST_MOVE:
     case crane_REQUEST_FOLLOW:
+    case crane_REQUEST_JOG:
       return Request::move;
     case crane_REQUEST_STOP:
       return Request::stop;
@@ -73,12 +74,13 @@ std::optional<Request> request_of(crane_RequestKind kind) {
 }
 
 bool moves_axes(const msg::Request& request) {
-  return request.kind == crane_REQUEST_MOVE || request.kind == crane_REQUEST_FOLLOW;
+  return request.kind == crane_REQUEST_MOVE || request.kind == crane_REQUEST_FOLLOW ||
+         request.kind == crane_REQUEST_JOG;
 }
 
 std::string problem_of(const msg::Request& request, const Limits& limits) {
   if (request.id == 0 && enabled(request_id)) return "id = 0: a client numbers its requests from 1";
-  const bool home = request.kind == crane_REQUEST_HOME;
+  const bool home = request.kind == crane_REQUEST_HOME, jog = request.kind == crane_REQUEST_JOG;
   if (!moves_axes(request) && !home) return "";
   int selected = 0;
   for (std::size_t i = 0; i < kAxes; ++i) {
@@ -86,11 +88,11 @@ std::string problem_of(const msg::Request& request, const Limits& limits) {
     ++selected;
     const auto& axis = limits.axis[i];
     if (!axis.present) return std::string{"this rig has no "} + plant::kCoordinates[i].name + " drive";
-    if (home) continue;
+    if (home || jog) continue;
     if (auto problem = target_problem(request, axis, i); !problem.empty()) return problem;
   }
   if (selected == 0) return "no axis selected";
-  if (request.kind == crane_REQUEST_MOVE) return "";
+  if (request.kind == crane_REQUEST_MOVE || jog) return "";
   if (selected != 1) return home ? "home: select exactly one axis" : "follow: select exactly one axis";
   return home ? "" : follow_problem(request);
 }

@@ -11,7 +11,7 @@ namespace crane::supervisor {
 
 /// @return nothing for a kind that the supervisor does not process
 [[nodiscard]] std::optional<Request> request_of(crane_RequestKind kind);
-/// True for a move, and for a reference to follow.
+/// True for a move, for a reference to follow, and for a session of the stick.
 [[nodiscard]] bool moves_axes(const msg::Request& request);
 /// @return why axes, targets or sines of the request are not permitted; empty when they are permitted
 [[nodiscard]] std::string problem_of(const msg::Request& request, const Limits& limits);

@@ -82,7 +82,7 @@ msg::AcceptedMove accepted_move(const msg::Request& request, std::uint64_t numbe
 }
 
 msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& output, const Limits& limits,
-                                const msg::AcceptedMove& move) {
+                                const msg::AcceptedMove& move, const PerAxis& jog_deflection) {
   msg::SupervisorStatus status{};
   status.header = header;
   status.state = static_cast<crane_SupervisorState>(output.state);
@@ -107,6 +107,7 @@ msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& out
   status.missing_demand_count = output.missing_demand_count;
   status.move = move;
   runtime::assign(status.homing_speed, output.homing_speed);
+  runtime::assign(status.jog_deflection, jog_deflection);
   status.homing_failure = static_cast<crane_HomingFailure>(output.homing_failure);
   return status;
 }

@@ -7,10 +7,12 @@ namespace crane::supervisor {
 
 [[nodiscard]] Sample sample_of(const msg::State& state);
 [[nodiscard]] msg::Command command_of(const msg::Header& header, const TickOutput& output);
-/// Content of an accepted move. @pre its kind is REQUEST_MOVE or REQUEST_FOLLOW
+/// Content of an accepted move. @pre moves_axes()
 [[nodiscard]] msg::AcceptedMove accepted_move(const msg::Request& request, std::uint64_t number);
-/// @param move  last accepted move
+/// @param move            last accepted move
+/// @param jog_deflection  checked deflection of the stick
 [[nodiscard]] msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& output,
-                                              const Limits& limits, const msg::AcceptedMove& move);
+                                              const Limits& limits, const msg::AcceptedMove& move,
+                                              const PerAxis& jog_deflection);
 
 }  // namespace crane::supervisor

@@ -13,6 +13,7 @@
 #include "crane/supervisor/supervisor.hpp"
 #include "process/clock_offset.hpp"
 #include "process/command_echo.hpp"
+#include "process/jog_desk.hpp"
 #include "process/request_rules.hpp"
 #include "process/samples.hpp"
 #include "process/start_up_test.hpp"
@@ -38,7 +39,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
         echo_{{limits_.axis[0].present, limits_.axis[1].present, limits_.axis[2].present}},
         requests_{context,
                   {crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_DISARM, crane_REQUEST_MOVE,
-                   crane_REQUEST_FOLLOW, crane_REQUEST_STOP, crane_REQUEST_ESTOP, crane_REQUEST_HOME}},
+                   crane_REQUEST_FOLLOW, crane_REQUEST_JOG, crane_REQUEST_STOP, crane_REQUEST_ESTOP,
+                   crane_REQUEST_HOME}},
+        jogs_{context},
         commands_{context.ports.output(topics::command)},
         statuses_{context.ports.output(topics::supervisor)} {
     if (auto found = problems(limits_); !found.empty()) {
@@ -69,7 +72,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_arrived = true;
       input.demand_v = runtime::values(demand->total_v);
     }
-    input.reference_moving = is_moving(reference);
+    jogs_.take(tick, input.now_s);
+    input.reference_moving = is_moving(reference) || jogs_.session().held(input.now_s);
     input.bridge_restarted = restarts() > bridge_restarts_;
     bridge_restarts_ = restarts();
     input.second_writer =
@@ -167,11 +171,13 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     input.second_writer = input.second_writer || ports().disputed(now_ns_);
     const auto asked = collect(input);
     const auto output = supervisor::step(limits_, input, memory_);
-    for (const auto& request : asked) answer(request, output);
+    for (const auto& request : asked) answer(request, output, input.now_s);
+    jogs_.end_with(output.state, input.now_s);
     const auto command = command_of(last_header_, output);
     commands_.publish(command);
     echo_.commanded(command);
-    statuses_.publish(status_of(last_header_, output, limits_, move_));
+    statuses_.publish(
+        status_of(last_header_, output, limits_, move_, jogs_.session().deflection(input.now_s)));
     announce(output);
   }
 
@@ -191,11 +197,12 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     return asked;
   }
 
-  void answer(const msg::Request& request, const TickOutput& output) {
+  void answer(const msg::Request& request, const TickOutput& output, double now_s) {
     const auto& verdict = output.answers[static_cast<std::size_t>(*request_of(request.kind))];
     if (moves_axes(request) && verdict.accepted) {
       move_ = accepted_move(request, move_.number + 1);
       ticks_to_take_up_ = kTicksToTakeUp;
+      jogs_.accepted(request, now_s);
     }
     requests_.reply(request, last_header_, verdict.accepted, verdict.reason);
   }
@@ -227,6 +234,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   CommandEcho echo_;
   ClockOffset bridge_clock_;
   runtime::RequestInbox requests_;
+  JogDesk jogs_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;
   StartUpTest self_test_;
@@ -245,21 +253,23 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 }  // namespace
 
 runtime::ComponentSpec supervisor_spec() {
-  return {.name = "supervisor",
-          .program = "crane_supervisor",
-          .summary = "Safety states, limits, brakes and the command gate: the only writer of crane/command.",
-          .source = crane_SOURCE_SUPERVISOR,
-          .runs_controller = false,
-          .reads = {{&topics::state.description, "what the rig measures: limits, brakes, latches"},
-                    {&topics::demand.description, "volts that pass the gate"},
-                    {&topics::reference.description, "whether a move is under way"},
-                    {&topics::request.description, "reset, arm, disarm, move, follow, home, stop, e-stop"}},
-          .writes = {{&topics::command.description, "volts, brakes, watchdog permission"},
-                     {&topics::supervisor.description, "safety state, and the move that was accepted"},
-                     {&topics::reply.description, "answers to requests"}},
-          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
-            return std::make_unique<Supervisor>(context);
-          }};
+  return {
+      .name = "supervisor",
+      .program = "crane_supervisor",
+      .summary = "Safety states, limits, brakes and the command gate: the only writer of crane/command.",
+      .source = crane_SOURCE_SUPERVISOR,
+      .runs_controller = false,
+      .reads = {{&topics::state.description, "what the rig measures: limits, brakes, latches"},
+                {&topics::demand.description, "volts that pass the gate"},
+                {&topics::reference.description, "whether a move is under way"},
+                {&topics::request.description, "reset, arm, disarm, move, follow, jog, home, stop, e-stop"},
+                {&topics::jog.description, "deflection of the operator's stick"}},
+      .writes = {{&topics::command.description, "volts, brakes, watchdog permission"},
+                 {&topics::supervisor.description, "safety state, and the move that was accepted"},
+                 {&topics::reply.description, "answers to requests"}},
+      .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+        return std::make_unique<Supervisor>(context);
+      }};
 }
 
 }  // namespace crane::supervisor

@@ -236,6 +236,7 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
   s.homing[1] = true;
   for (double& value : s.homing_speed) value = f.real();
   s.homing_failure = crane_HOMING_MARK_STUCK;
+  for (double& value : s.jog_deflection) value = f.real();
   f.number(s.crc32c);
   const ordered_json want{{"header", expected(s.header)},
                           {"state", "STATE_STOP_C1"},
@@ -267,8 +268,26 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
                           {"homing", {false, true, false}},
                           {"homing_speed", expected(s.homing_speed)},
                           {"homing_failure", "HOMING_MARK_STUCK"},
+                          {"jog_deflection", expected(s.jog_deflection)},
                           {"crc32c", s.crc32c}};
   EXPECT_EQ(through_the_codec(topics::supervisor, s), want);
+}
+
+TEST(TopicSchema, ReadsEveryFieldOfJog) {
+  Filler f;
+  msg::Jog j{};
+  f.header(j.header);
+  f.number(j.request_id);
+  f.text(j.client);
+  j.engaged = true;
+  for (double& value : j.deflection) value = f.real();
+  f.number(j.crc32c);
+  EXPECT_EQ(through_the_codec(topics::jog, j), (ordered_json{{"header", expected(j.header)},
+                                                             {"request_id", j.request_id},
+                                                             {"client", j.client},
+                                                             {"engaged", true},
+                                                             {"deflection", expected(j.deflection)},
+                                                             {"crc32c", j.crc32c}}));
 }
 
 TEST(TopicSchema, ReadsEveryFieldOfRequestAndReply) {

@@ -11,6 +11,7 @@
 /// The residual swing of ei is at most V for 0.8 <= r <= 1.2.
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "crane/control/law.hpp"
 
@@ -31,6 +32,7 @@ class Shaper {
   /// @throws std::invalid_argument for another period
   Shaper(Shaping shaping, double load_period_s);
 
+  [[nodiscard]] std::span<const Impulse> impulses() const noexcept { return {impulses_.data(), count_}; }
   /// Time that the shaper adds to the duration of a move.
   [[nodiscard]] double delay_s() const noexcept { return impulses_[count_ - 1].time_s; }
 

@@ -1,0 +1,78 @@
+#include "cli/jog_session.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "crane/runtime/node.hpp"
+#include "crane/supervisor/states.hpp"
+
+namespace crane::cli {
+
+JogSession::JogSession(bus::Bus& bus)
+    : bus_{bus},
+      jogs_{bus.publisher(topics::jog)},
+      statuses_{bus.subscriber(topics::supervisor)},
+      states_{bus.subscriber(topics::state)} {}
+
+Answer JogSession::begin(const std::array<bool, 3>& selected) {
+  accepted_ = false;
+  held_ticks_ = 0;
+  const auto answer = ask(bus_, {.kind = crane_REQUEST_JOG, .selected = selected});
+  id_ = answer.id;
+  return answer;
+}
+
+void JogSession::receive() {
+  while (const auto state = states_.take()) {
+    tick_ = state->header.tick;
+    const std::array now{state->trolley_position_m, state->slew_angle_rad, state->cable_length_m};
+    if (begins_) measured_ = {now, now, 0};
+    begins_ = false;
+    measured_.to = now;
+    measured_.largest_swing_rad = std::max(measured_.largest_swing_rad,
+                                           std::hypot(state->swing_radial_rad, state->swing_tangential_rad));
+  }
+  while (const auto status = statuses_.take()) {
+    if (status->move.request_id != id_) {
+      if (accepted_) throw std::runtime_error("jog: replaced by a later move");
+      continue;  // sent before the session was accepted
+    }
+    accepted_ = true;
+    if (status->state != crane_STATE_HOLD && status->state != crane_STATE_RUN) {
+      const auto cause = static_cast<supervisor::Cause>(status->cause);
+      throw std::runtime_error(std::string{"jog: stopped because of "} + supervisor::name_of(cause) + ": " +
+                               supervisor::remedy_for(cause));
+    }
+    held_ticks_ = status->state == crane_STATE_HOLD ? held_ticks_ + 1 : 0;
+  }
+}
+
+void JogSession::send(const std::optional<Deflection>& stick) {
+  msg::Jog sample{};
+  sample.header.tick = tick_;
+  sample.request_id = id_;
+  runtime::assign(sample.client, client_name());
+  sample.engaged = stick.has_value();
+  for (std::size_t i = 0; stick && i < stick->size(); ++i) sample.deflection[i] = (*stick)[i];
+  (void)jogs_.publish(sample);  // a lost sample has the effect of silence
+}
+
+bool JogSession::drive(double timeout_s, bool stops, const std::function<std::optional<Deflection>()>& stick,
+                       const std::function<bool()>& over) {
+  constexpr std::int64_t kEvery_ns = 20'000'000;
+  const auto end_ns = runtime::monotonic_ns() + static_cast<std::int64_t>(timeout_s * 1e9);
+  for (;;) {
+    receive();
+    if (over()) return true;
+    const auto now_ns = runtime::monotonic_ns();
+    if (now_ns >= end_ns || (stops && runtime::stop_requested())) return false;
+    if (now_ns >= send_at_ns_) {
+      send(stick());
+      send_at_ns_ = now_ns + kEvery_ns;
+    }
+    bus_.wait(std::chrono::nanoseconds{std::min(send_at_ns_, end_ns) - now_ns});
+  }
+}
+
+}  // namespace crane::cli

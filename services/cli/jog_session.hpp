@@ -1,0 +1,56 @@
+#pragma once
+/// Operator's side of a session of the stick: requests it, sends crane/jog, and measures the motion.
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cli/operator_request.hpp"
+
+namespace crane::cli {
+
+using Deflection = std::array<double, 3>;
+
+/// From a moment on: travel of each axis, and the largest swing.
+struct Measured {
+  std::array<double, 3> from{}, to{};  ///< m, rad, m of cable
+  double largest_swing_rad = 0;
+};
+
+class JogSession {
+ public:
+  explicit JogSession(bus::Bus& bus);
+
+  /// Requests a session for the selected axes.
+  [[nodiscard]] Answer begin(const std::array<bool, 3>& selected);
+  /// Sends the stick at most every 20 ms, until `over` holds. @throws std::runtime_error when the crane
+  /// stops,
+  ///   or another move or session replaces this one
+  /// @param stops  true: a stop signal ends the wait
+  /// @return false at the timeout or after a stop signal
+  bool drive(double timeout_s, bool stops, const std::function<std::optional<Deflection>()>& stick,
+             const std::function<bool()>& over);
+
+  /// True when the supervisor has been in HOLD for some ticks.
+  [[nodiscard]] bool held() const { return held_ticks_ >= kHeldTicks; }
+  /// Begins a new measurement.
+  void measure() { begins_ = true; }
+  [[nodiscard]] const Measured& measured() const { return measured_; }
+
+ private:
+  static constexpr int kHeldTicks = 50;  // single ticks of HOLD occur between ticks of RUN
+  void receive();
+  void send(const std::optional<Deflection>& stick);
+
+  bus::Bus& bus_;
+  bus::Publisher<msg::Jog> jogs_;
+  bus::Subscriber<msg::SupervisorStatus> statuses_;
+  bus::Subscriber<msg::State> states_;
+  std::uint64_t id_ = 0, tick_ = 0;
+  bool accepted_ = false, begins_ = true;
+  int held_ticks_ = 0;
+  std::int64_t send_at_ns_ = 0;
+  Measured measured_;
+};
+
+}  // namespace crane::cli

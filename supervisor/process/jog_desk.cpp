@@ -1,0 +1,39 @@
+#include "process/jog_desk.hpp"
+
+namespace crane::supervisor {
+
+void JogDesk::take(std::uint64_t tick, double now_s) {
+  constexpr int kMostPerTick = 64;
+  bus::SampleInfo info;
+  for (int taken = 0; taken < kMostPerTick; ++taken) {
+    const auto sample = samples_.take(&info);
+    if (!sample) return;
+    if (!info.valid) continue;
+    const auto verdict = session_.take(*sample, info.writer, tick, now_s);
+    if (verdict == JogSession::Verdict::stranger && !told_stranger_) {
+      told_stranger_ = true;
+      node_.warning("jog_stranger",
+                    "crane/jog has a sample of a writer that has no session: it has no effect",
+                    "request a session first (crane jog); one operator drives at a time");
+    } else if (verdict == JogSession::Verdict::released && sample->engaged && !told_unusable_) {
+      told_unusable_ = true;
+      node_.warning("jog_unusable",
+                    "a sample of crane/jog is late or has a deflection outside [-1, 1]: it counts as release",
+                    "send the newest tick with each sample, and deflections from -1 to 1");
+    }
+  }
+}
+
+void JogDesk::accepted(const msg::Request& request, double now_s) {
+  session_.end();
+  if (request.kind != crane_REQUEST_JOG) return;
+  session_.begin(request, now_s);
+  told_stranger_ = told_unusable_ = false;
+}
+
+void JogDesk::end_with(State state, double now_s) {
+  const bool rests = state == State::hold && !session_.held(now_s);
+  if (rests || (state != State::hold && state != State::run)) session_.end();
+}
+
+}  // namespace crane::supervisor

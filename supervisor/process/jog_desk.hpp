@@ -1,0 +1,31 @@
+#pragma once
+/// Reads crane/jog for the session of the stick, and reports samples that have no effect.
+#include "crane/runtime/component.hpp"
+#include "crane/runtime/node.hpp"
+#include "process/jog_session.hpp"
+
+namespace crane::supervisor {
+
+class JogDesk {
+ public:
+  explicit JogDesk(const runtime::Context& context)
+      : samples_{context.ports.input(topics::jog)}, session_{context.rig.period_s}, node_{context.node} {}
+
+  /// Takes a bounded number of samples: a flood must not delay the step. An event names the first sample of a
+  /// stranger, and the first unusable sample, of each session.
+  void take(std::uint64_t tick, double now_s);
+  /// A move has been accepted: a session begins, or ends because the move replaces it.
+  void accepted(const msg::Request& request, double now_s);
+  /// Ends the session when the stick is released and the reference at rest, or the crane stops.
+  void end_with(State state, double now_s);
+
+  [[nodiscard]] const JogSession& session() const { return session_; }
+
+ private:
+  bus::Subscriber<msg::Jog> samples_;
+  JogSession session_;
+  runtime::Node& node_;
+  bool told_stranger_ = false, told_unusable_ = false;
+};
+
+}  // namespace crane::supervisor
