@@ -36,8 +36,8 @@ double number_of(const nlohmann::ordered_json& value, const LeafType& leaf) {
 }
 
 TEST(NumberReader, ReadsRandomSamplesOfEveryTopicAsTheJsonDecoderDoes) {
-  constexpr unsigned kSeed = 20032;
-  bus::testing::Random random{kSeed};
+  constexpr unsigned kOfSamples = 20032;
+  bus::testing::Random random{kOfSamples};
   const Schema schema{topics::idl_text()};
   for (const auto& topic : topics::kAll) {
     const auto reader = schema.number_reader(topic.type);
@@ -53,9 +53,9 @@ TEST(NumberReader, ReadsRandomSamplesOfEveryTopicAsTheJsonDecoderDoes) {
         ASSERT_EQ(leaves[i].name, expected[i].first);
         const double wanted = number_of(expected[i].second, leaves[i]);
         if (std::isnan(wanted))
-          ASSERT_TRUE(std::isnan(values[i])) << topic.name << ' ' << leaves[i].name << " seed " << kSeed;
+          ASSERT_TRUE(std::isnan(values[i])) << topic.name << ' ' << leaves[i].name << " seed " << kOfSamples;
         else
-          ASSERT_EQ(values[i], wanted) << topic.name << ' ' << leaves[i].name << " seed " << kSeed;
+          ASSERT_EQ(values[i], wanted) << topic.name << ' ' << leaves[i].name << " seed " << kOfSamples;
       }
     }
   }
@@ -138,9 +138,10 @@ TEST(Units, OfEveryFieldAreInTheTableOfUnits) {
   const Schema schema{topics::idl_text()};
   for (const auto& topic : topics::kAll)
     for (const auto& leaf : schema.leaves(topic.type))
-      if (!leaf.unit.empty())
+      if (!leaf.unit.empty()) {
         EXPECT_NE(fields::unit_with_symbol(leaf.unit), nullptr)
             << topic.type << ' ' << leaf.name << ' ' << leaf.unit;
+      }
 }
 
 }  // namespace
