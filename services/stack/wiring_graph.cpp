@@ -31,7 +31,7 @@ bool is_observers_business(const Description& topic) {
 
 std::vector<std::string> writers_of(const std::vector<ComponentSpec>& components, const Description& topic) {
   if (is_observers_business(topic)) return {kEveryProcess};
-  if (names(&topics::request.description, topic)) return {kOperator};
+  if (topics::may_write(topic, crane_SOURCE_OPERATOR)) return {kOperator};
   std::vector<std::string> writers;
   for (const auto& component : components)
     if (std::ranges::any_of(component.writes, [&](const Write& write) { return names(write.topic, topic); }))
@@ -68,7 +68,7 @@ std::string_view name_of(topics::Qos qos) {
 /// The topics between a request and the volts, which the README shows.
 bool is_on_command_path(const Description& topic) {
   return std::ranges::any_of(
-      std::array{&topics::request.description, &topics::supervisor.description,
+      std::array{&topics::request.description, &topics::jog.description, &topics::supervisor.description,
                  &topics::reference.description, &topics::state.description, &topics::tracking.description,
                  &topics::anti_swing.description, &topics::demand.description, &topics::command.description},
       [&topic](const Description* listed) { return names(listed, topic); });
@@ -100,7 +100,7 @@ std::vector<Arrow> arrows_of(const std::vector<ComponentSpec>& components, Exten
   for (const auto& reader : components)
     for (const auto& read : reader.reads) {
       if (extent == Extent::command_path && !is_on_command_path(*read.topic)) continue;
-      if (names(read.topic, topics::request.description))
+      if (topics::may_write(*read.topic, crane_SOURCE_OPERATOR))
         add({"operator", node_of(reader.name), short_name(*read.topic)});
       for (const auto& writer : components)
         for (const auto& write : writer.writes)

@@ -16,9 +16,12 @@ TEST(Foxglove, SubscriptionsNameChannelsThatExist) {
   ASSERT_EQ(entries.size(), 1U);
   EXPECT_EQ(entries[0].id, 9U);
   EXPECT_EQ(entries[0].channel, 1U);
-  for (const auto* channel : {"0", "17", "4294967295", "-1", "1.5", "\"1\"", "null"})
+  const std::string after_the_last = std::to_string(channels().size() + 1);
+  for (const std::string& channel :
+       {std::string{"0"}, after_the_last, std::string{"4294967295"}, std::string{"-1"}, std::string{"1.5"},
+        std::string{"\"1\""}, std::string{"null"}})
     EXPECT_THROW((void)parse_client_message(R"({"op":"subscribe","subscriptions":[{"id":9,"channelId":)" +
-                                            std::string{channel} + "}]}"),
+                                            channel + "}]}"),
                  ProtocolError)
         << channel;
 }

@@ -224,14 +224,21 @@ class Search {
     return *best;
   }
 
-  /// `score`'s candidate beside what is there already, with those of its starts that do best.
-  [[nodiscard]] Effects begin(const Fitted& there, const Score& score) const {
+  /// `score`'s candidate beside what is there already, with those of its starts that do best. Ringing starts
+  /// are compared once: each needs a fit of the starts of all windows.
+  [[nodiscard]] Effects begin(const Fitted& there, const Score& score) {
+    const Candidate* candidate = &study_.candidates()[score.candidate];
+    const auto compared = ringing_start_.find(candidate);
+    std::vector<std::vector<double>> values = score.starts;
+    if (compared != ringing_start_.end()) values = {compared->second};
     std::vector<Effects> starts;
-    for (const std::vector<double>& values : score.starts) {
+    for (const std::vector<double>& of_start : values) {
       starts.push_back(there.effects);
-      starts.back().push_back({&study_.candidates()[score.candidate], values});
+      starts.back().push_back({candidate, of_start});
     }
-    return best_start(starts, there);
+    const Effects best = best_start(starts, there);
+    if (!candidate->ringing_starts.empty()) ringing_start_[candidate] = best.back().values;
+    return best;
   }
 
   /// A wave goes over other places when the axis is elsewhere than its sensor says.
@@ -289,8 +296,9 @@ class Search {
   Study& study_;
   const Request& request_;
   Hypotheses found_;
-  std::vector<Fitted> tried_;              ///< of the next size, not settled
-  std::map<std::size_t, double> p_value_;  ///< of every candidate by itself
+  std::vector<Fitted> tried_;                                      ///< of the next size, not settled
+  std::map<const Candidate*, std::vector<double>> ringing_start_;  ///< the best one of each
+  std::map<std::size_t, double> p_value_;                          ///< of every candidate by itself
 };
 
 }  // namespace

@@ -56,7 +56,6 @@ class LoadBuilder {
       const double sling = rig_.plant.gravity_mps2 / (0.35 * square(hz));
       for (const double raised : {0.0, std::min(sling, most_raised)}) slings.push_back({0.65, sling, raised});
     }
-    add_slings_of_lines(most_raised, slings);
     if (data_.slew)
       add(at_once("jib_flexibility", "",
                   {free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
@@ -70,16 +69,17 @@ class LoadBuilder {
                  free_parameter("double_pendulum", "lower_length_m", 0.03, 2, 0.0001),
                  free_parameter("double_pendulum", "hook_raised_m", 0, most_raised, 0.001)},
                 slings);
-    two_cables.rings = true;
+    two_cables.ringing_starts = slings_of_lines(most_raised);
     add(std::move(two_cables), false, true);
   }
 
   /// The strongest line of the swing and another one may be the natural frequencies of two cables. In a wide
   /// swing the faster one is lower than in a small one.
-  void add_slings_of_lines(double most_raised, std::vector<std::vector<double>>& slings) const {
+  [[nodiscard]] std::vector<std::vector<double>> slings_of_lines(double most_raised) const {
     constexpr std::size_t kLines = 3;
     const double measured_m = rig_.start.position[plant::kHoist];
     const std::vector<double> lines = swing_lines(runs_, kLines);
+    std::vector<std::vector<double>> slings;
     for (std::size_t i = 1; i < lines.size(); ++i)
       for (const double wide : {1.0, 1.05, 1.1})
         for (const double share : {0.4, 0.7, 0.95})
@@ -90,6 +90,7 @@ class LoadBuilder {
             if (raised >= 0 && raised <= most_raised)
               slings.push_back({cables.lower_share, cables.lower_m, raised});
           }
+    return slings;
   }
 
   void add_pivot_friction() {

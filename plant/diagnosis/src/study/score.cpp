@@ -111,9 +111,8 @@ std::vector<const Score*> most_promising(std::span<const Score> shapes, bool as_
 Score best_shape(const Candidate& candidate, std::span<const Score> shapes) {
   Score best = *std::max_element(shapes.begin(), shapes.end(),
                                  [](const Score& a, const Score& b) { return a.gain < b.gain; });
-  if (candidate.rings)
-    for (const Score& start : shapes) best.starts.push_back(candidate.begin(start.shape, start.amounts));
-  for (const Score* start : most_promising(shapes, true, candidate.rings ? 0 : 1))
+  best.starts = candidate.ringing_starts;
+  for (const Score* start : most_promising(shapes, true, 1))
     best.starts.push_back(candidate.begin(start->shape, start->amounts));
   for (const Score* start : most_promising(shapes, false, kStartShapes))
     for (const double share : kStartShares) {

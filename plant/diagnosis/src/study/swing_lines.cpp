@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kWindow_s = 12;  // ten periods of a cable of 0.36 m: resolves 1.5 times a frequency
 constexpr double kSlowest_hz = 0.15, kFastest_hz = 6;
-constexpr double kSkirt = 4;  // half width of a line, 1 / window
+constexpr double kFaint = 1e-4;  // of the strongest line's power: a hundredth of its amplitude
+constexpr double kSkirt = 4;     // half width of a line, 1 / window
 constexpr double kTurn = 2 * std::numbers::pi;
 
 /// Power at `hz` of samples without their mean, by the four-term window of F. J. Harris, Proc. IEEE 66 (1978)

@@ -9,7 +9,8 @@ namespace crane::diagnosis {
 
 /// Frequencies [Hz] of the strongest lines of both swing angles, strongest first: peaks of the Welch
 /// periodogram (P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70) of windows of up to 12 s; lines
-/// nearer to each other than 4 divided by the window's length are one.
+/// nearer to each other than 4 divided by the window's length are one. Lines below a hundredth of the
+/// strongest amplitude do not count.
 /// @return at most `count`; fewer where the spectrum has fewer peaks, none without a measured swing
 [[nodiscard]] std::vector<double> swing_lines(const std::vector<PreparedRun>& runs, std::size_t count);
 

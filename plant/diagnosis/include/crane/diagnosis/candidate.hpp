@@ -41,9 +41,9 @@ struct Candidate {
   /// A wave over position. Its loss has many minima in the phase: its shapes are the strongest waves of the
   /// unexplained force.
   bool waves = false;
-  /// Its inner coordinates ring freely in each window: what a shape gains shows only after a fit of the
-  /// starts.
-  bool rings = false;
+  /// Values from which a fit may begin, beside the shapes. Inner coordinates that ring freely in each window
+  /// show what they gain only after a fit of the starts.
+  std::vector<std::vector<double>> ringing_starts;
   bool rough = false;                    ///< the loss has steps: slopes do not describe it
   std::optional<GoesWith> law;           ///< the only variable of its force on its axis
   bool changes_known_parameter = false;  ///< the base model has this quantity with another value
