@@ -1,6 +1,6 @@
 #pragma once
-/// The fields of the topics by name ("state.swing_radial_rad"), with their units, from the IDL text of the
-/// program or of a recording. Pure.
+/// Finds the fields of the topics by name ("state.swing_radial_rad"). The IDL text of this program or of a
+/// recording defines the fields and their units. Pure.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,7 +22,7 @@ struct TopicFields {
   std::size_t tick_leaf = 0, time_leaf = 0;  ///< header.tick, header.sample_time_ns
 };
 
-/// A field that is read: one number of a row.
+/// A field of a topic: one number.
 struct Field {
   std::size_t topic = 0, leaf = 0;  ///< indices in FieldTable::topics() and TopicFields::leaves
 };
@@ -31,17 +31,17 @@ class FieldTable {
  public:
   /// All topics of this program.
   FieldTable();
-  /// Topics of a recording, by the types that the recording itself contains.
+  /// Topics of a recording, with the types that the recording contains.
   explicit FieldTable(const recording::McapReader& recording);
 
   [[nodiscard]] const std::vector<TopicFields>& topics() const { return topics_; }
   /// @param name  "state.applied_v[0]" or "crane/state.applied_v[0]". @return nothing: no such field
   [[nodiscard]] std::optional<Field> find(std::string_view name) const;
-  /// Why `name` is no field, with the name that was probably meant.
+  /// Explains why `name` is no field, and names the most similar field.
   [[nodiscard]] std::string explain(std::string_view name) const;
-  /// Type of the field in an expression: a quantity, a condition, an enumeration; nothing for a text.
+  /// Symbol of the field in an expression; nothing: the field is a text.
   [[nodiscard]] std::optional<expression::Symbol> symbol_of(const Field& field) const;
-  /// Enumerator of any type: "STATE_RUN".
+  /// Symbol of an enumerator of any enumeration: "STATE_RUN".
   [[nodiscard]] std::optional<expression::Symbol> enumerator(std::string_view name) const;
   [[nodiscard]] std::string name_of(const Field& field) const;  ///< "state.applied_v[0]"
   [[nodiscard]] const recording::LeafType& leaf_of(const Field& field) const {
@@ -55,13 +55,15 @@ class FieldTable {
   std::vector<TopicFields> topics_;
 };
 
-/// The fields that an expression and a list of signals name, as columns of rows.
+/// Assigns a column of TickRows to each field that an expression or a list of signals names.
 class FieldSelection {
  public:
   explicit FieldSelection(const FieldTable& table) : table_{table} {}
-  /// Column of a field; adds the column when it is new. @throws std::invalid_argument that explains the name
+  /// @return column of the field; a new field gets a new column
+  /// @throws std::invalid_argument that explains why `name` is no field
   std::size_t add(std::string_view name);
-  /// Names for an expression: fields, which become columns, and enumerators. Valid while this object lives.
+  /// Names for an expression: fields and enumerators. A field that is looked up gets a column. The vocabulary
+  /// is valid while this object lives.
   [[nodiscard]] expression::Vocabulary vocabulary();
   [[nodiscard]] const std::vector<Field>& columns() const { return columns_; }
 

@@ -1,11 +1,11 @@
 #pragma once
 /// Joins the samples of several topics to rows: one row per tick of crane/state. Pure.
 ///
-/// The fields of a topic that is written every tick are those of the row's tick; a sample that is missing
-/// leaves NaN. The fields of the other topics keep their newest value. A row is complete when every selected
-/// topic of the tick has arrived. The samples of one topic come in the order of ticks, as the bus delivers
-/// them; therefore an incomplete row ends when a later row is complete, at the latest after kMostWaiting
-/// ticks. Rows come in the order of ticks; a tick without crane/state has no row.
+/// A topic that is written every tick contributes the fields of the row's tick; if its sample is missing, the
+/// fields are NaN. Any other topic contributes its newest values. A row is complete when the samples of all
+/// selected topics that are written every tick have arrived. The bus delivers the samples of one topic in the
+/// order of ticks. An incomplete row is therefore visited when a later row is complete, or when more than
+/// kMostWaiting rows wait. Rows are visited in the order of ticks. A tick without crane/state has no row.
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -24,7 +24,7 @@ struct Row {
 
 class TickRows {
  public:
-  static constexpr std::size_t kMostWaiting = 64;
+  static constexpr std::size_t kMostWaiting = 64;  ///< incomplete rows
   using Visit = std::function<void(const Row&)>;
 
   /// @param table    must live longer than this object
@@ -32,15 +32,17 @@ class TickRows {
   /// @throws std::invalid_argument when the table has no crane/state
   TickRows(const FieldTable& table, std::vector<Field> columns, Visit visit);
 
-  /// Topics whose samples are needed, as indices in FieldTable::topics(). crane/state is one of them.
+  /// Topics of the columns, and crane/state, as indices in FieldTable::topics().
   [[nodiscard]] const std::vector<std::size_t>& topics() const { return topics_; }
 
+  /// Adds a sample. Samples of other topics have no effect.
   /// @param payload  plain CDR with its encapsulation header. @throws recording::DecodeError
   void add(std::size_t topic, std::span<const std::uint8_t> payload);
-  /// Visits the rows that still wait: the end of the data.
+  /// Visits the incomplete rows. Call it at the end of the data.
   void finish();
 
-  [[nodiscard]] std::uint64_t late() const { return late_; }  ///< samples that arrived after their row
+  /// Number of samples that arrived after the visit of their row.
+  [[nodiscard]] std::uint64_t late() const { return late_; }
 
  private:
   struct Waiting {
@@ -57,7 +59,7 @@ class TickRows {
   std::size_t state_ = 0;        ///< index of crane/state
   std::uint64_t required_ = 0;   ///< bits of the topics that a complete row has
   std::vector<double> decoded_;  ///< values of one sample
-  std::vector<double> held_;     ///< newest values of the topics without a tick, by column
+  std::vector<double> held_;     ///< newest values of the topics that are not written every tick, by column
   std::map<std::uint64_t, Waiting> waiting_;
   std::uint64_t newest_ = 0;  ///< tick of the last row
   bool begun_ = false;

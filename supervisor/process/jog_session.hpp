@@ -2,9 +2,10 @@
 /// Session of an operator's stick: decides which samples of crane/jog act. Time and tick are arguments.
 ///
 /// An accepted REQUEST_JOG begins a session. The first sample with the client, the request id and the
-/// start-up number of the request binds the session to its DDS writer, which the middleware assigns. The
-/// samples of every other writer have no effect. The stick counts as released when `engaged` is false, a
-/// deflection of the newest sample is not in [-1, 1], or the newest sample is older than kSilence_s.
+/// start-up number (header.epoch) of the request binds the session to its DDS writer. Samples of other
+/// writers have no effect. The stick is released when `engaged` is false, when a deflection of the newest
+/// sample is not in [-1, 1], when its tick is ahead of `tick` or older than kSilence_s, or when it arrived
+/// more than kSilence_s ago.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -16,15 +17,16 @@ namespace crane::supervisor {
 
 class JogSession {
  public:
+  /// Largest age of the newest sample.
   static constexpr double kSilence_s = 0.1;
-  /// From the acceptance until the first sample must have arrived.
+  /// Longest time from the acceptance to the first sample.
   static constexpr double kFirst_s = 0.5;
 
   enum class Verdict : std::uint8_t {
     acts,      ///< the sample is the present deflection
-    released,  ///< the sample is from the operator of the session, and releases the stick: see above
-    ended,     ///< the sample is from the operator of the last session, which has ended
-    stranger   ///< the sample is from another writer, or there has been no session
+    released,  ///< the sample belongs to the session and releases the stick (rules above)
+    ended,     ///< the sample belongs to the last session, which has ended
+    stranger   ///< the sample belongs to no session
   };
 
   explicit JogSession(double period_s) : period_s_{period_s} {}
@@ -34,7 +36,7 @@ class JogSession {
 
   /// Deflection of the selected axes; 0 while the stick is released or silent.
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
-  /// True while the stick is engaged, and until the first sample is overdue.
+  /// True while the stick is engaged, and for kFirst_s while no sample has arrived.
   [[nodiscard]] bool held(double now_s) const;
   [[nodiscard]] bool open() const { return open_; }
 

@@ -1,19 +1,19 @@
 #pragma once
-/// Candidates of the load: its mass, cable, forces and sensors.
+/// Candidates that act on the load: its mass, its cable, forces on it, and the sensors of the swing.
 #include <vector>
 
 #include "crane/diagnosis/candidate.hpp"
 
 namespace crane::diagnosis {
 
-/// What the runs contain.
+/// Signals that the runs contain.
 struct LoadData {
   bool trolley = false, slew = false;       ///< the motion of the support is measured
   bool driven = false;                      ///< the command of a drive is known
   bool radial = false, tangential = false;  ///< the swing angle is measured
 };
 
-/// Appends the candidates in the order of the report; none without a measured swing.
+/// Appends the candidates of the load to `all`, in the order of the report; none without a measured swing.
 void add_load_candidates(const configuration::Rig& rig, const std::vector<PreparedRun>& runs,
                          const LoadData& data, std::vector<Candidate>& all);
 

@@ -32,8 +32,8 @@ struct Rule {
   const char* remedy;     ///< action of the operator; never empty
 };
 
-/// All rules, from the severest reaction to the mildest. Of rules with the same reaction, the first that
-/// holds wins.
+/// All rules in the order of evaluation: the first that holds wins. The reactions become milder, except for
+/// the rules of ARMING and of a restart.
 [[nodiscard]] std::span<const Rule> rules() noexcept;
 
 struct Finding {

@@ -1,26 +1,26 @@
 #pragma once
-/// Stick mode: an operator drives trolley, slew and hoist by speed, and the load follows without swing.
+/// Stick mode: an operator commands the speed of trolley, slew and hoist; the load comes to rest with them.
 ///
-/// 1. The unshaped speed u of each axis follows the wanted speed. A change d of u acts through an input
-/// shaper
-///    (shaper.hpp): the share w_i acts t_i later,
+/// 1. The unshaped speed u of each axis follows the wanted speed. An input shaper (shaper.hpp) delays parts
+///    of each change of u,
 ///      v(t) = sum_i w_i u(t - t_i),   zv: w = 1/2, 1/2; t = 0, T/2   (Singer and Seering 1990)
-///    The shares are positive and their sum is 1, so that v stays between the smallest and the largest u. A
-///    change is limited such that no share raises |dv/dt| above the acceleration limit in any tick. T is the
-///    swing period of the longest cable of the session, rounded up to an even number of ticks. The hoist
-///    causes no swing and is not shaped.
-/// 2. Each shaped coordinate s drives a load coordinate q (radius or angle of the load),
+///    The weights w_i are positive and their sum is 1, so that v stays between the smallest and the largest
+///    u. The law limits each change of u such that |dv/dt| stays below the acceleration limit in every tick.
+///    T is the swing period of the longest cable of the session, rounded up to an even number of ticks. The
+///    hoist causes no swing and is not shaped.
+/// 2. The integral of v is the shaped coordinate s. A load coordinate q (radius or angle of the load) follows
 ///      q'' = w^2 (s - q),   w = 2 pi / T
-///    which comes to rest together with s, whatever the history of the stick.
-/// 3. The suspension point follows from the motion of the load: with the load at y = q_r e^(i q_gamma),
-///      P = y + L / (g - L'') y''
-///    This is the equation of a load with a small swing angle in the inertial frame, so that slewing
-///    (Coriolis and centrifugal force) and hoisting are included. |P| and arg(P) are the references of
-///    trolley and slew. While the jib slews, the trolley moves inwards, about L/g gamma'^2 of its radius, and
-///    the load stays on its circle. At constant length and without slewing, P = s.
+///    With zv and zvd, q comes to rest together with s, for every history of the stick.
+/// 3. The reference of the suspension point P follows from the motion of the load: with the load at
+///    y = q_r e^(i q_gamma) in the inertial frame,
+///      P = y + (L / g) y''
+///    This is the equation of a load with a small swing angle. It neglects the acceleration L'' of the cable.
+///    |P| and arg(P) are the references of trolley and slew. While the jib slews at a constant rate, |P| is
+///    smaller than the radius r of the load by about r gamma'^2 L / g, and the load stays on its circle.
+///    Without slewing, and with the longest cable of the session, P = s.
 ///
-/// Position limits: each tick simulates the stop that a release in this tick causes, with everything that is
-/// still pending. A wanted speed whose stop leaves the limits is replaced by braking.
+/// Position limits: each tick simulates the stop that a release in this tick causes, including the pending
+/// changes. If this stop leaves the limits, the law brakes instead of following the wanted speed.
 #include <array>
 #include <cstddef>
 #include <string>
@@ -38,7 +38,7 @@ inline constexpr std::size_t kStickSlots = 4096;
 struct StickAxisLimits {
   double speed = 0;               ///< largest |v|, unit/s; 0: the axis does not move
   double acceleration = 0;        ///< largest |dv/dt|, unit/s^2; > 0 when speed > 0
-  double low = -1e9, high = 1e9;  ///< s stays inside, unit
+  double low = -1e9, high = 1e9;  ///< the reference stays inside, unit
 };
 
 struct StickLimits {
@@ -49,7 +49,7 @@ struct StickLimits {
   double longest_cable_m = 100;   ///< longest cable of the session, > 0
 };
 
-/// Changes of speed that act in this and in later ticks. A copy costs the pending ticks only.
+/// Changes of v that act in this and in later ticks. A copy copies the pending ticks only.
 class PendingChanges {
  public:
   PendingChanges() = default;
@@ -70,7 +70,7 @@ class PendingChanges {
   std::size_t first_ = 0, count_ = 0;
 };
 
-/// Positions that a motion reaches.
+/// Lowest and highest position of a motion.
 struct Reach {
   double low = 0, high = 0;
 };
@@ -78,13 +78,13 @@ struct Reach {
 struct StickAxis {
   double position = 0, speed = 0, acceleration = 0;  ///< s; the acceleration is that of the last tick
   double unshaped = 0;                               ///< u, unit/s
-  double lag = 0;       ///< distance by which the pending changes shorten the way, unit
-  Reach release{0, 0};  ///< positions of the stop after a release now
+  double lag = 0;       ///< integral of u - v over the pending ticks while u is constant, unit
+  Reach release{0, 0};  ///< positions during the stop that a release in this tick causes
   PendingChanges pending;
   double behind = 0, behind_rate = 0;  ///< q - s and its derivative; 0 for the hoist
 };
 
-/// Shares of a change in whole ticks.
+/// Weights w_i and delays t_i of the shaper, in whole ticks.
 struct TickShares {
   struct Share {
     std::size_t ticks = 0;
@@ -108,25 +108,25 @@ struct StickMemory {
   TickShares shares;                            ///< of trolley and slew
   double frequency_radps = 0;                   ///< w
   std::array<StickPoint, 4> path{};             ///< newest first
-  int rest_ticks = 0;                           ///< ticks since s is at rest, at most the length of the path
+  int rest_ticks = 0;                           ///< ticks for which s has been at rest; at most path.size()
 };
 
 /// @return all problems as "name = value: rule"; empty when the stick can be used
 [[nodiscard]] std::vector<std::string> problems(const StickLimits& limits);
 
-/// Begins at `reference`. Its speed is the first unshaped speed; positions outside the limits are allowed,
-/// and can only be left inwards. @pre problems(limits).empty()
+/// Begins at the position and the speed of `reference`. An axis outside its limits may only move inwards.
+/// @pre problems(limits).empty()
 void begin(const StickLimits& limits, const Reference& reference, StickMemory& memory) noexcept;
 
 /// One tick. No allocation.
-/// @param wanted  speed per axis, unit/s; beyond the speed limit it is limited, NaN counts as 0
-/// @return reference two ticks before the newest point of the path, with the swing of the tick after it (when
-///   the command of its tick acts); `start` and `feed_forward_v` are 0
+/// @param wanted  speed per axis, unit/s; clamped to the speed limit, NaN counts as 0
+/// @return reference at path[2]; its swing is that of path[1], because the command of a tick acts one tick
+///   later; `start` and `feed_forward_v` are 0
 Reference step(const StickLimits& limits, const std::array<double, kAxes>& wanted,
                StickMemory& memory) noexcept;
 
-/// Volts of trolley and slew that the nominal crane needs for the path at the tick after the reference,
-/// without the compensation of friction; 0 with Shaping::none.
+/// Volts of trolley and slew with which the nominal crane follows the path at path[1], without the
+/// compensation of friction; 0 with Shaping::none.
 [[nodiscard]] Volts feed_forward(const Design& design, const StickLimits& limits,
                                  const StickMemory& memory) noexcept;
 

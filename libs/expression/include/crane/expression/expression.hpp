@@ -2,14 +2,14 @@
 /// Expressions of named values, such as the trigger of `crane scope`:
 ///   abs(state.swing_radial_rad) > 5deg and not rising(supervisor.state == STATE_RUN)
 ///
-/// Grammar, weakest first: or; and; not; < <= > >= == != (one per pair of operands); + -; * /; unary -;
-/// numbers with units (5deg, 20 ms, 0.1 m/s), names, ( ), abs(x), min(x, ...), max(x, ...),
-/// rising(condition). All values are computed in SI units. Both sides of a comparison, sum or difference have
-/// the same quantity; a number without unit adopts that of the other side, in SI units. rising(c) is true in
-/// the row in which c becomes true; it is unknown while c has not been false.
+/// Operators, weakest first: or; and; not; < <= > >= == != (a < b < c is refused); + -; * /; unary -.
+/// Operands: numbers with units (5deg, 20 ms, 0.1 m/s), names, ( ), abs(x), min(x, ...), max(x, ...),
+/// rising(condition). Values are in SI units. Both operands of a comparison, sum or difference have the same
+/// dimension; a number without unit has the SI unit of the other operand. rising(c) is true in the row in
+/// which c becomes true, and unknown before c has been false once.
 ///
-/// A missing value is NaN. A comparison with a missing value is neither true nor false; `and`, `or`, `not`
-/// treat it as unknown (Kleene): false and unknown is false, true or unknown is true.
+/// A missing value is NaN. A comparison with a missing value is unknown. `and`, `or`, `not` follow Kleene's
+/// logic: (false and unknown) is false, (true or unknown) is true.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -33,7 +33,7 @@ struct Type {
   bool operator==(const Type&) const = default;
 };
 
-/// What a name stands for.
+/// Meaning of a name: a constant, or a field of a row.
 struct Symbol {
   Type type{};
   bool constant = false;
@@ -42,19 +42,19 @@ struct Symbol {
   double factor = 1;       ///< of a field: SI value of one unit of the column
 };
 
-/// Meaning of the names in an expression.
+/// Finds the meaning of the names in an expression.
 struct Vocabulary {
   std::function<std::optional<Symbol>(std::string_view name)> find;
-  /// Rule for an unknown name: "no topic 'stat'; did you mean state?"
+  /// Message for an unknown name: "no topic 'stat'; did you mean state?"
   std::function<std::string(std::string_view name)> explain;
 };
 
 struct Problem {
   std::size_t position = 0;  ///< first character, from 0
-  std::string what;          ///< the value and the rule
+  std::string what;          ///< names the value and the rule
 };
 
-/// what() has all problems: the text, a line with a mark below the character, and the rule, for each.
+/// what() states each problem: the expression, a mark below the wrong character, and the rule.
 class Error : public std::runtime_error {
  public:
   Error(std::string_view text, std::vector<Problem> problems);
@@ -64,10 +64,10 @@ class Error : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// What evaluation remembers between rows.
+/// Memory of an evaluation between rows.
 struct Memory {
   std::vector<double> previous;  ///< last known condition of each rising()
-  std::vector<double> stack;
+  std::vector<double> stack;     ///< work space of evaluate()
 };
 
 class Expression {
@@ -78,7 +78,8 @@ class Expression {
   [[nodiscard]] const Type& type() const { return type_; }
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] Memory memory() const;
-  /// @param row  values by Symbol::column. @return SI value; of a condition 1, 0, or NaN: unknown
+  /// @param row  values by Symbol::column
+  /// @return value in SI units; of a condition: 1 (true), 0 (false) or NaN (unknown)
   [[nodiscard]] double evaluate(std::span<const double> row, Memory& memory) const;
 
   enum class Code : std::uint8_t {
@@ -103,7 +104,7 @@ class Expression {
     invert,
     rising
   };
-  /// Operation on a stack.
+  /// One operation on the stack of values.
   struct Step {
     Code code = Code::number;
     double value = 0;       ///< number; factor of a column
@@ -117,7 +118,7 @@ class Expression {
   std::size_t risings_ = 0;
 };
 
-/// An expression that is a condition. @throws Error
+/// @return an expression of the kind `condition`. @throws Error also when `text` is no condition
 [[nodiscard]] Expression condition(std::string_view text, const Vocabulary& vocabulary);
 
 }  // namespace crane::expression
