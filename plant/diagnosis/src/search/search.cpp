@@ -65,7 +65,7 @@ class Search {
         level = settle();
         if (level.empty()) break;
         settle_parts_of(level.front());
-        level = with(std::move(level), exchanged(level.front()));
+        if (less(level.front(), found.best)) level = with(std::move(level), exchanged(level.front()));
         if (!accept_one_of(level)) break;
       }
     }
