@@ -10,6 +10,9 @@
 
 namespace crane::bridge {
 
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
 static_assert(static_cast<int>(Reason::not_homed) == crane_LATCH_NOT_HOMED);
 static_assert(static_cast<int>(Reason::second_writer) == crane_LATCH_SECOND_WRITER);
 static_assert(kReasons == crane_LATCH_SECOND_WRITER + 1);
@@ -63,14 +66,17 @@ std::string Bridge::waiting_for() const {
 }
 
 bool Bridge::poll(std::int64_t now_ns) {
+  const auto polled = steady_clock::now();
   take_requests();
   take_commands(now_ns);
   node_.beat(now_ns, ports_, counts_);
   if (!tick_is_due(now_ns)) return false;
-  const auto begin = std::chrono::steady_clock::now();
-  tick(now_ns);
-  const auto spent = std::chrono::steady_clock::now() - begin;
-  node_.stepped(*tick_, 0, std::chrono::nanoseconds{spent}.count());
+  const auto latched = steady_clock::now();
+  // The sample has the time of the latch. The computer can pause between the begin of this poll and the
+  // latch.
+  const bool realtime = clock_ == runtime::Clock::realtime;
+  tick(realtime ? now_ns + nanoseconds{latched - polled}.count() : now_ns);
+  node_.stepped(*tick_, 0, nanoseconds{steady_clock::now() - latched}.count());
   return true;
 }
 

@@ -43,13 +43,16 @@ plant::State state_of(const Limits& limits, const FollowingMemory& memory) noexc
   return s;
 }
 
-/// Acceleration of each axis under the mean voltage of the last two ticks, without friction.
+/// Acceleration of each axis under the mean voltage of the last two ticks, without friction. Each voltage
+/// counts for the duration of its tick: after a pause of the computer the ticks differ.
 PerAxis accelerations(const Limits& limits, const FollowingMemory& memory, const plant::State& state,
                       double load_kg) noexcept {
   plant::Parameters p = limits.machine.crane;
   p.load_mass_kg = load_kg;
-  const auto mean_v = [&](std::size_t i) {
-    return (memory.seen[1].applied_v[i] + memory.seen[2].applied_v[i]) / 2;
+  const auto& [newest, middle, oldest] = memory.seen;
+  const double newer = (newest.sampled_s - middle.sampled_s) / (newest.sampled_s - oldest.sampled_s);
+  const auto mean_v = [&, newer](std::size_t i) {
+    return newer * middle.applied_v[i] + (1 - newer) * oldest.applied_v[i];
   };
   plant::Locks locks;
   for (std::size_t i = 0; i < kAxes; ++i) locks.axis[i] = memory.free_ticks[i] < kSettled_ticks;

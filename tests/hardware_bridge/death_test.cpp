@@ -58,7 +58,9 @@ class Death : public testing::TestWithParam<int> {
   [[nodiscard]] bool braked() {
     return server_.rig().crane().read().brake_closed == std::array<bool, kDrives>{true, true, true};
   }
-  void pass(std::int64_t duration_ns) { server_.run_to(server_.rig().now_ns() + duration_ns); }
+  void pass(std::int64_t duration_ns) {
+    server_.run_to(server_.rig().now_ns() + duration_ns, runtime::monotonic_ns());
+  }
   /// Serves the driver until its process has ended. @return its wait status
   int serve_to_the_end() {
     int status = 0;
@@ -143,8 +145,46 @@ TEST(RigServer, MissesNoToggleThatCameWhileItWasKeptFromItsStep) {
     now_ns = runtime::monotonic_ns();
     card.set_outputs(level ? toggling : 0);
   }
-  server.run_to(runtime::monotonic_ns() - begin_ns);
+  server.run_to(runtime::monotonic_ns() - begin_ns, runtime::monotonic_ns());
   EXPECT_FALSE(server.rig().crane().read().watchdog_dropped);
+}
+
+/// Volts that ended before the rig came to its step have moved the crane all the same.
+TEST(RigServer, AppliesTheVoltsOfAPauseAtTheirTimes) {
+  auto rig = emulated_rig();
+  rig.wiring.relay_timeout_s = 1;  // the computer may be busy
+  const auto name = unique_name("volts");
+  RigServer server{rig, name, false, 1};
+  EmulatedBoard card{rig, std::make_unique<LinkedRig>(name)};
+  const auto begin_ns = runtime::monotonic_ns();
+  bool level = false;
+  const auto write_until = [&](std::int64_t time_ns, double volts_v) {
+    while (runtime::monotonic_ns() < begin_ns + time_ns) {
+      std::this_thread::sleep_for(std::chrono::milliseconds{5});
+      card.write({{volts_v, 0, 0}, {true, true, true}, level = !level});
+    }
+  };
+  write_until(100'000'000, 0);  // for the relay to close and the brakes to open
+  write_until(130'000'000, 8);
+  write_until(140'000'000, 0);
+  const auto end_ns = runtime::monotonic_ns();
+  server.run_to(end_ns - begin_ns, end_ns);
+  EXPECT_GT(server.rig().crane().truth().trolley_mps, 0.02);
+}
+
+TEST(RigServer, HasReachedThePresentWhenTheCardLatchesItsCounters) {
+  const auto rig = emulated_rig();
+  const auto name = unique_name("latch");
+  RigServer server{rig, name, false, 1};
+  LinkedRig card{name};
+  constexpr std::int64_t kMinute_ns = 60'000'000'000;  // the next step of the rig without a request
+  const auto begin_ns = runtime::monotonic_ns();
+  std::thread serving{[&] { server.serve_realtime(begin_ns, begin_ns + kMinute_ns); }};
+  const auto latched_ns = runtime::monotonic_ns();
+  card.advance_to(0);
+  serving.join();
+  EXPECT_GE(server.lines().lines_at_ns, latched_ns);
+  EXPECT_LT(server.lines().lines_at_ns, begin_ns + kMinute_ns);
 }
 
 TEST(RigServer, RefusesASecondRigOfTheSameName) {

@@ -13,6 +13,10 @@ using Role = SharedFile::Role;
 
 constexpr std::int64_t kPatience_ns = 5'000'000'000;
 constexpr std::int64_t kSilence_ns = 500'000'000;  // a running rig steps more often than this
+// Real time: a rig answers within 0.1 ms. One wait can pass while the computer pauses; the rig then needs
+// another one.
+constexpr int kLatchWaits = 3;
+constexpr std::int64_t kLatchWait_ns = 1'000'000;
 
 /// The shared file of a running rig; nothing when no rig runs.
 std::unique_ptr<SharedFile> find(const std::string& name, SharedLines*& lines) {
@@ -56,6 +60,7 @@ void LinkedRig::set_outputs(std::uint16_t levels) noexcept {
     auto& change = lines_->output_changes[lines_->output_change_count % SharedLines::kOutputChanges];
     change.at_ns = at_ns;
     change.levels = levels;
+    for (std::size_t i = 0; i < kCardChannels; ++i) change.codes[i] = lines_->codes[i].load();
     ++lines_->output_change_count;
     lines_->toggled_ns = at_ns;
   }
@@ -63,12 +68,22 @@ void LinkedRig::set_outputs(std::uint16_t levels) noexcept {
 }
 
 void LinkedRig::advance_to(std::int64_t time_ns) {
-  if (!lines_->lockstep) return;
+  if (!lines_->lockstep) return advance_to_now();
   lines_->until_ns = time_ns;
   ::sem_post(&lines_->advance);
   while (lines_->rig_time_ns < time_ns)
     if (!wait_for(lines_->reached, kPatience_ns))
       throw BoardError("the emulated rig does not answer: look for its message, then start the stack again");
+}
+
+/// The counters of a real card count while the computer pauses, so that a latch always gives the present
+/// positions. A rig that does not answer leaves the lines as they are; require_alive() detects its end.
+void LinkedRig::advance_to_now() {
+  const auto now_ns = monotonic_ns();
+  lines_->until_ns = now_ns;
+  ::sem_post(&lines_->advance);
+  for (int i = 0; i < kLatchWaits && lines_->lines_at_ns < now_ns; ++i)
+    (void)wait_for(lines_->reached, kLatchWait_ns);
 }
 
 void LinkedRig::kick(double radial_radps, double tangential_radps) {
@@ -78,7 +93,7 @@ void LinkedRig::kick(double radial_radps, double tangential_radps) {
 }
 
 void LinkedRig::require_alive() {
-  if (!lines_->lockstep && monotonic_ns() - lines_->beat_ns > kSilence_ns)
+  if (!lines_->lockstep && monotonic_ns() - lines_->lines_at_ns > kSilence_ns)
     throw BoardError("the emulated rig has stopped: look for its message, then start the stack again");
 }
 

@@ -37,11 +37,8 @@ void enter_realtime(int priority) {
 void run_in_realtime(emulated_rig::RigServer& server, double period_s) {
   const auto step_ns = std::min<std::int64_t>(1'000'000, std::llround(period_s / 4 * 1e9));
   const auto begin_ns = runtime::monotonic_ns();
-  for (auto next_ns = begin_ns; !runtime::stop_requested(); next_ns += step_ns) {
-    const timespec at{.tv_sec = next_ns / 1'000'000'000, .tv_nsec = next_ns % 1'000'000'000};
-    ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
-    server.run_to(runtime::monotonic_ns() - begin_ns);
-  }
+  for (auto next_ns = begin_ns; !runtime::stop_requested();)
+    if (!server.serve_realtime(begin_ns, next_ns)) next_ns += step_ns;
 }
 
 int run(const Options& options) {

@@ -29,7 +29,7 @@ RigServer::RigServer(const configuration::Rig& rig, const std::string& name, boo
   for (auto& code : lines_->codes) code = bridge::kConverterZero;
   ::sem_init(&lines_->advance, 1, 0);
   ::sem_init(&lines_->reached, 1, 0);
-  put_lines();
+  put_lines(monotonic_ns());
   lines_->ready = bridge::SharedLines::kReady;
 }
 
@@ -40,13 +40,21 @@ void RigServer::serve_advance() {
   take_lines();
   seen_output_changes_ = lines_->output_change_count;
   rig_.advance_to(lines_->until_ns);
-  put_lines();
+  put_lines(monotonic_ns());
   ::sem_post(&lines_->reached);
 }
 
-void RigServer::run_to(std::int64_t time_ns) {
+bool RigServer::serve_realtime(std::int64_t begin_ns, std::int64_t wake_ns) {
+  const bool requested = bridge::wait_for(lines_->advance, wake_ns - monotonic_ns());
+  const auto at_ns = requested ? lines_->until_ns.load() : monotonic_ns();
+  run_to(at_ns - begin_ns, at_ns);
+  if (requested) ::sem_post(&lines_->reached);
+  return requested;
+}
+
+void RigServer::run_to(std::int64_t time_ns, std::int64_t at_ns) {
   constexpr std::int64_t kStep_ns = 1'000'000;  // a late process then still times events to the millisecond
-  const auto offset_ns = monotonic_ns() - time_ns;
+  const auto offset_ns = at_ns - time_ns;
   const bridge::OutputChange* change = next_output_change();
   while (rig_.now_ns() < time_ns || (change != nullptr && change->at_ns <= time_ns + offset_ns)) {
     const auto change_ns = change != nullptr ? change->at_ns - offset_ns : time_ns;
@@ -54,13 +62,13 @@ void RigServer::run_to(std::int64_t time_ns) {
     rig_.advance_to(now_ns);
     note_brakes(now_ns + offset_ns);
     if (change == nullptr || now_ns < change_ns) continue;
-    take_converters();
+    for (std::size_t i = 0; i < bridge::kCardChannels; ++i) rig_.set_converter(i, change->codes[i]);
     rig_.set_outputs(change->levels);
     ++seen_output_changes_;
     change = next_output_change();
   }
   if (change == nullptr) take_lines();
-  put_lines();
+  put_lines(at_ns);
 }
 
 /// Oldest change of the outputs that is not yet applied. All changes are applied at their times: a toggle
@@ -90,21 +98,17 @@ void RigServer::take_lines() {
     rig_.kick(lines_->kick_radial_radps, lines_->kick_tangential_radps);
   }
   if (lines_->changes == seen_changes_) return;
-  take_converters();
+  seen_changes_ = lines_->changes;
+  for (std::size_t i = 0; i < bridge::kCardChannels; ++i) rig_.set_converter(i, lines_->codes[i]);
   rig_.set_outputs(lines_->outputs);
 }
 
-void RigServer::take_converters() {
-  seen_changes_ = lines_->changes;
-  for (std::size_t i = 0; i < bridge::kCardChannels; ++i) rig_.set_converter(i, lines_->codes[i]);
-}
-
-void RigServer::put_lines() {
+void RigServer::put_lines(std::int64_t at_ns) {
   for (std::size_t i = 0; i < bridge::kCardChannels; ++i) lines_->pulses[i] = rig_.pulses(i);
   lines_->inputs = rig_.inputs();
-  lines_->beat_ns = monotonic_ns();
-  lines_->rig_time_ns =
-      rig_.now_ns();  // last: a process that waits for this time then reads the lines of this time
+  // Last: a process that waits for one of these times then reads the lines of this time.
+  lines_->lines_at_ns = std::max(at_ns, lines_->lines_at_ns.load());
+  lines_->rig_time_ns = rig_.now_ns();
 }
 
 }  // namespace crane::emulated_rig

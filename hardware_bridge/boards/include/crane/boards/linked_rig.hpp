@@ -25,6 +25,8 @@ class LinkedRig final : public EmulatedRig {
   void require_alive() override;
 
  private:
+  void advance_to_now();
+
   std::unique_ptr<SharedFile> file_;
   SharedLines* lines_ = nullptr;
 };

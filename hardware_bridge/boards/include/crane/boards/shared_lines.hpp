@@ -14,10 +14,11 @@
 
 namespace crane::bridge {
 
-/// Change of the output lines at a time of CLOCK_MONOTONIC.
+/// Change of the output lines at a time of CLOCK_MONOTONIC, and the codes of the converters at that time.
 struct OutputChange {
   std::atomic<std::int64_t> at_ns{0};
   std::atomic<std::uint16_t> levels{0};
+  std::array<std::atomic<std::uint16_t>, kCardChannels> codes{};
 };
 
 struct SharedLines {
@@ -29,7 +30,7 @@ struct SharedLines {
   std::array<std::atomic<std::int32_t>, kCardChannels> pulses{};
   std::atomic<std::uint16_t> inputs{0xFFFF};
   std::atomic<std::int64_t> rig_time_ns{0};
-  std::atomic<std::int64_t> beat_ns{0};  ///< time of the rig's last step, CLOCK_MONOTONIC
+  std::atomic<std::int64_t> lines_at_ns{0};  ///< time of `pulses` and `inputs`, CLOCK_MONOTONIC
 
   // card to rig
   CardState card;  ///< used by the process of the driver only
@@ -42,7 +43,7 @@ struct SharedLines {
   std::atomic<std::uint32_t> kicks{0};
   std::atomic<double> kick_radial_radps{0}, kick_tangential_radps{0};
 
-  // lockstep
+  // request of the card: advance to `until_ns`, the rig's time in lockstep, CLOCK_MONOTONIC in real time
   sem_t advance{}, reached{};
   std::atomic<std::int64_t> until_ns{0};
 

@@ -22,17 +22,20 @@ class RigServer {
 
   /// Lockstep: waits up to 50 ms for an advance request and serves it.
   void serve_advance();
-  /// Real time: advances the crane up to `time_ns`, applies each change of the output lines at its time, and
-  /// then the present levels.
-  void run_to(std::int64_t time_ns);
+  /// Real time: waits for a request of the card, at most until `wake_ns` of CLOCK_MONOTONIC, then advances
+  /// the crane to the requested time, or to the present one. @param begin_ns  CLOCK_MONOTONIC at the rig's
+  /// time 0. @return true when the card requested it
+  bool serve_realtime(std::int64_t begin_ns, std::int64_t wake_ns);
+  /// Advances the crane up to `time_ns`, which is `at_ns` of CLOCK_MONOTONIC. Applies each change of the
+  /// output lines at its time, then the present levels.
+  void run_to(std::int64_t time_ns, std::int64_t at_ns);
   [[nodiscard]] const bridge::SharedLines& lines() const { return *lines_; }
   [[nodiscard]] WiredRig& rig() { return rig_; }
 
  private:
   const bridge::OutputChange* next_output_change();
   void take_lines();
-  void take_converters();
-  void put_lines();
+  void put_lines(std::int64_t at_ns);
   void note_brakes(std::int64_t now_ns);
 
   std::unique_ptr<bridge::SharedFile> file_;
