@@ -71,13 +71,29 @@ bool Bridge::poll(std::int64_t now_ns) {
   take_commands(now_ns);
   node_.beat(now_ns, ports_, counts_);
   if (!tick_is_due(now_ns)) return false;
-  const auto latched = steady_clock::now();
-  // The sample has the time of the latch. The computer can pause between the begin of this poll and the
-  // latch.
-  const bool realtime = clock_ == runtime::Clock::realtime;
-  tick(realtime ? now_ns + nanoseconds{latched - polled}.count() : now_ns);
-  node_.stepped(*tick_, 0, nanoseconds{steady_clock::now() - latched}.count());
+  const auto begin = steady_clock::now();
+  const auto inputs = latch(now_ns, now_ns - nanoseconds{polled.time_since_epoch()}.count());
+  tick(inputs, now_ns);
+  node_.stepped(*tick_, 0, nanoseconds{steady_clock::now() - begin}.count());
   return true;
+}
+
+/// Latches all inputs. In real time `now_ns` becomes the time of the latch. A latch that took long is
+/// repeated: the computer may have paused before it. @param offset_ns  time of poll() - steady clock
+Inputs Bridge::latch(std::int64_t& now_ns, std::int64_t offset_ns) {
+  if (clock_ == runtime::Clock::lockstep) {
+    board_->advance_to(static_cast<std::int64_t>(tick_ ? *tick_ + 1 : 0) * period_ns_);
+    return board_->read();
+  }
+  constexpr int kMostLatches = 3;
+  const nanoseconds longest{period_ns_ / 10};
+  for (int i = 1;; ++i) {
+    const auto begin = steady_clock::now();
+    now_ns = nanoseconds{begin.time_since_epoch()}.count() + offset_ns;
+    board_->advance_to(now_ns - start_ns_);  // a simulated rig advances to the time of the latch
+    const auto inputs = board_->read();
+    if (i == kMostLatches || steady_clock::now() - begin <= longest) return inputs;
+  }
 }
 
 bool Bridge::tick_is_due(std::int64_t now_ns) {
@@ -125,7 +141,7 @@ void Bridge::take_requests() {
   }
 }
 
-void Bridge::tick(std::int64_t now_ns) {
+void Bridge::tick(const Inputs& inputs, std::int64_t now_ns) {
   std::uint64_t next = tick_ ? *tick_ + 1 : 0;
   std::int64_t sample_time_ns = static_cast<std::int64_t>(next) * period_ns_;
   if (clock_ == runtime::Clock::realtime) {
@@ -137,10 +153,6 @@ void Bridge::tick(std::int64_t now_ns) {
   }
   const auto previous = tick_;
   tick_ = next;
-  // In real time a simulated rig advances to the actual time of the tick, including its delay.
-  const bool paced_by_clock = clock_ == runtime::Clock::realtime;
-  board_->advance_to(paced_by_clock ? now_ns - start_ns_ : static_cast<std::int64_t>(next) * period_ns_);
-  const auto inputs = board_->read();
   const auto measured = measurement_.step(inputs.raw_counts, latched_at(previous, next, sample_time_ns));
   report_relay(inputs, now_ns);
   ports_.watch(now_ns);

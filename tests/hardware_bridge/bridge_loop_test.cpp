@@ -1,6 +1,9 @@
 // Commands that the loop of the bridge accepts, and its reports about the relay.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <utility>
+
 #include "crane/boards/emulated_board.hpp"
 #include "crane/bridge/bridge.hpp"
 #include "crane/bridge/component.hpp"
@@ -23,6 +26,19 @@ msg::Command command_of(std::uint64_t tick, double trolley_v) {
   return command;
 }
 
+/// The computer pauses while this board latches its inputs.
+class PausingBoard final : public EmulatedBoard {
+ public:
+  using EmulatedBoard::EmulatedBoard;
+  void advance_to(std::int64_t time_ns) override {
+    EmulatedBoard::advance_to(time_ns);
+    const auto end = std::chrono::steady_clock::now() + std::exchange(pause, {});
+    while (std::chrono::steady_clock::now() < end) {
+    }
+  }
+  std::chrono::milliseconds pause{};  ///< duration of the next pause
+};
+
 class BridgeLoop : public testing::Test {
  protected:
   /// Runs the tick at its time. @return the published sample
@@ -43,6 +59,7 @@ class BridgeLoop : public testing::Test {
     }
     ASSERT_FALSE(tick(kClosed).watchdog_dropped);
   }
+  void pause(std::chrono::milliseconds duration) { board_->pause = duration; }
   std::string told() {
     std::string codes;
     while (const auto event = events_.take()) codes += std::string{event->code} + ": " + event->what + '\n';
@@ -61,8 +78,9 @@ class BridgeLoop : public testing::Test {
   runtime::ComponentSpec spec_ = hardware_bridge_spec();
   const control::Controller& none_ = *control::find_controller("none");
   runtime::Ports ports_{own_, spec_, none_, runtime::Clock::realtime};
+  PausingBoard* board_ = new PausingBoard{rig_, std::make_unique<emulated_rig::WiredRig>(rig_)};
   Bridge bridge_{{ports_, node_, rig_, none_, own_.options(), runtime::Clock::realtime},
-                 std::make_unique<EmulatedBoard>(rig_, std::make_unique<emulated_rig::WiredRig>(rig_))};
+                 std::unique_ptr<Board>{board_}};
 };
 
 TEST_F(BridgeLoop, ACommandThatAnswersABridgeBeforeItIsNotListenedTo) {
@@ -83,6 +101,12 @@ TEST_F(BridgeLoop, ANewWriterThatCommandsAtOnceMovesNothingHoweverLongItGoesOn) 
     ASSERT_TRUE(state.brake_closed[0] && state.watchdog_dropped) << number;
     publish(command_of(number, 5));
   }
+}
+
+TEST_F(BridgeLoop, ASampleHasTheTimeOfItsLatchWhenTheComputerPausesBeforeIt) {
+  tick(0);
+  pause(std::chrono::milliseconds{5});
+  EXPECT_GE(tick(1).header.sample_time_ns, kPeriod_ns + 5'000'000);
 }
 
 TEST_F(BridgeLoop, ARelayThatDropsBecauseATickWasLateIsReportedWithHowLate) {

@@ -40,7 +40,8 @@ class Bridge : public runtime::Component {
   [[nodiscard]] bool tick_is_due(std::int64_t now_ns);
   void take_commands(std::int64_t now_ns);
   void take_requests();
-  void tick(std::int64_t now_ns);
+  [[nodiscard]] Inputs latch(std::int64_t& now_ns, std::int64_t offset_ns);
+  void tick(const Inputs& inputs, std::int64_t now_ns);
   void apply(Outputs outputs);
   [[nodiscard]] Latched latched_at(std::optional<std::uint64_t> previous, std::uint64_t next,
                                    std::int64_t sample_time_ns) const;

@@ -7,7 +7,7 @@
 
 namespace crane::bridge {
 
-class EmulatedBoard final : public Board {
+class EmulatedBoard : public Board {
  public:
   EmulatedBoard(const configuration::Rig& rig, std::unique_ptr<EmulatedRig> connected);
 
