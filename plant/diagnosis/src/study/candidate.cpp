@@ -33,6 +33,8 @@ KnownFriction known_friction(const configuration::Rig& rig, const std::string& a
   return known;
 }
 
+InRigFile in_rig_file(bool known) { return known ? InRigFile::yes : InRigFile::no; }
+
 /// A support that travels less [m or rad] shows nothing of its sensor.
 constexpr double kResting = 0.005;
 
@@ -61,20 +63,13 @@ class Builder {
                            .radial = measured(kRadialSwing),
                            .tangential = measured(kTangentialSwing)},
                           all_);
-    return std::move(all_);
+    return all_.take();
   }
 
  private:
-  void add(Candidate candidate, bool drive, bool load, bool known = false) {
-    candidate.drive = drive;
-    candidate.load = load;
-    candidate.changes_known_parameter = known;
-    all_.push_back(std::move(candidate));
-  }
-
-  void add_force(GoesWith law, Candidate candidate, bool known = false) {
+  void add_force(GoesWith law, Candidate candidate, InRigFile known = InRigFile::no) {
     candidate.law = law;
-    add(std::move(candidate), true, false, known);
+    all_.add(std::move(candidate), Changes::drive, known);
   }
 
   void add_axis(const std::string& axis, Output output, double scale) {
@@ -93,9 +88,9 @@ class Builder {
       gains = {{0.8}, {1.15}, {1.4}};
     }
     add_force(GoesWith::speed, reaching(amount("coulomb_friction", axis, "level_v", -c, 5, 0.02), levels),
-              known.present);
+              in_rig_file(known.present));
     add_force(GoesWith::speed, amount("viscous_friction", axis, "vspm", -known.least_viscous, 50, 0.05),
-              known.present && known.least_viscous > 0);
+              in_rig_file(known.present && known.least_viscous > 0));
     add_force(GoesWith::speed,
               reaching(two_amounts("direction_asymmetry", axis,
                                    {free_parameter("direction_asymmetry", "coulomb_v", -3, 3, 0.02),
@@ -114,20 +109,21 @@ class Builder {
                           {free_parameter("position_force", "stiffness_vpm", -100, 100, 0.05),
                            free_parameter("position_force", "offset_v", -5, 5, 0.02)}));
     // Where no weight hangs on the axis, friction that grows with the motor's force is a smaller gain.
-    if (carries_weight(axis)) add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), true, false);
-    add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), true, false, true);
-    add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), true, false);
-    add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), true, false);
+    if (carries_weight(axis)) all_.add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), Changes::drive);
+    all_.add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), Changes::drive,
+             InRigFile::yes);
+    all_.add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), Changes::drive);
+    all_.add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), Changes::drive);
     // Of a command that comes much later than simulated, a little delay shows nothing either.
-    add(reaching(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005),
-                 {{0.02}, {0.035}, {0.05}, {0.07}, {0.1}, {0.14}, {0.2}}),
-        true, false);
-    add(shaped("actuator_lag", axis, free_parameter("actuator_lag", "time_constant_s", 0, 0.5, 0.01),
-               {free_parameter("actuator_lag", "second_s", 0, 0.5, 0.01)}, {{0}}),
-        true, false);
+    all_.add(reaching(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005),
+                      {{0.02}, {0.035}, {0.05}, {0.07}, {0.1}, {0.14}, {0.2}}),
+             Changes::drive);
+    all_.add(shaped("actuator_lag", axis, free_parameter("actuator_lag", "time_constant_s", 0, 0.5, 0.01),
+                    {free_parameter("actuator_lag", "second_s", 0, 0.5, 0.01)}, {{0}}),
+             Changes::drive);
     add_gap(axis, output, scale);
-    add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), true, true);
-    add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), true, true);
+    all_.add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), Changes::both);
+    all_.add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), Changes::both);
   }
 
   /// By the rig file: a force that goes with the position.
@@ -139,8 +135,8 @@ class Builder {
 
   /// A drive without a command shows its sensor's errors by the swing alone.
   void add_support_sensor(const std::string& axis) {
-    add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), false, true);
-    add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), false, true);
+    all_.add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), Changes::load);
+    all_.add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), Changes::load);
   }
 
   /// How far the load and the guide move what is behind the gap depends on its inertia more than on the gap.
@@ -157,7 +153,7 @@ class Builder {
                             settings);
     gap.rough = true;
     gap.law = GoesWith::jumps;
-    add(std::move(gap), true, true);
+    all_.add(std::move(gap), Changes::both);
   }
 
   void add_tight_spots(const std::string& axis, Output output) {
@@ -195,7 +191,7 @@ class Builder {
 
   const configuration::Rig& rig_;
   const std::vector<PreparedRun>& runs_;
-  std::vector<Candidate> all_;
+  CandidateList all_;
 };
 
 }  // namespace

@@ -138,4 +138,11 @@ plant::TermSetting Candidate::setting(const std::vector<double>& values) const {
   return term;
 }
 
+void CandidateList::add(Candidate candidate, Changes changes, InRigFile quantity) {
+  candidate.drive = changes != Changes::load;
+  candidate.load = changes != Changes::drive;
+  candidate.changes_known_parameter = quantity == InRigFile::yes;
+  candidates_.push_back(std::move(candidate));
+}
+
 }  // namespace crane::diagnosis

@@ -1,5 +1,8 @@
 #pragma once
 /// What a candidate may look like, built from the parameters of its term.
+#include <utility>
+#include <vector>
+
 #include "crane/diagnosis/candidate.hpp"
 
 namespace crane::diagnosis {
@@ -33,5 +36,21 @@ namespace crane::diagnosis {
 [[nodiscard]] Candidate at_once(const std::string& cause, const std::string& axis,
                                 std::vector<FreeParameter> parameters,
                                 const std::vector<std::vector<double>>& settings);
+
+/// Replays that a candidate changes.
+enum class Changes { drive, load, both };
+
+/// Quantity of a candidate in the rig file.
+enum class InRigFile { no, yes };
+
+/// Candidates in the order of the report.
+class CandidateList {
+ public:
+  void add(Candidate candidate, Changes changes, InRigFile quantity = InRigFile::no);
+  [[nodiscard]] std::vector<Candidate> take() { return std::move(candidates_); }
+
+ private:
+  std::vector<Candidate> candidates_;
+};
 
 }  // namespace crane::diagnosis

@@ -13,35 +13,30 @@ namespace {
 class LoadBuilder {
  public:
   LoadBuilder(const configuration::Rig& rig, const std::vector<PreparedRun>& runs, const LoadData& data,
-              std::vector<Candidate>& all)
+              CandidateList& all)
       : rig_{rig}, runs_{runs}, data_{data}, all_{all} {}
 
   void build() {
     const double m = rig_.plant.load_mass_kg, g = rig_.plant.gravity_mps2;
     const double length = rig_.start.position[plant::kHoist];
     if (data_.driven)
-      add(amount("payload_mass", "", "delta_kg", -0.9 * m, 10 * m, 0.05 * m), true, true, true);
-    add(amount("cable_length", "", "delta_m", -0.7 * length, 2 * length, 0.005), true, true, true);
-    add(amount("load_linear_drag", "", "coefficient_nspm", 0, 50 * m, 0.02 * m), false, true);
-    add(amount("load_quadratic_drag", "", "coefficient_ns2pm2", 0, 50 * m, 0.05 * m), false, true);
+      all_.add(amount("payload_mass", "", "delta_kg", -0.9 * m, 10 * m, 0.05 * m), Changes::both,
+               InRigFile::yes);
+    all_.add(amount("cable_length", "", "delta_m", -0.7 * length, 2 * length, 0.005), Changes::both,
+             InRigFile::yes);
+    all_.add(amount("load_linear_drag", "", "coefficient_nspm", 0, 50 * m, 0.02 * m), Changes::load);
+    all_.add(amount("load_quadratic_drag", "", "coefficient_ns2pm2", 0, 50 * m, 0.05 * m), Changes::load);
     if (data_.trolley || data_.slew || (data_.radial && data_.tangential))
-      add(turned("steady_wind", "", free_parameter("steady_wind", "force_n", 0, 2 * m, 0.005 * m * g),
-                 free_parameter("steady_wind", "direction_rad", -7, 7, 0.02), {}, {{}}),
-          true, true);
+      all_.add(turned("steady_wind", "", free_parameter("steady_wind", "force_n", 0, 2 * m, 0.005 * m * g),
+                      free_parameter("steady_wind", "direction_rad", -7, 7, 0.02), {}, {{}}),
+               Changes::both);
     add_pivot_friction();
-    if (data_.trolley) add(amount("jib_tilt", "", "angle_rad", -0.2, 0.2, 0.005), true, true);
+    if (data_.trolley) all_.add(amount("jib_tilt", "", "angle_rad", -0.2, 0.2, 0.005), Changes::both);
     add_structures();
     add_swing_sensors();
   }
 
  private:
-  void add(Candidate candidate, bool drive, bool load, bool known = false) {
-    candidate.drive = drive;
-    candidate.load = load;
-    candidate.changes_known_parameter = known;
-    all_.push_back(std::move(candidate));
-  }
-
   /// Settings a resonance may begin its fit with lie about as far apart as two seconds tell frequencies. An
   /// elastic cable is not among the candidates: its bounce is never measured, and free to start in every
   /// window it explains the disturbance of clean data.
@@ -57,12 +52,12 @@ class LoadBuilder {
       for (const double raised : {0.0, std::min(sling, most_raised)}) slings.push_back({0.65, sling, raised});
     }
     if (data_.slew)
-      add(at_once("jib_flexibility", "",
-                  {free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
-                   free_parameter("jib_flexibility", "damping_ratio", 0.001, 0.5, 0.01),
-                   free_parameter("jib_flexibility", "jib_share", 0, 0.9, 0.05)},
-                  jibs),
-          true, true);
+      all_.add(at_once("jib_flexibility", "",
+                       {free_parameter("jib_flexibility", "compliance_s2", 0.0002, 0.1, 0.0005),
+                        free_parameter("jib_flexibility", "damping_ratio", 0.001, 0.5, 0.01),
+                        free_parameter("jib_flexibility", "jib_share", 0, 0.9, 0.05)},
+                       jibs),
+               Changes::both);
     Candidate two_cables =
         at_once("double_pendulum", "",
                 {free_parameter("double_pendulum", "lower_share", 0.03, 0.85, 0.001),
@@ -70,7 +65,7 @@ class LoadBuilder {
                  free_parameter("double_pendulum", "hook_raised_m", 0, most_raised, 0.001)},
                 slings);
     two_cables.ringing_starts = slings_of_lines(most_raised);
-    add(std::move(two_cables), false, true);
+    all_.add(std::move(two_cables), Changes::load);
   }
 
   /// The strongest line of the swing and another one may be the natural frequencies of two cables. In a wide
@@ -101,43 +96,44 @@ class LoadBuilder {
     if (data_.tangential) ways.emplace_back("tangential");
     if (ways.size() == 2) ways.emplace_back("");
     for (const std::string& way : ways)
-      add(two_amounts(
+      all_.add(
+          two_amounts(
               "swing_pivot_friction", way,
               {free_parameter("swing_pivot_friction", "viscous_nmsprad", 0, 10 * inertia, 0.02 * inertia),
                free_parameter("swing_pivot_friction", "coulomb_nm", 0, inertia, 0.005 * inertia)}),
-          false, true);
+          Changes::load);
   }
 
   void add_swing_sensors() {
     // The load pulls at the drives as it swings, not as it is measured to.
-    const bool drive = data_.trolley || data_.slew;
+    const Changes changes = data_.trolley || data_.slew ? Changes::both : Changes::load;
     std::vector<std::string> ways;
     if (data_.radial) ways.emplace_back("radial");
     if (data_.tangential) ways.emplace_back("tangential");
     for (const std::string& way : ways) {
-      add(amount("swing_offset", way, "offset_rad", -0.3, 0.3, 0.005), drive, true);
-      add(amount("swing_scale", way, "factor", 0.5, 2, 0.01), drive, true);
+      all_.add(amount("swing_offset", way, "offset_rad", -0.3, 0.3, 0.005), changes);
+      all_.add(amount("swing_scale", way, "factor", 0.5, 2, 0.01), changes);
     }
     if (ways.size() == 2) {
-      add(amount("swing_misalignment", "", "angle_rad", -0.6, 0.6, 0.01), drive, true);
+      all_.add(amount("swing_misalignment", "", "angle_rad", -0.6, 0.6, 0.01), changes);
       ways.emplace_back("");
     }
     for (const std::string& way : ways) {
-      add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), drive, true);
-      add(amount("swing_moving_average", way, "window_s", 0, 0.5, 0.02), drive, true);
+      all_.add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), changes);
+      all_.add(amount("swing_moving_average", way, "window_s", 0, 0.5, 0.02), changes);
     }
   }
 
   const configuration::Rig& rig_;
   const std::vector<PreparedRun>& runs_;
   const LoadData& data_;
-  std::vector<Candidate>& all_;
+  CandidateList& all_;
 };
 
 }  // namespace
 
 void add_load_candidates(const configuration::Rig& rig, const std::vector<PreparedRun>& runs,
-                         const LoadData& data, std::vector<Candidate>& all) {
+                         const LoadData& data, CandidateList& all) {
   if (data.radial || data.tangential) LoadBuilder(rig, runs, data, all).build();
 }
 

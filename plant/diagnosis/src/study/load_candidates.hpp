@@ -2,7 +2,7 @@
 /// Candidates that act on the load: its mass, its cable, forces on it, and the sensors of the swing.
 #include <vector>
 
-#include "crane/diagnosis/candidate.hpp"
+#include "study/candidate_shapes.hpp"
 
 namespace crane::diagnosis {
 
@@ -15,6 +15,6 @@ struct LoadData {
 
 /// Appends the candidates of the load to `all`, in the order of the report; none without a measured swing.
 void add_load_candidates(const configuration::Rig& rig, const std::vector<PreparedRun>& runs,
-                         const LoadData& data, std::vector<Candidate>& all);
+                         const LoadData& data, CandidateList& all);
 
 }  // namespace crane::diagnosis
