@@ -140,6 +140,24 @@ TEST_P(Samples, OfStatusReachALateReaderOncePerInstance) {
   EXPECT_FALSE(late.take());
 }
 
+TEST_P(Samples, NameTheParticipantOfTheirWriter) {
+  Bus other{options(GetParam().writer, 42)};
+  auto requests = from.publisher(topics::request);
+  auto jogs = from.publisher(topics::jog), others = other.publisher(topics::jog);
+  auto request_reader = to.subscriber(topics::request);
+  auto jog_reader = to.subscriber(topics::jog);
+  ASSERT_TRUE(matched(to, requests, request_reader) && matched(to, jogs, jog_reader) &&
+              matched(to, others, jog_reader) && eventually(to, [&] { return jog_reader.matched() == 2; }));
+  SampleInfo request, jog, another;
+  ASSERT_TRUE(requests.publish({}) && next(to, request_reader, &request));
+  ASSERT_TRUE(jogs.publish({}) && next(to, jog_reader, &jog));
+  ASSERT_TRUE(others.publish({}) && next(to, jog_reader, &another));
+  EXPECT_NE(request.participant, kUnknownParticipant);
+  EXPECT_EQ(request.participant, jog.participant);
+  EXPECT_NE(request.participant, another.participant);
+  EXPECT_NE(request.writer, jog.writer);
+}
+
 TEST_P(Samples, ADisposedInstanceKeepsItsKey) {
   auto writer = from.publisher(topics::node);
   auto reader = to.subscriber(topics::node);

@@ -108,11 +108,18 @@ struct EndpointOptions {
 /// choose it. A Header, in contrast, can be copied by any sender.
 using WriterId = std::array<std::uint8_t, 16>;
 
+/// Identifies the DDS participant of a writer: equal for all writers of one Bus, different for any two buses.
+/// The middleware assigns it; over DDS it is the GUID prefix.
+using ParticipantId = std::array<std::uint8_t, 12>;
+/// The writer has ended before its sample was taken: its participant cannot be determined.
+inline constexpr ParticipantId kUnknownParticipant{};
+
 struct SampleInfo {
   std::int64_t source_time_ns = 0;  ///< clock of the writer; memory: Header.sample_time_ns
   bool valid = false;               ///< false: the sample has no data, only the state of its instance changed
   bool disposed = false;            ///< true: the writer disposed the instance
   WriterId writer{};
+  ParticipantId participant = kUnknownParticipant;
 };
 
 /// Counts since the creation of the reader.
