@@ -54,17 +54,20 @@ class Stick {
       if (reply->request_id == id && reply->accepted) return true;
     return false;
   }
-  void deflect(std::uint64_t id, std::uint64_t tick, double share) {
+  void deflect(std::uint64_t id, std::uint64_t tick, double share) { send(id, tick, true, share); }
+  void release(std::uint64_t id, std::uint64_t tick) { send(id, tick, false, 0); }
+
+ private:
+  void send(std::uint64_t id, std::uint64_t tick, bool engaged, double share) {
     msg::Jog sample{};
     sample.header.tick = tick;
     sample.request_id = id;
     runtime::assign(sample.client, kClient);
-    sample.engaged = true;
+    sample.engaged = engaged;
     sample.deflection[0] = share;
     (void)jogs_.publish(sample);
   }
 
- private:
   bus::Bus bus_;
   bus::Publisher<msg::Request> requests_;
   bus::Subscriber<msg::Reply> replies_;
@@ -133,6 +136,55 @@ TEST_P(JogAttack, OfACopyThatContinuesTheSessionOfADeadOperatorMovesNothing) {
   begin_session(7);
   operator_.reset();
   attack_for(400ms, [&] { stranger_.deflect(7, tick(), 1); });
+  expect_nothing_moved();
+}
+
+TEST_P(JogAttack, OfAFloodMovesNothing) {
+  begin_session(7);
+  int sent = 0;
+  attack_for(1s, [&] {
+    operator_->deflect(7, tick(), 0);
+    for (int i = 0; i < 100; ++i, ++sent) stranger_.deflect(7, tick(), 1);
+  });
+  std::cout << sent << " samples in 1 s\n";
+  expect_nothing_moved();
+  const auto state = stack_.observer().statuses().back().state;
+  EXPECT_TRUE(state == crane_STATE_RUN || state == crane_STATE_HOLD) << state;
+}
+
+TEST_P(JogAttack, OfAFloodDoesNotHoldUpTheRelease) {
+  begin_session(7);
+  attack_for(500ms, [&] { operator_->deflect(7, tick(), 0.5); });
+  ASSERT_EQ(stack_.observer().statuses().back().jog_deflection[0], 0.5);
+  attack_for(300ms, [&] {
+    operator_->release(7, tick());
+    for (int i = 0; i < 100; ++i) stranger_.deflect(7, tick(), 1);
+  });
+  EXPECT_EQ(stack_.observer().statuses().back().jog_deflection[0], 0);
+}
+
+TEST_P(JogAttack, WithSamplesOfAnEndedSessionStartsNothing) {
+  begin_session(7);
+  attack_for(200ms, [&] { operator_->deflect(7, tick(), 0); });
+  operator_->release(7, tick());
+  ASSERT_TRUE(
+      stack_.until([&] { return stack_.observer().statuses().back().state == crane_STATE_HOLD; }, 5s));
+  stack_.forget();
+  attack_for(500ms, [&] {
+    for (auto* stick : {&*operator_, &stranger_}) stick->deflect(7, tick(), 1);
+  });
+  expect_nothing_moved();
+}
+
+TEST_P(JogAttack, ByASecondOperatorEndsTheFirstSessionAndActsWithTheSecondRequestOnly) {
+  begin_session(7);
+  stranger_.request(8);
+  ASSERT_TRUE(stack_.until([&] { return stranger_.accepted(8); }, 2s));
+  stack_.forget();
+  attack_for(300ms, [&] {
+    operator_->deflect(7, tick(), 1);
+    operator_->deflect(8, tick(), 1);
+  });
   expect_nothing_moved();
 }
 

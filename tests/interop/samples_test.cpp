@@ -28,6 +28,7 @@ void expect_unchanged(const topics::Topic<T>& topic, Bus& from, Bus& to) {
   for (int i = 0; i < kSamples; ++i) {
     T sample{};
     std::memcpy(&sample, random_sample(codec, random).data(), sizeof sample);
+    codec.make_texts_printable(&sample);
     if constexpr (std::is_same_v<T, msg::NodeStatus>) sample.node %= 16;  // a crane has few processes
     ASSERT_TRUE(writer.publish(sample));
     SampleInfo info;

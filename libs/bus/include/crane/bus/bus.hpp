@@ -13,7 +13,8 @@
 ///
 /// Every sample carries a Header and a CRC-32C. publish() writes source, epoch and CRC. take() returns only
 /// samples with a correct CRC, and counts the rejected ones. Samples of programs with another version of
-/// crane.idl have a wrong CRC; Bus::other_versions() names these programs.
+/// crane.idl have a wrong CRC; Bus::other_versions() names these programs. Texts of taken samples are
+/// printable (crane/fields/printable.hpp): a program on the bus cannot steer the terminal of another one.
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -196,6 +197,7 @@ class UntypedSubscriber {
   [[nodiscard]] bool receive(void* sample, SampleInfo* info);
 
  private:
+  void make_printable(void* sample) const;
   const topics::Description* topic_;
   std::unique_ptr<detail::Reader> reader_;
   std::uint32_t messages_version_;

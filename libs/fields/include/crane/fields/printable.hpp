@@ -12,7 +12,7 @@ namespace crane::fields {
 /// @return true when the text has changed
 bool make_printable(std::span<char> text);
 /// The first `most` bytes of the text, made printable.
-[[nodiscard]] std::string printable(std::string_view text, std::size_t most);
+[[nodiscard]] std::string printable(std::string_view text, std::size_t most = std::string_view::npos);
 /// Number of bytes of the longest beginning that has at most `most` bytes and ends with a whole character.
 [[nodiscard]] std::size_t whole_characters(std::string_view text, std::size_t most);
 
