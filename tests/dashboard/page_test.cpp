@@ -1,5 +1,5 @@
-/// Texts of the bus (names, events, remedies) reach the page of the dashboard. The page shows them as text: its
-/// scripts contain nothing that interprets a string as markup or as a program.
+/// Texts of the bus (names, events, remedies) reach the page of the dashboard. The page shows them as text:
+/// its scripts contain nothing that interprets a string as markup or as a program.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -16,7 +16,9 @@ namespace {
 
 constexpr std::uint32_t kDomain = 71;
 /// Clears the screen, sets the title, shows a false line, reverses the direction; a byte that is no UTF-8.
-constexpr const char* kText = "\x1b[2J\x1b]0;x\x07\r\nsupervisor  HOLD\n\xC2\x9B" "31m\xE2\x80\xAE\xFF";
+constexpr const char* kText =
+    "\x1b[2J\x1b]0;x\x07\r\nsupervisor  HOLD\n\xC2\x9B"
+    "31m\xE2\x80\xAE\xFF";
 
 /// A program that pretends to be the planner of a crane.
 class Writer {
