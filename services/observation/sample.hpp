@@ -24,13 +24,15 @@ using SamplePtr = std::shared_ptr<const Sample>;
   return topics::kAll[sample.topic];
 }
 
-/// @return true when `sample` belongs to `topic` and was decoded to `out`
+/// @return true when `sample` belongs to `topic` and was decoded to `out`, with printable texts
 template <class T>
 [[nodiscard]] bool decode(const topics::Topic<T>& topic, const Sample& sample, T& out) {
   if (topic_of(sample).name != topic.description.name || sample.cdr.size() < bus::kEncapsulation_bytes)
     return false;
-  return bus::CdrCodec::of(*topic.description.descriptor)
-      .decode(std::span{sample.cdr}.subspan(bus::kEncapsulation_bytes), false, &out);
+  const auto& codec = bus::CdrCodec::of(*topic.description.descriptor);
+  if (!codec.decode(std::span{sample.cdr}.subspan(bus::kEncapsulation_bytes), false, &out)) return false;
+  codec.make_texts_printable(&out);  // a recording may come from any program
+  return true;
 }
 
 }  // namespace crane::observation

@@ -9,25 +9,27 @@ void JogDesk::take(std::uint64_t tick, double now_s) {
     const auto sample = samples_.take(&info);
     if (!sample) return;
     if (!info.valid) continue;
-    const auto verdict = session_.take(*sample, info.writer, tick, now_s);
+    const auto verdict = session_.take(*sample, {info.participant, info.writer}, tick, now_s);
     if (verdict == JogSession::Verdict::stranger && !told_stranger_) {
       told_stranger_ = true;
       node_.warning("jog_stranger",
-                    "crane/jog has a sample of a writer that has no session: it has no effect",
+                    "crane/jog has a sample of a program that has no session: it has no effect",
                     "request a session first (crane jog); one operator drives at a time");
     } else if (verdict == JogSession::Verdict::released && sample->engaged && !told_unusable_) {
       told_unusable_ = true;
-      node_.warning("jog_unusable",
-                    "a sample of crane/jog is late or has a deflection outside [-1, 1]: it counts as release",
-                    "send the newest tick with each sample, and deflections from -1 to 1");
+      node_.warning(
+          "jog_unusable",
+          "a sample of crane/jog has no effect: it is late, its deflection is outside [-1, 1] or has "
+          "not changed for a minute, or the stick has not been released after one of these",
+          "release the stick; send the newest tick with each sample, and deflections from -1 to 1");
     }
   }
 }
 
-void JogDesk::accepted(const msg::Request& request, double now_s) {
+void JogDesk::accepted(const msg::Request& request, const bus::ParticipantId& sender, double now_s) {
   session_.end();
   if (request.kind != crane_REQUEST_JOG) return;
-  session_.begin(request, now_s);
+  session_.begin(request, sender, now_s);
   told_stranger_ = told_unusable_ = false;
 }
 

@@ -15,7 +15,8 @@ class JogDesk {
   /// stranger, and the first unusable sample, of each session.
   void take(std::uint64_t tick, double now_s);
   /// A move has been accepted: a session begins, or ends because the move replaces it.
-  void accepted(const msg::Request& request, double now_s);
+  /// @param sender  participant that sent the request
+  void accepted(const msg::Request& request, const bus::ParticipantId& sender, double now_s);
   /// Ends the session when the stick is released and the reference at rest, or the crane stops.
   void end_with(State state, double now_s);
 

@@ -1,11 +1,15 @@
 #pragma once
 /// Session of an operator's stick: decides which samples of crane/jog act. Time and tick are arguments.
 ///
-/// An accepted REQUEST_JOG begins a session. The first sample with the client, the request id and the
-/// start-up number (header.epoch) of the request binds the session to its DDS writer. Samples of other
-/// writers have no effect. The stick is released when `engaged` is false, when a deflection of the newest
-/// sample is not in [-1, 1], when its tick is ahead of `tick` or older than kSilence_s, or when it arrived
-/// more than kSilence_s ago.
+/// An accepted REQUEST_JOG begins a session of the DDS participant that sent it. The first sample of this
+/// participant with the client, the request id and the start-up number (header.epoch) of the request binds
+/// the session to its DDS writer. All other samples have no effect: a program that copies the identity cannot
+/// win the session by sending first.
+///
+/// The stick is released when `engaged` is false, when the newest sample is ahead of `tick`, and when this
+/// sample arrived more than kSilence_s ago. It is faulty after a silence of kSilence_s, with a tick older
+/// than kSilence_s, with a deflection that is not in [-1, 1], and when it has been deflected for kLongest_s.
+/// A faulty stick counts as released until the operator releases it: motion does not begin again by itself.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -15,12 +19,20 @@
 
 namespace crane::supervisor {
 
+/// Origin of a sample of crane/jog, as the middleware states it.
+struct JogWriter {
+  bus::ParticipantId participant = bus::kUnknownParticipant;
+  bus::WriterId writer{};
+};
+
 class JogSession {
  public:
   /// Largest age of the newest sample.
   static constexpr double kSilence_s = 0.1;
   /// Longest time from the acceptance to the first sample.
   static constexpr double kFirst_s = 0.5;
+  /// Longest time of a deflection that never returns to zero: a stick that is stuck, or that nobody holds.
+  static constexpr double kLongest_s = 60;
 
   enum class Verdict : std::uint8_t {
     acts,      ///< the sample is the present deflection
@@ -30,9 +42,10 @@ class JogSession {
   };
 
   explicit JogSession(double period_s) : period_s_{period_s} {}
-  void begin(const msg::Request& request, double now_s);
+  /// @param sender  participant that sent the request; kUnknownParticipant: no sample acts
+  void begin(const msg::Request& request, const bus::ParticipantId& sender, double now_s);
   void end() { open_ = false; }
-  Verdict take(const msg::Jog& sample, const bus::WriterId& writer, std::uint64_t tick, double now_s);
+  Verdict take(const msg::Jog& sample, const JogWriter& from, std::uint64_t tick, double now_s);
 
   /// Deflection of the selected axes; 0 while the stick is released or silent.
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
@@ -41,16 +54,26 @@ class JogSession {
   [[nodiscard]] bool open() const { return open_; }
 
  private:
-  [[nodiscard]] bool of_request(const msg::Jog& sample) const;
-  [[nodiscard]] bool usable(const msg::Jog& sample, std::uint64_t tick) const;
+  using Deflection = std::array<double, 3>;
+
+  [[nodiscard]] bool of_session(const msg::Jog& sample, const JogWriter& from) const;
+  [[nodiscard]] bool late(const msg::Jog& sample, std::uint64_t tick) const;
+  [[nodiscard]] bool silent(double now_s) const { return heard_s_ && now_s - *heard_s_ > kSilence_s; }
+  [[nodiscard]] bool acts(double now_s) const { return engaged_ && !silent(now_s); }
+  [[nodiscard]] Deflection selected_of(const msg::Jog& sample) const;
+  void release(double now_s);
 
   double period_s_;
   bool open_ = false;
   msg::Request request_{};
-  std::optional<bus::WriterId> writer_;
-  double begun_s_ = 0, heard_s_ = 0;
+  bus::ParticipantId sender_ = bus::kUnknownParticipant;
+  std::optional<bus::WriterId> writer_;  ///< nothing: no sample has arrived
+  double begun_s_ = 0;
+  double neutral_s_ = 0;           ///< last time at which the stick was released or not deflected
+  std::optional<double> heard_s_;  ///< last sample; nothing: none since the stick was released
   bool engaged_ = false;
-  std::array<double, 3> deflection_{};
+  bool faulty_ = false;  ///< until the operator releases the stick
+  Deflection deflection_{};
 };
 
 }  // namespace crane::supervisor

@@ -109,6 +109,11 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
 
  private:
+  struct Asked {
+    msg::Request request;
+    bus::ParticipantId sender;
+  };
+
   /// True from the acceptance of a move until its reference has ended. A planner that does not execute the
   /// move, or a missing reference, must not end RUN.
   bool is_moving(const msg::Reference* reference) {
@@ -171,7 +176,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     input.second_writer = input.second_writer || ports().disputed(now_ns_);
     const auto asked = collect(input);
     const auto output = supervisor::step(limits_, input, memory_);
-    for (const auto& request : asked) answer(request, output, input.now_s);
+    for (const auto& asking : asked) answer(asking, output, input.now_s);
     jogs_.end_with(output.state, input.now_s);
     const auto command = command_of(last_header_, output);
     commands_.publish(command);
@@ -182,9 +187,10 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
 
   /// Requests that are due at this tick. Requests with invalid content are refused here.
-  std::vector<msg::Request> collect(TickInput& input) {
-    std::vector<msg::Request> asked;
-    while (const auto request = requests_.take_due(input.tick)) {
+  std::vector<Asked> collect(TickInput& input) {
+    std::vector<Asked> asked;
+    bus::ParticipantId sender{};
+    while (const auto request = requests_.take_due(input.tick, &sender)) {
       if (const auto problem = problem_of(*request, limits_); !problem.empty()) {
         requests_.reply(*request, last_header_, false, problem);
         continue;
@@ -192,17 +198,18 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       if (request->kind == crane_REQUEST_RESET) std::ranges::copy(request->selected, input.confirmed.begin());
       if (request->kind == crane_REQUEST_HOME) input.home_axis = home_axis_of(*request);
       input.requests[static_cast<std::size_t>(*request_of(request->kind))] = true;
-      asked.push_back(*request);
+      asked.push_back({*request, sender});
     }
     return asked;
   }
 
-  void answer(const msg::Request& request, const TickOutput& output, double now_s) {
+  void answer(const Asked& asked, const TickOutput& output, double now_s) {
+    const auto& request = asked.request;
     const auto& verdict = output.answers[static_cast<std::size_t>(*request_of(request.kind))];
     if (moves_axes(request) && verdict.accepted) {
       move_ = accepted_move(request, move_.number + 1);
       ticks_to_take_up_ = kTicksToTakeUp;
-      jogs_.accepted(request, now_s);
+      jogs_.accepted(request, asked.sender, now_s);
     }
     requests_.reply(request, last_header_, verdict.accepted, verdict.reason);
   }

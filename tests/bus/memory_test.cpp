@@ -48,6 +48,7 @@ void expect_round_trip(const topics::Topic<T>& topic, Bus& from, Bus& to) {
   for (int i = 0; i < 200; ++i) {
     T sample{};
     std::memcpy(&sample, testing::random_sample(codec, random).data(), sizeof sample);
+    codec.make_texts_printable(&sample);
     ASSERT_TRUE(writer.publish(sample));
     seal(topic.description, &sample, from.options().source, from.options().epoch);
     const auto taken = reader.take();
@@ -150,6 +151,19 @@ TEST_F(Memory, TheLastStatusOfEveryInstanceReachesALateReader) {
   std::vector<std::uint32_t> nodes;
   while (const auto status = reader.take()) nodes.push_back(status->node);
   EXPECT_EQ(nodes, (std::vector<std::uint32_t>{1, 2}));
+}
+
+TEST_F(Memory, TextsArePrintableAndHaveTheirOwnChecksum) {
+  Bus a = bus();
+  auto reader = a.subscriber(topics::event);
+  auto writer = a.publisher(topics::event);
+  msg::Event event{};
+  std::memcpy(event.what, "\x1b[2J\nHOLD", 10);
+  ASSERT_TRUE(writer.publish(event));
+  const auto taken = reader.take();
+  ASSERT_TRUE(taken);
+  EXPECT_STREQ(taken->what, "?[2J HOLD");
+  EXPECT_TRUE(intact(topics::event.description, &*taken));
 }
 
 TEST_F(Memory, ADisposedInstanceIsToldToReadersThatAsk) {

@@ -155,11 +155,13 @@ TEST(Stick, BrakesFromTheSpeedThatItTakesOver) {
 }
 
 TEST(Stick, TakesANumberThatIsNoneAsRelease) {
-  Crane crane{tower_stick()};
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int k = 0; k < 50; ++k) crane.tick({nan, nan, nan});
-  EXPECT_EQ(crane.at[kTrolley].position, 1);
-  EXPECT_TRUE(at_rest(crane.memory));
+  for (const double none :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Crane crane{tower_stick()};
+    for (int k = 0; k < 50; ++k) crane.tick({none, -none, none});
+    EXPECT_EQ(crane.at[kTrolley].position, 1) << none;
+    EXPECT_TRUE(at_rest(crane.memory)) << none;
+  }
 }
 
 TEST(Stick, NamesEveryProblemOfItsLimits) {

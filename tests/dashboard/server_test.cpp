@@ -17,7 +17,8 @@ TEST_F(ServerTest, ServesThePageWithItsRules) {
   EXPECT_EQ(page.result_int(), 200U);
   EXPECT_EQ(page[http::field::content_type], "text/html");
   EXPECT_EQ(page["X-Frame-Options"], "DENY");
-  EXPECT_NE(page["Content-Security-Policy"].find("default-src 'none'"), beast::string_view::npos);
+  for (const char* rule : {"default-src 'none'", "script-src 'self';"})
+    EXPECT_NE(page["Content-Security-Policy"].find(rule), beast::string_view::npos) << rule;
   EXPECT_GT(get("/vendor/three/three.core.min.js").body().size(), 300'000U);
 }
 

@@ -28,6 +28,7 @@ void expect_unchanged(const topics::Topic<T>& topic, Bus& from, Bus& to) {
   for (int i = 0; i < kSamples; ++i) {
     T sample{};
     std::memcpy(&sample, random_sample(codec, random).data(), sizeof sample);
+    codec.make_texts_printable(&sample);
     if constexpr (std::is_same_v<T, msg::NodeStatus>) sample.node %= 16;  // a crane has few processes
     ASSERT_TRUE(writer.publish(sample));
     SampleInfo info;
@@ -138,6 +139,24 @@ TEST_P(Samples, OfStatusReachALateReaderOncePerInstance) {
   EXPECT_EQ(first->node + second->node, 3U);
   EXPECT_EQ(first->ticks + second->ticks, 300U);
   EXPECT_FALSE(late.take());
+}
+
+TEST_P(Samples, NameTheParticipantOfTheirWriter) {
+  Bus other{options(GetParam().writer, 42)};
+  auto requests = from.publisher(topics::request);
+  auto jogs = from.publisher(topics::jog), others = other.publisher(topics::jog);
+  auto request_reader = to.subscriber(topics::request);
+  auto jog_reader = to.subscriber(topics::jog);
+  ASSERT_TRUE(matched(to, requests, request_reader) && matched(to, jogs, jog_reader) &&
+              matched(to, others, jog_reader) && eventually(to, [&] { return jog_reader.matched() == 2; }));
+  SampleInfo request, jog, another;
+  ASSERT_TRUE(requests.publish({}) && next(to, request_reader, &request));
+  ASSERT_TRUE(jogs.publish({}) && next(to, jog_reader, &jog));
+  ASSERT_TRUE(others.publish({}) && next(to, jog_reader, &another));
+  EXPECT_NE(request.participant, kUnknownParticipant);
+  EXPECT_EQ(request.participant, jog.participant);
+  EXPECT_NE(request.participant, another.participant);
+  EXPECT_NE(request.writer, jog.writer);
 }
 
 TEST_P(Samples, ADisposedInstanceKeepsItsKey) {

@@ -135,6 +135,20 @@ TEST(Jog, StopsByItselfWhenTheOperatorDies) {
   EXPECT_EQ(jogged.crane().status().state, crane_STATE_HOLD);
 }
 
+TEST(Jog, StaysReleasedWhenASilentOperatorContinues) {
+  Jogged jogged{"time_optimal"};
+  ASSERT_EQ(jogged.begin({true, false, false}), "");
+  jogged.deflect({1, 0, 0}, 1);
+  jogged.die();
+  jogged.crane().run(0.15);
+  jogged.deflect({1, 0, 0}, 0.5);
+  EXPECT_EQ(jogged.crane().status().jog_deflection[0], 0);
+  EXPECT_EQ(jogged.events("jog_unusable"), 1);
+  jogged.deflect({0, 0, 0}, 0.02);
+  jogged.deflect({1, 0, 0}, 0.02);
+  EXPECT_EQ(jogged.crane().status().jog_deflection[0], 1) << "the stick was released in between";
+}
+
 TEST(Jog, EndsWhenNoSampleFollowsTheRequest) {
   Jogged jogged{"time_optimal"};
   ASSERT_EQ(jogged.begin({true, false, false}), "");
@@ -170,6 +184,15 @@ TEST_F(Stranger, WhoCopiesClientAndIdHasNoEffectOnTheSession) {
   expect_no_motion();
   EXPECT_EQ(jogged_.crane().status().state, crane_STATE_RUN);
   EXPECT_EQ(jogged_.events("jog_stranger"), 1);
+}
+
+TEST_F(Stranger, WhoSendsFirstDoesNotWinTheSession) {
+  ASSERT_EQ(jogged_.begin({true, true, false}), "");
+  jogged_.mischief = [this] { (void)forged_.publish(jogged_.sample({1, 1, 1})); };
+  jogged_.crane().run(0.3);
+  expect_no_motion();
+  jogged_.deflect({0.5, 0, 0}, 0.1);
+  EXPECT_EQ(jogged_.crane().status().jog_deflection[0], 0.5);
 }
 
 TEST_F(Stranger, WhoFloodsTheTopicMovesNothing) {

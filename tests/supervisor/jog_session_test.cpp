@@ -14,7 +14,7 @@ namespace {
 using Verdict = JogSession::Verdict;
 using Deflection = std::array<double, 3>;
 
-constexpr bus::WriterId kOperator{1}, kStranger{2};
+constexpr JogWriter kOperator{{1}, {11}}, kStranger{{2}, {12}};
 constexpr Deflection kReleased{};
 
 class Jog : public testing::Test {
@@ -35,15 +35,17 @@ class Jog : public testing::Test {
     std::ranges::copy(deflection, jog.deflection);
     return jog;
   }
-  Verdict take(const msg::Jog& jog, const bus::WriterId& writer, std::uint64_t tick) {
-    return session_.take(jog, writer, tick, static_cast<double>(tick) / 100);
+  /// The operator's request is accepted.
+  void begin(double now_s) { session_.begin(request_, kOperator.participant, now_s); }
+  Verdict take(const msg::Jog& jog, const JogWriter& from, std::uint64_t tick) {
+    return session_.take(jog, from, tick, static_cast<double>(tick) / 100);
   }
   msg::Request request_{};
   JogSession session_{0.01};
 };
 
 TEST_F(Jog, ActsOnTheSelectedAxes) {
-  session_.begin(request_, 1);
+  begin(1);
   EXPECT_EQ(take(sample(100), kOperator, 101), Verdict::acts);
   EXPECT_EQ(session_.deflection(1.01), (Deflection{0.5, -0.25, 0}));
   EXPECT_TRUE(session_.held(1.01));
@@ -56,7 +58,7 @@ TEST_F(Jog, IgnoresAStrangerWithoutARequest) {
 }
 
 TEST_F(Jog, IgnoresEachOtherIdentity) {
-  session_.begin(request_, 1);
+  begin(1);
   auto other = sample(100);
   other.request_id = 8;
   EXPECT_EQ(take(other, kOperator, 100), Verdict::stranger);
@@ -70,7 +72,7 @@ TEST_F(Jog, IgnoresEachOtherIdentity) {
 }
 
 TEST_F(Jog, IgnoresASecondWriterThatCopiesTheWholeIdentity) {
-  session_.begin(request_, 1);
+  begin(1);
   EXPECT_EQ(take(sample(100), kOperator, 100), Verdict::acts);
   EXPECT_EQ(take(sample(100, {-1, -1, -1}), kStranger, 100), Verdict::stranger);
   EXPECT_EQ(session_.deflection(1), (Deflection{0.5, -0.25, 0}));
@@ -81,7 +83,7 @@ TEST_F(Jog, IgnoresASecondWriterThatCopiesTheWholeIdentity) {
 }
 
 TEST_F(Jog, ReleasesAfterAHundredMillisecondsOfSilence) {
-  session_.begin(request_, 1);
+  begin(1);
   take(sample(100), kOperator, 100);
   EXPECT_NE(session_.deflection(1.099), kReleased);
   EXPECT_EQ(session_.deflection(1.101), kReleased);
@@ -89,7 +91,7 @@ TEST_F(Jog, ReleasesAfterAHundredMillisecondsOfSilence) {
 }
 
 TEST_F(Jog, ReleasesWithTheDeadMansSwitch) {
-  session_.begin(request_, 1);
+  begin(1);
   take(sample(100), kOperator, 100);
   auto release = sample(101);
   release.engaged = false;
@@ -99,9 +101,9 @@ TEST_F(Jog, ReleasesWithTheDeadMansSwitch) {
 }
 
 TEST_F(Jog, ReleasesForAValueThatIsNoShare) {
-  session_.begin(request_, 1);
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1.0001, -1.0001}) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                           1.0001, -1.0001, std::numeric_limits<double>::max()}) {
+    begin(1);
     take(sample(100), kOperator, 100);
     EXPECT_EQ(take(sample(100, {0.5, bad, 0}), kOperator, 100), Verdict::released) << bad;
     EXPECT_EQ(session_.deflection(1), kReleased) << bad;
@@ -109,20 +111,21 @@ TEST_F(Jog, ReleasesForAValueThatIsNoShare) {
 }
 
 TEST_F(Jog, ReleasesForASampleThatIsLateOrAheadOfTheClock) {
-  session_.begin(request_, 1);
+  begin(1);
   EXPECT_EQ(take(sample(100), kOperator, 110), Verdict::acts);
+  EXPECT_EQ(take(sample(111), kOperator, 110), Verdict::released);
+  EXPECT_EQ(take(sample(std::numeric_limits<std::uint64_t>::max()), kOperator, 110), Verdict::released);
   EXPECT_EQ(take(sample(100), kOperator, 111), Verdict::released);
-  EXPECT_EQ(take(sample(113), kOperator, 112), Verdict::released);
 }
 
 TEST_F(Jog, WaitsHalfASecondForTheFirstSample) {
-  session_.begin(request_, 1);
+  begin(1);
   EXPECT_TRUE(session_.held(1.5));
   EXPECT_FALSE(session_.held(1.501));
 }
 
 TEST_F(Jog, EndsQuietlyForItsOperatorAndNotForOthers) {
-  session_.begin(request_, 1);
+  begin(1);
   take(sample(100), kOperator, 100);
   session_.end();
   EXPECT_EQ(take(sample(101), kOperator, 101), Verdict::ended);
@@ -131,12 +134,92 @@ TEST_F(Jog, EndsQuietlyForItsOperatorAndNotForOthers) {
 }
 
 TEST_F(Jog, BeginsANewSessionReleased) {
-  session_.begin(request_, 1);
+  begin(1);
   take(sample(100), kOperator, 100);
   ++request_.id;
-  session_.begin(request_, 1.01);
+  begin(1.01);
   EXPECT_EQ(session_.deflection(1.01), kReleased);
-  EXPECT_EQ(take(sample(101), kStranger, 101), Verdict::acts) << "another writer may begin another session";
+}
+
+TEST_F(Jog, BelongsToTheParticipantOfTheRequestAndNotToTheFirstWriter) {
+  begin(1);
+  EXPECT_EQ(take(sample(100), kStranger, 100), Verdict::stranger);
+  EXPECT_EQ(session_.deflection(1), kReleased);
+  EXPECT_EQ(take(sample(101), kOperator, 101), Verdict::acts);
+}
+
+TEST_F(Jog, HasOneWriterEvenOfItsOwnParticipant) {
+  begin(1);
+  EXPECT_EQ(take(sample(100), kOperator, 100), Verdict::acts);
+  EXPECT_EQ(take(sample(100), {kOperator.participant, {13}}, 100), Verdict::stranger)
+      << "a participant that copies the identifier of another one has a writer of its own";
+}
+
+TEST_F(Jog, OfAnUnknownParticipantNeverActs) {
+  session_.begin(request_, bus::kUnknownParticipant, 1);
+  EXPECT_EQ(take(sample(100), kOperator, 100), Verdict::stranger);
+  EXPECT_EQ(take(sample(100), {bus::kUnknownParticipant, {11}}, 100), Verdict::stranger);
+}
+
+TEST_F(Jog, OfANewRequestBelongsToItsOwnParticipant) {
+  begin(1);
+  take(sample(100), kOperator, 100);
+  session_.begin(request_, kStranger.participant, 1.01);
+  EXPECT_EQ(take(sample(101), kOperator, 101), Verdict::stranger);
+  EXPECT_EQ(take(sample(101), kStranger, 101), Verdict::acts);
+}
+
+/// The stick is deflected, then one of the faults occurs; the operator's samples then continue.
+class FaultyStick : public Jog {
+ protected:
+  FaultyStick() {
+    begin(1);
+    take(sample(100), kOperator, 100);
+  }
+  void expect_released_until_the_operator_releases(std::uint64_t tick) {
+    EXPECT_EQ(take(sample(tick), kOperator, tick), Verdict::released) << "motion does not begin by itself";
+    EXPECT_FALSE(session_.held(static_cast<double>(tick) / 100));
+    EXPECT_EQ(take(sample(tick + 1), kOperator, tick + 1), Verdict::released);
+    auto release = sample(tick + 2);
+    release.engaged = false;
+    EXPECT_EQ(take(release, kOperator, tick + 2), Verdict::released);
+    EXPECT_EQ(take(sample(tick + 3), kOperator, tick + 3), Verdict::acts);
+  }
+};
+
+TEST_F(FaultyStick, ThatWasSilentHasToBeReleasedFirst) { expect_released_until_the_operator_releases(111); }
+
+TEST_F(FaultyStick, ThatWasSilentHasToBeReleasedFirstAlsoWhenALateSampleBreaksTheSilence) {
+  take(sample(100), kOperator, 120);
+  expect_released_until_the_operator_releases(121);
+}
+
+TEST_F(FaultyStick, ThatWasSilentHasToBeReleasedFirstAlsoWhenAnEarlySampleBreaksTheSilence) {
+  take(sample(500), kOperator, 120);
+  expect_released_until_the_operator_releases(121);
+}
+
+TEST_F(FaultyStick, WithADelayedSampleHasToBeReleasedFirst) {
+  take(sample(91), kOperator, 102);
+  expect_released_until_the_operator_releases(103);
+}
+
+TEST_F(FaultyStick, WithAValueThatIsNoShareHasToBeReleasedFirst) {
+  take(sample(101, {2, 0, 0}), kOperator, 101);
+  expect_released_until_the_operator_releases(102);
+}
+
+TEST_F(FaultyStick, ThatIsDeflectedForAMinuteHasToBeReleasedFirst) {
+  std::uint64_t tick = 100;
+  while (take(sample(tick), kOperator, tick) == Verdict::acts) ++tick;
+  EXPECT_NEAR(static_cast<double>(tick) / 100, 1 + JogSession::kLongest_s, 0.02);
+  expect_released_until_the_operator_releases(tick);
+}
+
+TEST_F(FaultyStick, IsReleasedWhenItsDeflectionReturnsToZero) {
+  EXPECT_EQ(take(sample(120), kOperator, 120), Verdict::released);
+  EXPECT_EQ(take(sample(121, {0, 0, 1}), kOperator, 121), Verdict::acts) << "the third axis is not selected";
+  EXPECT_EQ(take(sample(122), kOperator, 122), Verdict::acts);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(JogProgram, DeflectsReleasesAndPrintsTheStop) {
 TEST(JogProgram, KilledWithADeflectedStickLeavesACraneThatStopsInHold) {
   RunningStack stack{kDomain, "virginia_tech_tower"};
   stack.session().arm();
-  const ProgramRun jog{stack::program_directory() / "crane", arguments(stack, "60")};
+  const ProgramRun jog{stack::program_directory() / "crane", arguments(stack, "50")};
   const auto& observer = stack.observer();
   ASSERT_TRUE(stack.until(
       [&] { return !observer.states().empty() && observer.states().back().trolley_speed_mps > 0.1; }, 15s));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "crane/bus/announcement.hpp"
+#include "crane/fields/printable.hpp"
 
 namespace crane::bus {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 constexpr std::string_view kBegin = "crane messages=";
 constexpr std::string_view kCrane = " crane=";
 constexpr std::string_view kParticipant = " participant=";
+constexpr std::size_t kMostShown = 256;  // bytes of a name that another program has chosen
 
 }  // namespace
 
@@ -24,8 +26,8 @@ std::optional<Announcement> parse_announcement(std::string_view text) {
   const auto name = text.rfind(kParticipant);  // names of participants contain no space
   if (!text.starts_with(kCrane) || name == std::string_view::npos || name < kCrane.size())
     return std::nullopt;
-  found.crane = text.substr(kCrane.size(), name - kCrane.size());
-  found.participant = text.substr(name + kParticipant.size());
+  found.crane = fields::printable(text.substr(kCrane.size(), name - kCrane.size()), kMostShown);
+  found.participant = fields::printable(text.substr(name + kParticipant.size()), kMostShown);
   return found;
 }
 

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "crane/bus/bus.hpp"
+#include "crane/fields/printable.hpp"
 #include "field_names.hpp"
 
 namespace crane::bus {
@@ -292,6 +293,16 @@ bool CdrCodec::decode(std::span<const std::uint8_t> in, bool big_endian, void* s
     at += bytes;
   }
   return in.size() - at < 4;  // RTPS pads a payload to a multiple of four
+}
+
+bool CdrCodec::make_texts_printable(void* sample) const {
+  bool changed = false;
+  for (const Field& field : fields_) {
+    if (field.kind != Kind::string) continue;
+    auto* const text = static_cast<char*>(sample) + field.offset;
+    changed = fields::make_printable({text, strnlen(text, field.count)}) || changed;
+  }
+  return changed;
 }
 
 std::size_t CdrCodec::encode_key(const void* sample, std::span<std::uint8_t> out) const {

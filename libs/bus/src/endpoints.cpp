@@ -35,6 +35,14 @@ UntypedSubscriber& UntypedSubscriber::operator=(UntypedSubscriber&&) noexcept = 
 
 int UntypedSubscriber::matched() const { return reader_->matched(); }
 
+/// Any program may write any text. Every reader (terminal, page, recording, log) gets visible text only, and
+/// the CRC of this text.
+void UntypedSubscriber::make_printable(void* sample) const {
+  if (!CdrCodec::of(*topic_->descriptor).make_texts_printable(sample)) return;
+  const auto header = *static_cast<const msg::Header*>(sample);
+  seal(*topic_, sample, header.source, header.epoch, messages_version_);
+}
+
 bool UntypedSubscriber::receive(void* sample, SampleInfo* info) {
   SampleInfo local;
   while (reader_->take(sample, local)) {
@@ -44,7 +52,10 @@ bool UntypedSubscriber::receive(void* sample, SampleInfo* info) {
     }
     if (!local.valid && info == nullptr) continue;
     if (info != nullptr) *info = local;
-    if (local.valid) ++counts_.taken;
+    if (local.valid) {
+      ++counts_.taken;
+      make_printable(sample);
+    }
     return true;
   }
   return false;

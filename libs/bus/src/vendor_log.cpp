@@ -6,6 +6,8 @@
 #include <array>
 #include <atomic>
 
+#include "crane/fields/printable.hpp"
+
 namespace crane::bus {
 
 void vendor_log(std::string_view vendor, std::string_view line) noexcept {
@@ -27,6 +29,8 @@ void vendor_log(std::string_view vendor, std::string_view line) noexcept {
   put(": ");
   put(line.substr(0, kMostBytes));
   if (number == kMostLines) put(kLast);
+  fields::make_printable(
+      {text.data(), static_cast<std::size_t>(end - text.data())});  // names of other programs
   put("\n");
   (void)!::write(STDERR_FILENO, text.data(), static_cast<std::size_t>(end - text.data()));
 }

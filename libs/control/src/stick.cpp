@@ -194,7 +194,7 @@ std::array<StickAxisLimits, kAxes> limits_of_s(const StickLimits& limits,
 }
 
 double usable(double wanted, double limit) noexcept {
-  return std::isnan(wanted) ? 0 : std::clamp(wanted, -limit, limit);
+  return std::isfinite(wanted) ? std::clamp(wanted, -limit, limit) : 0;
 }
 
 }  // namespace

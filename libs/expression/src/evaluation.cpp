@@ -21,6 +21,9 @@ double risen(double condition, double& previous) {
   return before == 0 ? 1 : kUnknown;
 }
 
+/// A value that is not finite is no measurement: the comparison with it is unknown.
+double finite(double value) { return std::isfinite(value) ? value : kUnknown; }
+
 /// Operation on two values; of conditions by Kleene's rules.
 double combined(Code code, double a, double b) {
   if (code == Code::both) return a == 0 || b == 0 ? 0 : a * b;
@@ -28,13 +31,13 @@ double combined(Code code, double a, double b) {
   if (std::isnan(a) || std::isnan(b)) return kUnknown;
   switch (code) {
     case Code::add:
-      return a + b;
+      return finite(a + b);
     case Code::subtract:
-      return a - b;
+      return finite(a - b);
     case Code::multiply:
-      return a * b;
+      return finite(a * b);
     case Code::divide:
-      return a / b;
+      return finite(a / b);
     case Code::smaller:
       return std::min(a, b);
     case Code::larger:

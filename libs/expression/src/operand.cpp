@@ -1,5 +1,7 @@
 #include "operand.hpp"
 
+#include <cstdlib>
+
 namespace crane::expression {
 
 std::string text_of(const Operand& operand) {
@@ -23,6 +25,16 @@ std::optional<std::string> no_quantity(const Operand& operand, std::string_view 
 std::optional<std::string> no_condition(const Operand& operand, std::string_view of) {
   if (operand.unknown || operand.type.kind == Type::Kind::condition) return std::nullopt;
   return std::string{of} + " needs a condition, such as a comparison, found " + text_of(operand);
+}
+
+std::optional<std::string> no_dimension(const fields::Dimension& dimension, std::string_view of) {
+  constexpr int kLargestExponent = 20;  // far below the bound at which a Dimension saturates
+  for (const int exponent : {dimension.length, dimension.angle, dimension.time, dimension.voltage})
+    if (std::abs(exponent) > kLargestExponent)
+      return std::string{of} + " gives the unit " + fields::text_of(dimension) +
+             ": its exponents must be in [-" + std::to_string(kLargestExponent) + ", " +
+             std::to_string(kLargestExponent) + "]";
+  return std::nullopt;
 }
 
 std::optional<std::string> unequal_quantities(const Operand& a, const Operand& b, std::string_view of) {

@@ -19,6 +19,9 @@ struct Operand {
 /// Operand of an operator or function that needs a quantity. @return problem; nothing: it is one
 [[nodiscard]] std::optional<std::string> no_quantity(const Operand& operand, std::string_view of);
 [[nodiscard]] std::optional<std::string> no_condition(const Operand& operand, std::string_view of);
+/// Unit of a product or quotient. @return problem; nothing: its exponents are small enough to be exact
+[[nodiscard]] std::optional<std::string> no_dimension(const fields::Dimension& dimension,
+                                                      std::string_view of);
 /// Both sides of a comparison, sum or difference. @return problem; nothing: they fit
 [[nodiscard]] std::optional<std::string> unequal_quantities(const Operand& a, const Operand& b,
                                                             std::string_view of);

@@ -25,18 +25,24 @@ constexpr std::array<Operator, 6> kComparisons{{{"<", Code::less},
                                                 {"!=", Code::unequal}}};
 constexpr std::array<std::string_view, 4> kFunctions{"abs", "min", "max", "rising"};
 constexpr std::size_t kDeepest = 64;  // nested parentheses; the parser needs stack for each
+constexpr std::size_t kShownOfLongText = 60;
 
 class Parser {
  public:
-  Parser(std::string_view text, const Vocabulary& vocabulary)
-      : text_{text}, vocabulary_{vocabulary}, tokens_{tokens_of(text, problems_)} {}
+  Parser(std::string_view text, const Vocabulary& vocabulary) : text_{text}, vocabulary_{vocabulary} {}
 
   Program run() {
+    if (text_.size() > kLongestText)
+      throw Error(text_.substr(0, kShownOfLongText),
+                  {{0, "the expression has " + std::to_string(text_.size()) + " bytes, more than " +
+                           std::to_string(kLongestText)}});
+    tokens_ = tokens_of(text_, problems_);
     try {
       program_.result = disjunction();
       if (peek().kind != Token::Kind::end) fail("expected an operator or the end, found " + found());
     } catch (const Stop&) {
     }
+    problems_.resize(std::min(problems_.size(), kMostProblems));
     if (!problems_.empty()) throw Error(text_, std::move(problems_));
     return std::move(program_);
   }
@@ -150,12 +156,14 @@ class Parser {
       ++at_;
       const Operand right = unary();
       const std::string of = "'" + std::string{sign.text} + "'";
-      const bool wrong =
-          report(sign.position, no_quantity(left, of)) || report(sign.position, no_quantity(right, of));
       const bool times = sign.text == "*";
+      const auto dimension =
+          times ? left.type.dimension * right.type.dimension : left.type.dimension / right.type.dimension;
+      const bool wrong = report(sign.position, no_quantity(left, of)) ||
+                         report(sign.position, no_quantity(right, of)) ||
+                         report(sign.position, no_dimension(dimension, of));
       emit(times ? Code::multiply : Code::divide);
-      left = {.type = {.dimension = times ? left.type.dimension * right.type.dimension
-                                          : left.type.dimension / right.type.dimension},
+      left = {.type = {.dimension = dimension},
               .bare = left.bare && right.bare,
               .unknown = wrong || left.unknown || right.unknown};
     }

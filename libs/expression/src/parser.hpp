@@ -11,7 +11,7 @@ struct Program {
   std::size_t risings = 0;
 };
 
-/// @throws Error with all problems
+/// @throws Error with the first kMostProblems problems
 [[nodiscard]] Program parse(std::string_view text, const Vocabulary& vocabulary);
 
 }  // namespace crane::expression

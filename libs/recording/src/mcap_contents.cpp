@@ -248,7 +248,7 @@ void add_schema(Contents& contents, std::string_view content) {
   Cursor cursor{content};
   SchemaRecord schema;
   schema.id = cursor.number<std::uint16_t>();
-  schema.name = cursor.text();
+  schema.name = fields::printable(cursor.text());
   schema.encoding = cursor.text();
   schema.text = cursor.text();
   contents.schemas[schema.id] = std::move(schema);
@@ -259,7 +259,7 @@ void add_channel(Contents& contents, std::string_view content) {
   ChannelRecord channel;
   channel.id = cursor.number<std::uint16_t>();
   channel.schema_id = cursor.number<std::uint16_t>();
-  channel.topic = cursor.text();
+  channel.topic = fields::printable(cursor.text());
   channel.message_encoding = cursor.text();
   channel.metadata = cursor.map();
   contents.channels[channel.id] = std::move(channel);

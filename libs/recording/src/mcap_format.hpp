@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "crane/fields/printable.hpp"
 #include "crane/recording/mcap_writer.hpp"
 
 namespace crane::recording::mcap {
@@ -124,8 +125,8 @@ class Cursor {
     Cursor inner{text()};
     Metadata entries;
     while (!inner.empty()) {
-      std::string key{inner.text()};
-      entries[std::move(key)] = inner.text();
+      auto key = fields::printable(inner.text());
+      entries[std::move(key)] = fields::printable(inner.text());
     }
     return entries;
   }

@@ -161,7 +161,7 @@ std::vector<MetadataRecord> McapReader::metadata() {
   for (const Place& place : state_->contents.metadata) try {
       const std::string content = state_->content_of(place);
       Cursor cursor{content};
-      std::string name{cursor.text()};
+      auto name = fields::printable(cursor.text());
       list.push_back({std::move(name), cursor.map()});
     } catch (const FormatError& error) {
       state_->report(place.offset, std::string{"metadata are damaged and skipped: "} + error.what());
@@ -177,7 +177,7 @@ std::vector<AttachmentRecord> McapReader::attachments() {
       AttachmentRecord attachment;
       attachment.time_ns = cursor.time();
       (void)cursor.time();
-      attachment.name = cursor.text();
+      attachment.name = fields::printable(cursor.text());
       attachment.media_type = cursor.text();
       const Bytes data = as_bytes(cursor.raw(cursor.number<std::uint64_t>()));
       attachment.data.assign(data.begin(), data.end());

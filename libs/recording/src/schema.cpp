@@ -4,6 +4,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "crane/fields/printable.hpp"
 #include "leaf_walk.hpp"
 
 namespace crane::recording {
@@ -122,19 +123,12 @@ class Decoder {
     const auto size = number<std::uint32_t>();
     const auto bytes = take(size);
     if (bytes.empty() || bytes.back() != 0) fail("is not terminated");
-    const std::string value(bytes.begin(), bytes.end() - 1);
+    std::string value(bytes.begin(), bytes.end() - 1);
     if (max_length > 0 && value.size() > max_length)
       fail("has " + std::to_string(value.size()) + " characters, at most " + std::to_string(max_length) +
            " are allowed");
-    return printable(value);
-  }
-
-  /// JSON requires UTF-8. Invalid bytes, for example of a truncated text, become replacement characters.
-  static std::string printable(const std::string& value) {
-    const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return (c & 0x80) == 0; });
-    if (ascii) return value;
-    return ordered_json::parse(
-        ordered_json(value).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+    fields::make_printable(value);  // a file may come from any program
+    return value;
   }
 
   std::string path_;

@@ -24,9 +24,11 @@ RequestInbox::RequestInbox(const Context& context, std::initializer_list<crane_R
 bool RequestInbox::receive() {
   constexpr int kMostPerCall = 64;
   bool any = false;
+  bus::SampleInfo info;
   for (int taken = 0; taken < kMostPerCall; ++taken) {
-    const auto request = requests_.take();
+    const auto request = requests_.take(&info);
     if (!request) break;
+    if (!info.valid) continue;
     if (std::find(kinds_.begin(), kinds_.end(), request->kind) == kinds_.end()) continue;
     any = true;
     const bool full = waiting_.size() >= kMostWaiting;
@@ -34,26 +36,28 @@ bool RequestInbox::receive() {
       reply(*request, request->header, false, "too many requests wait for their tick: send fewer at a time");
       continue;
     }
-    waiting_.push_back(*request);
+    waiting_.push_back({*request, info.participant});
     if (request->apply_tick > 0) reply(*request, request->header, true, "scheduled");
   }
   return any;
 }
 
 void RequestInbox::refuse_too_late(std::uint64_t tick) {
-  std::erase_if(waiting_, [&](const msg::Request& request) {
+  std::erase_if(waiting_, [&](const Waiting& waiting) {
+    const auto& request = waiting.request;
     const bool too_late = request.apply_tick > tick && request.apply_tick - tick > kFarthest_ticks;
     if (too_late) reply(request, request.header, false, "apply_tick is more than 1000000 ticks ahead");
     return too_late;
   });
 }
 
-std::optional<msg::Request> RequestInbox::take_due(std::uint64_t tick) {
+std::optional<msg::Request> RequestInbox::take_due(std::uint64_t tick, bus::ParticipantId* sender) {
   refuse_too_late(tick);
   const auto due = std::find_if(waiting_.begin(), waiting_.end(),
-                                [tick](const msg::Request& request) { return request.apply_tick <= tick; });
+                                [tick](const Waiting& w) { return w.request.apply_tick <= tick; });
   if (due == waiting_.end()) return std::nullopt;
-  const auto request = *due;
+  const auto request = due->request;
+  if (sender != nullptr) *sender = due->sender;
   waiting_.erase(due);
   return request;
 }

@@ -47,10 +47,9 @@ int scripted(const JogOptions& options) {
   JogSession session{bus};
   if (const auto answer = session.begin(options.selected); !answer.accepted) return report("jog", answer);
   session.measure();
-  const bool whole =
-      !session.drive(
-          options.for_s, true, [&options] { return options.deflection; }, [] { return false; }) &&
-      !runtime::stop_requested();
+  const bool stopped_early = session.drive(
+      options.for_s, true, [&options] { return options.deflection; }, [&session] { return session.held(); });
+  const bool interrupted = runtime::stop_requested();
   const Measured driven = session.measured();
   session.measure();
   release(session, options.timeout_s);
@@ -62,7 +61,11 @@ int scripted(const JogOptions& options) {
   print_axes("deflected", driven);
   print_axes("stop", stopped);
   print_axes("at rest", session.measured());
-  if (!whole) throw std::runtime_error("jog: interrupted; the stick was released and the crane is at rest");
+  if (stopped_early)
+    throw std::runtime_error(
+        "jog: the supervisor has released the stick; `crane topic echo event` states why");
+  if (interrupted)
+    throw std::runtime_error("jog: interrupted; the stick was released and the crane is at rest");
   return runtime::kExitDone;
 }
 
@@ -152,8 +155,10 @@ void add_jog(CLI::App& app, Action& chosen) {
   add_axis(*command, *options, 0, "--trolley", "share of the largest speed, -1 to 1; positive: outwards");
   add_axis(*command, *options, 1, "--slew", "share of the largest speed, -1 to 1");
   add_axis(*command, *options, 2, "--hoist", "share of the largest speed, -1 to 1; positive: down");
-  command->add_option("--for", options->for_s, "time of the deflection in s")
-      ->check(CLI::Range(0.02, 600.0))
+  command
+      ->add_option("--for", options->for_s,
+                   "time of the deflection in s, shorter than the minute of a stuck stick")
+      ->check(CLI::Range(0.02, 50.0))
       ->capture_default_str();
   command
       ->add_option("--axes", options->axes,
@@ -174,7 +179,9 @@ void add_jog(CLI::App& app, Action& chosen) {
       "for\n"
       "0.6 s, and for 0.15 s after each repetition by the keyboard. Ten seconds without a key end the "
       "session.\n"
-      "The crane stops when this program ends, or sends nothing for 0.1 s.");
+      "The crane stops when this program ends, sends nothing for 0.1 s, or deflects for a minute without a "
+      "break;\n"
+      "a deflection acts again after the keys have been released.");
   command->callback([options, &chosen] {
     const bool any = options->selected != std::array<bool, 3>{};
     chosen = [options, any] { return any ? scripted(*options) : keyboard(*options); };

@@ -164,6 +164,7 @@ class CycloneReader final : public detail::Reader {
             .disposed = from.instance_state == DDS_IST_NOT_ALIVE_DISPOSED};
     // The handle of a matched writer is unique in this process.
     std::memcpy(info.writer.data(), &from.publication_handle, sizeof from.publication_handle);
+    info.participant = participant_of(from.publication_handle);
     return true;
   }
   [[nodiscard]] int matched() const override {
@@ -173,9 +174,23 @@ class CycloneReader final : public detail::Reader {
   }
 
  private:
+  /// The search takes microseconds and allocates: it is made only when another writer has written.
+  ParticipantId participant_of(dds_instance_handle_t writer) {
+    if (writer == writer_ && participant_ != kUnknownParticipant) return participant_;
+    writer_ = writer;
+    participant_ = kUnknownParticipant;
+    if (auto* found = dds_get_matched_publication_data(reader_, writer); found != nullptr) {
+      std::memcpy(participant_.data(), found->participant_key.v, participant_.size());
+      dds_builtintopic_free_endpoint(found);
+    }
+    return participant_;
+  }
+
   std::unique_ptr<Endpoint> endpoint_;
   std::size_t sample_bytes_;
   dds_entity_t reader_ = 0;
+  dds_instance_handle_t writer_ = 0;  ///< writer of the last sample, and its participant
+  ParticipantId participant_ = kUnknownParticipant;
 };
 
 class CycloneBackEnd final : public BackEnd {

@@ -151,9 +151,10 @@ class FastReader final : public detail::Reader, private dds::DataReaderListener 
             .valid = from.valid_data,
             .disposed = from.instance_state == dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE};
     const auto& guid = from.sample_identity.writer_guid();
-    std::copy_n(guid.guidPrefix.value, std::size(guid.guidPrefix.value), info.writer.begin());
+    std::copy_n(guid.guidPrefix.value, std::size(guid.guidPrefix.value), info.participant.begin());
+    std::ranges::copy(info.participant, info.writer.begin());
     std::copy_n(guid.entityId.value, std::size(guid.entityId.value),
-                info.writer.begin() + std::size(guid.guidPrefix.value));
+                info.writer.begin() + info.participant.size());
     if (!info.valid) key_from_handle(from.instance_handle, sample);
     return true;
   }

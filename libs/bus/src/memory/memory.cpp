@@ -62,7 +62,10 @@ class MemoryReader final : public detail::Reader {
 class MemoryBackEnd final : public BackEnd {
  public:
   MemoryBackEnd(const Options& options, std::shared_ptr<Doorbell> doorbell)
-      : network_{options.network}, partition_{options.crane}, doorbell_{std::move(doorbell)} {}
+      : network_{options.network},
+        number_{network_->next_participant()},
+        partition_{options.crane},
+        doorbell_{std::move(doorbell)} {}
 
   std::unique_ptr<detail::Writer> writer(const topics::Description& topic,
                                          const EndpointOptions& options) override {
@@ -80,10 +83,11 @@ class MemoryBackEnd final : public BackEnd {
 
  private:
   [[nodiscard]] memory::Port port(const topics::Description& topic, const EndpointOptions& options) const {
-    return {&topic, partition_, {options.on_event, topic.name}};
+    return {&topic, partition_, {options.on_event, topic.name}, number_};
   }
 
   std::shared_ptr<MemoryNetwork> network_;
+  std::uint64_t number_;
   std::string partition_;
   std::shared_ptr<Doorbell> doorbell_;
 };

@@ -115,6 +115,7 @@ void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose
   const std::lock_guard lock{mutex_};
   Stamp stamp{++published_, {.source_time_ns = time_ns, .valid = !dispose, .disposed = dispose}};
   std::memcpy(stamp.info.writer.data(), &writer.number, sizeof writer.number);
+  std::memcpy(stamp.info.participant.data(), &writer.participant, sizeof writer.participant);
   const auto deliver = [&](const void* arriving) {
     for (ReaderPort* reader : writer.readers) {
       reader->queue.push(arriving, stamp);
@@ -148,6 +149,11 @@ int MemoryNetwork::matched(const WriterPort& port) const {
 int MemoryNetwork::matched(const ReaderPort& port) const {
   const std::lock_guard lock{mutex_};
   return static_cast<int>(port.writers.size());
+}
+
+std::uint64_t MemoryNetwork::next_participant() {
+  const std::lock_guard lock{mutex_};
+  return ++participants_so_far_;
 }
 
 void MemoryNetwork::set_wire(Wire wire) {

@@ -15,6 +15,7 @@ struct Port {
   const topics::Description* topic;
   std::string partition;
   Announcer announce;
+  std::uint64_t participant = 0;  ///< number of the bus, unique in the network
 };
 [[nodiscard]] bool connects(const Port& a, const Port& b);
 
@@ -48,6 +49,8 @@ class MemoryNetwork {
   [[nodiscard]] int matched(const memory::WriterPort& writer) const;
   [[nodiscard]] int matched(const memory::ReaderPort& reader) const;
   void set_wire(Wire wire);
+  /// @return 1, 2, ...
+  [[nodiscard]] std::uint64_t next_participant();
 
  private:
   struct News;
@@ -55,7 +58,7 @@ class MemoryNetwork {
   Wire wire_;
   std::vector<memory::WriterPort*> writers_;
   std::vector<memory::ReaderPort*> readers_;
-  std::uint64_t published_ = 0, writers_so_far_ = 0;
+  std::uint64_t published_ = 0, writers_so_far_ = 0, participants_so_far_ = 0;
 };
 
 }  // namespace crane::bus

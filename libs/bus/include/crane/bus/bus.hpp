@@ -13,7 +13,8 @@
 ///
 /// Every sample carries a Header and a CRC-32C. publish() writes source, epoch and CRC. take() returns only
 /// samples with a correct CRC, and counts the rejected ones. Samples of programs with another version of
-/// crane.idl have a wrong CRC; Bus::other_versions() names these programs.
+/// crane.idl have a wrong CRC; Bus::other_versions() names these programs. Texts of taken samples are
+/// printable (crane/fields/printable.hpp): a program on the bus cannot steer the terminal of another one.
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -108,11 +109,18 @@ struct EndpointOptions {
 /// choose it. A Header, in contrast, can be copied by any sender.
 using WriterId = std::array<std::uint8_t, 16>;
 
+/// Identifies the DDS participant of a writer: equal for all writers of one Bus, different for any two buses.
+/// The middleware assigns it; over DDS it is the GUID prefix.
+using ParticipantId = std::array<std::uint8_t, 12>;
+/// The writer has ended before its sample was taken: its participant cannot be determined.
+inline constexpr ParticipantId kUnknownParticipant{};
+
 struct SampleInfo {
   std::int64_t source_time_ns = 0;  ///< clock of the writer; memory: Header.sample_time_ns
   bool valid = false;               ///< false: the sample has no data, only the state of its instance changed
   bool disposed = false;            ///< true: the writer disposed the instance
   WriterId writer{};
+  ParticipantId participant = kUnknownParticipant;
 };
 
 /// Counts since the creation of the reader.
@@ -189,6 +197,7 @@ class UntypedSubscriber {
   [[nodiscard]] bool receive(void* sample, SampleInfo* info);
 
  private:
+  void make_printable(void* sample) const;
   const topics::Description* topic_;
   std::unique_ptr<detail::Reader> reader_;
   std::uint32_t messages_version_;

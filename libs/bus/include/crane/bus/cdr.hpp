@@ -55,6 +55,9 @@ class CdrCodec {
   /// is too short
   [[nodiscard]] bool decode_key(std::span<const std::uint8_t> in, bool big_endian, void* sample) const;
 
+  /// Makes all texts of a sample printable (crane/fields/printable.hpp). @return true when a text has changed
+  bool make_texts_printable(void* sample) const;
+
  private:
   std::vector<Field> fields_;
   std::size_t max_encoded_bytes_ = 0;

@@ -119,7 +119,7 @@ struct StickMemory {
 void begin(const StickLimits& limits, const Reference& reference, StickMemory& memory) noexcept;
 
 /// One tick. No allocation.
-/// @param wanted  speed per axis, unit/s; clamped to the speed limit, NaN counts as 0
+/// @param wanted  speed per axis, unit/s; clamped to the speed limit; a value that is not finite counts as 0
 /// @return reference at path[2]; its swing is that of path[1], because the command of a tick acts one tick
 ///   later; `start` and `feed_forward_v` are 0
 Reference step(const StickLimits& limits, const std::array<double, kAxes>& wanted,

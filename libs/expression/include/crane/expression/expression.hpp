@@ -9,7 +9,8 @@
 /// which c becomes true, and unknown before c has been false once.
 ///
 /// A missing value is NaN. A comparison with a missing value is unknown. `and`, `or`, `not` follow Kleene's
-/// logic: (false and unknown) is false, (true or unknown) is true.
+/// logic: (false and unknown) is false, (true or unknown) is true. A quotient, product, sum or difference
+/// that is not finite (a division by zero, an overflow) is a missing value.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -49,6 +50,9 @@ struct Vocabulary {
   std::function<std::string(std::string_view name)> explain;
 };
 
+/// Largest number of bytes of an expression, and of problems that are reported: both bound the message.
+inline constexpr std::size_t kLongestText = 4096, kMostProblems = 20;
+
 struct Problem {
   std::size_t position = 0;  ///< first character, from 0
   std::string what;          ///< names the value and the rule
@@ -72,7 +76,7 @@ struct Memory {
 
 class Expression {
  public:
-  /// @throws Error with all problems
+  /// @throws Error with the first kMostProblems problems
   Expression(std::string_view text, const Vocabulary& vocabulary);
 
   [[nodiscard]] const Type& type() const { return type_; }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "crane/bus/bus.hpp"
+#include "crane/fields/printable.hpp"
 #include "crane/runtime/ports.hpp"
 #include "crane/runtime/tick_join.hpp"
 
@@ -57,10 +58,10 @@ class Node {
   bool told_dispute_ = false;
 };
 
-/// Copies `text` into a bounded IDL string of N - 1 characters and truncates longer text.
+/// Copies `text` into a bounded IDL string of N - 1 bytes. A longer text ends with its last whole character.
 template <std::size_t N>
 void assign(char (&field)[N], std::string_view text) {
-  const auto n = text.copy(field, N - 1);
+  const auto n = text.copy(field, fields::whole_characters(text, N - 1));
   for (std::size_t i = n; i < N; ++i) field[i] = '\0';
 }
 

@@ -28,17 +28,24 @@ class RequestInbox {
   /// and refuses a request when kMostWaiting requests wait already.
   /// @return true when a request arrived
   bool receive();
+  /// @param sender  participant that sent the request
   /// @return the next request that is due at `tick`, in the order of arrival; nothing when there is none.
   ///   Refuses requests that are due later than kFarthest_ticks after `tick`
-  [[nodiscard]] std::optional<msg::Request> take_due(std::uint64_t tick);
+  [[nodiscard]] std::optional<msg::Request> take_due(std::uint64_t tick,
+                                                     bus::ParticipantId* sender = nullptr);
   void reply(const msg::Request& request, const msg::Header& header, bool accepted, std::string_view reason);
 
  private:
+  struct Waiting {
+    msg::Request request;
+    bus::ParticipantId sender;
+  };
+  void refuse_too_late(std::uint64_t tick);
+
   bus::Subscriber<msg::Request> requests_;
   Output<msg::Reply> replies_;
   std::vector<crane_RequestKind> kinds_;
-  void refuse_too_late(std::uint64_t tick);
-  std::vector<msg::Request> waiting_;
+  std::vector<Waiting> waiting_;
 };
 
 }  // namespace crane::runtime
