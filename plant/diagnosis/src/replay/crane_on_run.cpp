@@ -19,17 +19,9 @@ bool has_sensor_term(const Crane& crane) {
   });
 }
 
-/// The crane with the load of a run, and with dry friction that holds a resting axis.
-Crane as_replayed(const Run& run, Crane crane) {
+/// The crane with the load of a run.
+Crane loaded_as(const Run& run, Crane crane) {
   if (run.load_mass_kg > 0) crane.parameters.load_mass_kg = run.load_mass_kg;
-  for (plant::TermSetting& term : crane.terms) {
-    const plant::TermKind* kind = plant::find_term(term.name);
-    const plant::TermParameter* smoothing =
-        kind != nullptr ? plant::find_parameter(*kind, "smoothing_speed") : nullptr;
-    if (smoothing == nullptr) continue;
-    double& speed = term.parameters.try_emplace("smoothing_speed", smoothing->default_value).first->second;
-    speed = std::min(speed, kHoldingSpeed);
-  }
   return crane;
 }
 
@@ -41,7 +33,7 @@ bool has_inner_coordinates(const Crane& crane) {
 
 Replay::CraneOnRun::CraneOnRun(const PreparedRun& prepared, const Crane& the_crane)
     : source(prepared),
-      crane(as_replayed(prepared.run, the_crane)),
+      crane(loaded_as(prepared.run, the_crane)),
       steps(steps_in(prepared.run.period_s, has_inner_coordinates(crane))),
       model(crane.parameters, crane.terms, step_s()),
       sensors(has_sensor_term(crane)) {

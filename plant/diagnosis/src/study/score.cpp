@@ -7,6 +7,7 @@
 
 #include "force/position_spectrum.hpp"
 #include "parallel.hpp"
+#include "replay/standstill.hpp"
 #include "study/blocks.hpp"
 #include "study/design.hpp"
 
@@ -162,7 +163,8 @@ double Study::add_probes(const Effects& effects, const Evaluation& at, const Sco
   for (std::size_t p = 0; p < shape.probes.size(); ++p) {
     Crane crane = with(effects);
     crane.terms.push_back(shape.probes[p]);
-    own += add_slope(crane, at, shape.amounts[p], {candidate.drive && near_by, candidate.load}, slopes);
+    own +=
+        add_slope(holding(crane), at, shape.amounts[p], {candidate.drive && near_by, candidate.load}, slopes);
   }
   return own;
 }

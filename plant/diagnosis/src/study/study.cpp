@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "crane/plant/pendulum.hpp"
+#include "replay/standstill.hpp"
 
 #include "study/blocks.hpp"
 
@@ -58,7 +59,7 @@ Effects moved(Effects effects, const VectorXd& step) {
 Study::Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
              const std::vector<std::string>& excluded)
     : natural_radps_{diagnosis::natural_radps(rig)},
-      base_{rig.plant, rig.terms},
+      base_(holding({rig.plant, rig.terms})),
       candidates_(candidates_for(rig, train)),
       train_(train, natural_radps_),
       test_(test, natural_radps_),
@@ -76,7 +77,7 @@ Study::Body::Body(const Runs& all, double natural_radps)
 Crane Study::with(const Effects& effects) const {
   Crane crane = base_;
   for (const Effect& effect : effects) crane.terms.push_back(effect.candidate->setting(effect.values));
-  return crane;
+  return holding(std::move(crane));
 }
 
 void Study::learn_disturbance(const Effects& effects) {
