@@ -10,13 +10,13 @@ void JogDesk::take(std::uint64_t tick, double now_s) {
     if (!sample) return;
     if (!info.valid) continue;
     const auto verdict = session_.take(*sample, {info.participant, info.writer}, tick, now_s);
-    if (verdict == JogSession::Verdict::stranger && !told_stranger_) {
-      told_stranger_ = true;
+    if (verdict == JogSession::Verdict::stranger && !stranger_reported_) {
+      stranger_reported_ = true;
       node_.warning("jog_stranger",
                     "crane/jog has a sample of a program that has no session: it has no effect",
                     "request a session first (crane jog); one operator drives at a time");
-    } else if (verdict == JogSession::Verdict::released && sample->engaged && !told_unusable_) {
-      told_unusable_ = true;
+    } else if (verdict == JogSession::Verdict::released && sample->engaged && !unusable_reported_) {
+      unusable_reported_ = true;
       node_.warning(
           "jog_unusable",
           "a sample of crane/jog has no effect: it is late, its deflection is outside [-1, 1] or has "
@@ -30,7 +30,7 @@ void JogDesk::accepted(const msg::Request& request, const bus::ParticipantId& se
   session_.end();
   if (request.kind != crane_REQUEST_JOG) return;
   session_.begin(request, sender, now_s);
-  told_stranger_ = told_unusable_ = false;
+  stranger_reported_ = unusable_reported_ = false;
 }
 
 void JogDesk::end_with(State state, double now_s) {

@@ -26,7 +26,7 @@ class JogDesk {
   bus::Subscriber<msg::Jog> samples_;
   JogSession session_;
   runtime::Node& node_;
-  bool told_stranger_ = false, told_unusable_ = false;
+  bool stranger_reported_ = false, unusable_reported_ = false;
 };
 
 }  // namespace crane::supervisor

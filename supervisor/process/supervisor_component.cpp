@@ -156,7 +156,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     else if (input.self_test == SelfTest::running)
       input.self_test = SelfTest::failed;
     else
-      input.brake_open_untold = true;
+      input.brake_open_without_command = true;
   }
 
   /// The bridge executes forged commands, which no command of this process can prevent. When this process

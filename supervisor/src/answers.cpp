@@ -45,11 +45,11 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
   if (m.reset_was_up && enabled(reset_edge))
     return refuse("the reset was already requested: end this request, then reset again");
   if (const Cause c = blocking_cause(limits, in, m); c != Cause::none) return refuse(remedy_for(c));
-  if (in.load_unclear && enabled(reset_load_unclear))
+  if (in.swing_zero_doubtful && enabled(reset_swing_zero_doubtful))
     return refuse(
         "the load swung when the bridge started, so that the zero of its encoders is wrong: let it hang at "
         "rest, then restart the bridge");
-  if (in.place_unclear && enabled(reset_place_unclear)) return refuse(kUnclear[in.unclear_axis]);
+  if (in.position_doubtful && enabled(reset_position_doubtful)) return refuse(kUnclear[in.doubtful_axis]);
   if (m.state == State::estop && !in.standstill) return refuse("the crane is still moving: wait, then reset");
   if (in.now_s - m.clear_since_s < limits.clear_time_s && enabled(reset_clear_time)) {
     return refuse("the causes have been clear for less than a second: wait, then reset again");

@@ -6,7 +6,7 @@ namespace crane::supervisor {
 
 void take_over(const Limits& limits, double now_s, const MotionMemory& before, const AxisFlags& known,
                const PerAxis* position, RestartMemory& memory) noexcept {
-  memory.load_doubted = false;
+  memory.swing_zero_doubtful = false;
   memory.watching = true;
   memory.since_s = now_s;
   if (!before.started) return;
@@ -24,7 +24,7 @@ void watch_load(const Limits& limits, double now_s, double swing_radial_rad, dou
   if (!memory.watching || now_s - memory.since_s > limits.load_watch_s) return;
   const bool still = std::abs(swing_radial_rad) <= limits.load_still_rad &&
                      std::abs(swing_tangential_rad) <= limits.load_still_rad;
-  if (!still) memory.load_doubted = true;
+  if (!still) memory.swing_zero_doubtful = true;
 }
 
 }  // namespace crane::supervisor

@@ -51,10 +51,10 @@ TEST_F(Compared, OneSlipLessIsNoEffect) {
 /// What luck makes of one effect in 200 cases it makes of the best of forty in one of five.
 TEST_F(Compared, TheBestOfManyCandidatesHasToBeClearerThanOneAlone) {
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] -= i % 3 == 0 ? -4 : 4;
-  EXPECT_LT(luck_of(fitted.deviance, base.deviance), 0.01);
+  EXPECT_LT(block_test_p_value(fitted.deviance, base.deviance), 0.01);
   EXPECT_TRUE(accepted(fitted, base, 1));
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] += 0.36;
-  const double luck = luck_of(fitted.deviance, base.deviance);
+  const double luck = block_test_p_value(fitted.deviance, base.deviance);
   EXPECT_LT(luck, 0.01);
   EXPECT_GT(luck * kCandidates, 0.05);
   EXPECT_TRUE(accepted(fitted, base, 1));
@@ -69,7 +69,7 @@ TEST_F(Compared, LuckIsAsFrequentAsItSays) {
   constexpr int kCases = 2000;
   for (int i = 0; i < kCases; ++i) {
     for (double& block : fitted.deviance) block = kOfEach + gauss(random);
-    below += luck_of(fitted.deviance, base.deviance) < 0.05 ? 1 : 0;
+    below += block_test_p_value(fitted.deviance, base.deviance) < 0.05 ? 1 : 0;
   }
   EXPECT_NEAR(below, 0.05 * kCases, 4 * std::sqrt(0.05 * 0.95 * kCases));
 }
@@ -78,29 +78,29 @@ TEST_F(Compared, LuckIsAsFrequentAsItSays) {
 TEST_F(Compared, AValueHasToMakeTheDataLikelierThanLuckMakesOne) {
   fitted.parameters = 1;
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] -= i % 2 == 0 ? 0.01 : 0.03;
-  EXPECT_LT(luck_of(fitted.deviance, base.deviance), 1e-6);
-  EXPECT_TRUE(is_luck(luck_of_values(fitted, base), kCandidates));
+  EXPECT_LT(block_test_p_value(fitted.deviance, base.deviance), 1e-6);
+  EXPECT_TRUE(insignificant(likelihood_ratio_p_value(fitted, base), kCandidates));
   EXPECT_FALSE(is_accepted());
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] -= 0.1;
   EXPECT_TRUE(is_accepted());
-  EXPECT_TRUE(is_luck(luck_of_values(fitted, base, -5), kCandidates));
+  EXPECT_TRUE(insignificant(likelihood_ratio_p_value(fitted, base, -5), kCandidates));
 }
 
 /// Two views of the same data, added, promise twice what the data tell: their scores scatter twice as much.
 TEST_F(Compared, AValueOfAddedViewsHasToEarnTwiceAsMuch) {
   fitted.parameters = 1;
   for (double& block : fitted.deviance) block -= 16.0 / kBlocks;
-  const double of_one_view = luck_of_values(fitted, base);
+  const double of_one_view = likelihood_ratio_p_value(fitted, base);
   EXPECT_NEAR(of_one_view, std::erfc(std::sqrt(16.0 / 2)), 1e-9);
   fitted.left_out.assign(kBlocks, 4.0 / kBlocks);  // 2 tr(H^-1 J) = 4
-  EXPECT_NEAR(luck_of_values(fitted, base), std::erfc(std::sqrt(8.0 / 2)), 1e-9);
+  EXPECT_NEAR(likelihood_ratio_p_value(fitted, base), std::erfc(std::sqrt(8.0 / 2)), 1e-9);
 }
 
 TEST_F(Compared, AValueThatIsLuckMakesHeldOutDataALittleUnlikelierAtMost) {
   fitted.parameters = 1;
-  EXPECT_TRUE(is_luck(luck_of_loss(fitted, base, 3), kCandidates));
-  EXPECT_TRUE(is_luck(luck_of_loss(fitted, base, -3), kCandidates));
-  EXPECT_FALSE(is_luck(luck_of_loss(fitted, base, -30), kCandidates));
+  EXPECT_TRUE(insignificant(held_out_loss_p_value(fitted, base, 3), kCandidates));
+  EXPECT_TRUE(insignificant(held_out_loss_p_value(fitted, base, -3), kCandidates));
+  EXPECT_FALSE(insignificant(held_out_loss_p_value(fitted, base, -30), kCandidates));
 }
 
 TEST_F(Compared, AnIntervalOfTheAmountThatContainsNoEffectIsLuck) {
@@ -113,14 +113,14 @@ TEST_F(Compared, AnIntervalOfTheAmountThatContainsNoEffectIsLuck) {
   other.parameters = {neutral_at(0)};
   fitted.effects = {{&effect, {1.5, 0.1}}, {&other, {-0.196}}};
   fitted.std_dev = {0.1, 0.09, 0.1};
-  EXPECT_NEAR(luck_of_interval(fitted), 0.05, 1e-4);  // 1.96 standard deviations of `other`
+  EXPECT_NEAR(wald_p_value(fitted), 0.05, 1e-4);  // 1.96 standard deviations of `other`
   fitted.std_dev = {0.1, 0.09, 0.02};
-  EXPECT_NEAR(luck_of_interval(fitted), 5.7e-7, 1e-8);  // 5 of the factor
+  EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 of the factor
   fitted.std_dev = {0.5, 1e-6, 0.02};
-  EXPECT_NEAR(luck_of_interval(fitted), 0.3173, 1e-4);  // 1 of the factor, however exact its decay speed is
+  EXPECT_NEAR(wald_p_value(fitted), 0.3173, 1e-4);  // 1 of the factor, however exact its decay speed is
   effect.amount_count = 2;
   fitted.std_dev = {0.5, 0.02, 0.02};
-  EXPECT_NEAR(luck_of_interval(fitted), 5.7e-7, 1e-8);  // 5 of the second amount
+  EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 of the second amount
 }
 
 TEST_F(Compared, AnEffectOfATenthOfTheBlocksIsOne) {

@@ -61,8 +61,8 @@ void set_hazards(unsigned bits, Inputs& in) {
   in.second_writer = bit(8);
   in.overrun = bit(9);
   in.bridge_restarted = bit(9) && bit(4);
-  in.place_unclear = bit(9) && bit(1);
-  in.load_unclear = bit(9) && bit(2);
+  in.position_doubtful = bit(9) && bit(1);
+  in.swing_zero_doubtful = bit(9) && bit(2);
   in.brake_failed = bit(10);
   in.estop_pressed = bit(11);
 }
@@ -104,7 +104,8 @@ const char* broken_promise(const Memory& before, const Inputs& in, const Memory&
       is != State::ready) {
     return "an accepted reset leads to READY or SELFTEST";
   }
-  if (accepted(Request::reset) && before.state != State::ready && (in.place_unclear || in.load_unclear))
+  if (accepted(Request::reset) && before.state != State::ready &&
+      (in.position_doubtful || in.swing_zero_doubtful))
     return "nothing is reset while a place is unclear";
   if (accepted(Request::arm) && is != State::arming) return "an accepted arm leads to ARMING";
   if (accepted(Request::home) && !(is == State::arming && after.homing))

@@ -145,7 +145,7 @@ TEST(RandomHistory, AfterAnyHistoryWithoutAFaultAHealthyCraneCanBeArmedAgain) { 
                .tick = t.world.tick,
                .state_arrived = true,
                .sample = healthy,
-               .bridge_restarted = t.memory.restart.load_doubted,
+               .bridge_restarted = t.memory.restart.swing_zero_doubtful,
                .demand_arrived = true,
                .self_test = SelfTest::passed};
     t.world.sample.position = {std::clamp(where[0], 0.15, 1.35), std::clamp(where[1], -3.9, 3.9), where[2]};

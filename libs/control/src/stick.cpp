@@ -25,12 +25,12 @@ TickShares shares_of(Shaping shaping, std::size_t half_ticks, double period_s) n
 }
 
 /// Largest change of speed in one tick and the tick.
-struct Pace {
+struct RateLimit {
   double change, period_s;
 };
 
 /// The change nearest to `wanted` with which no tick exceeds the acceleration limit.
-double feasible(double wanted, const TickShares& shares, const Pace& pace,
+double feasible(double wanted, const TickShares& shares, const RateLimit& pace,
                 const PendingChanges& pending) noexcept {
   double low = -1e9, high = 1e9;
   for (std::size_t i = 0; i < shares.count; ++i) {
@@ -43,7 +43,7 @@ double feasible(double wanted, const TickShares& shares, const Pace& pace,
 }
 
 /// One tick of u and s.
-void advance(const TickShares& shares, const Pace& pace, double wanted, StickAxis& axis) noexcept {
+void advance(const TickShares& shares, const RateLimit& pace, double wanted, StickAxis& axis) noexcept {
   if (wanted != axis.unshaped) {
     const double change = feasible(wanted - axis.unshaped, shares, pace, axis.pending);
     for (std::size_t i = 0; i < shares.count; ++i) {
@@ -65,7 +65,7 @@ void advance(const TickShares& shares, const Pace& pace, double wanted, StickAxi
   axis.lag -= (axis.unshaped - axis.speed) * pace.period_s;
 }
 
-Reach release_of(const TickShares& shares, const Pace& pace, StickAxis axis) noexcept {
+Reach release_of(const TickShares& shares, const RateLimit& pace, StickAxis axis) noexcept {
   Reach reach{axis.position, axis.position};
   while (axis.unshaped != 0 || !axis.pending.empty()) {
     advance(shares, pace, 0, axis);
@@ -76,7 +76,7 @@ Reach release_of(const TickShares& shares, const Pace& pace, StickAxis axis) noe
 }
 
 /// Positions of a stop. Where no stop can reach a limit, only the present position is computed.
-Reach release_in(const StickAxisLimits& limits, const TickShares& shares, const Pace& pace,
+Reach release_in(const StickAxisLimits& limits, const TickShares& shares, const RateLimit& pace,
                  const StickAxis& axis) noexcept {
   const double delay_s = static_cast<double>(shares.share[shares.count - 1].ticks) * pace.period_s;
   const double longest = limits.speed * (2 * limits.speed / limits.acceleration + 2 * delay_s);
@@ -95,7 +95,7 @@ double speed_for(double room, double braking, double mean_s) noexcept {
 void step_axis(const StickAxisLimits& limits, const TickShares& shares, double period_s, double wanted,
                StickAxis& axis) noexcept {
   if (!(limits.speed > 0)) return;
-  const Pace pace{limits.acceleration * period_s, period_s};
+  const RateLimit pace{limits.acceleration * period_s, period_s};
   const double braking = limits.acceleration / shares.heaviest, tick_way = limits.speed * period_s;
   const double end = axis.position - axis.lag;  // of the way without the braking from u
   const double up = speed_for(limits.high - end - tick_way, braking, shares.mean_s);

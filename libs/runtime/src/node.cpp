@@ -89,30 +89,32 @@ void Node::beat(std::int64_t now_ns, const Ports& ports, const JoinCounts& count
 
 void Node::report_drops(std::int64_t now_ns, const Ports& ports) {
   const bool disputed = ports.disputed(now_ns);
-  if (disputed && !told_dispute_)
+  if (disputed && !dispute_reported_)
     error("second_writer", "a second writer on " + ports.dispute(now_ns) + ": its samples are dropped",
           "end the other program, or start one of the two cranes with another --crane or --domain, then "
           "`crane reset`");
-  told_dispute_ = disputed;
+  dispute_reported_ = disputed;
   if (now_ns < next_beat_ns_) return;
   report_other_versions();
-  if (ports.rejected() > told_rejected_)
-    warning("samples_rejected",
-            std::to_string(ports.rejected() - told_rejected_) + " samples had a wrong CRC and were dropped",
-            "check the network");
-  if (ports.refused() > told_refused_)
-    error("samples_not_sent", std::to_string(ports.refused() - told_refused_) + " samples could not be sent",
+  if (ports.rejected() > rejected_reported_)
+    warning(
+        "samples_rejected",
+        std::to_string(ports.rejected() - rejected_reported_) + " samples had a wrong CRC and were dropped",
+        "check the network");
+  if (ports.refused() > refused_reported_)
+    error("samples_not_sent",
+          std::to_string(ports.refused() - refused_reported_) + " samples could not be sent",
           "check the load of this computer and its network interface");
-  told_rejected_ = ports.rejected();
-  told_refused_ = ports.refused();
+  rejected_reported_ = ports.rejected();
+  refused_reported_ = ports.refused();
 }
 
 void Node::report_other_versions() {
   const auto others = bus_->other_versions();
-  for (std::size_t i = told_versions_; i < others.size(); ++i)
+  for (std::size_t i = versions_reported_; i < others.size(); ++i)
     error("other_version", bus::refusal(others[i], bus_->options().messages_version),
           "its samples are dropped: end it");
-  told_versions_ = others.size();
+  versions_reported_ = others.size();
 }
 
 void Node::stopping() {

@@ -20,8 +20,8 @@ namespace crane::protection {
   X(request_id)                \
   X(reset_edge)                \
   X(reset_clear_time)          \
-  X(reset_place_unclear)       \
-  X(reset_load_unclear)        \
+  X(reset_position_doubtful)   \
+  X(reset_swing_zero_doubtful) \
   X(arm_fresh_time)            \
   X(brake_slip)                \
   X(brake_report)              \

@@ -46,7 +46,7 @@ void limit(std::vector<double>& differences) {
 
 }  // namespace
 
-double luck_of(const Blocks& now, const Blocks& before) {
+double block_test_p_value(const Blocks& now, const Blocks& before) {
   std::vector<double> difference;
   for (std::size_t i = 0; i < now.size(); ++i) difference.push_back(before[i] - now[i]);
   limit(difference);
@@ -114,16 +114,16 @@ double chance_of(double ratio, const Fitted& fitted, const Fitted& before) {
 
 }  // namespace
 
-double luck_of_values(const Fitted& fitted, const Fitted& before, double held_out_nats) {
+double likelihood_ratio_p_value(const Fitted& fitted, const Fitted& before, double held_out_nats) {
   const double ratio = (sum(before.deviance) - before.price) - (sum(fitted.deviance) - fitted.price);
   return chance_of(ratio + 2 * held_out_nats, fitted, before);
 }
 
-double luck_of_loss(const Fitted& fitted, const Fitted& before, double held_out_nats) {
+double held_out_loss_p_value(const Fitted& fitted, const Fitted& before, double held_out_nats) {
   return chance_of(-2 * held_out_nats, fitted, before);
 }
 
-double luck_of_interval(const Fitted& fitted) {
+double wald_p_value(const Fitted& fitted) {
   double most = 0;
   std::size_t first = 0;
   for (const Effect& effect : fitted.effects) {
@@ -138,15 +138,15 @@ double luck_of_interval(const Fitted& fitted) {
   return most;
 }
 
-bool is_luck(double chance, std::size_t candidates) {
-  return chance * static_cast<double>(candidates) >= rules::kLuckOfTheBest;
+bool insignificant(double chance, std::size_t candidates) {
+  return chance * static_cast<double>(candidates) >= rules::kFamilywiseLevel;
 }
 
 bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates) {
   const double least = before.effects.empty() ? rules::kLeastAlone : rules::kLeastBeside;
   return share_of_error(fitted, before) > least &&
-         !is_luck(luck_of(fitted.deviance, before.deviance), candidates) &&
-         !is_luck(luck_of_values(fitted, before), candidates);
+         !insignificant(block_test_p_value(fitted.deviance, before.deviance), candidates) &&
+         !insignificant(likelihood_ratio_p_value(fitted, before), candidates);
 }
 
 bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {

@@ -100,7 +100,7 @@ Best best_of(const Profile& profile) {
 Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
   for (int attempt = 0;; ++attempt) {
     const bool last = attempt + 1 == kAttempts;
-    const RoughBowl bowl = rough_bowl(study, fitted);
+    const LossParabola bowl = fit_loss_parabola(study, fitted);
     Effects better;
     if (!last && bowl.best_loss < fitted.train.loss - kBetter) better = bowl.best;
     std::vector<double> std_dev = fitted.std_dev;

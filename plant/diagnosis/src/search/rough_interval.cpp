@@ -107,7 +107,7 @@ class Surroundings {
 
   /// Standard deviations of the effect's values. A loss that is smooth there is no parabola as far as that:
   /// then it is looked at closer by.
-  VectorXd std_dev(RoughBowl& found) {
+  VectorXd std_dev(LossParabola& found) {
     for (int closer = 0;; ++closer, directions_ *= 0.5) {
       const MatrixXd covariance = covariance_of(places_, losses(found));
       if (covariance.diagonal().maxCoeff() > kTold * kTold || closer == kClosest)
@@ -116,7 +116,7 @@ class Surroundings {
   }
 
  private:
-  VectorXd losses(RoughBowl& found) {
+  VectorXd losses(LossParabola& found) {
     VectorXd all(static_cast<Index>(places_.size()));
     for (std::size_t i = 0; i < places_.size(); ++i) {
       VectorXd step = VectorXd::Zero(static_cast<Index>(fitted_.parameters));
@@ -138,8 +138,9 @@ class Surroundings {
 
 }  // namespace
 
-RoughBowl rough_bowl(const Study& study, const Fitted& fitted) {
-  RoughBowl found{VectorXd::Zero(static_cast<Index>(fitted.parameters)), fitted.effects, fitted.train.loss};
+LossParabola fit_loss_parabola(const Study& study, const Fitted& fitted) {
+  LossParabola found{VectorXd::Zero(static_cast<Index>(fitted.parameters)), fitted.effects,
+                     fitted.train.loss};
   Index first = 0;
   for (const Effect& effect : fitted.effects) {
     const auto count = static_cast<Index>(effect.values.size());

@@ -18,7 +18,8 @@ constexpr std::size_t kBeam = 2;
 constexpr std::size_t kPaired = 3;
 /// Candidates that are tried in the place of an effect.
 constexpr std::size_t kExchanged = 2;
-/// Hypotheses of a size that are settled: the likeliest, before their fits know their own noise.
+/// Largest number of hypotheses of one size that are refitted with their own noise; the likeliest of the
+/// first fits.
 constexpr std::size_t kSettled = 4;
 
 /// Half of them those that promise the largest share, half the surest ones: a large effect is as uneven from
@@ -40,7 +41,7 @@ std::vector<Score> strongest(const ScoreTable& scores, std::size_t count) {
 class Search {
  public:
   Search(Study& study, const Request& request) : study_(study), request_(request) {
-    found_.base = found_.best = study.bare();
+    found_.base = found_.best = study.base_model();
   }
 
   Hypotheses run() {
@@ -86,7 +87,7 @@ class Search {
   /// The base model in another noise.
   [[nodiscard]] Fitted base_in(const Noise& noise) {
     study_.whiten_with(noise);
-    return study_.bare();
+    return study_.base_model();
   }
 
   /// Likeliest first.
@@ -108,7 +109,7 @@ class Search {
       Effects rest = whole.effects;
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
       study_.whiten_with(whole.noise);
-      Fitted fitted = study_.settled(study_.screened(rest, study_.bare()));
+      Fitted fitted = study_.refit_with_own_noise(study_.first_fit(rest, study_.base_model()));
       keep(fitted);
       if (rest.size() == found_.best.effects.size()) accept(fitted);
     }
@@ -151,7 +152,7 @@ class Search {
       if (!there.effects.empty() && known(start)) continue;
       if (there.effects.empty())
         request_.progress(0.1, "fit of " + study_.candidates()[score.candidate].label());
-      tried_.push_back(study_.screened(with_fresh_wave(start, there), there));
+      tried_.push_back(study_.first_fit(with_fresh_wave(start, there), there));
     }
     return scores.p_value;
   }
@@ -161,17 +162,17 @@ class Search {
     for (std::size_t i = 0; i < std::min(kPaired, singles.size()); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const Effects pair{singles[i].effects[0], singles[j].effects[0]};
-        if (!known(pair)) tried_.push_back(study_.screened(pair, found_.base));
+        if (!known(pair)) tried_.push_back(study_.first_fit(pair, found_.base));
       }
   }
 
-  /// The likeliest of those that were tried, settled. @return likeliest first
+  /// Refits the likeliest of the tried hypotheses with their own noise. @return likeliest first
   std::vector<Fitted> settle() {
     std::sort(tried_.begin(), tried_.end(),
               [](const Fitted& a, const Fitted& b) { return a.misfit < b.misfit; });
     tried_.resize(std::min(tried_.size(), kSettled));
     std::vector<Fitted> level;
-    for (const Fitted& tried : tried_) level.push_back(study_.settled(tried));
+    for (const Fitted& tried : tried_) level.push_back(study_.refit_with_own_noise(tried));
     tried_.clear();
     std::sort(level.begin(), level.end(), less);
     for (const Fitted& fitted : level) keep(fitted);
@@ -271,8 +272,9 @@ class Search {
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
       const auto fitted = of_all(rest);
       if (fitted == found_.all.end()) study_.whiten_training(found_.base.noise);
-      fewer.push_back(fitted != found_.all.end() ? *fitted
-                                                 : study_.settled(study_.screened(rest, found_.base)));
+      fewer.push_back(fitted != found_.all.end()
+                          ? *fitted
+                          : study_.refit_with_own_noise(study_.first_fit(rest, found_.base)));
     }
     for (const Fitted& one : fewer)
       if (!accepted(whole, one, study_.candidates().size()) && (dropped == nullptr || less(one, *dropped)))
@@ -296,7 +298,7 @@ class Search {
   Study& study_;
   const Request& request_;
   Hypotheses found_;
-  std::vector<Fitted> tried_;                                      ///< of the next size, not settled
+  std::vector<Fitted> tried_;                                      ///< of the next size, first fits
   std::map<const Candidate*, std::vector<double>> ringing_start_;  ///< the best one of each
   std::map<std::size_t, double> p_value_;                          ///< of every candidate by itself
 };

@@ -1,7 +1,7 @@
 #pragma once
 /// Which hypotheses are fitted. Each is judged by the likelihood of the training data in the noise that it
-/// leaves itself: in the noise that the bare model leaves, which holds the effect as a disturbance, hardly
-/// any hypothesis is told from another one.
+/// leaves itself: in the noise that the base_model model leaves, which holds the effect as a disturbance,
+/// hardly any hypothesis is told from another one.
 #include <cstdint>
 #include <vector>
 

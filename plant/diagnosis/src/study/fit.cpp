@@ -249,7 +249,7 @@ Blocks Study::held_out_deviance(const Fitted& fitted) {
   return deviance_of(test_, evaluated(test_, replays_of(test_.runs, with(fitted.effects))));
 }
 
-Fitted Study::bare() const {
+Fitted Study::base_model() const {
   Fitted base;
   base.train = base_train_;
   base.leaves = noise_of(base);
@@ -270,7 +270,7 @@ Noise Study::noise_of(const Fitted& fitted, const Noise& unchanged) const {
   return noise;
 }
 
-Fitted Study::screened(const Effects& effects, const Fitted& near) const {
+Fitted Study::first_fit(const Effects& effects, const Fitted& near) const {
   Fitted fitted = fit(effects, near.train.loss - kLeastGain, near.train);
   fitted.leaves = noise_of(fitted, near.leaves);
   for (const auto* of : {&fitted.leaves.drive, &fitted.leaves.equation_error, &fitted.leaves.load})
@@ -278,16 +278,16 @@ Fitted Study::screened(const Effects& effects, const Fitted& near) const {
   return fitted;
 }
 
-Fitted Study::settled(const Fitted& screened) {
-  Fitted best = screened, last = screened;
+Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
+  Fitted best = first_fit, last = first_fit;
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostNoiseRounds; ++round) {
-    const Noise noise = round == 0 ? screened.leaves : noise_of(last);
+    const Noise noise = round == 0 ? first_fit.leaves : noise_of(last);
     whiten_training(noise);
     last = fit(last.effects, std::numeric_limits<double>::infinity(), evaluated_again(last));
     judge_by_likelihood(last);
-    last.misfit = screened.misfit;
-    last.leaves = screened.leaves;
+    last.misfit = first_fit.misfit;
+    last.leaves = first_fit.leaves;
     const double gained = least - sum(last.deviance);
     if (!(gained > 0)) break;
     best = last;

@@ -14,29 +14,29 @@
 
 namespace crane::diagnosis {
 
-/// Effects that are taken to be there, with their values.
+/// One effect of a hypothesis, with its values.
 struct Effect {
   const Candidate* candidate = nullptr;
   std::vector<double> values;
 };
 using Effects = std::vector<Effect>;
 
-/// Sums of squares of consecutive pieces of the whitened residual, about `kBlock_s` of time each: what is
-/// resampled. Parts follow each other: drive, with what it leaves under way, and load.
+/// Sums of squares of the whitened residual over consecutive blocks of about `kBlock_s`, the units of
+/// resampling. First the blocks of the drives, with those of their equation error, then those of the load.
 using Blocks = std::vector<double>;
 inline constexpr double kBlock_s = 2.0;
 
-/// A body of data around one crane.
+/// Residuals of one crane over a set of runs.
 struct Evaluation {
   Fits drive, load;
   std::vector<Eigen::VectorXd>
       equation_error;  ///< whitened residuals of the drives along the measured motion
   Blocks blocks;
-  std::size_t drive_blocks = 0;  ///< the first of them
+  std::size_t drive_blocks = 0;  ///< number of blocks of the drives
   double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
 };
 
-/// Noise and disturbance: by output of the drives, of the same along the measured motion, and of the load.
+/// Noise and disturbance by output: of the drives, of the drives along the measured motion, of the load.
 struct Noise {
   std::vector<Disturbance> drive, equation_error, load;
 };
@@ -44,45 +44,45 @@ struct Noise {
 struct Fitted {
   Effects effects;
   Evaluation train;
-  Noise noise;        ///< that it is whitened with
-  Noise leaves;       ///< learnt from what it left when it was screened
-  double misfit = 0;  ///< minus twice the log likelihood of that, the starts of windows left free
+  Noise noise;        ///< model by which `train` is whitened
+  Noise leaves;       ///< learnt from the residuals of its first fit
+  double misfit = 0;  ///< minus twice the log likelihood of the first fit, with free starts of windows
   /// Minus twice the log likelihood of the training data by block, with the price of the fitted values.
   Blocks deviance;
-  double price = 0;  ///< of the values, contained in `deviance`
-  Blocks left_out;   ///< what every block costs more when it is left out of the fit (Takeuchi's penalty)
-  /// Error of the simulation in windows, mean over the windows of the rms of each [m or rad].
+  double price = 0;  ///< of the fitted values; contained in `deviance`
+  Blocks left_out;   ///< increase of each block's deviance when the fit leaves the block out (Takeuchi)
+  /// Mean over the windows of the rms error of the simulation in a window, m or rad.
   std::array<double, kOutputs> error{};
-  /// The same of swings over whole runs. Of drives the smallest error of friction integrates into position.
+  /// The same over whole runs, for swings only: a drive integrates any error of friction into its position.
   std::array<double, kOutputs> whole_error{};
-  std::vector<double> std_dev;  ///< of all values, one effect after the other; block-robust
-  Eigen::MatrixXd covariance;   ///< the same before resampling
-  Eigen::VectorXd by_noise;     ///< std_dev if noise and disturbance are exactly as learnt
+  std::vector<double> std_dev;  ///< of all values in the order of `effects`; block-robust
+  Eigen::MatrixXd covariance;   ///< of all values, before resampling
+  Eigen::VectorXd by_noise;     ///< std_dev for the learnt noise and disturbance
   std::size_t parameters = 0;
 };
 
-/// Parts that something shows in.
+/// Parts of the data in which an effect is visible.
 struct ShowsIn {
   bool drive = false, load = false;
 };
 
-/// One candidate in one shape.
+/// Score test of one candidate in one shape.
 struct Score {
   std::size_t candidate = 0;
   Shape shape;
   double statistic = 0;  ///< chi-square of the block-robust score
-  double p_value = 1;    ///< by itself
-  double gain = 0;       ///< promised decrease of the loss; less than 0 where a shape as it is does harm
-  double share = 0;      ///< the same as a share of the loss of the parts that the candidate shows in
+  double p_value = 1;    ///< of this candidate alone
+  double gain = 0;       ///< predicted decrease of the loss; < 0 when the shape increases it
+  double share = 0;      ///< gain / loss of the parts in which the candidate is visible
   std::vector<double> amounts;
-  std::vector<std::vector<double>> starts;  ///< values that a fit may begin at
+  std::vector<std::vector<double>> starts;  ///< initial values for a fit
 };
 
 struct ScoreTable {
-  /// Best shape of every candidate with where its fit may begin, in the candidates' order.
+  /// Best shape of every candidate, in the order of the candidates.
   std::vector<Score> best;
-  std::vector<Visibility> excitation;  ///< what the data can show; only where nothing is known
-  double p_value = 1;  ///< that the largest of all comes from nothing, by flipping the signs of blocks
+  std::vector<Visibility> excitation;  ///< of each effect in these data; only for the base model
+  double p_value = 1;                  ///< of the largest statistic, by flipping the signs of blocks
 };
 
 struct BlockScores;
@@ -101,21 +101,21 @@ class Study {
   [[nodiscard]] double natural_radps() const { return natural_radps_; }  ///< of the load, rad/s
   [[nodiscard]] Crane with(const Effects& effects) const;
 
-  /// Learns noise and disturbance from what the base model with the effects leaves, and evaluates the base
-  /// model. Before anything else.
+  /// Learns noise and disturbance from the residuals of the base model with the effects, then evaluates the
+  /// base model. Must be the first call.
   void learn_disturbance(const Effects& effects = {});
-  /// The same with what was learnt elsewhere, from the same runs.
+  /// The same with a noise that was learnt from the same runs before.
   void whiten_with(const Noise& noise);
   [[nodiscard]] Noise noise() const;
-  /// The effects fitted from these values in the noise of `near`, then the noise of what they leave: enough
-  /// to tell which hypotheses are worth settled().
-  /// @param near of some of the effects. @pre the training data are whitened with its noise
-  [[nodiscard]] Fitted screened(const Effects& effects, const Fitted& near) const;
-  /// Fit and noise in turn, as long as the data become likelier. From then on the training data are whitened
-  /// with the noise of the result.
-  [[nodiscard]] Fitted settled(const Fitted& screened);
+  /// Fits the effects from these values in the noise of `near`, then learns the noise of the residuals. Ranks
+  /// hypotheses for refit_with_own_noise(). @param near  fit of some of the effects
+  /// @pre the training data are whitened with the noise of `near`
+  [[nodiscard]] Fitted first_fit(const Effects& effects, const Fitted& near) const;
+  /// Alternates fit and noise while the likelihood increases. Afterwards the training data are whitened with
+  /// the noise of the result.
+  [[nodiscard]] Fitted refit_with_own_noise(const Fitted& first_fit);
   /// The base model in its own noise. @pre learn_disturbance() was the last call
-  [[nodiscard]] Fitted bare() const;
+  [[nodiscard]] Fitted base_model() const;
   /// Whitens the training data with the noise of a fit from now on.
   void whiten_training(const Noise& noise);
   /// Minus twice the log likelihood of the held-out data by block, in the noise of a fit.
@@ -123,19 +123,18 @@ class Study {
 
   /// The base model.
   [[nodiscard]] const Evaluation& base_train() const { return base_train_; }
-  /// Only the parts that `effects` show in are simulated again.
+  /// Simulates only the parts in which `effects` are visible; copies the others from the base model.
   [[nodiscard]] Evaluation train(const Effects& effects) const;
-  /// @param near of some of the effects: where the starts of the windows begin
+  /// @param near  evaluation of some of the effects; gives the initial starts of the windows
   [[nodiscard]] Evaluation train(const Effects& effects, const Evaluation& near) const;
-  /// Does one more effect explain what `at` leaves? @param seed of the sign flips
+  /// Tests every further candidate on the residuals `at`. @param seed  of the sign flips
   [[nodiscard]] ScoreTable score(const Effects& effects, const Evaluation& at, std::uint64_t seed) const;
-  /// Shapes of a candidate; those of a wave are the strongest in the force that is missing beside the
-  /// effects.
+  /// Shapes of a candidate. For a wave: the strongest lines of the missing force beside the effects.
   [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Effects& effects) const;
   /// Least squares over the training data from the given values, within bounds.
-  /// @param hopeless a training loss: the fit is given up when it will not come below it
+  /// @param hopeless  training loss; the fit stops early when it cannot fall below
   [[nodiscard]] Fitted fit(Effects effects, double hopeless = std::numeric_limits<double>::infinity()) const;
-  /// The same beginning near where some of the effects have been evaluated.
+  /// The same, with the starts of the windows of `near`, an evaluation of some of the effects.
   [[nodiscard]] Fitted fit(Effects effects, double hopeless, const Evaluation& near) const;
 
   [[nodiscard]] const Problem& drive() const { return train_.drive; }
@@ -144,7 +143,7 @@ class Study {
   [[nodiscard]] const Problem& test_load() const { return test_.load; }
 
   struct Slopes;
-  /// Runs, in their three views.
+  /// Runs with their three residuals: windows of the drives, windows of the load, equation error.
   struct Body {
     Body(const Runs& all, double natural_radps);
     Body(const Body&) = delete;
@@ -156,35 +155,36 @@ class Study {
 
  private:
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
-  /// Gauss-Newton rounds from where `best` is. @param along slopes there where they are known, before and
-  /// after @return whether there is still hope
+  /// Gauss-Newton rounds from `best`. @param along  slopes at `best` when known; those of the result on
+  /// return
+  /// @return false when the loss cannot fall below `hopeless`
   bool descend(Fitted& best, Loss loss, double hopeless, std::optional<Slopes>& along) const;
-  /// The same by trying: every value by itself, in steps that shrink.
+  /// Coordinate search with decreasing steps.
   void step_around(Fitted& best, double Evaluation::*loss) const;
   /// Scores of directions around `at`.
   [[nodiscard]] BlockScores block_scores(const Evaluation& at, const Slopes& slopes,
                                          Loss loss = Loss::robust) const;
-  /// Appends the changes per unit that `crane` makes in the parts.
-  /// @return what the start of coordinates of its own gains
+  /// Appends the changes of the residuals per unit of `crane`'s last effect in the parts.
+  /// @return decrease of the loss by free starts of the effect's own coordinates
   double add_slope(const Crane& crane, const Evaluation& at, double step, ShowsIn parts,
                    Slopes& slopes) const;
-  /// What the data can show of the candidates. @param slopes by place, of its probes
+  /// Smallest visible amount of each candidate. @param slopes  by place, of its probes
   [[nodiscard]] std::vector<Visibility> excitation(const std::vector<Score>& places,
                                                    const std::vector<Slopes>& slopes,
                                                    const Evaluation& at) const;
   /// Every shape of every candidate that is not among the effects.
   [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
-  /// Appends the changes that the probes of a candidate's shape make.
-  /// @return what the start of its own coordinates gains
+  /// Appends the changes of the residuals by the probes of a candidate's shape.
+  /// @return decrease of the loss by free starts of the candidate's own coordinates
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
-  /// Around the base crane.
+  /// Evaluation of the base crane.
   [[nodiscard]] Evaluation evaluated(const Body& body, const Replays& base) const;
-  /// The training data around a fit in another noise.
+  /// Evaluation of a fit in the present noise.
   [[nodiscard]] Evaluation evaluated_again(const Fitted& fitted) const;
   /// @pre the training data are whitened
   void evaluate_base();
   [[nodiscard]] Evaluation evaluate(const Body& body, const Effects& effects, const Evaluation& near) const;
-  /// Noise of what a fit leaves; `unchanged` in the parts that none of its effects shows in.
+  /// Noise of the residuals of a fit; `unchanged` in the parts in which none of its effects is visible.
   [[nodiscard]] Noise noise_of(const Fitted& fitted, const Noise& unchanged = {}) const;
   /// Minus twice the log likelihood by block in the present noise.
   [[nodiscard]] static Blocks deviance_of(const Body& body, const Evaluation& at);
@@ -200,7 +200,7 @@ class Study {
   Evaluation base_train_;
 };
 
-/// Every value moved by its number of `step`, within its bounds: rounding must not carry it beyond.
+/// Adds `step` to the values and clamps them to their bounds.
 [[nodiscard]] Effects moved(Effects effects, const Eigen::VectorXd& step);
 /// Loss of each block.
 [[nodiscard]] Blocks blocks_of(const Problem& problem, const Fits& fits);

@@ -124,9 +124,10 @@ bool nothing_wrong(Study& study, const Hypotheses& found, const Fitted& best, co
                    const HeldOut& held_out, std::uint64_t seed) {
   const std::size_t candidates = study.candidates().size();
   const bool matters = share_of_error(found.best, found.base) >= rules::kWorthwhile;
-  const bool luck = is_luck(luck_of_interval(best), candidates) ||
-                    (is_luck(luck_of_values(found.best, found.base, held_out.nats), candidates) &&
-                     is_luck(luck_of_loss(found.best, found.base, held_out.nats), candidates));
+  const bool luck =
+      insignificant(wald_p_value(best), candidates) ||
+      (insignificant(likelihood_ratio_p_value(found.best, found.base, held_out.nats), candidates) &&
+       insignificant(held_out_loss_p_value(found.best, found.base, held_out.nats), candidates));
   if (matters && !luck && proof.outcome != Proof::Outcome::no_consequence) return false;
   Hypotheses base = found;
   base.best = found.base;

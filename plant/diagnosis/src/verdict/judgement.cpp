@@ -114,7 +114,7 @@ class Judgement {
     for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
       remainder.from.push_back(left[i].what.variable);
     return std::any_of(left.begin(), left.end(),
-                       [&](const Pattern& pattern) { return doubtful(pattern, best_.effects); });
+                       [&](const Pattern& pattern) { return pattern_share(pattern, best_.effects); });
   }
 
   /// A swing that is hardly simulated, for want of a force that no credible disturbance is; empty: none.

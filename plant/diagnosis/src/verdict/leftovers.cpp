@@ -24,10 +24,12 @@ bool of_its_own(const Candidate& candidate, const Unexplained& left) {
 /// that more may be left of what one of them is a law of; several laws of the same variable take any form
 /// together. No term of a drive changes with time.
 double believable(const Unexplained& left, const Effects& effects) {
-  if (left.with == GoesWith::time) return rules::kDoubtfulOverTime;
+  if (left.with == GoesWith::time) return rules::kPatternShareOverTime;
   const auto laws = std::count_if(effects.begin(), effects.end(),
                                   [&](const Effect& effect) { return of_its_own(*effect.candidate, left); });
-  return laws == 0 ? rules::kDoubtful : laws == 1 ? rules::kDoubtfulOfItsOwn : rules::kDoubtfulOfSeveralLaws;
+  return laws == 0   ? rules::kPatternShare
+         : laws == 1 ? rules::kPatternShareOneTerm
+                     : rules::kPatternShareSeveralTerms;
 }
 
 /// Of each of the effects, what it takes off the squares of a drive's pieces; infinite on another axis.
@@ -53,12 +55,12 @@ double weakest(const Effects& effects, const std::vector<double>& explained, con
 
 }  // namespace
 
-bool doubtful(const Pattern& pattern, const Effects& effects) {
+bool pattern_share(const Pattern& pattern, const Effects& effects) {
   const Unexplained& u = pattern.what;
   const bool counts =
       u.with == GoesWith::frequency || (u.fraction > rules::kPattern && u.gain > rules::kPatternLuck);
   return counts && (effects.empty() || u.gain > believable(u, effects) * pattern.of_base ||
-                    u.gain > rules::kDoubtfulOfOneName * pattern.of_weakest);
+                    u.gain > rules::kPatternShareOfCause * pattern.of_weakest);
 }
 
 std::vector<Pattern> what_is_left(const Study& study, const Hypotheses& hypotheses,

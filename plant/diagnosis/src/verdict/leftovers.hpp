@@ -22,6 +22,6 @@ struct Pattern {
                                                 const std::vector<LosingEncoder>& losing, std::uint64_t seed);
 
 /// Whether it is too much to be left beside these effects.
-[[nodiscard]] bool doubtful(const Pattern& pattern, const Effects& effects);
+[[nodiscard]] bool pattern_share(const Pattern& pattern, const Effects& effects);
 
 }  // namespace crane::diagnosis

@@ -7,10 +7,10 @@
 namespace crane::supervisor {
 
 struct RestartMemory {
-  AxisFlags doubted{};        ///< true: the measured position of the axis may be wrong
-  bool load_doubted = false;  ///< true: the measured swing angles may be wrong
-  bool watching = false;      ///< true: the watch of the load continues
-  double since_s = 0;         ///< time of the last restart
+  AxisFlags doubted{};               ///< true: the measured position of the axis may be wrong
+  bool swing_zero_doubtful = false;  ///< true: the measured swing angles may be wrong
+  bool watching = false;             ///< true: the watch of the load continues
+  double since_s = 0;                ///< time of the last restart
 };
 
 /// The position of an axis is doubtful unless it was known, the old bridge showed the axis at rest, and

@@ -33,22 +33,22 @@ struct Inputs {
   bool second_writer = false;
   bool foreign_command = false;   ///< a voltage acts that this supervisor has not commanded
   bool bridge_restarted = false;  ///< a new bridge writes crane/state and has not passed the self-test
-  bool place_unclear =
+  bool position_doubtful =
       false;  ///< the restart has made the position of an axis doubtful, and no reset confirmed it
-  std::size_t unclear_axis = 0;     ///< first axis with such a position, < kAxes
-  bool load_unclear = false;        ///< the load swung when the bridge started
-  bool overrun = false;             ///< too many late ticks in a row
-  bool brake_failed = false;        ///< see motion.hpp
-  bool moved_while_arming = false;  ///< an axis moved while the brakes were being opened
-  bool demand_near_zero = false;    ///< true: the demand matches a crane at rest
-  bool brakes_open = false;         ///< true: every present brake reports open
-  bool brakes_closed = true;        ///< true: every present brake reports closed
-  bool standstill = false;          ///< true: every present axis is at rest
-  bool reference_moving = false;    ///< true: the planner executes a maneuver
-  bool not_homed = false;           ///< the position of an axis has no known origin
-  std::size_t unhomed_axis = 0;     ///< first axis with such a position, < kAxes
-  bool can_home = true;             ///< true: the axis of Request::home has a homing mark
-  bool homed = false;               ///< true: the homed axis has found its mark and left it
+  std::size_t doubtful_axis = 0;     ///< first axis with such a position, < kAxes
+  bool swing_zero_doubtful = false;  ///< the load swung when the bridge started
+  bool overrun = false;              ///< too many late ticks in a row
+  bool brake_failed = false;         ///< see motion.hpp
+  bool moved_while_arming = false;   ///< an axis moved while the brakes were being opened
+  bool demand_near_zero = false;     ///< true: the demand matches a crane at rest
+  bool brakes_open = false;          ///< true: every present brake reports open
+  bool brakes_closed = true;         ///< true: every present brake reports closed
+  bool standstill = false;           ///< true: every present axis is at rest
+  bool reference_moving = false;     ///< true: the planner executes a maneuver
+  bool not_homed = false;            ///< the position of an axis has no known origin
+  std::size_t unhomed_axis = 0;      ///< first axis with such a position, < kAxes
+  bool can_home = true;              ///< true: the axis of Request::home has a homing mark
+  bool homed = false;                ///< true: the homed axis has found its mark and left it
   HomingFailure homing_failure = HomingFailure::none;
   Requests requests{};
 };

@@ -41,8 +41,8 @@ struct TickInput {
   PerAxis demand_v{};
   bool reference_moving = false;
   bool second_writer = false;
-  bool foreign_command = false;    ///< true: a voltage acts that this supervisor has not commanded
-  bool brake_open_untold = false;  ///< true: a brake is open long after the command to close
+  bool foreign_command = false;             ///< true: a voltage acts that this supervisor has not commanded
+  bool brake_open_without_command = false;  ///< true: a brake is open long after the command to close
   SelfTest self_test = SelfTest::not_started;
   Requests requests{};
   std::size_t home_axis = 0;  ///< axis of Request::home, < kAxes

@@ -53,9 +53,9 @@ class Node {
   std::int64_t next_beat_ns_ = 0;
   std::int64_t step_sum_ns_ = 0, step_max_ns_ = 0;
   std::uint64_t steps_ = 0;
-  std::uint64_t events_refused_ = 0, told_rejected_ = 0, told_refused_ = 0;
-  std::size_t told_versions_ = 0;
-  bool told_dispute_ = false;
+  std::uint64_t events_refused_ = 0, rejected_reported_ = 0, refused_reported_ = 0;
+  std::size_t versions_reported_ = 0;
+  bool dispute_reported_ = false;
 };
 
 /// Copies `text` into a bounded IDL string of N - 1 bytes. A longer text ends with its last whole character.
