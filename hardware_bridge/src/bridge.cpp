@@ -30,6 +30,7 @@ std::vector<runtime::Write> bridge_writes() {
 Bridge::Bridge(const runtime::Context& context, std::unique_ptr<Board> board)
     : node_{context.node},
       clock_{context.clock},
+      monotonic_ns_{context.monotonic_ns},
       period_ns_{std::llround(context.rig.period_s * 1e9)},
       board_{std::move(board)},
       measurement_{context.rig},
@@ -66,33 +67,31 @@ std::string Bridge::waiting_for() const {
 }
 
 bool Bridge::poll(std::int64_t now_ns) {
-  const auto polled = steady_clock::now();
   take_requests();
   take_commands(now_ns);
   node_.beat(now_ns, ports_, counts_);
   if (!tick_is_due(now_ns)) return false;
   const auto begin = steady_clock::now();
-  const auto inputs = latch(now_ns, now_ns - nanoseconds{polled.time_since_epoch()}.count());
+  const auto inputs = latch(now_ns);
   tick(inputs, now_ns);
   node_.stepped(*tick_, 0, nanoseconds{steady_clock::now() - begin}.count());
   return true;
 }
 
 /// Latches all inputs. In real time `now_ns` becomes the time of the latch. A latch that took long is
-/// repeated: the computer may have paused before it. @param offset_ns  time of poll() - steady clock
-Inputs Bridge::latch(std::int64_t& now_ns, std::int64_t offset_ns) {
+/// repeated: the computer may have paused before it.
+Inputs Bridge::latch(std::int64_t& now_ns) {
   if (clock_ == runtime::Clock::lockstep) {
     board_->advance_to(static_cast<std::int64_t>(tick_ ? *tick_ + 1 : 0) * period_ns_);
     return board_->read();
   }
   constexpr int kMostLatches = 3;
-  const nanoseconds longest{period_ns_ / 10};
   for (int i = 1;; ++i) {
-    const auto begin = steady_clock::now();
-    now_ns = nanoseconds{begin.time_since_epoch()}.count() + offset_ns;
+    if (monotonic_ns_ != nullptr) now_ns = monotonic_ns_();
     board_->advance_to(now_ns - start_ns_);  // a simulated rig advances to the time of the latch
     const auto inputs = board_->read();
-    if (i == kMostLatches || steady_clock::now() - begin <= longest) return inputs;
+    const auto took_ns = monotonic_ns_ != nullptr ? monotonic_ns_() - now_ns : 0;
+    if (i == kMostLatches || took_ns <= period_ns_ / 10) return inputs;
   }
 }
 

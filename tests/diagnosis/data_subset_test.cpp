@@ -55,6 +55,21 @@ TEST(SubsetOfColumns, ALoadWithTheMeasuredMotionOfItsSupportNeedsNoCommand) {
   EXPECT_FALSE(found.held_out.baseline_rms.contains("trolley_position_m"));
 }
 
+/// No cause of the library explains a friction that comes and goes with time.
+TEST(RubbingDrive, IsNotCalledRight) {
+  const auto rubbed = [](std::uint64_t seed) {
+    const auto command = [=](double t) { return strange::rich_command(t + 7.0 * static_cast<double>(seed)); };
+    strange::Recording lab;
+    lab.seed = seed;
+    const auto table = strange::recorded(strange::moved({.rub_n = 15}, 15, command), lab);
+    return load_run(table, subset_rig(), "rubbed_" + std::to_string(seed) + ".csv").runs.at(0);
+  };
+  Request request;
+  request.most_effects = 1;
+  const Diagnosis found = diagnose(subset_rig(), {rubbed(1), rubbed(2)}, {rubbed(3)}, request);
+  EXPECT_EQ(found.verdict, Verdict::unknown) << found.sentence;
+}
+
 TEST(SubsetOfColumns, ADriveAloneIsCompared) {
   const auto loaded =
       load_run(without(measured_with(1, 1.5), {"swing_radial_rad"}), subset_rig(), "drive.csv");

@@ -15,21 +15,24 @@ namespace crane::strange {
 struct Gantry {
   double inertia_kg = 12, load_kg = 3, gain_mps2pv = 1.2, gravity_mps2 = 9.81, cable_m = 1.5;
   double drag_nspm = 0;  ///< viscous, of the trolley; not in the rig file
+  double rub_n = 0;  ///< dry friction of the trolley in the first third of every kRub_s; not in the rig file
 };
 
 struct Instant {
   double time_s = 0, volts = 0, trolley_m = 0, swing_rad = 0;
 };
 
-inline constexpr double kTick_s = 0.0005;
+inline constexpr double kTick_s = 0.0005, kRub_s = 3.7;
 
 /// The crane every 0.5 ms under a command.
 inline std::vector<Instant> moved(const Gantry& crane, double duration_s,
                                   const std::function<double(double)>& command_v, double swing_rad = 0) {
   using State = std::array<double, 4>;  // x, x', r, r'
+  double time_s = 0;
   const auto slope = [&](const State& s, double volts) {
     const double sine = std::sin(s[2]), cosine = std::cos(s[2]);
-    const double force = crane.inertia_kg * crane.gain_mps2pv * volts - crane.drag_nspm * s[1];
+    const double rub_n = std::fmod(time_s, kRub_s) < kRub_s / 3 ? crane.rub_n * std::tanh(s[1] / 0.002) : 0;
+    const double force = crane.inertia_kg * crane.gain_mps2pv * volts - crane.drag_nspm * s[1] - rub_n;
     const double a =
         (force - crane.load_kg * sine * (crane.gravity_mps2 * cosine + crane.cable_m * s[3] * s[3])) /
         (crane.inertia_kg + crane.load_kg * sine * sine);
@@ -43,8 +46,9 @@ inline std::vector<Instant> moved(const Gantry& crane, double duration_s,
   State s{1, 0, swing_rad, 0};
   std::vector<Instant> all;
   for (int k = 0; k * kTick_s < duration_s; ++k) {
-    const double volts = command_v(k * kTick_s);
-    all.push_back({k * kTick_s, volts, s[0], s[2]});
+    time_s = k * kTick_s;
+    const double volts = command_v(time_s);
+    all.push_back({time_s, volts, s[0], s[2]});
     const State a = slope(s, volts), b = slope(along(s, a, kTick_s / 2), volts),
                 c = slope(along(s, b, kTick_s / 2), volts), d = slope(along(s, c, kTick_s), volts);
     for (std::size_t i = 0; i < s.size(); ++i) s[i] += kTick_s / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);

@@ -81,7 +81,7 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
   bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
   refuse_second_writer(bus, spec.writes);
-  HostedComponent hosted{bus, spec, rig, controller, clock};
+  HostedComponent hosted{bus, spec, rig, controller, clock, monotonic_ns};
   if (clock == Clock::realtime) enter_realtime(hosted.node(), options.priority);
   loop(hosted.component(), bus);
   hosted.node().stopping();

@@ -59,7 +59,12 @@ inline constexpr Rule kWorstLoss{"worst_loss", 1.25, "1",
 inline constexpr Rule kNotFollowed{"not_followed", 0.4, "1",
                                    "maximum rms of the residual of a swing in windows / rms of the swing",
                                    "read off examples"};
-inline constexpr Rule kSwings{"swings", 0.01, "rad", "minimum rms of a swing to which not_followed applies",
+inline constexpr Rule kDriveNotFollowed{
+    "drive_not_followed", 0.1, "1",
+    "maximum rms of the residual of a drive in windows / rms of its motion, for the verdict none",
+    "definition: less than a tenth of the motion is unexplained"};
+inline constexpr Rule kSwings{"swings", 0.01, "m or rad",
+                              "minimum rms of a motion to which not_followed and drive_not_followed apply",
                               "read off examples"};
 inline constexpr Rule kCredibleForce{
     "credible_force", 0.03, "1", "maximum rms of the disturbance of the load / its weight",
@@ -95,6 +100,7 @@ inline constexpr std::array kAll{kFamilywiseLevel,
                                  kStillFollowed,
                                  kWorstLoss,
                                  kNotFollowed,
+                                 kDriveNotFollowed,
                                  kSwings,
                                  kCredibleForce,
                                  kPattern,

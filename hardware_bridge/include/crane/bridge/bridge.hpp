@@ -40,7 +40,7 @@ class Bridge : public runtime::Component {
   [[nodiscard]] bool tick_is_due(std::int64_t now_ns);
   void take_commands(std::int64_t now_ns);
   void take_requests();
-  [[nodiscard]] Inputs latch(std::int64_t& now_ns, std::int64_t offset_ns);
+  [[nodiscard]] Inputs latch(std::int64_t& now_ns);
   void tick(const Inputs& inputs, std::int64_t now_ns);
   void apply(Outputs outputs);
   [[nodiscard]] Latched latched_at(std::optional<std::uint64_t> previous, std::uint64_t next,
@@ -54,6 +54,7 @@ class Bridge : public runtime::Component {
 
   runtime::Node& node_;
   runtime::Clock clock_;
+  std::int64_t (*monotonic_ns_)();
   std::int64_t period_ns_;
   std::unique_ptr<Board> board_;
   MeasurementPipeline measurement_;

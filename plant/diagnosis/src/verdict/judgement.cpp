@@ -25,8 +25,7 @@ double mean_loss(const Problem& problem, const Fits& fits) {
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
 
-/// Root mean square of what a simulation leaves of a swing in windows, as a share of how it moves there; 0
-/// where it hardly does.
+/// Rms of the residual of an output in windows / rms of its motion in the windows; 0 when it hardly moves.
 double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
   double moved = 0, count = 0;
   for (const Window& window : problem.windows()) {
@@ -117,8 +116,27 @@ class Judgement {
                        [&](const Pattern& pattern) { return pattern_share(pattern, best_.effects); });
   }
 
-  /// A swing that is hardly simulated, for want of a force that no credible disturbance is; empty: none.
+  /// A swing whose simulation lacks a force that no credible disturbance has, or a drive that the base model
+  /// alone should follow and does not. @return what is missing; empty: nothing
   [[nodiscard]] std::string not_followed() const {
+    const std::string drive = best_.effects.empty() ? drive_not_followed() : "";
+    return drive.empty() ? swing_not_followed() : drive;
+  }
+
+  [[nodiscard]] std::string drive_not_followed() const {
+    if (study_.drive().empty()) return "";
+    const Problem plain = study_.drive().plain();
+    const Fits fits = plain.fit(replays_of(plain.runs(), study_.base()));
+    for (std::size_t output = 0; output < plain.outputs().size(); ++output)
+      if (const double share = share_not_followed(plain, fits, output); share > rules::kDriveNotFollowed)
+        return (std::ostringstream{} << std::setprecision(2) << "the simulation of "
+                                     << kOutputNames[plain.outputs()[output]] << " misses " << 100 * share
+                                     << " % of its motion, rms")
+            .str();
+    return "";
+  }
+
+  [[nodiscard]] std::string swing_not_followed() const {
     if (study_.load().empty()) return "";
     const Problem plain = study_.load().plain();
     const Fits fits = plain.fit(replays_of(plain.runs(), study_.with(best_.effects)));

@@ -43,6 +43,9 @@ struct Context {
   const control::Controller& controller;
   const bus::Options& bus;  ///< domain and crane (partition) of the component
   Clock clock = Clock::lockstep;
+  /// Clock of poll() in a process in real time; null: time does not pass during poll() (lockstep, virtual
+  /// time).
+  std::int64_t (*monotonic_ns)() = nullptr;
 };
 
 }  // namespace crane::runtime
