@@ -13,9 +13,9 @@ using Role = SharedFile::Role;
 
 constexpr std::int64_t kPatience_ns = 5'000'000'000;
 constexpr std::int64_t kSilence_ns = 500'000'000;  // a running rig steps more often than this
-// Real time: a rig answers within 0.1 ms. One wait can pass while the computer pauses; the rig then needs
-// another one.
-constexpr int kLatchWaits = 3;
+// Real time: a rig answers within 0.1 ms, unless the computer pauses its processor. The sum of the waits is
+// shorter than the relay timeout (25 ms) minus a period.
+constexpr int kLatchWaits = 14;
 constexpr std::int64_t kLatchWait_ns = 1'000'000;
 
 /// The shared file of a running rig; nothing when no rig runs.
