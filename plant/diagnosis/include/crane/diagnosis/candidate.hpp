@@ -53,10 +53,14 @@ struct Candidate {
   /// Start values of a fit from the amounts of the probes of a shape.
   [[nodiscard]] std::vector<double> begin(const Shape& shape, const std::vector<double>& amounts) const;
 
-  /// Whether the cause changes the output directly, not through another coordinate.
+  /// Whether the cause changes the replay of the output directly. The replay of the swing prescribes the
+  /// motion of the support, so that a sensor or a backlash of the support changes the replay of the swing as
+  /// well.
   [[nodiscard]] bool acts_on(Output output) const {
     const bool of_drive = output == kTrolleyPosition || output == kSlewAngle;
-    return (of_drive ? drive : load) && (axis.empty() || axis == axis_of(output));
+    const bool of_support = axis == "trolley" || axis == "slew";
+    return of_drive ? drive && (axis.empty() || axis == axis_of(output))
+                    : load && (axis.empty() || axis == axis_of(output) || of_support);
   }
 
   /// @pre the axis is "trolley" or "slew"
