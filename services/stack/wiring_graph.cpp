@@ -159,7 +159,7 @@ std::string wiring_document(const std::vector<ComponentSpec>& components) {
          "# Wiring\n\n"
          "Every component declares the topics that it reads and writes (`ComponentSpec`). This page is made "
          "from "
-         "these declarations;\na test fails when it differs.\n\n"
+         "these declarations;\na test fails when the page differs.\n\n"
          "## Diagram\n\n```mermaid\n" +
          wiring_mermaid(components) +
          "```\n\n"
