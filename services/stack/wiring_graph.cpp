@@ -157,7 +157,8 @@ std::string wiring_mermaid(const std::vector<ComponentSpec>& components, Extent 
 std::string wiring_document(const std::vector<ComponentSpec>& components) {
   return "<!-- crane graph --format markdown > docs/wiring.md -->\n"
          "# Wiring\n\n"
-         "Every component declares the topics that it reads and writes (`ComponentSpec`). This page is made "
+         "Every component declares the topics that it reads and writes (`ComponentSpec`). This page is "
+         "generated "
          "from "
          "these declarations;\na test fails when the page differs.\n\n"
          "## Diagram\n\n```mermaid\n" +
