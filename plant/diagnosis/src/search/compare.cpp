@@ -32,8 +32,9 @@ double share_of_error(const Fitted& fitted, const Fitted& before) {
 
 namespace {
 
-/// No block outvotes the others: an axis that slips earlier or later once makes as much of one as an effect
-/// of all of them. Twice what all but a twentieth keep to is the most that counts.
+/// Clamps each difference to twice the 95 % quantile of the magnitudes, so that no block outweighs the other
+/// blocks: one slip that comes earlier or later changes a block as much as an effect changes all blocks
+/// together.
 void limit(std::vector<double>& differences) {
   if (differences.empty()) return;
   std::vector<double> sizes;
@@ -97,15 +98,14 @@ double additional_values(const Fitted& fitted, const Fitted& before) {
   return static_cast<double>(std::max<std::size_t>(1, more));
 }
 
-/// By how much the scores of the additional values scatter more from block to block than the curvature says:
-/// tr(H^-1 J) by value, Takeuchi's penalty halved. 1 of a likelihood; about 2 of two views of the same data
-/// that are added as if they were independent.
+/// Dispersion of a composite likelihood: half of the additional Takeuchi penalty per additional value,
+/// tr(H^-1 G) / q. 1 for a likelihood; about 2 for two losses of the same data that are added.
 double dispersion(const Fitted& fitted, const Fitted& before) {
   const double penalty = sum(fitted.left_out) - sum(before.left_out);
   return std::max(1.0, 0.5 * penalty / additional_values(fitted, before));
 }
 
-/// Chance that chi-square of the additional values, as dispersed as their scores are, is larger.
+/// P(chi-square > ratio / dispersion), with the number of additional values as degrees of freedom.
 double chance_of(double ratio, const Fitted& fitted, const Fitted& before) {
   if (!(ratio > 0)) return 1;
   const double freedom = additional_values(fitted, before);
@@ -155,7 +155,7 @@ bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
 
 namespace {
 
-/// Parts in which what `a` has and `b` has not shows.
+/// Parts of the data in which the effects of `a` that `b` lacks are visible.
 ShowsIn only_in(const Fitted& a, const Fitted& b) {
   ShowsIn parts;
   for (const Effect& e : a.effects) {
@@ -166,7 +166,8 @@ ShowsIn only_in(const Fitted& a, const Fitted& b) {
   return parts;
 }
 
-/// What `rival` does better block by block in the parts where it would have to replace what only `best` has.
+/// Decrease of the deviance from `best` to `rival` by block, in the parts in which the effects that only
+/// `best` has are visible. 0 in the other parts.
 std::vector<double> advantage(const Fitted& rival, const Fitted& best) {
   const ShowsIn parts = only_in(best, rival);
   std::vector<double> margins;

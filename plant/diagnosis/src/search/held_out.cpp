@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kResamples = 1000;
 
-/// Windows of one part whose starts make the error least, in m or rad: a start that is best in units of a
-/// learnt noise may leave more than standing still.
+/// Windows of one part with starts that minimise the error in m or rad. A start that minimises the whitened
+/// error may leave a larger error in m or rad than a load at rest.
 struct PlainFits {
   Problem problem;
   Fits fits;
@@ -32,7 +32,7 @@ double mean(const std::vector<double>& values) {
   return sum;
 }
 
-/// Two bodies of squares per output, before and after, by window.
+/// Mean squares of two models by output and window: before (base) and after (extended).
 struct Compared {
   std::vector<std::vector<double>> before, after;
   std::vector<double> noise;
@@ -53,7 +53,7 @@ double gain_of(const Compared& c, const std::vector<std::vector<std::size_t>>* p
   return before > 0 ? 1 - std::sqrt(after / before) : 0;
 }
 
-/// Whether any of the effects changes an output by itself; of no effects all are asked for.
+/// True if an effect acts directly on the output. True for every output if there are no effects.
 bool acts_on(const Effects& effects, Output output) {
   return effects.empty() || std::any_of(effects.begin(), effects.end(), [&](const Effect& effect) {
            return effect.candidate->acts_on(output);
@@ -70,7 +70,7 @@ std::vector<double> held_value_squares(const Problem& problem, std::size_t outpu
   return result;
 }
 
-/// Of those values whose `beside` is a number.
+/// Standard deviation of the values for which `beside` is finite.
 double scatter(const std::vector<double>& all, const std::vector<double>& beside) {
   std::vector<double> values;
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -81,7 +81,7 @@ double scatter(const std::vector<double>& all, const std::vector<double>& beside
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Every run in open loop, by row.
+/// Simulated outputs of every run in open loop, by row.
 std::vector<std::vector<double>> ways(const Problem& whole, const Crane& crane) {
   std::vector<std::vector<double>> all;
   const Replays replays = replays_of(whole.runs(), crane);

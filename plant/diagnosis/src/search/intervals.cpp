@@ -15,15 +15,15 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kResamplings = 400;
-/// Values that cost so much more are nowhere best.
+/// The profile ends where the loss exceeds the loss of the fit by more.
 constexpr double kFarLoss = 60;
-/// Where to look, in standard deviations as the slopes have it.
+/// Points of the profile, in standard deviations of the sandwich covariance.
 constexpr std::array kDistances{0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
-/// A value is better if it is by this much.
+/// Decrease of the loss above which another value replaces the fitted value.
 constexpr double kBetter = 1;
 constexpr int kAttempts = 3;
 
-/// Losses of the blocks along one direction of the values.
+/// Losses of the blocks along one direction of the values, by distance.
 using Profile = std::map<double, Blocks>;
 
 double value_of(const Effects& effects, Index number) {
@@ -35,7 +35,7 @@ double value_of(const Effects& effects, Index number) {
   return 0;
 }
 
-/// Outwards in both directions until nothing can be best there, or the value is at its bound.
+/// Evaluates outwards in both directions until the loss exceeds kFarLoss or the value reaches its bound.
 Profile profile_of(const Study& study, const Fitted& fitted, const VectorXd& direction, Index value) {
   Profile profile{{0, fitted.train.blocks}};
   for (const double side : {-1.0, 1.0}) {
@@ -52,7 +52,7 @@ Profile profile_of(const Study& study, const Fitted& fitted, const VectorXd& dir
   return profile;
 }
 
-/// Where the parabola through the least of the values and its neighbours is least.
+/// Minimum of the parabola through the smallest loss and its two neighbours.
 double least_at(const std::vector<double>& at, const std::vector<double>& loss) {
   const auto k = static_cast<std::size_t>(std::min_element(loss.begin(), loss.end()) - loss.begin());
   if (k == 0 || k + 1 == loss.size()) return at[k];
@@ -64,7 +64,7 @@ double least_at(const std::vector<double>& at, const std::vector<double>& loss) 
   return std::clamp(flat, at[k - 1], at[k + 1]);
 }
 
-/// Of the best place on the profile from one resample of the blocks to the next, about 0.
+/// Root mean square of the minimum of the profile over resamples of the blocks, about 0.
 double spread(const Profile& profile, std::uint64_t seed) {
   std::vector<double> at;
   for (const auto& [t, blocks] : profile) at.push_back(t);
@@ -83,7 +83,7 @@ double spread(const Profile& profile, std::uint64_t seed) {
   return std::sqrt(squares);
 }
 
-/// By how much the best place is better than 0.
+/// Largest decrease of the loss on the profile, and its distance from the fit.
 struct Best {
   double gain = 0, at = 0;
 };

@@ -1,12 +1,12 @@
 #pragma once
-/// How well the data know the values of a fit.
+/// Standard deviations of the fitted values.
 #include "study/study.hpp"
 
 namespace crane::diagnosis {
 
-/// A fit with standard deviations that are those of resampled data. Where an axis sticks and slips the loss
-/// goes over a value in steps, not in a parabola; its slope at the best value says little about how far
-/// another body of data would move it. Begins anew from a value that turns out to be better.
+/// Sets the standard deviations to the scatter under resampling of the blocks. Where an axis sticks and
+/// slips, the loss is a stepped function of a value, not a parabola, and the slope at the best value does not
+/// give the scatter. If a profile finds a better value, the fit is repeated from this value.
 [[nodiscard]] Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed);
 
 }  // namespace crane::diagnosis

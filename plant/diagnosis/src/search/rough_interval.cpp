@@ -14,20 +14,21 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A rough loss is looked at in units of such a share of a value, and of such an angle of a wave.
+/// Distance between evaluations of a rough loss: share of a value; angle of a wave.
 constexpr double kRoughUnit = 0.03, kRoughUnit_rad = 0.03;
-/// Not less than such a share of what can be seen of a value.
+/// The distance is at least this share of the finite-difference step of the value.
 constexpr double kLeastUnit = 0.1;
 constexpr std::array kRoughDistances{1.0, 2.0, 4.0};
-/// A bowl narrower than so many units is looked at in half of them, so many times at most.
+/// If the standard deviation is below kTold distances, the distance is halved and the loss is evaluated
+/// again, at most kClosest times.
 constexpr double kTold = 0.5;
 constexpr int kClosest = 4;
 
-/// Of gaps the flanks, of drives the slips come a little earlier or later.
+/// True if the loss has steps: impacts of a gap or slips of a drive come one row earlier or later.
 bool is_rough(const Candidate& candidate) { return candidate.rough || (candidate.drive && !candidate.load); }
 
-/// By amplitude, by phase, and by a period that shifts the wave at the ends of the travel and not in its
-/// middle.
+/// Directions of a wave: amplitude, phase, and a period that shifts the wave at the ends of the travel but
+/// not in the middle.
 MatrixXd directions_of_wave(const Effect& wave, const Extent& travel) {
   const double amplitude = wave.values[0], period = wave.values[2];
   const double of_period = kRoughUnit_rad * period * period / (std::numbers::pi * travel.width());
@@ -39,7 +40,8 @@ MatrixXd directions_of_wave(const Effect& wave, const Extent& travel) {
   return directions;
 }
 
-/// What its values are changed by, one unit a column. An offset of 0 is looked at, too, and a gain of 1.
+/// Directions of the values of an effect, one column per direction. The distance never exceeds kRoughUnit of
+/// the distance from the value of no effect (an offset of 0, a gain of 1).
 MatrixXd directions_of(const Effect& effect, const Runs& runs) {
   const Candidate& candidate = *effect.candidate;
   if (candidate.waves) return directions_of_wave(effect, travel_of(runs, candidate.drive_output()));
@@ -52,7 +54,7 @@ MatrixXd directions_of(const Effect& effect, const Runs& runs) {
   return units.asDiagonal();
 }
 
-/// Places about 0 in which a bowl can be told: along every direction and along every two.
+/// Points around 0 that determine a parabola: along each direction and along each pair of directions.
 std::vector<VectorXd> places_about(Index directions) {
   std::vector<VectorXd> places{VectorXd::Zero(directions)};
   for (Index i = 0; i < directions; ++i) {
@@ -67,7 +69,7 @@ std::vector<VectorXd> places_about(Index directions) {
   return places;
 }
 
-/// Of the places where the bowl through the losses is not higher than they lie about it.
+/// Covariance of the region in which the fitted parabola rises by less than the roughness of the losses.
 MatrixXd covariance_of(const std::vector<VectorXd>& places, const VectorXd& losses) {
   const Index n = places[0].size();
   MatrixXd powers(losses.size(), 1 + n + n * (n + 1) / 2);
@@ -87,14 +89,14 @@ MatrixXd covariance_of(const std::vector<VectorXd>& places, const VectorXd& loss
   for (Index v = 0; v < n; ++v)
     for (Index w = 0; w <= v; ++w, ++column)
       curvature(v, w) = curvature(w, v) = (v == w ? 2 : 1) * bowl[column];
-  // Not wider than was looked.
+  // The region does not extend beyond the evaluated points.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(curvature);
   const double flattest = std::max(2 * roughness / std::pow(kRoughDistances.back(), 2), 1e-12);
   const VectorXd wide = 2 * roughness * axes.eigenvalues().cwiseMax(flattest).cwiseInverse();
   return axes.eigenvectors() * wide.asDiagonal() * axes.eigenvectors().transpose();
 }
 
-/// Along the values of one effect of a fit.
+/// Losses around the values of one effect of a fit.
 class Surroundings {
  public:
   /// @param first number of the effect's first value among all of the fit
@@ -105,8 +107,8 @@ class Surroundings {
         directions_(directions_of(effect, study.drive().runs())),
         places_(places_about(directions_.cols())) {}
 
-  /// Standard deviations of the effect's values. A loss that is smooth there is no parabola as far as that:
-  /// then it is looked at closer by.
+  /// Standard deviations of the values of the effect. Halves the distances while the loss is not a parabola
+  /// over them.
   VectorXd std_dev(LossParabola& found) {
     for (int closer = 0;; ++closer, directions_ *= 0.5) {
       const MatrixXd covariance = covariance_of(places_, losses(found));

@@ -11,9 +11,9 @@ struct LossParabola {
   double best_loss = 0;
 };
 
-/// Standard deviation of values with a rough loss. Chance decides where a rough loss is least: every value at
-/// which the parabola rises by less than the roughness is equally likely. The values of the other effects are
-/// held.
+/// Standard deviation of values with a rough loss. The position of the minimum of a rough loss is random:
+/// every value at which the parabola rises by less than the roughness is equally likely. The values of the
+/// other effects are held.
 [[nodiscard]] LossParabola fit_loss_parabola(const Study& study, const Fitted& fitted);
 
 }  // namespace crane::diagnosis

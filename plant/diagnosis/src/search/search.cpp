@@ -10,20 +10,24 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Candidates that are fitted beside the base model, and beside each hypothesis of a beam.
+/// Number of candidates that are fitted in addition to the base model (kFirst) and to each hypothesis of a
+/// beam (kExtensions).
 constexpr std::size_t kFirst = 10, kExtensions = 5;
-/// Hypotheses of a size that are extended. What is best alone need not be best beside another effect.
+/// Number of hypotheses of one size that are extended, because the best single effect need not be part of the
+/// best pair.
 constexpr std::size_t kBeam = 2;
-/// Of the single effects, those all of whose pairs are fitted: two may explain together what neither does.
+/// Number of best single effects of which all pairs are fitted, because a pair may explain what neither
+/// effect explains.
 constexpr std::size_t kPaired = 3;
-/// Candidates that are tried in the place of an effect.
+/// Number of candidates that replace an effect in turn.
 constexpr std::size_t kExchanged = 2;
-/// Largest number of hypotheses of one size that are refitted with their own noise; the likeliest of the
-/// first fits.
+/// Largest number of hypotheses of one size that are refitted with their own noise: the first fits with the
+/// largest likelihood.
 constexpr std::size_t kSettled = 4;
 
-/// Half of them those that promise the largest share, half the surest ones: a large effect is as uneven from
-/// block to block as it is large, and in a rough residual luck promises much.
+/// Strongest candidates: half of them by predicted share of the loss, half by p value. The score of a large
+/// effect scatters from block to block, which raises its p value; in a rough residual the predicted share is
+/// large by chance.
 std::vector<Score> strongest(const ScoreTable& scores, std::size_t count) {
   std::vector<Score> left = scores.best, order;
   const auto take = [&](std::size_t up_to, auto&& before) {
@@ -51,7 +55,7 @@ class Search {
     std::vector<Fitted> level = settle();
     if (level.empty()) return finished();
     if (accept_one_of(level)) {
-      // In the noise of the best one the others begin nearer.
+      // With the noise of the best hypothesis, the predictions of the score test are closer.
       extend(base_in(found.best.noise), kFirst);
       level = with(std::move(level), settle());
       accept_one_of(level);
@@ -84,13 +88,13 @@ class Search {
     return std::move(found_);
   }
 
-  /// The base model in another noise.
+  /// The base model, whitened with another noise.
   [[nodiscard]] Fitted base_in(const Noise& noise) {
     study_.whiten_with(noise);
     return study_.base_model();
   }
 
-  /// Likeliest first.
+  /// The hypotheses of both lists, each once, in the order of decreasing likelihood.
   static std::vector<Fitted> with(std::vector<Fitted> level, const std::vector<Fitted>& more) {
     level.insert(level.end(), more.begin(), more.end());
     std::sort(level.begin(), level.end(), less);
@@ -101,8 +105,8 @@ class Search {
     return once;
   }
 
-  /// What is left of a hypothesis without one of its effects, from the values of the whole: a part may not
-  /// have been found from the base model.
+  /// Refits every hypothesis that lacks one effect of `given`, from the values of `given`. The search need
+  /// not have reached these hypotheses from the base model.
   void settle_parts_of(const Fitted& given) {
     const Fitted whole = given;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
@@ -115,8 +119,8 @@ class Search {
     }
   }
 
-  /// The same hypothesis with one effect replaced by another one: what was best beside fewer effects is not
-  /// always best beside all of them.
+  /// Hypotheses in which another effect replaces one effect of `given`, because the best candidate beside few
+  /// effects need not be the best beside all.
   /// @pre settle_parts_of(given)
   std::vector<Fitted> exchanged(const Fitted& given) {
     const Fitted whole = given;
@@ -128,7 +132,7 @@ class Search {
     return settle();
   }
 
-  /// Flipping the signs of fewer blocks proves nothing about what is left beside a fitted effect.
+  /// With fewer blocks, sign flips do not test the residual of a hypothesis with effects.
   static constexpr std::size_t kFewBlocks = 60;
 
   [[nodiscard]] double share_done(std::size_t size, std::size_t i) const {
@@ -136,7 +140,8 @@ class Search {
     return 0.2 + 0.6 * level / static_cast<double>(request_.most_effects);
   }
 
-  /// Fits what scores best beside `there`. @return how likely luck makes the largest score
+  /// Fits the strongest candidates in addition to the effects of `given`. @return p value of the largest
+  /// score
   double extend(const Fitted& given, std::size_t count) {
     const Fitted there = given;  // `all` grows
     study_.whiten_training(there.noise);
@@ -166,7 +171,8 @@ class Search {
       }
   }
 
-  /// Refits the likeliest of the tried hypotheses with their own noise. @return likeliest first
+  /// Refits the likeliest of the tried hypotheses with their own noise. @return in the order of decreasing
+  /// likelihood
   std::vector<Fitted> settle() {
     std::sort(tried_.begin(), tried_.end(),
               [](const Fitted& a, const Fitted& b) { return a.misfit < b.misfit; });
@@ -183,7 +189,7 @@ class Search {
     return std::ranges::find_if(found_.all, [&](const Fitted& f) { return same(f.effects, effects); });
   }
 
-  /// Of the same effects the likelier fit stays.
+  /// Adds a fit; of two fits of the same effects, the likelier one is kept.
   void keep(const Fitted& fitted) {
     const auto known = of_all(fitted.effects);
     if (known == found_.all.end())
@@ -198,8 +204,8 @@ class Search {
            std::any_of(tried_.begin(), tried_.end(), is_there);
   }
 
-  /// Of as many effects, or of no more values, the likelier hypothesis is the better one; more of both have
-  /// to be worth it.
+  /// Of hypotheses with the same number of effects, or with no more values, the likelier one is better. A
+  /// larger hypothesis must be accepted against the best one.
   bool accept(const Fitted& fitted) {
     const Fitted& best = found_.best;
     const bool no_larger =
@@ -210,12 +216,12 @@ class Search {
     return true;
   }
 
-  /// The likeliest that can be accepted.
+  /// Accepts the likeliest acceptable hypothesis of the list. @return whether there is one
   bool accept_one_of(const std::vector<Fitted>& level) {
     return std::ranges::any_of(level, [&](const Fitted& fitted) { return accept(fitted); });
   }
 
-  /// The one of the starts that leaves least beside `near`, of some of its effects.
+  /// Initial values with the smallest loss. @param near fit of some of the effects
   [[nodiscard]] Effects best_start(const std::vector<Effects>& starts, const Fitted& near) const {
     if (starts.size() == 1) return starts[0];
     const Effects* best = &starts[0];
@@ -225,8 +231,8 @@ class Search {
     return *best;
   }
 
-  /// `score`'s candidate beside what is there already, with those of its starts that do best. Ringing starts
-  /// are compared once: each needs a fit of the starts of all windows.
+  /// The effects of `there` and the candidate of `score` with its best initial values. Values of a ringing
+  /// cause are compared once only, because each comparison needs a fit of the starts of all windows.
   [[nodiscard]] Effects begin(const Fitted& there, const Score& score) {
     const Candidate* candidate = &study_.candidates()[score.candidate];
     const auto compared = ringing_start_.find(candidate);
@@ -242,7 +248,7 @@ class Search {
     return best;
   }
 
-  /// A wave goes over other places when the axis is elsewhere than its sensor says.
+  /// Initial values with a new wave: a scale of the sensor changes the positions at which the wave acts.
   [[nodiscard]] Effects with_fresh_wave(const Effects& effects, const Fitted& there) const {
     std::vector<Effects> starts{effects};
     for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -262,7 +268,7 @@ class Search {
     return best_start(starts, there);
   }
 
-  /// Leaves out what the others have made superfluous. @return whether there was one
+  /// Removes one effect that is not accepted beside the others. @return whether there was one
   bool drop_one() {
     const Fitted whole = found_.best;
     const Fitted* dropped = nullptr;

@@ -1,7 +1,7 @@
 #pragma once
-/// Which hypotheses are fitted. Each is judged by the likelihood of the training data in the noise that it
-/// leaves itself: in the noise that the base_model model leaves, which holds the effect as a disturbance,
-/// hardly any hypothesis is told from another one.
+/// Search over hypotheses. Each hypothesis is judged by the likelihood of the training data with the noise
+/// model of its own residual. The noise model of the base model describes the missing effect as a
+/// disturbance, and can hardly distinguish two hypotheses.
 #include <cstdint>
 #include <vector>
 
@@ -19,8 +19,8 @@ struct Hypotheses {
   std::vector<Visibility> excitation;
 };
 
-/// Forward from the base model: at every size the likeliest hypotheses are extended by what scores best
-/// beside them (beam search). From then on the study is whitened with the noise of the best one.
+/// Forward search from the base model: at every size the likeliest hypotheses are extended by their strongest
+/// candidates (beam search). Afterwards the study is whitened with the noise of the best hypothesis.
 /// @pre study.learn_disturbance()
 [[nodiscard]] Hypotheses searched(Study& study, const Request& request);
 
