@@ -1,11 +1,11 @@
 #pragma once
-/// Scores block by block: blocks are what is resampled.
+/// Scores by block. Blocks are the units of resampling.
 #include "study/study.hpp"
 
 namespace crane::diagnosis {
 
-/// Changes of the whitened outputs per unit, by value of the effects and window or piece; empty where it does
-/// not show.
+/// Slopes: changes of the whitened outputs per unit, by value of the effects and by window or piece. Empty
+/// where the effect is not visible.
 struct Study::Slopes {
   std::vector<std::vector<Eigen::VectorXd>> drive, equation_error, load;
 };
@@ -27,13 +27,13 @@ void add_scores(const std::vector<std::size_t>& blocks, const std::vector<Eigen:
 /// Blocks of `a`, then those of `b`.
 [[nodiscard]] BlockScores joined(const BlockScores& a, const BlockScores& b);
 
-/// What every block costs more when the values are fitted without it, to second order (the infinitesimal
-/// jackknife; its sum is the penalty of K. Takeuchi, Suri-Kagaku 153 (1976) 12, with leverage).
+/// Increase of the loss of each block when the fit omits the block, to second order (infinitesimal
+/// jackknife). The sum is the penalty of K. Takeuchi, Suri-Kagaku 153 (1976) 12, with leverage.
 [[nodiscard]] Blocks left_out(const BlockScores& at);
-/// Of the innovations, by block.
+/// Sum of ln f of the innovations, by block.
 [[nodiscard]] Blocks log_variances_of(const Problem& problem);
 
-/// h x = g with a pinch of ridge: two directions may look alike.
+/// Solves h x = g. A small ridge keeps h regular when two directions have the same effect.
 [[nodiscard]] Eigen::VectorXd solve(const Eigen::MatrixXd& h, const Eigen::VectorXd& g);
 
 }  // namespace crane::diagnosis

@@ -14,7 +14,7 @@ namespace {
 
 using plant::TermSetting;
 
-/// What the rig file's drive_friction of an axis has.
+/// Friction of an axis in the rig file (term drive_friction).
 struct KnownFriction {
   double least_coulomb_v = 0, least_viscous = 0;
   bool present = false;
@@ -35,7 +35,7 @@ KnownFriction known_friction(const configuration::Rig& rig, const std::string& a
 
 InRigFile in_rig_file(bool known) { return known ? InRigFile::yes : InRigFile::no; }
 
-/// A support that travels less [m or rad] shows nothing of its sensor.
+/// Travel of the support [m or rad] below which an error of its sensor is not visible.
 constexpr double kResting = 0.005;
 
 class Builder {
@@ -74,8 +74,8 @@ class Builder {
 
   void add_axis(const std::string& axis, Output output, double scale) {
     const KnownFriction known = known_friction(rig_, axis);
-    // Of an axis that the model holds fast where it moved, or the other way about, a little more pull or
-    // friction shows nothing.
+    // If the model sticks where the axis moved, or moves where the axis stuck, a small change of force or
+    // friction has no effect. Larger probes are needed.
     const double c = known.least_coulomb_v;
     std::vector<std::vector<double>> levels, sides, offsets, gains, excesses;
     if (c > 0) {
@@ -108,13 +108,14 @@ class Builder {
               two_amounts("position_force", axis,
                           {free_parameter("position_force", "stiffness_vpm", -100, 100, 0.05),
                            free_parameter("position_force", "offset_v", -5, 5, 0.02)}));
-    // Where no weight hangs on the axis, friction that grows with the motor's force is a smaller gain.
+    // Without a force of position on the axis, friction that grows with the motor force has the effect of a
+    // smaller motor gain.
     if (carries_weight(axis)) all_.add(amount("gear_friction", axis, "share", 0, 0.9, 0.02), Changes::drive);
     all_.add(reaching(amount("motor_gain", axis, "factor", 0.2, 5, 0.01), gains), Changes::drive,
              InRigFile::yes);
     all_.add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), Changes::drive);
     all_.add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), Changes::drive);
-    // Of a command that comes much later than simulated, a little delay shows nothing either.
+    // A small delay does not describe the effect of a long one.
     all_.add(reaching(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005),
                       {{0.02}, {0.035}, {0.05}, {0.07}, {0.1}, {0.14}, {0.2}}),
              Changes::drive);
@@ -126,20 +127,20 @@ class Builder {
     all_.add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), Changes::both);
   }
 
-  /// By the rig file: a force that goes with the position.
+  /// Whether the rig file contains a force on the axis that depends on its position.
   [[nodiscard]] bool carries_weight(const std::string& axis) const {
     return std::ranges::any_of(rig_.terms, [&](const TermSetting& term) {
       return term.axis == axis && (term.name == "torque_ripple" || term.name == "position_force");
     });
   }
 
-  /// A drive without a command shows its sensor's errors by the swing alone.
+  /// Errors of the sensor of a drive without a command are visible in the swing only.
   void add_support_sensor(const std::string& axis) {
     all_.add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), Changes::load);
     all_.add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), Changes::load);
   }
 
-  /// How far the load and the guide move what is behind the gap depends on its inertia more than on the gap.
+  /// The motion of the body behind the gap depends on its inertia more than on the width of the gap.
   void add_gap(const std::string& axis, Output output, double scale) {
     const double carriage = rig_.plant.trolley_mass_kg / rig_.plant.trolley_inertia_kg;
     const double share = output == kTrolleyPosition ? std::clamp(carriage, 0.05, 0.85) : 0.6;
@@ -184,7 +185,7 @@ class Builder {
     add_force(GoesWith::position, std::move(ripple));
   }
 
-  /// No axis goes less far.
+  /// Shortest travel of an axis.
   [[nodiscard]] double travelled(Output output) const {
     return std::max(travel_of(runs_, output).width(), 1e-3);
   }

@@ -1,5 +1,6 @@
 #pragma once
-/// What a candidate may look like, built from the parameters of its term.
+/// Shapes of candidates, built from the parameters of their terms. A probe is a value at which the effect is
+/// simulated.
 #include <utility>
 #include <vector>
 
@@ -7,15 +8,15 @@
 
 namespace crane::diagnosis {
 
-/// The bounds of the term's own documentation, narrowed to what is plausible on a rig.
+/// Bounds of the term, narrowed to values that are plausible on a rig.
 [[nodiscard]] FreeParameter free_parameter(const std::string& cause, const std::string& name, double low,
                                            double high, double step);
 
-/// One amount, no shape.
+/// One amount without shape parameters.
 [[nodiscard]] Candidate amount(const std::string& cause, const std::string& axis,
                                const std::string& parameter, double low, double high, double step);
 
-/// `candidate` looked at from afar as well: a probe at each of `settings`, where its fit may begin.
+/// `candidate` with additional probes at `settings`, which are also initial values of its fit.
 [[nodiscard]] Candidate reaching(Candidate candidate, const std::vector<std::vector<double>>& settings);
 
 /// One amount >= 0 with further parameters that give it a shape: a probe at each of `shapes`.
@@ -28,11 +29,12 @@ namespace crane::diagnosis {
                                const FreeParameter& angle, const std::vector<FreeParameter>& of_shape,
                                const std::vector<std::vector<double>>& shapes);
 
-/// Two amounts that belong together.
+/// Two amounts that are tested together.
 [[nodiscard]] Candidate two_amounts(const std::string& cause, const std::string& axis,
                                     std::vector<FreeParameter> both);
 
-/// What no small amount shows, a resonance or a gap: a probe at each of `settings`, where its fit begins.
+/// Effect that small amounts do not describe (a resonance, a gap): a probe at each of `settings`, which are
+/// the initial values of its fit.
 [[nodiscard]] Candidate at_once(const std::string& cause, const std::string& axis,
                                 std::vector<FreeParameter> parameters,
                                 const std::vector<std::vector<double>>& settings);
@@ -40,7 +42,7 @@ namespace crane::diagnosis {
 /// Replays that a candidate changes.
 enum class Changes { drive, load, both };
 
-/// Quantity of a candidate in the rig file.
+/// Whether the rig file contains the quantity of a candidate.
 enum class InRigFile { no, yes };
 
 /// Candidates in the order of the report.

@@ -15,14 +15,14 @@ using Eigen::Index;
 /// Standard normal quantile of 1 - p.
 double beyond(double p) { return std::sqrt(2.0) * boost::math::erfc_inv(2 * p); }
 
-/// Standard deviations of an amount that is found with a chance of kPower, where the largest of `tests`
-/// scores comes from nothing with rules::kSignificant (Bonferroni).
+/// Amount, in standard deviations, that is found with the probability kPower if the largest of `tests` scores
+/// without an effect exceeds the threshold with the probability rules::kSignificant (Bonferroni).
 double found_at(std::size_t tests, bool one_sided) {
   const double sides = one_sided ? 1 : 2;
   return beyond(rules::kSignificant / (sides * static_cast<double>(tests))) + beyond(1 - kPower);
 }
 
-/// Of an amount alone: what the learnt noise makes, and not less than the blocks scatter.
+/// Standard deviation of a single amount: by the learnt noise, at least the scatter of the blocks.
 double deviation(const BlockScores& at, Index i) {
   const double information = at.curvature(i, i);
   if (!(information > 0)) return std::numeric_limits<double>::infinity();
@@ -40,7 +40,8 @@ std::string label_of(const Candidate& candidate, const Score& place, std::size_t
   return candidate.label();
 }
 
-/// Values of a candidate of `amount` along a probe; of one that has no small amount, the first value scaled.
+/// Values of a candidate with `amount` along a probe. A candidate without small amounts: the first value is
+/// scaled.
 std::vector<double> values_of(const Candidate& candidate, const Score& place, std::size_t probe,
                               double amount) {
   const Shape& shape = place.shape;
@@ -87,7 +88,7 @@ std::vector<Direction> strongest_directions(const std::vector<Score>& places,
     std::size_t end = first, best = first;
     double most = -1;
     for (; end < places.size() && places[end].candidate == places[first].candidate; ++end) {
-      // A small amount where there is one; of settings as they are the strongest.
+      // Prefers the shape with small amounts; otherwise the setting with the largest information.
       const double least = *std::min_element(information[end].begin(), information[end].end());
       const double worth = places[end].shape.as_it_is ? least / (1 + least) - 1 : least;
       if (worth > most) most = worth, best = end;

@@ -1,7 +1,7 @@
 #pragma once
-/// What the data can show of the candidates, whatever they say: the information of the score test (C. R. Rao,
-/// Proc. Cambridge Phil. Soc. 44 (1948) 50) along each candidate's change, and the cosine between two
-/// changes, both whitened and with the starts of windows taken out.
+/// Sensitivity of the data to each candidate, independent of the residual: the information of the score test
+/// (C. R. Rao, Proc. Cambridge Phil. Soc. 44 (1948) 50) along the slopes of the candidate, and the cosine
+/// between the slopes of two candidates. The slopes are whitened, with marginal starts.
 #include <Eigen/Dense>
 #include <string>
 #include <vector>
@@ -14,19 +14,19 @@ class Study;
 struct Score;
 struct BlockScores;
 
-/// One way of one candidate to look.
+/// One probe of one candidate.
 struct Direction {
   std::size_t place = 0;  ///< of the scores
   std::size_t probe = 0;  ///< of its shape
 };
 
-/// Chance that an effect of the least size is found.
+/// Probability that an effect of the least size is found.
 inline constexpr double kPower = 0.9;
-/// Two changes of so much the same direction are hardly told apart: the size that is told from the other is
-/// 1 / sqrt(1 - cosine^2) = 2.3 times the least that is found.
+/// Cosine above which two candidates can hardly be distinguished: distinguishing them needs 1 / sqrt(1 -
+/// cosine^2) = 2.3 times the least size.
 inline constexpr double kAlike = 0.9;
 
-/// Directions in which the candidates are looked at: those of the shape with the largest information of each.
+/// Directions of each candidate: the probes of the shape with the largest information.
 /// @param information by place, of each probe
 [[nodiscard]] std::vector<Direction> strongest_directions(
     const std::vector<Score>& places, const std::vector<std::vector<double>>& information);

@@ -15,21 +15,24 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostRounds = 12;
-/// Ever more damped steps of a round; of one effect's values alone, or where there is little hope.
+/// Largest number of attempts of a round, each with more damping: kFewAttempts for the values of one effect
+/// alone, or while the loss exceeds `hopeless`.
 constexpr int kAttempts = 7, kFewAttempts = 3;
 constexpr double kFirstDamping = 1e-3;
-/// Decrease of the loss that is not worth another round.
+/// A round that decreases the Cauchy loss by less is the last one.
 constexpr double kLeastGain = 0.3;
-/// The same on the way there, as a share.
+/// The same for the sum of squares, as a share.
 constexpr double kRoughly = 0.003;
-/// Steps along a value of a loss that is rough (R. Hooke, T. A. Jeeves, J. ACM 8 (1961) 212): the first one
-/// as a share of the value, the last one of the first, after one that helped, after one that did not either
-/// way.
+/// Pattern search on a rough loss (R. Hooke, T. A. Jeeves, J. ACM 8 (1961) 212): first step as a share of the
+/// value; last step as a share of the first; factor after a step that decreases the loss; factor after steps
+/// that decrease it in neither direction.
 constexpr double kFirstStep = 0.15, kLastStep = 0.1, kLonger = 1.5, kShorter = 0.5;
-/// After so many rounds a fit that is still this many times what the slopes promise away is given up.
+/// From this round on, a fit ends if kPromise times the predicted decrease does not bring the loss below
+/// `hopeless`.
 constexpr int kLeastRounds = 1;
 constexpr double kPromise = 4;
-/// Fit and noise in turn, at most, and the decrease of the deviance that asks for another turn.
+/// Largest number of alternations of fit and noise model, and the decrease of the deviance below which they
+/// end.
 constexpr int kMostNoiseRounds = 3;
 constexpr double kWorthARound = 2;
 
@@ -54,10 +57,11 @@ bool same_values(const Effects& a, const Effects& b) {
                     [](const Effect& x, const Effect& y) { return x.values == y.values; });
 }
 
-/// Decrease of the loss of an undamped step without bounds.
+/// Predicted decrease of the loss by an undamped step without bounds.
 double promised(const BlockScores& at) { return at.pull().dot(solve(at.curvature, at.pull())); }
 
-/// Damped step of the values `active` inside the bounds; one at its bound that wants out stays there.
+/// Damped step of the values `active` inside their bounds. A value at its bound whose step leads outwards is
+/// held.
 VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, double damping,
                       std::vector<Index> active) {
   VectorXd step = VectorXd::Zero(flat.values.size());
@@ -87,8 +91,8 @@ VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, do
   return step;
 }
 
-/// Which values are moved together: all; and, of several effects, those of each alone. One whose loss goes in
-/// steps must not hold up the others.
+/// Groups of values that are stepped together: all values; then, if there are several effects, the values of
+/// each effect alone, so that an effect with a stepped loss does not block the others.
 std::vector<std::vector<Index>> moved_together(const Effects& effects) {
   std::vector<std::vector<Index>> groups(1);
   Index next = 0;
@@ -111,7 +115,7 @@ ShowsIn shown_in(const Effects& effects) {
   return parts;
 }
 
-/// Price of the starts included.
+/// Loss including the determinants of the starts.
 double total_loss(const Evaluation& at, Loss loss) {
   if (loss == Loss::robust) return at.loss;
   double sum = 0;
@@ -121,7 +125,7 @@ double total_loss(const Evaluation& at, Loss loss) {
   return sum;
 }
 
-/// Of the simulation, by output: mean over the windows of the rms of each.
+/// Error of the simulation by output: mean over the windows of the rms error of each.
 std::array<double, kOutputs> errors_of(const std::vector<std::pair<const Problem*, const Fits*>>& parts) {
   std::array<double, kOutputs> errors{};
   for (const auto& [problem, fits] : parts)
@@ -139,9 +143,9 @@ std::array<double, kOutputs> errors_of(const std::vector<std::pair<const Problem
 
 namespace {
 
-/// Schwarz's price of a value, ln N of N blocks, over Akaike's, 2: a superfluous value is chosen the less
-/// often the more data there are (G. Schwarz, Ann. Statist. 6 (1978) 461; for composite likelihoods X. Gao,
-/// P. X. Song, J. Am. Stat. Assoc. 105 (2010) 1531).
+/// Schwarz's penalty per value, ln N for N blocks, over Akaike's penalty, 2: the probability that a
+/// superfluous value is accepted decreases with the amount of data (G. Schwarz, Ann. Statist. 6 (1978) 461;
+/// for composite likelihoods X. Gao, P. X.-K. Song, J. Amer. Statist. Assoc. 105 (2010) 1531).
 double schwarz_over_akaike(const Blocks& left_out) {
   const auto blocks = std::count_if(left_out.begin(), left_out.end(), [](double cost) { return cost > 0; });
   return std::max(1.0, 0.5 * std::log(std::max<double>(1, static_cast<double>(blocks))));
@@ -321,7 +325,8 @@ Fitted Study::fit(Effects effects, double hopeless, const Evaluation& near) cons
   best.left_out = left_out(both);
   const MatrixXd inverse = both.curvature.completeOrthogonalDecomposition().pseudoInverse();
   best.by_noise = inverse.diagonal().cwiseMax(0.0).cwiseSqrt();
-  // The replay of a drive and its pieces under way see the same noise: together they know no more than one.
+  // The replay and the equation error of a drive contain the same noise: together they have the information
+  // of one of them.
   Index value = 0;
   for (const Effect& effect : best.effects)
     for (std::size_t k = 0; k < effect.values.size(); ++k, ++value)

@@ -37,9 +37,9 @@ class LoadBuilder {
   }
 
  private:
-  /// Settings a resonance may begin its fit with lie about as far apart as two seconds tell frequencies. An
-  /// elastic cable is not among the candidates: its bounce is never measured, and free to start in every
-  /// window it explains the disturbance of clean data.
+  /// The initial values of a resonance differ by about the frequency resolution of 2 s of data. An elastic
+  /// cable is no candidate: no sensor measures its oscillation, and with a free start in every window it
+  /// would explain the disturbance of clean data.
   void add_structures() {
     const auto square = [](double hz) { return std::pow(2 * std::numbers::pi * hz, 2); };
     const double most_raised = 0.7 * rig_.start.position[plant::kHoist];
@@ -68,8 +68,8 @@ class LoadBuilder {
     all_.add(std::move(two_cables), Changes::load);
   }
 
-  /// The strongest line of the swing and another one may be the natural frequencies of two cables. In a wide
-  /// swing the faster one is lower than in a small one.
+  /// Two cables whose natural frequencies are the strongest line of the swing and another line. The faster
+  /// frequency of a wide swing is lower than that of a small swing, which `wide` corrects.
   [[nodiscard]] std::vector<std::vector<double>> slings_of_lines(double most_raised) const {
     constexpr std::size_t kLines = 3;
     const double measured_m = rig_.start.position[plant::kHoist];
@@ -105,7 +105,7 @@ class LoadBuilder {
   }
 
   void add_swing_sensors() {
-    // The load pulls at the drives as it swings, not as it is measured to.
+    // A sensor error changes the measured swing, but not the force of the load on the drives.
     const Changes changes = data_.trolley || data_.slew ? Changes::both : Changes::load;
     std::vector<std::string> ways;
     if (data_.radial) ways.emplace_back("radial");

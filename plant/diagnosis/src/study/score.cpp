@@ -27,7 +27,7 @@ double chi_square_p(double statistic, Index freedom) {
   return statistic <= 0 ? 1.0 : boost::math::gamma_q(0.5 * static_cast<double>(freedom), 0.5 * statistic);
 }
 
-/// Directions of one candidate in one shape, block by block, what is known already taken out.
+/// Directions of one candidate in one shape by block, with the directions of the known effects projected out.
 struct Directions {
   MatrixXd by_block, curvature;
   bool one_sided = false;
@@ -43,7 +43,7 @@ struct Directions {
   }
 };
 
-/// The last `fresh` directions of `both`, those before them taken out.
+/// The last `fresh` directions of `both`, with all earlier directions projected out.
 Directions beside_known(const BlockScores& both, Index fresh) {
   const Index old = both.curvature.cols() - fresh;
   Directions d{both.by_block.rightCols(fresh), both.curvature.bottomRightCorner(fresh, fresh)};
@@ -79,7 +79,7 @@ double as_it_is(const Parts& parts, const std::vector<VectorXd>& change) {
   return gain;
 }
 
-/// How often does nothing but luck give a p-value as small as `least` somewhere?
+/// Share of random sign flips of the blocks of which some p value is at most `least`.
 double luck(const std::vector<Directions>& directions, double least, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<VectorXd> signs(kSignFlips);
@@ -97,7 +97,8 @@ double luck(const std::vector<Directions>& directions, double least, std::uint64
   return static_cast<double>(as_small) / (kSignFlips + 1);
 }
 
-/// The shapes that promise most, those as they are or the others.
+/// The shapes with the largest predicted gain: only settings that are simulated as they are, or only the
+/// others.
 std::vector<const Score*> most_promising(std::span<const Score> shapes, bool as_it_is, std::size_t count) {
   std::vector<const Score*> order;
   for (const Score& score : shapes)
@@ -107,8 +108,9 @@ std::vector<const Score*> most_promising(std::span<const Score> shapes, bool as_
   return order;
 }
 
-/// The best of a candidate's shapes. What a small amount promises is not what it gains at large, of friction
-/// least of all: a fit may begin at several shapes, at all of the amount or less of it.
+/// Best shape of a candidate. The slope at zero effect does not predict the gain of a large effect, least of
+/// all for friction; a fit therefore has initial values from several shapes, with the whole predicted amount
+/// or less.
 Score best_shape(const Candidate& candidate, std::span<const Score> shapes) {
   Score best = *std::max_element(shapes.begin(), shapes.end(),
                                  [](const Score& a, const Score& b) { return a.gain < b.gain; });
@@ -134,7 +136,7 @@ std::vector<Shape> Study::shapes_of(const Candidate& candidate, const Effects& e
       axis == kTrolleyPosition ? base_.parameters.trolley_gain_mps2pv : base_.parameters.slew_gain_radps2pv;
   const Replays replays = replays_of(train_.runs, with(effects));
   std::vector<Shape> shapes;
-  // An axis at rest shows waves of any length in a hair of travel; a term has bounds.
+  // An axis at rest has waves of any period within a very short travel; the bounds of the term exclude them.
   const FreeParameter& period = candidate.parameters[2];
   for (const PositionWave& wave : strongest_waves(pieces_of(train_.runs, replays, axis), kWaves))
     if (wave.period >= period.low && wave.period <= period.high)
@@ -158,7 +160,7 @@ double Study::add_probes(const Effects& effects, const Evaluation& at, const Sco
   double own = 0;
   const Shape& shape = place.shape;
   const Candidate& candidate = candidates_[place.candidate];
-  // Drives show a rough effect only from near by, the load from afar.
+  // A probe far from zero describes a rough effect in the load but not in the drives.
   const bool near_by = !candidate.rough || train_.load.empty();
   for (std::size_t p = 0; p < shape.probes.size(); ++p) {
     Crane crane = with(effects);

@@ -14,8 +14,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Long enough for a swing. Where a drive sticks and slips, an error of its friction makes slips that come
-/// too late or not at all: in longer windows these, not the error, make the residual.
+/// Window lengths. The swing needs about one period. In a longer window of a drive that sticks and slips,
+/// late or missing slips dominate the residual and hide the error of the friction.
 constexpr double kSwingWindow_s = 2, kDriveWindow_s = 1;
 
 Evaluation summed(const Study::Body& body, Fits of_drive, Fits of_load,

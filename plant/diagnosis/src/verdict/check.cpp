@@ -10,9 +10,9 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Simulating the menu takes seconds a proposal.
+/// Largest number of proposals: the simulation of the menu takes seconds for each.
 constexpr std::size_t kProposals = 4;
-/// Effects are asked for at so many times the least size that these data show.
+/// Size of the assumed effects, in multiples of the least size that the data show.
 constexpr double kTimesLeast = 2;
 
 const Candidate* candidate_of(const Study& study, const Visibility& seen) {
@@ -22,7 +22,7 @@ const Candidate* candidate_of(const Study& study, const Visibility& seen) {
   return found == study.candidates().end() ? nullptr : &*found;
 }
 
-/// Of twice the least size, inside its bounds.
+/// Effect of kTimesLeast times the least size, inside its bounds.
 Effects effect_of(const Study& study, const Visibility& seen) {
   const Candidate* candidate = candidate_of(study, seen);
   if (candidate == nullptr || seen.least.size() != candidate->parameters.size()) return {};
@@ -35,7 +35,8 @@ Effects effect_of(const Study& study, const Visibility& seen) {
   return {{candidate, values}};
 }
 
-/// Pairs that look alike, most alike first, each once; then what is not seen at all, against nothing.
+/// Questions for an experiment: pairs of candidates with the same effect, in the order of decreasing cosine,
+/// each once; then invisible candidates against the base model.
 std::vector<std::pair<const Visibility*, const Visibility*>> questions(const std::vector<Visibility>& all) {
   std::vector<std::pair<const Visibility*, const Visibility*>> asked;
   for (const Visibility& seen : all)

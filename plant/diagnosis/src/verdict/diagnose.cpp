@@ -39,8 +39,9 @@ bool acts_on(const Effects& effects, const std::string& column) {
   });
 }
 
-/// Whether the extended model loses over whole runs what the base model followed of a motion: friction that
-/// is off by a little lets an axis drift, friction that holds it fast explains nothing.
+/// True if the extended model, over whole runs, follows less than kStillFollowed of the motion that the base
+/// model follows. A small error of friction lets an axis drift; a friction that holds the axis explains
+/// nothing.
 bool loses_motion(const HeldOut& held_out, const std::string& column) {
   const auto squares = [&column](const std::map<std::string, double>& rms) {
     const auto found = rms.find(column);
@@ -52,8 +53,8 @@ bool loses_motion(const HeldOut& held_out, const std::string& column) {
   return followed_before > 0 && followed < rules::kStillFollowed * followed_before;
 }
 
-/// Whether the error where the effects act is smaller by a share that is worth a name, in windows or over
-/// whole runs.
+/// True if the error of an output on which the effects act decreases by kWorthwhile, in windows or over whole
+/// runs.
 bool worthwhile(const HeldOut& held_out, const Effects& effects) {
   const auto smaller = [&](const auto& before, const auto& after) {
     return std::ranges::any_of(before, [&](const auto& column) {
@@ -65,7 +66,7 @@ bool worthwhile(const HeldOut& held_out, const Effects& effects) {
          smaller(held_out.whole_baseline_rms, held_out.whole_extended_rms);
 }
 
-/// What held-out runs say about the extended model.
+/// Result of the held-out runs for the extended model.
 struct Proof {
   enum class Outcome {
     proven,
@@ -115,11 +116,11 @@ struct Data {
   Runs train, test;
 };
 
-/// Whether nothing is wrong where the held-out runs do not prove what was found. What shows in training only
-/// is an error that has another cause. What training and held-out data together do not make likely is luck,
-/// if held-out data lose no more by it than superfluous values cost. Then, and where it is of no consequence,
-/// the residual of the base model decides.
-/// @param best the unproven one, with its intervals
+/// True if the data give no evidence of an error although the held-out runs do not prove the extension. The
+/// residual of the base model decides if the extension has no consequence, if its values are insignificant,
+/// or if training and held-out data together are not significant and the held-out likelihood decreases no
+/// more than superfluous values cause. Otherwise the error has another cause.
+/// @param best the unproven fit, with its intervals
 bool nothing_wrong(Study& study, const Hypotheses& found, const Fitted& best, const Proof& proof,
                    const HeldOut& held_out, std::uint64_t seed) {
   const std::size_t candidates = study.candidates().size();
@@ -137,8 +138,8 @@ bool nothing_wrong(Study& study, const Hypotheses& found, const Fitted& best, co
   return nothing;
 }
 
-/// @param study of data in which what `losing` encoders lost is put back
-/// @param as_measured of the data before that; `study` itself where nothing was lost
+/// @param study of the data with restored counts of the `losing` encoders
+/// @param as_measured of the data as measured; `study` itself if no counts were lost
 Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measured,
                     const std::vector<LosingEncoder>& losing, const Request& request) {
   request.progress(0.02, "noise and disturbance");

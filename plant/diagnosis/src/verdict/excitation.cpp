@@ -24,7 +24,7 @@ std::string called(const std::string& what, const Runs& runs) {
   return what + (names.empty() ? "" : " (" + names + ")");
 }
 
-/// What is wrong with runs in which too little happens.
+/// Problems of runs with too little motion.
 void add_problems(const std::string& what, const Runs& runs, double least_s, const configuration::Rig& rig,
                   std::vector<std::string>& problems) {
   constexpr double kLeastRate = 0.01, kLeastWay = 0.005;
@@ -48,7 +48,7 @@ void add_problems(const std::string& what, const Runs& runs, double least_s, con
                            .str());
 }
 
-/// Runs are compared together: what one of them measures, or was commanded by, all of them have to have.
+/// All runs must have the same measured columns and commands, because they are compared together.
 void require_same_columns(const Runs& train, const Runs& test) {
   std::vector<std::string> problems;
   const Run& first = train.at(0).run;

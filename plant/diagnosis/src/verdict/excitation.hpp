@@ -1,5 +1,5 @@
 #pragma once
-/// Whether there is enough in the data to say anything.
+/// Checks whether the data suffice for a diagnosis.
 #include "crane/diagnosis/diagnosis.hpp"
 #include "crane/diagnosis/replay.hpp"
 
@@ -7,8 +7,8 @@ namespace crane::diagnosis {
 
 [[nodiscard]] Runs prepared(std::vector<Run> runs, const configuration::Rig& rig);
 
-/// A drive that no training run moves says nothing of its friction, motor or command: it creeps by less than
-/// a friction law is good for. It is taken to be where it was measured.
+/// Prescribes the measured motion of each drive that no training run moves: such a drive has no information
+/// about its friction, motor or command, and its creep is smaller than the error of a friction law.
 void hold_resting_drives(Runs& train, Runs& test);
 
 /// @throws DataError when runs differ in what they measure, are too short, or nothing moves

@@ -15,7 +15,7 @@
 namespace crane::diagnosis {
 namespace {
 
-/// 1 where noise and disturbance are as learnt.
+/// Mean loss over its expectation: 1 if noise and disturbance are as learnt.
 double mean_loss(const Problem& problem, const Fits& fits) {
   double sum = 0, count = 0;
   for (std::size_t w = 0; w < fits.size(); ++w) {
@@ -25,7 +25,7 @@ double mean_loss(const Problem& problem, const Fits& fits) {
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
 
-/// Rms of the residual of an output in windows / rms of its motion in the windows; 0 when it hardly moves.
+/// Rms residual of an output in windows over the rms motion in the windows; 0 if the output hardly moves.
 double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
   double moved = 0, count = 0;
   for (const Window& window : problem.windows()) {
@@ -38,9 +38,9 @@ double share_not_followed(const Problem& problem, const Fits& fits, std::size_t 
              : 0;
 }
 
-/// Force on the load that the simulation lacks, rms, as a share of the load's weight: that of a pendulum of
-/// the natural frequency w whose residual is r, F / m g = r'' / w^2 + r. The second difference spans an
-/// eighth of a period, so that counts and noise of the sensor do not make it.
+/// Rms of the missing force on the load, as a share of the weight: F / m g = r'' / w^2 + r with the residual
+/// r and the natural frequency w. The second difference spans an eighth of a period, so that counts and noise
+/// of the sensor have little effect.
 double lacking_force(const Problem& problem, const Fits& fits, std::size_t output, double natural_radps) {
   constexpr double kSpan_periods = 1.0 / 8;
   double squares = 0, count = 0;
@@ -91,7 +91,7 @@ class Judgement {
   }
 
  private:
-  /// Whether what is left is too much to be believed; says what it goes with.
+  /// True if the residual is not explained; adds the variables on which it depends.
   bool doubt() {
     const double load = mean_loss(study_.load(), best_.train.load),
                  drives = mean_loss(study_.drive(), best_.train.drive);
@@ -116,8 +116,8 @@ class Judgement {
                        [&](const Pattern& pattern) { return pattern_share(pattern, best_.effects); });
   }
 
-  /// A swing whose simulation lacks a force that no credible disturbance has, or a drive that the base model
-  /// alone should follow and does not. @return what is missing; empty: nothing
+  /// Tests for a swing whose missing force exceeds a credible disturbance, and for a drive that the base
+  /// model does not follow. @return description of the missing part; empty: nothing is missing
   [[nodiscard]] std::string not_followed() const {
     const std::string drive = best_.effects.empty() ? drive_not_followed() : "";
     return drive.empty() ? swing_not_followed() : drive;
@@ -153,8 +153,8 @@ class Judgement {
     return "";
   }
 
-  /// Who wins among all hypotheses of the best one's size that explain something. One that the held-out data
-  /// do not speak for by themselves may still be the cause, when it does better in all.
+  /// Vote among the best hypothesis and the rivals of the same size that explain an error. A hypothesis that
+  /// the held-out data alone do not confirm may still be the cause.
   void name() {
     std::vector<const Fitted*> equals;
     for (const Fitted& fitted : all_.all)

@@ -15,14 +15,14 @@ double squares_of(const std::vector<Eigen::VectorXd>& residuals) {
   return sum;
 }
 
-/// Whether the pattern goes with what the candidate is a law of.
+/// Whether the pattern depends on the variable of the law of the candidate.
 bool of_its_own(const Candidate& candidate, const Unexplained& left) {
   return candidate.law == left.with && candidate.axis == axis_of(left.output);
 }
 
-/// Beside the effects, as a share of the base model's loss. A term's form is not exactly the effect's, so
-/// that more may be left of what one of them is a law of; several laws of the same variable take any form
-/// together. No term of a drive changes with time.
+/// Largest permitted pattern, as a share of the loss of the base model. A term does not match the effect
+/// exactly, so that a larger pattern is permitted in the variable of one law; several laws of the same
+/// variable together match any form. No term of a drive depends on time.
 double believable(const Unexplained& left, const Effects& effects) {
   if (left.with == GoesWith::time) return rules::kPatternShareOverTime;
   const auto laws = std::count_if(effects.begin(), effects.end(),
@@ -32,7 +32,7 @@ double believable(const Unexplained& left, const Effects& effects) {
                      : rules::kPatternShareSeveralTerms;
 }
 
-/// Of each of the effects, what it takes off the squares of a drive's pieces; infinite on another axis.
+/// Decrease of the sum of squares of a drive by each of the effects; infinite for an effect on another axis.
 std::vector<double> explained_by_each(const Study& study, const Effects& effects, const Pieces& pieces) {
   std::vector<double> explained(effects.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < explained.size(); ++i) {
@@ -45,7 +45,7 @@ std::vector<double> explained_by_each(const Study& study, const Effects& effects
   return explained;
 }
 
-/// The least that any of the effects explains but those of whose own law the pattern is.
+/// Smallest decrease by any effect whose law has another variable than the pattern.
 double weakest(const Effects& effects, const std::vector<double>& explained, const Unexplained& left) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < explained.size(); ++i)
@@ -68,7 +68,7 @@ std::vector<Pattern> what_is_left(const Study& study, const Hypotheses& hypothes
   std::vector<Pattern> left;
   const Runs& runs = study.drive().runs();
   const Effects& effects = hypotheses.best.effects;
-  // What rings by itself is a line of its own.
+  // A ringing cause is itself a line of the spectrum.
   const Crane crane = study.with(effects);
   const bool rings = !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
   const Replays best = replays_of(runs, crane), base = replays_of(runs, study.base());

@@ -1,5 +1,5 @@
 #pragma once
-/// Patterns in what the best hypothesis leaves.
+/// Patterns in the residual of the best hypothesis.
 #include <limits>
 #include <vector>
 
@@ -9,19 +9,19 @@
 
 namespace crane::diagnosis {
 
-/// A pattern, and in the same noise the squares of the base model and what the weakest of the names on its
-/// axis takes off them.
+/// A pattern, with the sum of squares of the base model and the decrease of the sum of squares by the weakest
+/// cause on the axis, in the same noise.
 struct Pattern {
   Unexplained what;
   double of_base = 0, of_weakest = std::numeric_limits<double>::infinity();
 };
 
-/// Patterns in the residual of the drives and lines in that of the swing, strongest first.
-/// @param losing encoders whose jumps were put back: residuals that go with them are explained
+/// Patterns in the residual of the drives and lines in the residual of the swing, strongest first.
+/// @param losing encoders whose lost counts were restored: residuals that depend on them are explained
 [[nodiscard]] std::vector<Pattern> what_is_left(const Study& study, const Hypotheses& hypotheses,
                                                 const std::vector<LosingEncoder>& losing, std::uint64_t seed);
 
-/// Whether it is too much to be left beside these effects.
+/// Whether the pattern is larger than the thresholds permit beside these effects.
 [[nodiscard]] bool pattern_share(const Pattern& pattern, const Effects& effects);
 
 }  // namespace crane::diagnosis

@@ -17,7 +17,7 @@ std::vector<Estimate> estimates(const LosingEncoder& encoder) {
           {"jump", turns ? "rad" : "m", encoder.jump, encoder.jump_std_dev}};
 }
 
-/// A drift that was found on the axis beside the jumps is the same encoder's, and no cause of its own.
+/// Adds a drift that was found on the axis to the loss of the same encoder, and removes it from the causes.
 LosingEncoder in_all(LosingEncoder encoder, Diagnosis& diagnosis) {
   const std::string axis = axis_of(encoder.axis);
   for (const Cause& cause : diagnosis.causes) {

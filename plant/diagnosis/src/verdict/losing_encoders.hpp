@@ -6,9 +6,9 @@
 
 namespace crane::diagnosis {
 
-/// Names them beside what is said about the rest of the model.
-/// @param study of what has been put back
-/// @param as_measured of the same runs before that, whitened alike
+/// Adds the encoders that lose counts to the causes.
+/// @param study of the data with restored counts
+/// @param as_measured of the same runs as measured, whitened alike
 void name_losing(const std::vector<LosingEncoder>& losing, const Study& study, const Study& as_measured,
                  Diagnosis& diagnosis);
 
