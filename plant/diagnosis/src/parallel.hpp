@@ -1,7 +1,7 @@
 #pragma once
-/// Calls work(0) ... work(count - 1) on all processors; loops may be nested. Each iteration writes to its own
-/// result, so that the order does not matter. An exception cancels its own loop and is rethrown there; nested
-/// loops of other iterations run to their end.
+/// Calls work(0) ... work(count - 1) on all processors; loops may be nested. Each iteration writes its own
+/// result, so that the order of the iterations has no effect. An exception cancels the loop of its iteration
+/// and is rethrown by this loop; nested loops of other iterations run to their end.
 #include <tbb/parallel_for.h>
 #include <tbb/task_group.h>
 

@@ -1,13 +1,13 @@
 #pragma once
-/// Cauchy loss of a whitened residual: quadratic up to three standard deviations, logarithmic beyond (P. W.
-/// Holland, R. E. Welsch, Comm. Statist. A6 (1977) 813). A slip that the model makes early or late is a
-/// residual as large as the slip, whatever the noise.
+/// Cauchy loss of a whitened residual: nearly quadratic below three standard deviations, logarithmic beyond
+/// (P. W. Holland, R. E. Welsch, Comm. Statist. A6 (1977) 813). A slip that the model predicts one row early
+/// leaves a residual of the size of the slip, for any noise.
 #include <Eigen/Dense>
 #include <cmath>
 
 namespace crane::diagnosis {
 
-/// Gauss-Newton on squares initialises a fit; the Cauchy loss, which has local minima, is minimised then.
+/// A fit first minimises the sum of squares and then the Cauchy loss, which has local minima.
 enum class Loss { squares, robust };
 
 /// Noise variances.

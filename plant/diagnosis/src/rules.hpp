@@ -1,5 +1,5 @@
 #pragma once
-/// The numbers that decide a verdict. report.json prints them, docs/diagnosis.md lists them.
+/// Thresholds that decide a verdict. report.json prints them; docs/diagnosis.md lists them.
 #include <array>
 
 namespace crane::diagnosis {
@@ -29,7 +29,7 @@ inline constexpr Rule kLeastBeside{"least_share_beside", 0.2, "1",
                                    "minimum reduction of the remaining error by a further effect",
                                    "read off examples"};
 
-// A name among hypotheses of as many effects (verdict/judgement.cpp).
+// Choice among hypotheses with the same number of effects (verdict/judgement.cpp).
 inline constexpr Rule kClearWin{"clear_win", 0.8, "1", "minimum share of block resamples for a named cause",
                                 "level of the vote"};
 inline constexpr Rule kRunnerUp{"runner_up", 0.1, "1", "minimum share of block resamples for a rival",
@@ -52,7 +52,7 @@ inline constexpr Rule kStillFollowed{
     "still_followed", 0.5, "1",
     "minimum share of a drive's motion that the model follows, extended / base model", "read off examples"};
 
-// What is left is too much (verdict/judgement.cpp, verdict/leftovers.cpp).
+// Residual that is too large or predictable (verdict/judgement.cpp, verdict/leftovers.cpp).
 inline constexpr Rule kWorstLoss{"worst_loss", 1.25, "1",
                                  "maximum mean loss of the innovations; 1 for noise as learnt",
                                  "read off examples"};

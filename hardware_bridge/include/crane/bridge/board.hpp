@@ -1,6 +1,7 @@
 #pragma once
 /// Interface between the bridge and a rig: counters, analog and digital lines, a watchdog output, and time.
-/// The simulated plant and the encoder/DAC cards implement it; the loop of the bridge is the same for all.
+/// The simulated plant and the drivers of the boards implement this interface; the loop of the bridge is the
+/// same for all of them.
 #include <array>
 #include <cstdint>
 #include <stdexcept>

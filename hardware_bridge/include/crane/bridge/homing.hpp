@@ -1,9 +1,8 @@
 #pragma once
 /// Determines the zeros of the encoders. The position of an axis with Zero::homing is unknown until its mark
-/// has been detected twice: first in the search, and again at the approach speed after the axis has backed
-/// off. The second detection sets the counter to the position of the mark. The counter is set only after the
-/// brake has closed, so that no position jumps while a drive is active. Pure. Homing only observes the axis;
-/// the supervisor moves it.
+/// has been detected twice: first in the search, then at the approach speed after the axis has backed off.
+/// The second detection determines the position. The counter is set after the brake has closed, so that no
+/// position jumps while a drive is active. Pure. This class only observes the axis; the supervisor moves it.
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -9,7 +9,7 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Longest spike in rows; more is another zero of the sensor.
+/// Longest spike in rows: a longer deviation is a shift of the sensor's zero.
 constexpr std::size_t kLongestSpike = 5;
 /// Share of spikes beyond which a column is refused.
 constexpr double kLargestBrokenShare = 0.05;
@@ -30,7 +30,7 @@ class Column {
       if (std::isfinite(values[k])) seen_.push_back(k);
   }
 
-  /// Rows further away than the motion can go and return, after which the motion continues.
+  /// Rows that deviate by more than the credible motion, if the motion continues after them.
   std::vector<BrokenRows> spikes() {
     std::vector<BrokenRows> found;
     for (std::size_t good = 0, i = 1; i < seen_.size(); ++i) {

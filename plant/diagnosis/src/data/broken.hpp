@@ -4,8 +4,8 @@
 
 namespace crane::diagnosis {
 
-/// Sensor errors by which a spike or a reset exceeds the credible motion: normal noise does so once in 1e23
-/// rows.
+/// Multiple of the sensor error by which a spike or a reset exceeds the credible motion: probability 1e-23
+/// per row with normal noise.
 inline constexpr double kBeyondSensor = 10;
 
 /// Largest credible change of an output in a time, m or rad: of a drive at five times its largest speed, of a

@@ -59,7 +59,8 @@ class Checks {
       columns_.load_mass_kg = mass->front();
   }
 
-  /// All measured drives have a command, or none has: then their motion is that of the load's support.
+  /// All measured drives must have a command, or none. Without commands, the motion of the drives is the
+  /// measured motion of the support.
   void find_commands() {
     bool any = false, swings = false;
     for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
@@ -109,7 +110,7 @@ class Checks {
     }
   }
 
-  /// An axis without a command to move, and its swing, may stand still.
+  /// An axis without a command to move, and the swing in its plane, may be at rest.
   void judge_constant(Output output) {
     const Output drive = output == kTrolleyPosition || output == kRadialSwing ? kTrolleyPosition : kSlewAngle;
     const auto* command = columns_.commands[drive].values;

@@ -14,17 +14,17 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Shorter pieces are left out: less than half a swing of 1 m of cable.
+/// Shorter pieces are not used: less than half a swing of 1 m of cable.
 constexpr double kShortest_s = 1.0;
-/// A longer gap loses the state: in periods of the load; of drives alone in s.
+/// After a longer gap the state is unknown: in periods of the load; for drives alone in s.
 constexpr double kLostPeriods = 1.0, kLost_s = 2.0;
 /// Slowest sampling that follows a swing, with 1 % error of the clock, s.
 constexpr double kSlowestRow_s = 0.1 * 1.01;
 /// Faster sampling is a time in another unit, s.
 constexpr double kFastestRow_s = 1e-5;
-/// Grid rows per measured row: more is a file of gaps.
+/// Largest number of grid rows per measured row: data with more consist mainly of gaps.
 constexpr double kMostGridRowsPerRow = 50;
-/// Step over usual step: more is a missing row.
+/// Ratio of a step to the usual step: a larger step contains missing rows.
 constexpr double kMissingRowRatio = 1.5;
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -65,7 +65,7 @@ class RunSplitter {
   }
 
  private:
-  /// Whether an axis moves further than it can: a counter that is reset or wraps.
+  /// True if an axis moves farther than its drive permits: a counter was reset or wrapped.
   [[nodiscard]] bool jumps(std::size_t row) {
     bool any = false;
     for (std::size_t i = 0; i < kOutputs; ++i) {

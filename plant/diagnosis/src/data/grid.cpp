@@ -15,9 +15,9 @@ constexpr double kFinest_s = 0.01;
 constexpr double kSecondRateShare = 0.1, kSecondRateRatio = 0.75;
 /// Shortest grid period of irregular rows: in s, and as a share of the median step.
 constexpr double kLeastPeriod_s = 0.005, kLeastShare = 0.25;
-/// Share of the period: nearer rows are on the grid (1 um at 1 m/s and 10 ms).
+/// Share of the period below which the offset of a row from the grid is neglected (1 um at 1 m/s and 10 ms).
 constexpr double kOnGridTolerance = 1e-4;
-/// Share of a period: nearer to a whole number, a step determines the period.
+/// Share of a period: a step that is nearer to a multiple of the period determines the period.
 constexpr double kWholePeriodTolerance = 0.25;
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
@@ -32,8 +32,8 @@ double usual_step(const std::vector<double>& steps) {
   return std::min(middle, std::max({*at, kLeastPeriod_s, kLeastShare * middle}));
 }
 
-/// The period of which most steps are multiples, near a guess; else the guess. Of such rows the jitter of the
-/// times adds up to nothing, so that all short steps count: without the uneven ones the grid would slip.
+/// The period near a guess of which most steps are multiples; otherwise the guess. The jitter of the times of
+/// such rows has mean zero, so that all short steps count; without the uneven steps the grid would drift.
 double period_near(const std::vector<double>& steps, double guess_s) {
   double time = 0, count = 0, regular = 0;
   for (const double step : steps) {
@@ -73,7 +73,7 @@ class GridAssignment {
       row_at_[node] = i;
       of_row_[i] = node;
     }
-    // The end of a fast file may lie before the next grid row, and not near it.
+    // The last row of fast data may be measured before the next grid row, and not near it.
     if (grid.rows_in_period > 1 && last_offset(at, grid) * static_cast<double>(grid.rows_in_period) < -0.5) {
       of_row_[row_at_.back()] = kNone;
       row_at_.pop_back();
@@ -91,7 +91,7 @@ class GridAssignment {
   std::vector<std::size_t> of_row_, row_at_;
 };
 
-/// A missing command is the last one; before the first one, the first.
+/// A missing command has the value of the last command; before the first command, the value of the first.
 std::vector<double> held_command(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
   double last = 0;
   for (const std::size_t row : rows)
@@ -109,7 +109,7 @@ struct LostRows {
   std::size_t after = 0, count = 0;  ///< after: the row before them
 };
 
-/// Lost rows have a neighbouring step of usual length: a stretch of another sample time has none.
+/// Lost rows have a step of usual length beside them. A stretch with another sample time has none.
 std::vector<LostRows> lost_rows(const std::vector<double>& at, double row_s) {
   constexpr double kLost = 1.5;  // usual distances
   const auto usual = [&](std::size_t k) { return k + 1 < at.size() && at[k + 1] - at[k] < kLost * row_s; };
@@ -120,7 +120,7 @@ std::vector<LostRows> lost_rows(const std::vector<double>& at, double row_s) {
   return lost;
 }
 
-/// The commands with those of lost rows, interpolated linearly.
+/// The commands, interpolated linearly in lost rows.
 std::vector<TimedCommand> with_interpolated_commands(const std::vector<TimedCommand>& commands,
                                                      const std::vector<LostRows>& lost) {
   std::vector<TimedCommand> all;
@@ -141,7 +141,8 @@ std::vector<TimedCommand> with_interpolated_commands(const std::vector<TimedComm
   return all;
 }
 
-/// Whether the command changes more across lost rows than around them: an edge at an unknown time.
+/// True if the command changes more across lost rows than in the rows beside them: a step of the command at
+/// an unknown time may be lost.
 bool has_edge(const std::vector<TimedCommand>& commands, const LostRows& lost, plant::Axis axis) {
   constexpr double kEdge = 2;  // times the larger change per row around
   const auto change = [&](std::size_t k) {
@@ -152,7 +153,8 @@ bool has_edge(const std::vector<TimedCommand>& commands, const LostRows& lost, p
   return change(k) > kEdge * around * static_cast<double>(lost.count + 1);
 }
 
-/// Marks the grid rows that may have lost an edge, and the next one: distance and speed are two unknowns.
+/// Marks the grid rows that may have lost a step of the command, and the next row, because the step makes two
+/// values unknown: distance and speed.
 void mark_edges(const std::vector<LostRows>& lost, Run& run) {
   for (const plant::Axis axis : {plant::kTrolley, plant::kSlew})
     for (const LostRows& one : lost) {
@@ -166,7 +168,7 @@ void mark_edges(const std::vector<LostRows>& lost, Run& run) {
     }
 }
 
-/// Measured, interpolated linearly; without any measurement that of the rig file.
+/// Measured values, interpolated linearly; without measurements, the value of the rig file.
 std::vector<double> cable_on_grid(const Run& run, const std::vector<double>& seen, double rigs_own_m) {
   std::vector<double> time_s, length_m;
   for (std::size_t k = 0; k < seen.size(); ++k)

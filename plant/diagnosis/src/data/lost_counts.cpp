@@ -9,14 +9,14 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A clear jump exceeds so many counts and so many times the changes of the steps around it.
+/// A clear jump exceeds kClearCounts, and kClearJumpRatio times the changes of the steps around it.
 constexpr double kClearCounts = 12, kClearJumpRatio = 4;
 constexpr std::size_t kFewestClearJumps = 5;
 /// Expected false jumps of a run, if the steps around are noise with Laplace tails.
 constexpr double kFalseJumps = 0.01;
 /// Rows on each side that estimate the noise of the steps.
 constexpr std::size_t kNoiseRows = 50;
-/// An encoder that loses counts: share of the usual jump beyond which a jump is credible.
+/// Share of the usual jump of a losing encoder above which a smaller jump also counts as a jump.
 constexpr double kUsualShare = 0.4;
 /// Steps on one side of a jump that estimate the acceleration, and the nearest ones, which estimate the
 /// speed.
@@ -78,7 +78,7 @@ std::vector<double> deviations_of(const std::vector<double>& steps) {
   return deviations;
 }
 
-/// Threshold of a deviation: a Laplace distribution with the median deviation of the rows around exceeds b
+/// Threshold of a deviation: a Laplace distribution with the median deviation b of the rows around exceeds b
 /// ln(1/p) with probability p.
 double beyond_noise(const std::vector<double>& deviations, std::size_t k) {
   const std::size_t first = k - std::min(k, kNoiseRows),
@@ -104,8 +104,8 @@ std::vector<Jump> clear_jumps(const Rows& rows, double count) {
   return found;
 }
 
-/// Step at `k`, extrapolated from one side by robust speed and acceleration. @param towards -1 for those
-/// before, 1 for those after
+/// Step at `k`, extrapolated from one side by robust speed and acceleration. @param towards -1: steps before
+/// `k`; 1: steps after `k`
 std::optional<double> expected(const std::vector<double>& steps, std::size_t k, int towards) {
   std::vector<double> side, changes, guesses;
   for (std::size_t d = 1; d <= kSideSteps; ++d) {
@@ -120,8 +120,9 @@ std::optional<double> expected(const std::vector<double>& steps, std::size_t k, 
   return median(std::move(guesses));
 }
 
-/// Steps outside the range of the steps expected from both sides. A step inside it is a change of speed, by
-/// an impact or a push. The size is relative to the motion before, because a controller reacts to the jump.
+/// Jumps: steps outside the range of the steps that are extrapolated from both sides. A step inside this
+/// range is a change of speed by an impact or a push. The size of a jump is relative to the motion before it,
+/// because the controller reacts to the jump.
 std::vector<Jump> likely_jumps(const Rows& rows, double usual) {
   std::vector<Jump> found;
   const std::vector<double> steps = steps_of(rows);
@@ -146,7 +147,8 @@ void subtract(std::vector<double>& position, const std::vector<Jump>& jumps) {
   }
 }
 
-/// Removes jumps in rounds: a jump beside others appears when these are removed. @return all
+/// Removes jumps in rounds, because a jump may be visible only after the removal of another jump beside it.
+/// @return all
 std::vector<Jump> remove_jumps(Rows& rows, double usual) {
   std::vector<Jump> all;
   for (int round = 0; round < kMostRemovalRounds; ++round) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Encoders that lose counts: the position jumps between two rows, further than the drive can slip in that
-/// time, while the motion continues. No force explains that.
+/// Encoders that lose counts. The position jumps between two rows by more than the drive can move in this
+/// time, while the motion continues; no force explains such a jump.
 #include <cstddef>
 #include <vector>
 

@@ -92,7 +92,7 @@ class Mapped {
     }
     return numbers;
   }
-  /// NaN is inside: a problem of the data, found later.
+  /// A NaN counts as inside; a later check reports it.
   static bool inside(const Stretch& stretch, double time_s) {
     return !(time_s < stretch.from_s) && !(time_s > stretch.to_s);
   }

@@ -9,8 +9,8 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Differences of values are multiples of the step within this share of it, except a share of strays
-/// (values printed with few digits, a spike).
+/// Differences of values are multiples of the resolution within this share of it, except a share of outliers
+/// (values with few printed digits, a spike).
 constexpr double kLatticeTolerance = 0.05, kLargestStrayShare = 0.02;
 /// Rounding of doubles, as a share of the values.
 constexpr double kRoundingShare = 1e-12;

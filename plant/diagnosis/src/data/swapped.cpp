@@ -8,8 +8,8 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A correlation beyond the first is clear, below the second there is none: of 4 s of independent motion that
-/// is smoothed over 0.1 s, one in 1e6 exceeds the first.
+/// A correlation above the first value is clear; below the second value there is no correlation. Probability
+/// 1e-6 that 4 s of independent motion, smoothed over 0.1 s, exceed the first value.
 constexpr double kClearCorrelation = 0.8, kNoCorrelation = 0.4;
 constexpr double kShortestRun_s = 4, kCorrelationSmoothing_s = 0.05;
 
@@ -29,7 +29,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-/// Of r'' + (g / l) r with the acceleration of the drive; 0 without one of the measurements.
+/// Correlation of r'' + (g / l) r with the acceleration of the drive; 0 if one of them is not measured.
 double correlation_with_drive(const Run& run, const configuration::Rig& rig, Output swing, Output drive) {
   if (!run.has(swing) || !run.has(drive)) return 0;
   const Motion load = smoothed(run, swing);

@@ -27,7 +27,7 @@ constexpr double kLeastDecrease = 1;        // of the sum of squares, for anothe
 constexpr double kShortestStepShare = 0.1;  // of the Gauss-Newton step
 constexpr std::size_t kWindowStride = 2;    // every second window is compared: enough to rank motions
 
-/// Candidates of only one of the two.
+/// Candidates that only one of the two hypotheses contains.
 std::vector<const Candidate*> differing(const Effects& a, const Effects& b) {
   std::vector<const Candidate*> all;
   for (const auto& [one, other] : {std::pair{&a, &b}, {&b, &a}})

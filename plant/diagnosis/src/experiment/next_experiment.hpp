@@ -16,9 +16,9 @@ using Disturbances = std::array<Disturbance, kOutputs>;
 /// Of the replays. An output without a measurement has noise of 1e6 m or rad: it does not count.
 [[nodiscard]] Disturbances disturbances_of(const Study& study);
 
-/// T-optimality (A. C. Atkinson, V. V. Fedorov, Biometrika 62 (1975) 57): the motion of the menu in which one
-/// hypothesis, refitted, stays furthest from the prediction of the other. Each is the truth once; the smaller
-/// separation counts.
+/// T-optimality (A. C. Atkinson, V. V. Fedorov, Biometrika 62 (1975) 57): selects the motion of the menu for
+/// which the refitted rival differs most from the predictions of the assumed truth. Each hypothesis is the
+/// truth in turn; the smaller separation counts.
 /// @param a,b hypotheses with fitted values; common causes are fixed
 /// @return nothing if no motion separates them by ten standard deviations of the noise
 [[nodiscard]] std::optional<NextExperiment> propose_experiment(const configuration::Rig& rig,

@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 constexpr double kLowest_hz = 0.1, kHighest_hz = 4, kSpacing_hz = 0.0125;
 constexpr std::size_t kLineFolds = 4;
 constexpr std::size_t kLineFlips = 99;
-/// Share of the loss: a smaller line is of no consequence for the crane.
+/// Share of the loss below which a line has no consequence for the crane.
 constexpr double kLineOfDrives = 0.025, kLineOfLoad = 0.012;
 
 /// A force of one frequency: cosine and sine on each piece. Each run has its own phase.
@@ -62,7 +62,7 @@ ByRun summed_by_run(const Pieces& pieces, const Line& line, const VectorXd& sign
   return sums;
 }
 
-/// The best line: frequency and amplitude of each fold are those of the others.
+/// Cross-validated gain of the best line: for each fold, the other folds determine frequency and amplitude.
 struct Found {
   double gain = 0, hz = 0;
 };

@@ -19,9 +19,9 @@ using Eigen::VectorXd;
 constexpr std::size_t kLines = 400;
 /// Distance of lines, in 1 / travel.
 constexpr double kLineSpacing = 0.25;
-/// Five waves over the travel; longer ones are position-dependent friction.
+/// Fewest waves over the travel: fewer waves are a position-dependent friction.
 constexpr std::size_t kFirstLine = 20;
-/// Subdivisions between two lines: the phase has to fit over the whole travel.
+/// Subdivisions between two lines, so that the phase of the wave fits over the whole travel.
 constexpr std::size_t kRefinement = 8;
 
 struct Wave {

@@ -78,7 +78,7 @@ std::vector<Variable> variables_of(const Runs& runs, Output axis) {
           {name + ": command of the other drive", GoesWith::other_command, 1, times, time, other_command}};
 }
 
-/// Of each piece, one pattern per bin.
+/// One pattern per bin, by piece.
 std::vector<NormalEquations> normal_equations_of(const Pieces& pieces, const Variable& variable) {
   const auto last = static_cast<double>(variable.bins - 1);
   std::vector<NormalEquations> all;

@@ -17,7 +17,7 @@ struct Unexplained {
   double fraction = 0;  ///< of the pieces' loss
 };
 
-/// Those with a positive cross-validated gain, strongest first.
+/// Patterns with a positive cross-validated gain, strongest first.
 /// @param pieces of a drive
 [[nodiscard]] std::vector<Unexplained> find_unexplained(const Pieces& pieces);
 

@@ -19,8 +19,8 @@ struct Disturbance {
       0;  ///< minus twice the log likelihood of the residuals it was learnt from, without constant
 };
 
-/// moving: the error of the speed persists. turning: reverses or stops in this row, the error is lost.
-/// standing: at rest for several rows, no error.
+/// Motion of the axis in a row. moving: the error of the speed persists. turning: the axis reverses or stops,
+/// which ends the error of the speed. standing: at rest for several rows, without an error of the speed.
 enum class MotionPhase { moving, turning, standing };
 
 /// Motion of an axis in one row.

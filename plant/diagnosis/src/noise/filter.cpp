@@ -5,7 +5,7 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Share of u at rest: the axis creeps, unlike the model's.
+/// Share of u at rest, where the measured axis creeps and the model sticks.
 constexpr double kStandingFrictionShare = 0.01;
 /// Variance of the distance in a row after a lost edge of the command, in noise variances.
 constexpr double kUnknownSpeedVariance = 1e6;
@@ -75,7 +75,7 @@ void PredictionCovariance::advance(std::size_t row) {
   const MotionPhase now = phase(row);
   const double friction =
       friction_ * (now == MotionPhase::standing ? kStandingFrictionShare : row_motion.slowness);
-  // In an ordinary row the steady state is kept.
+  // In a row of ordinary motion, the filter keeps its steady state.
   const bool usual =
       row_motion.seen && now == MotionPhase::moving && friction == 0 && !row_motion.speed_unknown;
   if (usual && steady_) return;

@@ -16,7 +16,7 @@ constexpr int kSweeps = 8;
 constexpr std::array kDampings_ps{0.0, 1.0, 4.0, 12.0};
 /// Grid of the correlation time of a; 0: white.
 constexpr std::array kCorrelations_s{0.0, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0};
-/// Least decrease of minus twice the log likelihood for another sweep.
+/// A sweep that decreases minus twice the log likelihood by less is the last one.
 constexpr double kWorthASweep = 1;
 
 /// Coordinate search on grids. Accelerations are in multiples of the noise.

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 /// Variance of an unknown start, in noise variances.
 constexpr double kUnknownStartVariance = 1e8;
 
-/// Sum of logarithms of numbers >= 1, by products.
+/// Sum of logarithms of numbers >= 1. Products of the numbers save calls of log().
 class SumOfLogs {
  public:
   void add(double number) {
@@ -32,7 +32,7 @@ class SumOfLogs {
   double sum_ = 0, product_ = 1;
 };
 
-/// Squares of innovations over their variances, of measured rows.
+/// Squares of the innovations divided by their variances, for the measured rows.
 struct Innovations {
   std::vector<double> squares;
   double logs = 0;  ///< sum of ln variance

@@ -15,8 +15,9 @@ struct Likelihood {
   double variance = 0;
 };
 
-/// By the innovations of the Kalman filter (filter.hpp). The first two measured rows of a window determine
-/// its start and do not count. @param near guess of the variance; 0: none
+/// Likelihood of the innovations of the Kalman filter (filter.hpp). The first two measured rows of a window
+/// determine its start and are not counted.
+/// @param near guess of the variance; 0: none
 [[nodiscard]] Likelihood likelihood(const std::vector<Eigen::VectorXd>& residuals,
                                     const std::vector<WindowMotion>& motions, const Disturbance& disturbance,
                                     double near);

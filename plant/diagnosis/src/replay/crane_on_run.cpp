@@ -9,7 +9,8 @@
 namespace crane::diagnosis {
 namespace {
 
-/// Change of a motor's speed from row to row, beyond the model's, over its running median: more is an impact.
+/// Ratio above which the change of a motor's speed from row to row that the model does not explain, over its
+/// running median, is an impact.
 constexpr double kImpactRatio = 15;
 
 bool has_sensor_term(const Crane& crane) {
@@ -113,7 +114,7 @@ void Replay::CraneOnRun::warm_up_sensors(plant::Model& sensing, std::size_t row)
   }
 }
 
-/// Changes of the motors' speeds from a row to the next that only impacts explain.
+/// Changes of the speeds of the motors from a row to the next row that only impacts explain.
 plant::PerAxis Replay::CraneOnRun::impacts_after(std::size_t row, std::array<RunningMedian, 2>& usual) const {
   plant::PerAxis unexplained{};
   for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
@@ -127,8 +128,9 @@ plant::PerAxis Replay::CraneOnRun::impacts_after(std::size_t row, std::array<Run
   return unexplained;
 }
 
-/// Inner coordinates are simulated along the measured motion of the whole run. The times of impacts in a gap
-/// are chaotic: impacts seen in the motors' measured speed correct the prescribed coordinates.
+/// Simulates the inner coordinates along the measured motion of the whole run. The times of impacts in a gap
+/// are chaotic; therefore impacts that are detected in the measured speed of the motors correct the
+/// prescribed coordinates.
 void Replay::CraneOnRun::simulate_inner_coordinates() {
   const std::array<bool, kOutputs> none{};
   std::array<bool, kOutputs> drives{};

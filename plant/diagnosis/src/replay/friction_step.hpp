@@ -7,12 +7,13 @@
 
 namespace crane::diagnosis {
 
-/// m/s or rad/s: slower, the step of the friction at standstill is solved implicitly.
+/// m/s or rad/s: below this speed, the steep friction at standstill is integrated implicitly.
 inline constexpr double kImplicitSpeed = 0.004;
-/// m/s or rad/s: slower is standstill. A faster axis that reverses inside a step comes to rest first.
+/// m/s or rad/s: a slower axis is at rest. A faster axis that reverses inside a step first comes to rest.
 inline constexpr double kRestSpeed = 2e-4;
 
-/// m/s or rad/s: a diverged simulation; rounding would close the bracket of the root.
+/// m/s or rad/s: above this speed the simulation has diverged, and rounding would close the bracket of the
+/// root.
 inline constexpr double kDivergedSpeed = 1e6;
 
 struct FrictionStep {

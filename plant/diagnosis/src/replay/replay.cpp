@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSmoothing_s = 0.03;
 
-/// Standard deviation of rounding to the resolution that the data show, else to the counts of the rig file.
+/// Standard deviation of rounding to the resolution of the data; without it, to the counts of the rig file.
 std::array<double, kOutputs> quantisation_noise(const Run& run, const configuration::Rig& rig) {
   constexpr double kLeast = 1e-7;
   constexpr std::array<std::size_t, kOutputs> kEncoders{0, 1, 3, 4};
@@ -27,7 +27,8 @@ std::array<double, kOutputs> quantisation_noise(const Run& run, const configurat
 
 }  // namespace
 
-/// A smoothed drive would excite the swing too little: by 0.1 % already with second differences.
+/// The motion of a drive comes from a spline, because smoothing would reduce the excitation of the swing:
+/// second differences alone by 0.1 %.
 Motion motion_of(Output output, const std::vector<double>& measured, double period_s) {
   const bool drive = output == kTrolleyPosition || output == kSlewAngle;
   return drive ? spline(measured, period_s)
@@ -172,7 +173,8 @@ struct Replay::RowTimeOutputs {
       }
     }
   }
-  /// Whether steps before the row have set its outputs: its time is before the grid's.
+  /// True if the steps before the row have set its outputs, because the row was measured before its grid
+  /// time.
   [[nodiscard]] bool evaluated(std::size_t row) const { return row > first && run.offset_s[row] < 0; }
   /// @param reported,at sensor value and coordinate of output i at the grid's time of `row`
   void add_sensor_error(std::size_t row, std::size_t i, double reported, double at) {

@@ -15,9 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A shorter piece is all start; a longer one is divided.
+/// A shorter piece is not used, because its start explains all of it. A longer piece is divided.
 constexpr double kShortestPiece_s = 0.15, kLongestPiece_s = 2;
-/// The speed is unknown in a longer gap: the larger of both, the second in usual row spacings.
+/// The speed is unknown in a gap that is longer than both: s; usual row spacings.
 constexpr double kUnknownSpeed_s = 0.1, kUnknownRows = 2.5;
 
 struct MovingStretch {
@@ -91,7 +91,8 @@ VectorXd model_distance(const Run& run, const Replay::Increments& drive, std::si
   return way;
 }
 
-/// In units of the sensor value: a scale of the sensor must not reduce the residual. 0 in missing rows.
+/// Residual of a piece in units of the sensor value, because a scale of the sensor must not reduce the
+/// residual. 0 in missing rows.
 VectorXd piece_residual(const PreparedRun& run, const Replay::Increments& drive, Output axis,
                         std::size_t first, std::size_t row_count) {
   const auto rows = static_cast<Index>(row_count);
@@ -120,7 +121,8 @@ WindowMotion window_motion_of(const PreparedRun& run, const MovingStretch& at, O
   return motion;
 }
 
-/// Whitened changes at the rows' own instants that position and speed at the start make.
+/// Orthonormal directions of the start: whitened changes by position and speed at the start, at the measured
+/// times of the rows.
 MatrixXd start_basis(const Whitener& whitener, const Run& run, std::size_t first, std::size_t rows) {
   MatrixXd directions(static_cast<Index>(rows), 2);
   directions.col(0).setOnes();

@@ -1,12 +1,12 @@
 #pragma once
 /// Pieces of the residual of one output that are linear in a missing force.
 ///
-/// Drives: equation error (docs/diagnosis.md, 2) between two rests. The model's acceleration at the measured
-/// speed, command and swing is integrated twice; the start is projected out. Stick, slip and standstill have
-/// no part in it.
+/// Drives: equation error (docs/diagnosis.md, 2) between two standstills. The model gives the acceleration at
+/// the measured speed, command and swing. This acceleration is integrated twice; the start is projected out.
+/// The pieces contain no stick, slip or standstill.
 ///
-/// Swing: windows of the load's replay. Without free motion the response of a pendulum is proportional to the
-/// force.
+/// Swing: windows of the replay of the load. Without its free motion, the response of a pendulum is
+/// proportional to the force.
 ///
 /// Forces have arbitrary units: only the shape of a pattern counts.
 #include "replay/standstill.hpp"

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 /// Simulated before each window of the swing: fills the longest moving average of a swing sensor. Drives need
 /// no lead: their filtered command is known from the beginning of the run.
 constexpr double kLead_s = 0.3;
-/// Noise and starts in turn.
+/// Number of alternations of start estimation and noise model.
 constexpr int kLearningRounds = 3;
 
 /// Natural frequency at a large swing over that at a small one: the stiffness g / l falls with cos(swing).
@@ -86,7 +86,7 @@ void Problem::whiten_with(std::vector<Disturbance> disturbances) {
 
 void Problem::learn_disturbance(const Replays& crane) {
   disturbances_.clear();
-  // From the second round on with starts that suit the noise learnt before.
+  // From the second round on, the starts are estimated with the noise model of the round before.
   for (int round = 0; round < kLearningRounds; ++round) {
     const std::vector<std::vector<VectorXd>> plain = residuals(fit(crane));
     std::vector<Disturbance> learned;

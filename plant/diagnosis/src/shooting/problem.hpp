@@ -1,6 +1,6 @@
 #pragma once
-/// Multiple shooting over one part (drive or load) of all runs (H. G. Bock 1983): windows of a few seconds,
-/// each with its own start, which is marginal (docs/diagnosis.md, 3 to 5). A start has the prior standard
+/// Multiple shooting over one part (drive or load) of all runs (H. G. Bock 1983): windows of a few seconds.
+/// The start of each window is estimated and marginalised (docs/diagnosis.md, 3 to 5) with the prior standard
 /// deviations S.
 #include <Eigen/Dense>
 #include <limits>

@@ -1,4 +1,5 @@
-/// Starts of windows: Gauss-Newton in a trust region, from several beginnings where the first one fails.
+/// Starts of windows: Gauss-Newton in a trust region, from several initial values if the fit from the first
+/// one is poor.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,8 +17,8 @@ using Eigen::VectorXd;
 /// Finite differences: position [m or rad], rate [m/s or rad/s].
 constexpr double kStartPositionStep = 1e-4, kStartRateStep = 1e-3;
 constexpr int kMostStartRounds = 8;
-/// Converged when the start's directions explain less of the residual than this: in noise variances, and as a
-/// share of a residual that is not whitened. The projection removes the rest.
+/// A start has converged when it explains less of the residual: in noise variances; as a share of the sum of
+/// squares of a residual that is not whitened. The projection removes the explained part.
 constexpr double kStartConverged = 0.1, kPlainStartConverged = 1e-4;
 /// Prior standard deviations of a start: position [m or rad], rate [m/s or rad/s].
 constexpr double kPriorPosition = 0.1, kPriorRate = 1;
@@ -25,9 +26,9 @@ constexpr double kPriorPosition = 0.1, kPriorRate = 1;
 constexpr double kLargestPositionCorrection = 0.01, kLargestRateCorrection = 0.1;
 /// Trust region of inner coordinates, which no sensor measures, in multiples of the above.
 constexpr double kInnerCorrectionRatio = 20;
-/// Share of the squares of a motion. A start that leaves more is solved for again from other beginnings.
+/// Share of the sum of squares of a motion. If the fit leaves more, it is repeated from other initial values.
 constexpr double kPoorlyFollowed = 0.3;
-/// A pendulum is nearly linear in its start.
+/// Largest number of linearisations of a swing, which is nearly linear in its start.
 constexpr int kMostLinearisations = 4;
 
 /// @param outputs number of elements that belong to outputs; inner coordinates follow
@@ -61,8 +62,8 @@ VectorXd Problem::measured_start(const Replay& replay, const Window& window) con
   return Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size()));
 }
 
-/// Outputs move with the measured start. Ringing inner coordinates keep their start: their phase after a
-/// whole run is not reproducible.
+/// The start of the outputs changes by the change of their measured start. Ringing inner coordinates keep
+/// their start, because their phase after a whole run is not reproducible.
 VectorXd Problem::transferred_start(const WindowFit& at, const VectorXd& measured) const {
   VectorXd start = at.start;
   start.head(output_start_size()) +=
@@ -96,7 +97,8 @@ void Problem::marginalise_start(WindowFit& fit) const {
   fit.residual -= fit.basis * (fit.basis.transpose() * fit.residual).eval();
 }
 
-/// Steps with a fixed linearisation while the residual decreases. @pre simulated from the start
+/// Gauss-Newton steps with a fixed linearisation while the residual decreases. @pre `fit.simulated` is
+/// simulated from `fit.start`
 bool Problem::refine_start(const Replay& replay, std::size_t at, const VectorXd& target,
                            WindowFit& fit) const {
   fit.residual = target - fit.simulated;
@@ -158,9 +160,9 @@ bool Problem::poorly_followed(std::size_t at, const VectorXd& target, const Vect
   return false;
 }
 
-/// The measured rate may be wrong: noise, an averaging sensor, a motion that the model lacks. Where the swing
-/// follows poorly, the start is also solved for from the measured angle at rest and from equilibrium, so that
-/// no window is worse than standing still.
+/// The measured rate may be wrong: noise, an averaging sensor, a motion that the model lacks. If the fit of a
+/// swing is poor, the start is also estimated from the measured angle with rate zero and from a load at rest.
+/// The residual is therefore never larger than that of a load at rest.
 void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) const {
   const VectorXd target = measured(windows_[at]), begin = measured_start(replay, windows_[at]);
   fit = fit_from(replay, at, target, begin);

@@ -1,13 +1,13 @@
 #pragma once
-/// The command gate. Every demand passes it before it reaches a drive. Order of the checks: finite, range,
-/// rate, age, stopping envelope.
+/// The command gate. Every demand passes the gate before it reaches a drive. Order of the checks: finite,
+/// range, rate, age, stopping envelope.
 #include "crane/supervisor/envelope.hpp"
 
 namespace crane::supervisor {
 
 /// Multiple of a drive's voltage limit above which a demand is rejected. The largest demand of all
 /// controllers in the three maneuvers is 12.8 V for a limit of 10 V (gain scheduling, step of 90 degrees). A
-/// step over the whole travel of the slew axis (8 rad) would demand 65 V; the factor 3 beyond it admits
+/// step over the whole travel of the slew axis (8 rad) would demand 65 V; the remaining factor of 3 admits
 /// larger gains.
 inline constexpr double kAbsurd = 20;
 

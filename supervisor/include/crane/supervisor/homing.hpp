@@ -1,8 +1,8 @@
 #pragma once
-/// Homing of an axis: sequence of creeping motions that lets the bridge find the position of the axis. The
-/// result of a tick is the speed of the reference. Planner and controllers execute it through the gate, as in
-/// every move. The bridge detects the mark independently (crane/bridge/homing.hpp); its second detection, at
-/// the approach speed, determines the position.
+/// Homing of an axis: sequence of slow motions in which the bridge finds the position of the axis. The result
+/// of a tick is the speed of the reference. Planner and control laws follow this reference through the gate,
+/// as in every move. The bridge detects the mark independently (crane/bridge/homing.hpp); the second
+/// detection, at the approach speed, determines the position.
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {

@@ -1,5 +1,5 @@
 #pragma once
-/// Limits and times of the supervisor. They are set when the rig file is read, and do not change afterwards.
+/// Limits and times of the supervisor. The rig file sets them; they do not change afterwards.
 #include <algorithm>
 #include <string>
 #include <vector>

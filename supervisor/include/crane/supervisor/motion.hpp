@@ -31,8 +31,8 @@ struct BrakeMemory {
   PerAxis speed{};
 };
 
-/// Homing has given the present position of the axis the new value `position`. Call before observe() gets the
-/// first sample with this value.
+/// Homing has set the present position of the axis to `position`. Call this before the first sample with the
+/// new position.
 void rename_place(std::size_t axis, double position, MotionMemory& motion, BrakeMemory& brakes) noexcept;
 
 /// Call at every tick with a sample while the brakes are commanded closed. The first call stores position and

@@ -32,8 +32,8 @@ struct Rule {
   const char* remedy;     ///< action of the operator; never empty
 };
 
-/// All rules in the order of evaluation: the first that holds wins. The reactions become milder, except for
-/// the rules of ARMING and of a restart.
+/// All rules in the order of evaluation: the first rule that holds determines the cause. The reactions are
+/// sorted by decreasing severity, except for the rules of ARMING and of a restart.
 [[nodiscard]] std::span<const Rule> rules() noexcept;
 
 struct Finding {
@@ -41,11 +41,11 @@ struct Finding {
   Reaction reaction = Reaction::none;
 };
 
-/// The cause with the severest reaction in this tick.
+/// The first rule that holds in this tick.
 [[nodiscard]] Finding worst_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept;
 
-/// First cause that refuses a reset and takes READY back to LOCKED. A latched bridge and a dropped watchdog
-/// relay do not refuse it: both need the watchdog permission that the reset gives.
+/// First cause that refuses a reset and takes READY back to LOCKED. A latched bridge and an open watchdog
+/// relay do not refuse a reset, because both need the watchdog permission that the reset gives.
 [[nodiscard]] Cause blocking_cause(const Limits& limits, const Inputs& in, const Memory& m) noexcept;
 
 /// The table as Markdown, as docs/safety.md shows it.

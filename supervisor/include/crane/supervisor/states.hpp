@@ -1,5 +1,5 @@
 #pragma once
-/// States, causes and reactions of the supervisor. docs/safety.md draws them; the numbers are those of
+/// States, causes and reactions of the supervisor. docs/safety.md draws the states; the numbers are those of
 /// idl/crane.idl.
 #include <array>
 #include <cstddef>

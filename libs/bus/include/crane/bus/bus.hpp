@@ -105,8 +105,8 @@ struct EndpointOptions {
 };
 
 /// Identifies the DDS writer of a sample: equal for all samples of one writer, different for any two writers.
-/// Valid within this process. The middleware assigns it, so that a sender with a DDS implementation cannot
-/// choose it. A Header, in contrast, can be copied by any sender.
+/// Valid within this process. The middleware assigns the identifier; a sender that uses a DDS implementation
+/// cannot choose it. A Header, in contrast, can be copied by any sender.
 using WriterId = std::array<std::uint8_t, 16>;
 
 /// Identifies the DDS participant of a writer: equal for all writers of one Bus, different for any two buses.
@@ -271,8 +271,9 @@ class Bus {
 
 /// Delivers a sample of the topic to all its readers.
 using Deliver = std::function<void(const void* sample)>;
-/// What an in-process network does to a published sample: calls `deliver` once for every sample that arrives,
-/// this one or any other of its topic. It must not use the network.
+/// Decides which samples an in-process network delivers for a published sample: calls `deliver` once for
+/// every delivered sample, which may be this one or any other of its topic. The function must not use the
+/// network.
 using Wire =
     std::function<void(const topics::Description& topic, const void* sample, const Deliver& deliver)>;
 /// Passes all later samples through `wire`. An empty `wire` delivers each sample once.

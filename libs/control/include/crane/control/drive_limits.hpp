@@ -24,8 +24,8 @@ struct Homing {
   double position = 0;        ///< position at which the switch of the mark changes, unit
   double speed = 0;           ///< search speed, also the largest speed while the position is unknown, unit/s
   double approach_speed = 0;  ///< speed of the second approach, which sets the position
-  /// Distance that the axis backs off after the switch has opened, unit. Also the tolerance for the
-  /// position of the mark in later passes.
+  /// Distance that the axis backs off after the switch has opened, unit. Also the tolerance of the position
+  /// of the mark in later passes.
   double back_off = 0;
   double volt_limit_v = 5;  ///< largest voltage while the position is unknown, V
   /// Direction of motion towards the mark: -1 down, 1 up.

@@ -1,7 +1,7 @@
 #pragma once
 /// Combines the samples of one tick from several topics. The first input is the leader: its sample k opens
-/// tick k. Real time: the newest tick is open, for a bounded time; a tick that is still incomplete then is
-/// counted as lost. Lockstep: every tick is open in order, without a time limit.
+/// tick k. Real time: the newest tick is open for a bounded time; if an input is still missing after this
+/// time, the tick counts as lost. Lockstep: every tick is open in order, without a time limit.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -162,8 +162,8 @@ class TickJoin {
     has_respite_ = false;
     return true;
   }
-  /// A process that was scheduled late may not have received samples that arrived in the meantime. Once per
-  /// tick this function then extends the wait by half the bound.
+  /// A process that was scheduled late may not yet have received samples that have arrived at the host.
+  /// Therefore this function extends the wait by half the bound, once per tick.
   bool woke_late(std::int64_t now_ns) {
     if (has_respite_ || now_ns < due_ns_ + policy_.bound_ns / 2) return false;
     due_ns_ = now_ns + policy_.bound_ns / 2;
