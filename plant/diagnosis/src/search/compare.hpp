@@ -13,7 +13,7 @@ namespace crane::diagnosis {
 /// "command_delay (trolley) + payload_mass"
 [[nodiscard]] std::string label_of(const Effects& effects);
 
-/// Compares minus twice the log likelihood of the training data plus the price of the fitted values.
+/// Compares minus twice the log likelihood of the training data plus the penalty of the fitted values.
 [[nodiscard]] bool less(const Fitted& a, const Fitted& b);
 
 /// True when both have the same candidates; their values may differ.

@@ -304,9 +304,9 @@ class Search {
   Study& study_;
   const Request& request_;
   Hypotheses found_;
-  std::vector<Fitted> tried_;                                      ///< of the next size, first fits
+  std::vector<Fitted> tried_;                                      ///< first fits that have not been refitted
   std::map<const Candidate*, std::vector<double>> ringing_start_;  ///< the best one of each
-  std::map<std::size_t, double> p_value_;                          ///< of every candidate by itself
+  std::map<std::size_t, double> p_value_;                          ///< of every candidate alone
 };
 
 }  // namespace

@@ -21,8 +21,8 @@ struct Effect {
 };
 using Effects = std::vector<Effect>;
 
-/// Sums of squares of the whitened residual over consecutive blocks of about `kBlock_s`, the units of
-/// resampling. First the blocks of the drives, with those of their equation error, then those of the load.
+/// Losses of consecutive blocks of about `kBlock_s`, the units of resampling. The blocks of the drives, which
+/// include the equation error, precede the blocks of the load.
 using Blocks = std::vector<double>;
 inline constexpr double kBlock_s = 2.0;
 
@@ -47,9 +47,9 @@ struct Fitted {
   Noise noise;        ///< model by which `train` is whitened
   Noise leaves;       ///< learnt from the residuals of its first fit
   double misfit = 0;  ///< minus twice the log likelihood of the first fit, with free starts of windows
-  /// Minus twice the log likelihood of the training data by block, with the price of the fitted values.
+  /// Minus twice the log likelihood of the training data by block, with the penalty of the fitted values.
   Blocks deviance;
-  double price = 0;  ///< of the fitted values; contained in `deviance`
+  double price = 0;  ///< penalty of the fitted values; contained in `deviance`
   Blocks left_out;   ///< increase of each block's deviance when the fit leaves the block out (Takeuchi)
   /// Mean over the windows of the rms error of the simulation in a window, m or rad.
   std::array<double, kOutputs> error{};
@@ -164,8 +164,8 @@ class Study {
   /// Scores of directions around `at`.
   [[nodiscard]] BlockScores block_scores(const Evaluation& at, const Slopes& slopes,
                                          Loss loss = Loss::robust) const;
-  /// Appends the changes of the residuals per unit of `crane`'s last effect in the parts.
-  /// @return decrease of the loss by free starts of the effect's own coordinates
+  /// Appends the changes of the residuals per unit of the last effect of `crane`, in the given parts.
+  /// @return decrease of the loss by free starts of the inner coordinates of the effect
   double add_slope(const Crane& crane, const Evaluation& at, double step, ShowsIn parts,
                    Slopes& slopes) const;
   /// Smallest visible amount of each candidate. @param slopes  by place, of its probes
@@ -175,7 +175,7 @@ class Study {
   /// Every shape of every candidate that is not among the effects.
   [[nodiscard]] std::vector<Score> places(const Effects& effects) const;
   /// Appends the changes of the residuals by the probes of a candidate's shape.
-  /// @return decrease of the loss by free starts of the candidate's own coordinates
+  /// @return decrease of the loss by free starts of the inner coordinates of the candidate
   double add_probes(const Effects& effects, const Evaluation& at, const Score& place, Slopes& slopes) const;
   /// Evaluation of the base crane.
   [[nodiscard]] Evaluation evaluated(const Body& body, const Replays& base) const;

@@ -70,9 +70,9 @@ bool worthwhile(const HeldOut& held_out, const Effects& effects) {
 struct Proof {
   enum class Outcome {
     proven,
-    unlikely,        ///< they are not likelier beyond doubt
-    no_consequence,  ///< they are likelier, and no error is smaller by a share that matters
-    refuted,         ///< they contradict it
+    unlikely,        ///< the held-out likelihood is not significantly larger
+    no_consequence,  ///< the likelihood is larger, but no error decreases by kWorthwhile
+    refuted,         ///< the extended model follows the motion worse
   };
   Outcome outcome = Outcome::proven;
   std::string why;  ///< of all outcomes but `proven`
