@@ -66,6 +66,8 @@ class Search {
         level = settle();
         if (level.empty()) break;
         settle_parts_of(level.front());
+        for (Fitted& fitted : level) fitted = *of_all(fitted.effects);
+        std::sort(level.begin(), level.end(), less);
         if (less(level.front(), found.best)) level = with(std::move(level), exchanged(level.front()));
         if (!accept_one_of(level)) break;
       }
@@ -113,6 +115,8 @@ class Search {
       keep(fitted);
       if (rest.size() == found_.best.effects.size()) accept(fitted);
     }
+    for (Fitted& fitted : found_.all)
+      if (fitted.effects.size() == whole.effects.size()) fitted = no_worse_than_its_parts(fitted);
   }
 
   /// The same hypothesis with one effect replaced by another one: what was best beside fewer effects is not
