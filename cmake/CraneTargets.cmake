@@ -48,15 +48,17 @@ function(crane_executable name)
   target_link_libraries(${name} PRIVATE crane_build_flags ${ARG_LINK})
 endfunction()
 
-# crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL | LOOP])
-# GoogleTest program; each TEST becomes one CTest test. SERIAL: never runs beside another test (real time, real DDS), and has the
-# main() of tests/real_time, where a failure is final unless a bare timer proves that the computer paused. All other programs
-# carry the label "unit", unless LABELS are given, and are built by the target unit_tests. LOOP: tests of code that runs while a
-# crane moves; they carry the label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too.
+# crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL [ALONE] | LOOP])
+# GoogleTest program; each TEST becomes one CTest test. SERIAL: the tests of this program run one after the other (real time, real
+# DDS), beside a test of at most one other program, which has DDS domains of its own. ALONE: no other test runs at the same time,
+# because these tests require that the loop loses no tick. SERIAL tests have the main() of tests/real_time, where a failure is
+# final unless a bare timer proves that the computer paused. All other programs carry the label "unit", unless LABELS are given,
+# and are built by the target unit_tests. LOOP: tests of code that runs while a crane moves; they carry the label "unit-loop"
+# (CTest discovers tests with one label only) and are built by loop_tests, too.
 add_custom_target(unit_tests)
 add_custom_target(loop_tests)
 function(crane_test name)
-  cmake_parse_arguments(ARG "SERIAL;LOOP" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;ALONE;LOOP" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   set(main GTest::gtest_main)
   if(ARG_SERIAL)
@@ -68,7 +70,10 @@ function(crane_test name)
   # ccache requires -fpch-preprocess. GCC 12 reports false overflows for a precompiled <string>.
   target_compile_options(${name} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow>)
   if(ARG_SERIAL)
-    set(properties RUN_SERIAL TRUE)
+    set(properties RESOURCE_LOCK ${name})
+    if(ARG_ALONE)
+      set(properties RUN_SERIAL TRUE)
+    endif()
   else()
     set(properties "")
     if(NOT ARG_LABELS)

@@ -28,6 +28,33 @@ TEST(Search, FindsALongDelayOfTheCommand) {
   EXPECT_NEAR(best.effects[0].values[0], 0.105, 0.05 * 0.105);
 }
 
+/// With amount 0 of its further effect a hypothesis is as likely as its part.
+TEST(Search, FindsNoHypothesisLessLikelyThanOneOfItsParts) {
+  constexpr double kTolerance_nats = 3;  // a fit ends when a round gains less
+  for (const unsigned seed : {5U, 6U}) {
+    truth::Case request;
+    request.rig = "drive_axis";
+    request.seed = seed;
+    request.seconds = 20;
+    request.effects = {{"command_offset", 2, "trolley"}, {"coulomb_friction", 2, "trolley"}};
+    const DataOfTruth data(request);
+    Study study(data.rig, data.train, data.test);
+    study.learn_disturbance();
+    const Hypotheses found = searched(study, {.most_effects = 2});
+    const auto likelihood = [](const Fitted& f) { return -0.5 * (sum(f.deviance) - f.price); };
+    for (const Fitted& whole : found.all)
+      for (const Fitted& part : found.all) {
+        const bool contained = part.effects.size() < whole.effects.size() &&
+                               std::ranges::all_of(part.effects, [&](const Effect& effect) {
+                                 return has(whole.effects, effect.candidate);
+                               });
+        if (!contained) continue;
+        EXPECT_GT(likelihood(whole), likelihood(part) - kTolerance_nats)
+            << label_of(whole.effects) << " and its part " << label_of(part.effects) << ", seed " << seed;
+      }
+  }
+}
+
 /// The loss is rough, because the axis breaks loose earlier or later: by more than neighbouring amplitudes
 /// differ.
 TEST(Intervals, OfARippleContainTheTruthDespiteARoughLoss) {

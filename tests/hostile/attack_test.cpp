@@ -24,7 +24,7 @@ using system_test::RunningStack;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr std::uint32_t kDomain = 67;
+constexpr std::uint32_t kDomain = 79;
 constexpr double kStill_m = 0.01;  ///< motion of an axis in HOLD by swing and control
 
 void open_and_push(msg::Command& command, std::uint64_t tick) {

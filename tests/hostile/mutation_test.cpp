@@ -23,7 +23,7 @@ namespace {
 using namespace std::chrono_literals;
 using system_test::RunningStack;
 
-constexpr std::uint32_t kDomain = 67;
+constexpr std::uint32_t kDomain = 69;
 constexpr std::uint64_t kSeed = 1'965;
 constexpr std::uint64_t kMutations = 100'000;
 constexpr auto kMost = 15s;

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t kDomain = 61;
+constexpr std::uint32_t kDomain = 73;
 
 std::vector<std::string> arguments(const RunningStack& stack, const std::string& for_s) {
   return {"jog",

@@ -23,7 +23,7 @@ using namespace std::chrono_literals;
 using campaign::Expectation;
 using campaign::Reason;
 
-constexpr std::uint32_t kDomain = 63;
+constexpr std::uint32_t kDomain = 76;
 constexpr const char* kRig = "virginia_tech_tower";
 constexpr auto kWatched = 600ms;
 constexpr double kMoving_mps = 0.15;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t kDomain = 65;
+constexpr std::uint32_t kDomain = 78;
 
 struct Attack {
   const char* topic;

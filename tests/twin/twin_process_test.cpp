@@ -18,7 +18,7 @@ namespace {
 using recording::contents_of;
 using recording::TemporaryDirectory;
 
-constexpr std::uint32_t kDomain = 61;
+constexpr std::uint32_t kDomain = 72;
 
 /// Moves in both directions, enough for learning and tests.
 std::string scenario_text(int moves) {

@@ -86,6 +86,10 @@ std::string label_of(const Effects& effects) {
 
 bool less(const Fitted& a, const Fitted& b) { return sum(a.deviance) < sum(b.deviance); }
 
+bool likelier_without_price(const Fitted& a, const Fitted& b) {
+  return sum(a.deviance) - a.price < sum(b.deviance) - b.price;
+}
+
 bool same(const Effects& a, const Effects& b) {
   return a.size() == b.size() &&
          std::all_of(a.begin(), a.end(), [&](const Effect& e) { return has(b, e.candidate); });

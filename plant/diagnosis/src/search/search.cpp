@@ -70,6 +70,8 @@ class Search {
         level = settle();
         if (level.empty()) break;
         settle_parts_of(level.front());
+        for (Fitted& fitted : level) fitted = *of_all(fitted.effects);
+        std::sort(level.begin(), level.end(), less);
         if (less(level.front(), found.best)) level = with(std::move(level), exchanged(level.front()));
         if (!accept_one_of(level)) break;
       }
@@ -117,6 +119,8 @@ class Search {
       keep(fitted);
       if (rest.size() == found_.best.effects.size()) accept(fitted);
     }
+    for (Fitted& fitted : found_.all)
+      if (fitted.effects.size() == whole.effects.size()) fitted = no_worse_than_its_parts(fitted);
   }
 
   /// Hypotheses in which another effect replaces one effect of `given`, because the best candidate beside few
@@ -178,11 +182,34 @@ class Search {
               [](const Fitted& a, const Fitted& b) { return a.misfit < b.misfit; });
     tried_.resize(std::min(tried_.size(), kSettled));
     std::vector<Fitted> level;
-    for (const Fitted& tried : tried_) level.push_back(study_.refit_with_own_noise(tried));
+    for (const Fitted& tried : tried_)
+      level.push_back(no_worse_than_its_parts(study_.refit_with_own_noise(tried)));
     tried_.clear();
     std::sort(level.begin(), level.end(), less);
     for (const Fitted& fitted : level) keep(fitted);
     return level;
+  }
+
+  /// At the values of a part, with amount 0 of the remaining effect, a hypothesis is as likely as the part. A
+  /// less likely fit has stopped at another minimum; it is repeated from the values of the part.
+  [[nodiscard]] Fitted no_worse_than_its_parts(const Fitted& given) {
+    Fitted whole = given;
+    for (std::size_t i = 0; i < given.effects.size() && given.effects.size() > 1; ++i) {
+      Effects rest = given.effects;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      const auto found = of_all(rest);
+      if (found == found_.all.end() || !likelier_without_price(*found, whole)) continue;
+      const Fitted part = *found;
+      Effect remaining = given.effects[i];
+      for (std::size_t k = 0; k < remaining.candidate->amount_count; ++k)
+        remaining.values[k] = remaining.candidate->parameters[k].null;
+      Effects start = part.effects;
+      start.push_back(remaining);
+      study_.whiten_training(part.noise);
+      const Fitted again = study_.refit_with_own_noise(study_.first_fit(start, part));
+      if (less(again, whole)) whole = again;
+    }
+    return whole;
   }
 
   [[nodiscard]] std::vector<Fitted>::iterator of_all(const Effects& effects) {
