@@ -171,11 +171,14 @@ class Refit {
     return all;
   }
 
-  /// Gauss-Newton with step halving, inside the bounds.
+  /// Gauss-Newton with step halving, inside the bounds. The base model, without effects, has no values to
+  /// fit.
   void fit(Effects& effects) {
+    if (effects.empty()) return;
     VectorXd residual = stacked(misfits(effects));
     for (int round = 0; round < kMostRefitRounds; ++round) {
       const VectorXd change = step(effects, residual);
+      if (!change.allFinite()) return;  // a slope at which the replay diverges
       double gain = 0;
       for (double share = 1; share > kShortestStepShare && gain <= 0; share *= 0.5) {
         const Effects next = moved(effects, share * change);
