@@ -55,8 +55,8 @@ TEST(NextExperiment, SeparatesADelayFromALag) {
 
 /// The base model has no effect, thus no value to fit.
 TEST(NextExperiment, SeparatesACauseFromTheBaseModel) {
-  const Suspects gantry("gantry");
-  const auto proposed = gantry.propose({gantry.effect("command_delay", "trolley", 0.03)}, {});
+  const Suspects tower("virginia_tech_tower");
+  const auto proposed = tower.propose({tower.effect("command_delay", "trolley", 0.03)}, {});
   ASSERT_TRUE(proposed);
   EXPECT_GT(proposed->separation, 20);
 }
