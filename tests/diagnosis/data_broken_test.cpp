@@ -79,6 +79,21 @@ TEST(BrokenData, AnAxisAtRestIsNotFrozen) {
     EXPECT_THAT(note, Not(HasSubstr("do not change")));
 }
 
+/// Dry friction holds the axis between two fast motions. The sensor is finer than the last step to rest.
+TEST(BrokenData, AnAxisThatSticksBetweenTwoMotionsIsNotFrozen) {
+  constexpr double kMotion_s = 0.5, kRest_s = 0.4, kCycle_s = 2 * kMotion_s + kRest_s, kStep_m = 1e-6;
+  auto table = whole_file();
+  auto& position = values_of(table, "trolley_position_m");
+  for (std::size_t k = 0; k < position.size(); ++k) {
+    const double time_s = 0.01 * static_cast<double>(k), phase_s = std::fmod(time_s, kCycle_s);
+    const double braking_mps2 = 3 + 0.3 * std::sin(std::floor(time_s / kCycle_s));
+    const double left_s = std::max({0.0, kMotion_s - phase_s, phase_s - kMotion_s - kRest_s});
+    position[k] = std::round(-0.5 * braking_mps2 * left_s * left_s / kStep_m) * kStep_m;
+  }
+  for (const std::string& note : load_run(table, broken_lab(), "broken.csv").notes)
+    EXPECT_THAT(note, Not(HasSubstr("do not change")));
+}
+
 TEST(BrokenData, AResetCounterCutsTheRunAndIsNamed) {
   auto table = whole_file();
   auto& position = values_of(table, "trolley_position_m");

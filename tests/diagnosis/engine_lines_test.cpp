@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "crane/diagnosis/candidate.hpp"
 #include "study/swing_lines.hpp"
 
 namespace crane::diagnosis {
@@ -69,6 +70,23 @@ TEST(TwoCables, AreOfOneLengthAtTheLargestShare) {
   const auto [a, b] = cables_with(0.8, 2.2, 1, kGravity);
   EXPECT_NEAR(a.lower_m, a.upper_m, 1e-7);
   EXPECT_NEAR(b.lower_m, b.upper_m, 1e-7);
+}
+
+/// Cables for two measured frequencies may need a lower mass or length outside the bounds of the term.
+TEST(TwoCables, BeginWithinTheBoundsOfTheirParametersForAnyTwoFrequencies) {
+  const auto rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
+  std::size_t starts = 0;
+  for (const double slow : {0.2, 0.4, 0.8})
+    for (const double fast : {0.5, 1.0, 2.0, 4.0, 8.0}) {
+      const auto candidates = candidates_for(rig, {swinging({{slow, 0.1}, {fast, 0.05}})});
+      for (const Candidate& candidate : candidates)
+        for (const auto& values : candidate.ringing_starts) {
+          ++starts;
+          EXPECT_TRUE(candidate.permits(values))
+              << candidate.label() << ", " << slow << " and " << fast << " Hz";
+        }
+    }
+  EXPECT_GT(starts, 20U);
 }
 
 }  // namespace

@@ -53,6 +53,14 @@ TEST(NextExperiment, SeparatesADelayFromALag) {
   EXPECT_NO_THROW((void)experiment::parse_scenario(proposed->scenario, "next.toml", &tower.rig));
 }
 
+/// The base model has no effect, thus no value to fit.
+TEST(NextExperiment, SeparatesACauseFromTheBaseModel) {
+  const Suspects tower("virginia_tech_tower");
+  const auto proposed = tower.propose({tower.effect("command_delay", "trolley", 0.03)}, {});
+  ASSERT_TRUE(proposed);
+  EXPECT_GT(proposed->separation, 20);
+}
+
 TEST(NextExperiment, IgnoresCommonCauses) {
   const Suspects tower("virginia_tech_tower");
   const Effect friction = tower.effect("viscous_friction", "slew", 0.3);

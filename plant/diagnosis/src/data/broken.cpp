@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kLongestSpike = 5;
 /// Share of spikes beyond which a column is refused.
 constexpr double kLargestBrokenShare = 0.05;
-/// Frozen: constant for longer than both, between steps of more than kMovingRatio sensor errors.
+/// Frozen: constant for longer than both, after steps of more than kMovingRatio sensor errors, until a step
+/// that is larger than a motion from rest: the axis has moved meanwhile.
 constexpr double kMovingRatio = 8, kFrozen_s = 0.25;
 constexpr std::size_t kFrozenRows = 10, kExamples = 3;
 
@@ -54,7 +55,7 @@ class Column {
       std::size_t end = i + 1;
       while (end < seen_.size() && values_[seen_[end]] == values_[seen_[i]]) ++end;
       const bool lasts = end - i > kFrozenRows && time_s_[seen_[end - 1]] - time_s_[seen_[i]] > kFrozen_s;
-      if (lasts && end < seen_.size() && steps(i - 1, i) && steps(i - 2, i - 1) && steps(end - 1, end))
+      if (lasts && end < seen_.size() && steps(i - 1, i) && steps(i - 2, i - 1) && !from_rest(end - 1))
         found.push_back({seen_[i + 1], seen_[end - 1]});
       i = end;
     }
@@ -76,6 +77,13 @@ class Column {
   }
   [[nodiscard]] bool steps(std::size_t i, std::size_t j) const {
     return std::abs(values_[seen_[j]] - values_[seen_[i]]) > kMovingRatio * error_;
+  }
+
+  /// Whether the motion from `k` to the next row is credible if the axis stands at `k`.
+  [[nodiscard]] bool from_rest(std::size_t k) const {
+    const double time_s = time_s_[seen_[k + 1]] - time_s_[seen_[k]];
+    return std::abs(values_[seen_[k + 1]] - values_[seen_[k]]) <=
+           largest_change_from_rest(rig_, output_, time_s) + kMovingRatio * error_;
   }
 
   std::vector<double>& values_;
@@ -118,6 +126,13 @@ double largest_credible_change(const configuration::Rig& rig, Output output, dou
     return kDriveSpeedRatio * std::max(rig.drives[output].max_speed, kSlowestDrive) * time_s;
   const double length_m = std::max(rig.start.position[plant::kHoist], 0.05);
   return kSwingSpeedRatio * 2 * std::sqrt(rig.plant.gravity_mps2 / length_m) * time_s;
+}
+
+double largest_change_from_rest(const configuration::Rig& rig, Output output, double time_s) {
+  if (output != kTrolleyPosition && output != kSlewAngle) return 0;
+  constexpr double kForces = 3;  // of the command, of the back EMF and viscous friction, of dry friction
+  const double gain = output == kSlewAngle ? rig.plant.slew_gain_radps2pv : rig.plant.trolley_gain_mps2pv;
+  return 0.5 * kForces * gain * rig.drives[output].volt_limit_v * time_s * time_s;
 }
 
 void leave_broken_out(recording::Table& table, const configuration::Rig& rig, Findings& findings) {

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "crane/plant/pendulum.hpp"
 
@@ -171,11 +172,14 @@ class Refit {
     return all;
   }
 
-  /// Gauss-Newton with step halving, inside the bounds.
+  /// Gauss-Newton with step halving, inside the bounds. The base model, without effects, has no values to
+  /// fit.
   void fit(Effects& effects) {
+    if (effects.empty()) return;
     VectorXd residual = stacked(misfits(effects));
     for (int round = 0; round < kMostRefitRounds; ++round) {
       const VectorXd change = step(effects, residual);
+      if (!change.allFinite()) return;  // a slope at which the replay diverges
       double gain = 0;
       for (double share = 1; share > kShortestStepShare && gain <= 0; share *= 0.5) {
         const Effects next = moved(effects, share * change);
@@ -264,6 +268,17 @@ Disturbances disturbances_of(const Study& study) {
   return disturbances;
 }
 
+namespace {
+
+constexpr std::optional<double> kImitated = std::numeric_limits<double>::infinity();
+
+/// True when every cause of `part` is one of `whole`.
+bool contains(const Effects& whole, const Effects& part) {
+  return std::ranges::all_of(part, [&](const Effect& e) { return has(whole, e.candidate); });
+}
+
+}  // namespace
+
 std::optional<NextExperiment> propose_experiment(const configuration::Rig& rig, const Effects& a,
                                                  const Effects& b, const Disturbances& disturbances) {
   const std::vector<const Candidate*> causes = differing(a, b);
@@ -272,8 +287,10 @@ std::optional<NextExperiment> propose_experiment(const configuration::Rig& rig, 
   std::vector<double> separations(menu.size(), 0.0);
   parallel_for(menu.size(), [&](std::size_t i) {
     if (!excites(menu[i], causes)) return;
-    const auto one = separation_of(rig, menu[i], a, b, disturbances);
-    const auto other = one ? separation_of(rig, menu[i], b, a, disturbances) : std::nullopt;
+    // A hypothesis that contains the true one imitates it exactly: only the larger one can be the truth.
+    const auto one = contains(b, a) ? kImitated : separation_of(rig, menu[i], a, b, disturbances);
+    if (!one) return;
+    const auto other = contains(a, b) ? kImitated : separation_of(rig, menu[i], b, a, disturbances);
     if (other) separations[i] = std::min(*one, *other);
   });
   const auto best = std::max_element(separations.begin(), separations.end());

@@ -138,10 +138,17 @@ plant::TermSetting Candidate::setting(const std::vector<double>& values) const {
   return term;
 }
 
+bool Candidate::permits(const std::vector<double>& values) const {
+  return std::ranges::equal(values, parameters, [](double value, const FreeParameter& p) {
+    return p.low <= value && value <= p.high;
+  });
+}
+
 void CandidateList::add(Candidate candidate, Changes changes, InRigFile quantity) {
   candidate.drive = changes != Changes::load;
   candidate.load = changes != Changes::drive;
   candidate.changes_known_parameter = quantity == InRigFile::yes;
+  std::erase_if(candidate.ringing_starts, [&](const auto& values) { return !candidate.permits(values); });
   candidates_.push_back(std::move(candidate));
 }
 

@@ -42,13 +42,16 @@ struct Candidate {
   /// unexplained force.
   bool waves = false;
   /// Values from which a fit may begin, beside the shapes. Inner coordinates that ring freely in each window
-  /// show what they gain only after a fit of the starts.
+  /// show what they gain only after a fit of the starts. All are within the bounds of `parameters`.
   std::vector<std::vector<double>> ringing_starts;
   bool rough = false;                    ///< the loss has steps: slopes do not describe it
   std::optional<GoesWith> law;           ///< the only variable of its force on its axis
   bool changes_known_parameter = false;  ///< the base model has this quantity with another value
   /// Parameter values for amounts of a shape's small probes.
   std::function<std::vector<double>(const Shape&, const std::vector<double>&)> of_amounts;
+
+  /// Whether all values lie within the bounds of their parameters.
+  [[nodiscard]] bool permits(const std::vector<double>& values) const;
 
   /// Start values of a fit from the amounts of the probes of a shape.
   [[nodiscard]] std::vector<double> begin(const Shape& shape, const std::vector<double>& amounts) const;
