@@ -267,7 +267,7 @@ runtime::ComponentSpec supervisor_spec() {
       .source = crane_SOURCE_SUPERVISOR,
       .runs_controller = false,
       .reads = {{&topics::state.description, "what the rig measures: limits, brakes, latches"},
-                {&topics::demand.description, "volts that pass the gate"},
+                {&topics::demand.description, "volts for the gate"},
                 {&topics::reference.description, "whether a move is under way"},
                 {&topics::request.description, "reset, arm, disarm, move, follow, jog, home, stop, e-stop"},
                 {&topics::jog.description, "deflection of the operator's stick"}},

@@ -3,9 +3,9 @@
 /// any other process: invalid commands, missing commands and unexpected motion of the rig all lead to a safe
 /// output. Pure; called once per tick.
 ///
-/// All checks run at every tick. The first failed check becomes the reason of the latch: the drives get 0 V,
-/// the brakes lose their supply, and the watchdog output stops toggling. docs/hardware.md describes each
-/// check.
+/// All checks run at every tick, in the order of last_line_checks(). The first failed check is latched as
+/// reason: the drives get 0 V, the brakes lose their supply, and the watchdog output stops toggling.
+/// docs/hardware.md describes each check.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -61,8 +61,8 @@ inline constexpr std::size_t kReasons = 15;
 [[nodiscard]] std::string_view name_of(Reason reason) noexcept;  ///< "encoder_jump"
 [[nodiscard]] std::string_view explanation_of(Reason reason) noexcept;
 [[nodiscard]] std::string_view remedy_for(Reason reason) noexcept;
-/// True when the latch makes a counter or a brake untrustworthy. A reset does not end such a latch. A restart
-/// of the bridge ends it, or homing if all affected axes can be homed.
+/// True when a counter or a brake is no longer trustworthy. Such a latch ends with a restart of the bridge,
+/// or with homing when all affected axes can be homed. A reset does not end it.
 [[nodiscard]] bool is_final(Reason reason) noexcept;
 
 /// Parameters of one drive axis; unit is m or rad. A limit switch that closes farther inside the travel than

@@ -29,7 +29,7 @@ namespace crane::supervisor {
 inline constexpr std::size_t kMean =
     4;  ///< samples of the mean; it divides the quantisation of the swing rate by 4
 inline constexpr double kCableTolerance =
-    0.55;  ///< relative error of the cable length: the true length is 0.5 to 1.5 times the measured length
+    0.55;  ///< relative error of the cable length: 0.5 (true length 0.5 to 1.5 times the measured one) x 1.1
 inline constexpr double kZero_rad = 0.02;   ///< zero error of a swing encoder
 inline constexpr double kWind_mps2 = 0.25;  ///< acceleration of the load by wind
 inline constexpr double kDamping = 0.05;    ///< damping ratio of air, bearing and cable

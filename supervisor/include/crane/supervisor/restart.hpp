@@ -14,8 +14,8 @@ struct RestartMemory {
 };
 
 /// The position of an axis is doubtful unless it was known, the old bridge showed the axis at rest, and
-/// the new position agrees within brake_slip. Only a confirmed reset or homing ends the doubt, not another
-/// restart.
+/// the new position agrees within brake_slip. Only a confirmed reset or homing ends the doubt; another
+/// restart does not.
 /// @param before    motion measured with the old bridge
 /// @param known     axes whose position was known with the old bridge
 /// @param position  positions of the first sample of the new bridge; null: this sample is unusable

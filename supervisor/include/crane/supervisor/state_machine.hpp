@@ -10,7 +10,7 @@ enum class SelfTest : std::uint8_t {
   running,
   passed,
   failed
-};  // of the board, start_up_test.hpp
+};  // self-test of the board: start_up_test.hpp
 
 enum class Request : std::uint8_t { reset, arm, disarm, move, stop, estop, home };
 inline constexpr std::size_t kRequests = 7;
