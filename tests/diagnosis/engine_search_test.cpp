@@ -41,7 +41,7 @@ TEST(Search, FindsNoHypothesisLessLikelyThanOneOfItsParts) {
     Study study(data.rig, data.train, data.test);
     study.learn_disturbance();
     const Hypotheses found = searched(study, {.most_effects = 2});
-    const auto likelihood = [](const Fitted& f) { return -0.5 * (sum(f.deviance) - f.price); };
+    const auto likelihood = [](const Fitted& f) { return -0.5 * (sum(f.deviance) - f.penalty); };
     for (const Fitted& whole : found.all)
       for (const Fitted& part : found.all) {
         const bool contained = part.effects.size() < whole.effects.size() &&

@@ -26,19 +26,19 @@ const Cause kFriction = cause("viscous_friction", "slew", 1), kDrag = cause("loa
             kDelay = cause("command_delay", "trolley", 0.6);
 
 TEST(Sentence, NamesAllCauses) {
-  EXPECT_EQ(said(of(Verdict::named, {kFriction, kDrag})),
+  EXPECT_EQ(sentence_of(of(Verdict::named, {kFriction, kDrag})),
             "The simulation lacks viscous_friction (slew) and load_linear_drag.");
-  EXPECT_EQ(said(of(Verdict::parameter, {kFriction})),
-            "A parameter of the model is off: viscous_friction (slew).");
+  EXPECT_EQ(sentence_of(of(Verdict::parameter, {kFriction})),
+            "A parameter of the rig file has the wrong value: viscous_friction (slew).");
 }
 
 TEST(Sentence, NamesTheCauseInDoubt) {
-  EXPECT_EQ(said(of(Verdict::ambiguous, {kDelay}, {"actuator_lag"})),
-            "These data cannot tell command_delay (trolley) from actuator_lag.");
-  EXPECT_EQ(
-      said(of(Verdict::ambiguous, {kDelay, kFriction}, {"actuator_lag", "command_offset"})),
-      "The simulation lacks viscous_friction (slew); these data cannot tell command_delay (trolley) from "
-      "actuator_lag, command_offset.");
+  EXPECT_EQ(sentence_of(of(Verdict::ambiguous, {kDelay}, {"actuator_lag"})),
+            "These data do not distinguish command_delay (trolley) from actuator_lag.");
+  EXPECT_EQ(sentence_of(of(Verdict::ambiguous, {kDelay, kFriction}, {"actuator_lag", "command_offset"})),
+            "The simulation lacks viscous_friction (slew); these data do not distinguish command_delay "
+            "(trolley) from "
+            "actuator_lag, command_offset.");
 }
 
 TEST(Sentence, OfADoubtGivesTheReasonAndNoCause) {
@@ -47,7 +47,7 @@ TEST(Sentence, OfADoubtGivesTheReasonAndNoCause) {
   EXPECT_EQ(diagnosis.verdict, Verdict::unknown);
   EXPECT_TRUE(diagnosis.ambiguous_with.empty());
   EXPECT_EQ(diagnosis.sentence,
-            "Something is wrong that no known cause explains (trolley: friction by position).");
+            "The model has an error that no known cause explains (trolley: friction by position).");
 }
 
 /// Beside the verdict on the rest of the model.

@@ -35,7 +35,7 @@ struct Example {
       run.cable_m.push_back(1.5);
     }
     diagnosis.verdict = Verdict::ambiguous;
-    diagnosis.sentence = "These data cannot tell command_delay (trolley) from actuator_lag.";
+    diagnosis.sentence = "These data do not distinguish command_delay (trolley) from actuator_lag.";
     diagnosis.causes = {{"command_delay", "trolley", {{"delay_s", "s", 0.03, 0.001}}, 1e-5, 0.6}};
     diagnosis.ambiguous_with = {"actuator_lag"};
     diagnosis.next_experiment = NextExperiment{"shaking_trolley", "Shake it.", 7.5, "description = \"x\"\n"};
@@ -179,9 +179,9 @@ TEST(ResidualViews, RemoveOnlyTheFreeMotionOfAStart) {
 TEST(ReportPage, HasVerdictGainCandidatesRemainderAndNextExperiment) {
   const Example example;
   const std::string html = report::to_html(report_page(example.diagnosis, rig_of("gantry"), {example.run}));
-  for (const char* text : {"These data cannot tell command_delay", "0.670 [0.600, 0.700]", "0.03 ± 0.001 s",
-                           "Candidates", "8 % of what the extended model leaves", "speed of the trolley",
-                           "Shake it.", "against trolley command [V]"})
+  for (const char* text : {"These data do not distinguish command_delay", "0.670 [0.600, 0.700]",
+                           "0.03 ± 0.001 s", "Candidates", "8 % of what the extended model leaves",
+                           "speed of the trolley", "Shake it.", "against trolley command [V]"})
     EXPECT_THAT(html, HasSubstr(text));
   EXPECT_THAT(html, Not(HasSubstr("http://"))) << "nothing comes from a network";
 }

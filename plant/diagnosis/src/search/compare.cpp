@@ -86,8 +86,8 @@ std::string label_of(const Effects& effects) {
 
 bool less(const Fitted& a, const Fitted& b) { return sum(a.deviance) < sum(b.deviance); }
 
-bool likelier_without_price(const Fitted& a, const Fitted& b) {
-  return sum(a.deviance) - a.price < sum(b.deviance) - b.price;
+bool likelier_without_penalty(const Fitted& a, const Fitted& b) {
+  return sum(a.deviance) - a.penalty < sum(b.deviance) - b.penalty;
 }
 
 bool same(const Effects& a, const Effects& b) {
@@ -119,7 +119,7 @@ double chance_of(double ratio, const Fitted& fitted, const Fitted& before) {
 }  // namespace
 
 double likelihood_ratio_p_value(const Fitted& fitted, const Fitted& before, double held_out_nats) {
-  const double ratio = (sum(before.deviance) - before.price) - (sum(fitted.deviance) - fitted.price);
+  const double ratio = (sum(before.deviance) - before.penalty) - (sum(fitted.deviance) - fitted.penalty);
   return chance_of(ratio + 2 * held_out_nats, fitted, before);
 }
 

@@ -17,7 +17,7 @@ namespace crane::diagnosis {
 [[nodiscard]] bool less(const Fitted& a, const Fitted& b);
 
 /// Compares minus twice the log likelihood of the training data.
-[[nodiscard]] bool likelier_without_price(const Fitted& a, const Fitted& b);
+[[nodiscard]] bool likelier_without_penalty(const Fitted& a, const Fitted& b);
 
 /// True when both have the same candidates; their values may differ.
 [[nodiscard]] bool same(const Effects& a, const Effects& b);

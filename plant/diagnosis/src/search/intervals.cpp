@@ -100,9 +100,9 @@ Best best_of(const Profile& profile) {
 Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
   for (int attempt = 0;; ++attempt) {
     const bool last = attempt + 1 == kAttempts;
-    const LossParabola bowl = fit_loss_parabola(study, fitted);
+    const LossParabola parabola = fit_loss_parabola(study, fitted);
     Effects better;
-    if (!last && bowl.best_loss < fitted.train.loss - kBetter) better = bowl.best;
+    if (!last && parabola.best_loss < fitted.train.loss - kBetter) better = parabola.best;
     std::vector<double> std_dev = fitted.std_dev;
     for (Index i = 0; i < fitted.covariance.cols() && better.empty(); ++i) {
       double& own = std_dev[static_cast<std::size_t>(i)];
@@ -111,8 +111,8 @@ Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
       const Profile profile = profile_of(study, fitted, direction, i);
       const Best best = best_of(profile);
       if (!last && best.gain > kBetter) better = moved(fitted.effects, best.at * direction);
-      own = std::max(
-          {own * spread(profile, seed + static_cast<std::uint64_t>(i)), fitted.by_noise[i], bowl.std_dev[i]});
+      own = std::max({own * spread(profile, seed + static_cast<std::uint64_t>(i)), fitted.by_noise[i],
+                      parabola.std_dev[i]});
     }
     if (better.empty()) {
       fitted.std_dev = std::move(std_dev);

@@ -81,14 +81,14 @@ MatrixXd covariance_of(const std::vector<VectorXd>& places, const VectorXd& loss
     for (Index v = 0; v < n; ++v)
       for (Index w = 0; w <= v; ++w) powers(row, column++) = place[v] * place[w];
   }
-  const VectorXd bowl = powers.colPivHouseholderQr().solve(losses);
+  const VectorXd quadratic = powers.colPivHouseholderQr().solve(losses);
   const double freedom = static_cast<double>(losses.size() - powers.cols());
-  const double roughness = std::sqrt((losses - powers * bowl).squaredNorm() / freedom);
+  const double roughness = std::sqrt((losses - powers * quadratic).squaredNorm() / freedom);
   MatrixXd curvature(n, n);
   Index column = 1 + n;
   for (Index v = 0; v < n; ++v)
     for (Index w = 0; w <= v; ++w, ++column)
-      curvature(v, w) = curvature(w, v) = (v == w ? 2 : 1) * bowl[column];
+      curvature(v, w) = curvature(w, v) = (v == w ? 2 : 1) * quadratic[column];
   // The region does not extend beyond the evaluated points.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(curvature);
   const double flattest = std::max(2 * roughness / std::pow(kRoughDistances.back(), 2), 1e-12);

@@ -23,7 +23,7 @@ constexpr std::size_t kPaired = 3;
 constexpr std::size_t kExchanged = 2;
 /// Largest number of hypotheses of one size that are refitted with their own noise: the first fits with the
 /// largest likelihood.
-constexpr std::size_t kSettled = 4;
+constexpr std::size_t kRefitted = 4;
 
 /// Strongest candidates: half of them by predicted share of the loss, half by p value. The score of a large
 /// effect scatters from block to block, which raises its p value; in a rough residual the predicted share is
@@ -52,24 +52,24 @@ class Search {
     request_.progress(0.05, "scores of all candidates");
     extend(found_.base, kFirst);
     Hypotheses& found = found_;
-    std::vector<Fitted> level = settle();
+    std::vector<Fitted> level = refit_likeliest();
     if (level.empty()) return finished();
     if (accept_one_of(level)) {
       // With the noise of the best hypothesis, the predictions of the score test are closer.
       extend(base_in(found.best.noise), kFirst);
-      level = with(std::move(level), settle());
+      level = with(std::move(level), refit_likeliest());
       accept_one_of(level);
       while (level.front().effects.size() < request_.most_effects) {
         const std::size_t size = level.front().effects.size();
         if (size == 1) try_pairs(level);
         for (std::size_t i = 0; i < std::min(kBeam, level.size()); ++i) {
           request_.progress(share_done(size, i), "is there another effect?");
-          const double luck = extend(level[i], kExtensions);
-          if (i == 0 && luck > rules::kSignificant && found.best.deviance.size() >= kFewBlocks) break;
+          const double p_value = extend(level[i], kExtensions);
+          if (i == 0 && p_value > rules::kSignificant && found.best.deviance.size() >= kFewBlocks) break;
         }
-        level = settle();
+        level = refit_likeliest();
         if (level.empty()) break;
-        settle_parts_of(level.front());
+        refit_parts_of(level.front());
         for (Fitted& fitted : level) fitted = *of_all(fitted.effects);
         std::sort(level.begin(), level.end(), less);
         if (less(level.front(), found.best)) level = with(std::move(level), exchanged(level.front()));
@@ -109,7 +109,7 @@ class Search {
 
   /// Refits every hypothesis that lacks one effect of `given`, from the values of `given`. The search need
   /// not have reached these hypotheses from the base model.
-  void settle_parts_of(const Fitted& given) {
+  void refit_parts_of(const Fitted& given) {
     const Fitted whole = given;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
       Effects rest = whole.effects;
@@ -125,7 +125,7 @@ class Search {
 
   /// Hypotheses in which another effect replaces one effect of `given`, because the best candidate beside few
   /// effects need not be the best beside all.
-  /// @pre settle_parts_of(given)
+  /// @pre refit_parts_of(given)
   std::vector<Fitted> exchanged(const Fitted& given) {
     const Fitted whole = given;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
@@ -133,7 +133,7 @@ class Search {
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
       extend(*of_all(rest), kExchanged);
     }
-    return settle();
+    return refit_likeliest();
   }
 
   /// With fewer blocks, sign flips do not test the residual of a hypothesis with effects.
@@ -177,10 +177,10 @@ class Search {
 
   /// Refits the likeliest of the tried hypotheses with their own noise. @return in the order of decreasing
   /// likelihood
-  std::vector<Fitted> settle() {
+  std::vector<Fitted> refit_likeliest() {
     std::sort(tried_.begin(), tried_.end(),
               [](const Fitted& a, const Fitted& b) { return a.misfit < b.misfit; });
-    tried_.resize(std::min(tried_.size(), kSettled));
+    tried_.resize(std::min(tried_.size(), kRefitted));
     std::vector<Fitted> level;
     for (const Fitted& tried : tried_)
       level.push_back(no_worse_than_its_parts(study_.refit_with_own_noise(tried)));
@@ -198,7 +198,7 @@ class Search {
       Effects rest = given.effects;
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
       const auto found = of_all(rest);
-      if (found == found_.all.end() || !likelier_without_price(*found, whole)) continue;
+      if (found == found_.all.end() || !likelier_without_penalty(*found, whole)) continue;
       const Fitted part = *found;
       Effect remaining = given.effects[i];
       for (std::size_t k = 0; k < remaining.candidate->amount_count; ++k)

@@ -126,7 +126,7 @@ Candidate at_once(const std::string& cause, const std::string& axis, std::vector
 }
 
 std::vector<double> Candidate::begin(const Shape& shape, const std::vector<double>& amounts) const {
-  if (!shape.as_it_is) return of_amounts(shape, amounts);
+  if (!shape.large_probe) return of_amounts(shape, amounts);
   std::vector<double> values;
   for (const FreeParameter& p : parameters) values.push_back(shape.probes[0].parameters.at(p.name));
   return values;

@@ -45,7 +45,7 @@ std::string label_of(const Candidate& candidate, const Score& place, std::size_t
 std::vector<double> values_of(const Candidate& candidate, const Score& place, std::size_t probe,
                               double amount) {
   const Shape& shape = place.shape;
-  if (shape.as_it_is) {
+  if (shape.large_probe) {
     std::vector<double> values = candidate.begin(shape, shape.amounts);
     values[0] = candidate.parameters[0].null + (values[0] - candidate.parameters[0].null) * amount;
     return values;
@@ -90,7 +90,7 @@ std::vector<Direction> strongest_directions(const std::vector<Score>& places,
     for (; end < places.size() && places[end].candidate == places[first].candidate; ++end) {
       // Prefers the shape with small amounts; otherwise the setting with the largest information.
       const double least = *std::min_element(information[end].begin(), information[end].end());
-      const double worth = places[end].shape.as_it_is ? least / (1 + least) - 1 : least;
+      const double worth = places[end].shape.large_probe ? least / (1 + least) - 1 : least;
       if (worth > most) most = worth, best = end;
     }
     for (std::size_t probe = 0; probe < places[best].shape.probes.size(); ++probe)
@@ -109,7 +109,7 @@ std::vector<Visibility> visibility_of(const std::vector<Candidate>& candidates,
     const Score& place = places[directions[i].place];
     const Candidate& candidate = candidates[place.candidate];
     const std::size_t probe = directions[i].probe;
-    const bool one_sided = candidate.one_sided || place.shape.as_it_is;
+    const bool one_sided = candidate.one_sided || place.shape.large_probe;
     const double least = found_at(directions.size(), one_sided) * deviation(at, static_cast<Index>(i));
     Visibility seen;
     seen.label = label_of(candidate, place, probe);

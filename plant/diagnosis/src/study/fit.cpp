@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr int kMostRounds = 12;
 /// Largest number of attempts of a round, each with more damping: kFewAttempts for the values of one effect
-/// alone, or while the loss exceeds `hopeless`.
+/// alone, or while the loss exceeds `loss_to_beat`.
 constexpr int kAttempts = 7, kFewAttempts = 3;
 constexpr double kFirstDamping = 1e-3;
 /// A round that decreases the Cauchy loss by less is the last one.
@@ -28,7 +28,7 @@ constexpr double kRoughly = 0.003;
 /// that decrease it in neither direction.
 constexpr double kFirstStep = 0.15, kLastStep = 0.1, kLonger = 1.5, kShorter = 0.5;
 /// From this round on, a fit ends if kPromise times the predicted decrease does not bring the loss below
-/// `hopeless`.
+/// `loss_to_beat`.
 constexpr int kLeastRounds = 1;
 constexpr double kPromise = 4;
 /// Largest number of alternations of fit and noise model, and the decrease of the deviance below which they
@@ -153,12 +153,12 @@ double schwarz_over_akaike(const Blocks& left_out) {
 
 }  // namespace
 
-bool Study::descend(Fitted& best, Loss loss, double hopeless, std::optional<Slopes>& along) const {
+bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
   for (int round = 0; round < kMostRounds; ++round) {
     if (!along) along = slopes(best.effects, best.train);
     if (round >= kLeastRounds &&
-        best.train.loss - kPromise * promised(block_scores(best.train, *along)) > hopeless)
+        best.train.loss - kPromise * promised(block_scores(best.train, *along)) > loss_to_beat)
       return false;
     const BlockScores both = block_scores(best.train, *along, loss);
     const VectorXd pull = both.pull();
@@ -166,7 +166,7 @@ bool Study::descend(Fitted& best, Loss loss, double hopeless, std::optional<Slop
     double gained = 0;
     const auto groups = moved_together(best.effects);
     for (std::size_t group = 0; group < groups.size() && gained == 0; ++group) {
-      const int attempts = group == 0 && best.train.loss <= hopeless ? kAttempts : kFewAttempts;
+      const int attempts = group == 0 && best.train.loss <= loss_to_beat ? kAttempts : kFewAttempts;
       for (int attempt = 0; attempt < attempts && gained == 0; ++attempt) {
         const VectorXd step = bounded_step(both.curvature, pull, flat, damping, groups[group]);
         if (!step.allFinite() || step.norm() == 0) break;
@@ -241,7 +241,7 @@ void Study::judge_by_likelihood(Fitted& fitted) const {
   fitted.deviance = deviance_of(train_, fitted.train);
   const double schwarz = schwarz_over_akaike(fitted.left_out);
   for (std::size_t i = 0; i < fitted.left_out.size(); ++i) fitted.deviance[i] += schwarz * fitted.left_out[i];
-  fitted.price = schwarz * sum(fitted.left_out);
+  fitted.penalty = schwarz * sum(fitted.left_out);
   fitted.error = errors_of({{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}});
   if (whole_runs_.empty()) return;
   const Fits whole = whole_runs_.fit(replays_of(train_.runs, with(fitted.effects)));
@@ -256,7 +256,7 @@ Blocks Study::held_out_deviance(const Fitted& fitted) {
 Fitted Study::base_model() const {
   Fitted base;
   base.train = base_train_;
-  base.leaves = noise_of(base);
+  base.first_noise = noise_of(base);
   judge_by_likelihood(base);
   return base;
 }
@@ -276,8 +276,9 @@ Noise Study::noise_of(const Fitted& fitted, const Noise& unchanged) const {
 
 Fitted Study::first_fit(const Effects& effects, const Fitted& near) const {
   Fitted fitted = fit(effects, near.train.loss - kLeastGain, near.train);
-  fitted.leaves = noise_of(fitted, near.leaves);
-  for (const auto* of : {&fitted.leaves.drive, &fitted.leaves.equation_error, &fitted.leaves.load})
+  fitted.first_noise = noise_of(fitted, near.first_noise);
+  for (const auto* of :
+       {&fitted.first_noise.drive, &fitted.first_noise.equation_error, &fitted.first_noise.load})
     for (const Disturbance& disturbance : *of) fitted.misfit += disturbance.misfit;
   return fitted;
 }
@@ -286,12 +287,12 @@ Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
   Fitted best = first_fit, last = first_fit;
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostNoiseRounds; ++round) {
-    const Noise noise = round == 0 ? first_fit.leaves : noise_of(last);
+    const Noise noise = round == 0 ? first_fit.first_noise : noise_of(last);
     whiten_training(noise);
     last = fit(last.effects, std::numeric_limits<double>::infinity(), evaluated_again(last));
     judge_by_likelihood(last);
     last.misfit = first_fit.misfit;
-    last.leaves = first_fit.leaves;
+    last.first_noise = first_fit.first_noise;
     const double gained = least - sum(last.deviance);
     if (!(gained > 0)) break;
     best = last;
@@ -302,11 +303,11 @@ Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
   return best;
 }
 
-Fitted Study::fit(Effects effects, double hopeless) const {
-  return fit(std::move(effects), hopeless, base_train_);
+Fitted Study::fit(Effects effects, double loss_to_beat) const {
+  return fit(std::move(effects), loss_to_beat, base_train_);
 }
 
-Fitted Study::fit(Effects effects, double hopeless, const Evaluation& near) const {
+Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near) const {
   Fitted start;
   start.effects = std::move(effects);
   start.train = train(start.effects, near);
@@ -317,9 +318,9 @@ Fitted Study::fit(Effects effects, double hopeless, const Evaluation& near) cons
   }
   start = best;
   std::optional<Slopes> along;
-  const bool hope = descend(best, Loss::squares, hopeless, along);
+  const bool hope = descend(best, Loss::squares, loss_to_beat, along);
   if (start.train.loss < best.train.loss) best = start, along.reset();
-  if (hope) descend(best, Loss::robust, hopeless, along);
+  if (hope) descend(best, Loss::robust, loss_to_beat, along);
   if (!along) along = slopes(best.effects, best.train);
   const BlockScores both = block_scores(best.train, *along);
   best.left_out = left_out(both);

@@ -91,14 +91,14 @@ class LoadBuilder {
   void add_pivot_friction() {
     const double m = rig_.plant.load_mass_kg, length = rig_.start.position[plant::kHoist];
     const double inertia = m * length * length;
-    std::vector<std::string> ways;
-    if (data_.radial) ways.emplace_back("radial");
-    if (data_.tangential) ways.emplace_back("tangential");
-    if (ways.size() == 2) ways.emplace_back("");
-    for (const std::string& way : ways)
+    std::vector<std::string> swing_axes;
+    if (data_.radial) swing_axes.emplace_back("radial");
+    if (data_.tangential) swing_axes.emplace_back("tangential");
+    if (swing_axes.size() == 2) swing_axes.emplace_back("");
+    for (const std::string& swing_axis : swing_axes)
       all_.add(
           two_amounts(
-              "swing_pivot_friction", way,
+              "swing_pivot_friction", swing_axis,
               {free_parameter("swing_pivot_friction", "viscous_nmsprad", 0, 10 * inertia, 0.02 * inertia),
                free_parameter("swing_pivot_friction", "coulomb_nm", 0, inertia, 0.005 * inertia)}),
           Changes::load);
@@ -107,20 +107,20 @@ class LoadBuilder {
   void add_swing_sensors() {
     // A sensor error changes the measured swing, but not the force of the load on the drives.
     const Changes changes = data_.trolley || data_.slew ? Changes::both : Changes::load;
-    std::vector<std::string> ways;
-    if (data_.radial) ways.emplace_back("radial");
-    if (data_.tangential) ways.emplace_back("tangential");
-    for (const std::string& way : ways) {
-      all_.add(amount("swing_offset", way, "offset_rad", -0.3, 0.3, 0.005), changes);
-      all_.add(amount("swing_scale", way, "factor", 0.5, 2, 0.01), changes);
+    std::vector<std::string> swing_axes;
+    if (data_.radial) swing_axes.emplace_back("radial");
+    if (data_.tangential) swing_axes.emplace_back("tangential");
+    for (const std::string& swing_axis : swing_axes) {
+      all_.add(amount("swing_offset", swing_axis, "offset_rad", -0.3, 0.3, 0.005), changes);
+      all_.add(amount("swing_scale", swing_axis, "factor", 0.5, 2, 0.01), changes);
     }
-    if (ways.size() == 2) {
+    if (swing_axes.size() == 2) {
       all_.add(amount("swing_misalignment", "", "angle_rad", -0.6, 0.6, 0.01), changes);
-      ways.emplace_back("");
+      swing_axes.emplace_back("");
     }
-    for (const std::string& way : ways) {
-      all_.add(amount("swing_delay", way, "delay_s", 0, 0.2, 0.005), changes);
-      all_.add(amount("swing_moving_average", way, "window_s", 0, 0.5, 0.02), changes);
+    for (const std::string& swing_axis : swing_axes) {
+      all_.add(amount("swing_delay", swing_axis, "delay_s", 0, 0.2, 0.005), changes);
+      all_.add(amount("swing_moving_average", swing_axis, "window_s", 0, 0.5, 0.02), changes);
     }
   }
 

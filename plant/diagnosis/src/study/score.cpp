@@ -72,7 +72,7 @@ const VectorXd& residual_of(const VectorXd& residual) { return residual; }
 
 /// Decrease of the loss when the residuals change by all of `change`.
 template <class Parts>
-double as_it_is(const Parts& parts, const std::vector<VectorXd>& change) {
+double gain_of(const Parts& parts, const std::vector<VectorXd>& change) {
   double gain = 0;
   for (std::size_t w = 0; w < change.size(); ++w)
     gain += loss_of(residual_of(parts[w])) - loss_of(residual_of(parts[w]) - change[w]);
@@ -80,7 +80,7 @@ double as_it_is(const Parts& parts, const std::vector<VectorXd>& change) {
 }
 
 /// Share of random sign flips of the blocks of which some p value is at most `least`.
-double luck(const std::vector<Directions>& directions, double least, std::uint64_t seed) {
+double p_value_of_largest(const std::vector<Directions>& directions, double least, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<VectorXd> signs(kSignFlips);
   const Index blocks = directions.empty() ? 0 : directions[0].by_block.rows();
@@ -99,10 +99,10 @@ double luck(const std::vector<Directions>& directions, double least, std::uint64
 
 /// The shapes with the largest predicted gain: only settings that are simulated as they are, or only the
 /// others.
-std::vector<const Score*> most_promising(std::span<const Score> shapes, bool as_it_is, std::size_t count) {
+std::vector<const Score*> most_promising(std::span<const Score> shapes, bool large_probe, std::size_t count) {
   std::vector<const Score*> order;
   for (const Score& score : shapes)
-    if (score.shape.as_it_is == as_it_is && score.gain > 0) order.push_back(&score);
+    if (score.shape.large_probe == large_probe && score.gain > 0) order.push_back(&score);
   std::sort(order.begin(), order.end(), [](const Score* a, const Score* b) { return a->gain > b->gain; });
   order.resize(std::min(order.size(), count));
   return order;
@@ -202,12 +202,12 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
     const auto fresh = static_cast<Index>(all.drive.size() - known.drive.size());
     directions[i] = beside_known(block_scores(at, all), fresh);
     const Candidate& candidate = candidates_[scores[i].candidate];
-    const bool as_it_stands = scores[i].shape.as_it_is;
-    directions[i].one_sided = candidate.one_sided || as_it_stands;
+    const bool large_probe = scores[i].shape.large_probe;
+    directions[i].one_sided = candidate.one_sided || large_probe;
     judge(directions[i], scores[i]);
-    if (as_it_stands)
-      scores[i].gain = as_it_is(at.drive, all.drive.back()) + as_it_is(at.load, all.load.back()) +
-                       as_it_is(at.equation_error, all.equation_error.back());
+    if (large_probe)
+      scores[i].gain = gain_of(at.drive, all.drive.back()) + gain_of(at.load, all.load.back()) +
+                       gain_of(at.equation_error, all.equation_error.back());
     scores[i].gain += own;
     const double loss = (candidate.drive ? at.drive_loss : 0) + (candidate.load ? at.load_loss : 0);
     scores[i].share = loss > 0 ? scores[i].gain / loss : 0;
@@ -217,7 +217,7 @@ ScoreTable Study::score(const Effects& effects, const Evaluation& at, std::uint6
   if (effects.empty()) table.excitation = excitation(scores, kept, at);
   double least = 1;
   for (const Score& score : scores) least = std::min(least, score.p_value);
-  table.p_value = luck(directions, least, seed);
+  table.p_value = p_value_of_largest(directions, least, seed);
   for (auto first = scores.begin(); first != scores.end();) {
     const auto end = std::find_if(first, scores.end(),
                                   [&](const Score& score) { return score.candidate != first->candidate; });

@@ -45,12 +45,12 @@ struct Fitted {
   Effects effects;
   Evaluation train;
   Noise noise;        ///< model by which `train` is whitened
-  Noise leaves;       ///< learnt from the residuals of its first fit
+  Noise first_noise;  ///< learnt from the residuals of its first fit
   double misfit = 0;  ///< minus twice the log likelihood of the first fit, with free starts of windows
   /// Minus twice the log likelihood of the training data by block, with the penalty of the fitted values.
   Blocks deviance;
-  double price = 0;  ///< penalty of the fitted values; contained in `deviance`
-  Blocks left_out;   ///< increase of each block's deviance when the fit leaves the block out (Takeuchi)
+  double penalty = 0;  ///< penalty of the fitted values; contained in `deviance`
+  Blocks left_out;     ///< increase of each block's deviance when the fit leaves the block out (Takeuchi)
   /// Mean over the windows of the rms error of the simulation in a window, m or rad.
   std::array<double, kOutputs> error{};
   /// The same over whole runs, for swings only: a drive integrates any error of friction into its position.
@@ -132,10 +132,11 @@ class Study {
   /// Shapes of a candidate. For a wave: the strongest lines of the missing force beside the effects.
   [[nodiscard]] std::vector<Shape> shapes_of(const Candidate& candidate, const Effects& effects) const;
   /// Least squares over the training data from the given values, within bounds.
-  /// @param hopeless  training loss; the fit stops early when it cannot fall below
-  [[nodiscard]] Fitted fit(Effects effects, double hopeless = std::numeric_limits<double>::infinity()) const;
+  /// @param loss_to_beat  training loss; the fit stops early when it cannot fall below
+  [[nodiscard]] Fitted fit(Effects effects,
+                           double loss_to_beat = std::numeric_limits<double>::infinity()) const;
   /// The same, with the starts of the windows of `near`, an evaluation of some of the effects.
-  [[nodiscard]] Fitted fit(Effects effects, double hopeless, const Evaluation& near) const;
+  [[nodiscard]] Fitted fit(Effects effects, double loss_to_beat, const Evaluation& near) const;
 
   [[nodiscard]] const Problem& drive() const { return train_.drive; }
   [[nodiscard]] const Problem& load() const { return train_.load; }
@@ -157,8 +158,8 @@ class Study {
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
   /// Gauss-Newton rounds from `best`. @param along  slopes at `best` when known; those of the result on
   /// return
-  /// @return false when the loss cannot fall below `hopeless`
-  bool descend(Fitted& best, Loss loss, double hopeless, std::optional<Slopes>& along) const;
+  /// @return false when the loss cannot fall below `loss_to_beat`
+  bool descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along) const;
   /// Coordinate search with decreasing steps.
   void step_around(Fitted& best, double Evaluation::*loss) const;
   /// Scores of directions around `at`.

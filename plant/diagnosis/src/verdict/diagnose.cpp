@@ -96,9 +96,9 @@ Proof proof_of(const HeldOut& held_out, const Effects& effects) {
                            " less than half as well as the base model"};
   }
   if (!(held_out.likelier > rules::kHeldOutWin))
-    return {unlikely, runs + "the extended model does not make them likelier beyond doubt"};
+    return {unlikely, runs + "the likelihood of the extended model is not significantly higher"};
   if (!worthwhile(held_out, effects))
-    return {no_consequence, runs + "the extended model hardly simulates them better"};
+    return {no_consequence, runs + "the error of the extended model is hardly smaller"};
   return {};
 }
 
@@ -108,7 +108,7 @@ void nothing_found(Diagnosis& result) {
   result.causes.clear();
   result.extension.clear();
   result.ambiguous_with.clear();
-  result.sentence = said(result);
+  result.sentence = sentence_of(result);
 }
 
 /// Runs to learn from and held out.
@@ -125,11 +125,11 @@ bool nothing_wrong(Study& study, const Hypotheses& found, const Fitted& best, co
                    const HeldOut& held_out, std::uint64_t seed) {
   const std::size_t candidates = study.candidates().size();
   const bool matters = share_of_error(found.best, found.base) >= rules::kWorthwhile;
-  const bool luck =
+  const bool insignificant_effect =
       insignificant(wald_p_value(best), candidates) ||
       (insignificant(likelihood_ratio_p_value(found.best, found.base, held_out.nats), candidates) &&
        insignificant(held_out_loss_p_value(found.best, found.base, held_out.nats), candidates));
-  if (matters && !luck && proof.outcome != Proof::Outcome::no_consequence) return false;
+  if (matters && !insignificant_effect && proof.outcome != Proof::Outcome::no_consequence) return false;
   Hypotheses base = found;
   base.best = found.base;
   study.whiten_with(found.base.noise);

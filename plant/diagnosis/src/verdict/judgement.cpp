@@ -86,7 +86,7 @@ class Judgement {
     else
       name();
     if (result_.verdict != Verdict::none) report_causes();
-    result_.sentence = said(result_);
+    result_.sentence = sentence_of(result_);
     return {std::move(result_), std::move(rival_)};
   }
 
@@ -98,16 +98,16 @@ class Judgement {
     Remainder& remainder = result_.remainder;
     if (std::max(load, drives) > rules::kWorstLoss) {
       remainder.predictable_fraction = 1 - rules::kWorstLoss / std::max(load, drives);
-      remainder.from.push_back(
-          std::string{load > rules::kWorstLoss ? "more in the swing" : "more in the drives"} +
-          " than sensor noise and a coloured force leave");
+      remainder.from.push_back(std::string{"the residual of the "} +
+                               (load > rules::kWorstLoss ? "swing" : "drives") +
+                               " is larger than its noise model explains");
       return true;
     }
     if (const std::string lacking = not_followed(); !lacking.empty()) {
       remainder.from.push_back(lacking);
       return true;
     }
-    const std::vector<Pattern> left = what_is_left(study_, all_, losing_, seed_);
+    const std::vector<Pattern> left = patterns_left(study_, all_, losing_, seed_);
     if (left.empty()) return false;
     remainder.predictable_fraction = left[0].what.fraction;
     for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
@@ -219,7 +219,7 @@ class Judgement {
 
 }  // namespace
 
-std::string said(const Diagnosis& d) {
+std::string sentence_of(const Diagnosis& d) {
   std::string names, clear, contested, rivals;
   const auto add = [](std::string& list, const char* separator, const std::string& name) {
     list += (list.empty() ? "" : separator) + name;
@@ -232,19 +232,19 @@ std::string said(const Diagnosis& d) {
   for (const std::string& rival : d.ambiguous_with) add(rivals, ", ", rival);
   switch (d.verdict) {
     case Verdict::none:
-      return "Nothing that these data could show is wrong with the model.";
+      return "These data show no error of the model.";
     case Verdict::named:
       return "The simulation lacks " + names + ".";
     case Verdict::parameter:
-      return "A parameter of the model is off: " + names + ".";
+      return "A parameter of the rig file has the wrong value: " + names + ".";
     case Verdict::ambiguous:
-      return (clear.empty() ? "These" : "The simulation lacks " + clear + "; these") + " data cannot tell " +
-             contested + " from " + rivals + ".";
+      return (clear.empty() ? "These" : "The simulation lacks " + clear + "; these") +
+             " data do not distinguish " + contested + " from " + rivals + ".";
     case Verdict::unknown:
       break;
   }
   const auto& from = d.remainder.from;
-  return "Something is wrong that no known cause explains" +
+  return "The model has an error that no known cause explains" +
          (from.empty() ? std::string{"."} : " (" + from[0] + ").");
 }
 
@@ -252,7 +252,7 @@ void doubt(Diagnosis& diagnosis, const std::string& why) {
   diagnosis.verdict = Verdict::unknown;
   diagnosis.ambiguous_with.clear();
   diagnosis.remainder.from.insert(diagnosis.remainder.from.begin(), why);
-  diagnosis.sentence = said(diagnosis);
+  diagnosis.sentence = sentence_of(diagnosis);
 }
 
 Judged judge(const Study& study, const Hypotheses& hypotheses, const std::vector<LosingEncoder>& losing,

@@ -12,7 +12,7 @@ struct Judged {
                   ///< ambiguous
 };
 /// The verdict in words.
-[[nodiscard]] std::string said(const Diagnosis& diagnosis);
+[[nodiscard]] std::string sentence_of(const Diagnosis& diagnosis);
 
 /// Makes the verdict "unknown".
 /// @param why variable on which the remaining residual depends

@@ -63,8 +63,8 @@ bool pattern_share(const Pattern& pattern, const Effects& effects) {
                     u.gain > rules::kPatternShareOfCause * pattern.of_weakest);
 }
 
-std::vector<Pattern> what_is_left(const Study& study, const Hypotheses& hypotheses,
-                                  const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
+std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypotheses,
+                                   const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
   std::vector<Pattern> left;
   const Runs& runs = study.drive().runs();
   const Effects& effects = hypotheses.best.effects;

@@ -18,8 +18,9 @@ struct Pattern {
 
 /// Patterns in the residual of the drives and lines in the residual of the swing, strongest first.
 /// @param losing encoders whose lost counts were restored: residuals that depend on them are explained
-[[nodiscard]] std::vector<Pattern> what_is_left(const Study& study, const Hypotheses& hypotheses,
-                                                const std::vector<LosingEncoder>& losing, std::uint64_t seed);
+[[nodiscard]] std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypotheses,
+                                                 const std::vector<LosingEncoder>& losing,
+                                                 std::uint64_t seed);
 
 /// Whether the pattern is larger than the thresholds permit beside these effects.
 [[nodiscard]] bool pattern_share(const Pattern& pattern, const Effects& effects);

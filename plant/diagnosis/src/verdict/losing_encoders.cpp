@@ -36,8 +36,8 @@ std::string note(const LosingEncoder& encoder) {
   text << axis_of(encoder.axis) << ": its encoder lost counts " << encoder.jumps << " times in "
        << encoder.duration_s << " s of training data, " << encoder.lost
        << (encoder.axis == kSlewAngle ? " rad" : " m")
-       << " in all: jumps from one row to the next that no force makes; they are put back before anything "
-          "else is judged";
+       << " in all: jumps from one row to the next that no force explains; the jumps were removed before the "
+          "rest of the model was judged";
   return text.str();
 }
 
@@ -72,7 +72,7 @@ void name_losing(const std::vector<LosingEncoder>& losing, const Study& study, c
   if (diagnosis.verdict == Verdict::none || diagnosis.verdict == Verdict::parameter)
     diagnosis.verdict = Verdict::named;
   diagnosis.sentence =
-      (diagnosis.verdict == Verdict::unknown ? "An encoder loses counts. " : "") + said(diagnosis);
+      (diagnosis.verdict == Verdict::unknown ? "An encoder loses counts. " : "") + sentence_of(diagnosis);
 }
 
 }  // namespace crane::diagnosis

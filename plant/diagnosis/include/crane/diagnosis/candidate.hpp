@@ -22,7 +22,7 @@ struct FreeParameter {
 struct Shape {
   std::vector<plant::TermSetting> probes;
   std::vector<double> amounts;
-  bool as_it_is = false;  ///< one large probe: judged by its own gain, and a start of the fit
+  bool large_probe = false;  ///< one large probe: judged by its own gain, and a start of the fit
 };
 
 /// Variable that a force on an axis depends on.
