@@ -55,6 +55,23 @@ INSTANTIATE_TEST_SUITE_P(Zones, EverySpeed, testing::Values(0.05, 0.2, 0.5, 0.8)
   return std::to_string(static_cast<int>(100 * speed.param)) + "_cmps";
 });
 
+TEST(ZoneStop, OfAFastCraneIsControlledFirst) {
+  const auto rig = rig_with("virginia_tech_tower", {wall_at(1.4)});
+  GuardedCrane crane{rig, rig};
+  while (crane.cause() == Cause::none) crane.tick(at_speed(crane, 0.6));
+  EXPECT_EQ(crane.cause(), Cause::zone);
+  EXPECT_FALSE(crane.memory.machine.ramping);
+  // A controlled stop as the planner makes it needs no ramped stop before the crane has slowed down.
+  double speed_mps = crane.speed(0);
+  const double from_mps = speed_mps;
+  while (speed_mps > 0.05 && !crane.memory.machine.ramping) {
+    speed_mps -= crane.limits.reference_acceleration[0] * crane.limits.period_s;
+    crane.tick(at_speed(crane, speed_mps));
+  }
+  std::cout << "from " << from_mps << " m/s, a ramped stop at " << crane.speed(0) << " m/s\n";
+  EXPECT_LT(crane.speed(0), 0.4);
+}
+
 TEST(ZoneStop, StartsFromZeroVolts) {
   const auto rig = rig_with("virginia_tech_tower", {wall_at(1.25)});
   GuardedCrane crane{rig, rig};

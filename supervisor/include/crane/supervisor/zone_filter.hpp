@@ -14,7 +14,7 @@
 ///      D = v_most t_r + v_most^2 / (2 b)
 ///    t_r = stopping_time_s: one tick, the ramp, and the closing time; b = brake_deceleration; a_load:
 ///    acceleration by the pull of the load, the centrifugal and the Coriolis force.
-///    The hoist is speed-controlled: v_most = v + (k K V - v) 2 T / lag.
+///    The hoist is speed-controlled: v_most = v + (k K V - v) 2.5 T / lag.
 /// 2. The suspension point stops inside the patch [x - D, x + D] x [slew - D, slew + D], which a disc with
 ///    centre m and radius rho covers.
 /// 3. Energy. With the tension T_c of the cable, tau = T_c / (m L) and the energy per mass E = w^2/2 - g h,
