@@ -60,6 +60,10 @@ Limits limits_of(const configuration::Rig& rig) {
   limits.period_s = rig.period_s;
   limits.demand_stale_after_ticks = rig.ticks_in(rig.limits.demand_stale_after_s);
   limits.machine = machine_of(rig);
+  limits.clearance = rig.clearance;
+  limits.zones = rig.zones;
+  for (std::size_t i = 0; i < kAxes; ++i)
+    limits.reference_acceleration[i] = rig.drives[i].present ? rig.drives[i].reference_acceleration : 0;
   return limits;
 }
 

@@ -6,6 +6,7 @@
 
 #include "crane/plant/coordinates.hpp"
 #include "crane/protection.hpp"
+#include "crane/supervisor/zone_filter.hpp"
 
 namespace crane::supervisor {
 namespace {
@@ -46,6 +47,22 @@ std::string follow_problem(const msg::Request& request) {
     return "follow: phase_rad must be finite";
   const bool lasts = request.duration_s >= 0 && request.duration_s <= kLongestFollow_s;
   return lasts ? "" : "follow: duration_s must lie in [0, 3600]";
+}
+
+/// Distance of a target from the margin of a zone, m: the noise of the zone filter at rest is smaller.
+constexpr double kTargetGap_m = kLeave_m;
+
+std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxis& to) {
+  const double g = limits.machine.crane.gravity_mps2;
+  const auto* zone = control::zone_in_path(limits.zones, limits.clearance, g, from, to, kTargetGap_m);
+  if (zone == nullptr) return "";
+  const bool inside =
+      control::clearance_m(*zone, control::resting_reach(limits.clearance, g, to[0], to[1], to[2]),
+                           limits.clearance.suspension_height_m) < kTargetGap_m;
+  return std::string{inside ? "the target is inside zone "
+                            : "the straight path to the target leads through zone "} +
+         zone->name + (inside ? "" : ": move around it in several steps") +
+         " (the radius of the load counts; crane zone list)";
 }
 
 }  // namespace
@@ -95,6 +112,24 @@ std::string problem_of(const msg::Request& request, const Limits& limits) {
   if (request.kind == crane_REQUEST_MOVE || jog) return "";
   if (selected != 1) return home ? "home: select exactly one axis" : "follow: select exactly one axis";
   return home ? "" : follow_problem(request);
+}
+
+std::string problem_at(const msg::Request& request, const Limits& limits, const PerAxis& position) {
+  std::string problem = problem_of(request, limits);
+  const bool has_target = request.kind == crane_REQUEST_MOVE || request.kind == crane_REQUEST_FOLLOW;
+  if (!problem.empty() || !has_target || limits.zones.empty()) return problem;
+  const auto excursion = excursion_of(request);
+  PerAxis from = position;
+  from[plant::kHoist] = limits.machine.cable(position[plant::kHoist]);
+  if (!limits.axis[plant::kSlew].present) from[plant::kSlew] = 0;
+  PerAxis low = from, high = from;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    if (!request.selected[i]) continue;
+    low[i] = request.target[i] - excursion.distance;
+    high[i] = request.target[i] + excursion.distance;
+  }
+  problem = zone_problem(limits, from, low);
+  return problem.empty() && excursion.distance > 0 ? zone_problem(limits, from, high) : problem;
 }
 
 std::size_t home_axis_of(const msg::Request& request) {

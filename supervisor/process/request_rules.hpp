@@ -15,6 +15,10 @@ namespace crane::supervisor {
 [[nodiscard]] bool moves_axes(const msg::Request& request);
 /// @return why axes, targets or sines of the request are not permitted; empty when they are permitted
 [[nodiscard]] std::string problem_of(const msg::Request& request, const Limits& limits);
+/// The same, and the zone that contains the target or lies in the straight path (in the coordinates of the
+/// axes) from `position` to it.
+[[nodiscard]] std::string problem_at(const msg::Request& request, const Limits& limits,
+                                     const PerAxis& position);
 /// Axis of a homing request. @pre problem_of() is empty
 [[nodiscard]] std::size_t home_axis_of(const msg::Request& request);
 

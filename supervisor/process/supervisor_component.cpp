@@ -191,7 +191,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     std::vector<Asked> asked;
     bus::ParticipantId sender{};
     while (const auto request = requests_.take_due(input.tick, &sender)) {
-      if (const auto problem = problem_of(*request, limits_); !problem.empty()) {
+      if (const auto problem = problem_at(*request, limits_, memory_.motion.position); !problem.empty()) {
         requests_.reply(*request, last_header_, false, problem);
         continue;
       }
@@ -223,6 +223,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     const bool asked_for = output.cause == Cause::operator_stop || output.cause == Cause::operator_disarm ||
                            output.cause == Cause::idle || output.cause == Cause::homed;
     if (output.cause == Cause::homing_failed) announce_failure(output);
+    if (output.cause == Cause::zone && output.state == State::stop_c1) announce_zone(output);
     const bool trouble = output.state >= State::stop_c1 && !asked_for;
     if (trouble)
       node().error("supervisor_state", what, remedy_for(output.cause));
@@ -234,6 +235,11 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     const std::string axis = plant::kCoordinates[memory_.homing_axis].name;
     node().error("homing_failed", "homing the " + axis + " axis: " + name_of(output.homing_failure),
                  remedy_for(output.homing_failure));
+  }
+
+  void announce_zone(const TickOutput& output) {
+    node().error("zone", "the load could have swung into zone " + limits_.zones.at(output.zone).name,
+                 remedy_for(output.cause));
   }
 
   Limits limits_;

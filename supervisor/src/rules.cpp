@@ -41,6 +41,10 @@ constexpr const char* kDemandJumps =
 constexpr const char* kFollowing =
     "the axis does not follow its voltage: check amplifier, encoder, brake and load, then reset";
 constexpr const char* kSwing = "wait until the load swings less, then reset";
+constexpr const char* kZone =
+    "`crane zone list` shows the zones, the event names the zone: let the load hang at rest, reset, arm, "
+    "then move "
+    "away from the zone, slowly at first";
 constexpr const char* kResetArm = "reset, then arm";
 
 // clang-format off
@@ -132,6 +136,10 @@ constexpr std::array kRules{
     Rule{"supervisor_stopping_envelope", Cause::stopping_envelope, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.envelope.stopping; },
          "an axis cannot stop before a hard limit; from then on no voltage outwards", "same tick", kEnvelope},
+    Rule{"supervisor_zone", Cause::zone, Reaction::ramped_stop, Scope::armed, false,
+         [](L, I in, M) noexcept { return in.zone_touched; },
+         "without a ramped stop now, a later one could let the load, the hook or the cable swing into a no-go zone; from then on 0 V",
+         "same tick", kZone},
     Rule{"supervisor_swing_runaway", Cause::swing_limit, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.envelope.swing_runaway; },
          "the load swings farther than 1.25 times `swing_limit_rad`", "same tick", kSwing},
@@ -152,6 +160,9 @@ constexpr std::array kRules{
          [](L, I in, M) noexcept { return asked(in, Request::stop); }, "request `stop`", "same tick", kResetArm},
     Rule{"supervisor_operator_disarm", Cause::operator_disarm, Reaction::controlled_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return asked(in, Request::disarm); }, "request `disarm`", "same tick", kResetArm},
+    Rule{"supervisor_zone_ahead", Cause::zone, Reaction::controlled_stop, Scope::armed, false,
+         [](L, I in, M) noexcept { return in.zone_ahead; },
+         "only a deceleration that begins now keeps the crane out of a no-go zone without a ramped stop", "same tick", kZone},
     Rule{"supervisor_homed", Cause::homed, Reaction::controlled_stop, Scope::armed, false,
          [](L, I in, M m) noexcept { return m.homing && m.state == State::run && in.homed; },
          "homing has found and left the mark", "same tick", "the axis has found its mark: reset, then arm"},

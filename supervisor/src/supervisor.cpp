@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/protection.hpp"
+
 namespace crane::supervisor {
 namespace {
 
@@ -26,6 +28,7 @@ void take_over_bridge(const Limits& limits, const TickInput& input, TickMemory& 
   memory.brakes = {};
   memory.following = {};
   memory.pendulum = {};
+  memory.zones = {};
   memory.sample = {};
   memory.overruns_in_row = 0;
 }
@@ -182,6 +185,31 @@ bool swing_sensor_now(const Limits& limits, bool sampled, TickMemory& memory) {
   return failed && drives_active(memory.machine) && !memory.machine.homing;
 }
 
+ZoneInput zone_input(const TickMemory& memory, const PerAxis& passed_v) {
+  return {.sampled_s = memory.motion.sampled_s,
+          .position = memory.motion.position,
+          .speed = memory.motion.speed,
+          .swing_radial_rad = memory.sample.swing_radial_rad,
+          .swing_tangential_rad = memory.sample.swing_tangential_rad,
+          .applied_v = memory.sample.applied_v,
+          .passed_v = passed_v,
+          .missing_ticks = memory.state_missing_in_row};
+}
+
+/// While an axis is homed, its position is unknown and the zones have no effect. A demand that could lead
+/// into a zone is replaced by 0 V, from which the ramped stop starts.
+ZoneVerdict guard_zones(const Limits& limits, bool sampled, GateOutput& gated, TickMemory& memory) {
+  const ZoneInput in = zone_input(memory, gated.drive_v);
+  if (sampled) observe_load(limits, in, memory.zones);
+  if (!memory.machine.releasing || memory.machine.homing) {
+    memory.zones.watching = false;
+    return {};
+  }
+  const ZoneVerdict verdict = filter_zones(limits, in, memory.zones);
+  if (verdict.touched && protection::enabled("supervisor_zone")) gated.drive_v = {};
+  return verdict;
+}
+
 Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelope& envelope,
                       const GateOutput& gated, bool brakes_failed, const TickMemory& memory) {
   const Sample& sample = memory.sample;
@@ -250,11 +278,14 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   const bool sampled = take_sample(limits, input, memory);
   const Envelope envelope = check_envelope(limits, measured_now(limits, memory));
   const bool brakes_failed = watch_brakes(limits, input, sampled, memory);
-  const GateOutput gated = run_gate(limits, input, envelope, memory);
+  GateOutput gated = run_gate(limits, input, envelope, memory);
+  const ZoneVerdict zone = guard_zones(limits, sampled, gated, memory);
   const double creeping_speed = creep(limits, memory);
   Inputs inputs = machine_inputs(limits, input, envelope, gated, brakes_failed, memory);
   inputs.following_error = following_error_now(limits, sampled, memory);
   inputs.swing_sensor_failed = swing_sensor_now(limits, sampled, memory);
+  inputs.zone_ahead = zone.ahead;
+  inputs.zone_touched = zone.touched;
 
   const bool was_ramping = memory.machine.ramping && memory.machine.state == State::stop_c1;
   const bool was_releasing = memory.machine.releasing;
@@ -278,6 +309,7 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
                  .rejected_count = memory.gate.rejected_count,
                  .missing_demand_count = memory.gate.missing_count};
   out.homing_failure = memory.homing.failure;
+  out.zone = zone.zone;
   for (std::size_t i = 0; i < kAxes; ++i) {
     out.brake_release[i] = decided.brake_release && takes_part(limits, memory, i);
     out.homing[i] = is_homing(memory, i);

@@ -76,11 +76,32 @@ void change_terms(std::mt19937& random, Rig& rig) {
   rig.terms.push_back(std::move(term));
 }
 
-/// Changes one field of the rig. @return its path, "" for the terms
+void change_zones(std::mt19937& random, Rig& rig) {
+  if (rig.zones.size() > 2) rig.zones.clear();
+  control::Zone zone;
+  for (const auto& field : control::kZoneFields)
+    std::visit(Randomize<control::Zone>{random, field, zone}, field.member);
+  zone.name += std::to_string(random());
+  (zone.shape == control::ZoneShape::box ? zone.radius_m : zone.size_x_m) = 0;
+  if (zone.shape == control::ZoneShape::cylinder) zone.size_y_m = 0;
+  // A random place is nearly always contradictory: this one is beside the start of each rig.
+  zone.position_x_m = rig.start.position[0] + rig.clearance.load_radius_m + 0.3;
+  zone.position_y_m = 0;
+  zone.size_x_m = zone.size_y_m = zone.shape == control::ZoneShape::box ? 0.01 : 0;
+  zone.radius_m = zone.shape == control::ZoneShape::box ? 0 : 0.01;
+  zone.top_m = zone.bottom_m + 2000;
+  rig.zones.push_back(std::move(zone));
+}
+
+/// Changes one field of the rig. @return its path, "" for terms and zones
 std::string change_one(std::mt19937& random, Rig& rig) {
   std::size_t count = 0;
   for_each_section(rig, [&count](const auto&, const auto& fields, auto&, auto) { count += fields.size(); });
-  std::size_t chosen = random() % (count + 5);
+  std::size_t chosen = random() % (count + 7);
+  if (chosen >= count + 5) {
+    change_zones(random, rig);
+    return {};
+  }
   if (chosen >= count) {
     change_terms(random, rig);
     return {};

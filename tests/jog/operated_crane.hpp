@@ -24,7 +24,9 @@ inline const char* const kClient = "operator";
 class OperatedCrane {
  public:
   explicit OperatedCrane(const std::string& controller)
-      : rig_{configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml")},
+      : OperatedCrane{controller, configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml")} {}
+  OperatedCrane(const std::string& controller, const configuration::Rig& rig)
+      : rig_{rig},
         controller_{runtime::chosen_controller(controller, rig_)},
         stack_{specs(), rig_, controller_},
         bus_{runtime::memory_options(stack_.network(), kClient, crane_SOURCE_OPERATOR)},

@@ -1,5 +1,5 @@
-// Cost of the checks of one tick while the crane moves: gate, envelope, following error, swing encoders. The
-// counter `allocations` is per tick.
+// Cost of the checks of one tick while the crane moves: gate, envelope, following error, swing encoders,
+// zones. The counter `allocations` is per tick.
 #include <benchmark/benchmark.h>
 
 #include <atomic>
@@ -97,6 +97,32 @@ void swing_encoders(benchmark::State& run) {
   count(run, before);
 }
 BENCHMARK(swing_encoders)->Unit(benchmark::kMicrosecond);
+
+void zone_filter(benchmark::State& run) {
+  Limits limits = tower();
+  limits.clearance = {.load_radius_m = 0.1, .suspension_height_m = 2};
+  for (int i = 0; i < run.range(0); ++i)
+    limits.zones.push_back(
+        {.name = "zone", .position_x_m = -2.0 - i, .size_x_m = 1, .size_y_m = 1, .top_m = 1.5});
+  ZoneMemory memory;
+  double time_s = 1;
+  const std::size_t before = allocations;
+  for (auto _ : run) {
+    time_s += kTick_s;
+    const Sample sample = sample_at(time_s);
+    const ZoneInput in{.sampled_s = time_s,
+                       .position = sample.position,
+                       .speed = {0.3 * std::cos(time_s), 0.5 * std::cos(time_s), 0},
+                       .swing_radial_rad = sample.swing_radial_rad,
+                       .swing_tangential_rad = sample.swing_tangential_rad,
+                       .applied_v = sample.applied_v,
+                       .passed_v = sample.applied_v};
+    observe_load(limits, in, memory);
+    benchmark::DoNotOptimize(filter_zones(limits, in, memory));
+  }
+  count(run, before);
+}
+BENCHMARK(zone_filter)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
 
 void whole_step(benchmark::State& run) {
   const Limits limits = tower();

@@ -30,6 +30,7 @@ Rig parse_rig(const std::string& text, const std::string& file) {
   read_sensing(root, rig);
   read_limits(root, rig);
   read_start(root, rig);
+  read_zones(root, rig);
   read_controller(root, rig);
   root.finish();
   return rig;

@@ -142,6 +142,8 @@ std::vector<SectionTable> section_tables() {
           section_table("sensing", kSensingFields),
           section_table("limits", control::kOperatingLimitFields),
           section_table("start", kStartFields),
+          section_table("zone", control::kZoneFields),
+          section_table("clearance", control::kClearanceFields),
           section_table("controller", kControllerFields, kPlanningFields, control::kDesignFields),
           section_table("controller.friction", control::kFrictionFields)};
 }

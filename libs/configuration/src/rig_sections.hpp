@@ -33,6 +33,7 @@ void read_terms(TomlTable& root, Rig& rig);
 void read_sensing(TomlTable& root, Rig& rig);
 void read_limits(TomlTable& root, Rig& rig);
 void read_start(TomlTable& root, Rig& rig);
+void read_zones(TomlTable& root, Rig& rig);
 void read_controller(TomlTable& root, Rig& rig);
 
 }  // namespace crane::configuration

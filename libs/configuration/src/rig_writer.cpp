@@ -84,14 +84,32 @@ std::string terms_text(const std::vector<plant::TermSetting>& terms) {
   return text;
 }
 
+std::string zones_text(const std::vector<control::Zone>& zones) {
+  std::string text;
+  for (const auto& zone : zones) text += to_toml(zone);
+  return text;
+}
+
 }  // namespace
+
+std::string to_toml(const control::Zone& zone) {
+  const bool box = zone.shape == control::ZoneShape::box;
+  std::string text = "\n[[zone]]\n";
+  for (const auto& field : control::kZoneFields) {
+    const bool of_box = field.key == "size_x_m" || field.key == "size_y_m",
+               of_cylinder = field.key == "radius_m";
+    if ((of_box && !box) || (of_cylinder && box)) continue;
+    std::visit(FieldWriter<control::Zone>{text, zone, key_of(field, "")}, field.member);
+  }
+  return text;
+}
 
 std::string to_toml(const Rig& rig) {
   Tables tables;
   for_each_section(
       rig, [&tables](const std::string& path, const auto& fields, const auto& section,
                      std::string_view unit) { write_section(tables.at(path), fields, section, unit); });
-  return tables.text() + terms_text(rig.terms);
+  return tables.text() + terms_text(rig.terms) + zones_text(rig.zones);
 }
 
 }  // namespace crane::configuration

@@ -41,6 +41,7 @@ void add_bench(CLI::App& app, Action& chosen);
 void add_keys(CLI::App& app, Action& chosen);
 void add_campaign(CLI::App& app, Action& chosen);
 void add_supervisor(CLI::App& app, Action& chosen);
+void add_zone(CLI::App& app, Action& chosen);
 void add_completion(CLI::App& app, Action& chosen);
 void add_man(CLI::App& app, Action& chosen);
 

@@ -6,6 +6,7 @@
 
 #include "crane/control/drive_limits.hpp"
 #include "crane/control/operating_limits.hpp"
+#include "crane/control/zone.hpp"
 #include "crane/plant/parameters.hpp"
 #include "crane/supervisor/states.hpp"
 
@@ -60,6 +61,9 @@ struct Limits : control::OperatingLimits {
   double load_watch_s =
       10;  ///< duration of the watch of the load after a restart of the bridge, >= clear_time_s
   MachineModel machine{};
+  control::Clearance clearance{};
+  std::vector<control::Zone> zones{};  ///< empty: the zone filter has no effect
+  PerAxis reference_acceleration{};    ///< of the planner's stop, unit/s^2; 0: no stop before the ramped one
   double creeping_ratio =
       2.5;  ///< overspeed of an axis without known position: multiple of its homing speed, >= 1
 };

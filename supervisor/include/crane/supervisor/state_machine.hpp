@@ -27,6 +27,8 @@ struct Inputs {
   Envelope envelope{};
   bool following_error = false;      ///< see following.hpp
   bool swing_sensor_failed = false;  ///< see pendulum.hpp
+  bool zone_ahead = false;           ///< see zone_filter.hpp
+  bool zone_touched = false;         ///< see zone_filter.hpp
   bool estop_pressed = false;
   bool bridge_latched = false;    ///< the bridge holds 0 V and closed brakes by itself
   bool watchdog_dropped = false;  ///< the relay has removed the brake supply

@@ -7,6 +7,7 @@
 #include "crane/supervisor/pendulum.hpp"
 #include "crane/supervisor/restart.hpp"
 #include "crane/supervisor/state_machine.hpp"
+#include "crane/supervisor/zone_filter.hpp"
 
 namespace crane::supervisor {
 
@@ -59,6 +60,7 @@ struct TickMemory {
   RestartMemory restart{};
   FollowingMemory following{};
   PendulumMemory pendulum{};
+  ZoneMemory zones{};
   Sample sample{};  ///< newest
   int state_missing_in_row = 0;
   int overruns_in_row = 0;
@@ -90,6 +92,7 @@ struct TickOutput {
   HomingFailure homing_failure = HomingFailure::none;  ///< result of the last homing
   bool watchdog_permission = false;
   bool stop_motion = false;
+  std::size_t zone = 0;  ///< Cause::zone: index of the zone that the reach is closest to
   std::array<Answer, kRequests> answers{};
   std::uint64_t clamped_count = 0;
   std::uint64_t rejected_count = 0;

@@ -13,6 +13,7 @@
 #include "crane/control/law.hpp"
 #include "crane/control/operating_limits.hpp"
 #include "crane/control/shaper.hpp"
+#include "crane/control/zone.hpp"
 #include "crane/plant/parameters.hpp"
 
 namespace crane::configuration {
@@ -109,6 +110,8 @@ struct Rig {
   Sensing sensing;
   control::OperatingLimits limits;
   Start start;
+  control::Clearance clearance;
+  std::vector<control::Zone> zones;
   std::string board = "simulated";  ///< a name of boards.def
   Wiring wiring;
   std::string controller = "gain_scheduling_partial";
@@ -148,5 +151,7 @@ class ConfigurationError : public std::runtime_error {
 /// bit for bit, except for its path. Values that follow from other fields (volts, lengths and period of the
 /// design) are not written.
 [[nodiscard]] std::string to_toml(const Rig& rig);
+/// The table [[zone]] of one zone.
+[[nodiscard]] std::string to_toml(const control::Zone& zone);
 
 }  // namespace crane::configuration

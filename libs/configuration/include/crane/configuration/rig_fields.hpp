@@ -323,6 +323,7 @@ void for_each_section(AnyRig& rig, Visit&& visit) {
   visit(std::string{"sensing"}, kSensingFields, rig.sensing, "");
   visit(std::string{"limits"}, control::kOperatingLimitFields, rig.limits, "");
   visit(std::string{"start"}, kStartFields, rig.start, "");
+  visit(std::string{"clearance"}, control::kClearanceFields, rig.clearance, "");
   visit(std::string{"controller"}, kControllerFields, rig, "");
   visit(std::string{"controller"}, kPlanningFields, rig.planning, "");
   visit(std::string{"controller"}, control::kDesignFields, rig.design, "");

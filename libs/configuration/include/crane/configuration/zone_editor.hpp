@@ -1,0 +1,19 @@
+#pragma once
+/// Adds and removes zones in the text of a rig file. All other text, comments included, stays as it is. The
+/// new text is read again: it must give the same rig with only this zone changed, or nothing is returned.
+#include <string>
+
+#include "crane/configuration/rig.hpp"
+
+namespace crane::configuration {
+
+/// Appends the table [[zone]]. @throws ConfigurationError when the rig file has problems with or without the
+/// zone, or when its zones cannot be extended by a table at its end (an inline array, zones of a base file)
+[[nodiscard]] std::string with_zone(const std::string& text, const std::string& file,
+                                    const control::Zone& zone);
+
+/// Removes the table [[zone]] of this name with the comments between its keys. @throws ConfigurationError
+[[nodiscard]] std::string without_zone(const std::string& text, const std::string& file,
+                                       const std::string& name);
+
+}  // namespace crane::configuration

@@ -1,0 +1,198 @@
+/// crane zone: no-go zones of a rig file.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/taught_box.hpp"
+#include "cli/text_table.hpp"
+#include "commands.hpp"
+#include "crane/bus/cdr.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/zone_editor.hpp"
+#include "crane/fields/printable.hpp"
+#include "crane/recording/mcap_reader.hpp"
+#include "crane/recording/run_table.hpp"
+#include "crane/runtime/process.hpp"
+#include "stack/data_files.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct ZoneOptions {
+  std::string name, recording, out;
+  std::string rig = "virginia_tech_tower";
+  std::optional<double> bottom_m, top_m;
+  double from_s = 0, until_s = std::numeric_limits<double>::infinity();
+  bool json = false;
+};
+
+bool is_box(const control::Zone& zone) { return zone.shape == control::ZoneShape::box; }
+
+nlohmann::json json_of(const control::Zone& zone) {
+  nlohmann::json json{{"name", zone.name},
+                      {"shape", is_box(zone) ? "box" : "cylinder"},
+                      {"position_x_m", zone.position_x_m},
+                      {"position_y_m", zone.position_y_m},
+                      {"bottom_m", zone.bottom_m},
+                      {"top_m", zone.top_m}};
+  if (is_box(zone))
+    json["size_x_m"] = zone.size_x_m, json["size_y_m"] = zone.size_y_m;
+  else
+    json["radius_m"] = zone.radius_m;
+  return json;
+}
+
+void print(const std::vector<control::Zone>& zones) {
+  TextTable table{{"zone", "shape", "x [m]", "y [m]", "size [m]", "height [m]"}};
+  for (const auto& zone : zones)
+    table.add({fields::printable(zone.name), is_box(zone) ? "box" : "cylinder", fixed(zone.position_x_m, 3),
+               fixed(zone.position_y_m, 3),
+               is_box(zone) ? fixed(zone.size_x_m, 3) + " x " + fixed(zone.size_y_m, 3)
+                            : "radius " + fixed(zone.radius_m, 3),
+               fixed(zone.bottom_m, 3) + " to " + fixed(zone.top_m, 3)});
+  table.print(std::cout);
+}
+
+int list(const ZoneOptions& options) {
+  const auto rig = configuration::load_rig(stack::find_rig(options.rig));
+  if (options.json) {
+    auto all = nlohmann::json::array();
+    for (const auto& zone : rig.zones) all.push_back(json_of(zone));
+    std::cout << all.dump(2) << '\n';
+  } else if (rig.zones.empty()) {
+    std::cout << rig.name << ": no zones\n";
+  } else {
+    print(rig.zones);
+  }
+  return runtime::kExitDone;
+}
+
+/// Writes the new text beside the old file and replaces the old file by it, or writes the file of --out.
+void write(const ZoneOptions& options, const std::filesystem::path& rig, const std::string& text) {
+  const std::filesystem::path target = options.out.empty() ? rig : std::filesystem::path{options.out};
+  auto partial = target;
+  partial += ".partial";
+  std::ofstream file{partial, std::ios::binary};
+  file << text;
+  file.close();
+  std::error_code failure;
+  if (file) std::filesystem::rename(partial, target, failure);
+  if (!file || failure) {
+    std::filesystem::remove(partial, failure);
+    throw std::runtime_error(target.string() + ": cannot be written; give another file with --out");
+  }
+  std::cout << target.string() << ": written; it takes effect when the stack starts again\n";
+}
+
+TaughtBox box_of(const ZoneOptions& options, const configuration::Rig& rig) {
+  recording::McapReader reader{options.recording};
+  if (const auto version = recording::messages_version(reader);
+      version.value_or(crane_MESSAGES_VERSION) != crane_MESSAGES_VERSION)
+    throw std::runtime_error(options.recording + ": its messages have another version");
+  TaughtBox box{rig.clearance.suspension_height_m,
+                rig.measures(plant::kHoist) ? 0 : rig.start.position[plant::kHoist]};
+  std::optional<std::int64_t> first_ns;
+  reader.for_each({.topics = {std::string{topics::state.description.name}}},
+                  [&](const recording::Message& message) {
+                    msg::State state{};
+                    if (message.data.size() < bus::kEncapsulation_bytes ||
+                        !bus::CdrCodec::of(*topics::state.description.descriptor)
+                             .decode(message.data.subspan(bus::kEncapsulation_bytes), false, &state))
+                      return true;
+                    const auto time_ns = state.header.sample_time_ns;
+                    if (!first_ns) first_ns = time_ns;
+                    const double time_s = static_cast<double>(time_ns - *first_ns) / 1e9;
+                    if (time_s >= options.from_s && time_s <= options.until_s) box.add(state);
+                    return true;
+                  });
+  for (const auto& problem : reader.problems()) std::cerr << "warning: " << problem << '\n';
+  if (box.samples() == 0)
+    throw std::runtime_error(options.recording + ": no crane/state with known positions in this time");
+  return box;
+}
+
+int learn(const ZoneOptions& options) {
+  const auto path = stack::find_rig(options.rig);
+  const auto rig = configuration::load_rig(path);
+  const auto box = box_of(options, rig);
+  auto zone = box.zone(options.name);
+  if (options.bottom_m) zone.bottom_m = *options.bottom_m;
+  if (options.top_m) zone.top_m = *options.top_m;
+  if (rig.kind == configuration::RigKind::gantry)
+    zone.size_y_m = std::max(zone.size_y_m, 2 * rig.clearance.load_radius_m);
+  constexpr double kSmallest_m = 0.001;
+  if (zone.size_x_m < kSmallest_m || zone.size_y_m < kSmallest_m)
+    throw std::runtime_error("the hook has not moved around an area: its places are " +
+                             fixed(zone.size_x_m, 3) + " x " + fixed(zone.size_y_m, 3) + " m");
+  if (zone.top_m - zone.bottom_m < kSmallest_m)
+    throw std::runtime_error(
+        "the hook has kept its height: give the height of the obstacle with --top (and --bottom)");
+  write(options, path, configuration::with_zone(configuration::file_text(path), path.string(), zone));
+  std::cout << box.samples() << " places of the hook"
+            << (box.skipped() > 0 ? ", " + std::to_string(box.skipped()) + " skipped" : "") << ":\n";
+  print({zone});
+  return runtime::kExitDone;
+}
+
+int remove(const ZoneOptions& options) {
+  const auto path = stack::find_rig(options.rig);
+  write(options, path,
+        configuration::without_zone(configuration::file_text(path), path.string(), options.name));
+  return runtime::kExitDone;
+}
+
+using Options = std::shared_ptr<ZoneOptions>;
+
+CLI::App* add_command(CLI::App& group, const char* name, const char* summary, const Options& options) {
+  auto* command = group.add_subcommand(name, summary);
+  command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
+  return command;
+}
+
+void add_learn(CLI::App& group, const Options& options, Action& chosen) {
+  auto* command =
+      add_command(group, "learn", "Add a box around the places of the hook in a recording", options);
+  command->add_option("NAME", options->name, "name of the zone")->required();
+  command->add_option("RECORDING", options->recording, "recording (MCAP) of a drive around the obstacle")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--bottom", options->bottom_m,
+                      "height of the lower end in m instead of the lowest hook");
+  command->add_option("--top", options->top_m, "height of the upper end in m instead of the highest hook");
+  command->add_option("--from", options->from_s, "use the recording from this time on, in s")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--until", options->until_s, "use the recording up to this time, in s")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--out", options->out, "write this file instead of the rig file");
+  command->footer(
+      "Example: crane record drive.mcap --duration 60, drive the hook around the obstacle with crane jog, "
+      "then\n"
+      "crane zone learn silo drive.mcap --rig my_tower.toml --top 1.5\n"
+      "Heights count from the ground of [clearance] suspension_height_m. Comments and all other text of the "
+      "file stay.");
+  command->callback([options, &chosen] { chosen = [options] { return learn(*options); }; });
+}
+
+}  // namespace
+
+void add_zone(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<ZoneOptions>();
+  auto* group = app.add_subcommand("zone", "List, learn and remove no-go zones of a rig file");
+  group->require_subcommand(1);
+  group->footer(
+      "The supervisor keeps load, hook and cable out of the zones; docs/zones.md states how, and what it "
+      "cannot prevent.");
+  auto* listing = add_command(*group, "list", "List the zones", options);
+  listing->add_flag("--json", options->json, "print a JSON array");
+  listing->callback([options, &chosen] { chosen = [options] { return list(*options); }; });
+  add_learn(*group, options, chosen);
+  auto* removal = add_command(*group, "remove", "Remove a zone from the file", options);
+  removal->add_option("NAME", options->name, "name of the zone")->required();
+  removal->add_option("--out", options->out, "write this file instead of the rig file");
+  removal->callback([options, &chosen] { chosen = [options] { return remove(*options); }; });
+}
+
+}  // namespace crane::cli

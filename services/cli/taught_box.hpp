@@ -1,0 +1,28 @@
+#pragma once
+/// Zones from recorded motion.
+#include "crane/configuration/rig.hpp"
+#include "crane/topics.hpp"
+
+namespace crane::cli {
+
+/// Box around the places of the hook, in coordinates of the ground.
+class TaughtBox {
+ public:
+  /// @param suspension_height_m, cable_m  of the rig file; cable_m: a cable that is not measured, 0: measured
+  TaughtBox(double suspension_height_m, double cable_m)
+      : suspension_height_m_{suspension_height_m}, cable_m_{cable_m} {}
+  /// Position of the end of the cable (2.11). A sample with an unknown position or a value that is not finite
+  /// counts as skipped.
+  void add(const msg::State& state);
+  [[nodiscard]] std::size_t samples() const { return samples_; }
+  [[nodiscard]] std::size_t skipped() const { return skipped_; }
+  /// @pre samples() > 0
+  [[nodiscard]] control::Zone zone(const std::string& name) const;
+
+ private:
+  double suspension_height_m_, cable_m_;
+  std::size_t samples_ = 0, skipped_ = 0;
+  std::array<double, 3> low_{}, high_{};
+};
+
+}  // namespace crane::cli
