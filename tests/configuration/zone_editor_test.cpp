@@ -35,6 +35,10 @@ TEST(ZoneEditor, AddsATableAndChangesNoOtherText) {
 }
 
 TEST(ZoneEditor, RemovesWhatItAdded) {
+  EXPECT_EQ(without_zone(with_zone(kTowerText, "rig.toml", mast("mast")), "rig.toml", "mast"), kTowerText);
+}
+
+TEST(ZoneEditor, KeepsCommentsAndOtherZones) {
   const auto one = with_zone(kTowerText, "rig.toml", mast("one")) + "# behind the first\n";
   const auto two =
       with_zone(one, "rig.toml", mast("two")) + "\n# last line\n[sensing]\nfilter_swing_angle = false\n";

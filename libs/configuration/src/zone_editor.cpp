@@ -63,8 +63,11 @@ std::string without_zone(const std::string& text, const std::string& file, const
   const auto found = std::ranges::find(wanted.zones, name, &control::Zone::name);
   if (found == wanted.zones.end()) throw ConfigurationError{{file + ": no zone " + name}};
   auto lines = lines_of(text);
-  const Block block = block_of(lines, static_cast<std::size_t>(found - wanted.zones.begin()));
+  Block block = block_of(lines, static_cast<std::size_t>(found - wanted.zones.begin()));
   if (block.end == 0) refuse(file, "the zone is not a table [[zone]] of this file");
+  // with_zone() puts an empty line before a table
+  const auto is_empty = [&lines](std::size_t i) { return i >= lines.size() || lines[i] == "\n"; };
+  if (block.begin > 0 && is_empty(block.begin - 1) && is_empty(block.end)) --block.begin;
   const auto at = [&lines](std::size_t i) { return lines.begin() + static_cast<std::ptrdiff_t>(i); };
   lines.erase(at(block.begin), at(block.end));
   wanted.zones.erase(found);
