@@ -91,7 +91,7 @@ TEST_F(EncoderThatLosesCounts, IsNamedAlone) {
 TEST_F(EncoderThatLosesCounts, IsNamedBesideAnUnknownError) {
   const Diagnosis found = named_beside(of(Verdict::unknown, {}));
   EXPECT_EQ(found.verdict, Verdict::unknown);
-  EXPECT_EQ(found.sentence.find("An encoder loses counts. Something is wrong"), 0U) << found.sentence;
+  EXPECT_EQ(found.sentence.find("An encoder loses counts. The model has an error"), 0U) << found.sentence;
   EXPECT_EQ(found.causes.at(0).name, "position_drift");
 }
 

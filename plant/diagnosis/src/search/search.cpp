@@ -69,9 +69,7 @@ class Search {
         }
         level = refit_likeliest();
         if (level.empty()) break;
-        refit_parts_of(level.front());
-        for (Fitted& fitted : level) fitted = *of_all(fitted.effects);
-        std::sort(level.begin(), level.end(), less);
+        refit_parts_of_first(level);
         if (less(level.front(), found.best)) level = with(std::move(level), exchanged(level.front()));
         if (!accept_one_of(level)) break;
       }
@@ -123,6 +121,18 @@ class Search {
       if (fitted.effects.size() == whole.effects.size()) fitted = no_worse_than_its_parts(fitted);
   }
 
+  /// Refits the parts of the likeliest hypothesis. The hypotheses that contain these parts may become
+  /// likelier, so that another one is first; its parts are refitted as well.
+  void refit_parts_of_first(std::vector<Fitted>& level) {
+    Effects refitted;
+    for (std::size_t round = 0; round < level.size() && !same(refitted, level.front().effects); ++round) {
+      refitted = level.front().effects;
+      refit_parts_of(level.front());
+      for (Fitted& fitted : level) fitted = *of_all(fitted.effects);
+      std::sort(level.begin(), level.end(), less);
+    }
+  }
+
   /// Hypotheses in which another effect replaces one effect of `given`, because the best candidate beside few
   /// effects need not be the best beside all.
   /// @pre refit_parts_of(given)
@@ -131,7 +141,7 @@ class Search {
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
       Effects rest = whole.effects;
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-      extend(*of_all(rest), kExchanged);
+      if (const auto part = of_all(rest); part != found_.all.end()) extend(*part, kExchanged);
     }
     return refit_likeliest();
   }
@@ -201,8 +211,11 @@ class Search {
       if (found == found_.all.end() || !likelier_without_penalty(*found, whole)) continue;
       const Fitted part = *found;
       Effect remaining = given.effects[i];
-      for (std::size_t k = 0; k < remaining.candidate->amount_count; ++k)
-        remaining.values[k] = remaining.candidate->parameters[k].null;
+      for (std::size_t k = 0; k < remaining.candidate->amount_count; ++k) {
+        // A term with inner coordinates has none at amount 0, which is outside its bounds.
+        const FreeParameter& amount = remaining.candidate->parameters[k];
+        remaining.values[k] = std::clamp(amount.null, amount.low, amount.high);
+      }
       Effects start = part.effects;
       start.push_back(remaining);
       study_.whiten_training(part.noise);
