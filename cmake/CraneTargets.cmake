@@ -51,10 +51,10 @@ endfunction()
 # crane_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [SERIAL [ALONE] | LOOP])
 # GoogleTest program; each TEST becomes one CTest test. SERIAL: the tests of this program run one after the other (real time, real
 # DDS), beside a test of at most one other program, which has DDS domains of its own. ALONE: no other test runs at the same time,
-# because these tests require that the loop loses no tick. SERIAL tests have the main() of tests/real_time, where a failure is
-# final unless a bare timer proves that the computer paused. All other programs carry the label "unit", unless LABELS are given,
-# and are built by the target unit_tests. LOOP: tests of code that runs while a crane moves; they carry the label "unit-loop"
-# (CTest discovers tests with one label only) and are built by loop_tests, too.
+# because these tests require that the loop loses no tick or that a handshake of DDS Security ends in time. SERIAL tests have the
+# main() of tests/real_time, where a failure is final unless a bare timer proves that the computer paused. All other programs
+# carry the label "unit", unless LABELS are given, and are built by the target unit_tests. LOOP: tests of code that runs while a
+# crane moves; they carry the label "unit-loop" (CTest discovers tests with one label only) and are built by loop_tests, too.
 add_custom_target(unit_tests)
 add_custom_target(loop_tests)
 function(crane_test name)
