@@ -300,7 +300,10 @@ ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input, ZoneMemor
     const ReachedSpace resting = control::resting_reach(
         limits.clearance, limits.machine.crane.gravity_mps2, input.position[kTrolley],
         limits.axis[kSlew].present ? input.position[kSlew] : 0, limits.machine.cable(input.position[kHoist]));
-    memory.permitted_m = closest_of(limits, resting).clearance_m < 0 ? std::min(gap_m, 0.0) : 0;
+    // Another arming inside the same margin permits no further step towards the zone.
+    const double before_m = memory.permitted_m < 0 ? memory.permitted_m : gap_m;
+    memory.permitted_m =
+        closest_of(limits, resting).clearance_m < 0 ? std::min(std::max(before_m, gap_m), 0.0) : 0;
     memory.watching = true;
   }
   const bool leaves = memory.permitted_m < 0;

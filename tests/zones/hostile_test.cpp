@@ -258,6 +258,36 @@ TEST_P(HostileRuns, EnterZonesWithoutTheFilter) {
   EXPECT_GT(inside, 10);
 }
 
+/// A crane inside the margin may leave. Twenty armings must not add up to a way into the zone.
+TEST(HostileArming, InsideTheMarginLeadsNoCloserToTheZoneEachTime) {
+  auto rig = deployed_rig("virginia_tech_tower");
+  rig.clearance = {.load_radius_m = 0.05, .suspension_height_m = 2, .cable_error = 0.1, .wind_mps2 = 0.25};
+  const double wall_m = rig.start.position[plant::kTrolley] + 0.09;  // margin: 0.106 m
+  rig.zones = {{.name = "wall", .position_x_m = wall_m + 0.5, .size_x_m = 1, .size_y_m = 4, .top_m = 2}};
+  GuardedCrane crane{rig, rig};
+  double closest_m = std::numeric_limits<double>::infinity();
+  int zone_stops = 0;
+  const auto tick = [&](const PerAxis& demand_v) {
+    crane.tick(demand_v);
+    closest_m = std::min(closest_m, gap_m(rig.zones, rig.clearance, crane.truth()));
+  };
+  for (int arming = 0; arming < 20; ++arming) {
+    for (int i = 0; i < 200 && crane.armed(); ++i)
+      tick({10 * (0.02 - crane.speed(plant::kTrolley)) + 1, 0, 0});
+    zone_stops += crane.cause() == supervisor::Cause::zone ? 1 : 0;
+    for (int i = 0; i < 410; ++i) tick({});
+    for (const auto request : {supervisor::Request::reset, supervisor::Request::arm}) {
+      crane.input.requests[static_cast<std::size_t>(request)] = true;
+      tick({});
+      crane.input.requests = {};
+      for (int i = 0; i < 20; ++i) tick({});
+    }
+  }
+  EXPECT_GT(closest_m, 0);
+  EXPECT_GT(zone_stops, 0);
+  std::cout << "closest " << closest_m << " m, " << zone_stops << " stops\n";
+}
+
 INSTANTIATE_TEST_SUITE_P(Zones, HostileRuns, testing::Values("virginia_tech_tower", "gantry"),
                          [](const auto& rig) { return std::string{rig.param}; });
 

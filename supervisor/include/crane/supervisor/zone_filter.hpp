@@ -74,8 +74,9 @@ struct ZoneVerdict {
 };
 
 /// A crane that hangs at rest inside the margin of a zone (a changed rig file, an axis moved by hand) may be
-/// armed and leave: its clearance must not fall by more than this below the largest one since the brakes
-/// opened. Permits to leave with g kLeave_m / (L / 2), 0.4 m/s2 for a cable of 1 m.
+/// armed and leave: its clearance must not fall by more than this below the largest one since it came
+/// into the margin, however often it is armed. Permits to leave with g kLeave_m / (L / 2), 0.4 m/s2 for a
+/// cable of 1 m.
 inline constexpr double kLeave_m = 0.02;
 
 /// Stores one sample. Call for every sample, also while the brakes are closed.
