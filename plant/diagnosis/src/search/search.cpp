@@ -1,11 +1,12 @@
 #include "search/search.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "rules.hpp"
 #include "search/compare.hpp"
+#include "search/initial_values.hpp"
+#include "search/parts.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -110,15 +111,15 @@ class Search {
   void refit_parts_of(const Fitted& given) {
     const Fitted whole = given;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
-      Effects rest = whole.effects;
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      const Effects rest = without(whole.effects, i);
       study_.whiten_with(whole.noise);
       Fitted fitted = study_.refit_with_own_noise(study_.first_fit(rest, study_.base_model()));
-      keep(fitted);
+      keep(found_.all, fitted);
       if (rest.size() == found_.best.effects.size()) accept(fitted);
     }
     for (Fitted& fitted : found_.all)
-      if (fitted.effects.size() == whole.effects.size()) fitted = no_worse_than_its_parts(fitted);
+      if (fitted.effects.size() == whole.effects.size())
+        fitted = no_worse_than_its_parts(study_, found_.all, fitted);
   }
 
   /// Refits the parts of the likeliest hypothesis. The hypotheses that contain these parts may become
@@ -128,7 +129,7 @@ class Search {
     for (std::size_t round = 0; round < level.size() && !same(refitted, level.front().effects); ++round) {
       refitted = level.front().effects;
       refit_parts_of(level.front());
-      for (Fitted& fitted : level) fitted = *of_all(fitted.effects);
+      for (Fitted& fitted : level) fitted = *find(found_.all, fitted.effects);
       std::sort(level.begin(), level.end(), less);
     }
   }
@@ -139,9 +140,8 @@ class Search {
   std::vector<Fitted> exchanged(const Fitted& given) {
     const Fitted whole = given;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
-      Effects rest = whole.effects;
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-      if (const auto part = of_all(rest); part != found_.all.end()) extend(*part, kExchanged);
+      const Effects rest = without(whole.effects, i);
+      if (const Fitted* part = find(found_.all, rest)) extend(*part, kExchanged);
     }
     return refit_likeliest();
   }
@@ -167,11 +167,11 @@ class Search {
     }
     if (!there.effects.empty() && scores.p_value > rules::kSignificant) return scores.p_value;
     for (const Score& score : strongest(scores, count)) {
-      const Effects start = begin(there, score);
+      const Effects start = initial_values_.of(there, score);
       if (!there.effects.empty() && known(start)) continue;
       if (there.effects.empty())
         request_.progress(0.1, "fit of " + study_.candidates()[score.candidate].label());
-      tried_.push_back(study_.first_fit(with_fresh_wave(start, there), there));
+      tried_.push_back(study_.first_fit(initial_values_.with_new_wave(start, there), there));
     }
     return scores.p_value;
   }
@@ -193,55 +193,15 @@ class Search {
     tried_.resize(std::min(tried_.size(), kRefitted));
     std::vector<Fitted> level;
     for (const Fitted& tried : tried_)
-      level.push_back(no_worse_than_its_parts(study_.refit_with_own_noise(tried)));
+      level.push_back(no_worse_than_its_parts(study_, found_.all, study_.refit_with_own_noise(tried)));
     tried_.clear();
     std::sort(level.begin(), level.end(), less);
-    for (const Fitted& fitted : level) keep(fitted);
+    for (const Fitted& fitted : level) keep(found_.all, fitted);
     return level;
   }
 
-  /// At the values of a part, with amount 0 of the remaining effect, a hypothesis is as likely as the part. A
-  /// less likely fit has stopped at another minimum; it is repeated from the values of the part.
-  [[nodiscard]] Fitted no_worse_than_its_parts(const Fitted& given) {
-    Fitted whole = given;
-    for (std::size_t i = 0; i < given.effects.size() && given.effects.size() > 1; ++i) {
-      Effects rest = given.effects;
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-      const auto found = of_all(rest);
-      if (found == found_.all.end() || !likelier_without_penalty(*found, whole)) continue;
-      const Fitted part = *found;
-      Effect remaining = given.effects[i];
-      for (std::size_t k = 0; k < remaining.candidate->amount_count; ++k) {
-        // A term with inner coordinates has none at amount 0, which is outside its bounds.
-        const FreeParameter& amount = remaining.candidate->parameters[k];
-        remaining.values[k] = std::clamp(amount.null, amount.low, amount.high);
-      }
-      Effects start = part.effects;
-      start.push_back(remaining);
-      study_.whiten_training(part.noise);
-      const Fitted again = study_.refit_with_own_noise(study_.first_fit(start, part));
-      if (less(again, whole)) whole = again;
-    }
-    return whole;
-  }
-
-  [[nodiscard]] std::vector<Fitted>::iterator of_all(const Effects& effects) {
-    return std::ranges::find_if(found_.all, [&](const Fitted& f) { return same(f.effects, effects); });
-  }
-
-  /// Adds a fit; of two fits of the same effects, the likelier one is kept.
-  void keep(const Fitted& fitted) {
-    const auto known = of_all(fitted.effects);
-    if (known == found_.all.end())
-      found_.all.push_back(fitted);
-    else if (less(fitted, *known))
-      *known = fitted;
-  }
-
   [[nodiscard]] bool known(const Effects& effects) const {
-    const auto is_there = [&](const Fitted& fitted) { return same(fitted.effects, effects); };
-    return std::any_of(found_.all.begin(), found_.all.end(), is_there) ||
-           std::any_of(tried_.begin(), tried_.end(), is_there);
+    return find(found_.all, effects) != nullptr || find(tried_, effects) != nullptr;
   }
 
   /// Of hypotheses with the same number of effects, or with no more values, the likelier one is better. A
@@ -261,66 +221,17 @@ class Search {
     return std::ranges::any_of(level, [&](const Fitted& fitted) { return accept(fitted); });
   }
 
-  /// Initial values with the smallest loss. @param near fit of some of the effects
-  [[nodiscard]] Effects best_start(const std::vector<Effects>& starts, const Fitted& near) const {
-    if (starts.size() == 1) return starts[0];
-    const Effects* best = &starts[0];
-    double least = std::numeric_limits<double>::infinity();
-    for (const Effects& start : starts)
-      if (const double loss = study_.train(start, near.train).loss; loss < least) least = loss, best = &start;
-    return *best;
-  }
-
-  /// The effects of `there` and the candidate of `score` with its best initial values. Values of a ringing
-  /// cause are compared once only, because each comparison needs a fit of the starts of all windows.
-  [[nodiscard]] Effects begin(const Fitted& there, const Score& score) {
-    const Candidate* candidate = &study_.candidates()[score.candidate];
-    const auto compared = ringing_start_.find(candidate);
-    std::vector<std::vector<double>> values = score.starts;
-    if (compared != ringing_start_.end()) values = {compared->second};
-    std::vector<Effects> starts;
-    for (const std::vector<double>& of_start : values) {
-      starts.push_back(there.effects);
-      starts.back().push_back({candidate, of_start});
-    }
-    const Effects best = best_start(starts, there);
-    if (!candidate->ringing_starts.empty()) ringing_start_[candidate] = best.back().values;
-    return best;
-  }
-
-  /// Initial values with a new wave: a scale of the sensor changes the positions at which the wave acts.
-  [[nodiscard]] Effects with_fresh_wave(const Effects& effects, const Fitted& there) const {
-    std::vector<Effects> starts{effects};
-    for (std::size_t i = 0; i < effects.size(); ++i) {
-      const Candidate& wave = *effects[i].candidate;
-      if (!wave.waves) continue;
-      Effects others = effects;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      const auto moves_places = [&](const Effect& other) {
-        return other.candidate->axis == wave.axis && other.candidate->load;
-      };
-      if (std::none_of(others.begin(), others.end(), moves_places)) continue;
-      for (const Shape& shape : study_.shapes_of(wave, others)) {
-        starts.push_back(effects);
-        starts.back()[i].values = wave.begin(shape, shape.amounts);
-      }
-    }
-    return best_start(starts, there);
-  }
-
   /// Removes one effect that is not accepted beside the others. @return whether there was one
   bool drop_one() {
     const Fitted whole = found_.best;
     const Fitted* dropped = nullptr;
     std::vector<Fitted> fewer;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
-      Effects rest = whole.effects;
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-      const auto fitted = of_all(rest);
-      if (fitted == found_.all.end()) study_.whiten_training(found_.base.noise);
-      fewer.push_back(fitted != found_.all.end()
-                          ? *fitted
-                          : study_.refit_with_own_noise(study_.first_fit(rest, found_.base)));
+      const Effects rest = without(whole.effects, i);
+      const Fitted* fitted = find(found_.all, rest);
+      if (fitted == nullptr) study_.whiten_training(found_.base.noise);
+      fewer.push_back(fitted != nullptr ? *fitted
+                                        : study_.refit_with_own_noise(study_.first_fit(rest, found_.base)));
     }
     for (const Fitted& one : fewer)
       if (!accepted(whole, one, study_.candidates().size()) && (dropped == nullptr || less(one, *dropped)))
@@ -344,9 +255,9 @@ class Search {
   Study& study_;
   const Request& request_;
   Hypotheses found_;
-  std::vector<Fitted> tried_;                                      ///< first fits that have not been refitted
-  std::map<const Candidate*, std::vector<double>> ringing_start_;  ///< the best one of each
-  std::map<std::size_t, double> p_value_;                          ///< of every candidate alone
+  std::vector<Fitted> tried_;  ///< first fits that have not been refitted
+  InitialValues initial_values_{study_};
+  std::map<std::size_t, double> p_value_;  ///< of every candidate alone
 };
 
 }  // namespace

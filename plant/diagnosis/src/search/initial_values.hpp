@@ -1,0 +1,32 @@
+#pragma once
+/// Initial values from which a hypothesis is fitted.
+#include <map>
+#include <vector>
+
+#include "study/study.hpp"
+
+namespace crane::diagnosis {
+
+/// Compares initial values by the loss of the training data before any fit. Remembers the best initial values
+/// of each ringing cause, because their comparison needs a fit of the starts of all windows.
+class InitialValues {
+ public:
+  /// @param study must outlive this object
+  explicit InitialValues(Study& study) : study_(study) {}
+
+  /// The effects of `given` and the candidate of `score` with its best initial values.
+  [[nodiscard]] Effects of(const Fitted& given, const Score& score);
+
+  /// The effects with new initial values of each force that depends on the position of an axis whose sensor
+  /// another effect changes: this effect changes the positions at which the force acts.
+  /// @param near fit of some of the effects
+  [[nodiscard]] Effects with_new_wave(const Effects& effects, const Fitted& near) const;
+
+ private:
+  [[nodiscard]] Effects best_of(const std::vector<Effects>& starts, const Fitted& near) const;
+
+  Study& study_;
+  std::map<const Candidate*, std::vector<double>> best_ringing_;
+};
+
+}  // namespace crane::diagnosis
