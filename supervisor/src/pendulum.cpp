@@ -123,7 +123,7 @@ bool was_pushed(PendulumMemory& memory) {
 }  // namespace
 
 double pendulum_drift(const Limits& limits, double span_s) noexcept {
-  return (limits.machine.crane.gravity_mps2 * kZero_rad + kWind_mps2) * span_s;
+  return (limits.machine.crane.gravity_mps2 * kZero_rad + limits.clearance.wind_mps2) * span_s;
 }
 
 double pendulum_limit(const Limits& limits, double cable_m, double span_s) noexcept {

@@ -117,6 +117,16 @@ TEST(Metrics, ASwingThatStaysMeansNotSettledAndIsTheResidualSwing) {
   EXPECT_NEAR(m.largest_swing_radial_rad, 0.3, 1e-9);
 }
 
+TEST(Metrics, TheScatterOfTheSwingIsItsStandardDeviationInBothPlanesAboutTheMean) {
+  const auto run = sampled(20, [](double t) {
+    Sample s = first_order(t);
+    s.swing_radial_rad = 0.05 + 0.03 * std::sin(2 * kPi * t);  // 20 periods about a constant deflection
+    s.swing_tangential_rad = 0.04 * std::sin(2 * kPi * t);
+    return s;
+  });
+  EXPECT_NEAR(evaluate(run, trolley_move()).swing_scatter_rad, 0.05 / std::sqrt(2), 1e-4);
+}
+
 TEST(Metrics, NotANumberIsNeverSettled) {
   auto run = sampled(5, [](double) { return first_order(20); });
   run.back().position[0] = std::nan("");

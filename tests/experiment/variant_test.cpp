@@ -51,6 +51,15 @@ TEST(Variant, ChangesTheTrueCableAndLoadAndNotWhatControllersBelieve) {
   EXPECT_DOUBLE_EQ(changed_by(original, "heavy_load+known_load").design.crane.load_mass_kg, 3);
 }
 
+TEST(Variant, GustsBlowOnTheSimulatedCraneOnly) {
+  const auto original = tower_with_friction();
+  const auto windy = changed_by(original, "gusts_across");
+  ASSERT_EQ(windy.terms.size(), original.terms.size() + 1);
+  EXPECT_EQ(windy.terms.back().name, "wind_gust");
+  EXPECT_TRUE(plant::problems(windy.terms).empty());
+  EXPECT_EQ(windy.design, original.design);
+}
+
 TEST(Variant, ChangesTheTrueFrictionAndNotItsCompensation) {
   auto original = tower_with_friction();
   original.terms.front().parameters = {

@@ -27,6 +27,7 @@ inline std::vector<plant::TermSetting> every_effect() {
       {"load_linear_drag", "", {{"coefficient_nspm", 0.1}}},
       {"load_quadratic_drag", "", {{"coefficient_ns2pm2", 0.1}}},
       {"steady_wind", "", {{"force_n", 0.3}, {"direction_rad", 1}}},
+      {"wind_gust", "", {{"coefficient_ns2pm2", 0.015}, {"mean_mps", 5}, {"scatter_mps", 1.5}}},
       {"swing_pivot_friction", "", {{"coulomb_nm", 0.02}}},
       {"jib_tilt", "", {{"angle_rad", 0.01}}},
       {"cable_length", "", {{"delta_m", 0.05}}},

@@ -138,7 +138,7 @@ class Load : public testing::Test {
     constexpr int kSteps = 100;
     for (int tick = 1; tick <= ticks; ++tick) {
       for (int step = 0; step < kSteps; ++step) {
-        rate_ -= omega2 * std::sin(angle_) * kTick_s / kSteps;
+        rate_ += (wind_mps2_ / cable_m_ - omega2 * std::sin(angle_)) * kTick_s / kSteps;
         angle_ += rate_ * kTick_s / kSteps;
       }
       time_s_ += kTick_s;
@@ -155,7 +155,7 @@ class Load : public testing::Test {
 
   Limits limits_ = limits_of_rig("virginia_tech_tower");
   PendulumMemory memory_;
-  double time_s_ = 1, angle_ = 0.3, rate_ = 0, cable_m_ = 1, measured_m_ = 1;
+  double time_s_ = 1, angle_ = 0.3, rate_ = 0, cable_m_ = 1, measured_m_ = 1, wind_mps2_ = 0;
 };
 
 TEST_F(Load, ThatSwingsIsNoFailureHoweverItBegan) { EXPECT_EQ(swing(6000, as_it_is), 0); }
@@ -170,6 +170,14 @@ TEST_F(Load, OnACableThatIsHalfOrOneAndAHalfTimesAsLongIsNoFailure) {
 
 TEST_F(Load, WithAZeroThatIsOffBy20MradIsNoFailure) {
   EXPECT_EQ(swing(3000, [](double angle) { return angle + 0.02; }), 0);
+}
+
+TEST_F(Load, InTheWindOfTheRigFileIsNoFailureAndInAStrongerWindIsOne) {
+  limits_.clearance.wind_mps2 = 0.8;
+  wind_mps2_ = 0.8;
+  EXPECT_EQ(swing(6000, as_it_is), 0);
+  wind_mps2_ = 1.2;  // beyond wind and zero error together
+  EXPECT_GT(swing(6000, as_it_is), 0);
 }
 
 TEST_F(Load, ThatSomebodyPushesIsNoFailure) {

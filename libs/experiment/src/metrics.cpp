@@ -72,6 +72,18 @@ void fill_swing(std::span<const Sample> run, Metrics& metrics) {
   }
 }
 
+void fill_swing_scatter(std::span<const Sample> after, Metrics& metrics) {
+  const auto count = static_cast<double>(after.size());
+  double radial = 0, tangential = 0;
+  for (const Sample& sample : after)
+    radial += sample.swing_radial_rad / count, tangential += sample.swing_tangential_rad / count;
+  double squares = 0;
+  for (const Sample& sample : after)
+    squares +=
+        std::pow(sample.swing_radial_rad - radial, 2) + std::pow(sample.swing_tangential_rad - tangential, 2);
+  metrics.swing_scatter_rad = std::sqrt(squares / count);
+}
+
 void fill_volts(std::span<const Sample> run, Metrics& metrics) {
   for (std::size_t i = 0; i < run.size(); ++i)
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
@@ -175,6 +187,7 @@ Metrics evaluate(std::span<const Sample> run, const Maneuver& maneuver) {
   metrics.settling_time_s = settling_time(after_last, maneuver);
   fill_overshoot(after_last, maneuver, metrics);
   fill_swing(after_first, metrics);
+  fill_swing_scatter(after_last, metrics);
   fill_volts(after_first, metrics);
   metrics.lost_ticks = lost_ticks(run);
   return metrics;
@@ -195,6 +208,7 @@ nlohmann::ordered_json to_json(const Metrics& m) {
           {"largest_swing_radial_deg", m.largest_swing_radial_rad * kDegPerRad},
           {"largest_swing_tangential_deg", m.largest_swing_tangential_rad * kDegPerRad},
           {"residual_swing_deg", m.residual_swing_rad * kDegPerRad},
+          {"swing_scatter_deg", m.swing_scatter_rad * kDegPerRad},
           {"trolley_largest_v", m.largest_v[0]},
           {"slew_largest_v", m.largest_v[1]},
           {"hoist_largest_v", m.largest_v[2]},

@@ -1,6 +1,7 @@
 #include "crane/experiment/variant.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "crane/plant/term.hpp"
 
@@ -63,6 +64,20 @@ void scale_friction(Rig& rig, double ratio) {
   }
 }
 
+/// Moderate breeze with a turbulence of a quarter of its speed. The drag is that of a cube of 0.15 m:
+/// d = rho c_w A / 2 = 1.2 kg/m3 * 1.05 * 0.0225 m2 / 2. Wind and three standard deviations of the gusts
+/// accelerate a load of 2 kg by d (V + 3 sigma)^2 / m = 0.8 m/s2, which the check of the swing encoders must
+/// tolerate.
+void blow(Rig& rig, double direction_rad) {
+  rig.clearance.wind_mps2 = 0.8;
+  rig.terms.push_back({"wind_gust",
+                       "",
+                       {{"coefficient_ns2pm2", 0.0142},
+                        {"mean_mps", 6},
+                        {"scatter_mps", 1.5},
+                        {"direction_rad", direction_rad}}});
+}
+
 constexpr std::size_t kDefaultVariants = 8;
 const std::vector<Variant> kVariants{
     {"ideal", "plant without friction and other terms, no compensation",
@@ -90,6 +105,10 @@ const std::vector<Variant> kVariants{
      [](Rig& rig) { scale_friction(rig, 0.8); }},
     {"friction_plus_20", "the true friction of the drives is 20 % higher than compensated",
      [](Rig& rig) { scale_friction(rig, 1.2); }},
+    {"gusts_along", "a wind of 6 m/s with gusts of 1.5 m/s along the jib at slew angle 0",
+     [](Rig& rig) { blow(rig, 0); }},
+    {"gusts_across", "the same wind, across the jib at slew angle 0",
+     [](Rig& rig) { blow(rig, std::numbers::pi / 2); }},
     {"as_is", "the rig file without changes", [](Rig&) {}},
     {"known_load", "the controllers use the true load mass",
      [](Rig& rig) { rig.design.crane.load_mass_kg = rig.plant.load_mass_kg; }},

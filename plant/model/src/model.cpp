@@ -67,6 +67,10 @@ std::vector<std::size_t> Model::ringing_coordinates() const {
   return ringing;
 }
 
+void Model::begin_tick() noexcept {
+  for (const auto& term : load_terms_) term->begin_tick(period_s_);
+}
+
 PerAxis Model::drive_voltage(const PerAxis& command_v) noexcept {
   PerAxis drive_v = command_v;
   for (const auto& term : command_terms_) term->change_command(drive_v, period_s_);

@@ -51,6 +51,7 @@ void Mechanism::begin_tick(const plant::PerAxis& board_v) noexcept {
   plant::PerAxis command_v{};
   for (std::size_t i = 0; i < kAxes; ++i) command_v[i] = drives_[i].sign * board_v[i];
   drive_v_ = model_.drive_voltage(command_v);
+  model_.begin_tick();
 }
 
 void Mechanism::kick(double radial_radps, double tangential_radps) noexcept {

@@ -6,8 +6,8 @@
 /// depth below the jib. All of them are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
 /// does not depend on drives, friction or load mass. The mean of e over kMean samples is summed as a vector
-/// (run_length.hpp) and reduced by the tolerances. Those for the zero error kZero_rad, wind kWind_mps2 and
-/// damping ratio kDamping apply in any direction. A cable k times as long as measured leaves e = (1 - k) dr',
+/// (run_length.hpp) and reduced by the tolerances. Those for the zero error kZero_rad, the wind of the rig file
+/// (Limits::clearance) and the damping ratio kDamping apply in any direction. A cable k times as long as measured leaves e = (1 - k) dr',
 /// so that kCableTolerance of the change of the swing rate dr' applies along dr' only. When the sum exceeds
 /// kSpeed_mps plus the quantisation of the swing rate, a swing encoder or the encoder of the axis that
 /// carries the load has failed.
@@ -18,8 +18,8 @@
 /// change for kStands_ticks afterwards, because a push does not stop a load exactly.
 ///
 /// Detection time of a frozen swing encoder with the error a, rad:
-///   (kSpeed_mps + noise) / (g (|a| - kZero_rad) - kWind_mps2) + (kMean + 2) ticks.
-/// An error below kZero_rad + kWind_mps2 / g = 46 mrad is not detected. False alarms: none within the
+///   (kSpeed_mps + noise) / (g (|a| - kZero_rad) - wind) + (kMean + 2) ticks.
+/// An error below kZero_rad + wind / g is not detected: 46 mrad with the default wind of 0.25 m/s2. False alarms: none within the
 /// tolerances; average run length above 1e9 ticks for a white disturbance of the same size
 /// (tests/supervisor/model_checks_test.cpp).
 #include "crane/supervisor/limits.hpp"
@@ -31,7 +31,6 @@ inline constexpr std::size_t kMean =
 inline constexpr double kCableTolerance =
     0.55;  ///< relative error of the cable length: 0.5 (true length 0.5 to 1.5 times the measured one) x 1.1
 inline constexpr double kZero_rad = 0.02;   ///< zero error of a swing encoder
-inline constexpr double kWind_mps2 = 0.25;  ///< acceleration of the load by wind
 inline constexpr double kDamping = 0.05;    ///< damping ratio of air, bearing and cable
 inline constexpr double kSpeed_mps = 0.05;  ///< permitted sum without quantisation
 inline constexpr int kPush_ticks = 6;       ///< kMean and the two samples of a speed

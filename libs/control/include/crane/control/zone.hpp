@@ -118,7 +118,8 @@ inline constexpr std::array kClearanceFields{
                              .member = &Clearance::wind_mps2,
                              .range = fields::Range::closed(0, 5),
                              .unit = "m/s²",
-                             .meaning = "largest acceleration of the load by wind: force / mass"},
+                             .meaning = "largest acceleration of the load by wind: force / mass. The check of the "
+                                        "swing encoders tolerates it"},
 };
 
 /// Space that load, hook and cable can reach: an upright cylinder from `lowest_m` to the suspension point.

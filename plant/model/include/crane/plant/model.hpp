@@ -39,6 +39,9 @@ class Model {
   /// Parameters of the rig file, changed by the parameter terms.
   [[nodiscard]] const Parameters& parameters() const noexcept { return parameters_; }
 
+  /// Changes the random forces on the load. A simulation calls this once per tick; a prediction does not, so
+  /// that its random forces keep their initial values.
+  void begin_tick() noexcept;
   /// Output of the amplifiers for a command [V]. Call once per tick: command terms may have a memory.
   [[nodiscard]] PerAxis drive_voltage(const PerAxis& command_v) noexcept;
 

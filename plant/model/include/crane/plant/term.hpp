@@ -56,6 +56,9 @@ class Term {
   ///   position [V]: where P is a weight, motor and weight work against each other in the gear
   virtual void add_gear_friction(const State& /*state*/, double /*carried_v*/,
                                  PerAxis& /*friction_v*/) const noexcept {}
+  /// Load terms, once per tick: changes a force that varies at random over time. The force is constant within
+  /// a tick.
+  virtual void begin_tick(double /*period_s*/) noexcept {}
   /// Load terms: adds generalised forces of the load.
   virtual void add_force(const Parameters& /*crane*/, const State& /*state*/,
                          Forces& /*sum*/) const noexcept {}
