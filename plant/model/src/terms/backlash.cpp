@@ -38,7 +38,7 @@ class Backlash final : public Term {
   }
   void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
                        Forces& sum) const noexcept override {
-    far_.push_back(crane, state, contact(inner[0]), sum);
+    far_.add_motor_reaction(crane, state, contact(inner[0]), sum);
   }
   void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
                   const Inner* inner, double* acceleration) const noexcept override {
@@ -61,7 +61,7 @@ class Backlash final : public Term {
     const bool met = std::max(-side * before[0].position, -side * inner[0].position) > flank;
     inner[0].position = side * (met ? -flank : std::max(side * inner[0].position, flank));
     const double fastest = gap_ * contact_radps_;  // limits the effect of measurement noise on a light side
-    inner[0].rate = std::clamp(inner[0].rate - far_.passed_on(crane, state, change), -fastest, fastest);
+    inner[0].rate = std::clamp(inner[0].rate - far_.speed_loss(crane, state, change), -fastest, fastest);
   }
 
  private:

@@ -22,7 +22,7 @@ class JibFlexibility final : public Term {
   }
   void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
                        Forces& sum) const noexcept override {
-    if (!rigid_) far_.push_back(crane, state, spring_radps2(inner[0]), sum);
+    if (!rigid_) far_.add_motor_reaction(crane, state, spring_radps2(inner[0]), sum);
   }
   void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
                   const Inner* inner, double* acceleration) const noexcept override {
