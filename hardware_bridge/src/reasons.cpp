@@ -12,33 +12,40 @@ struct Texts {
 /// In the order of Reason.
 constexpr std::array<Texts, kReasons> kTexts{{
     {"none", "", ""},
-    {"command_stale", "commands stopped coming", "look for a dead or hung supervisor, then `crane reset`"},
-    {"command_not_finite", "a command was not a number", "restart the supervisor, then `crane reset`"},
-    {"command_range", "a command was beyond the drive's limit", "restart the supervisor, then `crane reset`"},
-    {"command_rate", "a command rose faster than volt_rate_limit_vps",
+    {"command_stale", "no valid command arrived within stale_after_s",
+     "look for a dead or hung supervisor, then `crane reset`"},
+    {"command_not_finite", "a voltage of a command was NaN or infinite",
      "restart the supervisor, then `crane reset`"},
-    {"position", "an axis would not have stopped before its hard limit",
+    {"command_range", "a voltage of a command exceeded volt_limit_v",
+     "restart the supervisor, then `crane reset`"},
+    {"command_rate", "a voltage of a command rose faster than volt_rate_limit_vps",
+     "restart the supervisor, then `crane reset`"},
+    {"position", "an axis could not have stopped before its hard limit",
      "bring the axis inside its limits by hand, then `crane reset`"},
-    {"speed", "an axis was faster than its max_speed", "check drive and encoder, then `crane reset`"},
-    {"swing", "the load swung farther than any maneuver lets it",
+    {"speed", "an axis was faster than 1.1 times max_speed", "check drive and encoder, then `crane reset`"},
+    {"swing", "the swing exceeded 1.5 times swing_limit_rad",
      "let the load come to rest, then `crane reset`"},
-    {"encoder_jump", "an encoder jumped: positions are unknown",
-     "check its cable, then `crane home`; without a mark: crane to its start position, restart the bridge"},
-    {"lost_counts", "a limit switch closed where the encoder says there is none: positions are unknown",
-     "check encoder and switch, then `crane home`; without a mark: crane to its start position, restart the "
-     "bridge"},
+    {"encoder_jump",
+     "an encoder changed in one tick by more than any motion can explain: a position is unknown",
+     "check its cable, then `crane home`; an axis without a mark: move it to its start position by hand, "
+     "then "
+     "restart the bridge"},
+    {"lost_counts",
+     "a limit switch or mark operated far from its position: counts are lost, a position is unknown",
+     "check encoder and switch, then `crane home`; an axis without a mark: move it to its start position by "
+     "hand, then restart the bridge"},
     {"braked_motion", "an axis moved although its brake was closed",
      "repair the brake, then restart the bridge"},
-    {"encoder_frozen", "a drive pushed for 0.1 s and its encoder stood still",
+    {"encoder_frozen", "the voltage of a drive must have moved its axis, but the encoder did not change",
      "check encoder, brake and amplifier, then `crane reset`"},
     {"drive_response", "an axis gained speed that no command explains",
      "check converter, amplifier and signs, then `crane reset`"},
-    {"not_homed", "an axis whose position is not known was to move, or moved, faster than it may creep",
+    {"not_homed",
+     "an axis with unknown position was released without homing, or exceeded the voltage or speed of homing",
      "`crane reset`, then `crane home`"},
     {"second_writer", "crane/command has a second writer",
-     "end the other program, then `crane reset`; where the supervisor was started anew beside a hung one, "
-     "end "
-     "the hung one"},
+     "end the other program, then `crane reset`; if an earlier supervisor hangs beside the present one, end "
+     "the earlier one"},
 }};
 
 const Texts& texts_of(Reason reason) { return kTexts[static_cast<std::size_t>(reason)]; }

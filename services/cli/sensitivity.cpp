@@ -172,11 +172,12 @@ void write_sensitivity_markdown(std::ostream& out, std::span<const DepartedRun> 
       for (std::size_t i = 0; i < controllers.size(); ++i) rule += "--:|";
       return rule;
     }() << '\n';
-    std::vector<std::string> told;
+    std::vector<std::string> listed;
     for (const auto& row : runs) {
-      if (row.run.scenario != scenario || std::find(told.begin(), told.end(), name_of(row)) != told.end())
+      if (row.run.scenario != scenario ||
+          std::find(listed.begin(), listed.end(), name_of(row)) != listed.end())
         continue;
-      told.push_back(name_of(row));
+      listed.push_back(name_of(row));
       out << "| " << name_of(row) << " |";
       for (const auto& controller : controllers) out << ' ' << cell(find(runs, row, controller)) << " |";
       out << '\n';

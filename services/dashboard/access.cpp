@@ -53,7 +53,7 @@ bool may_look(const AccessRules& rules, const Visitor& visitor) {
 }
 
 std::string why_not_operate(const AccessRules& rules, const Visitor& visitor) {
-  if (rules.read_only) return "this dashboard was started with --read-only: nobody operates through it";
+  if (rules.read_only) return "this dashboard was started with --read-only: it does not operate the crane";
   if (!host_allowed(rules, visitor) || (!visitor.origin.empty() && !same_origin(visitor)) ||
       !is_own_page(visitor))
     return "the request comes from another page than the dashboard's own";

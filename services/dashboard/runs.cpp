@@ -75,7 +75,7 @@ std::string Runs::keep(std::string_view name, std::string_view bytes) const {
   for (const auto& run : uploads) sum += run.bytes;
   if (sum > kMostUploads_bytes || uploads.size() >= kMostUploads)
     return "the uploads take " + std::to_string(kMostUploads_bytes >> 20U) + " MB or " +
-           std::to_string(kMostUploads) + " files: start the dashboard anew, which deletes them";
+           std::to_string(kMostUploads) + " files: restart the dashboard, which deletes them";
   std::ofstream out{uploads_ / name, std::ios::binary};
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return out.flush() ? "" : "the file cannot be written: is the disk full?";

@@ -70,7 +70,7 @@ std::string code_for(const Asked& asked, std::uint32_t domain) {
 /// Each other crane on this computer once.
 Findings cranes_on_this_computer(const Asked& asked, const std::vector<LocalProcess>& local) {
   Findings findings;
-  std::set<std::string> told;
+  std::set<std::string> reported;
   for (const auto& process : local) {
     if (!process.in_loop()) continue;
     auto options = options_for(asked, process.crane, process.domain);
@@ -81,7 +81,7 @@ Findings cranes_on_this_computer(const Asked& asked, const std::vector<LocalProc
       if (options.empty()) code = "wrong_keys";
       options += " --secure DIR";
     }
-    if (options.empty() || !told.insert(options).second) continue;
+    if (options.empty() || !reported.insert(options).second) continue;
     findings.push_back(nobody(asked, code,
                               "; on this computer crane '" + process.crane + "' runs in domain " +
                                   std::to_string(process.domain) + " on " + list_of(process.interfaces) +
@@ -93,10 +93,10 @@ Findings cranes_on_this_computer(const Asked& asked, const std::vector<LocalProc
 
 Findings cranes_announced(const Asked& asked, const std::vector<Announced>& announced) {
   Findings findings;
-  std::set<std::string> told;
+  std::set<std::string> reported;
   for (const auto& one : announced) {
     const auto options = options_for(asked, one.said.crane, one.domain);
-    if (options.empty() || !told.insert(options + one.address).second) continue;
+    if (options.empty() || !reported.insert(options + one.address).second) continue;
     findings.push_back(nobody(asked, code_for(asked, one.domain),
                               "; " + one.said.participant + " of crane '" + one.said.crane +
                                   "' announces itself from " + one.address + " in domain " +
@@ -165,7 +165,7 @@ Findings judge_processes_heard(const Heard& heard) {
   const auto absent = [&](const std::string& name) {
     findings.push_back({Grade::problem, "net", "process_missing",
                         name + " is not heard: the crane cannot move",
-                        "look at the output of `crane up`, and start the stack anew"});
+                        "read the output of `crane up`, then restart the stack"});
   };
   if (missing(crane_SOURCE_PLANT) && missing(crane_SOURCE_BRIDGE)) absent("plant or hardware_bridge");
   for (const auto source : kLoop)
@@ -193,7 +193,7 @@ Findings judge_processes_heard(const Heard& heard) {
   if (heard.states == 0)
     findings.push_back({Grade::problem, "net", "no_ticks",
                         "crane/state has no sample: the clock master makes no ticks",
-                        "in lockstep `crane run` advances the ticks; in real time start the stack anew"});
+                        "in lockstep `crane run` advances the ticks; in real time restart the stack"});
   const bool complete =
       std::ranges::none_of(findings, [](const Finding& finding) { return finding.grade == Grade::problem; });
   if (complete)

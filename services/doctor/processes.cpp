@@ -98,7 +98,7 @@ Findings judge_processes(const std::vector<LocalProcess>& processes, const std::
     if (process.stopped)
       findings.push_back(
           {Grade::problem, "net", "process_stopped",
-           process.program + " (process " + pid + ") is stopped and answers nobody",
+           process.program + " (process " + pid + ") is stopped and does not answer",
            "continue it with `kill -CONT " + pid + "`, or end it with `kill -KILL " + pid + "`"});
   }
   for (const auto& [program, pids] : by_program) {

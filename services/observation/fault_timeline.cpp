@@ -157,8 +157,8 @@ void FaultTimeline::notice_silence(std::int64_t now_ns, const Traffic& traffic) 
     const bool orderly = heard.status.phase == crane_PHASE_STOPPING;
     put({heard.log_time_ns, heard.status.header.tick, orderly ? Note::Kind::warning : Note::Kind::fault,
          heard.status.name, "process_silent",
-         orderly ? "the process has ended" : "the process was last heard here, and not since",
-         "look at the output of `crane up`, and start the process anew", ""});
+         orderly ? "the process has ended" : "the last sample of the process arrived here",
+         "read the output of `crane up`, then restart the process", ""});
   }
 }
 

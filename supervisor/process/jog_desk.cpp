@@ -13,7 +13,7 @@ void JogDesk::take(std::uint64_t tick, double now_s) {
     if (verdict == JogSession::Verdict::stranger && !stranger_reported_) {
       stranger_reported_ = true;
       node_.warning("jog_stranger",
-                    "crane/jog has a sample of a program that has no session: it has no effect",
+                    "a program without a session sent a sample of crane/jog: the sample has no effect",
                     "request a session first (crane jog); one operator drives at a time");
     } else if (verdict == JogSession::Verdict::released && sample->engaged && !unusable_reported_) {
       unusable_reported_ = true;

@@ -50,7 +50,7 @@ std::string follow_problem(const msg::Request& request) {
 }
 
 /// Distance of a target from the margin of a zone, m: the noise of the zone filter at rest is smaller.
-constexpr double kTargetGap_m = kLeave_m;
+constexpr double kTargetGap_m = kLeaveTolerance_m;
 
 std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxis& to) {
   const double g = limits.machine.crane.gravity_mps2;

@@ -75,17 +75,18 @@ double gain_of(const Limits& limits, std::size_t axis, const plant::State& state
 }
 
 /// Largest force of a load whose swing is not measured: that at the swing limit.
-double unseen_pull(const Limits& limits, std::size_t axis, const plant::State& state) noexcept {
+double unmeasured_load_acceleration(const Limits& limits, std::size_t axis,
+                                    const plant::State& state) noexcept {
   if (axis == 2 || limits.machine.swing_measured[axis]) return 0;
   const auto& p = limits.machine.crane;
-  const double force_n = kLoadMost * p.load_mass_kg * p.gravity_mps2 * std::sin(limits.swing_limit_rad);
+  const double force_n = kLoadRatioMax * p.load_mass_kg * p.gravity_mps2 * std::sin(limits.swing_limit_rad);
   return axis == 0 ? force_n / p.trolley_inertia_kg
                    : force_n * std::abs(state.trolley_m) / p.jib_inertia_kgm2;
 }
 
 /// Largest friction of one direction of motion, V.
 double friction_v(const MachineModel::Friction& friction, double speed) noexcept {
-  return kFrictionMost * (friction.rest_v + friction.viscous_v * std::abs(speed)) + kFrictionExtra_v;
+  return kFrictionRatioMax * (friction.rest_v + friction.viscous_v * std::abs(speed)) + kFrictionExtra_v;
 }
 
 /// Accelerations that the model permits between the oldest and the newest sample.
@@ -96,8 +97,8 @@ Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& mem
   const double gain = gain_of(limits, i, state);
   const double volts_v = std::max(std::abs(middle.applied_v[i]), std::abs(oldest.applied_v[i]));
   const double drag = i == 2 ? std::abs(v) / limits.machine.crane.hoist_lag_s : 0;
-  const double unknown =
-      gain * (kGainTolerance * volts_v + kOffset_v) + kGainTolerance * drag + unseen_pull(limits, i, state);
+  const double unknown = gain * (kGainTolerance * volts_v + kOffset_v) + kGainTolerance * drag +
+                         unmeasured_load_acceleration(limits, i, state);
   Interval found{std::min(heaviest, lightest) - unknown, std::max(heaviest, lightest) + unknown};
   const double slow =
       kSpeedShare * limits.axis[i].max_speed;  // below this speed friction can have both signs
@@ -140,7 +141,8 @@ bool following_error(const Limits& limits, const FollowingInput& input, Followin
     return false;
   }
   const auto state = state_of(limits, memory);
-  const auto heaviest = accelerations(limits, memory, state, kLoadMost * limits.machine.crane.load_mass_kg);
+  const auto heaviest =
+      accelerations(limits, memory, state, kLoadRatioMax * limits.machine.crane.load_mass_kg);
   const auto lightest = accelerations(limits, memory, state, 0);
   bool found = false;
   for (std::size_t i = 0; i < kAxes; ++i) {

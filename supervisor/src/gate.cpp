@@ -70,7 +70,7 @@ int rate_pressure_limit(const Limits& limits) noexcept {
 namespace {
 bool is_plausible(const Limits& limits, const PerAxis& demand_v) noexcept {
   for (std::size_t i = 0; i < kAxes; ++i)
-    if (limits.axis[i].present && !(std::abs(demand_v[i]) <= kAbsurd * limits.axis[i].volt_limit_v))
+    if (limits.axis[i].present && !(std::abs(demand_v[i]) <= kRejectionRatio * limits.axis[i].volt_limit_v))
       return false;
   return std::ranges::all_of(demand_v, [](double v) { return std::isfinite(v); });
 }

@@ -32,7 +32,8 @@ bool standstill(const Limits& limits, double now_s, const MotionMemory& memory) 
   return true;
 }
 
-void rename_place(std::size_t axis, double position, MotionMemory& motion, BrakeMemory& brakes) noexcept {
+void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
+                        BrakeMemory& brakes) noexcept {
   const double change = position - motion.position[axis];
   for (double* place : {&motion.position[axis], &motion.window_position[axis], &brakes.position[axis]})
     *place += change;

@@ -36,10 +36,10 @@ Plane turned(const Plane& a, double angle_rad) {
 PendulumMemory::Seen seen_of(const Limits& limits, const PendulumInput& input) {
   const double cable_m = limits.machine.cable(input.position[2]);
   const double radial = input.radial_rad, tangential = input.tangential_rad;
-  const Plane hanging{-cable_m * std::cos(tangential) * std::sin(radial), cable_m * std::sin(tangential)};
+  const Plane load_offset{-cable_m * std::cos(tangential) * std::sin(radial), cable_m * std::sin(tangential)};
   return {.sampled_s = input.sampled_s,
           .pivot_m = turned({input.position[0], 0}, input.position[1]),
-          .hanging_m = turned(hanging, input.position[1]),
+          .load_offset_m = turned(load_offset, input.position[1]),
           .depth_m = std::max(cable_m * std::cos(tangential) * std::cos(radial), kLeastDepth * cable_m)};
 }
 
@@ -51,14 +51,15 @@ PendulumMemory::Balance balance_of(const Limits& limits, const PendulumMemory& m
   const auto change = [&](const Plane& c, const Plane& b, const Plane& a) {
     return (1 / newer_s) * (c - b) - (1 / older_s) * (b - a);
   };
-  const Plane swung = change(newest.hanging_m, middle.hanging_m, oldest.hanging_m);
+  const Plane swing_change = change(newest.load_offset_m, middle.load_offset_m, oldest.load_offset_m);
   const Plane pivot = change(newest.pivot_m, middle.pivot_m, oldest.pivot_m);
   const double sinking_mps2 =
       ((newest.depth_m - middle.depth_m) / newer_s - (middle.depth_m - oldest.depth_m) / older_s) / dt_s;
   const double g = limits.machine.crane.gravity_mps2;
-  const double pull_mps2 = std::clamp(g - sinking_mps2, 0.0, 3 * g);
-  return {.error_mps = swung + pivot + (pull_mps2 / middle.depth_m * dt_s) * middle.hanging_m,
-          .swung_mps = swung};
+  const double apparent_gravity_mps2 = std::clamp(g - sinking_mps2, 0.0, 3 * g);
+  return {.error_mps =
+              swing_change + pivot + (apparent_gravity_mps2 / middle.depth_m * dt_s) * middle.load_offset_m,
+          .swing_change_mps = swing_change};
 }
 
 /// A direction that is not measured contributes nothing.
@@ -70,19 +71,21 @@ Plane measured(const Limits& limits, const Plane& ground, double slew_rad) {
 }
 
 void add(const Limits& limits, double cable_m, double slew_rad, double span_s, PendulumMemory& memory) {
-  Plane error{}, swung{};
+  Plane error{}, swing_change{};
   for (const auto& balance : memory.balances) {
-    error = error + (1.0 / kMean) * balance.error_mps;
-    swung = swung + (1.0 / kMean) * balance.swung_mps;
+    error = error + (1.0 / kMeanSamples) * balance.error_mps;
+    swing_change = swing_change + (1.0 / kMeanSamples) * balance.swing_change_mps;
   }
   error = measured(limits, error, slew_rad);
-  memory.swung_mps = static_cast<double>(kMean) * swung;
+  memory.swing_change_mps = static_cast<double>(kMeanSamples) * swing_change;
   const auto& [newest, middle, oldest] = memory.seen;
   const double swing_mps =
-      norm((1 / (newest.sampled_s - oldest.sampled_s)) * (newest.hanging_m - oldest.hanging_m));
+      norm((1 / (newest.sampled_s - oldest.sampled_s)) * (newest.load_offset_m - oldest.load_offset_m));
   const double omega_radps = std::sqrt(limits.machine.crane.gravity_mps2 / cable_m);
-  const double unknown = pendulum_drift(limits, span_s) + 2 * kDamping * omega_radps * swing_mps * span_s;
-  const Plane sum = shortened_along(swung, kCableTolerance * norm(swung), memory.sum_mps + error);
+  const double unknown =
+      pendulum_drift(limits, span_s) + 2 * kDampingRatio * omega_radps * swing_mps * span_s;
+  const Plane sum =
+      shortened_along(swing_change, kCableTolerance * norm(swing_change), memory.sum_mps + error);
   const double length = norm(sum);
   memory.sum_mps = length > unknown ? (1 - unknown / length) * sum : Plane{};
   memory.growing_ticks = length > unknown ? std::min(memory.growing_ticks + 1, kPush_ticks + 1) : 0;
@@ -93,25 +96,26 @@ bool follow_counts(const Limits& limits, const PendulumInput& input, double span
   bool stopped = false;
   const std::array<double, 2> swing_rad{input.radial_rad, input.tangential_rad};
   for (std::size_t i = 0; i < 2; ++i) {
-    const bool stands =
+    const bool no_count =
         std::abs(swing_rad[i] - memory.swing_rad[i]) <= limits.machine.swing_resolution_rad[i] / 2;
     memory.swing_rad[i] = swing_rad[i];
-    memory.counting_ticks[i] = stands ? std::max(memory.counting_ticks[i] - 1, 0) : 2 * kPush_ticks;
-    memory.standing_ticks[i] = stands && memory.push_left_s > 0 ? memory.standing_ticks[i] + 1 : 0;
-    stopped = stopped || (memory.counted_before_push[i] && memory.standing_ticks[i] >= kStands_ticks);
+    memory.counting_ticks[i] = no_count ? std::max(memory.counting_ticks[i] - 1, 0) : 2 * kPush_ticks;
+    memory.no_count_ticks[i] = no_count && memory.push_left_s > 0 ? memory.no_count_ticks[i] + 1 : 0;
+    stopped = stopped || (memory.counted_before_push[i] && memory.no_count_ticks[i] >= kNoCount_ticks);
   }
   memory.push_left_s -= span_s;
   return stopped;
 }
 
 bool was_pushed(PendulumMemory& memory) {
-  constexpr double kOfTheSwing = 0.5;
+  constexpr double kLeastShareOfSum = 0.5;
   const double length = norm(memory.sum_mps);
   // A push explains the sum only when both have the same direction.
-  const double swung = dot(memory.swung_mps, memory.sum_mps) / length;
-  if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks || !(swung >= kOfTheSwing * length))
+  const double swing_change = dot(memory.swing_change_mps, memory.sum_mps) / length;
+  if (memory.push_left_s > 0 || memory.growing_ticks > kPush_ticks ||
+      !(swing_change >= kLeastShareOfSum * length))
     return false;
-  memory.push_left_s = kPush_s;
+  memory.push_left_s = kPushInterval_s;
   for (std::size_t i = 0; i < 2; ++i) memory.counted_before_push[i] = memory.counting_ticks[i] > 0;
   memory.sum_mps = {};
   memory.balances = {};
@@ -123,12 +127,13 @@ bool was_pushed(PendulumMemory& memory) {
 }  // namespace
 
 double pendulum_drift(const Limits& limits, double span_s) noexcept {
-  return (limits.machine.crane.gravity_mps2 * kZero_rad + limits.clearance.wind_mps2) * span_s;
+  return (limits.machine.crane.gravity_mps2 * kZeroError_rad + limits.clearance.wind_mps2) * span_s;
 }
 
 double pendulum_limit(const Limits& limits, double cable_m, double span_s) noexcept {
   const auto& count = limits.machine.swing_resolution_rad;
-  return kSpeed_mps + 2 * cable_m * std::hypot(count[0], count[1]) / (static_cast<double>(kMean) * span_s);
+  return kPermittedSum_mps +
+         2 * cable_m * std::hypot(count[0], count[1]) / (static_cast<double>(kMeanSamples) * span_s);
 }
 
 bool swing_sensor_failed(const Limits& limits, const PendulumInput& input, PendulumMemory& memory) noexcept {
@@ -140,11 +145,11 @@ bool swing_sensor_failed(const Limits& limits, const PendulumInput& input, Pendu
   memory.seen[2] = memory.seen[1];
   memory.seen[1] = memory.seen[0];
   memory.seen[0] = seen_of(limits, input);
-  memory.samples = std::min(memory.samples + 1, kMean + 2);
+  memory.samples = std::min(memory.samples + 1, kMeanSamples + 2);
   if (memory.samples < 3) return false;
   memory.balances[memory.next] = balance_of(limits, memory);
-  memory.next = (memory.next + 1) % kMean;
-  if (memory.samples < kMean + 2) return false;
+  memory.next = (memory.next + 1) % kMeanSamples;
+  if (memory.samples < kMeanSamples + 2) return false;
   const double cable_m = machine.cable(input.position[2]);
   const double span_s = (memory.seen[0].sampled_s - memory.seen[2].sampled_s) / 2;
   add(limits, cable_m, input.position[1], span_s, memory);

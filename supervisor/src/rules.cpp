@@ -27,7 +27,7 @@ bool opening_is_late(L limits, I in, M m) noexcept {
 
 constexpr const char* kCheckBrakes = "check the brakes, then restart the supervisor";
 constexpr const char* kBridgeStopped =
-    "the bridge or its relay has stopped the crane: look at the bridge's events, then reset";
+    "the bridge or its relay has stopped the crane: read the events of the bridge, then reset";
 constexpr const char* kTwoWriters =
     "two processes write the same topic, or one forges commands: end one of them, give each crane its own "
     "name or domain, or "
@@ -56,10 +56,10 @@ constexpr std::array kRules{
     Rule{"supervisor_selftest_failed", Cause::selftest_failed, Reaction::fault, Scope::selftest, false,
          [](L, I in, M) noexcept { return in.self_test == SelfTest::failed; },
          "the board does not show 0 V, closed brakes and open relay for 0.1 s", "2 s",
-         "look at the events of the self-test, then restart the supervisor"},
+         "read the events of the self-test, then restart the supervisor"},
     Rule{"supervisor_foreign_command", Cause::second_writer, Reaction::fault, Scope::always, false,
          [](L, I in, M) noexcept { return in.foreign_command; },
-         "the bridge gives a voltage that no command of the supervisor explains; the supervisor then ends",
+         "the bridge outputs a voltage that no command of the supervisor explains; the supervisor then exits",
          "2nd state in a row", kTwoWriters},
     Rule{"supervisor_estop_input", Cause::estop_input, Reaction::estop, Scope::always, true,
          [](L, I in, M) noexcept { return in.estop_pressed; },
@@ -86,14 +86,14 @@ constexpr std::array kRules{
          "`crane status` and the events state the cause; remove it, reset, then `crane home`"},
     Rule{"supervisor_position_limit", Cause::position_limit, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.envelope.position; },
-         "an axis is beyond a hard limit", "same tick", "bring the axis back inside its limits by hand"},
+         "an axis is beyond a hard limit", "same tick", "move the axis back inside its limits by hand"},
     Rule{"supervisor_limit_switch", Cause::limit_switch, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.envelope.limit_switch; },
-         "a limit switch is pressed", "same tick", "bring the axis off its limit switch by hand"},
+         "a limit switch is pressed", "same tick", "move the axis off its limit switch by hand"},
     Rule{"supervisor_overspeed", Cause::overspeed, Reaction::power_off, Scope::armed, false,
          [](L, I in, M) noexcept { return in.envelope.overspeed; },
          "an axis is faster than `max_speed`, or its encoder jumps", "same tick",
-         "check encoder, amplifier and the controller's gains"},
+         "check encoder, amplifier and gains of the controller"},
     Rule{"supervisor_brake_closed_itself", Cause::brake_did_not_open, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return drives_active(m) && !in.brakes_open; },
          "a brake reports closed while the drives are active", "same tick", kBrakeSupply},
@@ -124,10 +124,10 @@ constexpr std::array kRules{
     Rule{"supervisor_demand_invalid", Cause::demand_invalid, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.gate_cause == Cause::demand_invalid; },
          "a demand is not finite, or more than 20 times the limit of a drive", "3rd tick in a row",
-         "a controller publishes values that are not finite, or absurdly large: check its gains and inputs"},
+         "a controller publishes values that are not finite or far too large: check its gains and inputs"},
     Rule{"supervisor_demand_rate", Cause::demand_rate, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.gate_cause == Cause::demand_rate; },
-         "the gate clamps the rate of the demand tick after tick",
+         "the gate limits the rate of the demand in too many ticks",
          "12 ticks in a row; more if `volt_rate_limit_vps` is low", kDemandJumps},
     Rule{"supervisor_overrun", Cause::overrun, Reaction::ramped_stop, Scope::armed, false,
          [](L, I in, M) noexcept { return in.overrun; },

@@ -44,7 +44,7 @@ bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memor
   memory.overruns_in_row = late ? std::min(memory.overruns_in_row + 1, kCounterEnd) : 0;
   for (std::size_t i = 0; i < kAxes; ++i)
     if (memory.motion.started && memory.sample.position_unknown[i] && !input.sample.position_unknown[i])
-      rename_place(i, input.sample.position[i], memory.motion, memory.brakes);
+      set_homed_position(i, input.sample.position[i], memory.motion, memory.brakes);
   memory.sample = input.sample;
   observe(limits, input.now_s, input.sample.time_s, input.sample.position, memory.motion);
   for (std::size_t i = 0; i < kAxes; ++i)  // homing replaces a doubtful position
@@ -185,14 +185,14 @@ bool swing_sensor_now(const Limits& limits, bool sampled, TickMemory& memory) {
   return failed && drives_active(memory.machine) && !memory.machine.homing;
 }
 
-ZoneInput zone_input(const TickMemory& memory, const PerAxis& passed_v) {
+ZoneInput zone_input(const TickMemory& memory, const PerAxis& gate_output_v) {
   return {.sampled_s = memory.motion.sampled_s,
           .position = memory.motion.position,
           .speed = memory.motion.speed,
           .swing_radial_rad = memory.sample.swing_radial_rad,
           .swing_tangential_rad = memory.sample.swing_tangential_rad,
           .applied_v = memory.sample.applied_v,
-          .passed_v = passed_v,
+          .gate_output_v = gate_output_v,
           .missing_ticks = memory.state_missing_in_row};
 }
 

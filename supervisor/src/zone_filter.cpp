@@ -22,8 +22,8 @@ Plane polar(double radius_m, double angle_rad) noexcept {
   return {radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad)};
 }
 
-/// Ways of one axis until standstill, upwards and downwards, and its largest speed meanwhile.
-struct Way {
+/// Travel of one axis until standstill, upwards and downwards, and its largest speed meanwhile.
+struct StopTravel {
   double up = 0, down = 0, speed = 0, duration_s = 0;
   [[nodiscard]] double longest() const { return std::max(up, down); }
 };
@@ -39,8 +39,8 @@ struct Load {
 double impulse_vs(const Limits& limits, std::size_t axis, double direction, const ZoneInput& input,
                   const ZoneMemory& memory) noexcept {
   const auto push = [direction](double v) { return std::max(direction * v, 0.0); };
-  return limits.period_s * (push(memory.applied_before_v[axis]) / 2 + push(input.applied_v[axis]) +
-                            (1 + input.missing_ticks) * push(input.passed_v[axis]));
+  return limits.period_s * (push(memory.previous_applied_v[axis]) / 2 + push(input.applied_v[axis]) +
+                            (1 + input.missing_ticks) * push(input.gate_output_v[axis]));
 }
 
 double gain_of(const Limits& limits, std::size_t axis) noexcept {
@@ -49,41 +49,42 @@ double gain_of(const Limits& limits, std::size_t axis) noexcept {
 }
 
 /// 1. @param load_acceleration  by load, centrifugal and Coriolis force, unit/s^2
-Way way_of(const Limits& limits, std::size_t axis, const ZoneInput& input, const ZoneMemory& memory,
-           double load_acceleration) noexcept {
+StopTravel stop_travel(const Limits& limits, std::size_t axis, const ZoneInput& input,
+                       const ZoneMemory& memory, double load_acceleration) noexcept {
   if (!limits.axis[axis].present) return {};
   const double react_s = stopping_time_s(limits, axis) + input.missing_ticks * limits.period_s;
-  Way way;
+  StopTravel travel;
   for (const double direction : {1.0, -1.0}) {
     const double v = direction * input.speed[axis];
     const double gained = gain_of(limits, axis) * impulse_vs(limits, axis, direction, input, memory) +
                           load_acceleration * (react_s + limits.period_s / 2);
     const double most = std::max(v + gained, 0.0);
     const double brake = limits.axis[axis].brake_deceleration;
-    (direction > 0 ? way.up : way.down) = most * react_s + most * most / (2 * brake);
-    way.speed = std::max(way.speed, most);
-    way.duration_s = std::max(way.duration_s, react_s + most / brake);
+    (direction > 0 ? travel.up : travel.down) = most * react_s + most * most / (2 * brake);
+    travel.speed = std::max(travel.speed, most);
+    travel.duration_s = std::max(travel.duration_s, react_s + most / brake);
   }
-  return way;
+  return travel;
 }
 
-Way way_of_hoist(const Limits& limits, const ZoneInput& input, const ZoneMemory& memory) noexcept {
+StopTravel hoist_stop_travel(const Limits& limits, const ZoneInput& input,
+                             const ZoneMemory& memory) noexcept {
   if (!limits.axis[kHoist].present) return {};
   const auto& crane = limits.machine.crane;
   const double react_s = stopping_time_s(limits, kHoist) + input.missing_ticks * limits.period_s;
   const double share = std::min(1.0, (2.5 + input.missing_ticks) * limits.period_s / crane.hoist_lag_s);
-  Way way;
+  StopTravel travel;
   for (const double direction : {1.0, -1.0}) {
     const double volts =
-        std::max({direction * memory.applied_before_v[kHoist], direction * input.applied_v[kHoist],
-                  direction * input.passed_v[kHoist], 0.0});
+        std::max({direction * memory.previous_applied_v[kHoist], direction * input.applied_v[kHoist],
+                  direction * input.gate_output_v[kHoist], 0.0});
     const double v = direction * input.speed[kHoist];
     const double driven = (1 + kGainTolerance) * crane.hoist_gain_mpspv * volts;
     const double most = std::max(v + std::max(driven - v, 0.0) * share, 0.0);
-    (direction > 0 ? way.up : way.down) =
+    (direction > 0 ? travel.up : travel.down) =
         most * react_s + most * most / (2 * limits.axis[kHoist].brake_deceleration);
   }
-  return way;
+  return travel;
 }
 
 /// Velocity of the load: mean over the span, carried to the newest sample with the acceleration of the
@@ -99,8 +100,8 @@ double load_speed_mps(const Limits& limits, const ZoneMemory& memory, const Load
     for (std::size_t i = 0; i < 3; ++i) {
       const double pivot = i < 2 ? now.pivot_m[i] - then.pivot_m[i] : 0;
       const double mean = (pivot + cable_m * (now.cable[i] - then.cable[i])) / span_s;
-      const double pull = i < 2 ? -g * (then.cable[i] + 2 * now.cable[i]) / 3 : 0;
-      sum += square(mean + pull * span_s / 2);
+      const double pendulum_mps2 = i < 2 ? -g * (then.cable[i] + 2 * now.cable[i]) / 3 : 0;
+      sum += square(mean + pendulum_mps2 * span_s / 2);
     }
     speed = std::max(speed, std::sqrt(sum));
   }
@@ -113,50 +114,52 @@ double load_speed_mps(const Limits& limits, const ZoneMemory& memory, const Load
 }
 
 /// 2.
-struct Patch {
+struct StopRegion {
   double middle_m = 0, middle_rad = 0;  ///< centre, trolley and slew
   Plane centre{};                       ///< the same over the ground
   double radius_m = 0;                  ///< rho
 };
-Patch patch_of(double trolley_m, double slew_rad, const Way& trolley, const Way& slew) noexcept {
+StopRegion stop_region(double trolley_m, double slew_rad, const StopTravel& trolley,
+                       const StopTravel& slew) noexcept {
   const double near_m = trolley_m - trolley.down, far_m = trolley_m + trolley.up;
   const double half_rad = (slew.up + slew.down) / 2, middle_rad = slew_rad + (slew.up - slew.down) / 2;
   const double middle_m = (near_m + far_m) / 2;
-  Patch patch{.middle_m = middle_m, .middle_rad = middle_rad, .centre = polar(middle_m, middle_rad)};
+  StopRegion region{.middle_m = middle_m, .middle_rad = middle_rad, .centre = polar(middle_m, middle_rad)};
   for (const double corner_m : {near_m, far_m}) {
     const Plane corner = polar(corner_m, half_rad);
-    patch.radius_m = std::max(patch.radius_m, std::hypot(corner[0] - middle_m, corner[1]));
+    region.radius_m = std::max(region.radius_m, std::hypot(corner[0] - middle_m, corner[1]));
   }
-  return patch;
+  return region;
 }
 
 /// Everything that a ramped stop needs.
 struct Stop {
   Load load;
-  Way trolley, slew;
-  Patch patch;
+  StopTravel trolley, slew;
+  StopRegion region;
   double swing_m = 0;  ///< A
 };
 
 /// 3. A
 double swing_of_stop_m(const Limits& limits, const ZoneMemory& memory, const Stop& stop) noexcept {
-  const auto& [load, trolley, slew, patch, unused] = stop;
+  const auto& [load, trolley, slew, region, unused] = stop;
   const Seen& now = memory.seen[0];
   const double g = limits.machine.crane.gravity_mps2, longest = load.longest_m, shortest = load.shortest_m;
   const double far_m = length(now.pivot_m) + trolley.longest();
-  const double way_m = trolley.longest() + far_m * slew.longest();
+  const double travel_m = trolley.longest() + far_m * slew.longest();
   const double pivot_mps = std::hypot(trolley.speed, far_m * slew.speed);
   const double t = std::max(trolley.duration_s, slew.duration_s);
   const double n = longest * load.swing;
-  const double pull = g / shortest * t * t;
-  const double n_most = std::min(longest, (n + way_m + load.speed_mps * t) * (1 + std::min(pull, 1.0)));
+  const double swing_phase_squared = g / shortest * t * t;
+  const double n_most =
+      std::min(longest, (n + travel_m + load.speed_mps * t) * (1 + std::min(swing_phase_squared, 1.0)));
   const double kappa = 1 + square(load.speed_mps + pivot_mps) / (g * shortest);
   double e = 0;
   for (const double cable_m : {shortest, longest})
-    e = std::max(e, std::hypot(now.pivot_m[0] + cable_m * now.cable[0] - patch.centre[0],
-                               now.pivot_m[1] + cable_m * now.cable[1] - patch.centre[1]));
-  e += patch.radius_m;
-  const double moved = 2 * way_m * (load.speed_mps * t + kappa * pull * n_most / 2);
+    e = std::max(e, std::hypot(now.pivot_m[0] + cable_m * now.cable[0] - region.centre[0],
+                               now.pivot_m[1] + cable_m * now.cable[1] - region.centre[1]));
+  e += region.radius_m;
+  const double moved = 2 * travel_m * (load.speed_mps * t + kappa * swing_phase_squared * n_most / 2);
   const double braked = 2 * longest * square(std::min(1.0, n_most / shortest) * pivot_mps) / g;
   const double a2 =
       n * n + longest * square(load.speed_mps) / g + kappa * (std::max(0.0, e * e - n * n) + moved) + braked;
@@ -164,14 +167,14 @@ double swing_of_stop_m(const Limits& limits, const ZoneMemory& memory, const Sto
 }
 
 /// Accelerations of trolley and slew axis by the load, with its largest mass, and by the turning jib.
-struct Pull {
+struct LoadAccelerations {
   double trolley_mps2 = 0, slew_radps2 = 0;
 };
-Pull pull_of(const Limits& limits, const ZoneInput& input, const ZoneMemory& memory,
-             const Load& load) noexcept {
+LoadAccelerations load_accelerations(const Limits& limits, const ZoneInput& input, const ZoneMemory& memory,
+                                     const Load& load) noexcept {
   const auto& crane = limits.machine.crane;
   const double x = std::abs(input.position[kTrolley]), g = crane.gravity_mps2,
-               mass_kg = kLoadMost * crane.load_mass_kg;
+               mass_kg = kLoadRatioMax * crane.load_mass_kg;
   const double turn_s = stopping_time_s(limits, kTrolley) + input.missing_ticks * limits.period_s;
   const double swing = std::min(
       1.0, load.swing + (load.speed_mps + std::abs(input.speed[kTrolley])) * turn_s / load.shortest_m);
@@ -193,18 +196,18 @@ Pull pull_of(const Limits& limits, const ZoneInput& input, const ZoneMemory& mem
 Stop stop_of(const Limits& limits, const ZoneInput& input, const ZoneMemory& memory) noexcept {
   constexpr double kShortest_m = 0.01;
   const Seen& now = memory.seen[0];
-  const Way hoist = way_of_hoist(limits, input, memory);
+  const StopTravel hoist = hoist_stop_travel(limits, input, memory);
   const double cable_m = limits.machine.cable(input.position[kHoist]), error = limits.clearance.cable_error;
   Stop stop;
   stop.load = {.shortest_m = std::max(kShortest_m, (cable_m - hoist.down) * (1 - error)),
                .longest_m = (cable_m + hoist.up) * (1 + error),
                .swing = std::min(1.0, std::hypot(now.cable[0], now.cable[1]))};
   stop.load.speed_mps = load_speed_mps(limits, memory, stop.load);
-  const Pull pull = pull_of(limits, input, memory, stop.load);
-  stop.trolley = way_of(limits, kTrolley, input, memory, pull.trolley_mps2);
-  stop.slew = way_of(limits, kSlew, input, memory, pull.slew_radps2);
-  stop.patch = patch_of(input.position[kTrolley], limits.axis[kSlew].present ? input.position[kSlew] : 0,
-                        stop.trolley, stop.slew);
+  const LoadAccelerations by_load = load_accelerations(limits, input, memory, stop.load);
+  stop.trolley = stop_travel(limits, kTrolley, input, memory, by_load.trolley_mps2);
+  stop.slew = stop_travel(limits, kSlew, input, memory, by_load.slew_radps2);
+  stop.region = stop_region(input.position[kTrolley], limits.axis[kSlew].present ? input.position[kSlew] : 0,
+                            stop.trolley, stop.slew);
   stop.swing_m = swing_of_stop_m(limits, memory, stop);
   return stop;
 }
@@ -213,9 +216,9 @@ Stop stop_of(const Limits& limits, const ZoneInput& input, const ZoneMemory& mem
 ReachedSpace reach_of(const Limits& limits, const Stop& stop) noexcept {
   const auto& clearance = limits.clearance;
   const double longest = stop.load.longest_m;
-  return {.x_m = stop.patch.centre[0],
-          .y_m = stop.patch.centre[1],
-          .radius_m = stop.patch.radius_m + stop.swing_m +
+  return {.x_m = stop.region.centre[0],
+          .y_m = stop.region.centre[1],
+          .radius_m = stop.region.radius_m + stop.swing_m +
                       2 * clearance.wind_mps2 * longest / limits.machine.crane.gravity_mps2 +
                       clearance.load_radius_m,
           .lowest_m = clearance.suspension_height_m - longest - clearance.load_radius_m};
@@ -234,29 +237,30 @@ Closest closest_of(const Limits& limits, const ReachedSpace& reach) noexcept {
   return closest;
 }
 
-/// Way beyond that of a ramped stop that an early deceleration needs, in the direction of motion, signed;
-/// unit.
-double early_way(const Limits& limits, std::size_t axis, double speed, double omega_radps) noexcept {
+/// StopTravel beyond that of a ramped stop that an early deceleration needs, in the direction of motion,
+/// signed; unit.
+double deceleration_travel(const Limits& limits, std::size_t axis, double speed,
+                           double omega_radps) noexcept {
   constexpr int kTicksOfStop =
       4;  // from the decision until the controllers follow the planner's new reference
   const double a = limits.reference_acceleration[axis], v = std::abs(speed);
   if (!limits.axis[axis].present || !(a > 0) || v < limits.axis[axis].standstill_speed) return 0;
-  const double way =
+  const double travel =
       v * kTicksOfStop * limits.period_s + square(std::max(0.0, v - a / omega_radps)) / (2 * a);
-  return speed > 0 ? way : -way;
+  return speed > 0 ? travel : -travel;
 }
 
-/// True when the ramped reach, moved along the way of an early deceleration, touches a zone.
+/// True when the ramped reach, moved along the travel of an early deceleration, touches a zone.
 bool is_ahead(const Limits& limits, const ZoneInput& input, const Stop& stop,
               const ReachedSpace& now) noexcept {
   constexpr int kPoints = 8;
   const double omega = std::sqrt(limits.machine.crane.gravity_mps2 / stop.load.longest_m);
-  const double trolley = early_way(limits, kTrolley, input.speed[kTrolley], omega);
-  const double slew = early_way(limits, kSlew, input.speed[kSlew], omega);
-  const double lower = std::max(0.0, early_way(limits, kHoist, input.speed[kHoist], omega));
+  const double trolley = deceleration_travel(limits, kTrolley, input.speed[kTrolley], omega);
+  const double slew = deceleration_travel(limits, kSlew, input.speed[kSlew], omega);
+  const double lower = std::max(0.0, deceleration_travel(limits, kHoist, input.speed[kHoist], omega));
   for (int i = 1; i <= kPoints; ++i) {
     const double share = static_cast<double>(i) / kPoints;
-    const Plane centre = polar(stop.patch.middle_m + share * trolley, stop.patch.middle_rad + share * slew);
+    const Plane centre = polar(stop.region.middle_m + share * trolley, stop.region.middle_rad + share * slew);
     const ReachedSpace reach{.x_m = centre[0],
                              .y_m = centre[1],
                              .radius_m = now.radius_m,
@@ -281,7 +285,7 @@ void observe_load(const Limits& limits, const ZoneInput& input, ZoneMemory& memo
       .pivot_m = polar(input.position[kTrolley], slew_rad),
       .cable = {along * c - across * s, along * s + across * c, -std::cos(theta) * std::cos(phi)}};
   memory.samples = std::min(memory.samples + 1, memory.seen.size());
-  memory.applied_before_v = memory.applied_v;
+  memory.previous_applied_v = memory.applied_v;
   memory.applied_v = input.applied_v;
 }
 
@@ -308,7 +312,7 @@ ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input, ZoneMemor
   }
   const bool leaves = memory.permitted_m < 0;
   const ZoneVerdict verdict{.ahead = !leaves && is_ahead(limits, input, stop, reach),
-                            .touched = !(gap_m >= memory.permitted_m - (leaves ? kLeave_m : 0)),
+                            .touched = !(gap_m >= memory.permitted_m - (leaves ? kLeaveTolerance_m : 0)),
                             .zone = closest.zone,
                             .clearance_m = gap_m};
   memory.permitted_m = std::min(0.0, std::max(memory.permitted_m, gap_m));

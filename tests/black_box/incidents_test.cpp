@@ -98,7 +98,7 @@ TEST(Incidents, ACraneThatTripsWithoutAnEndGivesAFileAMinuteAndBoundedMemory) {
   EXPECT_LE(crane.most_bytes, quiet.most_bytes + 1000);
 }
 
-TEST(Incidents, WhatWaitsIsGivenAtTheEndAndTheEndItselfIsNoFault) {
+TEST(Incidents, PendingIncidentsAreReturnedAtTheEndWhichIsNoFault) {
   Crane crane;
   crane.work(20);
   crane.trip(1);

@@ -38,7 +38,7 @@ TEST(FrictionCompensation, HelpsTheDemandAtRestUpToTheStictionOfItsDirection) {
   EXPECT_NEAR(friction_compensation_v(f, 0.01, 0), std::tanh(1.0), 1e-12);
 }
 
-TEST(FrictionCompensation, PushesNothingThatIsAskedForNothing) {
+TEST(FrictionCompensation, GivesZeroVoltsAtStandstillForZeroControlVoltage) {
   EXPECT_EQ(friction_compensation_v(trolley_friction(), 0, 0), 0);
 }
 
@@ -52,7 +52,7 @@ TEST(FrictionCompensation, RisesWithTheDemandWithoutAStep) {
   }
 }
 
-TEST(FrictionCompensation, GivesTheShareItIsToldTo) {
+TEST(FrictionCompensation, MultipliesTheFrictionByItsFactor) {
   auto f = trolley_friction();
   const double whole = friction_compensation_v(f, 3, 0.2);
   f.factor = 0.8;

@@ -79,7 +79,7 @@ TEST(GeneratedRules, CountAgreementRuleByRule) {
   EXPECT_NEAR(agreement(printed).mean_degree_difference, 0.01, 1e-12);
 }
 
-TEST(GeneratedRules, NameThePlacesThatNoSampleSpeaksFor) {
+TEST(GeneratedRules, NameTheRulesWithoutASample) {
   const auto one = rules_from({{1, 1, 1}, {0, 0, 0}});
   const auto missing = missing_rules(one);
   ASSERT_EQ(missing.size(), 47U);

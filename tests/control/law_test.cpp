@@ -163,7 +163,7 @@ TEST(EveryLaw, StaysFiniteForAnyDesignWithoutProblems) {
   }
 }
 
-TEST(EveryLaw, OutlivesInputThatIsNotANumberAndRecoversByReset) {
+TEST(EveryLaw, RecoversByResetFromInputThatIsNotFinite) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> number(-1, 1);
   const auto broken = [](std::mt19937& /*random*/) { return std::numeric_limits<double>::quiet_NaN(); };
@@ -228,7 +228,7 @@ TEST(EveryLaw, GivesTheSameOutputForTheSameInputAfterReset) {
     }
 }
 
-TEST(EveryLaw, AsksForNothingAtRestOnItsReference) {
+TEST(EveryLaw, GivesZeroVoltsAtRestOnItsReference) {
   Measurement m;
   m.position = {0.7, 0.3, 1.2};
   Reference r;

@@ -41,7 +41,7 @@ TEST(StateFeedback, EqualsGainSchedulingAtTheOperatingPointOfItsGains) {
   }
 }
 
-TEST(StateFeedback, AsksForNothingAtRestOnItsReference) {
+TEST(StateFeedback, GivesZeroVoltsAtRestOnItsReference) {
   const Design design;
   Measurement measured;
   measured.position = {0.8, 0.4, 1.0};

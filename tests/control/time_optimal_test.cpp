@@ -41,7 +41,7 @@ struct RandomCase {
     auto& p = design.crane;
     p.load_mass_kg = between(0.1, 10), p.trolley_inertia_kg = between(5, 40);
     p.trolley_mass_kg = between(0.5, 5), p.jib_inertia_kgm2 = between(2, 20);
-    p.slewed_share = between(0, 1), p.thrown_share = between(0, 1);
+    p.rotating_share = between(0, 1), p.centrifugal_share = between(0, 1);
     design.friction = tower_with_friction().design.friction;
     cable_m = between(0.3, 1.5);
     state << between(0.2, 1.3), between(-1, 1), between(-3, 3), between(-1, 1), between(-1.3, 1.3),

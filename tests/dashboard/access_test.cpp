@@ -12,7 +12,7 @@ const AccessRules kRules{.token = "0123456789abcdef",
 const Visitor kAtTheRig{
     .loop_back = true, .host = "127.0.0.1:8765", .origin = "", .fetched = "", .token = "0123456789abcdef"};
 
-TEST(Access, TheRigsOwnComputerLooksAndOperatesWhereNoTokenWasChosen) {
+TEST(Access, TheComputerOfTheRigReadsAndOperatesWithoutAToken) {
   auto rules = kRules;
   rules.token = "";
   auto visitor = kAtTheRig;
@@ -48,7 +48,7 @@ TEST(Access, AForeignNameForThisComputerIsRefusedAlsoWithAFittingOrigin) {
   EXPECT_NE(why_not_operate(kRules, visitor), "");
 }
 
-TEST(Access, APageOfAnotherOriginNeitherLooksNorOperates) {
+TEST(Access, APageOfAnotherOriginNeitherReadsNorOperates) {
   auto visitor = kAtTheRig;
   visitor.origin = "http://evil.example";
   EXPECT_FALSE(may_look(kRules, visitor));
@@ -57,7 +57,7 @@ TEST(Access, APageOfAnotherOriginNeitherLooksNorOperates) {
   EXPECT_FALSE(may_look(kRules, visitor));
 }
 
-TEST(Access, AnOriginThatIsNamedLooksAndDoesNotOperate) {
+TEST(Access, AnOriginThatIsNamedReadsAndDoesNotOperate) {
   auto visitor = kAtTheRig;
   visitor.origin = "https://app.foxglove.dev";
   EXPECT_TRUE(may_look(kRules, visitor));

@@ -180,7 +180,7 @@ TEST(ReportPage, HasVerdictGainCandidatesRemainderAndNextExperiment) {
   const Example example;
   const std::string html = report::to_html(report_page(example.diagnosis, rig_of("gantry"), {example.run}));
   for (const char* text : {"These data do not distinguish command_delay", "0.670 [0.600, 0.700]",
-                           "0.03 ± 0.001 s", "Candidates", "8 % of what the extended model leaves",
+                           "0.03 ± 0.001 s", "Candidates", "8 % of the residual of the extended model",
                            "speed of the trolley", "Shake it.", "against trolley command [V]"})
     EXPECT_THAT(html, HasSubstr(text));
   EXPECT_THAT(html, Not(HasSubstr("http://"))) << "nothing comes from a network";

@@ -60,7 +60,7 @@ TEST(Announcements, AreReadFromADiscoveryDatagram) {
   }
 }
 
-TEST(Announcements, OfOtherProgramsAreNone) {
+TEST(Announcements, OfOtherProgramsAreIgnored) {
   EXPECT_FALSE(announcement_in(datagram_with("somebody else's data")));
   EXPECT_FALSE(announcement_in(datagram_with("")));
   EXPECT_FALSE(announcement_in({}));

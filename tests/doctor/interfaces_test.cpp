@@ -29,7 +29,7 @@ TEST(Interfaces, ThatThisComputerDoesNotHaveAreNamedWithThoseThatItHas) {
   EXPECT_THAT(found[0].remedy, HasSubstr("10.0.0.5 (eth0)"));
 }
 
-TEST(Interfaces, WithoutCarrierOrDownAreTold) {
+TEST(Interfaces, WithoutCarrierOrDownAreReported) {
   EXPECT_THAT(judged("10.0.1.5")[0].what, HasSubstr("has no carrier"));
   EXPECT_THAT(judged("10.0.2.5")[0].remedy, HasSubstr("ip link set eth2 up"));
 }

@@ -124,7 +124,7 @@ TEST_P(Conformance, KeepsTheBrakesClosedWithoutToggling) {
   EXPECT_EQ(subject_->crane().truth().trolley_m, rig_.start.position[0]);
 }
 
-TEST_P(Conformance, NeverLetsWhatIsNoNumberReachAnAmplifier) {
+TEST_P(Conformance, NeverOutputsAVoltageThatIsNotFinite) {
   get_going();
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     EXPECT_EQ(subject_->tick({bad, bad, bad}, true), kNothing) << bad;

@@ -89,7 +89,7 @@ TEST(Homing, OfAnyAxisPutsTheZeroWithinHalfATickOfTheApproach) {
   }
 }
 
-TEST(Homing, WantsTheMarkTwiceAtTheSamePlaceAndSlowly) {
+TEST(Homing, RequiresTwoDetectionsAtTheSamePositionTheSecondSlowly) {
   Hand once{homing_tower()};
   once.move(-0.05, 9.2);
   once.move(0.05, 1);
@@ -101,7 +101,7 @@ TEST(Homing, WantsTheMarkTwiceAtTheSamePlaceAndSlowly) {
   EXPECT_FALSE(fast.homing.known(0)) << "approached at the speed of the search";
 }
 
-TEST(Homing, TakesNoContactThatBouncesForTheSecondSight) {
+TEST(Homing, DoesNotCountABouncingContactAsTheSecondDetection) {
   Hand hand{homing_tower(), 0.0504};
   hand.move(-0.01, 0.06);
   for (int i = 0; i < 20; ++i) hand.move(i % 2 == 0 ? 0.02 : -0.02, 0.05);
@@ -197,7 +197,7 @@ TEST_F(WithoutAZero, ADeadEncoderIsNoticedAtVoltsThatOnlyJustMoveTheAxis) {
   EXPECT_EQ(timeline.line.reason(), Reason::encoder_frozen);
 }
 
-TEST(MarkOfAHomedAxis, SeenElsewhereTakesItsZeroAndHomingHelps) {  // hazard 17
+TEST(MarkOfAHomedAxis, DetectedElsewhereMakesThePositionUnknownUntilHoming) {  // hazard 17
   Timeline timeline{last_line_checks(), homing_tower()};
   timeline.start_at(0.3);
   ASSERT_TRUE(timeline.tick(10));

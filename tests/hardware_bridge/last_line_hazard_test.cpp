@@ -1,4 +1,4 @@
-// LastLine, hazard by hazard: fault, detection time, reason. Each timeline also runs without its check and
+// LastLine, fault by fault: detection time and reason. Each timeline also runs without its check and
 // must then not be stopped: every check is needed, and no check replaces another one.
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace crane::bridge::test {
 namespace {
 
-struct Hazard {
+struct Fault {
   const char* name;
   Reason reason;
   int longest_ticks;  ///< from the onset until the outputs are safe
@@ -19,12 +19,12 @@ struct Hazard {
   /// Continues the run; the first of these ticks is the first one with the fault.
   std::function<void(Timeline&, int)> every_tick = [](Timeline&, int) {};
   double trolley_m = 0.6;
-  friend std::ostream& operator<<(std::ostream& out, const Hazard& hazard) { return out << hazard.name; }
+  friend std::ostream& operator<<(std::ostream& out, const Fault& fault) { return out << fault.name; }
 };
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<Hazard> hazards() {
+std::vector<Fault> faults() {
   return {
       {"SupervisorIsSilent", Reason::command_stale, 5, [](Timeline& t) { t.commands_come = false; }},
       {"CommandHasASecondWriter", Reason::second_writer, 1, [](Timeline& t) { t.second_writer = true; }},
@@ -49,7 +49,7 @@ std::vector<Hazard> hazards() {
        [](Timeline& t, int tick) { t.speed_mps = tick == 0 ? 1.8 : 0; }},
       {"LoadSwingsTooFar", Reason::swing, 20, [](Timeline&) {},
        [](Timeline& t, int) { t.swing_rad += 0.08; }},
-      {"AxisWithoutAZeroIsToMove", Reason::not_homed, 1, [](Timeline& t) { t.unknown = true; }},
+      {"AxisWithUnknownPositionIsReleased", Reason::not_homed, 1, [](Timeline& t) { t.unknown = true; }},
       {"EncoderJumps", Reason::encoder_jump, 1, [](Timeline& t) { t.swing_rad = 0.5; }},
       {"SwitchClosesFarFromTheLimit", Reason::lost_counts, 1, [](Timeline& t) { t.limit_high = true; }},
       {"BrakeDoesNotHold", Reason::braked_motion, 30,
@@ -73,55 +73,55 @@ std::vector<Hazard> hazards() {
   };
 }
 
-class LastLineHazard : public testing::TestWithParam<Hazard> {
+class LastLineFault : public testing::TestWithParam<Fault> {
  protected:
-  /// Ordinary ticks, then the hazard. @return ticks from its onset until the crane was stopped; -1: not
+  /// Ordinary ticks, then the fault. @return ticks from its onset until the crane was stopped; -1: not
   /// stopped
-  static int run(Timeline& timeline, const Hazard& hazard) {
-    timeline.start_at(hazard.trolley_m);
+  static int run(Timeline& timeline, const Fault& fault) {
+    timeline.start_at(fault.trolley_m);
     EXPECT_TRUE(timeline.tick(40)) << name_of(timeline.line.reason());
-    hazard.begin(timeline);
-    EXPECT_EQ(timeline.line.reason(), Reason::none) << "stopped before the hazard";
+    fault.begin(timeline);
+    EXPECT_EQ(timeline.line.reason(), Reason::none) << "stopped before the fault";
     for (int i = 0; i < 40; ++i) {
-      hazard.every_tick(timeline, i);
+      fault.every_tick(timeline, i);
       if (!timeline.tick()) return i + 1;
     }
     return -1;
   }
 };
 
-TEST_P(LastLineHazard, IsStoppedInTimeForItsReasonAndForGood) {
-  const auto& hazard = GetParam();
+TEST_P(LastLineFault, IsStoppedInTimeForItsReasonAndForGood) {
+  const auto& fault = GetParam();
   Timeline timeline;
-  const int taken = run(timeline, hazard);
+  const int taken = run(timeline, fault);
   EXPECT_GT(taken, 0) << "never stopped";
-  EXPECT_LE(taken, hazard.longest_ticks);
-  EXPECT_EQ(timeline.line.reason(), hazard.reason) << name_of(timeline.line.reason());
+  EXPECT_LE(taken, fault.longest_ticks);
+  EXPECT_EQ(timeline.line.reason(), fault.reason) << name_of(timeline.line.reason());
   timeline.expect_safe();
   timeline.drive_v = {};
   timeline.commands_come = true;
   timeline.tick(100);
-  EXPECT_EQ(timeline.line.reason(), hazard.reason) << "a hazard that passes must not restart anything";
+  EXPECT_EQ(timeline.line.reason(), fault.reason) << "a fault that passes must not restart anything";
 }
 
-TEST_P(LastLineHazard, WithoutItsCheckIsNotStoppedForThatReasonNorInTime) {
-  const auto& hazard = GetParam();
+TEST_P(LastLineFault, WithoutItsCheckIsNotStoppedForThatReasonNorInTime) {
+  const auto& fault = GetParam();
   std::vector<Check> others;
   std::ranges::copy_if(last_line_checks(), std::back_inserter(others),
-                       [&hazard](const Check& check) { return check.reason != hazard.reason; });
+                       [&fault](const Check& check) { return check.reason != fault.reason; });
   Timeline timeline{others};
-  const int taken = run(timeline, hazard);
-  EXPECT_TRUE(taken < 0 || taken > hazard.longest_ticks)
+  const int taken = run(timeline, fault);
+  EXPECT_TRUE(taken < 0 || taken > fault.longest_ticks)
       << "stopped by " << name_of(timeline.line.reason()) << " after " << taken << " ticks";
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, LastLineHazard, testing::ValuesIn(hazards()),
+INSTANTIATE_TEST_SUITE_P(Each, LastLineFault, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string{test.param.name}; });
 
 TEST(LastLine, EveryCheckHasATimelineThatNeedsIt) {
-  const auto all = hazards();
+  const auto all = faults();
   for (const auto& check : last_line_checks())
-    EXPECT_TRUE(std::ranges::any_of(all, [&](const Hazard& hazard) { return hazard.reason == check.reason; }))
+    EXPECT_TRUE(std::ranges::any_of(all, [&](const Fault& fault) { return fault.reason == check.reason; }))
         << name_of(check.reason);
 }
 

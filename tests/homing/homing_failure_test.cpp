@@ -54,7 +54,7 @@ std::vector<Fault> faults() {
 
 class HomingFault : public testing::TestWithParam<std::tuple<const char*, Fault>> {};
 
-TEST_P(HomingFault, EndsSafeWithItsNameAndWithoutAZero) {
+TEST_P(HomingFault, EndsSafeWithItsReasonAndAnUnknownPosition) {
   const auto& [board, fault] = GetParam();
   auto told = homing_rig(), wired = homing_rig();
   told.start.position[0] = wired.start.position[0] = fault.trolley_m;
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Each, HomingFault,
 
 class HomingInterrupted : public testing::TestWithParam<crane_RequestKind> {};
 
-TEST_P(HomingInterrupted, LeavesTheAxisWithoutAZeroAndItCanBeHomedAgain) {
+TEST_P(HomingInterrupted, LeavesThePositionUnknownAndCanBeRepeated) {
   auto rig = homing_rig();
   rig.start.position[0] = 0.2;
   LockstepCrane crane{"emulated", rig, rig};

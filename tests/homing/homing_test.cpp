@@ -87,7 +87,7 @@ TEST_P(HomingOn, TwiceGivesTheSameZero) {
   EXPECT_NEAR(crane.shown(0) - crane.truth(0), first_m, 1e-4);
 }
 
-TEST_P(HomingOn, CountsThatAreLostLaterTakeTheZeroAndHomingHelps) {  // hazard 17
+TEST_P(HomingOn, LostCountsMakeThePositionUnknownUntilHoming) {  // hazard 17
   LockstepCrane crane{GetParam()};
   for (const std::size_t axis : {2U, 0U, 1U}) crane.home_completely(axis);
   crane.arm();

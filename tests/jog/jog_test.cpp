@@ -207,7 +207,7 @@ TEST_F(Stranger, WhoFloodsTheTopicMovesNothing) {
   EXPECT_LE(jogged_.crane().status().state, crane_STATE_RUN) << jogged_.crane().cause();
 }
 
-TEST(Jog, ANumberThatIsNoneReleasesTheStick) {
+TEST(Jog, ADeflectionThatIsNotFiniteReleasesTheStick) {
   Jogged jogged{"time_optimal"};
   ASSERT_EQ(jogged.begin({true, false, false}), "");
   jogged.deflect({1, 0, 0}, 1);

@@ -43,7 +43,7 @@ TEST(ArrivalStatistics, DoNotTakeTheJoiningOfTheReaderForJitter) {
   }
 }
 
-TEST(ArrivalStatistics, TellLostLateAndDuplicateApart) {
+TEST(ArrivalStatistics, DistinguishLostLateAndDuplicateSamples) {
   ArrivalStatistics statistics{true};
   for (const std::uint64_t tick : {1U, 2U, 6U, 4U, 6U, 2U, 7U}) statistics.add(on_time(tick));
   const auto counts = statistics.counts();

@@ -34,7 +34,7 @@ TEST(Converter, GivesVoltagesWithinHalfAStepOfWhatWasAsked) {
   EXPECT_DOUBLE_EQ(converter_voltage_v(0x1FFF), -10 + kStep_v);
 }
 
-TEST(Converter, GivesNoVoltageForWhatIsNoNumber) {
+TEST(Converter, GivesZeroVoltsForNaN) {
   Bench bench;
   bench.tick({kNan, kInfinity, -kInfinity}, false);
   EXPECT_EQ(bench.applied_v, (std::array<double, 3>{0, 0, 0}));

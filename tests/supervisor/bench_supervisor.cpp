@@ -116,7 +116,7 @@ void zone_filter(benchmark::State& run) {
                        .swing_radial_rad = sample.swing_radial_rad,
                        .swing_tangential_rad = sample.swing_tangential_rad,
                        .applied_v = sample.applied_v,
-                       .passed_v = sample.applied_v};
+                       .gate_output_v = sample.applied_v};
     observe_load(limits, in, memory);
     benchmark::DoNotOptimize(filter_zones(limits, in, memory));
   }

@@ -45,8 +45,8 @@ std::vector<Memory> every_memory() {
   return all;
 }
 
-constexpr unsigned kHazards = 12;
-void set_hazards(unsigned bits, Inputs& in) {
+constexpr unsigned kFaults = 12;
+void set_faults(unsigned bits, Inputs& in) {
   const auto bit = [bits](unsigned i) { return (bits >> i & 1U) != 0; };
   in.state_stale = bit(0);
   in.envelope.stopping = bit(1);
@@ -187,14 +187,14 @@ class Enumeration : public ::testing::Test {
   const std::vector<Memory> memories_ = every_memory();
 };
 
-TEST_F(Enumeration, EveryStateAgainstEveryHazardAndObservationKeepsTheRules) {  // S15
+TEST_F(Enumeration, EveryStateAgainstEveryFaultAndObservationKeepsTheRules) {  // S15
   for (const Memory& before : memories_) {
-    for (unsigned hazards = 0; hazards < 1U << kHazards; ++hazards) {
+    for (unsigned faults = 0; faults < 1U << kFaults; ++faults) {
       for (unsigned seen = 0; seen < 1U << kObservations; ++seen) {
         Inputs in{.now_s = kNow_s, .self_test = SelfTest::passed};
-        set_hazards(hazards, in);
+        set_faults(faults, in);
         set_observations(seen, in);
-        in.gate_cause = kGateCauses[(hazards + seen) % 4];
+        in.gate_cause = kGateCauses[(faults + seen) % 4];
         in.demand_stale = in.gate_cause == Cause::demand_stale;
         check(before, in);
         if (HasFatalFailure()) return;
@@ -203,12 +203,12 @@ TEST_F(Enumeration, EveryStateAgainstEveryHazardAndObservationKeepsTheRules) {  
   }
 }
 
-TEST_F(Enumeration, EveryStateAgainstEveryHazardAndRequestKeepsTheRules) {  // S15
+TEST_F(Enumeration, EveryStateAgainstEveryFaultAndRequestKeepsTheRules) {  // S15
   for (const Memory& before : memories_) {
-    for (unsigned hazards = 0; hazards < 1U << kHazards; ++hazards) {
+    for (unsigned faults = 0; faults < 1U << kFaults; ++faults) {
       for (unsigned requests = 0; requests < 1U << kRequests; ++requests) {
         Inputs in{.now_s = kNow_s, .self_test = SelfTest::passed};
-        set_hazards(hazards, in);
+        set_faults(faults, in);
         set_requests(requests, in);
         check(before, in);
         if (HasFatalFailure()) return;

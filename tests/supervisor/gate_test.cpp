@@ -35,7 +35,7 @@ TEST(Gate, PassesAnOrdinaryDemandUnchanged) {
 
 TEST(Gate, SaturatesDemandsOfALawWithoutEverStopping) {
   GateMemory memory;
-  for (const double v : {12.8, 65.0, 100.0, 10.0 * kAbsurd}) {
+  for (const double v : {12.8, 65.0, 100.0, 10.0 * kRejectionRatio}) {
     for (int i = 0; i < 1000; ++i) {
       const GateOutput out = pass(test_limits(), memory, v);
       ASSERT_EQ(out.drive_v[0], 10);
@@ -46,8 +46,8 @@ TEST(Gate, SaturatesDemandsOfALawWithoutEverStopping) {
   EXPECT_EQ(memory.clamped_count, 4000U);
 }
 
-TEST(Gate, RejectsDemandsThatNoLawAsksForAndStopsAtTheThird) {
-  for (const double v : {10.0 * kAbsurd * 1.01, 1e300, -1e300, std::numeric_limits<double>::max()}) {
+TEST(Gate, RejectsDemandsAbove20TimesTheLimitAndStopsAtTheThird) {
+  for (const double v : {10.0 * kRejectionRatio * 1.01, 1e300, -1e300, std::numeric_limits<double>::max()}) {
     GateMemory memory;
     pass(test_limits(), memory, 2);
     for (int i = 0; i < 3; ++i) {

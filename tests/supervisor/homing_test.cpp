@@ -95,7 +95,7 @@ TEST(HomingLimits, AreCheckedWithTheOthers) {
   EXPECT_EQ(problems(limits).size(), 3U);
 }
 
-TEST(Homing, WithoutAZeroArmingAndMovingAreRefusedWithWhatToDo) {  // S21
+TEST(Homing, WithAnUnknownPositionArmingAndMovingAreRefusedWithTheRemedy) {  // S21
   Crane t;
   t.to_ready();
   t.run(0.1);
@@ -169,7 +169,7 @@ struct Failure {
 
 class HomingFails : public ::testing::TestWithParam<Failure> {};
 
-TEST_P(HomingFails, WithPowerOffANameAndNoZero) {  // S23
+TEST_P(HomingFails, RemovesPowerAndReportsItsReasonAndAnUnknownPosition) {  // S23
   const auto& failure = GetParam();
   Crane t{failure.from_m};
   failure.begin(t);
@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(
                 HomingFailure::mark_disagrees, 30}),
     [](const auto& test) { return std::string{test.param.name}; });
 
-TEST(Homing, InterruptedByAStopOrTheEmergencyStopLeavesTheAxisWithoutAZero) {
+TEST(Homing, InterruptedByAStopOrTheEmergencyStopLeavesThePositionUnknown) {
   const std::pair<Request, Cause> interruptions[] = {{Request::stop, Cause::operator_stop},
                                                      {Request::disarm, Cause::operator_disarm},
                                                      {Request::estop, Cause::operator_estop}};
@@ -244,7 +244,7 @@ TEST(Homing, MovingWhileAnAxisIsHomedIsRefused) {
   EXPECT_EQ(t.state(), State::run);
 }
 
-TEST(Homing, AZeroThatIsLostWhileArmedStopsTheCrane) {  // S24
+TEST(Homing, APositionThatBecomesUnknownWhileArmedStopsTheCrane) {  // S24
   Timeline t{homing_limits()};
   t.to_run();
   ASSERT_EQ(t.state(), State::run);

@@ -1,4 +1,4 @@
-/// Which samples of a stick act: every hazard of docs/jog.md as a timeline. The period is 10 ms, tick k is at
+/// Which samples of a stick act: every rule of docs/jog.md as a timeline. The period is 10 ms, tick k is at
 /// k / 100 s.
 #include "process/jog_session.hpp"
 
@@ -100,7 +100,7 @@ TEST_F(Jog, ReleasesWithTheDeadMansSwitch) {
   EXPECT_FALSE(session_.held(1.01));
 }
 
-TEST_F(Jog, ReleasesForAValueThatIsNoShare) {
+TEST_F(Jog, ReleasesForADeflectionOutsideItsRange) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                            1.0001, -1.0001, std::numeric_limits<double>::max()}) {
     begin(1);
@@ -204,7 +204,7 @@ TEST_F(FaultyStick, WithADelayedSampleHasToBeReleasedFirst) {
   expect_released_until_the_operator_releases(103);
 }
 
-TEST_F(FaultyStick, WithAValueThatIsNoShareHasToBeReleasedFirst) {
+TEST_F(FaultyStick, WithADeflectionOutsideItsRangeHasToBeReleasedFirst) {
   take(sample(101, {2, 0, 0}), kOperator, 101);
   expect_released_until_the_operator_releases(102);
 }

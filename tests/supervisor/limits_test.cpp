@@ -17,7 +17,7 @@ using ::testing::StartsWith;
 
 TEST(SupervisorLimits, AreFineAsTheTestsUseThem) { EXPECT_THAT(problems(test_limits()), IsEmpty()); }
 
-TEST(SupervisorLimits, WantAMarginThatAnAxisAtFullSpeedStopsIn) {  // S19
+TEST(SupervisorLimits, RequireAMarginOfTheStoppingDistanceAtFullSpeed) {  // S19
   Limits limits = test_limits();
   // by hand: 10 ms detection, 20 ms ramp and delay, 20 ms brake, then 1^2 / (2 * 5)
   const double needed = 1 * (0.01 + 0.02 + 0.02) + 0.1;

@@ -117,7 +117,7 @@ TEST(Restart, AnAxisThatWasMovingOrElsewhereHasToBeConfirmed) {  // S26
   }
 }
 
-TEST(Restart, AFurtherRestartDoesNotMakeADoubtfulPlaceKnown) {  // S26
+TEST(Restart, AFurtherRestartDoesNotConfirmADoubtfulPosition) {  // S26
   Timeline t;
   t.to_run();
   t.speed = {0, 0.5, 0};
@@ -144,7 +144,7 @@ TEST(Restart, AnAxisThatIsToBeHomedNeedsNoConfirmation) {  // S26
                "the position of the trolley is not known: reset, then `crane home --axis trolley`");
 }
 
-TEST(Restart, ALoadThatSwungWhenTheBridgeStartedHasNoZeroUntilTheBridgeStartsAgain) {  // S26
+TEST(Restart, ALoadThatSwungAtTheStartOfTheBridgeRefusesResetUntilTheNextRestart) {  // S26
   Timeline t;
   t.to_hold();
   exchange_bridge(t);

@@ -70,7 +70,7 @@ TEST(Supervisor, EmergencyStopBeforeTheSelfTestLeadsBackToTheSelfTest) {
   EXPECT_EQ(t.state(), State::selftest);
 }
 
-TEST(Supervisor, TakesAResetOnItsEdgeOnly) {  // S3
+TEST(Supervisor, ActsOnTheRisingEdgeOfAResetOnly) {  // S3
   Timeline t;
   t.to_locked();
   t.world.sample.estop_pressed = true;

@@ -102,7 +102,7 @@ TEST_F(BlackBox, RecordsNothingWhenAnOperatorEndsTheStack) {
   EXPECT_TRUE(files().empty()) << files()[0];
 }
 
-TEST_F(BlackBox, IsMissedByNobodyWhenItEnds) {
+TEST_F(BlackBox, EndsWithoutAnEffectOnTheStack) {
   const auto ups = processes_with("--black-box");
   for (const auto pid : processes_with(kept.string()))
     if (std::ranges::find(ups, pid) == ups.end()) ::kill(pid, SIGKILL);

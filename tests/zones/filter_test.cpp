@@ -143,7 +143,7 @@ TEST(ZoneFilter, CountsATickWithoutASample) {
   const auto limits = supervisor::limits_of(rig_with("gantry", {wall_at(2)}));
   supervisor::ZoneMemory memory;
   supervisor::ZoneInput in{
-      .sampled_s = 1, .position = {0.5, 0, 1.5}, .speed = {0.5, 0, 0}, .passed_v = {5, 0, 0}};
+      .sampled_s = 1, .position = {0.5, 0, 1.5}, .speed = {0.5, 0, 0}, .gate_output_v = {5, 0, 0}};
   supervisor::observe_load(limits, in, memory);
   in.sampled_s = 1.01, in.position[0] = 0.505;
   supervisor::observe_load(limits, in, memory);
@@ -190,7 +190,7 @@ Tried try_stop(std::uint64_t seed, const std::string& name) {
                                  .swing_radial_rad = crane.input.sample.swing_radial_rad,
                                  .swing_tangential_rad = crane.input.sample.swing_tangential_rad,
                                  .applied_v = crane.input.sample.applied_v,
-                                 .passed_v = crane.out.drive_v};
+                                 .gate_output_v = crane.out.drive_v};
   const auto reach = supervisor::ramped_reach(crane.limits, in, crane.memory.zones);
   crane.limits.zones = {wall_at(0)};
   crane.limits.zones[0].size_x_m = 100;

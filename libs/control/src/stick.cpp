@@ -11,15 +11,15 @@ namespace crane::control {
 namespace {
 
 /// Shares of a shaper whose half period is `half_ticks`.
-TickShares shares_of(Shaping shaping, std::size_t half_ticks, double period_s) noexcept {
+ShaperImpulses shares_of(Shaping shaping, std::size_t half_ticks, double period_s) noexcept {
   const double swing_period_s = 2 * static_cast<double>(half_ticks) * period_s;
   const Shaper shaper{shaping, swing_period_s};
-  TickShares shares{.share = {}, .count = 0, .mean_s = 0, .heaviest = 0};
+  ShaperImpulses shares{.share = {}, .count = 0, .mean_s = 0, .largest_weight = 0};
   for (const Impulse& impulse : shaper.impulses()) {
     const auto halves = static_cast<std::size_t>(std::lround(2 * impulse.time_s / swing_period_s));
     shares.share[shares.count++] = {halves * half_ticks, impulse.share};
     shares.mean_s += impulse.share * impulse.time_s;
-    shares.heaviest = std::max(shares.heaviest, impulse.share);
+    shares.largest_weight = std::max(shares.largest_weight, impulse.share);
   }
   return shares;
 }
@@ -30,7 +30,7 @@ struct RateLimit {
 };
 
 /// The change nearest to `wanted` with which no tick exceeds the acceleration limit.
-double feasible(double wanted, const TickShares& shares, const RateLimit& pace,
+double feasible(double wanted, const ShaperImpulses& shares, const RateLimit& pace,
                 const PendingChanges& pending) noexcept {
   double low = -1e9, high = 1e9;
   for (std::size_t i = 0; i < shares.count; ++i) {
@@ -43,7 +43,7 @@ double feasible(double wanted, const TickShares& shares, const RateLimit& pace,
 }
 
 /// One tick of u and s.
-void advance(const TickShares& shares, const RateLimit& pace, double wanted, StickAxis& axis) noexcept {
+void advance(const ShaperImpulses& shares, const RateLimit& pace, double wanted, StickAxis& axis) noexcept {
   if (wanted != axis.unshaped) {
     const double change = feasible(wanted - axis.unshaped, shares, pace, axis.pending);
     for (std::size_t i = 0; i < shares.count; ++i) {
@@ -65,7 +65,7 @@ void advance(const TickShares& shares, const RateLimit& pace, double wanted, Sti
   axis.lag -= (axis.unshaped - axis.speed) * pace.period_s;
 }
 
-Reach release_of(const TickShares& shares, const RateLimit& pace, StickAxis axis) noexcept {
+Reach release_of(const ShaperImpulses& shares, const RateLimit& pace, StickAxis axis) noexcept {
   Reach reach{axis.position, axis.position};
   while (axis.unshaped != 0 || !axis.pending.empty()) {
     advance(shares, pace, 0, axis);
@@ -76,7 +76,7 @@ Reach release_of(const TickShares& shares, const RateLimit& pace, StickAxis axis
 }
 
 /// Positions of a stop. Where no stop can reach a limit, only the present position is computed.
-Reach release_in(const StickAxisLimits& limits, const TickShares& shares, const RateLimit& pace,
+Reach release_in(const StickAxisLimits& limits, const ShaperImpulses& shares, const RateLimit& pace,
                  const StickAxis& axis) noexcept {
   const double delay_s = static_cast<double>(shares.share[shares.count - 1].ticks) * pace.period_s;
   const double longest = limits.speed * (2 * limits.speed / limits.acceleration + 2 * delay_s);
@@ -92,11 +92,11 @@ double speed_for(double room, double braking, double mean_s) noexcept {
   return braking * (std::sqrt(mean_s * mean_s + 2 * room / braking) - mean_s);
 }
 
-void step_axis(const StickAxisLimits& limits, const TickShares& shares, double period_s, double wanted,
+void step_axis(const StickAxisLimits& limits, const ShaperImpulses& shares, double period_s, double wanted,
                StickAxis& axis) noexcept {
   if (!(limits.speed > 0)) return;
   const RateLimit pace{limits.acceleration * period_s, period_s};
-  const double braking = limits.acceleration / shares.heaviest, tick_way = limits.speed * period_s;
+  const double braking = limits.acceleration / shares.largest_weight, tick_way = limits.speed * period_s;
   const double end = axis.position - axis.lag;  // of the way without the braking from u
   const double up = speed_for(limits.high - end - tick_way, braking, shares.mean_s);
   const double down = speed_for(end - limits.low - tick_way, braking, shares.mean_s);
@@ -117,13 +117,13 @@ void step_axis(const StickAxisLimits& limits, const TickShares& shares, double p
 void follow(double frequency_radps, double period_s, StickAxis& axis) noexcept {
   const double c = std::cos(frequency_radps * period_s), s = std::sin(frequency_radps * period_s);
   const double shift = axis.acceleration / (frequency_radps * frequency_radps);
-  const double from = axis.behind + shift, rate = axis.behind_rate;
-  axis.behind = from * c + rate / frequency_radps * s - shift;
-  axis.behind_rate = rate * c - from * frequency_radps * s;
+  const double from = axis.load_offset + shift, rate = axis.load_offset_rate;
+  axis.load_offset = from * c + rate / frequency_radps * s - shift;
+  axis.load_offset_rate = rate * c - from * frequency_radps * s;
   constexpr double kRounding = 1e-9;  // m, rad: remains of a shaper that leaves nothing
   const bool rests = axis.speed == 0 && axis.unshaped == 0 && axis.pending.empty();
-  if (rests && std::abs(axis.behind) < kRounding && std::abs(axis.behind_rate) < kRounding)
-    axis.behind = axis.behind_rate = 0;
+  if (rests && std::abs(axis.load_offset) < kRounding && std::abs(axis.load_offset_rate) < kRounding)
+    axis.load_offset = axis.load_offset_rate = 0;
 }
 
 /// Motion of a load coordinate.
@@ -131,8 +131,8 @@ struct Load {
   double position, speed, acceleration;
 };
 Load load_of(const StickAxis& axis, double frequency_radps) noexcept {
-  return {axis.position + axis.behind, axis.speed + axis.behind_rate,
-          -frequency_radps * frequency_radps * axis.behind};
+  return {axis.position + axis.load_offset, axis.speed + axis.load_offset_rate,
+          -frequency_radps * frequency_radps * axis.load_offset};
 }
 
 StickPoint point_of(const StickLimits& limits, const StickMemory& memory) noexcept {
@@ -248,11 +248,11 @@ void begin(const StickLimits& limits, const Reference& reference, StickMemory& m
     const auto& own = memory.limits[i];
     axis.position = reference[i].position;
     axis.speed = axis.unshaped = own.speed > 0 ? reference[i].speed : 0;
-    axis.acceleration = axis.lag = axis.behind = axis.behind_rate = 0;
+    axis.acceleration = axis.lag = axis.load_offset = axis.load_offset_rate = 0;
     axis.pending = {};
     axis.release = {axis.position, axis.position};
     if (own.speed > 0)
-      axis.release = release_in(own, i == kHoist ? TickShares{} : memory.shares,
+      axis.release = release_in(own, i == kHoist ? ShaperImpulses{} : memory.shares,
                                 {own.acceleration * limits.period_s, limits.period_s}, axis);
   }
   memory.path.fill(point_of(limits, memory));
@@ -264,7 +264,7 @@ void begin(const StickLimits& limits, const Reference& reference, StickMemory& m
 Reference step(const StickLimits& limits, const std::array<double, kAxes>& wanted,
                StickMemory& memory) noexcept {
   for (const std::size_t i : {kTrolley, kSlew, kHoist})
-    step_axis(memory.limits[i], i == kHoist ? TickShares{} : memory.shares, limits.period_s,
+    step_axis(memory.limits[i], i == kHoist ? ShaperImpulses{} : memory.shares, limits.period_s,
               usable(wanted[i], memory.limits[i].speed), memory.axis[i]);
   for (const std::size_t i : {kTrolley, kSlew})
     follow(memory.frequency_radps, limits.period_s, memory.axis[i]);

@@ -191,33 +191,33 @@ GantryAccelerations gantry_accelerations(const Parameters& p, double swing_rad, 
                                          double cable_m, double cable_mps, double cable_mps2,
                                          double force_n) noexcept {
   const double m = p.load_mass_kg, sine = std::sin(swing_rad), cosine = std::cos(swing_rad);
-  const double pull = force_n - m * cable_mps2 * sine - 2 * m * cable_mps * swing_radps * cosine +
-                      m * cable_m * swing_radps * swing_radps * sine;
+  const double driving_n = force_n - m * cable_mps2 * sine - 2 * m * cable_mps * swing_radps * cosine +
+                           m * cable_m * swing_radps * swing_radps * sine;
   const double free_swing = -p.gravity_mps2 * sine - 2 * cable_mps * swing_radps;  // L phi'' for x'' = 0
-  const double trolley = (pull - m * cosine * free_swing) / (p.trolley_inertia_kg + m * sine * sine);
+  const double trolley = (driving_n - m * cosine * free_swing) / (p.trolley_inertia_kg + m * sine * sine);
   return {.trolley_mps2 = trolley, .swing_radps2 = (free_swing - trolley * cosine) / cable_m};
 }
 
 LinearModel linear_translation(const Parameters& p, double cable_m) noexcept {
-  const double pull = p.load_to_trolley_ratio() * p.gravity_mps2;
+  const double load_mps2prad = p.load_to_trolley_ratio() * p.gravity_mps2;
   LinearModel model;
-  model.a << 0, 0, 1, 0,  //
-      0, 0, 0, 1,         //
-      0, -pull, 0, 0,     //
-      0, -(p.gravity_mps2 + pull) / cable_m, 0, 0;
+  model.a << 0, 0, 1, 0,        //
+      0, 0, 0, 1,               //
+      0, -load_mps2prad, 0, 0,  //
+      0, -(p.gravity_mps2 + load_mps2prad) / cable_m, 0, 0;
   model.b << 0, 0, p.trolley_gain_mps2pv, p.trolley_gain_mps2pv / cable_m;
   return model;
 }
 
 LinearModel linear_rotation(const Parameters& p, double trolley_m, double cable_m) noexcept {
   const double inertia = 1 + p.trolley_to_jib_ratio() * trolley_m * trolley_m;
-  const double pull = p.load_to_jib_ratio() * p.gravity_mps2 * trolley_m / inertia;
+  const double load_radps2prad = p.load_to_jib_ratio() * p.gravity_mps2 * trolley_m / inertia;
   const double gain = p.slew_gain_radps2pv / inertia;
   LinearModel model;
-  model.a << 0, 0, 1, 0,  //
-      0, 0, 0, 1,         //
-      0, pull, 0, 0,      //
-      0, -(p.gravity_mps2 + trolley_m * pull) / cable_m, 0, 0;
+  model.a << 0, 0, 1, 0,         //
+      0, 0, 0, 1,                //
+      0, load_radps2prad, 0, 0,  //
+      0, -(p.gravity_mps2 + trolley_m * load_radps2prad) / cable_m, 0, 0;
   model.b << 0, 0, gain, -trolley_m * gain / cable_m;
   return model;
 }

@@ -157,7 +157,7 @@ Accelerations Model::accelerations(const State& state, const Actuation& actuatio
     for (const auto& [term, first] : structure_terms_)
       term->accelerate(p, seen, result, &inner[first], &inner_accelerations[first]);
     for (std::size_t i = 0; i < inner_coordinates_; ++i)
-      if (actuation.led[i]) inner_accelerations[i] = given[i];
+      if (actuation.prescribed[i]) inner_accelerations[i] = given[i];
   };
   accelerate();
   Displacement pushed;

@@ -70,7 +70,7 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
   }
   for (const auto& cause : diagnosis.attempted)
     std::cout << "tried: " << cause.name << (cause.axis.empty() ? "" : " (" + cause.axis + ")")
-              << " explains most of it and is not proven as a cause\n";
+              << " explains most of the error and is not proven as a cause\n";
   const auto& held_out = diagnosis.held_out;
   if (!diagnosis.extension.empty() && diagnosis.verdict != diagnosis::Verdict::unknown)
     std::cout << "held-out gain " << rounded(held_out.gain) << " [" << rounded(held_out.gain_ci95[0]) << ", "
@@ -93,12 +93,12 @@ std::string values_of(const std::vector<diagnosis::Estimate>& estimates) {
 }
 
 void print_check(const diagnosis::Check& check, const DiagnosisData& data) {
-  TextTable table{{"candidate", "least that would be found", "hardly told from"}};
+  TextTable table{{"candidate", "smallest detectable size", "hardly distinguishable from"}};
   for (const auto& seen : check.excitation) {
     std::string alike;
     for (const auto& other : seen.alike)
       alike += (alike.empty() ? "" : ", ") + other.label + " (" + rounded(other.cosine) + ")";
-    table.add({seen.label, seen.visible ? values_of(seen.least) : "nothing believable", alike});
+    table.add({seen.label, seen.visible ? values_of(seen.least) : "not detectable", alike});
   }
   table.print(std::cout);
   for (const auto& proposal : check.next)
@@ -122,7 +122,7 @@ int check_data(const DiagnoseOptions& options, const configuration::Rig& rig, Di
 
 int diagnose_data(const DiagnoseOptions& options) {
   if (options.test.empty() && !options.check)
-    throw diagnosis::DataError({"--test: runs to prove the gain on are needed; only --check does without"});
+    throw diagnosis::DataError({"--test: held-out runs are required, except with --check"});
   const auto rig = configuration::load_rig(stack::find_rig(options.rig));
   diagnosis::Mapping mapping;
   if (!options.mapping.empty()) mapping = diagnosis::load_mapping(options.mapping);

@@ -171,7 +171,7 @@ void add_jog(CLI::App& app, Action& chosen) {
   runtime::add_bus_options(*command, options->bus);
   command->footer(
       "Examples: crane jog                                         # keyboard: trolley and slew\n"
-      "          crane jog --trolley 0.5 --slew -0.2 --for 2      # deflects, releases, prints ways and "
+      "          crane jog --trolley 0.5 --slew -0.2 --for 2      # deflects, releases, prints travel and "
       "swing\n"
       "The crane must be in HOLD. Keys: up/down trolley, left/right slew, PgUp/PgDn hoist; with shift, or "
       "after\n"

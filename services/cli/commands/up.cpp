@@ -96,7 +96,7 @@ bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::opt
     if (const auto ended = children.ended()) {
       const auto without = goes_without(ended->name);
       if (ended->name == "dashboard" && dashboard.start_again()) {
-        std::cerr << "crane up: " << stack::describe(*ended) << "; it is started anew\n";
+        std::cerr << "crane up: " << stack::describe(*ended) << "; restarting it\n";
         continue;
       }
       std::cerr << "crane up: " << stack::describe(*ended)
@@ -104,7 +104,7 @@ bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::opt
                 << '\n';
       if (node)
         node->error("process_ended", stack::describe(*ended),
-                    without.empty() ? "look at the output of `crane up`, and start the stack anew" : "");
+                    without.empty() ? "read the output of `crane up`, then restart the stack" : "");
       if (without.empty()) return false;
     }
     ::usleep(50'000);

@@ -125,13 +125,13 @@ int learn(const ZoneOptions& options) {
     zone.size_y_m = std::max(zone.size_y_m, 2 * rig.clearance.load_radius_m);
   constexpr double kSmallest_m = 0.001;
   if (zone.size_x_m < kSmallest_m || zone.size_y_m < kSmallest_m)
-    throw std::runtime_error("the hook has not moved around an area: its places are " +
+    throw std::runtime_error("the hook has not moved around an area: its positions are " +
                              fixed(zone.size_x_m, 3) + " x " + fixed(zone.size_y_m, 3) + " m");
   if (zone.top_m - zone.bottom_m < kSmallest_m)
     throw std::runtime_error(
-        "the hook has kept its height: give the height of the obstacle with --top (and --bottom)");
+        "the height of the hook did not change: state the height of the obstacle with --top (and --bottom)");
   write(options, path, configuration::with_zone(configuration::file_text(path), path.string(), zone));
-  std::cout << box.samples() << " places of the hook"
+  std::cout << box.samples() << " positions of the hook"
             << (box.skipped() > 0 ? ", " + std::to_string(box.skipped()) + " skipped" : "") << ":\n";
   print({zone});
   return runtime::kExitDone;
@@ -171,8 +171,8 @@ void add_learn(CLI::App& group, const Options& options, Action& chosen) {
       "Example: crane record drive.mcap --duration 60, drive the hook around the obstacle with crane jog, "
       "then\n"
       "crane zone learn silo drive.mcap --rig my_tower.toml --top 1.5\n"
-      "Heights count from the ground of [clearance] suspension_height_m. Comments and all other text of the "
-      "file stay.");
+      "Heights are above the ground of [clearance] suspension_height_m. Comments and all other text of the "
+      "file do not change.");
   command->callback([options, &chosen] { chosen = [options] { return learn(*options); }; });
 }
 

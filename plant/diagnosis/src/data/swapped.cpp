@@ -54,7 +54,8 @@ void find_swapped(const std::vector<Run>& runs, const configuration::Rig& rig, F
     findings.problem(std::string{kOutputNames[kRadialSwing]} + ", " + kOutputNames[kTangentialSwing],
                      "the trolley moves the tangential swing and not the radial one", "columns swapped?");
   if (turned)
-    findings.problem(kOutputNames[kRadialSwing], "swings away when the trolley pulls it along",
+    findings.problem(kOutputNames[kRadialSwing],
+                     "has the wrong sign: the load swings ahead of an accelerating trolley",
                      "positive with the load towards the tower; sign?");
 }
 

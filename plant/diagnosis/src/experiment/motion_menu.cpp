@@ -93,7 +93,7 @@ class Menu {
   void add_break_away(Axis axis) {
     SafeMotion motion = begun(std::string{"break_away_"} + name_of_axis(axis),
                               std::string{"Let the "} + name_of_axis(axis) +
-                                  " creep from rest to both sides, over and over, in short ways.");
+                                  " creep from rest to both sides, again and again, over short distances.");
     constexpr double kFrequency_hz = 0.1, kWay_s = 0.05;  // distance at reference speed in that time
     const double way = std::min(kWay_s * rig_.drives[axis].reference_speed, amplitude(axis, kFrequency_hz));
     append(motion, axis, {{rounded(way), kFrequency_hz, 0}}, 40);
@@ -130,7 +130,7 @@ class Menu {
   void add_swinging_load() {
     constexpr double kShareOfLimit = 0.4, kLength_s = 30;
     SafeMotion motion =
-        begun("load_swinging", "Pull the load aside, let it go and let it swing; drives stand still.");
+        begun("load_swinging", "Pull the load aside, release it and let it swing; the drives are at rest.");
     const double swing = rounded(kShareOfLimit * rig_.limits.swing_limit_rad);
     if (rig_.measures(plant::kSwingRadial)) motion.swing_radial_rad = swing;
     if (rig_.measures(plant::kSwingTangential)) motion.swing_tangential_rad = swing;

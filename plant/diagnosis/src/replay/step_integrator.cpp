@@ -34,7 +34,7 @@ void StepIntegrator::step(const MeasuredKinematics& at) {
     inner_middle[i].rate += 0.5 * h_ * last_inner_[i];
   }
   plant::InnerAccelerations inner_acceleration{};
-  actuation_.led = prescribed;
+  actuation_.prescribed = prescribed;
   prescribe_inner(inner_middle, inner_acceleration);
   plant::PerAxis friction{};
   if (simulated_[kTrolleyPosition] || simulated_[kSlewAngle]) friction = move_drives(middle, inner_middle);

@@ -232,25 +232,25 @@ std::string plain_values(const std::vector<Estimate>& estimates) {
 
 report::Section excitation_section(const Diagnosis& diagnosis) {
   report::Section section{.title = "What these data can show", .blocks = {}};
-  report::Table table{.title = "",
-                      .header = {"candidate", "least that would be found", "hardly told from (cosine)"},
-                      .rows = {}};
+  report::Table table{
+      .title = "",
+      .header = {"candidate", "smallest detectable size", "hardly distinguishable from (cosine)"},
+      .rows = {}};
   for (const Visibility& seen : diagnosis.excitation) {
     std::string alike;
     for (const auto& other : seen.alike)
       alike += (alike.empty() ? "" : ", ") + other.label + " (" + significant(other.cosine, 3) + ")";
     table.rows.push_back({{seen.label},
-                          {seen.visible ? plain_values(seen.least) : "nothing believable",
+                          {seen.visible ? plain_values(seen.least) : "not detectable",
                            seen.visible ? Tone::neutral : Tone::muted},
                           {alike}});
   }
   section.blocks.emplace_back(std::move(table));
-  section.blocks.emplace_back(
-      report::Paragraph{"By the training data and the noise that was learnt from them, before any candidate "
-                        "is fitted: the size that "
-                        "the score test finds in 9 of 10 such data sets, where nothing at all is named in 99 "
-                        "of 100 clean ones. Two "
-                        "candidates with a cosine near 1 or -1 change these data in the same way."});
+  section.blocks.emplace_back(report::Paragraph{
+      "The smallest detectable size is the size that the score test finds in 9 of 10 data sets like the "
+      "training data, with a false alarm in 1 of 100 data sets without error. It follows from the "
+      "training data and their noise model, before any candidate is fitted. Two candidates with a "
+      "cosine near 1 or -1 change these data in the same way."});
   return section;
 }
 
@@ -259,21 +259,21 @@ report::Section remainder_section(const Diagnosis& diagnosis) {
   std::string from;
   for (const std::string& name : diagnosis.remainder.from) from += (from.empty() ? "" : "; ") + name;
   section.blocks.emplace_back(report::Paragraph{
-      percent(diagnosis.remainder.predictable_fraction) + " of what the " +
+      percent(diagnosis.remainder.predictable_fraction) + " of the residual of the " +
       (diagnosis.extension.empty() ? "simulation" : "extended model") +
-      " leaves can still be predicted, cross-validated. " +
-      (from.empty() ? "Nothing stands out that it goes with." : "It goes with: " + from + ".")});
+      " is predictable (cross-validated). " +
+      (from.empty() ? "No variable predicts it." : "Variables that predict it: " + from + ".")});
   return section;
 }
 
 std::string without_proposal(Verdict verdict) {
   if (verdict == Verdict::ambiguous)
-    return "No motion of the menu inside the rig's limits tells the candidates apart.";
+    return "No motion of the list inside the limits of the rig distinguishes the candidates.";
   if (verdict == Verdict::unknown)
-    return "None is proposed: there are no candidates to tell apart. A motion that varies what the residual "
-           "goes with, "
-           "and nothing else, shows more.";
-  return "None is needed.";
+    return "No experiment is proposed, because there are no candidates to distinguish. Record a motion that "
+           "varies "
+           "only the variables that predict the residual.";
+  return "No further experiment is needed.";
 }
 
 report::Section next_section(const Diagnosis& diagnosis, const configuration::Rig& rig) {
@@ -285,10 +285,10 @@ report::Section next_section(const Diagnosis& diagnosis, const configuration::Ri
   const NextExperiment& next = *diagnosis.next_experiment;
   section.blocks.emplace_back(report::Verdict{.text = next.description, .tone = Tone::neutral});
   section.blocks.emplace_back(report::Paragraph{
-      "There the candidates' predictions lie " + significant(next.separation, 3) +
-      " noise standard deviations apart, each refitted. The motion stands in next_experiment.toml: crane run "
-      "next_experiment.toml --rig " +
-      rig.name + "; record it, add it to the training data and diagnose again."});
+      "In this motion the predictions of the refitted candidates differ by " +
+      significant(next.separation, 3) +
+      " standard deviations of the noise. Run it with: crane run next_experiment.toml --rig " + rig.name +
+      ". Add the recording to the training data and repeat the diagnosis."});
   return section;
 }
 

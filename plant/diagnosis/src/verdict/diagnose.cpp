@@ -85,7 +85,7 @@ Proof proof_of(const HeldOut& held_out, const Effects& effects) {
   const std::string runs = "held-out runs: ";
   for (const auto& [column, motion] : held_out.whole_extended_motion)
     if (acts_on(effects, column) && motion < rules::kStandsStill)
-      return {refuted, runs + column + " moves, and stands still in the extended model"};
+      return {refuted, runs + column + " moves in the measurement but stands still in the extended model"};
   for (const auto& [column, before] : held_out.whole_baseline_rms) {
     if (!acts_on(effects, column)) continue;
     if (column.starts_with("swing") &&

@@ -43,10 +43,13 @@ TermKind actuator_lag() {
   return {
       .name = "actuator_lag",
       .equation = "tau V_1' = V_command - V_1, tau_2 V' = V_1 - V",
-      .source = "current loop or filter between converter and motor; tau_2 > 0: two lags in series",
+      .source =
+          "a current loop or a filter between converter and motor delays the voltage; tau_2 > 0: two lags in "
+          "series",
       .acts_on = ActsOn::command,
       .axes = {"trolley", "slew", "hoist"},
-      .parameters = {{"time_constant_s", "s", 0, 0, 2, "tau"}, {"second_s", "s", 0, 0, 2, "tau_2"}},
+      .parameters = {{"time_constant_s", "s", 0, 0, 2, "tau, time constant of the first lag"},
+                     {"second_s", "s", 0, 0, 2, "tau_2, time constant of the second lag; 0: no second lag"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<ActuatorLag>(s); }};
 }
 

@@ -9,7 +9,7 @@
 namespace crane::plant {
 namespace {
 
-/// Natural frequency of the contact between the flanks, with the inertia of the suspended side: 25 Hz for the
+/// Natural frequency of the contact between the flanks, with the inertia of the load side: 25 Hz for the
 /// nut of a trolley, 15 Hz for the gear of a jib. The contact is a damped spring that does not pull; the
 /// coefficient of restitution is almost one half. The damping increases with the depth of contact up to
 /// kSoftShare, so that the force is continuous.
@@ -38,19 +38,19 @@ class Backlash final : public Term {
   }
   void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
                        Forces& sum) const noexcept override {
-    far_.push_back(crane, state, contact(inner[0]), sum);
+    far_.add_motor_reaction(crane, state, contact(inner[0]), sum);
   }
   void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
                   const Inner* inner, double* acceleration) const noexcept override {
     if (gap_ == 0) return;
-    const double speed = slew_ ? state.slew_radps : state.trolley_mps;  // of the suspended side
+    const double speed = slew_ ? state.slew_radps : state.trolley_mps;  // of the load side
     const double motor = slew_ ? drives.slew_radps2 : drives.trolley_mps2;
     acceleration[0] = far_.acceleration(crane, state, contact(inner[0])) -
                       guide_deceleration_ * smooth_sign(speed, kGuideSmoothing) - motor;
     // Centrifugal acceleration of the trolley; the motor takes up its force only when a flank touches.
     if (!slew_) acceleration[0] += state.trolley_m * state.slew_radps * state.slew_radps;
   }
-  /// An unexplained change of the motor's speed is an impact of the flanks. The suspended side has lost the
+  /// An unexplained change of the motor's speed is an impact of the flanks. The load side has lost the
   /// momentum that the motor has gained, and is at the flank of that side. When the model predicted an impact
   /// that was not measured, the flanks remain in contact.
   void correct(const Parameters& crane, const State& state, const PerAxis& unexplained, const Inner* before,
@@ -61,7 +61,7 @@ class Backlash final : public Term {
     const bool met = std::max(-side * before[0].position, -side * inner[0].position) > flank;
     inner[0].position = side * (met ? -flank : std::max(side * inner[0].position, flank));
     const double fastest = gap_ * contact_radps_;  // limits the effect of measurement noise on a light side
-    inner[0].rate = std::clamp(inner[0].rate - far_.passed_on(crane, state, change), -fastest, fastest);
+    inner[0].rate = std::clamp(inner[0].rate - far_.speed_loss(crane, state, change), -fastest, fastest);
   }
 
  private:
@@ -90,15 +90,21 @@ TermKind backlash() {
           "M_j x2 and C = 2 M_j x x' slew' for a jib only, Z = (x + b) slew'^2 for a trolley only; inertia "
           "of "
           "the motor (1 - j) J, force on the motor -(j J k + P)",
-      .source = "play of nut or gear between the motor, which has the encoder, and trolley or jib",
+      .source =
+          "the nut of the trolley or the gear of the jib has play; the encoder measures the motor, not the "
+          "trolley "
+          "or the jib",
       .acts_on = ActsOn::structure,
       .axes = {"trolley", "slew"},
-      .parameters =
-          {{"gap", "m or rad", 0, 0, 0.1, "h, free travel from flank to flank"},
-           {"guide_deceleration", "m/s2 or rad/s2", 1, 0, 2,
-            "a, deceleration of the suspended side by friction while no flank touches"},
-           {"driven_share", "1", 0, 0, 0.9,
-            "j, share of the axis's inertia J beyond the gap, on which the load acts with force P"}},
+      .parameters = {{"gap", "m or rad", 0, 0, 0.1,
+                      "h, distance that the load side moves from one flank to the other"},
+                     {"guide_deceleration", "m/s2 or rad/s2", 1, 0, 2,
+                      "a, deceleration of the load side by the friction of its guide; it acts with and "
+                      "without contact"},
+                     {"driven_share", "1", 0, 0, 0.9,
+                      "j, inertia on the load side of the gap / inertia J of the axis; 0: the load side has "
+                      "no inertia, the "
+                      "motor accelerates J"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<Backlash>(s); }};
 }
 

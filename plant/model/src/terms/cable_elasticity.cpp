@@ -46,12 +46,12 @@ TermKind cable_elasticity() {
       .equation =
           "the load hangs at L + u c m g + s, s'' = T/m - g - s/(c m) - 2 z s'/sqrt(c m), T the tension of "
           "the rigid cable",
-      .source = "Hooke's law; s is the stretch minus the stretch by the load at rest",
+      .source = "the cable stretches by Hooke's law; s is the stretch minus the stretch by the load at rest",
       .acts_on = ActsOn::structure,
       .axes = {""},
       .parameters = {{"compliance_mpn", "m/N", 0, 0, 0.1,
-                      "c; a natural frequency above 12 Hz counts as rigid"},
-                     {"damping_ratio", "1", 0.02, 0, 1, "z"},
+                      "c, stretch per force; a cable with a natural frequency above 12 Hz is rigid"},
+                     {"damping_ratio", "1", 0.02, 0, 1, "z, damping ratio of the vertical oscillation"},
                      {"unmeasured_stretch", "1", 0, 0, 1,
                       "u, share of the stretch at rest that the measured length does not include"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {

@@ -21,10 +21,13 @@ TermKind cable_length() {
   return {
       .name = "cable_length",
       .equation = "L = L_measured + d",
-      .source = "the distance of the load's centre of mass differs from the zero of the hoist",
+      .source =
+          "the distance from the suspension point to the centre of mass of the load differs from the "
+          "measured "
+          "cable length",
       .acts_on = ActsOn::structure,
       .axes = {""},
-      .parameters = {{"delta_m", "m", 0, -10, 10, "d, true minus measured length of the pendulum"}},
+      .parameters = {{"delta_m", "m", 0, -10, 10, "d, true minus measured cable length"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<CableLength>(s); }};
 }
 

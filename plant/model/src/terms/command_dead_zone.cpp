@@ -26,10 +26,11 @@ class CommandDeadZone final : public Term {
 TermKind command_dead_zone() {
   return {.name = "command_dead_zone",
           .equation = "V = sign(V_command) max(0, |V_command| - w)",
-          .source = "an amplifier or converter with no output for small inputs",
+          .source = "the amplifier or the converter has no output for small inputs",
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
-          .parameters = {{"width_v", "V", 0, 0, 10, "w, to either side of 0 V"}},
+          .parameters = {{"width_v", "V", 0, 0, 10,
+                          "w, half the width: the output is 0 for inputs between -w and w"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<CommandDeadZone>(s);
           }};

@@ -22,10 +22,10 @@ class CommandOffset final : public Term {
 TermKind command_offset() {
   return {.name = "command_offset",
           .equation = "V = V_command + d",
-          .source = "zero error of converter and amplifier",
+          .source = "converter and amplifier have a zero error",
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
-          .parameters = {{"offset_v", "V", 0, -10, 10, "d"}},
+          .parameters = {{"offset_v", "V", 0, -10, 10, "d, added voltage"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<CommandOffset>(s);
           }};

@@ -25,18 +25,18 @@ class CoulombFriction final : public Term {
 }  // namespace
 
 TermKind coulomb_friction() {
-  return {
-      .name = "coulomb_friction",
-      .equation = "f = c tanh(v/v_s), in both directions, in addition to drive_friction",
-      .source = "(3.1): the Coulomb friction differs from that of the rig file",
-      .acts_on = ActsOn::drive,
-      .axes = {"trolley", "slew", "hoist"},
-      .parameters = {{"level_v", "V", 0, -10, 10, "c / K_m; negative: less friction than in the rig file"},
-                     {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
-                      "v_s, width of the step at v = 0"}},
-      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-        return std::make_unique<CoulombFriction>(s);
-      }};
+  return {.name = "coulomb_friction",
+          .equation = "f = c tanh(v/v_s), the same in both directions, in addition to drive_friction",
+          .source = "the Coulomb friction (3.1) differs from that of the rig file",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"level_v", "V", 0, -10, 10,
+                          "c / K_m, added Coulomb friction; negative: less friction than in the rig file"},
+                         {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+                          "v_s, width of the step at v = 0"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<CoulombFriction>(s);
+          }};
 }
 
 }  // namespace crane::plant

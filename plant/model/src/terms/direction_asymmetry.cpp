@@ -27,19 +27,25 @@ class DirectionAsymmetry final : public Term {
 }  // namespace
 
 TermKind direction_asymmetry() {
-  return {.name = "direction_asymmetry",
-          .equation =
-              "f = c tanh(|v|/v_s) + b |v|: adds c and b to the friction for v > 0, subtracts them for v < 0",
-          .source = "(3.1): the difference of friction between the directions is not that of the rig file",
-          .acts_on = ActsOn::drive,
-          .axes = {"trolley", "slew", "hoist"},
-          .parameters = {{"coulomb_v", "V", 0, -10, 10, "c / K_m"},
-                         {"viscous_vspm", "V s/m or V s/rad", 0, -1000, 1000, "b / K_m"},
-                         {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
-                          "v_s, width of the step at v = 0"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-            return std::make_unique<DirectionAsymmetry>(s);
-          }};
+  return {
+      .name = "direction_asymmetry",
+      .equation =
+          "f = c tanh(|v|/v_s) + b |v|: friction opposes the motion by c + b |v| more for v > 0, by as much "
+          "less "
+          "for v < 0",
+      .source =
+          "the difference between the friction (3.1) of the two directions differs from that of the rig file",
+      .acts_on = ActsOn::drive,
+      .axes = {"trolley", "slew", "hoist"},
+      .parameters = {{"coulomb_v", "V", 0, -10, 10,
+                      "c / K_m, Coulomb friction added for v > 0, subtracted for v < 0"},
+                     {"viscous_vspm", "V s/m or V s/rad", 0, -1000, 1000,
+                      "b / K_m, viscous friction added for v > 0, subtracted for v < 0"},
+                     {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+                      "v_s, width of the step at v = 0"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<DirectionAsymmetry>(s);
+      }};
 }
 
 }  // namespace crane::plant

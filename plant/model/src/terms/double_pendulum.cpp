@@ -98,22 +98,27 @@ class DoublePendulum final : public Term {
 }  // namespace
 
 TermKind double_pendulum() {
-  return {.name = "double_pendulum",
-          .equation =
-              "hook (1 - mu) m at L - u, load mu m at l below: l e_2'' = T_1 e_1 / m_1 - (T_2 / m_1 + T_2 / "
-              "m_2) e_2 "
-              "with the tensions that keep both lengths; F = T_2 along the lower cable on the hook",
-          .source = "Newton's law of both masses; exact where the suspension point is at rest",
-          .acts_on = ActsOn::structure,
-          .axes = {""},
-          .parameters =
-              {{"lower_share", "1", 0, 0, 0.9, "mu, share of the load mass that hangs below the hook"},
-               {"lower_length_m", "m", 0.3, 0.02, 10, "l, from the hook to the load"},
-               {"hook_raised_m", "m", 0, 0, 10,
-                "u, height of the hook above the end of the measured length; l when that end is the load"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-            return std::make_unique<DoublePendulum>(s);
-          }};
+  return {
+      .name = "double_pendulum",
+      .equation =
+          "hook (1 - mu) m at L - u, load mu m at l below: l e_2'' = T_1 e_1 / m_1 - (T_2 / m_1 + T_2 / "
+          "m_2) e_2 "
+          "with the tensions that keep both lengths; F = T_2 along the lower cable on the hook",
+      .source =
+          "hook and load are two masses on two cables: Newton's law of both, exact while the suspension "
+          "point is at "
+          "rest",
+      .acts_on = ActsOn::structure,
+      .axes = {""},
+      .parameters = {{"lower_share", "1", 0, 0, 0.9, "mu, share of the load mass that hangs below the hook"},
+                     {"lower_length_m", "m", 0.3, 0.02, 10, "l, distance from the hook to the load"},
+                     {"hook_raised_m", "m", 0, 0, 10,
+                      "u, distance from the hook down to the end of the measured cable length; 0: the "
+                      "measured length ends at "
+                      "the hook; l: at the load"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<DoublePendulum>(s);
+      }};
 }
 
 }  // namespace crane::plant

@@ -44,19 +44,21 @@ TermKind drive_friction() {
       .name = "drive_friction",
       .equation =
           "f = (c + max(0, s - c) exp(-(v/v_st)^2)) tanh(v/v_s) + b v, with b, c, s of the direction of v",
-      .source = "(3.1), smoothed at v = 0; the stiction decays with speed",
+      .source = "friction of the drive (3.1), smoothed at v = 0; its break-away excess decays with the speed",
       .acts_on = ActsOn::drive,
       .axes = {"trolley", "slew", "hoist"},
-      .parameters = {{"viscous_positive_vspm", "V s/m or V s/rad", 0, 0, 1000, "b+ / K_m"},
-                     {"viscous_negative_vspm", "V s/m or V s/rad", 0, 0, 1000, "b- / K_m"},
-                     {"coulomb_positive_v", "V", 0, 0, 10, "c+ / K_m"},
-                     {"coulomb_negative_v", "V", 0, 0, 10, "c- / K_m"},
-                     {"stiction_positive_v", "V", 0, 0, 10, "s+, break-away friction; no effect below c+"},
-                     {"stiction_negative_v", "V", 0, 0, 10, "s-, break-away friction; no effect below c-"},
-                     {"stiction_speed", "m/s or rad/s", 0.005, 1e-4, 1,
-                      "v_st, speed at which the excess s - c has decayed to 37 %"},
-                     {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
-                      "v_s, width of the step at v = 0"}},
+      .parameters =
+          {{"viscous_positive_vspm", "V s/m or V s/rad", 0, 0, 1000, "b+ / K_m, viscous friction for v > 0"},
+           {"viscous_negative_vspm", "V s/m or V s/rad", 0, 0, 1000, "b- / K_m, viscous friction for v < 0"},
+           {"coulomb_positive_v", "V", 0, 0, 10, "c+ / K_m, Coulomb friction for v > 0"},
+           {"coulomb_negative_v", "V", 0, 0, 10, "c- / K_m, Coulomb friction for v < 0"},
+           {"stiction_positive_v", "V", 0, 0, 10,
+            "s+ / K_m, break-away friction for v > 0; no effect below c+"},
+           {"stiction_negative_v", "V", 0, 0, 10,
+            "s- / K_m, break-away friction for v < 0; no effect below c-"},
+           {"stiction_speed", "m/s or rad/s", 0.005, 1e-4, 1,
+            "v_st, speed at which the excess s - c has decayed to 37 %"},
+           {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1, "v_s, width of the step at v = 0"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<DriveFriction>(s);
       }};

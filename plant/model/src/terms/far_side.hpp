@@ -21,20 +21,20 @@ class FarSide {
     if (!carries()) return;
     (slew_ ? crane.jib_inertia_kgm2 : crane.trolley_inertia_kg) *= 1 - share_;
     (slew_ ? crane.slew_gain_radps2pv : crane.trolley_gain_mps2pv) /= 1 - share_;
-    (slew_ ? crane.slewed_share : crane.thrown_share) = 0;
+    (slew_ ? crane.rotating_share : crane.centrifugal_share) = 0;
   }
   /// Inertia j J of the far side, kg or kg m2. @param crane  parameters after split()
   [[nodiscard]] double own_inertia(const Parameters& crane) const {
     return share_ / (1 - share_) * (slew_ ? crane.jib_inertia_kgm2 : crane.trolley_inertia_kg);
   }
   /// j J / (total inertia of the far side); a jib also turns the trolley.
-  [[nodiscard]] double own_part(const Parameters& crane, const State& seen) const {
+  [[nodiscard]] double own_share(const Parameters& crane, const State& seen) const {
     if (!slew_ || !carries()) return 1;
     const double own = own_inertia(crane);
     return own / (own + crane.trolley_mass_kg * seen.trolley_m * seen.trolley_m);
   }
   /// Force P of the load on the far side, with the cable tension of a load at rest, N or N m.
-  [[nodiscard]] double pull(const Parameters& crane, const State& seen) const {
+  [[nodiscard]] double load_force(const Parameters& crane, const State& seen) const {
     const double ct = std::cos(seen.tangential_rad), cf = std::cos(seen.radial_rad);
     const double tension_n = crane.load_mass_kg * crane.gravity_mps2 * ct * cf;
     return slew_ ? tension_n * std::sin(seen.tangential_rad) * seen.trolley_m
@@ -42,20 +42,21 @@ class FarSide {
   }
   /// Adds the force on the motor when the connection accelerates the inertia j J by `connection`, m/s2 or
   /// rad/s2.
-  void push_back(const Parameters& crane, const State& seen, double connection, Forces& sum) const {
+  void add_motor_reaction(const Parameters& crane, const State& seen, double connection, Forces& sum) const {
     if (carries())
-      (slew_ ? sum.slew_nm : sum.trolley_n) -= own_inertia(crane) * connection + pull(crane, seen);
+      (slew_ ? sum.slew_nm : sum.trolley_n) -= own_inertia(crane) * connection + load_force(crane, seen);
   }
   /// Acceleration of the far side relative to the ground, m/s2 or rad/s2.
   [[nodiscard]] double acceleration(const Parameters& crane, const State& seen, double connection) const {
     if (!carries()) return connection;
     const double coriolis_nm =
         slew_ ? 2 * crane.trolley_mass_kg * seen.trolley_m * seen.trolley_mps * seen.slew_radps : 0;
-    return own_part(crane, seen) * (connection + (pull(crane, seen) - coriolis_nm) / own_inertia(crane));
+    return own_share(crane, seen) *
+           (connection + (load_force(crane, seen) - coriolis_nm) / own_inertia(crane));
   }
   /// Decrease of the far side's speed when the connection increases the motor's speed by `change`.
-  [[nodiscard]] double passed_on(const Parameters& crane, const State& seen, double change) const {
-    return change * own_part(crane, seen) * (1 - share_) / share_;
+  [[nodiscard]] double speed_loss(const Parameters& crane, const State& seen, double change) const {
+    return change * own_share(crane, seen) * (1 - share_) / share_;
   }
 
  private:

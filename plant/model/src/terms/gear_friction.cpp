@@ -23,19 +23,22 @@ class GearFriction final : public Term {
 }  // namespace
 
 TermKind gear_friction() {
-  return {.name = "gear_friction",
-          .equation = "f = mu |V - P| tanh(v/v_s), P: sum of the forces that depend on the position",
-          .source =
-              "friction of gear teeth grows with the force that they carry (M. Duclusaud et al., Extended "
-              "friction models for the physics simulation of servo actuators, ICRA 2025, model M3)",
-          .acts_on = ActsOn::drive,
-          .axes = {"trolley", "slew", "hoist"},
-          .parameters = {{"share", "1", 0, 0, 0.95, "mu, share of the carried force"},
-                         {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
-                          "v_s, width of the step at v = 0"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-            return std::make_unique<GearFriction>(s);
-          }};
+  return {
+      .name = "gear_friction",
+      .equation =
+          "f = mu |V - P| tanh(v/v_s), V: output of the amplifier, P: volts of the terms position_force and "
+          "torque_ripple of the axis",
+      .source =
+          "the friction of gear teeth increases with the transmitted force (M. Duclusaud et al., Extended "
+          "friction models for the physics simulation of servo actuators, ICRA 2025, model M3)",
+      .acts_on = ActsOn::drive,
+      .axes = {"trolley", "slew", "hoist"},
+      .parameters = {{"share", "1", 0, 0, 0.95, "mu, friction / transmitted force"},
+                     {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+                      "v_s, width of the step at v = 0"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<GearFriction>(s);
+      }};
 }
 
 }  // namespace crane::plant

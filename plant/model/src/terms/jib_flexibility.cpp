@@ -22,7 +22,7 @@ class JibFlexibility final : public Term {
   }
   void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
                        Forces& sum) const noexcept override {
-    if (!rigid_) far_.push_back(crane, state, spring_radps2(inner[0]), sum);
+    if (!rigid_) far_.add_motor_reaction(crane, state, spring_radps2(inner[0]), sum);
   }
   void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
                   const Inner* inner, double* acceleration) const noexcept override {
@@ -48,12 +48,16 @@ TermKind jib_flexibility() {
           "suspension point at gamma + d, d'' = k - gamma'', k = -d/c - 2 z d'/sqrt(c); for j > 0 the spring "
           "turns j J_o and the trolley, d'' = (j J_o k + P - C) / (j J_o + M_j x2) - gamma''; inertia of the "
           "motor (1 - j) J_o, torque on the motor -(j J_o k + P)",
-      .source = "first sideways bending mode of the jib; f = 1 / (2 pi sqrt(c)) with the root held",
+      .source =
+          "the jib bends sideways (first mode); its natural frequency with a fixed root is 1 / (2 pi "
+          "sqrt(c))",
       .acts_on = ActsOn::structure,
       .axes = {""},
-      .parameters = {{"compliance_s2", "s2", 0, 0, 0.3, "c; a natural frequency above 12 Hz counts as rigid"},
-                     {"damping_ratio", "1", 0.02, 0, 1, "z"},
-                     {"jib_share", "1", 0, 0, 0.9, "j, share of the slewing inertia beyond the spring"}},
+      .parameters =
+          {{"compliance_s2", "s2", 0, 0, 0.3,
+            "c, deflection per angular acceleration; a jib with a natural frequency above 12 Hz is rigid"},
+           {"damping_ratio", "1", 0.02, 0, 1, "z, damping ratio of the bending mode"},
+           {"jib_share", "1", 0, 0, 0.9, "j, inertia on the load side of the spring / J_o"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<JibFlexibility>(s);
       }};

@@ -28,10 +28,11 @@ TermKind jib_tilt() {
           .equation =
               "g = {-g sin(a), 0, -g cos(a)} in the jib frame: F_x = -M_j g sin(a) on the trolley, "
               "m g {-sin(a), 0, 1 - cos(a)} on the load",
-          .source = "a jib that is not level; at rest phi = a relative to the normal of the jib",
+          .source = "the jib is not level; the load at rest has phi = a relative to the normal of the jib",
           .acts_on = ActsOn::load,
           .axes = {""},
-          .parameters = {{"angle_rad", "rad", 0, -0.3, 0.3, "a, positive: the jib's tip is raised"}},
+          .parameters = {{"angle_rad", "rad", 0, -0.3, 0.3,
+                          "a, inclination of the jib; positive: the tip is raised"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<JibTilt>(s); }};
 }
 

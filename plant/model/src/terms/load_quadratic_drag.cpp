@@ -23,10 +23,10 @@ class LoadQuadraticDrag final : public Term {
 TermKind load_quadratic_drag() {
   return {.name = "load_quadratic_drag",
           .equation = "F = -d |r_L'| r_L'",
-          .source = "aerodynamic drag of the load, d = rho c_w A / 2",
+          .source = "aerodynamic drag of the load in still air, d = rho c_w A / 2",
           .acts_on = ActsOn::load,
           .axes = {""},
-          .parameters = {{"coefficient_ns2pm2", "N s2/m2", 0, 0, 1000, "d"}},
+          .parameters = {{"coefficient_ns2pm2", "N s2/m2", 0, 0, 1000, "d, force / speed^2"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<LoadQuadraticDrag>(s);
           }};

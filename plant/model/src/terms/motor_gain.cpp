@@ -20,10 +20,10 @@ TermKind motor_gain() {
   return {
       .name = "motor_gain",
       .equation = "V = k V_command; friction forces do not change",
-      .source = "the constant of amplifier or motor differs from the nominal K_m of (2.10)",
+      .source = "the gain of amplifier and motor differs from K_m of (2.10) in the rig file",
       .acts_on = ActsOn::command,
       .axes = {"trolley", "slew", "hoist"},
-      .parameters = {{"factor", "1", 1, 0, 5, "k"}},
+      .parameters = {{"factor", "1", 1, 0, 5, "k, true gain / gain of the rig file"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<MotorGain>(s); }};
 }
 

@@ -22,7 +22,8 @@ TermKind payload_mass() {
       .source = "the load mass differs from that of the rig file",
       .acts_on = ActsOn::parameters,
       .axes = {""},
-      .parameters = {{"delta_kg", "kg", 0, -1000, 1000, "d; the sum must not be negative"}},
+      .parameters = {{"delta_kg", "kg", 0, -1000, 1000,
+                      "d, true load mass minus that of the rig file; the true mass must not be negative"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<PayloadMass>(s); }};
 }
 

@@ -29,21 +29,20 @@ class PositionDependentFriction final : public Term {
 }  // namespace
 
 TermKind position_dependent_friction() {
-  return {
-      .name = "position_dependent_friction",
-      .equation = "f = a (1 + cos(2 pi (p - p_0) / w)) / 2 tanh(v/v_s)",
-      .source =
-          "a bent guide or an eccentric gear: tight spots at p_0 + n w, never less than the plain friction",
-      .acts_on = ActsOn::drive,
-      .axes = {"trolley", "slew", "hoist"},
-      .parameters = {{"amplitude_v", "V", 0, 0, 10, "a, friction added at the tight spots"},
-                     {"wavelength", "m or rad", 1, 1e-3, 100, "w, distance between tight spots"},
-                     {"tight_at", "m or rad", 0, -100, 100, "p_0, position of one tight spot"},
-                     {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
-                      "v_s, width of the step at v = 0"}},
-      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-        return std::make_unique<PositionDependentFriction>(s);
-      }};
+  return {.name = "position_dependent_friction",
+          .equation = "f = a (1 + cos(2 pi (p - p_0) / w)) / 2 tanh(v/v_s)",
+          .source =
+              "a bent guide or an eccentric gear has tight spots at p_0 + n w; between them nothing is added",
+          .acts_on = ActsOn::drive,
+          .axes = {"trolley", "slew", "hoist"},
+          .parameters = {{"amplitude_v", "V", 0, 0, 10, "a, friction that a tight spot adds"},
+                         {"wavelength", "m or rad", 1, 1e-3, 100, "w, distance between tight spots"},
+                         {"tight_at", "m or rad", 0, -100, 100, "p_0, position of one tight spot"},
+                         {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
+                          "v_s, width of the step at v = 0"}},
+          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+            return std::make_unique<PositionDependentFriction>(s);
+          }};
 }
 
 }  // namespace crane::plant

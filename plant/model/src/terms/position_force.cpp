@@ -27,10 +27,10 @@ class PositionForce final : public Term {
 TermKind position_force() {
   return {.name = "position_force",
           .equation = "f = k p - o: the drive gets V - k p + o, a spring at rest at p = o / k",
-          .source = "a cable, hose or spring that pulls the axis back (k > 0), or an unbalanced axis",
+          .source = "a cable, hose or spring pulls the axis back (k > 0), or the axis is not balanced",
           .acts_on = ActsOn::drive,
           .axes = {"trolley", "slew", "hoist"},
-          .parameters = {{"stiffness_vpm", "V/m or V/rad", 0, -1000, 1000, "k / K_m"},
+          .parameters = {{"stiffness_vpm", "V/m or V/rad", 0, -1000, 1000, "k / K_m, stiffness"},
                          {"offset_v", "V", 0, -10, 10, "o / K_m, force at position 0"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<PositionForce>(s);

@@ -26,10 +26,10 @@ TermKind steady_wind() {
   return {
       .name = "steady_wind",
       .equation = "F = F_w {cos(a - gamma), sin(a - gamma), 0}",
-      .source = "constant force on the load, fixed to the ground",
+      .source = "a steady wind: constant force on the load, in a fixed direction relative to the ground",
       .acts_on = ActsOn::load,
       .axes = {""},
-      .parameters = {{"force_n", "N", 0, 0, 1000, "F_w"},
+      .parameters = {{"force_n", "N", 0, 0, 1000, "F_w, force"},
                      {"direction_rad", "rad", 0, -7, 7,
                       "a, direction of the force; 0: along the jib at gamma = 0"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SteadyWind>(s); }};

@@ -29,7 +29,10 @@ class StribeckFriction final : public Term {
 TermKind stribeck_friction() {
   return {.name = "stribeck_friction",
           .equation = "f = a exp(-(v/v_d)^2) tanh(v/v_s)",
-          .source = "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083, Gaussian form",
+          .source =
+              "the friction at low speed exceeds the Coulomb friction (Armstrong-Helouvry, Dupont, Canudas "
+              "de Wit, "
+              "Automatica 30 (1994) 1083, Gaussian form)",
           .acts_on = ActsOn::drive,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"excess_v", "V", 0, 0, 10, "a, excess over Coulomb friction at low speed"},

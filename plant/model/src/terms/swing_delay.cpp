@@ -31,10 +31,10 @@ TermKind swing_delay() {
   return {
       .name = "swing_delay",
       .equation = "phi_measured(t) = phi(t - tau), interpolated linearly between ticks",
-      .source = "delay of a swing sensor: camera, radio link, serial converter",
+      .source = "camera, radio link or serial converter delays the measured swing",
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential", ""},
-      .parameters = {{"delay_s", "s", 0, 0, 0.5, "tau"}},
+      .parameters = {{"delay_s", "s", 0, 0, 0.5, "tau, delay"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SwingDelay>(s); }};
 }
 

@@ -28,7 +28,7 @@ TermKind swing_misalignment() {
           .source = "the fork of the swing encoders is rotated relative to the jib about the vertical axis",
           .acts_on = ActsOn::sensor,
           .axes = {""},
-          .parameters = {{"angle_rad", "rad", 0, -0.8, 0.8, "a"}},
+          .parameters = {{"angle_rad", "rad", 0, -0.8, 0.8, "a, angle of the rotation"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<SwingMisalignment>(s);
           }};

@@ -44,11 +44,11 @@ TermKind swing_moving_average() {
       .equation =
           "phi_measured(t) = 1/w integral of phi from t - w to t, phi interpolated linearly between ticks",
       .source =
-          "a swing sensor with a moving average; n samples with equal weights correspond to w = (n - 1) "
+          "the swing sensor averages its samples; n samples with equal weights correspond to w = (n - 1) "
           "ticks",
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential", ""},
-      .parameters = {{"window_s", "s", 0, 0, 0.5, "w"}},
+      .parameters = {{"window_s", "s", 0, 0, 0.5, "w, length of the window"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<SwingMovingAverage>(s);
       }};

@@ -23,10 +23,10 @@ TermKind swing_offset() {
   return {
       .name = "swing_offset",
       .equation = "phi_measured = phi + d",
-      .source = "a swing encoder that was not zeroed with the load at rest",
+      .source = "a swing encoder was not zeroed with the load at rest",
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential"},
-      .parameters = {{"offset_rad", "rad", 0, -0.5, 0.5, "d"}},
+      .parameters = {{"offset_rad", "rad", 0, -0.5, 0.5, "d, measured angle at phi = 0"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SwingOffset>(s); }};
 }
 

@@ -33,11 +33,11 @@ class SwingPivotFriction final : public Term {
 TermKind swing_pivot_friction() {
   return {.name = "swing_pivot_friction",
           .equation = "Q = -(b w + c tanh(w/w_s)), w = phi' or theta'",
-          .source = "bearings of the cable's upper joint, at the swing encoders",
+          .source = "the bearings of the upper cable joint, at the swing encoders, have friction",
           .acts_on = ActsOn::load,
           .axes = {"radial", "tangential", ""},
-          .parameters = {{"viscous_nmsprad", "N m s/rad", 0, 0, 100, "b"},
-                         {"coulomb_nm", "N m", 0, 0, 100, "c"},
+          .parameters = {{"viscous_nmsprad", "N m s/rad", 0, 0, 100, "b, viscous friction"},
+                         {"coulomb_nm", "N m", 0, 0, 100, "c, Coulomb friction"},
                          {"smoothing_radps", "rad/s", 0.01, 1e-6, 1, "w_s, width of the step at w = 0"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<SwingPivotFriction>(s);

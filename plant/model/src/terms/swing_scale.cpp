@@ -23,10 +23,10 @@ TermKind swing_scale() {
   return {
       .name = "swing_scale",
       .equation = "phi_measured = k phi",
-      .source = "counts per turn or gear ratio of a swing encoder differs from that of the rig file",
+      .source = "counts per turn or gear ratio of a swing encoder differs from the value in the rig file",
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential"},
-      .parameters = {{"factor", "1", 1, 0.1, 10, "k"}},
+      .parameters = {{"factor", "1", 1, 0.1, 10, "k, measured / true angle"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SwingScale>(s); }};
 }
 

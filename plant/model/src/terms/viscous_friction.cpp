@@ -21,12 +21,12 @@ class ViscousFriction final : public Term {
 
 TermKind viscous_friction() {
   return {.name = "viscous_friction",
-          .equation = "f = b v, in both directions, on top of drive_friction",
-          .source = "(3.1): the viscous part of the rig file's friction is another one",
+          .equation = "f = b v, the same in both directions, in addition to drive_friction",
+          .source = "the viscous friction (3.1) differs from that of the rig file",
           .acts_on = ActsOn::drive,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"vspm", "V s/m or V s/rad", 0, -1000, 1000,
-                          "b / K_m; negative: less than the rig file says"}},
+                          "b / K_m, added viscous friction; negative: less friction than in the rig file"}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<ViscousFriction>(s);
           }};

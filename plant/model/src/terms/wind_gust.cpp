@@ -46,21 +46,23 @@ class WindGust final : public Term {
 }  // namespace
 
 TermKind wind_gust() {
-  return {.name = "wind_gust",
-          .equation = "F = d |w| w, w = (V + u) {cos(a - gamma), sin(a - gamma), 0} - r_L'",
-          .source = "drag of the load in moving air; gust u of the Dryden model (MIL-F-8785C, section 3.7.2), "
-                    "longitudinal component",
-          .acts_on = ActsOn::load,
-          .axes = {""},
-          .parameters = {{"coefficient_ns2pm2", "N s2/m2", 0, 0, 1000, "d = rho c_w A / 2"},
-                         {"mean_mps", "m/s", 0, 0, 60, "V, mean speed of the wind; 0: no gusts"},
-                         {"scatter_mps", "m/s", 0, 0, 20, "sigma, standard deviation of the gust u"},
-                         {"length_m", "m", 23, 0.1, 1000,
-                          "L, length scale of the gusts; 23 m at a height of 3 m (MIL-F-8785C)"},
-                         {"direction_rad", "rad", 0, -7, 7,
-                          "a, direction of the wind; 0: along the jib at gamma = 0"},
-                         {"seed", "1", 1, 0, 1e6, "whole number; the same seed gives the same gusts"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<WindGust>(s); }};
+  return {
+      .name = "wind_gust",
+      .equation = "F = d |w| w, w = (V + u) {cos(a - gamma), sin(a - gamma), 0} - r_L'",
+      .source =
+          "drag of the load in moving air; gust u of the Dryden model (MIL-F-8785C, section 3.7.2), "
+          "longitudinal component",
+      .acts_on = ActsOn::load,
+      .axes = {""},
+      .parameters = {{"coefficient_ns2pm2", "N s2/m2", 0, 0, 1000, "d = rho c_w A / 2"},
+                     {"mean_mps", "m/s", 0, 0, 60, "V, mean speed of the wind; 0: no gusts"},
+                     {"scatter_mps", "m/s", 0, 0, 20, "sigma, standard deviation of the gust u"},
+                     {"length_m", "m", 23, 0.1, 1000,
+                      "L, length scale of the gusts; 23 m at a height of 3 m (MIL-F-8785C)"},
+                     {"direction_rad", "rad", 0, -7, 7,
+                      "a, direction of the wind; 0: along the jib at gamma = 0"},
+                     {"seed", "1", 1, 0, 1e6, "whole number; the same seed gives the same gusts"}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<WindGust>(s); }};
 }
 
 }  // namespace crane::plant

@@ -5,8 +5,8 @@
 /// the last two ticks. Each parameter is known within a tolerance only. The model therefore gives an interval
 /// [low, high] of accelerations:
 ///   gain of the drive  1 +- kGainTolerance, offset +- kOffset_v
-///   friction           0 to kFrictionMost times the rig file's, plus kFrictionExtra_v, against the motion
-///   load               0 to kLoadMost times the rig file's
+///   friction           0 to kFrictionRatioMax times the rig file's, plus kFrictionExtra_v, against the
+///   motion load               0 to kLoadRatioMax times the rig file's
 /// Two sums add the changes of speed outside the interval (run_length.hpp):
 ///   fast := max(0, fast + dv - high dt),   slow := max(0, slow + low dt - dv)
 /// A sum above limit = kSpeedShare (max_speed + |v|) + noise stops the crane. noise = two counts per sample
@@ -46,10 +46,10 @@ struct FollowingMemory {
 
 inline constexpr double kGainTolerance = 0.25;  ///< relative error of amplifier gain and motor constant
 inline constexpr double kOffset_v = 0.3;        ///< offset of converter and amplifier
-inline constexpr double kFrictionMost =
+inline constexpr double kFrictionRatioMax =
     1.5;  ///< largest friction / friction of the rig file: temperature, dust, wear
 inline constexpr double kFrictionExtra_v = 0.3;  ///< friction of a rig whose file gives none
-inline constexpr double kLoadMost = 1.5;         ///< largest load mass / load mass of the rig file
+inline constexpr double kLoadRatioMax = 1.5;     ///< largest load mass / load mass of the rig file
 /// Permitted speed error as share of max_speed: the axis loses this speed within a quarter of its soft
 /// margin.
 inline constexpr double kSpeedShare = 0.05;

@@ -9,7 +9,7 @@ namespace crane::supervisor {
 /// controllers in the three maneuvers is 12.8 V for a limit of 10 V (gain scheduling, step of 90 degrees). A
 /// step over the whole travel of the slew axis (8 rad) would demand 65 V; the remaining factor of 3 admits
 /// larger gains.
-inline constexpr double kAbsurd = 20;
+inline constexpr double kRejectionRatio = 20;
 
 struct GateInput {
   bool arrived = false;                          ///< true: the demand of this tick has arrived
@@ -32,15 +32,15 @@ struct GateOutput {
   PerAxis drive_v{};          ///< V, finite, within range and rate; 0 on absent axes
   Cause cause = Cause::none;  ///< none, demand_stale, demand_invalid or demand_rate
   bool clamped = false;       ///< true: range or rate was limited
-  bool invalid = false;       ///< true: the demand was rejected: a value is not finite, or above kAbsurd
-  bool stale = false;         ///< true: too many ticks in a row without a usable demand
-  bool near_zero = false;     ///< true: usable demand, all present axes within arm_volt_limit_v
+  bool invalid = false;    ///< true: the demand was rejected: a value is not finite, or above kRejectionRatio
+  bool stale = false;      ///< true: too many ticks in a row without a usable demand
+  bool near_zero = false;  ///< true: usable demand, all present axes within arm_volt_limit_v
 };
 
 /// A finite value beyond the range is limited to the range: gain scheduling demands 12.8 V of a 10 V drive in
-/// an ordinary maneuver. A demand with a value that is not finite, or that exceeds kAbsurd times the limit of
-/// its drive, is rejected as a whole. Without a usable demand the last output is held until `cause` stops the
-/// crane.
+/// an ordinary maneuver. A demand with a value that is not finite, or that exceeds kRejectionRatio times the
+/// limit of its drive, is rejected as a whole. Without a usable demand the last output is held until `cause`
+/// stops the crane.
 /// @post memory.last_v is unchanged: the caller stores the voltage that it sends
 [[nodiscard]] GateOutput gate(const Limits& limits, const GateInput& input, GateMemory& memory) noexcept;
 

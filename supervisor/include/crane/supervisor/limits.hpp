@@ -71,7 +71,7 @@ struct Limits : control::OperatingLimits {
 /// Number of ticks of a ramped stop, at least 1. The command of the last tick is 0 V with closed brakes.
 [[nodiscard]] int ramp_ticks(const Limits& limits) noexcept;
 
-/// t_detect + t_react + t_brake: one tick until the next sample shows the hazard; the ramp, including the
+/// t_detect + t_react + t_brake: one tick until the next sample shows the cause; the ramp, including the
 /// delay of one tick of each command; the closing time of the brake.
 [[nodiscard]] double stopping_time_s(const Limits& limits, std::size_t axis) noexcept;
 

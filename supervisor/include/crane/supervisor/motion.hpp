@@ -33,7 +33,8 @@ struct BrakeMemory {
 
 /// Homing has set the present position of the axis to `position`. Call this before the first sample with the
 /// new position.
-void rename_place(std::size_t axis, double position, MotionMemory& motion, BrakeMemory& brakes) noexcept;
+void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
+                        BrakeMemory& brakes) noexcept;
 
 /// Call at every tick with a sample while the brakes are commanded closed. The first call stores position and
 /// speed.

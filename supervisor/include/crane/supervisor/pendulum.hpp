@@ -5,37 +5,37 @@
 /// r: horizontal position of the load, p: of the trolley, z: height of the load relative to the jib, h: its
 /// depth below the jib. All of them are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
-/// does not depend on drives, friction or load mass. The mean of e over kMean samples is summed as a vector
-/// (run_length.hpp) and reduced by the tolerances. Those for the zero error kZero_rad, the wind of the rig file
-/// (Limits::clearance) and the damping ratio kDamping apply in any direction. A cable k times as long as measured leaves e = (1 - k) dr',
-/// so that kCableTolerance of the change of the swing rate dr' applies along dr' only. When the sum exceeds
-/// kSpeed_mps plus the quantisation of the swing rate, a swing encoder or the encoder of the axis that
-/// carries the load has failed.
+/// does not depend on drives, friction or load mass. The mean of e over kMeanSamples samples is summed as a
+/// vector (run_length.hpp) and reduced by the tolerances. Those for the zero error kZeroError_rad, the wind
+/// of the rig file (Limits::clearance) and the damping ratio kDampingRatio apply in any direction. A cable k
+/// times as long as measured leaves e = (1 - k) dr', so that kCableTolerance of the change of the swing rate
+/// dr' applies along dr' only. When the sum exceeds kPermittedSum_mps plus the quantisation of the swing
+/// rate, a swing encoder or the encoder of the axis that carries the load has failed.
 ///
 /// Push: a pushed load gains its speed within one or two samples and swings as a pendulum afterwards. One sum
-/// per kPush_s that exceeds the limit within kPush_ticks is tolerated when at least half of it is a change of
-/// the swing rate in the same direction. It is not tolerated when a swing encoder that was counting does not
-/// change for kStands_ticks afterwards, because a push does not stop a load exactly.
+/// per kPushInterval_s that exceeds the limit within kPush_ticks is tolerated when at least half of it is a
+/// change of the swing rate in the same direction. It is not tolerated when a swing encoder that was counting
+/// does not change for kNoCount_ticks afterwards, because a push does not stop a load exactly.
 ///
 /// Detection time of a frozen swing encoder with the error a, rad:
-///   (kSpeed_mps + noise) / (g (|a| - kZero_rad) - wind) + (kMean + 2) ticks.
-/// An error below kZero_rad + wind / g is not detected: 46 mrad with the default wind of 0.25 m/s2. False alarms: none within the
-/// tolerances; average run length above 1e9 ticks for a white disturbance of the same size
-/// (tests/supervisor/model_checks_test.cpp).
+///   (kPermittedSum_mps + noise) / (g (|a| - kZeroError_rad) - wind) + (kMeanSamples + 2) ticks.
+/// An error below kZeroError_rad + wind / g is not detected: 46 mrad with the default wind of 0.25 m/s2.
+/// False alarms: none within the tolerances; average run length above 1e9 ticks for a white disturbance of
+/// the same size (tests/supervisor/model_checks_test.cpp).
 #include "crane/supervisor/limits.hpp"
 
 namespace crane::supervisor {
 
-inline constexpr std::size_t kMean =
+inline constexpr std::size_t kMeanSamples =
     4;  ///< samples of the mean; it divides the quantisation of the swing rate by 4
 inline constexpr double kCableTolerance =
     0.55;  ///< relative error of the cable length: 0.5 (true length 0.5 to 1.5 times the measured one) x 1.1
-inline constexpr double kZero_rad = 0.02;   ///< zero error of a swing encoder
-inline constexpr double kDamping = 0.05;    ///< damping ratio of air, bearing and cable
-inline constexpr double kSpeed_mps = 0.05;  ///< permitted sum without quantisation
-inline constexpr int kPush_ticks = 6;       ///< kMean and the two samples of a speed
-inline constexpr double kPush_s = 0.5;      ///< shortest time between two pushes
-inline constexpr int kStands_ticks = 8;  ///< at 0.3 rad/s an encoder of 4000 counts shows 90 counts in them
+inline constexpr double kZeroError_rad = 0.02;     ///< zero error of a swing encoder
+inline constexpr double kDampingRatio = 0.05;      ///< damping ratio of air, bearing and cable
+inline constexpr double kPermittedSum_mps = 0.05;  ///< permitted sum without quantisation
+inline constexpr int kPush_ticks = 6;              ///< kMeanSamples and the two samples of a speed
+inline constexpr double kPushInterval_s = 0.5;     ///< shortest time between two pushes
+inline constexpr int kNoCount_ticks = 8;  ///< at 0.3 rad/s an encoder of 4000 counts shows 90 counts in them
 
 struct PendulumInput {
   double sampled_s = 0;
@@ -48,23 +48,23 @@ struct PendulumMemory {
   /// One sample of the last three, newest first, in coordinates of the ground.
   struct Seen {
     double sampled_s = 0;
-    Plane pivot_m{}, hanging_m{};  ///< horizontal: trolley, and load relative to the trolley
-    double depth_m = 1;            ///< depth of the load below the jib
+    Plane pivot_m{}, load_offset_m{};  ///< horizontal: trolley, and load relative to the trolley
+    double depth_m = 1;                ///< depth of the load below the jib
   };
   struct Balance {
-    Plane error_mps{}, swung_mps{};  ///< e, and the change of the swing rate times the cable length
+    Plane error_mps{}, swing_change_mps{};  ///< e, and the change of the swing rate times the cable length
   };
   std::array<Seen, 3> seen{};
-  std::size_t samples = 0;  ///< number of samples since the start, at most kMean + 2
-  std::array<Balance, kMean> balances{};
+  std::size_t samples = 0;  ///< number of samples since the start, at most kMeanSamples + 2
+  std::array<Balance, kMeanSamples> balances{};
   std::size_t next = 0;  ///< index of the next balance
   Plane sum_mps{};
-  Plane swung_mps{};                    ///< change of the swing speed within the last kMean samples
+  Plane swing_change_mps{};             ///< change of the swing speed within the last kMeanSamples samples
   int growing_ticks = 0;                ///< number of ticks with a sum above 0
   double push_left_s = 0;               ///< time until another push is permitted; <= 0: at once
   std::array<double, 2> swing_rad{};    ///< newest, radial and tangential
   std::array<int, 2> counting_ticks{};  ///< > 0: the encoder has counted recently; ticks until this ends
-  std::array<int, 2> standing_ticks{};  ///< ticks without a count since the push
+  std::array<int, 2> no_count_ticks{};  ///< ticks without a count since the push
   std::array<bool, 2> counted_before_push{};
   double largest = 0;  ///< largest sum / limit so far; above 1 is a failure
 };

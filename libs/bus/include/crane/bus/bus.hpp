@@ -14,7 +14,7 @@
 /// Every sample carries a Header and a CRC-32C. publish() writes source, epoch and CRC. take() returns only
 /// samples with a correct CRC, and counts the rejected ones. Samples of programs with another version of
 /// crane.idl have a wrong CRC; Bus::other_versions() names these programs. Texts of taken samples are
-/// printable (crane/fields/printable.hpp): a program on the bus cannot steer the terminal of another one.
+/// printable (crane/fields/printable.hpp): a program on the bus cannot control the terminal of another one.
 #include <array>
 #include <chrono>
 #include <cstdint>

@@ -37,16 +37,23 @@ inline constexpr Range kPlanned = Range::closed(1e-6, 1e6);
 [[nodiscard]] std::size_t place_of(const std::string& name, const std::vector<std::string>& names);
 
 inline constexpr std::array<Field<Rig>, 4> kRigFields{{
-    {.key = "name", .member = &Rig::name, .meaning = "not empty", .presence = Presence::required},
+    {.key = "name",
+     .member = &Rig::name,
+     .meaning = "name of the rig, not empty",
+     .presence = Presence::required},
     {.key = "kind",
      .member = Choice<Rig>{[] {
                              return std::vector<std::string>{"tower", "gantry", "drive_axis", "pendulum"};
                            },
                            [](const Rig& rig) { return static_cast<std::size_t>(rig.kind); },
                            [](Rig& rig, std::size_t i) { rig.kind = static_cast<RigKind>(i); }},
-     .meaning = "see below",
+     .meaning = "type of crane, see below",
      .presence = Presence::required},
-    {.key = "period_s", .member = &Rig::period_s, .range = plant::kPeriods, .unit = "s", .meaning = "tick"},
+    {.key = "period_s",
+     .member = &Rig::period_s,
+     .range = plant::kPeriods,
+     .unit = "s",
+     .meaning = "period of the control loop (one tick)"},
     {.key = "board",
      .member = Choice<Rig>{board_names, [](const Rig& rig) { return place_of(rig.board, board_names()); },
                            [](Rig& rig, std::size_t i) { rig.board = board_names()[i]; }},
@@ -57,7 +64,7 @@ inline constexpr std::array<Field<Drive>, 5> kDriveFields{{
     {.key = "dac_channel",
      .member = &Drive::dac_channel,
      .range = kChannels,
-     .meaning = "analog output, each once",
+     .meaning = "analog output; each drive has its own",
      .presence = Presence::required},
     {.key = "sign",
      .member = &Drive::sign,
@@ -90,13 +97,13 @@ inline constexpr std::array<Field<Encoder>, 3> kEncoderFields{{
     {.key = "channel",
      .member = &Encoder::channel,
      .range = kChannels,
-     .meaning = "counter of the board, each once",
+     .meaning = "counter of the board; each encoder has its own",
      .presence = Presence::required},
     {.key = "counts_per",
      .member = &Encoder::counts_per_unit,
      .range = Range::above(0, 1e9),
      .unit = "counts",
-     .meaning = "lines, quadrature and gear included",
+     .meaning = "counts per unit of the axis, including lines, quadrature and gear",
      .presence = Presence::required,
      .quantity = Quantity::position},
     {.key = "sign",
@@ -114,9 +121,9 @@ inline constexpr std::array<Field<Drive>, 1> kZeroFields{{
                              [](const Drive& drive) { return static_cast<std::size_t>(drive.zero); },
                              [](Drive& drive, std::size_t i) { drive.zero = static_cast<control::Zero>(i); }},
      .meaning =
-         "origin of the position: `start`, the axis is at the position in `[start]` when the bridge starts; "
-         "`absolute`, an absolute encoder (boards with incremental counters refuse it); `homing`, the axis "
-         "must find its mark"},
+         "origin of the position. `start`: the axis is at the position in `[start]` when the bridge starts. "
+         "`absolute`: the encoder is absolute (boards with incremental counters refuse it). `homing`: the "
+         "position is unknown until the axis has found its mark"},
 }};
 
 inline constexpr std::array<Field<control::Homing>, 1> kMarkFields{{
@@ -128,8 +135,8 @@ inline constexpr std::array<Field<control::Homing>, 1> kMarkFields{{
          [](const control::Homing& homing) { return static_cast<std::size_t>(homing.mark); },
          [](control::Homing& homing, std::size_t i) { homing.mark = static_cast<control::Mark>(i); }},
      .meaning =
-         "limit switch, or the contact `mark_input` of `[wiring.NAME]`, which is closed while the axis "
-         "is below `position`",
+         "homing mark: a limit switch, or (`input`) the contact `mark_input` of `[wiring.NAME]`, which is "
+         "closed while the axis is below `position`",
      .presence = Presence::required},
 }};
 
@@ -137,13 +144,15 @@ inline constexpr std::array<Field<Wiring>, 10> kWiringFields{{
     {.key = "base_address",
      .member = &Wiring::base_address,
      .range = Range::closed(0x200, 0x3E0),
-     .meaning = "0x200 + 0x20 n: jumpers of a Servo-to-Go card",
+     .meaning = "I/O address that the jumpers of a Servo-to-Go card set: 0x200 + 0x20 n",
      .default_text = "0x200"},
     {.key = "device", .member = &Wiring::device, .meaning = "device file of a comedi board"},
     {.key = "counter_subdevice",
      .member = &Wiring::counter_subdevice,
      .range = kSubdevices,
-     .meaning = "subdevice of the counters of a comedi board, each once; the defaults are those of an s626"},
+     .meaning =
+         "subdevice of the counters of a comedi board; the four subdevices differ, and their defaults are "
+         "those of an s626"},
     {.key = "analog_output_subdevice",
      .member = &Wiring::analog_output_subdevice,
      .range = kSubdevices,
@@ -159,54 +168,54 @@ inline constexpr std::array<Field<Wiring>, 10> kWiringFields{{
     {.key = "estop_input",
      .member = &Wiring::estop_input,
      .range = kInputs,
-     .meaning = "contact that opens with the emergency stop"},
+     .meaning = "contact that is open while the emergency stop is pressed"},
     {.key = "relay_closed_input",
      .member = &Wiring::relay_closed_input,
      .range = kInputs,
-     .meaning = "contact that closes with the watchdog relay"},
+     .meaning = "contact that is closed while the watchdog relay is closed"},
     {.key = "watchdog_output",
      .member = &Wiring::watchdog_output,
      .range = kOutputs,
-     .meaning = "changes every tick in normal operation"},
+     .meaning = "watchdog output of the bridge; in normal operation it changes every tick"},
     {.key = "relay_timeout_s",
      .member = &Wiring::relay_timeout_s,
      .range = Range::above(0, 1),
      .unit = "s",
-     .meaning = "the watchdog relay opens when its input is constant for longer"},
+     .meaning = "the watchdog relay opens when the watchdog output is constant for longer than this"},
 }};
 
 inline constexpr std::array<Field<DriveLines>, 5> kDriveLineFields{{
     {.key = "limit_low_input",
      .member = &DriveLines::limit_low_input,
      .range = kInputs,
-     .meaning = "contact that opens at the low limit",
+     .meaning = "contact that is open while the axis is at its low limit switch",
      .default_text = "1; 3; 5"},
     {.key = "limit_high_input",
      .member = &DriveLines::limit_high_input,
      .range = kInputs,
-     .meaning = "contact that opens at the high limit",
+     .meaning = "contact that is open while the axis is at its high limit switch",
      .default_text = "2; 4; 6"},
     {.key = "brake_closed_input",
      .member = &DriveLines::brake_closed_input,
      .range = kInputs,
-     .meaning = "contact that closes with the brake",
+     .meaning = "contact that is closed while the brake is closed",
      .default_text = "7; 8; 9"},
     {.key = "brake_release_output",
      .member = &DriveLines::brake_release_output,
      .range = kOutputs,
-     .meaning = "on: 24 V to the brake, if the relay is closed",
+     .meaning = "output that supplies the brake with 24 V, if the relay is closed; the brake then opens",
      .default_text = "16; 17; 18"},
     {.key = "mark_input",
      .member = &DriveLines::mark_input,
      .range = Range::closed(-1, kInputs.high),
-     .meaning = "contact that closes below the axis' mark; -1: not wired"},
+     .meaning = "contact that is closed while the axis is below its mark; -1: not wired"},
 }};
 
 inline constexpr std::array<Field<Sensing>, 3> kSensingFields{{
     {.key = "swing_filter_ratio",
      .member = &Sensing::swing_filter_ratio,
      .range = {0, 0.5, true, false},
-     .meaning = "cut-off / sampling frequency of the Butterworth filter; 0: none"},
+     .meaning = "cut-off frequency / sampling frequency of the Butterworth filter; 0: no filter"},
     {.key = "filter_speed",
      .member = AxisSet<Sensing>{&Sensing::filter_speed},
      .meaning = "axes whose position is filtered before it is differentiated",
@@ -237,7 +246,8 @@ inline constexpr std::array<Field<Start>, 6> kStartFields{{
      .member = &Start::cable_length_offset_m,
      .range = plant::kPositions,
      .unit = "m",
-     .meaning = "true minus measured cable length; above -`cable_length_m`"},
+     .meaning = "true minus measured cable length in the simulated plant and in the twin; the load hangs at "
+                "the true length; above -`cable_length_m`"},
     {.key = plant::kCoordinates[plant::kSwingRadial].column,
      .member = &Start::swing_radial_rad,
      .range = plant::kSwings,
@@ -255,7 +265,7 @@ inline constexpr std::array<Field<Rig>, 1> kControllerFields{{
      .member = Choice<Rig>{controller_names,
                            [](const Rig& rig) { return place_of(rig.controller, controller_names()); },
                            [](Rig& rig, std::size_t i) { rig.controller = controller_names()[i]; }},
-     .meaning = "([`equations.md`](equations.md))",
+     .meaning = "control law ([`equations.md`](equations.md))",
      .default_text = "`gain_scheduling_partial`; `none` for drive_axis and pendulum",
      .choices_text = "a name of [`registered.def`](../libs/control/src/laws/registered.def)"},
 }};
@@ -285,13 +295,14 @@ inline constexpr std::array<Field<Planning>, 5> kPlanningFields{{
     {.key = "planned_volt_share",
      .member = &Planning::planned_volt_share,
      .range = Range::closed(0.1, 1),
-     .meaning = "`time_optimal`: share of `volt_limit_v` that a plan uses; tracking has the rest"},
+     .meaning = "`time_optimal`: share of `volt_limit_v` that a plan uses; the rest is left for tracking"},
     {.key = "planning_time_s",
      .member = &Planning::planning_time_s,
      .range = Range::closed(0, 10),
      .unit = "s",
-     .meaning = "`time_optimal`: time from the request to the start of the plan; when no plan is ready then, "
-                "the move is shaped (`zv`)"},
+     .meaning =
+         "`time_optimal`: time from the request to the start of the plan; if no plan is ready by then, "
+         "the input shaper `zv` shapes the move instead"},
 }};
 
 /// Calls visit(path, fields, section, unit) for every section of the rig. `path` is empty for the root;

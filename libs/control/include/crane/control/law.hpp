@@ -123,7 +123,7 @@ struct Design {
   double fuzzy_point_b = 2.0 / 3;        ///< peak of PM
   double shortest_cable_length_m = 0.1;  ///< lower limit for the measured length in the laws
   double longest_cable_length_m = 100;   ///< upper limit; determines the memory of the delayed laws
-  bool swing_observer = false;           ///< the laws see the estimate of pendulum_observer.hpp
+  bool swing_observer = false;           ///< the laws use the estimate of pendulum_observer.hpp
 
   bool operator==(const Design&) const = default;
 };

@@ -29,28 +29,29 @@ inline constexpr std::array kOperatingLimitFields{
                                    .range = kSwingLimits,
                                    .unit = "rad",
                                    .meaning = "a larger swing angle stops the crane"},
-    fields::Field<OperatingLimits>{
-        .key = "stale_after_s",
-        .member = &OperatingLimits::stale_after_s,
-        .range = kSilences,
-        .unit = "s",
-        .meaning = "age of the newest command that stops the crane (bridge); whole ticks, at least one"},
-    fields::Field<OperatingLimits>{
-        .key = "demand_stale_after_s",
-        .member = &OperatingLimits::demand_stale_after_s,
-        .range = kSilences,
-        .unit = "s",
-        .meaning = "time without a demand that stops the crane (supervisor); whole ticks, at least one"},
+    fields::Field<OperatingLimits>{.key = "stale_after_s",
+                                   .member = &OperatingLimits::stale_after_s,
+                                   .range = kSilences,
+                                   .unit = "s",
+                                   .meaning = "the bridge stops the crane when the newest command is older; "
+                                              "rounded down to whole ticks, at least one"},
+    fields::Field<OperatingLimits>{.key = "demand_stale_after_s",
+                                   .member = &OperatingLimits::demand_stale_after_s,
+                                   .range = kSilences,
+                                   .unit = "s",
+                                   .meaning = "the supervisor stops the crane after this time without a "
+                                              "demand; rounded down to whole ticks, at "
+                                              "least one"},
     fields::Field<OperatingLimits>{.key = "idle_lock_s",
                                    .member = &OperatingLimits::idle_lock_s,
                                    .range = kIdleTimes,
                                    .unit = "s",
-                                   .meaning = "time in HOLD without a move that locks the crane"},
-    fields::Field<OperatingLimits>{
-        .key = "model_checks",
-        .member = &OperatingLimits::model_checks,
-        .meaning = "the supervisor compares following error and swing encoders with the model of this file "
-                   "(FOLLOWING_ERROR, SWING_SENSOR in `docs/safety.md`)"},
+                                   .meaning = "the crane locks after this time in HOLD without a move"},
+    fields::Field<OperatingLimits>{.key = "model_checks",
+                                   .member = &OperatingLimits::model_checks,
+                                   .meaning = "true: the supervisor compares the motion of the axes and of "
+                                              "the load with the model of this file "
+                                              "(FOLLOWING_ERROR, SWING_SENSOR in `docs/safety.md`)"},
 };
 
 }  // namespace crane::control

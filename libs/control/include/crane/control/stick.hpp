@@ -81,19 +81,19 @@ struct StickAxis {
   double lag = 0;       ///< integral of u - v over the pending ticks while u is constant, unit
   Reach release{0, 0};  ///< positions during the stop that a release in this tick causes
   PendingChanges pending;
-  double behind = 0, behind_rate = 0;  ///< q - s and its derivative; 0 for the hoist
+  double load_offset = 0, load_offset_rate = 0;  ///< q - s and its derivative; 0 for the hoist
 };
 
 /// Weights w_i and delays t_i of the shaper, in whole ticks.
-struct TickShares {
+struct ShaperImpulses {
   struct Share {
     std::size_t ticks = 0;
     double weight = 1;
   };
   std::array<Share, 3> share{};
   std::size_t count = 1;
-  double mean_s = 0;    ///< mean delay
-  double heaviest = 1;  ///< largest weight
+  double mean_s = 0;          ///< mean delay
+  double largest_weight = 1;  ///< largest weight
 };
 
 /// Suspension point and swing at one tick.
@@ -105,7 +105,7 @@ struct StickPoint {
 struct StickMemory {
   std::array<StickAxis, kAxes> axis{};
   std::array<StickAxisLimits, kAxes> limits{};  ///< of s and u
-  TickShares shares;                            ///< of trolley and slew
+  ShaperImpulses shares;                        ///< of trolley and slew
   double frequency_radps = 0;                   ///< w
   std::array<StickPoint, 4> path{};             ///< newest first
   int rest_ticks = 0;                           ///< ticks for which s has been at rest; at most path.size()

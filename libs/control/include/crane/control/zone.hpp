@@ -41,7 +41,7 @@ inline constexpr fields::Range kZoneSizes = fields::Range::closed(0, plant::kPos
 inline constexpr std::array kZoneFields{
     fields::Field<Zone>{.key = "name",
                         .member = &Zone::name,
-                        .meaning = "not empty, each once; messages and `crane zone` use it",
+                        .meaning = "name of the zone in messages and in `crane zone`; not empty, unique",
                         .presence = fields::Presence::required},
     fields::Field<Zone>{.key = "shape",
                         .member = fields::Choice<Zone>{
@@ -56,13 +56,16 @@ inline constexpr std::array kZoneFields{
                         .member = &Zone::position_x_m,
                         .range = plant::kPositions,
                         .unit = "m",
-                        .meaning = "centre, along the jib at slew angle 0; gantry: along the track",
+                        .meaning = "x of the centre: along the jib at slew angle 0; gantry: along the track",
                         .presence = fields::Presence::required},
-    fields::Field<Zone>{.key = "position_y_m",
-                        .member = &Zone::position_y_m,
-                        .range = plant::kPositions,
-                        .unit = "m",
-                        .meaning = "centre, across; positive in the direction of positive slew; gantry: 0"},
+    fields::Field<Zone>{
+        .key = "position_y_m",
+        .member = &Zone::position_y_m,
+        .range = plant::kPositions,
+        .unit = "m",
+        .meaning =
+            "y of the centre: across the jib at slew angle 0, positive in the direction of positive slew; "
+            "gantry: 0"},
     fields::Field<Zone>{.key = "size_x_m",
                         .member = &Zone::size_x_m,
                         .range = kZoneSizes,
@@ -81,13 +84,13 @@ inline constexpr std::array kZoneFields{
                         .unit = "m",
                         .meaning = "radius",
                         .default_text = "required for a cylinder"},
-    fields::Field<Zone>{.key = "bottom_m",
-                        .member = &Zone::bottom_m,
-                        .range = plant::kPositions,
-                        .unit = "m",
-                        .meaning =
-                            "height of the lower end; the cable counts, so that a load below a zone is "
-                            "inside it unless `bottom_m` is above the suspension point"},
+    fields::Field<Zone>{
+        .key = "bottom_m",
+        .member = &Zone::bottom_m,
+        .range = plant::kPositions,
+        .unit = "m",
+        .meaning = "height of the lower end. The cable must not enter the zone either: a load below a zone "
+                   "violates it unless `bottom_m` is above the suspension point"},
     fields::Field<Zone>{.key = "top_m",
                         .member = &Zone::top_m,
                         .range = plant::kPositions,
@@ -103,23 +106,24 @@ inline constexpr std::array kClearanceFields{
                              .unit = "m",
                              .meaning = "sphere around the end of the cable that contains hook and load",
                              .default_text = "required with zones"},
-    fields::Field<Clearance>{.key = "suspension_height_m",
-                             .member = &Clearance::suspension_height_m,
-                             .range = plant::kPositions,
-                             .unit = "m",
-                             .meaning = "height of the suspension point of the cable above the ground; 0: "
-                                        "heights of zones count from it and are negative"},
+    fields::Field<Clearance>{
+        .key = "suspension_height_m",
+        .member = &Clearance::suspension_height_m,
+        .range = plant::kPositions,
+        .unit = "m",
+        .meaning = "height of the suspension point of the cable above the ground; 0: "
+                   "heights of zones are relative to the suspension point, and negative below it"},
     fields::Field<Clearance>{.key = "cable_error",
                              .member = &Clearance::cable_error,
                              .range = fields::Range::closed(0, 0.5),
                              .unit = "share",
-                             .meaning = "largest error of the measured cable length"},
+                             .meaning = "largest |true - measured| cable length / measured length"},
     fields::Field<Clearance>{.key = "wind_mps2",
                              .member = &Clearance::wind_mps2,
                              .range = fields::Range::closed(0, 5),
                              .unit = "m/s²",
-                             .meaning = "largest acceleration of the load by wind: force / mass. The check of the "
-                                        "swing encoders tolerates it"},
+                             .meaning = "largest horizontal acceleration of the load by wind: force / mass "
+                                        "of the load. The check of the swing encoders tolerates it"},
 };
 
 /// Space that load, hook and cable can reach: an upright cylinder from `lowest_m` to the suspension point.

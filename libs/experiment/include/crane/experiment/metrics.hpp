@@ -65,11 +65,12 @@ struct Metrics {
   plant::PerAxis final_error{};  ///< last position - target: m, rad, m of cable
   double largest_swing_radial_rad = 0, largest_swing_tangential_rad = 0;
   double residual_swing_rad = 0;  ///< largest angle of both swings in the last kResidualWindow_s
-  /// Standard deviation of the swing from the last action on, both planes: sqrt(var(radial) + var(tangential)).
+  /// Standard deviation of the swing from the last action on, both planes: sqrt(var(radial) +
+  /// var(tangential)).
   double swing_scatter_rad = 0;
-  plant::PerAxis largest_v{};     ///< largest |V|
-  plant::PerAxis effort_v2s{};    ///< integral of V^2 over time; the voltage is constant between samples
-  std::uint64_t lost_ticks = 0;   ///< number of missing ticks between the first and the last tick
+  plant::PerAxis largest_v{};    ///< largest |V|
+  plant::PerAxis effort_v2s{};   ///< integral of V^2 over time; the voltage is constant between samples
+  std::uint64_t lost_ticks = 0;  ///< number of missing ticks between the first and the last tick
 };
 
 /// @throws std::invalid_argument when no sample is at or after first_action_s, or time does not increase

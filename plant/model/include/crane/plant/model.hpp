@@ -26,7 +26,8 @@ struct Actuation {
   /// drive.
   PerAxis brake_effort{};
   Locks locks;
-  std::array<bool, kMostInner> led{};  ///< true: the acceleration of this inner coordinate is prescribed
+  std::array<bool, kMostInner>
+      prescribed{};  ///< true: the acceleration of this inner coordinate is prescribed
 };
 
 class Model {

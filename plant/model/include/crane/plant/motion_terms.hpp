@@ -51,7 +51,7 @@ Mass<Number> mass(const Parameters& p, const Angles<Number>& a, const Number& x,
           .m14 = ml * a.sf * a.st,
           .m22 = ml2 * a.ct * a.ct,
           .m23 = ml2 * a.cf * a.st * a.ct,
-          .m33 = p.jib_inertia_kgm2 + p.slewed_share * p.trolley_mass_kg * x * x +
+          .m33 = p.jib_inertia_kgm2 + p.rotating_share * p.trolley_mass_kg * x * x +
                  m * (x * x - 2 * l * x * a.sf * a.ct + l * l * horizontal),
           .m34 = ml * (x * a.ct - l * a.sf),
           .m44 = ml2};
@@ -64,7 +64,7 @@ Number trolley_bias(const Parameters& p, const Motion<Number>& s) {
   const double m = p.load_mass_kg, ml = m * s.cable_m;
   const Number &f = s.radial_radps, &g = s.slew_radps, &t = s.tangential_radps;
   const Number at_constant_length = ml * a.sf * a.ct * (f * f + g * g + t * t) -
-                                    (p.thrown_share * p.trolley_mass_kg + m) * s.trolley_m * g * g +
+                                    (p.centrifugal_share * p.trolley_mass_kg + m) * s.trolley_m * g * g +
                                     2 * ml * a.st * a.cf * f * t - 2 * ml * a.ct * g * t;
   if constexpr (kCable == Cable::fixed) return at_constant_length;
   return at_constant_length - 2 * m * s.cable_mps * (a.cf * a.ct * f + a.st * g - a.sf * a.st * t) -
@@ -77,10 +77,11 @@ Number radial_bias(const Parameters& p, const Motion<Number>& s) {
   const auto& a = s.angles;
   const double l = s.cable_m;
   const Number &f = s.radial_radps, &g = s.slew_radps, &t = s.tangential_radps;
-  Number pull = p.gravity_mps2 * a.sf + (s.trolley_m - l * a.sf * a.ct) * a.cf * g * g +
-                2 * l * a.cf * a.ct * g * t - 2 * l * a.st * f * t;
-  if constexpr (kCable == Cable::moving) pull = pull + 2 * s.cable_mps * (a.ct * f + a.cf * a.st * g);
-  return p.load_mass_kg * l * a.ct * pull;
+  Number acceleration_mps2 = p.gravity_mps2 * a.sf + (s.trolley_m - l * a.sf * a.ct) * a.cf * g * g +
+                             2 * l * a.cf * a.ct * g * t - 2 * l * a.st * f * t;
+  if constexpr (kCable == Cable::moving)
+    acceleration_mps2 = acceleration_mps2 + 2 * s.cable_mps * (a.ct * f + a.cf * a.st * g);
+  return p.load_mass_kg * l * a.ct * acceleration_mps2;
 }
 
 /// h3 of (2.19)
@@ -90,7 +91,7 @@ Number slew_bias(const Parameters& p, const Motion<Number>& s) {
   const double m = p.load_mass_kg, l = s.cable_m, ml = m * l, ml2 = ml * l;
   const Number &x = s.trolley_m, &f = s.radial_radps, &g = s.slew_radps, &t = s.tangential_radps;
   const Number coriolis =
-      2 * g * s.trolley_mps * ((p.slewed_share * p.trolley_mass_kg + m) * x - ml * a.sf * a.ct) +
+      2 * g * s.trolley_mps * ((p.rotating_share * p.trolley_mass_kg + m) * x - ml * a.sf * a.ct) +
       2 * ml * g * f * a.cf * a.ct * (l * a.sf * a.ct - x) +
       2 * ml * g * t * a.st * (l * a.cf * a.cf * a.ct + x * a.sf);
   const Number swinging =
@@ -110,11 +111,12 @@ Number tangential_bias(const Parameters& p, const Motion<Number>& s) {
   const auto& a = s.angles;
   const double l = s.cable_m;
   const Number &f = s.radial_radps, &g = s.slew_radps, &t = s.tangential_radps;
-  Number pull = p.gravity_mps2 * a.cf * a.st + 2 * s.trolley_mps * g * a.ct + l * f * f * a.st * a.ct -
-                2 * l * f * g * a.cf * a.ct * a.ct -
-                g * g * a.st * (l * a.cf * a.cf * a.ct + s.trolley_m * a.sf);
-  if constexpr (kCable == Cable::moving) pull = pull + 2 * s.cable_mps * (t - a.sf * g);
-  return p.load_mass_kg * l * pull;
+  Number acceleration_mps2 = p.gravity_mps2 * a.cf * a.st + 2 * s.trolley_mps * g * a.ct +
+                             l * f * f * a.st * a.ct - 2 * l * f * g * a.cf * a.ct * a.ct -
+                             g * g * a.st * (l * a.cf * a.cf * a.ct + s.trolley_m * a.sf);
+  if constexpr (kCable == Cable::moving)
+    acceleration_mps2 = acceleration_mps2 + 2 * s.cable_mps * (t - a.sf * g);
+  return p.load_mass_kg * l * acceleration_mps2;
 }
 
 }  // namespace crane::plant::motion
