@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "crane/plant/term.hpp"
 #include "rig.hpp"
 
 namespace crane::experiment {

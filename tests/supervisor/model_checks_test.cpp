@@ -176,7 +176,9 @@ TEST_F(Load, InTheWindOfTheRigFileIsNoFailureAndInAStrongerWindIsOne) {
   limits_.clearance.wind_mps2 = 0.8;
   wind_mps2_ = 0.8;
   EXPECT_EQ(swing(6000, as_it_is), 0);
-  wind_mps2_ = 1.2;  // beyond wind and zero error together
+  memory_ = {};
+  wind_mps2_ = 1.2;  // beyond wind and zero error together, 0.8 + 0.2
+  angle_ = std::asin(wind_mps2_ / 9.81), rate_ = 0;
   EXPECT_GT(swing(6000, as_it_is), 0);
 }
 
