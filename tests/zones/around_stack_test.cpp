@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <random>
 
+#include "crane/configuration/way_space.hpp"
 #include "guarded_crane.hpp"
 #include "jog/operated_crane.hpp"
 
@@ -109,6 +112,61 @@ INSTANTIATE_TEST_SUITE_P(Zones, EveryControllerAroundZones,
                                          "delayed_2_optimised", "none", "lqr", "shaped_zv", "shaped_zvd",
                                          "shaped_ei", "time_optimal"),
                          [](const auto& controller) { return std::string{controller.param}; });
+
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : bits_{seed} {}
+  double in(double low, double high) {
+    return low + (high - low) * static_cast<double>(bits_()) / 4294967296.0;
+  }
+
+ private:
+  std::mt19937 bits_;
+};
+
+configuration::Rig random_rig(Draw& draw) {
+  auto rig = silo_rig();
+  rig.zones.clear();
+  while (rig.zones.size() < 4) {
+    const double radius_m = draw.in(0.3, 1.3), angle_rad = draw.in(-2.8, 2.8);
+    control::Zone zone{.name = "zone " + std::to_string(rig.zones.size()),
+                       .shape = control::ZoneShape::cylinder,
+                       .position_x_m = radius_m * std::cos(angle_rad),
+                       .position_y_m = radius_m * std::sin(angle_rad),
+                       .radius_m = draw.in(0.02, 0.15),
+                       .top_m = draw.in(0.9, 2)};
+    if (std::hypot(zone.position_x_m - 0.7, zone.position_y_m) > zone.radius_m + 0.3)
+      rig.zones.push_back(zone);
+  }
+  return rig;
+}
+
+TEST_P(EveryControllerAroundZones, ArrivesAtRandomTargetsAmongRandomZonesWithoutACause) {
+  // CRANE_WAY_RUNS sets the number of random cranes per controller.
+  const char* runs = std::getenv("CRANE_WAY_RUNS");
+  const int seeds = runs == nullptr ? 3 : std::atoi(runs);
+  int accepted = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Draw draw{static_cast<unsigned>(seed)};
+    const auto rig = random_rig(draw);
+    const auto space = configuration::way_space_of(rig);
+    Carrier carrier{GetParam(), rig};
+    for (int i = 0; i < 3; ++i) {
+      const std::array target{draw.in(0.2, 1.3), draw.in(-2.7, 2.7), draw.in(0.6, 1.2)};
+      if (control::closest_zone(space, target).clearance_m < 0.1) continue;
+      if (const auto reason = carrier.move(target[0], target[1], target[2]); !reason.empty()) {
+        EXPECT_THAT(reason, HasSubstr("no way"));
+        continue;
+      }
+      ++accepted;
+      carrier.arrive();
+      ASSERT_EQ(carrier.crane.cause(), "NONE") << "seed " << seed << " move " << i;
+      expect_at(carrier, target);
+    }
+    EXPECT_GT(carrier.closest_m, 0) << "seed " << seed;
+  }
+  EXPECT_GT(accepted, seeds);
+}
 
 TEST(MovesAroundZones, AreRefusedWithTheZoneThatContainsTheTarget) {
   Carrier carrier{"lqr"};
