@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -270,6 +271,14 @@ TEST(WayToATarget, LeavesTheMarginOfAZoneThatContainsTheStart) {
   space.zones = {{.name = "box", .position_x_m = 0.9, .size_x_m = 0.2, .size_y_m = 0.2, .top_m = 2}};
   EXPECT_EQ(way_to(space, {0.74, 0, 1}, {0.4, 0, 1}).outcome, WayOutcome::around);
   EXPECT_EQ(way_to(space, {0.74, 0, 1}, {0.76, 0, 1}).outcome, WayOutcome::target_inside);
+}
+
+TEST(WayToATarget, DoesNotExistFromAPlaceThatIsNotFinite) {
+  auto space = tower();
+  space.zones = {{.name = "box", .position_x_m = 0.9, .size_x_m = 0.2, .size_y_m = 0.2, .top_m = 2}};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(way_to(space, {nan, 0, 1}, {0.4, 0, 1}).outcome, WayOutcome::no_way);
+  EXPECT_EQ(way_to(space, {0.4, 0, 1}, {0.4, nan, 1}).outcome, WayOutcome::no_way);
 }
 
 TEST(WayToATarget, IsRefusedAmongAHundredZonesThatFillTheSpace) {

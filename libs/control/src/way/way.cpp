@@ -134,6 +134,8 @@ std::vector<std::size_t> indices_of(const std::vector<char>& flags) {
 
 Way way_to(const WaySpace& space, const PerAxis& measured, const PerAxis& wanted) {
   const PerAxis from = completed(space, measured), to = completed(space, wanted);
+  for (std::size_t i = 0; i < plant::kAxes; ++i)
+    if (!std::isfinite(from[i]) || !std::isfinite(to[i])) return {.outcome = WayOutcome::no_way};
   const bool straight =
       zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestGap_m) == nullptr;
   std::optional<Timed> way;

@@ -67,7 +67,7 @@ struct Way {
 /// Time and memory are bounded by 8000 nodes of the grid and the number of zones. A passage that is narrower
 /// than the spacing of the grid (4 cm, or more on a large crane) beside kPassGap_m may not be found.
 /// @param from  trolley m, slew rad, cable m as measured; @param to  the target, inside the limits
-/// @pre all values are finite
+/// @return no_way without `blocking` when a value is not finite
 [[nodiscard]] Way way_to(const WaySpace& space, const plant::PerAxis& from, const plant::PerAxis& to);
 
 /// Position with the values that stand in for axes that are absent or not measured.
