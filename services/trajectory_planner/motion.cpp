@@ -29,8 +29,8 @@ control::Shaping shaping_of(control::ReferenceShape shape, control::Shaping of_r
 
 }  // namespace
 
-Motion::Motion(const configuration::Rig& rig, control::ReferenceShape shape, bool damps)
-    : rig_{rig}, shape_{shape}, shaping_{shaping_of(shape, rig.planning.shaping)}, damps_{damps} {}
+Motion::Motion(const configuration::Rig& rig, control::ReferenceShape shape)
+    : rig_{rig}, shape_{shape}, shaping_{shaping_of(shape, rig.planning.shaping)} {}
 
 control::AxisReference Motion::Braking::at(double time_s) const noexcept {
   const double direction = speed < 0 ? -1 : 1;

@@ -25,8 +25,7 @@ struct MoveTarget {
 class Motion {
  public:
   /// @param rig  limits of the reference per drive; must outlive the motion
-  /// @param damps  false: the controller has no swing feedback
-  Motion(const configuration::Rig& rig, control::ReferenceShape shape, bool damps = true);
+  Motion(const configuration::Rig& rig, control::ReferenceShape shape);
 
   /// Sets the reference to the measured position, while the crane is not under control.
   void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
@@ -90,7 +89,6 @@ class Motion {
   const configuration::Rig& rig_;
   control::ReferenceShape shape_;
   control::Shaping shaping_;  ///< that of the controller, otherwise that of the rig file
-  bool damps_;
   control::Trajectory trajectory_{};
   control::Shaper shaper_;  ///< for trolley and slew; the hoist causes no swing
   std::array<Braking, control::kAxes> braking_{};

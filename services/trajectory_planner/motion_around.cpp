@@ -18,9 +18,10 @@ void Motion::start(const MoveTarget& move, const control::Way& way, const contro
     const double target = move.selected[i] ? move.target[i] : start[i];
     trajectory_[i] = control::step_profile(target, target);
   }
-  // The legs follow each other before the controller has damped the swing of the leg before.
+  // The legs follow each other before a controller has damped the swing of the leg before. ZV does not cancel
+  // the swing by the Coriolis force of a trolley on a turning jib.
   const bool shapes = shape_ != control::ReferenceShape::step;
-  const auto shaping = shaping_ == control::Shaping::none ? control::Shaping::zv : shaping_;
+  const auto shaping = shaping_ == control::Shaping::ei ? shaping_ : control::Shaping::zvd;
   shaper_ = shapes ? shaper(shaping, way.points.front().position[control::kHoist]) : control::Shaper{};
   route_.emplace(space, start, way.points, route_style());
   is_braking_ = stick_.follows = false;

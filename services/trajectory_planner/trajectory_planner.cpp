@@ -40,12 +40,6 @@ control::Excitation excitation_of(const msg::AcceptedMove& request) {
   return excitation;
 }
 
-/// False for the controller `none`, whose contribution to the volts is 0.
-bool has_swing_feedback(const control::Controller& controller) {
-  const auto* none = control::find_controller("none");
-  return none == nullptr || controller.make_anti_swing != none->make_anti_swing;
-}
-
 class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::SupervisorStatus> {
  public:
   explicit TrajectoryPlanner(const Context& context)
@@ -55,8 +49,11 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
         planning_ticks_{static_cast<std::uint64_t>(
             std::lround(context.rig.planning.planning_time_s / context.rig.period_s))},
         period_s_{context.rig.period_s},
+        steps_{context.controller.reference == control::ReferenceShape::step},
         way_space_{configuration::way_space_of(context.rig)},
-        motion_{context.rig, context.controller.reference, has_swing_feedback(context.controller)} {
+        motion_{context.rig, context.controller.reference} {
+    for (std::size_t i = 0; i < control::kAxes; ++i)
+      if (context.rig.drives[i].present) max_speed_[i] = context.rig.drives[i].max_speed;
     if (context.controller.reference == control::ReferenceShape::time_optimal)
       worker_.emplace(context.rig.design, context.clock == runtime::Clock::realtime);
   }
@@ -151,7 +148,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       from[i] = now[i].position;
       target[i] = move.selected[i] ? move.target[i] : from[i];
     }
-    const auto way = control::way_to(way_space_, from, target);
+    auto way = control::way_to(way_space_, from, target);
+    if (way.outcome == control::WayOutcome::straight && steps_ && !is_free_for_step(from, target))
+      way = {.outcome = control::WayOutcome::around, .points = {{.position = target}}};
     if (way.outcome == control::WayOutcome::straight)
       start_straight(move, tick);
     else if (way.outcome == control::WayOutcome::around)
@@ -159,6 +158,17 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     else
       node().error("no_way", "no way leads from the place where the crane rests to the target",
                    "move the load away from the zones, then to the target");
+  }
+
+  /// A law for steps may move the axes with any speed up to max_speed.
+  [[nodiscard]] bool is_free_for_step(const plant::PerAxis& from, const plant::PerAxis& to) const {
+    const auto begin = control::completed(way_space_, from), end = control::completed(way_space_, to);
+    const double clearance_m = control::straight_clearance_m(way_space_, begin, end);
+    const double radius_m = std::max(std::abs(begin[control::kTrolley]), std::abs(end[control::kTrolley]));
+    const double fastest_mps =
+        std::hypot(max_speed_[control::kTrolley], radius_m * max_speed_[control::kSlew]);
+    const double cable_m = std::max(begin[control::kHoist], end[control::kHoist]);
+    return control::passing_speed_mps(way_space_, clearance_m, cable_m) >= fastest_mps;
   }
 
   void drop_waiting_moves() {
@@ -213,6 +223,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   };
   std::optional<Waiting> waiting_;
   double period_s_;
+  bool steps_;                  ///< the reference of the controller jumps to the target
+  plant::PerAxis max_speed_{};  ///< of the present axes, unit/s
   control::WaySpace way_space_;
   Motion motion_;
   control::ReferenceStart start_;

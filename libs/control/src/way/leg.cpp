@@ -79,6 +79,10 @@ ClosestZone closest_zone(const WaySpace& space, const PerAxis& position) noexcep
   return closest;
 }
 
+double straight_clearance_m(const WaySpace& space, const PerAxis& from, const PerAxis& to) noexcept {
+  return leg_of(space, from, to, kRestGap_m).clearance_m;
+}
+
 Leg leg_of(const WaySpace& space, const PerAxis& from, const PerAxis& to, double margin_m) noexcept {
   const double growth = std::abs(to[kHoist] - from[kHoist]) * (1 + space.clearance.cable_error) *
                         (1 + 2 * space.clearance.wind_mps2 / space.gravity_mps2);

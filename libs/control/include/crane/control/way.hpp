@@ -80,6 +80,10 @@ struct ClosestZone {
 };
 [[nodiscard]] ClosestZone closest_zone(const WaySpace& space, const plant::PerAxis& position) noexcept;
 
+/// Smallest clearance on the straight path between two completed positions, m; below kRestGap_m: not free.
+[[nodiscard]] double straight_clearance_m(const WaySpace& space, const plant::PerAxis& from,
+                                          const plant::PerAxis& to) noexcept;
+
 /// Largest speed of the suspension point over the ground at which the zone filter lets a load pass at this
 /// clearance, m/s.
 [[nodiscard]] double passing_speed_mps(const WaySpace& space, double clearance_m, double cable_m) noexcept;
