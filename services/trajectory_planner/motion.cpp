@@ -42,8 +42,16 @@ control::AxisReference Motion::Braking::at(double time_s) const noexcept {
           .acceleration = rests ? 0 : -direction * deceleration};
 }
 
+void Motion::begin_at(std::uint64_t tick) noexcept {
+  start_tick_ = tick;
+  slowing_.reset();
+}
+
 double Motion::time_s(std::uint64_t tick) const noexcept {
-  return tick > start_tick_ ? static_cast<double>(tick - start_tick_) * rig_.period_s : 0;
+  const double passed_s = tick > start_tick_ ? static_cast<double>(tick - start_tick_) * rig_.period_s : 0;
+  if (!slowing_) return passed_s;
+  const double slow_s = std::clamp(passed_s - slowing_->begin_s, 0.0, slowing_->duration_s);
+  return std::min(passed_s, slowing_->begin_s) + slow_s - slow_s * slow_s / (2 * slowing_->duration_s);
 }
 
 void Motion::follow(const control::Measurement& measured, std::uint64_t tick) noexcept {
@@ -51,8 +59,9 @@ void Motion::follow(const control::Measurement& measured, std::uint64_t tick) no
   excitation_.reset();
   creeping_.reset();
   planned_.reset();
+  route_.reset();
   shaper_ = {};
-  start_tick_ = tick;
+  begin_at(tick);
   for (std::size_t i = 0; i < kAxes; ++i)
     trajectory_[i] = control::step_profile(measured.position[i], measured.position[i]);
 }
@@ -66,13 +75,10 @@ control::AxisProfile Motion::planned(std::size_t axis, double start, double targ
   return control::limited_profile(start, target, limits);
 }
 
-/// Shaper for the mean of the cable lengths at both ends of the move.
-control::Shaper Motion::shaper() const {
+control::Shaper Motion::shaper(control::Shaping shaping, double cable_m) const {
   const auto& design = rig_.design;
-  const auto& cable = trajectory_[control::kHoist];
-  const double length_m = std::clamp((cable.start + cable.target) / 2, design.shortest_cable_length_m,
-                                     design.longest_cable_length_m);
-  return {shaping_, plant::swing_period_s(design.crane.gravity_mps2, length_m)};
+  const double length_m = std::clamp(cable_m, design.shortest_cable_length_m, design.longest_cable_length_m);
+  return {shaping, plant::swing_period_s(design.crane.gravity_mps2, length_m)};
 }
 
 void Motion::start(const MoveTarget& move, std::uint64_t tick) {
@@ -82,12 +88,14 @@ void Motion::start(const MoveTarget& move, std::uint64_t tick) {
   trajectory_ = control::synchronised(trajectory_);
   const bool swings =
       trajectory_[control::kTrolley].duration_s() > 0 || trajectory_[control::kSlew].duration_s() > 0;
-  shaper_ = swings ? shaper() : control::Shaper{};
+  const auto& cable = trajectory_[control::kHoist];  // shaped for the mean length of the move
+  shaper_ = swings ? shaper(shaping_, (cable.start + cable.target) / 2) : control::Shaper{};
   is_braking_ = stick_.follows = false;
   creeping_.reset();
   planned_.reset();
+  route_.reset();
   excitation_.reset();
-  start_tick_ = tick;
+  begin_at(tick);
 }
 
 std::optional<control::PlanProblem> Motion::plan_for(const MoveTarget& move,
@@ -127,8 +135,9 @@ void Motion::start(const control::PlanProblem& problem, const control::Plan& pla
   for (std::size_t i : {control::kTrolley, control::kSlew})
     trajectory_[i] = control::step_profile(problem.to[i], problem.to[i]);
   trajectory_[control::kHoist] = control::step_profile(problem.cable_m, problem.cable_m);
+  route_.reset();
   planned_ = {problem, plan};
-  start_tick_ = tick;
+  begin_at(tick);
 }
 
 void Motion::excite(const control::Excitation& excitation, std::uint64_t tick) {
@@ -138,9 +147,10 @@ void Motion::excite(const control::Excitation& excitation, std::uint64_t tick) {
   is_braking_ = stick_.follows = false;
   creeping_.reset();
   planned_.reset();
+  route_.reset();
   shaper_ = {};
   excitation_ = excitation;
-  start_tick_ = tick;
+  begin_at(tick);
 }
 
 void Motion::creep(const std::array<double, kAxes>& speed, const control::Measurement& measured,
@@ -153,7 +163,8 @@ void Motion::creep(const std::array<double, kAxes>& speed, const control::Measur
   creeping_ = creeping;
   stick_.follows = false;
   planned_.reset();
-  start_tick_ = tick;
+  route_.reset();
+  begin_at(tick);
 }
 
 void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noexcept {
@@ -161,7 +172,8 @@ void Motion::stop(const control::Measurement& measured, std::uint64_t tick) noex
   stick_.follows = false;
   creeping_.reset();
   planned_.reset();
-  start_tick_ = tick;
+  route_.reset();
+  begin_at(tick);
   for (std::size_t i = 0; i < kAxes; ++i)
     braking_[i] = {.start = measured.position[i],
                    .speed = measured.speed[i],
@@ -191,8 +203,9 @@ void Motion::jog(const std::array<bool, kAxes>& selected, std::uint64_t tick) no
   is_braking_ = false;
   creeping_.reset();
   planned_.reset();
+  route_.reset();
   excitation_.reset();
-  start_tick_ = tick;
+  begin_at(tick);
   stick_.limits = limits;
   control::begin(limits, now, stick_.memory);
   stick_.reference = now;
@@ -210,10 +223,10 @@ void Motion::drive(const std::array<double, kAxes>& deflection, std::uint64_t ti
     stick_.reference = control::step(stick_.limits, wanted, stick_.memory);
     stick_.reference.feed_forward_v = control::feed_forward(rig_.design, stick_.limits, stick_.memory);
   }
-  if (!control::at_rest(stick_.memory)) start_tick_ = tick;  // arrived() waits from the end of the motion
+  if (!control::at_rest(stick_.memory)) begin_at(tick);  // arrived() waits from the end of the motion
 }
 
-control::Reference Motion::at(std::uint64_t tick) const noexcept {
+control::Reference Motion::on_path(std::uint64_t tick) const noexcept {
   if (stick_.follows) return stick_.reference;
   if (creeping_) {
     control::Reference reference;
@@ -225,6 +238,14 @@ control::Reference Motion::at(std::uint64_t tick) const noexcept {
   }
   if (planned_ && !is_braking_)
     return control::reference_at(rig_.design, planned_->problem, planned_->plan, time_s(tick));
+  if (route_ && !is_braking_) {
+    control::Reference reference;
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      const control::RouteOfAxis axis{*route_, i};
+      reference[i] = i == control::kHoist ? axis.at(time_s(tick)) : shaper_.at(axis, time_s(tick));
+    }
+    return reference;
+  }
   if (!is_braking_) {
     auto reference = control::reference_at(trajectory_, time_s(tick));
     for (const auto axis : {control::kTrolley, control::kSlew})
@@ -242,7 +263,9 @@ bool Motion::arrived(const control::Measurement& measured, std::uint64_t tick) c
   constexpr double kBand = 0.01;     // largest distance from the reference, m, rad
   constexpr double kSlow = 0.01;     // largest speed, m/s, rad/s
   constexpr double kLongest_s = 20;  // longest wait; friction may hold an axis outside the band
-  const double profile_s = planned_ ? planned_->plan.duration_s : control::duration_s(trajectory_);
+  const double profile_s = planned_ ? planned_->plan.duration_s
+                           : route_ ? route_->duration_s()
+                                    : control::duration_s(trajectory_);
   const double end_s = stick_.follows ? 0
                        : excitation_  ? excitation_->duration_s
                                       : profile_s + shaper_.delay_s();

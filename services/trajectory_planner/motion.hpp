@@ -8,6 +8,7 @@
 #include "crane/configuration/rig.hpp"
 #include "crane/control/excitation.hpp"
 #include "crane/control/law.hpp"
+#include "crane/control/route.hpp"
 #include "crane/control/shaper.hpp"
 #include "crane/control/stick.hpp"
 #include "crane/control/time_optimal.hpp"
@@ -30,6 +31,15 @@ class Motion {
   void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
   /// Begins a move at `tick` from the present reference.
   void start(const MoveTarget& move, std::uint64_t tick);
+  /// Begins to follow a way around zones at `tick` from the present reference.
+  /// @param way  around zones, for `move` from the present reference
+  void start(const MoveTarget& move, const control::Way& way, const control::WaySpace& space,
+             std::uint64_t tick);
+  /// Slows the present reference down on its own path, which is free of zones. A reference that rests, is
+  /// slowing down, or follows a stick does not change. @return tick at which the reference rests
+  std::uint64_t slow_down(std::uint64_t tick) noexcept;
+  /// True when reference and crane rest at the same place.
+  [[nodiscard]] bool rests(const control::Measurement& measured, std::uint64_t tick) const noexcept;
   /// Problem of the time-optimal plan for this move from the present reference. Nothing when the move is not
   /// planned: the controller uses no plans, the cable moves, or the reference is not at rest.
   [[nodiscard]] std::optional<control::PlanProblem> plan_for(const MoveTarget& move,
@@ -65,8 +75,16 @@ class Motion {
     std::array<double, control::kAxes> speed{}, start{};
   };
   [[nodiscard]] control::AxisProfile planned(std::size_t axis, double start, double target) const;
-  [[nodiscard]] control::Shaper shaper() const;
+  [[nodiscard]] control::Shaper shaper(control::Shaping shaping, double cable_m) const;
+  /// How the controller follows a way. @pre shaper_ is that of the way
+  [[nodiscard]] control::RouteStyle route_style() const noexcept;
+  /// Time on the path of the reference: passed since its start, or less while it slows down.
   [[nodiscard]] double time_s(std::uint64_t tick) const noexcept;
+  /// Derivative of time_s() with respect to the passed time, in [0, 1].
+  [[nodiscard]] double rate(std::uint64_t tick) const noexcept;
+  /// Reference on its path, before it is slowed down.
+  [[nodiscard]] control::Reference on_path(std::uint64_t tick) const noexcept;
+  void begin_at(std::uint64_t tick) noexcept;
 
   const configuration::Rig& rig_;
   control::ReferenceShape shape_;
@@ -76,6 +94,12 @@ class Motion {
   std::array<Braking, control::kAxes> braking_{};
   std::optional<control::Excitation> excitation_;  ///< replaces the profile of its axis
   std::optional<Creeping> creeping_;
+  std::optional<control::Route> route_;  ///< replaces the profiles of all axes
+  /// The time on the path passes more slowly from begin_s on, and not any more after duration_s.
+  struct Slowing {
+    double begin_s = 0, duration_s = 1;
+  };
+  std::optional<Slowing> slowing_;
   struct Planned {
     control::PlanProblem problem;
     control::Plan plan;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "crane/configuration/way_space.hpp"
 #include "crane/control/reference_start.hpp"
 #include "crane/runtime/convert.hpp"
 #include "trajectory_planner/motion.hpp"
@@ -47,7 +48,12 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
         stale_after_ticks_{context.rig.ticks_in(context.rig.limits.stale_after_s)},
         planning_ticks_{static_cast<std::uint64_t>(
             std::lround(context.rig.planning.planning_time_s / context.rig.period_s))},
+        period_s_{context.rig.period_s},
+        steps_{context.controller.reference == control::ReferenceShape::step},
+        way_space_{configuration::way_space_of(context.rig)},
         motion_{context.rig, context.controller.reference} {
+    for (std::size_t i = 0; i < control::kAxes; ++i)
+      if (context.rig.drives[i].present) max_speed_[i] = context.rig.drives[i].max_speed;
     if (context.controller.reference == control::ReferenceShape::time_optimal)
       worker_.emplace(context.rig.design, context.clock == runtime::Clock::realtime);
   }
@@ -78,7 +84,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     const auto next = tick + 1;
     // A planner that starts beside an armed crane has no reference yet: its reference begins at the position.
     if (!published_) motion_.follow(measured, next);
-    if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) pending_.reset();
+    if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) drop_waiting_moves();
     if (supervisor_ == crane_STATE_STOP_C1) {
       if (!stopping_) motion_.stop(measured, next);
     } else if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) {
@@ -87,7 +93,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       motion_.creep(homing_speed_, measured, next);
     } else {
       if (status != nullptr) {
-        start_if_new(status->move, next);
+        start_if_new(status->move, measured, next);
+        begin_waiting(measured, next);
         begin_pending(next);
         deflection_ = runtime::values(status->jog_deflection);
       }
@@ -101,17 +108,72 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
  private:
   /// Executes the last move that the supervisor has accepted. Moves that were accepted before the first
   /// received status are not executed.
-  void start_if_new(const msg::AcceptedMove& move, std::uint64_t tick) {
+  void start_if_new(const msg::AcceptedMove& move, const control::Measurement& measured, std::uint64_t tick) {
     if (!known_moves_ || move.number <= *known_moves_) return;
     known_moves_ = move_number_ = move.number;
+    drop_waiting_moves();
     if (move.kind == crane_REQUEST_JOG)
       motion_.jog(target_of(move).selected, tick);
     else if (move.kind == crane_REQUEST_FOLLOW)
       motion_.excite(excitation_of(move), tick);
-    else if (const auto problem = worker_ ? motion_.plan_for(target_of(move), tick) : std::nullopt)
-      pending_ = Pending{target_of(move), *problem, tick + planning_ticks_, worker_->ask(*problem)};
+    else if (!way_space_.zones.empty())
+      wait_for_rest(target_of(move), measured, tick);
     else
-      motion_.start(target_of(move), tick);
+      start_straight(target_of(move), tick);
+  }
+
+  void start_straight(const MoveTarget& move, std::uint64_t tick) {
+    if (const auto problem = worker_ ? motion_.plan_for(move, tick) : std::nullopt)
+      pending_ = Pending{move, *problem, tick + planning_ticks_, worker_->ask(*problem)};
+    else
+      motion_.start(move, tick);
+  }
+
+  /// With zones, a move begins at a place on the accepted way of the move before it, at rest: the supervisor
+  /// has found a way from this place, too, because both places are connected.
+  void wait_for_rest(const MoveTarget& move, const control::Measurement& measured, std::uint64_t tick) {
+    constexpr double kLongest_s = 20;  // friction may hold an axis away from its reference
+    (void)motion_.slow_down(tick);
+    waiting_ = Waiting{move, tick + static_cast<std::uint64_t>(std::llround(kLongest_s / period_s_))};
+    begin_waiting(measured, tick);
+  }
+
+  void begin_waiting(const control::Measurement& measured, std::uint64_t tick) {
+    if (!waiting_ || (!motion_.rests(measured, tick) && tick < waiting_->last_tick)) return;
+    const MoveTarget move = waiting_->move;
+    waiting_.reset();
+    const auto now = motion_.at(tick);
+    plant::PerAxis from{}, target{};
+    for (std::size_t i = 0; i < control::kAxes; ++i) {
+      from[i] = now[i].position;
+      target[i] = move.selected[i] ? move.target[i] : from[i];
+    }
+    auto way = control::way_to(way_space_, from, target);
+    if (way.outcome == control::WayOutcome::straight && steps_ && !is_free_for_step(from, target))
+      way = {.outcome = control::WayOutcome::around, .points = {{.position = target}}};
+    if (way.outcome == control::WayOutcome::straight)
+      start_straight(move, tick);
+    else if (way.outcome == control::WayOutcome::around)
+      motion_.start(move, way, way_space_, tick);
+    else
+      node().error("no_way", "no way leads from the place where the crane rests to the target",
+                   "move the load away from the zones, then to the target");
+  }
+
+  /// A law for steps may move the axes with any speed up to max_speed.
+  [[nodiscard]] bool is_free_for_step(const plant::PerAxis& from, const plant::PerAxis& to) const {
+    const auto begin = control::completed(way_space_, from), end = control::completed(way_space_, to);
+    const double clearance_m = control::straight_clearance_m(way_space_, begin, end);
+    const double radius_m = std::max(std::abs(begin[control::kTrolley]), std::abs(end[control::kTrolley]));
+    const double fastest_mps =
+        std::hypot(max_speed_[control::kTrolley], radius_m * max_speed_[control::kSlew]);
+    const double cable_m = std::max(begin[control::kHoist], end[control::kHoist]);
+    return control::passing_speed_mps(way_space_, clearance_m, cable_m) >= fastest_mps;
+  }
+
+  void drop_waiting_moves() {
+    pending_.reset();
+    waiting_.reset();
   }
 
   /// Begins the awaited move: by its plan, or shaped when there is no plan in time.
@@ -137,7 +199,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     runtime::assign(sample, reference);
     sample.move_number = move_number_;
     sample.second_writer = disputed();
-    sample.moving = pending_ || !motion_.arrived(measured, tick);
+    sample.moving = pending_ || waiting_ || !motion_.arrived(measured, tick);
     output_.publish(sample);
     published_ = tick;
   }
@@ -154,6 +216,16 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   std::uint64_t planning_ticks_;
   std::optional<PlanWorker> worker_;  ///< only for controllers with time-optimal references
   std::optional<Pending> pending_;
+  /// A move that waits until the crane rests.
+  struct Waiting {
+    MoveTarget move;
+    std::uint64_t last_tick;
+  };
+  std::optional<Waiting> waiting_;
+  double period_s_;
+  bool steps_;                  ///< the reference of the controller jumps to the target
+  plant::PerAxis max_speed_{};  ///< of the present axes, unit/s
+  control::WaySpace way_space_;
   Motion motion_;
   control::ReferenceStart start_;
   std::optional<std::uint64_t> published_;

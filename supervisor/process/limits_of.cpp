@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "crane/configuration/way_space.hpp"
 #include "crane/plant/term.hpp"
 
 namespace crane::supervisor {
@@ -62,6 +63,7 @@ Limits limits_of(const configuration::Rig& rig) {
   limits.machine = machine_of(rig);
   limits.clearance = rig.clearance;
   limits.zones = rig.zones;
+  limits.way_space = configuration::way_space_of(rig);
   for (std::size_t i = 0; i < kAxes; ++i)
     limits.reference_acceleration[i] = rig.drives[i].present ? rig.drives[i].reference_acceleration : 0;
   return limits;

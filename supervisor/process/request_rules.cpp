@@ -49,20 +49,30 @@ std::string follow_problem(const msg::Request& request) {
   return lasts ? "" : "follow: duration_s must lie in [0, 3600]";
 }
 
-/// Distance of a target from the margin of a zone, m: the noise of the zone filter at rest is smaller.
-constexpr double kTargetGap_m = kLeaveTolerance_m;
+constexpr const char* kHint = " (the radius of the load counts; crane zone list)";
 
+/// Sines are followed on the straight path only.
 std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxis& to) {
-  const double g = limits.machine.crane.gravity_mps2;
-  const auto* zone = control::zone_in_path(limits.zones, limits.clearance, g, from, to, kTargetGap_m);
+  const auto* zone = control::zone_in_path(limits.zones, limits.clearance, limits.machine.crane.gravity_mps2,
+                                           from, to, control::kRestGap_m);
   if (zone == nullptr) return "";
-  const bool inside =
-      control::clearance_m(*zone, control::resting_reach(limits.clearance, g, to[0], to[1], to[2]),
-                           limits.clearance.suspension_height_m) < kTargetGap_m;
+  const bool inside = control::closest_zone(limits.way_space, to).clearance_m < control::kRestGap_m;
   return std::string{inside ? "the target is inside zone "
                             : "the straight path to the target leads through zone "} +
-         zone->name + (inside ? "" : ": move around it in several steps") +
-         " (the radius of the load counts; crane zone list)";
+         zone->name + (inside ? "" : ": move around it first") + kHint;
+}
+
+std::string way_problem(const Limits& limits, const control::Way& way) {
+  constexpr std::size_t kNamed = 4;
+  if (way.outcome == control::WayOutcome::straight || way.outcome == control::WayOutcome::around) return "";
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kNamed, way.blocking.size()); ++i)
+    names += (i == 0 ? "" : ", ") + limits.zones.at(way.blocking[i]).name;
+  if (way.blocking.size() > kNamed) names += " and " + std::to_string(way.blocking.size() - kNamed) + " more";
+  if (way.outcome == control::WayOutcome::target_inside) return "the target is inside zone " + names + kHint;
+  if (names.empty()) return "no way leads to the target: the position is not finite";
+  return "no way leads to the target past " + (way.blocking.size() == 1 ? "zone " : std::string{"zones "}) +
+         names + ": choose another target, raise the load, or use crane jog" + kHint;
 }
 
 }  // namespace
@@ -116,12 +126,16 @@ std::string problem_of(const msg::Request& request, const Limits& limits) {
 
 std::string problem_at(const msg::Request& request, const Limits& limits, const PerAxis& position) {
   std::string problem = problem_of(request, limits);
-  const bool has_target = request.kind == crane_REQUEST_MOVE || request.kind == crane_REQUEST_FOLLOW;
-  if (!problem.empty() || !has_target || limits.zones.empty()) return problem;
+  const bool moves = request.kind == crane_REQUEST_MOVE, follows = request.kind == crane_REQUEST_FOLLOW;
+  if (!problem.empty() || (!moves && !follows) || limits.zones.empty()) return problem;
+  if (moves) {
+    PerAxis target = position;
+    for (std::size_t i = 0; i < kAxes; ++i)
+      if (request.selected[i]) target[i] = request.target[i];
+    return way_problem(limits, control::way_to(limits.way_space, position, target));
+  }
   const auto excursion = excursion_of(request);
-  PerAxis from = position;
-  from[plant::kHoist] = limits.machine.cable(position[plant::kHoist]);
-  if (!limits.axis[plant::kSlew].present) from[plant::kSlew] = 0;
+  const PerAxis from = control::completed(limits.way_space, position);
   PerAxis low = from, high = from;
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!request.selected[i]) continue;

@@ -190,8 +190,10 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   std::vector<Asked> collect(TickInput& input) {
     std::vector<Asked> asked;
     bus::ParticipantId sender{};
+    // The planner searches the way of an accepted move from the sample of the same tick.
+    const PerAxis& position = input.state_arrived ? input.sample.position : memory_.motion.position;
     while (const auto request = requests_.take_due(input.tick, &sender)) {
-      if (const auto problem = problem_at(*request, limits_, memory_.motion.position); !problem.empty()) {
+      if (const auto problem = problem_at(*request, limits_, position); !problem.empty()) {
         requests_.reply(*request, last_header_, false, problem);
         continue;
       }

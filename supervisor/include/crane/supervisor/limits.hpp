@@ -6,6 +6,7 @@
 
 #include "crane/control/drive_limits.hpp"
 #include "crane/control/operating_limits.hpp"
+#include "crane/control/way.hpp"
 #include "crane/control/zone.hpp"
 #include "crane/plant/parameters.hpp"
 #include "crane/supervisor/states.hpp"
@@ -63,6 +64,7 @@ struct Limits : control::OperatingLimits {
   MachineModel machine{};
   control::Clearance clearance{};
   std::vector<control::Zone> zones{};  ///< empty: the zone filter has no effect
+  control::WaySpace way_space{};       ///< for moves around zones
   PerAxis reference_acceleration{};    ///< of the planner's stop, unit/s^2; 0: no stop before the ramped one
   double creeping_ratio =
       2.5;  ///< overspeed of an axis without known position: multiple of its homing speed, >= 1

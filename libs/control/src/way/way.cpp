@@ -1,0 +1,164 @@
+#include "crane/control/way.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "grid.hpp"
+#include "leg.hpp"
+
+namespace crane::control {
+namespace {
+
+using plant::kHoist;
+using plant::kSlew;
+using plant::kTrolley;
+using plant::PerAxis;
+
+struct Timed {
+  std::vector<Waypoint> points;
+  double duration_s = 0;
+};
+
+/// Leg between two places of a way; the first and the last leg have the rule of a straight move.
+Leg leg_between(const WaySpace& space, const std::vector<PerAxis>& places, std::size_t i, std::size_t j) {
+  if (i == 0 || j + 1 == places.size()) return end_leg(space, places[i], places[j]);
+  return leg_of(space, places[i], places[j], kPassGap_m);
+}
+
+/// Corners of a way over the grid, and places between them.
+std::vector<PerAxis> thinned(const std::vector<PerAxis>& nodes) {
+  constexpr std::size_t kRun = 4;  // nodes of a straight run between two places
+  constexpr double kSameDirection = 1e-9;
+  std::vector<PerAxis> kept{nodes.front()};
+  std::size_t run = 0;
+  for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+    bool turns = i == 1 || i + 2 == nodes.size();  // next to the start and the target
+    for (const auto axis : {kTrolley, kSlew})
+      turns =
+          turns || std::abs(nodes[i + 1][axis] - 2 * nodes[i][axis] + nodes[i - 1][axis]) > kSameDirection;
+    if (!turns && ++run < kRun) continue;
+    kept.push_back(nodes[i]);
+    run = 0;
+  }
+  if (nodes.size() > 1) kept.push_back(nodes.back());
+  return kept;
+}
+
+/// Fastest sequence of straight legs through places of the way: shortest path in the graph of all free legs
+/// over at most kWindow places. The way over the grid is in this graph, so that a result exists.
+Timed straightened(const WaySpace& space, const std::vector<PerAxis>& places) {
+  constexpr std::size_t kWindow = 12;
+  struct Best {
+    double time_s = std::numeric_limits<double>::infinity();
+    std::size_t before = 0;
+    double share = 1;
+  };
+  std::vector<Best> best(places.size());
+  best[0].time_s = 0;
+  for (std::size_t j = 1; j < places.size(); ++j)
+    for (std::size_t i = j > kWindow ? j - kWindow : 0; i < j; ++i) {
+      const Leg leg = leg_between(space, places, i, j);
+      if (leg.is_free && best[i].time_s + leg.duration_s < best[j].time_s)
+        best[j] = {best[i].time_s + leg.duration_s, i, leg.speed_share};
+    }
+  Timed way{.points = {}, .duration_s = best.back().time_s};
+  for (std::size_t j = places.size() - 1; j > 0; j = best[j].before)
+    way.points.push_back({places[j], best[j].share});
+  std::ranges::reverse(way.points);
+  return way;
+}
+
+PerAxis at_cable(PerAxis position, double cable_m) noexcept {
+  position[kHoist] = cable_m;
+  return position;
+}
+
+/// The way at one cable length, with vertical legs at both ends.
+Timed with_lifts(const WaySpace& space, const PerAxis& from, const PerAxis& to, double cable_m, Timed way) {
+  const auto add = [&](const PerAxis& a, const PerAxis& b) {
+    if (a[kHoist] != b[kHoist]) way.duration_s += coasting_s(space, a, b, 1);
+    return a[kHoist] != b[kHoist];
+  };
+  if (add(from, at_cable(from, cable_m)))
+    way.points.insert(way.points.begin(), {.position = at_cable(from, cable_m)});
+  if (add(at_cable(to, cable_m), to)) way.points.push_back({.position = to});
+  return way;
+}
+
+std::optional<Timed> around(const WaySpace& space, const PerAxis& from, const PerAxis& to, double cable_m,
+                            std::vector<char>& blocking) {
+  const auto nodes = search_grid(space, at_cable(from, cable_m), at_cable(to, cable_m), blocking);
+  if (!nodes) return std::nullopt;
+  Timed way = straightened(space, thinned(*nodes));
+  if (!std::isfinite(way.duration_s)) return std::nullopt;
+  return with_lifts(space, from, to, cable_m, std::move(way));
+}
+
+/// Straight over the zones with the longest cable that permits it.
+std::optional<Timed> over(const WaySpace& space, const PerAxis& from, const PerAxis& to, double shortest_m,
+                          double longest_m) {
+  constexpr int kHalvings = 8;
+  const auto leg_at = [&](double cable_m) {
+    return leg_of(space, at_cable(from, cable_m), at_cable(to, cable_m), kPassGap_m);
+  };
+  if (!(shortest_m < longest_m) || !leg_at(shortest_m).is_free) return std::nullopt;
+  double high_m = shortest_m, low_m = longest_m;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle_m = (high_m + low_m) / 2;
+    (leg_at(middle_m).is_free ? high_m : low_m) = middle_m;
+  }
+  std::optional<Timed> fastest;
+  for (const double cable_m : {high_m, shortest_m}) {  // a higher hook passes faster
+    const Leg leg = leg_at(cable_m);
+    Timed way{.points = {{at_cable(to, cable_m), leg.speed_share}}, .duration_s = leg.duration_s};
+    way = with_lifts(space, from, to, cable_m, std::move(way));
+    if (!fastest || way.duration_s < fastest->duration_s) fastest = std::move(way);
+  }
+  return fastest;
+}
+
+void take_faster(std::optional<Timed> other, std::optional<Timed>& way) {
+  if (other && (!way || other->duration_s < way->duration_s)) way = std::move(other);
+}
+
+std::vector<std::size_t> indices_of(const std::vector<char>& flags) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    if (flags[i] != 0) found.push_back(i);
+  return found;
+}
+
+}  // namespace
+
+Way way_to(const WaySpace& space, const PerAxis& measured, const PerAxis& wanted) {
+  const PerAxis from = completed(space, measured), to = completed(space, wanted);
+  for (std::size_t i = 0; i < plant::kAxes; ++i)
+    if (!std::isfinite(from[i]) || !std::isfinite(to[i])) return {.outcome = WayOutcome::no_way};
+  const bool straight =
+      zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestGap_m) == nullptr;
+  std::optional<Timed> way;
+  if (straight) {
+    const Leg leg = end_leg(space, from, to);
+    if (leg.is_free && leg.speed_share >= 1) return {};
+    way = Timed{.points = {{.position = to, .speed_share = speed_share(space, from, to, leg.clearance_m)}}};
+    way->duration_s = coasting_s(space, from, to, way->points[0].speed_share);
+  } else if (const auto target = closest_zone(space, to); !(target.clearance_m >= kRestGap_m)) {
+    return {.outcome = WayOutcome::target_inside, .blocking = {target.zone}};
+  }
+  const double longest_m = std::min(from[kHoist], to[kHoist]);
+  const bool lifts = space.axis[kHoist].present && space.cable_measured;
+  const double shortest_m = lifts ? std::min(longest_m, space.axis[kHoist].low) : longest_m;
+  std::vector<char> blocking(space.zones.size(), 0);
+  take_faster(around(space, from, to, longest_m, blocking), way);
+  take_faster(over(space, from, to, shortest_m, longest_m), way);
+  if (!way && shortest_m < longest_m) {
+    std::ranges::fill(blocking, 0);
+    way = around(space, from, to, shortest_m, blocking);
+  }
+  if (!way) return {.outcome = WayOutcome::no_way, .blocking = indices_of(blocking)};
+  return {.outcome = WayOutcome::around, .points = std::move(way->points)};
+}
+
+}  // namespace crane::control
