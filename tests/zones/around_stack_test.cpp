@@ -174,6 +174,32 @@ TEST(MovesAroundZones, AreRefusedWithTheZoneThatContainsTheTarget) {
   EXPECT_EQ(carrier.crane.status().state, crane_STATE_HOLD);
 }
 
+TEST(MovesAroundZones, AreSearchedOncePerTickWhateverTheNumberOfRequests) {
+  Carrier carrier{"lqr"};
+  bus::Bus stranger = carrier.crane.stranger();
+  auto requests = stranger.publisher(topics::request);
+  auto replies = stranger.subscriber(topics::reply);
+  constexpr int kFlood = 20;
+  for (int i = 1; i <= kFlood; ++i) {
+    msg::Request request{};
+    request.id = static_cast<std::uint64_t>(i);
+    runtime::assign(request.client, "stranger");
+    request.kind = crane_REQUEST_MOVE;
+    request.selected[1] = true;
+    request.target[1] = 0.1 * i;
+    ASSERT_TRUE(requests.publish(request));
+  }
+  carrier.crane.run(0.05);
+  int accepted = 0, repeat = 0;
+  while (const auto reply = replies.take()) {
+    if (reply->header.source != crane_SOURCE_SUPERVISOR) continue;
+    accepted += reply->accepted ? 1 : 0;
+    repeat += std::string{reply->reason}.find("another move was requested in this tick") == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(accepted, 1);
+  EXPECT_EQ(repeat, kFlood - 1);
+}
+
 TEST(MovesAroundZones, AreRefusedWithTheZonesThatLeaveNoWay) {
   auto rig = silo_rig();
   rig.zones = {{.name = "wall",
