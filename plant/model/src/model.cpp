@@ -185,6 +185,10 @@ Accelerations Model::accelerations(const State& state, const Actuation& actuatio
   return accelerations(state, actuation, InnerState{}, ignored);
 }
 
+bool Model::sensors_remember_motion() const noexcept {
+  return std::ranges::any_of(sensor_terms_, [](const auto& term) { return term->remembers_motion(); });
+}
+
 Measurement Model::measure(const State& state) noexcept {
   Measurement measured{.trolley_m = state.trolley_m,
                        .slew_rad = state.slew_rad,

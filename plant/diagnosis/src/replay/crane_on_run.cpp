@@ -104,7 +104,9 @@ void Replay::CraneOnRun::invert_sensors() {
 
 void Replay::CraneOnRun::warm_up_sensors(plant::Model& sensing, std::size_t row) const {
   constexpr double kLongestMemory_s = 0.5;  // of a mean over time (swing_moving_average)
-  const auto memory = static_cast<std::size_t>(kLongestMemory_s / source.run.period_s);
+  const auto memory = sensing.sensors_remember_motion()
+                          ? row
+                          : static_cast<std::size_t>(kLongestMemory_s / source.run.period_s);
   for (std::size_t k = row - std::min(row, memory); k < row; ++k) {
     plant::State at;
     for (const Output output : kAllOutputs)

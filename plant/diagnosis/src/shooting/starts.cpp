@@ -17,6 +17,9 @@ using Eigen::VectorXd;
 /// Finite differences: position [m or rad], rate [m/s or rad/s].
 constexpr double kStartPositionStep = 1e-4, kStartRateStep = 1e-3;
 constexpr int kMostStartRounds = 8;
+/// Without whitening, a residual in m or rad counts as one of variance 1: the prior then dominates, and each
+/// round makes a part of the step only.
+constexpr int kMostPlainStartRounds = 100;
 /// A start has converged when it explains less of the residual: in noise variances; as a share of the sum of
 /// squares of a residual that is not whitened. The projection removes the explained part.
 constexpr double kStartConverged = 0.1, kPlainStartConverged = 1e-4;
@@ -28,7 +31,7 @@ constexpr double kLargestPositionCorrection = 0.01, kLargestRateCorrection = 0.1
 constexpr double kInnerCorrectionRatio = 20;
 /// Share of the sum of squares of a motion. If the fit leaves more, it is repeated from other initial values.
 constexpr double kPoorlyFollowed = 0.3;
-/// Largest number of linearisations of a swing, which is nearly linear in its start.
+/// Largest number of linearisations of a swing, which is nearly linear in its start, and of a plain residual.
 constexpr int kMostLinearisations = 4;
 
 /// @param outputs number of elements that belong to outputs; inner coordinates follow
@@ -105,7 +108,8 @@ bool Problem::refine_start(const Replay& replay, std::size_t at, const VectorXd&
   whiten(at, fit.residual);
   bool moved = false;
   double trust = 1;
-  for (int round = 1; round < kMostStartRounds; ++round) {
+  const int most = disturbances_.empty() ? kMostPlainStartRounds : kMostStartRounds;
+  for (int round = 1; round < most; ++round) {
     const double found =
         disturbances_.empty() ? kPlainStartConverged * fit.residual.squaredNorm() : kStartConverged;
     if ((fit.basis.transpose() * fit.residual).squaredNorm() < found) return moved;
@@ -134,7 +138,7 @@ WindowFit Problem::fit_from(const Replay& replay, std::size_t at, const VectorXd
   WindowFit fit;
   fit.start = begin;
   double before = std::numeric_limits<double>::infinity();
-  const int most = part_ == Part::load ? kMostLinearisations : 1;
+  const int most = part_ == Part::load || disturbances_.empty() ? kMostLinearisations : 1;
   fit.simulated = simulate(replay, windows_[at], begin);
   linearise(replay, at, fit);
   for (int round = 0; round < most; ++round) {
@@ -162,15 +166,18 @@ bool Problem::poorly_followed(std::size_t at, const VectorXd& target, const Vect
 
 /// The measured rate may be wrong: noise, an averaging sensor, a motion that the model lacks. If the fit of a
 /// swing is poor, the start is also estimated from the measured angle with rate zero and from a load at rest.
-/// The residual is therefore never larger than that of a load at rest.
+/// The residual is therefore never larger than that of a load at rest. The plain residual of a drive is also
+/// fitted from the measured position with rate zero.
 void Problem::fit_start(const Replay& replay, std::size_t at, WindowFit& fit) const {
   const VectorXd target = measured(windows_[at]), begin = measured_start(replay, windows_[at]);
   fit = fit_from(replay, at, target, begin);
-  if (part_ == Part::load && poorly_followed(at, target, fit.simulated)) {
+  const bool load = part_ == Part::load;
+  if ((load || disturbances_.empty()) && poorly_followed(at, target, fit.simulated)) {
     VectorXd without_rate = begin;
     for (Index i = 1; i < output_start_size(); i += 2) without_rate[i] = 0;
-    const VectorXd at_rest = VectorXd::Zero(begin.size());
-    for (const VectorXd& other : {without_rate, at_rest}) {
+    std::vector<VectorXd> others{without_rate};
+    if (load) others.push_back(VectorXd::Zero(begin.size()));
+    for (const VectorXd& other : others) {
       WindowFit found = fit_from(replay, at, target, other);
       if (found.residual.squaredNorm() < fit.residual.squaredNorm()) fit = std::move(found);
     }

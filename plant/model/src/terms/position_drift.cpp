@@ -11,6 +11,7 @@ class PositionDrift final : public Term {
   explicit PositionDrift(const TermSetting& s)
       : slew_(s.axis == "slew"), rate_(s.parameters.at("rate")), jump_(s.parameters.at("jump")) {}
 
+  [[nodiscard]] bool remembers_motion() const noexcept override { return true; }
   void change_measurement(Measurement& measured, double /*period_s*/) noexcept override {
     double& position = slew_ ? measured.slew_rad : measured.trolley_m;
     travelled_ += std::abs(position - last_.value_or(position));

@@ -79,6 +79,8 @@ class Model {
   void correct(const State& state, const PerAxis& unexplained, const InnerState& before,
                InnerState& inner) const noexcept;
 
+  /// Term::remembers_motion of any sensor term.
+  [[nodiscard]] bool sensors_remember_motion() const noexcept;
   /// Output of the sensors. Call once per tick: sensor terms may have a memory.
   [[nodiscard]] Measurement measure(const State& state) noexcept;
 

@@ -92,6 +92,9 @@ class Term {
   virtual void correct(const Parameters& /*crane*/, const State& /*state*/, const PerAxis& /*unexplained*/,
                        const Inner* /*before*/, Inner* /*inner*/) const noexcept {}
 
+  /// Sensor terms: true when the sensor value depends on the whole motion since the start, not only on the
+  /// last half second.
+  [[nodiscard]] virtual bool remembers_motion() const noexcept { return false; }
   /// Sensor terms, once per tick: converts true values to sensor values. May depend on earlier ticks.
   virtual void change_measurement(Measurement& /*measured*/, double /*period_s*/) noexcept {}
 };
