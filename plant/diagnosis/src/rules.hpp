@@ -39,6 +39,9 @@ inline constexpr Rule kRunnerUp{"runner_up", 0.1, "1", "minimum share of block r
 inline constexpr Rule kHeldOutWin{
     "held_out_win", 0.95, "1", "minimum share of held-out resamples in which the extended model is likelier",
     "level of the test"};
+inline constexpr Rule kGainLevel{"gain_level", 0.95, "1",
+                                 "level of the interval of the held-out gain, whose lower end must exceed 0",
+                                 "level of the test"};
 inline constexpr Rule kWorthwhile{"worthwhile", 0.03, "1",
                                   "minimum reduction of the held-out error of a column by the extended model",
                                   "read off examples"};
@@ -94,6 +97,7 @@ inline constexpr std::array kAll{kFamilywiseLevel,
                                  kClearWin,
                                  kRunnerUp,
                                  kHeldOutWin,
+                                 kGainLevel,
                                  kWorthwhile,
                                  kStandsStill,
                                  kWorseOverWholeRuns,

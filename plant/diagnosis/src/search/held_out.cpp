@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "rules.hpp"
+
 namespace crane::diagnosis {
 namespace {
 
@@ -164,7 +166,10 @@ HeldOut held_out(const Study& study, const Study& as_measured, const Effects& ef
     gains.push_back(gain_of(compared, &picked));
   }
   std::sort(gains.begin(), gains.end());
-  result.gain_ci95 = {gains[kResamples * 25 / 1000], gains[kResamples * 975 / 1000]};
+  const auto quantile = [&](double share) {
+    return gains[static_cast<std::size_t>(std::lround(share * kResamples))];
+  };
+  result.gain_ci95 = {quantile((1 - rules::kGainLevel) / 2), quantile((1 + rules::kGainLevel) / 2)};
   std::map<std::string, double> rows, measured_motion, simulated_motion;
   for (const Trace& trace : traces(study, as_measured, effects)) {
     measured_motion[trace.column] += scatter(trace.measured, trace.measured);

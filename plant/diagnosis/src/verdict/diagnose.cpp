@@ -71,7 +71,7 @@ struct Proof {
   enum class Outcome {
     proven,
     unlikely,        ///< the held-out likelihood is not significantly larger
-    no_consequence,  ///< the likelihood is larger, but no error decreases by kWorthwhile
+    no_consequence,  ///< the likelihood is larger, but no error decreases significantly and by kWorthwhile
     refuted,         ///< the extended model follows the motion worse
   };
   Outcome outcome = Outcome::proven;
@@ -97,8 +97,10 @@ Proof proof_of(const HeldOut& held_out, const Effects& effects) {
   }
   if (!(held_out.likelier > rules::kHeldOutWin))
     return {unlikely, runs + "the likelihood of the extended model is not significantly higher"};
-  if (!worthwhile(held_out, effects))
-    return {no_consequence, runs + "the error of the extended model is hardly smaller"};
+  // A larger likelihood with a larger error: the noise model of the extended model describes an error that
+  // the extension does not remove.
+  if (!(held_out.gain_ci95[0] > 0) || !worthwhile(held_out, effects))
+    return {no_consequence, runs + "the error of the extended model is not clearly smaller"};
   return {};
 }
 
