@@ -136,5 +136,14 @@ inline double gap_m(const std::vector<control::Zone>& zones, const control::Clea
     }
   return gap;
 }
+/// The same from a sample of crane/state.
+inline double gap_m(const configuration::Rig& rig, const msg::State& s) {
+  return gap_m(rig.zones, rig.clearance,
+               {.trolley_m = s.trolley_position_m,
+                .radial_rad = s.swing_radial_rad,
+                .slew_rad = s.slew_angle_rad,
+                .tangential_rad = s.swing_tangential_rad,
+                .cable_m = s.cable_length_m});
+}
 
 }  // namespace crane::zones_test

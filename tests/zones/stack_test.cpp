@@ -59,13 +59,7 @@ class Watched {
  private:
   void look() {
     const auto& s = crane.state();
-    const plant::State state{.trolley_m = s.trolley_position_m,
-                             .radial_rad = s.swing_radial_rad,
-                             .slew_rad = s.slew_angle_rad,
-                             .tangential_rad = s.swing_tangential_rad,
-                             .cable_m = s.cable_length_m};
-    const auto rig = zoned_rig();
-    closest_m = std::min(closest_m, gap_m(rig.zones, rig.clearance, state));
+    closest_m = std::min(closest_m, gap_m(zoned_rig(), s));
     if (session_ == 0) return;
     msg::Jog jog{};
     jog.header.tick = s.header.tick;

@@ -13,9 +13,9 @@ using plant::kSlew;
 using plant::kTrolley;
 using plant::PerAxis;
 
-constexpr int kMostNodes = 8000;
-constexpr double kSpacing_m = 0.04;
-constexpr int kEndCells = 2;  // nodes on each side of a start or target that are tried
+constexpr int kMostNodes = 8000;     // bounds time and memory of a search
+constexpr double kSpacing_m = 0.04;  // smallest distance of neighbouring nodes over the ground
+constexpr int kEndCells = 2;         // nodes on each side of a start or target that are tried
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Evenly spaced values of one axis.

@@ -13,12 +13,15 @@ using plant::kSlew;
 using plant::kTrolley;
 using plant::PerAxis;
 
-constexpr double kSlowest_mps = 0.03;    // over the ground; below it friction makes the motion uneven
-constexpr double kSlowestShare = 0.05;   // of the reference speeds
-constexpr double kBlend_m = 0.01;        // room of a blended corner
-constexpr double kReaction_s = 0.1;      // way of the filter's reaction time / speed: two ticks, ramp, brakes
-constexpr double kLeastStep_m = 0.003;   // of the samples; a gap between two samples hides half of it
-constexpr double kLargestStep_m = 0.05;  // of the samples, so that the smallest clearance is found
+// Chosen by judgement: a wrong value costs time or a stop by the zone filter, which alone keeps the load out.
+constexpr double kSlowest_mps =
+    0.03;  // lowest speed over the ground; below it friction makes the motion uneven
+constexpr double kSlowestShare = 0.05;  // lowest speed / reference speed
+constexpr double kBlend_m = 0.01;       // largest distance between a blended corner and its straight legs
+constexpr double kReaction_s = 0.1;     // two ticks, the ramp and the closing time of the brakes
+constexpr double kLeastStep_m =
+    0.003;  // smallest distance of two samples; a zone between them is closer by half of it
+constexpr double kLargestStep_m = 0.05;  // largest distance of two samples of a leg
 
 PerAxis between(const PerAxis& from, const PerAxis& to, double share) noexcept {
   PerAxis at{};
