@@ -12,10 +12,12 @@ namespace {
 
 class Inbox : public testing::Test {
  protected:
-  void send(std::uint64_t id, std::uint64_t apply_tick) {
+  explicit Inbox(Clock clock = Clock::lockstep) : clock_{clock} {}
+
+  void send(std::uint64_t id, std::uint64_t apply_tick, crane_RequestKind kind = crane_REQUEST_STOP) {
     msg::Request request{};
     request.id = id;
-    request.kind = crane_REQUEST_STOP;
+    request.kind = kind;
     request.apply_tick = apply_tick;
     ASSERT_TRUE(requests_.publish(request));
   }
@@ -25,6 +27,7 @@ class Inbox : public testing::Test {
     return count;
   }
 
+  Clock clock_;
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
   bus::Bus operator_{memory_options(network_, "operator", crane_SOURCE_OPERATOR)};
   bus::Publisher<msg::Request> requests_ = operator_.publisher(topics::request);
@@ -39,10 +42,11 @@ class Inbox : public testing::Test {
                       .writes = {{&topics::reply.description, ""}},
                       .make = nullptr};
   const control::Controller& none_ = *control::find_controller("none");
-  Ports ports_{own_, spec_, none_, Clock::realtime};
+  Ports ports_{own_, spec_, none_, clock_};
   Node node_{own_, {"supervisor", ""}};
   configuration::Rig rig_;
-  RequestInbox inbox_{{ports_, node_, rig_, none_, own_.options(), Clock::realtime}, {crane_REQUEST_STOP}};
+  RequestInbox inbox_{{ports_, node_, rig_, none_, own_.options(), clock_},
+                      {crane_REQUEST_STOP, crane_REQUEST_ARM}};
 };
 
 TEST_F(Inbox, HandsOutARequestOnItsTickAndNotBefore) {
@@ -82,6 +86,25 @@ TEST_F(Inbox, AFloodOfRequestsForLaterDoesNotKeepAStopOut) {
   const auto stop = inbox_.take_due(1);
   ASSERT_TRUE(stop);
   EXPECT_EQ(stop->id, 2000U);
+}
+
+class InboxInRealTime : public Inbox {
+ protected:
+  InboxInRealTime() : Inbox{Clock::realtime} {}
+};
+
+TEST_F(InboxInRealTime, RefusesARequestForALaterTickSoThatNothingMovesAfterItsOperatorHasLeft) {
+  send(1, 20, crane_REQUEST_ARM);
+  inbox_.receive();
+  EXPECT_EQ(refusals(), 1U);
+  for (std::uint64_t tick = 1; tick < 30; ++tick) EXPECT_FALSE(inbox_.take_due(tick));
+}
+
+TEST_F(InboxInRealTime, AStopForALaterTickActsAtOnce) {
+  send(1, 500'000);
+  inbox_.receive();
+  EXPECT_TRUE(inbox_.take_due(1));
+  EXPECT_EQ(refusals(), 0U);
 }
 
 }  // namespace

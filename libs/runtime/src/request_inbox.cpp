@@ -7,17 +7,16 @@
 namespace crane::runtime {
 namespace {
 
-/// True for requests that stop the crane at once. They are accepted during a flood of other requests.
 bool stops(const msg::Request& request) {
-  return request.apply_tick == 0 &&
-         (request.kind == crane_REQUEST_STOP || request.kind == crane_REQUEST_ESTOP ||
-          request.kind == crane_REQUEST_DISARM);
+  return request.kind == crane_REQUEST_STOP || request.kind == crane_REQUEST_ESTOP ||
+         request.kind == crane_REQUEST_DISARM;
 }
 
 }  // namespace
 
 RequestInbox::RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds)
-    : requests_{context.ports.input(topics::request)},
+    : schedules_{context.clock == Clock::lockstep},
+      requests_{context.ports.input(topics::request)},
       replies_{context.ports.output(topics::reply)},
       kinds_{kinds} {}
 
@@ -26,13 +25,20 @@ bool RequestInbox::receive() {
   bool any = false;
   bus::SampleInfo info;
   for (int taken = 0; taken < kMostPerCall; ++taken) {
-    const auto request = requests_.take(&info);
+    auto request = requests_.take(&info);
     if (!request) break;
     if (!info.valid) continue;
     if (std::find(kinds_.begin(), kinds_.end(), request->kind) == kinds_.end()) continue;
     any = true;
+    if (!schedules_ && stops(*request)) request->apply_tick = 0;
+    if (!schedules_ && request->apply_tick > 0) {
+      reply(*request, request->header, false,
+            "in real time a request acts at once: apply_tick must be 0 (lockstep permits a later tick)");
+      continue;
+    }
     const bool full = waiting_.size() >= kMostWaiting;
-    if (full && !(stops(*request) && waiting_.size() < kMostWaiting + kMostStops)) {
+    const bool stops_now = stops(*request) && request->apply_tick == 0;  // accepted during a flood, too
+    if (full && !(stops_now && waiting_.size() < kMostWaiting + kMostStops)) {
       reply(*request, request->header, false, "too many requests wait for their tick: send fewer at a time");
       continue;
     }

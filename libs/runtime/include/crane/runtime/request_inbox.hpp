@@ -24,8 +24,11 @@ class RequestInbox {
   /// @param kinds  kinds of request that this process executes; it ignores all others
   RequestInbox(const Context& context, std::initializer_list<crane_RequestKind> kinds);
 
-  /// Takes up to 64 requests from the bus. Answers a request for a later tick with the reason "scheduled",
-  /// and refuses a request when kMostWaiting requests wait already.
+  /// Takes up to 64 requests from the bus. Refuses a request when kMostWaiting requests wait already.
+  /// In lockstep, answers a request for a later tick with the reason "scheduled". In real time, a request
+  /// acts at once or not at all: an operator must not start motion that acts after the operator has left, or
+  /// after a stop in between. A request for a later tick is refused then, and a stop for a later tick acts at
+  /// once.
   /// @return true when a request arrived
   bool receive();
   /// @param sender  participant that sent the request
@@ -42,6 +45,7 @@ class RequestInbox {
   };
   void refuse_too_late(std::uint64_t tick);
 
+  bool schedules_;  ///< lockstep: requests may wait for their tick
   bus::Subscriber<msg::Request> requests_;
   Output<msg::Reply> replies_;
   std::vector<crane_RequestKind> kinds_;
