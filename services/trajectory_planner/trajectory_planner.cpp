@@ -76,10 +76,14 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       supervisor_ = status->state;
       homing_ = status->homing[0] || status->homing[1] || status->homing[2];
       homing_speed_ = runtime::values(status->homing_speed);
-      if (!known_moves_ || status->header.epoch != supervisor_epoch_) known_moves_ = status->move.number;
+      if (status->header.epoch != supervisor_epoch_) known_moves_.reset();
       supervisor_epoch_ = status->header.epoch;
+      leave_obsolete_moves(status->move);
     }
-    if (missing_statuses_ >= stale_after_ticks_) supervisor_ = crane_STATE_BOOT;
+    if (missing_statuses_ >= stale_after_ticks_) {
+      supervisor_ = crane_STATE_BOOT;
+      known_moves_.reset();
+    }
     const auto measured = runtime::measurement(*state);
     const auto next = tick + 1;
     // A planner that starts beside an armed crane has no reference yet: its reference begins at the position.
@@ -106,8 +110,19 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
 
  private:
-  /// Executes the last move that the supervisor has accepted. Moves that were accepted before the first
-  /// received status are not executed.
+  /// The supervisor accepts a move in RUN, and leaves RUN when the crane stops or the planner does not begin.
+  /// A planner that was paused meanwhile must not execute the move after the next arming. Moves of an unknown
+  /// time are obsolete, too: those of the first status, also of another supervisor or after a gap.
+  void leave_obsolete_moves(const msg::AcceptedMove& move) {
+    if (known_moves_ && (supervisor_ == crane_STATE_RUN || move.number <= *known_moves_)) return;
+    const bool dropped = known_moves_ && move.number > *known_moves_;
+    known_moves_ = move.number;
+    if (dropped)
+      node().warning("move_obsolete", "an accepted move was not begun in time and will not be executed",
+                     "repeat the move");
+  }
+
+  /// Executes the last move that the supervisor has accepted.
   void start_if_new(const msg::AcceptedMove& move, const control::Measurement& measured, std::uint64_t tick) {
     if (!known_moves_ || move.number <= *known_moves_) return;
     known_moves_ = move_number_ = move.number;

@@ -1,6 +1,6 @@
 #pragma once
-/// One component on a memory bus, in lockstep: a test publishes its inputs, lets it step, and reads its
-/// outputs.
+/// One component on a memory bus, in lockstep or with a clock that the test sets: a test publishes its
+/// inputs, lets it step, and reads its outputs.
 #include <map>
 #include <memory>
 #include <string>
@@ -15,12 +15,13 @@ namespace crane::runtime::test {
 class ComponentBench {
  public:
   /// @param controller  name of the registry; empty: the rig file's
-  ComponentBench(const ComponentSpec& spec, configuration::Rig rig, const std::string& controller = {})
+  ComponentBench(const ComponentSpec& spec, configuration::Rig rig, const std::string& controller = {},
+                 Clock clock = Clock::lockstep)
       : rig_{std::move(rig)},
         controller_{chosen_controller(controller, rig_)},
         bus_{memory_options(network_, std::string{spec.program}, spec.source)},
         listener_{memory_options(network_, "listener", crane_SOURCE_OPERATOR)},
-        hosted_{bus_, spec, rig_, controller_, Clock::lockstep} {}
+        hosted_{bus_, spec, rig_, controller_, clock} {}
 
   /// Publishes a sample as a process of kind `source`.
   template <class T>
@@ -41,6 +42,11 @@ class ComponentBench {
   void step() {
     while (hosted_.component().poll(now_ns_)) {
     }
+  }
+  /// Sets the clock forward, then steps.
+  void step_after(std::int64_t time_ns) {
+    now_ns_ += time_ns;
+    step();
   }
   [[nodiscard]] const configuration::Rig& rig() const { return rig_; }
   [[nodiscard]] const control::Controller& controller() const { return controller_; }

@@ -12,6 +12,9 @@ using runtime::test::state_at;
 
 class PlannerComponent : public testing::Test {
  protected:
+  explicit PlannerComponent(runtime::Clock clock = runtime::Clock::lockstep)
+      : bench_{trajectory_planner_spec(), runtime::test::tower(), "gain_scheduling_partial", clock} {}
+
   /// One tick in `state_` with `move_` as the last accepted move. @return the reference of the next tick
   [[nodiscard]] msg::Reference tick() {
     ++tick_;
@@ -22,19 +25,24 @@ class PlannerComponent : public testing::Test {
     bench_.publish(topics::state, crane_SOURCE_PLANT, state_at(tick_));
     bench_.publish(topics::supervisor, crane_SOURCE_SUPERVISOR, status);
     bench_.step();
+    return newest();
+  }
+  [[nodiscard]] msg::Reference newest() {
     std::optional<msg::Reference> newest;
     while (const auto sample = output_.take()) newest = sample;
     if (!newest) throw std::runtime_error{"no reference"};
     return *newest;
   }
+  /// In the tick of the acceptance the supervisor is in RUN.
   void accept(std::uint64_t number, double trolley_m) {
+    state_ = crane_STATE_RUN;
     move_ = {};
     move_.number = number;
     move_.kind = crane_REQUEST_MOVE;
     move_.selected[0] = true;
     move_.target[0] = trolley_m;
   }
-  ComponentBench bench_{trajectory_planner_spec(), runtime::test::tower(), "gain_scheduling_partial"};
+  ComponentBench bench_;
   bus::Subscriber<msg::Reference> output_ = bench_.listen(topics::reference);
   crane_SupervisorState state_ = crane_STATE_HOLD;
   msg::AcceptedMove move_{};
@@ -66,6 +74,29 @@ TEST_F(PlannerComponent, ExecutesANewMoveOnce) {
   EXPECT_EQ(tick().axis[0].position, 0.5) << "an old move is not executed again";
 }
 
+TEST_F(PlannerComponent, LeavesAMoveAloneThatItSeesOnlyAfterItsStop) {
+  (void)tick();
+  accept(1, 0.9);
+  for (const auto state : {crane_STATE_STOP_C1, crane_STATE_LOCKED, crane_STATE_READY, crane_STATE_ARMING,
+                           crane_STATE_HOLD, crane_STATE_RUN}) {
+    state_ = state;
+    const auto reference = tick();
+    EXPECT_EQ(reference.axis[0].position, 0.5) << "state " << state;
+    EXPECT_EQ(reference.move_number, 0u);
+  }
+  accept(2, 0.7);
+  EXPECT_EQ(tick().axis[0].position, 0.7);
+}
+
+TEST_F(PlannerComponent, LeavesAMoveAloneThatItSeesOnlyAfterTheSupervisorHasGivenItUp) {
+  (void)tick();
+  accept(1, 0.9);
+  state_ = crane_STATE_HOLD;
+  EXPECT_EQ(tick().axis[0].position, 0.5);
+  state_ = crane_STATE_RUN;
+  EXPECT_EQ(tick().axis[0].position, 0.5);
+}
+
 TEST_F(PlannerComponent, LeavesAMoveAloneThatWasAcceptedBeforeItListened) {
   accept(5, 0.9);
   EXPECT_EQ(tick().axis[0].position, 0.5);
@@ -79,6 +110,33 @@ TEST_F(PlannerComponent, StopsWhereTheCraneIsInAControlledStop) {
   state_ = crane_STATE_STOP_C1;
   const auto stopped = tick();
   EXPECT_NEAR(stopped.axis[0].position, 0.5, 1e-9) << "the crane of this test stands still";
+}
+
+class PlannerInRealTime : public PlannerComponent {
+ protected:
+  PlannerInRealTime() : PlannerComponent{runtime::Clock::realtime} {}
+
+  /// One tick in which no status of the supervisor arrives.
+  [[nodiscard]] msg::Reference tick_without_status() {
+    bench_.publish(topics::state, crane_SOURCE_PLANT, state_at(++tick_));
+    bench_.step();
+    bench_.step_after(9'000'000);
+    return newest();
+  }
+};
+
+TEST_F(PlannerInRealTime, ExecutesAMoveWhoseFirstStatusIsLost) {
+  (void)tick();
+  accept(1, 0.9);
+  (void)tick_without_status();
+  EXPECT_EQ(tick().axis[0].position, 0.9);
+}
+
+TEST_F(PlannerInRealTime, LeavesAMoveAloneThatItSeesOnlyAfterTheStatusWasMissingForLong) {
+  (void)tick();
+  accept(1, 0.9);
+  for (int k = 0; k < 5; ++k) (void)tick_without_status();
+  EXPECT_EQ(tick().axis[0].position, 0.5);
 }
 
 }  // namespace
