@@ -91,7 +91,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
 
   /// No state arrives: the bridge has ended, hangs or is disconnected. Steps the state machine without a
-  /// sample. The command repeats the last tick, and the bridge discards it.
+  /// sample. The command repeats the last tick, and the bridge discards it. A late state does not end a move.
   bool on_idle(std::int64_t now_ns) override {
     if (const auto* state = open_leader()) (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
     if (now_ns < silence_ends_ns() || woke_late(now_ns)) return false;
@@ -99,6 +99,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     TickInput input;
     input.now_s = seconds(now_ns);
     input.tick = last_header_.tick;
+    input.reference_moving = is_moving(nullptr) || jogs_.session().held(input.now_s);
     input.self_test = self_test_.step(nullptr);
     step(input);
     return true;

@@ -2,6 +2,7 @@
 // when samples are late, or when the process is scheduled late. Times in milliseconds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "crane/runtime/in_process.hpp"
@@ -28,17 +29,15 @@ class SupervisorInRealTime : public testing::Test {
   }
 
   void state_comes(std::uint64_t tick) {
-    msg::State state{};
-    state.header = header(tick);
-    EXPECT_TRUE(states_.publish(state));
+    state_.header = header(tick);
+    EXPECT_TRUE(states_.publish(state_));
   }
   void demand_comes(std::uint64_t tick) {
     msg::Demand demand{};
     demand.header = header(tick);
     EXPECT_TRUE(demands_.publish(demand));
-    msg::Reference reference{};
-    reference.header = header(tick);
-    EXPECT_TRUE(references_.publish(reference));
+    reference_.header = header(tick);
+    EXPECT_TRUE(references_.publish(reference_));
   }
   /// The process is scheduled now.
   void wake_at(double time_ms) {
@@ -60,6 +59,11 @@ class SupervisorInRealTime : public testing::Test {
   [[nodiscard]] bool demand_is_stale() const { return status_.demand_stale; }
   [[nodiscard]] bool state_is_stale() const { return status_.state_stale; }
   [[nodiscard]] int steps() const { return steps_; }
+  [[nodiscard]] crane_SupervisorState supervisor_state() const { return status_.state; }
+
+  msg::State state_{};
+  msg::Reference reference_{};
+  std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
 
  private:
   [[nodiscard]] msg::Header header(std::uint64_t tick) const {
@@ -70,7 +74,6 @@ class SupervisorInRealTime : public testing::Test {
     return header;
   }
   std::int64_t bridge_ahead_ns_;
-  std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
   bus::Bus plant_{runtime::memory_options(network_, "plant", crane_SOURCE_PLANT)};
   bus::Bus friction_{runtime::memory_options(network_, "friction_compensation", crane_SOURCE_FRICTION)};
   bus::Bus planner_{runtime::memory_options(network_, "planner", crane_SOURCE_PLANNER)};
@@ -177,6 +180,67 @@ TEST_F(RealTime, StatesThatComeAsOftenAsItIsWokenDoNotPutOffTheJudgementForEver)
     wake_at(10.0 * static_cast<double>(tick));
   }
   EXPECT_TRUE(demand_is_stale());
+}
+
+/// A crane at rest whose brakes and relay obey the commands, in RUN: the reference moves.
+class RunInRealTime : public RealTime {
+ protected:
+  RunInRealTime() {
+    state_.trolley_position_m = 0.5;
+    state_.cable_length_m = 1;
+    std::ranges::fill(state_.position_known, true);
+    state_.watchdog_dropped = true;
+    std::ranges::fill(state_.brake_closed, true);
+    ticks(250);
+    ask(crane_REQUEST_RESET);
+    ticks(110);
+    ask(crane_REQUEST_ARM);
+    ticks(20);
+    ask(crane_REQUEST_MOVE);
+    reference_.moving = true;
+    reference_.move_number = 1;
+    ticks(30);
+    EXPECT_EQ(supervisor_state(), crane_STATE_RUN);
+  }
+  void ask(crane_RequestKind kind) {
+    msg::Request request{};
+    request.id = ++last_id_;
+    request.kind = kind;
+    request.selected[0] = true;
+    request.target[0] = 0.9;
+    EXPECT_TRUE(requests_.publish(request));
+  }
+  void ticks(int count) {
+    for (int k = 0; k < count; ++k) {
+      ++tick_;
+      while (const auto command = commands_.take()) {
+        for (std::size_t i = 0; i < 3; ++i) state_.brake_closed[i] = !command->brake_release[i];
+        state_.watchdog_dropped = !command->watchdog_permission;
+      }
+      state_comes(tick_);
+      wake_at(now_ms());
+      demand_comes(tick_);
+      wake_at(now_ms() + 0.5);
+    }
+  }
+  [[nodiscard]] double now_ms() const { return 10.0 * static_cast<double>(tick_); }
+
+  std::uint64_t tick_ = 10, last_id_ = 0;
+  bus::Bus operator_{runtime::memory_options(network_, "operator", crane_SOURCE_OPERATOR)};
+  bus::Publisher<msg::Request> requests_ = operator_.publisher(topics::request);
+  bus::Subscriber<msg::Command> commands_ = operator_.subscriber(topics::command);
+};
+
+TEST_F(RunInRealTime, ALateStateDoesNotEndTheMove) {
+  const int before = steps();
+  sleep_until(now_ms() + 29);  // one step without a state, 15 ms after the last one
+  EXPECT_EQ(steps(), before + 1);
+  EXPECT_EQ(supervisor_state(), crane_STATE_RUN);
+  ticks(5);
+  EXPECT_EQ(supervisor_state(), crane_STATE_RUN);
+  reference_.moving = false;
+  ticks(1);
+  EXPECT_EQ(supervisor_state(), crane_STATE_HOLD);
 }
 
 }  // namespace
