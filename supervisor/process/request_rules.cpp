@@ -42,7 +42,12 @@ std::string target_problem(const msg::Request& request, const AxisLimits& axis, 
          " of the sines must be at most " + std::to_string(axis.max_speed);
 }
 
-std::string follow_problem(const msg::Request& request) {
+/// A sine above half the tick rate cannot be represented by the reference: it would jump from tick to tick.
+std::string follow_problem(const msg::Request& request, const Limits& limits) {
+  const double highest_hz = 0.5 / limits.period_s;
+  if (!std::ranges::all_of(request.sine,
+                           [&](const auto& sine) { return std::abs(sine.frequency_hz) <= highest_hz; }))
+    return "follow: frequency_hz must lie in [0, " + std::to_string(highest_hz) + "], half the tick rate";
   if (!std::ranges::all_of(request.sine, [](const auto& sine) { return std::isfinite(sine.phase_rad); }))
     return "follow: phase_rad must be finite";
   const bool lasts = request.duration_s >= 0 && request.duration_s <= kLongestFollow_s;
@@ -121,7 +126,7 @@ std::string problem_of(const msg::Request& request, const Limits& limits) {
   if (selected == 0) return "no axis selected";
   if (request.kind == crane_REQUEST_MOVE || jog) return "";
   if (selected != 1) return home ? "home: select exactly one axis" : "follow: select exactly one axis";
-  return home ? "" : follow_problem(request);
+  return home ? "" : follow_problem(request, limits);
 }
 
 std::string problem_at(const msg::Request& request, const Limits& limits, const PerAxis& position) {

@@ -64,6 +64,12 @@ TEST(FollowRequest, IsRefusedBeyondTheSpeed) {
   EXPECT_NE(refusal_of(following(0.2, 2)).find("speed"), std::string::npos);
 }
 
+TEST(FollowRequest, IsRefusedAboveHalfTheTickRateWhereTheReferenceWouldJumpOrNotBeFinite) {
+  EXPECT_EQ(refusal_of(following(0.002, 49)), "accepted");
+  EXPECT_NE(refusal_of(following(0.002, 51)).find("frequency_hz"), std::string::npos);
+  EXPECT_NE(refusal_of(following(1e-309, 2e307)).find("frequency_hz"), std::string::npos);
+}
+
 TEST(FollowRequest, IsRefusedWithoutAPhase) {
   EXPECT_NE(refusal_of(following(0.2, 0.2, std::nan(""))).find("phase_rad"), std::string::npos);
 }
