@@ -18,7 +18,7 @@ void JogSession::begin(const msg::Request& request, const bus::ParticipantId& se
   request_ = request;
   sender_ = sender;
   writer_.reset();
-  begun_s_ = now_s;
+  begun_s_ = deflected_s_ = now_s;
   release(now_s);
 }
 
@@ -67,6 +67,7 @@ JogSession::Verdict JogSession::take(const msg::Jog& sample, const JogWriter& fr
   heard_s_ = now_s;
   engaged_ = !faulty_ && sample.header.tick <= tick;
   deflection_ = engaged_ ? deflection : Deflection{};
+  if (deflection_ != Deflection{}) deflected_s_ = now_s;
   return engaged_ ? Verdict::acts : Verdict::released;
 }
 
@@ -76,7 +77,8 @@ std::array<double, 3> JogSession::deflection(double now_s) const {
 
 bool JogSession::held(double now_s) const {
   if (!open_) return false;
-  return writer_ ? acts(now_s) : now_s - begun_s_ <= kFirst_s;
+  if (!writer_) return now_s - begun_s_ <= kFirst_s;
+  return acts(now_s) && now_s - deflected_s_ <= kLongest_s;
 }
 
 }  // namespace crane::supervisor

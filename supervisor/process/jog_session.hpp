@@ -32,6 +32,8 @@ class JogSession {
   /// Longest time from the acceptance to the first sample.
   static constexpr double kFirst_s = 0.5;
   /// Longest time of a deflection that never returns to zero: a stick that is stuck, or that nobody holds.
+  /// Also the longest time without a deflection: an engaged stick that nobody moves must not keep the brakes
+  /// open.
   static constexpr double kLongest_s = 60;
 
   enum class Verdict : std::uint8_t {
@@ -49,7 +51,8 @@ class JogSession {
 
   /// Deflection of the selected axes; 0 while the stick is released or silent.
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
-  /// True while the stick is engaged, and for kFirst_s while no sample has arrived.
+  /// True while the stick is engaged and has been deflected within kLongest_s, and for kFirst_s while no
+  /// sample has arrived.
   [[nodiscard]] bool held(double now_s) const;
   [[nodiscard]] bool open() const { return open_; }
 
@@ -69,6 +72,7 @@ class JogSession {
   bus::ParticipantId sender_ = bus::kUnknownParticipant;
   std::optional<bus::WriterId> writer_;  ///< nothing: no sample has arrived
   double begun_s_ = 0;
+  double deflected_s_ = 0;         ///< last time at which a deflection acted; before the first one: begun_s_
   double neutral_s_ = 0;           ///< last time at which the stick was released or not deflected
   std::optional<double> heard_s_;  ///< last sample; nothing: none since the stick was released
   bool engaged_ = false;

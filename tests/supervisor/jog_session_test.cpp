@@ -51,6 +51,17 @@ TEST_F(Jog, ActsOnTheSelectedAxes) {
   EXPECT_TRUE(session_.held(1.01));
 }
 
+TEST_F(Jog, IsNotHeldByAStickThatNobodyMovesForAMinute) {
+  begin(1);
+  std::uint64_t tick = 100;
+  take(sample(tick), kOperator, tick);
+  const auto held = [&] { return session_.held(static_cast<double>(tick) / 100); };
+  for (; held() && tick < 10'000; ++tick) take(sample(tick, kReleased), kOperator, tick);
+  EXPECT_NEAR(static_cast<double>(tick) / 100, 1 + JogSession::kLongest_s, 0.02);
+  take(sample(tick), kOperator, tick);
+  EXPECT_TRUE(held()) << "the operator is there again";
+}
+
 TEST_F(Jog, IgnoresAStrangerWithoutARequest) {
   EXPECT_EQ(take(sample(100), kStranger, 100), Verdict::stranger);
   EXPECT_EQ(session_.deflection(1), kReleased);
