@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "crane/plant/coordinates.hpp"
 #include "crane/protection.hpp"
@@ -155,6 +156,14 @@ std::size_t home_axis_of(const msg::Request& request) {
   const auto* found = std::find(std::begin(request.selected), std::end(request.selected), true);
   return found == std::end(request.selected) ? 0
                                              : static_cast<std::size_t>(found - std::begin(request.selected));
+}
+
+std::string OncePerTick::problem_of(const msg::Request& request, const Limits& limits) {
+  if (request.kind == crane_REQUEST_MOVE && !limits.zones.empty() && std::exchange(searched_, true))
+    return "another move was requested in this tick: repeat the request";
+  if (request.kind == crane_REQUEST_HOME && std::exchange(homed_, true))
+    return "homing was already requested in this tick: repeat the request after its end";
+  return "";
 }
 
 }  // namespace crane::supervisor

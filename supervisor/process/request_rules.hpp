@@ -22,4 +22,15 @@ namespace crane::supervisor {
 /// Axis of a homing request. @pre problem_of() is empty
 [[nodiscard]] std::size_t home_axis_of(const msg::Request& request);
 
+/// Requests of which only the first of a tick is executed: the search for the way of a move may take a third
+/// of a tick, and a flood of moves must not delay the command; one axis is homed at a time.
+class OncePerTick {
+ public:
+  /// @return why a request is refused after those before it in this tick; empty: it is the first
+  [[nodiscard]] std::string problem_of(const msg::Request& request, const Limits& limits);
+
+ private:
+  bool searched_ = false, homed_ = false;
+};
+
 }  // namespace crane::supervisor

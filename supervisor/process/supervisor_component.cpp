@@ -193,14 +193,10 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     bus::ParticipantId sender{};
     // The planner searches the way of an accepted move from the sample of the same tick.
     const PerAxis& position = input.state_arrived ? input.sample.position : memory_.motion.position;
-    bool searched = false;
+    OncePerTick once;
     while (const auto request = requests_.take_due(input.tick, &sender)) {
-      // The search for a way may take a third of a tick: a flood of moves must not delay the command.
-      const bool searches = request->kind == crane_REQUEST_MOVE && !limits_.zones.empty();
-      const auto problem = searches && searched
-                               ? "another move was requested in this tick: repeat the request"
-                               : problem_at(*request, limits_, position);
-      searched = searched || searches;
+      auto problem = once.problem_of(*request, limits_);
+      if (problem.empty()) problem = problem_at(*request, limits_, position);
       if (!problem.empty()) {
         requests_.reply(*request, last_header_, false, problem);
         continue;

@@ -75,6 +75,19 @@ TEST_P(HomingOn, BeginsOnTheMarkToo) {
   }
 }
 
+TEST_P(HomingOn, OfTwoAxesInOneTickHomesTheFirstAndRefusesTheSecond) {
+  LockstepCrane crane{GetParam()};
+  crane.run(1.1);
+  ASSERT_EQ(crane.ask(crane_REQUEST_RESET), "");
+  crane.run(1.1);
+  stack::OperatorRequest hoist{.kind = crane_REQUEST_HOME}, trolley = hoist;
+  hoist.selected[control::kHoist] = trolley.selected[control::kTrolley] = true;
+  const auto reasons = crane.ask_at_once({hoist, trolley});
+  EXPECT_EQ(reasons[0], "");
+  EXPECT_NE(reasons[1].find("in this tick"), std::string::npos) << reasons[1];
+  EXPECT_TRUE(crane.status().homing[control::kHoist]);
+}
+
 TEST_P(HomingOn, TwiceGivesTheSameZero) {
   LockstepCrane crane{GetParam()};
   crane.home_completely(0);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "crane/boards/emulated_board.hpp"
 #include "crane/bridge/bridge.hpp"
@@ -98,11 +99,19 @@ class LockstepCrane {
     return passed_s;
   }
   /// @return reason of the refusal; empty when accepted
-  std::string ask(const stack::OperatorRequest& wanted) {
-    const auto id = operator_->send(wanted);
+  std::string ask(const stack::OperatorRequest& wanted) { return ask_at_once({wanted}).front(); }
+  /// Sends all requests in the same tick.
+  std::vector<std::string> ask_at_once(const std::vector<stack::OperatorRequest>& wanted) {
+    std::vector<std::uint64_t> ids;
+    for (const auto& one : wanted) ids.push_back(operator_->send(one));
     tick();
     tick();
     operator_->receive();
+    std::vector<std::string> reasons;
+    for (const auto id : ids) reasons.push_back(reason_of(id));
+    return reasons;
+  }
+  std::string reason_of(std::uint64_t id) {
     const auto reply = operator_->take_reply(id, crane_SOURCE_SUPERVISOR);
     if (!reply) return "no answer";
     return reply->accepted ? "" : reply->reason;
