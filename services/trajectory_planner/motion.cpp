@@ -75,10 +75,12 @@ control::AxisProfile Motion::planned(std::size_t axis, double start, double targ
   return control::limited_profile(start, target, limits);
 }
 
+double Motion::usable_cable_m(double cable_m) const noexcept {
+  return std::clamp(cable_m, rig_.design.shortest_cable_length_m, rig_.design.longest_cable_length_m);
+}
+
 control::Shaper Motion::shaper(control::Shaping shaping, double cable_m) const {
-  const auto& design = rig_.design;
-  const double length_m = std::clamp(cable_m, design.shortest_cable_length_m, design.longest_cable_length_m);
-  return {shaping, plant::swing_period_s(design.crane.gravity_mps2, length_m)};
+  return {shaping, plant::swing_period_s(rig_.design.crane.gravity_mps2, usable_cable_m(cable_m))};
 }
 
 void Motion::start(const MoveTarget& move, std::uint64_t tick) {
@@ -186,9 +188,10 @@ void Motion::jog(const std::array<bool, kAxes>& selected, std::uint64_t tick) no
   // EI leaves a swing of the load coordinate, which moves the trolley beyond the limits of the stick.
   const bool robust = shaping_ == control::Shaping::zvd || shaping_ == control::Shaping::ei;
   limits.shaping = robust ? control::Shaping::zvd : control::Shaping::zv;
+  if (!rig_.carries_load()) limits.shaping = control::Shaping::none;
   limits.period_s = rig_.period_s;
   limits.gravity_mps2 = rig_.design.crane.gravity_mps2;
-  limits.longest_cable_m = now[control::kHoist].position;
+  limits.longest_cable_m = usable_cable_m(now[control::kHoist].position);
   for (std::size_t i = 0; i < kAxes; ++i) {
     const auto& drive = rig_.drives[i];
     if (!drive.present) continue;

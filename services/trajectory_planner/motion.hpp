@@ -75,6 +75,8 @@ class Motion {
     std::array<double, control::kAxes> speed{}, start{};
   };
   [[nodiscard]] control::AxisProfile planned(std::size_t axis, double start, double target) const;
+  /// Cable length within the range of the rig file: > 0 also without a load, where the measured length is 0.
+  [[nodiscard]] double usable_cable_m(double cable_m) const noexcept;
   [[nodiscard]] control::Shaper shaper(control::Shaping shaping, double cable_m) const;
   /// How the controller follows a way. @pre shaper_ is that of the way
   [[nodiscard]] control::RouteStyle route_style() const noexcept;

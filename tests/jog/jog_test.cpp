@@ -17,8 +17,8 @@ constexpr double kToDegree = 180 / std::numbers::pi;
 /// An armed crane with an operator who sends a sample per tick.
 class Jogged {
  public:
-  explicit Jogged(const std::string& controller)
-      : crane_{controller},
+  explicit Jogged(const std::string& controller, const std::string& rig = "virginia_tech_tower")
+      : crane_{controller, configuration::load_rig(CRANE_RIGS "/" + rig + ".toml")},
         jogs_{crane_.bus().publisher(topics::jog)},
         events_{crane_.bus().subscriber(topics::event)} {
     crane_.every_tick = [this] { after_tick(); };
@@ -231,6 +231,25 @@ TEST(Jog, AMoveReplacesTheSession) {
   EXPECT_EQ(jogged.crane().status().jog_deflection[0], 0);
   EXPECT_NEAR(jogged.crane().state().trolley_position_m, 0.8, 0.02);
 }
+
+/// Rigs with other axes than the tower: without a slewing jib, without a hoist, without a load.
+class JogOn : public testing::TestWithParam<const char*> {};
+
+TEST_P(JogOn, MovesTheTrolleyWithTheStickAndEndsInHold) {
+  Jogged jogged{"", GetParam()};
+  const double from_m = jogged.crane().state().trolley_position_m;
+  EXPECT_EQ(jogged.begin({true, false, false}), "");
+  jogged.deflect({0.5, 0, 0}, 1);
+  (void)jogged.release();
+  jogged.crane().run(
+      2);  // friction may hold the trolley of the drive_axis away from its reference: 20 s in RUN
+  EXPECT_EQ(jogged.crane().status().state, crane_STATE_HOLD);
+  EXPECT_GT(jogged.crane().state().trolley_position_m, from_m + 0.05);
+  EXPECT_EQ(jogged.crane().cause(), "NONE");
+}
+
+INSTANTIATE_TEST_SUITE_P(Rig, JogOn, testing::Values("gantry", "chapter_3_gantry", "drive_axis"),
+                         [](const auto& test) { return std::string{test.param}; });
 
 }  // namespace
 }  // namespace crane::jog_test
