@@ -226,7 +226,7 @@ bool encoder_frozen(const LastLineParameters& parameters, const CheckInput& inpu
 }
 
 /// Gain of speed, in volts, beyond the gain that the commands of the last ticks explain. Friction and brakes
-/// only reduce the speed and are ignored. The margin covers the force of the load.
+/// only reduce the speed and are ignored.
 double unexplained_v(const LastLineParameters& parameters, const CheckInput& input, std::size_t i,
                      std::size_t age) {
   const auto ticks = [&parameters](double time_s, std::size_t most) {
@@ -251,15 +251,14 @@ double unexplained_v(const LastLineParameters& parameters, const CheckInput& inp
 }
 
 /// Not checked while the brake is commanded closed: the drive then has 0 V, and braked_motion checks the
-/// axis.
+/// axis. The margin covers the force of the load.
 bool drive_response(const LastLineParameters& parameters, const CheckInput& input) noexcept {
-  constexpr double kMargin_v = 2.5;
   constexpr std::size_t kInRow = 3;
-  return any_axis(parameters, [&](std::size_t i, const AxisLine& /*axis*/) {
+  return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
     for (std::size_t age = 0; age < kInRow; ++age)
       if (age < input.history->size() && !(*input.history)[age].released[i]) return false;
     for (std::size_t age = 0; age < kInRow; ++age)
-      if (!(unexplained_v(parameters, input, i, age) > kMargin_v)) return false;
+      if (!(unexplained_v(parameters, input, i, age) > axis.response_margin_v)) return false;
     return true;
   });
 }

@@ -43,10 +43,12 @@ AxisLine axis_line(const configuration::Rig& rig, std::size_t i) {
   if (!drive.present) return axis;
   // Margins: temperature and dust raise the friction by up to 50 %; offsets are up to 0.5 V.
   constexpr double kOffset_v = 0.5, kFrictionMargin = 1.5, kCertainCreep_v = 0.8;
+  constexpr double kResponse_v = 2.5;  // chosen: more than offset, ripple and gain error of a sound drive
   const double friction_v = std::max({friction.coulomb_positive_v, friction.coulomb_negative_v,
                                       friction.stiction_positive_v, friction.stiction_negative_v});
   axis.certain_motion_v = kOffset_v + kFrictionMargin * friction_v + load_pull_v(i, rig);
   axis.creeping_motion_v = kCertainCreep_v + friction_v;
+  axis.response_margin_v = std::max(kResponse_v, load_pull_v(i, rig));
   set_gains(axis, i, rig);
   return axis;
 }

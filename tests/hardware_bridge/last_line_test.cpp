@@ -144,5 +144,17 @@ TEST(LastLine, DoesNotMistakeASkippedTickForAJumpOrForSpeed) {
   EXPECT_TRUE(timeline.tick()) << name_of(timeline.line.reason());
 }
 
+TEST(LastLine, TheForceOfALoadAsHeavyAsTheTrolleyIsNoFaultOfItsDrive) {
+  auto heavy = tower();
+  heavy.design.crane.load_mass_kg = heavy.design.crane.trolley_inertia_kg;
+  constexpr double kForce_v = 3.1;  // m g sin(0.7 rad) / (M K) is 3.16 V
+  Timeline loaded{last_line_checks(), heavy}, light;
+  for (auto* timeline : {&loaded, &light}) timeline->tick(40);
+  loaded.converter_stuck_v = light.converter_stuck_v = kForce_v;  // accelerates the trolley without a command
+  EXPECT_TRUE(loaded.tick(11)) << name_of(loaded.line.reason());
+  light.tick(11);
+  EXPECT_EQ(light.line.reason(), Reason::drive_response) << "a load of 2 kg cannot do this";
+}
+
 }  // namespace
 }  // namespace crane::bridge::test
