@@ -125,14 +125,15 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   /// Executes the last move that the supervisor has accepted.
   void start_if_new(const msg::AcceptedMove& move, const control::Measurement& measured, std::uint64_t tick) {
     if (!known_moves_ || move.number <= *known_moves_) return;
-    known_moves_ = move_number_ = move.number;
+    known_moves_ = move.number;
     drop_waiting_moves();
+    if (move.kind == crane_REQUEST_MOVE && !way_space_.zones.empty())
+      return wait_for_rest(move, measured, tick);
+    move_number_ = move.number;
     if (move.kind == crane_REQUEST_JOG)
       motion_.jog(target_of(move).selected, tick);
     else if (move.kind == crane_REQUEST_FOLLOW)
       motion_.excite(excitation_of(move), tick);
-    else if (!way_space_.zones.empty())
-      wait_for_rest(target_of(move), measured, tick);
     else
       start_straight(target_of(move), tick);
   }
@@ -146,16 +147,18 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
 
   /// With zones, a move begins at a place on the accepted way of the move before it, at rest: the supervisor
   /// has found a way from this place, too, because both places are connected.
-  void wait_for_rest(const MoveTarget& move, const control::Measurement& measured, std::uint64_t tick) {
+  void wait_for_rest(const msg::AcceptedMove& move, const control::Measurement& measured,
+                     std::uint64_t tick) {
     constexpr double kLongest_s = 20;  // friction may hold an axis away from its reference
     (void)motion_.slow_down(tick);
-    waiting_ = Waiting{move, tick + static_cast<std::uint64_t>(std::llround(kLongest_s / period_s_))};
+    waiting_ = Waiting{move.number, target_of(move),
+                       tick + static_cast<std::uint64_t>(std::llround(kLongest_s / period_s_))};
     begin_waiting(measured, tick);
   }
 
   void begin_waiting(const control::Measurement& measured, std::uint64_t tick) {
     if (!waiting_ || (!motion_.rests(measured, tick) && tick < waiting_->last_tick)) return;
-    const MoveTarget move = waiting_->move;
+    const auto [number, move, last_tick] = *waiting_;
     waiting_.reset();
     const auto now = motion_.at(tick);
     plant::PerAxis from{}, target{};
@@ -166,6 +169,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     auto way = control::way_to(way_space_, from, target);
     if (way.outcome == control::WayOutcome::straight && steps_ && !is_free_for_step(from, target))
       way = {.outcome = control::WayOutcome::around, .points = {{.position = target}}};
+    const bool leads =
+        way.outcome == control::WayOutcome::straight || way.outcome == control::WayOutcome::around;
+    if (leads) move_number_ = number;
     if (way.outcome == control::WayOutcome::straight)
       start_straight(move, tick);
     else if (way.outcome == control::WayOutcome::around)
@@ -233,6 +239,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   std::optional<Pending> pending_;
   /// A move that waits until the crane rests.
   struct Waiting {
+    std::uint64_t number;  ///< AcceptedMove.number
     MoveTarget move;
     std::uint64_t last_tick;
   };

@@ -12,8 +12,9 @@ using runtime::test::state_at;
 
 class PlannerComponent : public testing::Test {
  protected:
-  explicit PlannerComponent(runtime::Clock clock = runtime::Clock::lockstep)
-      : bench_{trajectory_planner_spec(), runtime::test::tower(), "gain_scheduling_partial", clock} {}
+  explicit PlannerComponent(runtime::Clock clock = runtime::Clock::lockstep,
+                            const configuration::Rig& rig = runtime::test::tower())
+      : bench_{trajectory_planner_spec(), rig, "gain_scheduling_partial", clock} {}
 
   /// One tick in `state_` with `move_` as the last accepted move. @return the reference of the next tick
   [[nodiscard]] msg::Reference tick() {
@@ -110,6 +111,29 @@ TEST_F(PlannerComponent, StopsWhereTheCraneIsInAControlledStop) {
   state_ = crane_STATE_STOP_C1;
   const auto stopped = tick();
   EXPECT_NEAR(stopped.axis[0].position, 0.5, 1e-9) << "the crane of this test stands still";
+}
+
+class PlannerAroundZones : public PlannerComponent {
+ protected:
+  PlannerAroundZones()
+      : PlannerComponent{runtime::Clock::lockstep,
+                         configuration::load_rig(CRANE_RIGS "/virginia_tech_tower_silo.toml")} {}
+};
+
+TEST_F(PlannerAroundZones, ReportsAMoveAsExecutedFromItsBeginningOn) {
+  (void)tick();
+  accept(1, 0.6);
+  EXPECT_EQ(tick().move_number, 1u) << "the crane rests: the move begins at once";
+}
+
+TEST_F(PlannerAroundZones, DoesNotReportAMoveAsExecutedToWhichItFindsNoWay) {
+  (void)tick();
+  accept(1, 0.7);
+  move_.selected[1] = true;
+  move_.target[1] = 1.0;  // inside the silo: the supervisor would refuse this target
+  const auto reference = tick();
+  EXPECT_EQ(reference.move_number, 0u) << "`crane move --wait` would report success";
+  EXPECT_FALSE(reference.moving);
 }
 
 class PlannerInRealTime : public PlannerComponent {
