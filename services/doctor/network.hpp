@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "crane/bus/bus.hpp"
 #include "doctor/announcements.hpp"
 #include "doctor/finding.hpp"
 #include "doctor/processes.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 /// A trolley with LastLine, tick by tick.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 

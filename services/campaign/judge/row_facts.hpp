@@ -7,7 +7,9 @@ namespace crane::campaign {
 inline constexpr double kVolt = 1e-9;  ///< V: rounding error
 
 /// Duration, ms.
-[[nodiscard]] inline double ms(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
+[[nodiscard]] inline double ms(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(to_ns - from_ns) * 1e-6;
+}
 
 /// True in states of a stop: power is, or is being, removed. LOCKED is the end of a stop.
 [[nodiscard]] inline bool is_stop(crane_SupervisorState state) {

@@ -137,7 +137,8 @@ class TickInvariants {
   const configuration::Rig& rig_;
   const Run& run_;
   Verdict& verdict_;
-  std::array<std::optional<double>, kAxes> braked_at_{};  ///< position at which the closed brake stopped the axis
+  std::array<std::optional<double>, kAxes>
+      braked_at_{};  ///< position at which the closed brake stopped the axis
   std::optional<std::int64_t> runaway_ns_;
   bool reset_ = false, permitted_ = false;
 };

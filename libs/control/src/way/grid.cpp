@@ -137,8 +137,8 @@ class Grid {
       for (int i = std::max(0, column - 1); i <= std::min(trolley_.count - 1, column + 1); ++i) {
         const int next = k * trolley_.count + i;
         if (next == node || done_[index(next)] != 0 || !is_open(next)) continue;
-        const auto& edge = edges_[static_cast<std::size_t>(4 * std::min(column, i) + 2 * (k != row ? 1 : 0) +
-                                                           (i != column ? 1 : 0))];
+        const Edge& edge =
+            edges_[4 * index(std::min(column, i)) + (k != row ? 2U : 0U) + (i != column ? 1U : 0U)];
         if (!is_free(node, next, edge.distance_m)) continue;
         const double speed_mps = std::min(pass_mps_[index(node)], pass_mps_[index(next)]);
         reach(next, node, cost_s_[index(node)] + std::max(edge.full_s, edge.distance_m / speed_mps));

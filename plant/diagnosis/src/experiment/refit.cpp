@@ -39,7 +39,8 @@ Crane with(Crane crane, const Effects& effects) {
   return crane;
 }
 
-WindowMisfit::WindowMisfit(const PreparedRun& run, Part part, double gravity_mps2, const Disturbances& disturbances)
+WindowMisfit::WindowMisfit(const PreparedRun& run, Part part, double gravity_mps2,
+                           const Disturbances& disturbances)
     : run_(run), part_(part), outputs_(simulated_outputs(run, part)) {
   const double period_s = run.run.period_s;
   rows_ = std::min(static_cast<std::size_t>(std::lround(kExperimentWindow_s / period_s)), run.run.rows());
@@ -125,7 +126,7 @@ MatrixXd WindowMisfit::start_directions(const Replay& replay, std::size_t window
 }
 
 Refit::Refit(const Crane& base, const PreparedRun& run, const Disturbances& disturbances,
-      const std::vector<const Candidate*>& causes)
+             const std::vector<const Candidate*>& causes)
     : base_(base) {
   const double g = base.parameters.gravity_mps2;
   const auto any = [&](bool Candidate::*shows) {

@@ -31,8 +31,9 @@ std::array<double, kOutputs> errors_of(const std::vector<std::pair<const Problem
       const std::vector<double> squares = problem->squares_left(*fits, i);
       double& error = errors[problem->outputs()[i]];
       for (std::size_t w = 0; w < squares.size(); ++w)
-        error += std::sqrt(squares[w] / static_cast<double>(problem->measured_rows(problem->windows()[w], i))) /
-                 static_cast<double>(squares.size());
+        error +=
+            std::sqrt(squares[w] / static_cast<double>(problem->measured_rows(problem->windows()[w], i))) /
+            static_cast<double>(squares.size());
     }
   return errors;
 }
