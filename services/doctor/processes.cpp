@@ -7,6 +7,7 @@
 #include <charconv>
 #include <fstream>
 #include <map>
+#include <utility>
 
 namespace crane::doctor {
 namespace {

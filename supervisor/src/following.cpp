@@ -49,7 +49,7 @@ PerAxis accelerations(const Limits& limits, const FollowingMemory& memory, const
                       double load_kg) noexcept {
   plant::Parameters p = limits.machine.crane;
   p.load_mass_kg = load_kg;
-  const auto& [newest, middle, oldest] = memory.recent;
+  const auto &newest = memory.recent[0], &middle = memory.recent[1], &oldest = memory.recent[2];
   const double newer = (newest.sampled_s - middle.sampled_s) / (newest.sampled_s - oldest.sampled_s);
   const auto mean_v = [&, newer](std::size_t i) {
     return newer * middle.applied_v[i] + (1 - newer) * oldest.applied_v[i];
