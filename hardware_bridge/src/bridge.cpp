@@ -117,13 +117,13 @@ void Bridge::take_commands(std::int64_t now_ns) {
       continue;
     }
     const bool new_writer = !command_ || taken->taken_over;
-    const CommandView asked{
+    const CommandView received{
         .tick = command->header.tick,
         .drive_v = runtime::values(command->drive_v),
         .brake_release = {command->brake_release[0], command->brake_release[1], command->brake_release[2]},
         .watchdog_permission = command->watchdog_permission,
         .homing = {command->homing[0], command->homing[1], command->homing[2]}};
-    command_ = probation_.believed(asked, new_writer);
+    command_ = probation_.believed(received, new_writer);
   }
 }
 
@@ -155,7 +155,7 @@ void Bridge::tick(const Inputs& inputs, std::int64_t now_ns) {
   const auto measured = measurement_.step(inputs.raw_counts, latched_at(previous, next, sample_time_ns));
   report_relay(inputs, now_ns);
   ports_.watch(now_ns);
-  auto now = seen(inputs);
+  auto now = observation(inputs);
   now.time_ns = sample_time_ns;
   now.second_writer = ports_.disputed(now_ns);
   apply(last_line_.decide(command_, next, now));
@@ -176,14 +176,14 @@ Latched Bridge::latched_at(std::optional<std::uint64_t> previous, std::uint64_t 
 }
 
 /// A position that becomes known is published from the next tick on. A doubtful position becomes unknown.
-void Bridge::look_for_marks(const Seen& seen) {
+void Bridge::look_for_marks(const Observation& observation) {
   for (std::size_t i = 0; i < kDrives; ++i) {
     if (last_line_.doubted()[i]) homing_.forget(i);
     const bool released = command_ && command_->brake_release[i] && last_line_.reason() == Reason::none;
-    const auto change = homing_.step(i, {.counts = seen.counts[i],
-                                         .active = seen.mark[i],
-                                         .asked = command_ && command_->homing[i],
-                                         .free = released && !seen.brake_closed[i],
+    const auto change = homing_.step(i, {.counts = observation.counts[i],
+                                         .active = observation.mark[i],
+                                         .requested = command_ && command_->homing[i],
+                                         .free = released && !observation.brake_closed[i],
                                          .rests = last_line_.rests(i)});
     if (!change) continue;
     measurement_.shift(i, *change);
@@ -199,20 +199,20 @@ void Bridge::apply(Outputs outputs) {
   for (std::size_t i = 0; i < kDrives; ++i) applied_v_[i] *= drives_[i].sign;
 }
 
-Seen Bridge::seen(const Inputs& inputs) const {
-  Seen seen{.applied_v = applied_v_,
-            .brake_closed = inputs.brake_closed,
-            .limit_low = inputs.limit_low,
-            .limit_high = inputs.limit_high};
+Observation Bridge::observation(const Inputs& inputs) const {
+  Observation observation{.applied_v = applied_v_,
+                          .brake_closed = inputs.brake_closed,
+                          .limit_low = inputs.limit_low,
+                          .limit_high = inputs.limit_high};
   for (std::size_t i = 0; i < kCounters; ++i) {
-    seen.counts[i] = measurement_.coordinates()[i].counts();
-    seen.coordinate[i] = measurement_.coordinates()[i].position();
+    observation.counts[i] = measurement_.coordinates()[i].counts();
+    observation.coordinate[i] = measurement_.coordinates()[i].position();
   }
   for (std::size_t i = 0; i < kDrives; ++i) {
-    seen.unknown[i] = !homing_.known(i);
-    seen.mark[i] = mark_active(drives_[i], inputs, i);
+    observation.unknown[i] = !homing_.known(i);
+    observation.mark[i] = mark_active(drives_[i], inputs, i);
   }
-  return seen;
+  return observation;
 }
 
 msg::State Bridge::state(const Inputs& inputs, const control::Measurement& measured,

@@ -18,7 +18,7 @@ double seconds(const LastLineParameters& parameters, const CheckInput& input, st
                std::size_t older) {
   constexpr double kShortest_periods = 0.01;
   const auto& history = *input.history;
-  const auto elapsed_ns = history[newer].seen.time_ns - history[older].seen.time_ns;
+  const auto elapsed_ns = history[newer].observation.time_ns - history[older].observation.time_ns;
   return std::max(static_cast<double>(elapsed_ns) / 1e9, kShortest_periods * parameters.period_s);
 }
 
@@ -27,7 +27,8 @@ double speed(const LastLineParameters& parameters, const CheckInput& input, std:
              std::size_t age = 0) {
   const auto& history = *input.history;
   if (history.size() < age + 2) return 0;
-  return (history[age].seen.coordinate[coordinate] - history[age + 1].seen.coordinate[coordinate]) /
+  return (history[age].observation.coordinate[coordinate] -
+          history[age + 1].observation.coordinate[coordinate]) /
          seconds(parameters, input, age, age + 1);
 }
 
@@ -83,12 +84,12 @@ bool not_homed(const LastLineParameters& parameters, const CheckInput& input) no
   const auto ticks = std::clamp<std::size_t>(
       static_cast<std::size_t>(std::llround(kWindow_s / parameters.period_s)), 1, History::kLength - 1);
   return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
-    if (!history[0].seen.unknown[i] || !requests_motion(*input.command, i)) return false;
+    if (!history[0].observation.unknown[i] || !requests_motion(*input.command, i)) return false;
     if (!input.command->homing[i] ||
         !(std::abs(input.command->drive_v[i]) <= axis.homing.volt_limit_v + kRounding))
       return true;
     if (history.size() <= ticks) return false;
-    const double distance = history[0].seen.coordinate[i] - history[ticks].seen.coordinate[i];
+    const double distance = history[0].observation.coordinate[i] - history[ticks].observation.coordinate[i];
     return !(std::abs(distance) / seconds(parameters, input, 0, ticks) <=
              kCreepingMargin * axis.homing.speed);
   });
@@ -98,8 +99,8 @@ bool not_homed(const LastLineParameters& parameters, const CheckInput& input) no
 bool position(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   if (input.command == nullptr) return false;
   return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
-    if (!requests_motion(*input.command, i) || (*input.history)[0].seen.unknown[i]) return false;
-    const double x = (*input.history)[0].seen.coordinate[i];
+    if (!requests_motion(*input.command, i) || (*input.history)[0].observation.unknown[i]) return false;
+    const double x = (*input.history)[0].observation.coordinate[i];
     const double v = speed(parameters, input, i);
     const double distance = std::abs(v) * axis.brake_close_time_s + v * v / (2 * axis.brake_deceleration);
     const double ahead = v > 0 ? x + distance : x;
@@ -121,7 +122,7 @@ bool swing(const LastLineParameters& parameters, const CheckInput& input) noexce
   for (std::size_t i = 0; i < kDrives; ++i) moving = moving || requests_motion(*input.command, i);
   for (std::size_t i = 0; i < parameters.swing_present.size(); ++i)
     if (moving && parameters.swing_present[i] &&
-        !(std::abs((*input.history)[0].seen.coordinate[kDrives + i]) <= parameters.swing_limit_rad))
+        !(std::abs((*input.history)[0].observation.coordinate[kDrives + i]) <= parameters.swing_limit_rad))
       return true;
   return false;
 }
@@ -144,9 +145,9 @@ bool encoder_jump(const LastLineParameters& parameters, const CheckInput& input)
 /// True when the homing mark is detected at another position than before.
 bool mark_disagrees(const AxisLine& axis, const CheckInput& input, std::size_t i) noexcept {
   const auto& history = *input.history;
-  if (!axis.homes() || history.size() < 2 || history[1].seen.unknown[i]) return false;
-  if (history[0].seen.mark[i] == history[1].seen.mark[i]) return false;
-  const double now = history[0].seen.coordinate[i], before = history[1].seen.coordinate[i];
+  if (!axis.homes() || history.size() < 2 || history[1].observation.unknown[i]) return false;
+  if (history[0].observation.mark[i] == history[1].observation.mark[i]) return false;
+  const double now = history[0].observation.coordinate[i], before = history[1].observation.coordinate[i];
   const double low = std::min(now, before) - axis.homing.back_off;
   const double high = std::max(now, before) + axis.homing.back_off;
   return !(axis.homing.position >= low && axis.homing.position <= high);
@@ -155,10 +156,10 @@ bool mark_disagrees(const AxisLine& axis, const CheckInput& input, std::size_t i
 /// A limit switch is a reference mark: when it is pressed far from the limit, counts are lost.
 bool counts_lost(const LastLineParameters& parameters, const CheckInput& input, std::size_t i) noexcept {
   const AxisLine& axis = parameters.axis[i];
-  const auto& seen = (*input.history)[0].seen;
-  if (!axis.present || seen.unknown[i]) return false;
-  return (seen.limit_low[i] && seen.coordinate[i] > axis.low_limit + axis.soft_margin) ||
-         (seen.limit_high[i] && seen.coordinate[i] < axis.high_limit - axis.soft_margin) ||
+  const auto& observation = (*input.history)[0].observation;
+  if (!axis.present || observation.unknown[i]) return false;
+  return (observation.limit_low[i] && observation.coordinate[i] > axis.low_limit + axis.soft_margin) ||
+         (observation.limit_high[i] && observation.coordinate[i] < axis.high_limit - axis.soft_margin) ||
          mark_disagrees(axis, input, i);
 }
 
@@ -170,23 +171,24 @@ bool lost_counts(const LastLineParameters& parameters, const CheckInput& input) 
 bool braked_motion(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
     return input.braked_at[i] &&
-           std::abs((*input.history)[0].seen.coordinate[i] - *input.braked_at[i]) > axis.brake_slip;
+           std::abs((*input.history)[0].observation.coordinate[i] - *input.braked_at[i]) > axis.brake_slip;
   });
 }
 
 constexpr std::int64_t kFlicker_counts = 2;  // noise of an encoder between two counts
 
 bool unmoved(const History& history, std::size_t i, std::size_t newer, std::size_t older) {
-  return std::abs(history[newer].seen.counts[i] - history[older].seen.counts[i]) <= kFlicker_counts;
+  return std::abs(history[newer].observation.counts[i] - history[older].observation.counts[i]) <=
+         kFlicker_counts;
 }
 
 /// Number of ticks up to now in which the axis was free, the voltage had its present sign, and the counter
 /// did not change.
 std::size_t ticks_without_motion(const History& history, std::size_t i) {
-  const double side = history[0].seen.applied_v[i] > 0 ? 1 : -1;
+  const double side = history[0].observation.applied_v[i] > 0 ? 1 : -1;
   std::size_t ticks = 0;
   while (ticks + 1 < history.size() && history[ticks].free[i] &&
-         side * history[ticks].seen.applied_v[i] > 0 && unmoved(history, i, 0, ticks + 1))
+         side * history[ticks].observation.applied_v[i] > 0 && unmoved(history, i, 0, ticks + 1))
     ++ticks;
   return ticks;
 }
@@ -199,7 +201,8 @@ bool motion_is_missing(const LastLineParameters& parameters, const AxisLine& axi
   constexpr double kVisible = 0.005;  // m, rad, m of cable: twenty times the play of a gear
   double distance = 0, speed = 0;
   for (std::size_t age = ticks_without_motion(history, i); age-- > 0;) {
-    const double net_v = std::max(std::abs(history[age].seen.applied_v[i]) - axis.certain_motion_v, 0.0);
+    const double net_v =
+        std::max(std::abs(history[age].observation.applied_v[i]) - axis.certain_motion_v, 0.0);
     if (axis.lag_s > 0)
       speed += (axis.gain_low * net_v - speed) * std::min(parameters.period_s / axis.lag_s, 1.0);
     else
@@ -217,10 +220,10 @@ bool encoder_frozen(const LastLineParameters& parameters, const CheckInput& inpu
   const auto ticks = std::clamp<std::size_t>(window, 2, History::kLength - 1);
   const auto& history = *input.history;
   return any_axis(parameters, [&](std::size_t i, const AxisLine& axis) {
-    if (!history[0].seen.unknown[i]) return motion_is_missing(parameters, axis, history, i);
+    if (!history[0].observation.unknown[i]) return motion_is_missing(parameters, axis, history, i);
     if (ticks_without_motion(history, i) < ticks) return false;
     for (std::size_t age = 0; age < ticks; ++age)
-      if (std::abs(history[age].seen.applied_v[i]) < axis.creeping_motion_v) return false;
+      if (std::abs(history[age].observation.applied_v[i]) < axis.creeping_motion_v) return false;
     return true;
   });
 }
@@ -242,9 +245,9 @@ double unexplained_v(const LastLineParameters& parameters, const CheckInput& inp
   // After a reversal only the speed gained from standstill counts: friction can explain the stop.
   const double before = std::max(side * speed(parameters, input, i, age + span), 0.0);
   double gained = (std::abs(v) - before) / seconds(parameters, input, age, age + span);
-  double most_v = side * history[age].seen.applied_v[i];
+  double most_v = side * history[age].observation.applied_v[i];
   for (std::size_t k = 1; k < remembered; ++k)
-    most_v = std::max(most_v, side * history[age + k].seen.applied_v[i]);
+    most_v = std::max(most_v, side * history[age + k].observation.applied_v[i]);
   if (axis.lag_s > 0) gained = gained * axis.lag_s + std::abs(v);  // voltage of a speed-controlled drive
   if (!(gained > 0)) return 0;  // friction can hold the axis against its drive
   return (gained - most_v * (most_v > 0 ? axis.gain_high : axis.gain_low)) / axis.gain_high;
@@ -265,7 +268,7 @@ bool drive_response(const LastLineParameters& parameters, const CheckInput& inpu
 
 /// The bridge cannot determine which of two writers is the supervisor.
 bool second_writer(const LastLineParameters& /*parameters*/, const CheckInput& input) noexcept {
-  return (*input.history)[0].seen.second_writer;
+  return (*input.history)[0].observation.second_writer;
 }
 
 constexpr std::array kChecks{Check{Reason::second_writer, second_writer},

@@ -48,11 +48,11 @@ void Homing::forget(std::size_t i) noexcept {
 std::optional<std::int64_t> Homing::step(std::size_t i, const MarkView& view) noexcept {
   Axis& axis = axes_[i];
   if (!axis.homes) return std::nullopt;
-  if (view.asked && !axis.was_asked) forget(i);
-  if (view.asked && view.free && axis.started) look(axis, view);
-  const bool over = !view.asked && !axis.was_asked;
+  if (view.requested && !axis.was_requested) forget(i);
+  if (view.requested && view.free && axis.started) look(axis, view);
+  const bool over = !view.requested && !axis.was_requested;
   if (over && axis.first && !axis.found) forget(i);  // homing ended before the second detection
-  axis.was_asked = view.asked;
+  axis.was_requested = view.requested;
   axis.was_active = view.active;
   axis.last_counts = view.counts;
   axis.started = true;

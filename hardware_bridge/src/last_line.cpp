@@ -32,8 +32,8 @@ void History::add(const Entry& entry) noexcept {
 }
 
 Outputs LastLine::decide(const std::optional<CommandView>& command, std::uint64_t tick,
-                         const Seen& seen) noexcept {
-  observe(tick, seen);
+                         const Observation& observation) noexcept {
+  observe(tick, observation);
   if (!enabled(bridge_latch_is_kept)) reason_ = Reason::none;
   if (command && reason_ != Reason::none && !final_) reset_on_permission_edge(*command);
   const CheckInput input{tick, command ? &*command : nullptr, before_, &history_, braked_at_};
@@ -49,18 +49,18 @@ Outputs LastLine::decide(const std::optional<CommandView>& command, std::uint64_
   return executed_;
 }
 
-void LastLine::observe(std::uint64_t tick, const Seen& seen) noexcept {
-  History::Entry entry{tick, seen, executed_.brake_release, {}};
+void LastLine::observe(std::uint64_t tick, const Observation& observation) noexcept {
+  History::Entry entry{tick, observation, executed_.brake_release, {}};
   for (std::size_t i = 0; i < kDrives; ++i) {
-    entry.free[i] = executed_.brake_release[i] && !seen.brake_closed[i];
-    if (parameters_.axis[i].present) follow_brake(i, tick, seen);
+    entry.free[i] = executed_.brake_release[i] && !observation.brake_closed[i];
+    if (parameters_.axis[i].present) follow_brake(i, tick, observation);
   }
   history_.add(entry);
 }
 
 /// Stores the coordinate at the tick at which the closed brake has stopped the axis. The axis must then stay
 /// there.
-void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Seen& seen) noexcept {
+void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Observation& observation) noexcept {
   if (executed_.brake_release[axis]) {
     commanded_closed_[axis] = false;
     braked_at_[axis].reset();
@@ -69,13 +69,14 @@ void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Seen& se
   if (!commanded_closed_[axis]) {
     const AxisLine& line = parameters_.axis[axis];
     constexpr double kReserve = 1.5, kReserve_s = 0.05;
-    const double moved = history_.size() > 0 ? seen.coordinate[axis] - history_[0].seen.coordinate[axis] : 0;
+    const double moved =
+        history_.size() > 0 ? observation.coordinate[axis] - history_[0].observation.coordinate[axis] : 0;
     const double speed = std::min(std::abs(moved) / parameters_.period_s, line.max_speed);
     const double rest_s = line.brake_close_time_s + kReserve * speed / line.brake_deceleration + kReserve_s;
     commanded_closed_[axis] = true;
     rests_from_tick_[axis] = tick + static_cast<std::uint64_t>(std::ceil(rest_s / parameters_.period_s));
   }
-  if (!braked_at_[axis] && tick >= rests_from_tick_[axis]) braked_at_[axis] = seen.coordinate[axis];
+  if (!braked_at_[axis] && tick >= rests_from_tick_[axis]) braked_at_[axis] = observation.coordinate[axis];
 }
 
 Reason LastLine::first_failure(const CheckInput& input) const noexcept {
@@ -115,7 +116,7 @@ void LastLine::reset_on_permission_edge(const CommandView& command) noexcept {
   if (!fresh || !quiet) return;
   if (!command.watchdog_permission) {
     permission_withheld_ = true;
-  } else if (permission_withheld_ && !history_[0].seen.second_writer) {
+  } else if (permission_withheld_ && !history_[0].observation.second_writer) {
     permission_withheld_ = false;
     reason_ = Reason::none;
     doubted_ = {};

@@ -137,9 +137,9 @@ Injection operator_stops(Bench& bench, Random& random) {
                                     std::pair{crane_REQUEST_ESTOP, crane_CAUSE_OPERATOR_ESTOP}};
   const auto [request, cause] = kWays[random.pick(kWays.size())];
   const bool stopping = bench.now().status.state == crane_STATE_STOP_C1;
-  bench.every_tick = [&bench, request = request, asked = false]() mutable {
-    if (!asked) bench.send(request);
-    asked = true;
+  bench.every_tick = [&bench, request = request, sent = false]() mutable {
+    if (!sent) bench.send(request);
+    sent = true;
   };
   return {.expectation = {.reasons = {because(cause)},
                           .may_ride_through = stopping && request != crane_REQUEST_ESTOP,

@@ -99,9 +99,9 @@ Injection arming_fails(Bench& bench, Random& random) {
     injection.expectation.detection_ms = 10 * std::ceil(drive.brake_slip / distance) + 20;
     injection.visible = [&bench, i] { return bench.now().command.brake_release[i]; };
   }
-  bench.every_tick = [&bench, asked = false]() mutable {
-    if (!asked) bench.send(crane_REQUEST_ARM);
-    asked = true;
+  bench.every_tick = [&bench, sent = false]() mutable {
+    if (!sent) bench.send(crane_REQUEST_ARM);
+    sent = true;
   };
   return injection;
 }

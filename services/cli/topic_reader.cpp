@@ -83,22 +83,22 @@ std::uint64_t read_topic(bus::Bus& bus, const TopicOptions& options,
   auto subscriber = bus.cdr_subscriber(*options.topic, endpoint);
   std::vector<std::uint8_t> cdr;
   bus::SampleInfo info;
-  std::uint64_t seen = 0;
+  std::uint64_t received = 0;
   Hint hint;
-  const auto finished = [&] { return options.count > 0 && seen >= options.count; };
+  const auto finished = [&] { return options.count > 0 && received >= options.count; };
   wait_until(bus, options.duration_s, [&] {
     while (!finished()) {
       const auto header = subscriber.take(cdr, &info);
       if (!header) break;
       if (!info.valid) continue;
-      ++seen;
+      ++received;
       visit({*header, info, runtime::monotonic_ns(), cdr});
     }
     wake();
-    if (seen == 0) hint.give([&] { return why_silent(bus, subscriber, *refused); });
+    if (received == 0) hint.give([&] { return why_silent(bus, subscriber, *refused); });
     return finished();
   });
-  if (seen == 0) throw std::runtime_error(why_silent(bus, subscriber, *refused));
+  if (received == 0) throw std::runtime_error(why_silent(bus, subscriber, *refused));
   return subscriber.counts().rejected;
 }
 

@@ -15,6 +15,7 @@ constexpr std::array<const char*, kDocuments> kDocumentNames{"dashboard/situatio
 
 std::vector<Channel> make_channels() {
   std::vector<Channel> all;
+  all.reserve(topics::kAll.size() + kDocuments);
   for (const auto& topic : topics::kAll)
     all.push_back({channel_of_topic(all.size()), "/" + std::string{topic.name}, "cdr",
                    std::string{topic.type}, std::string{topics::idl_text()}, "omgidl"});

@@ -125,7 +125,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     });
   }
 
-  /// A guess costs time, whatever it asked for, and tells nothing before that.
+  /// A guess costs time, whatever its request, and tells nothing before that.
   void answer_guess() {
     stream_.expires_never();
     server_.refuse();

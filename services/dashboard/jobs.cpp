@@ -51,6 +51,7 @@ Progress progress_in(const std::string& said) {
 
 std::vector<std::string> names_of(const std::vector<Run>& runs) {
   std::vector<std::string> names;
+  names.reserve(runs.size());
   for (const auto& run : runs) names.push_back(run.name);
   return names;
 }

@@ -6,7 +6,7 @@ namespace crane::dashboard {
 
 void RequestQueue::poll() {
   if (!sender_) return;
-  for (auto& asked : asked_.take_all()) sender_->send(asked.wanted, std::move(asked.answered));
+  for (auto& queued : queue_.take_all()) sender_->send(queued.wanted, std::move(queued.answered));
   sender_->poll(runtime::monotonic_ns());
 }
 

@@ -17,18 +17,18 @@ class RequestQueue {
 
   /// May be called by any thread. @return false when too many requests wait
   bool ask(const stack::OperatorRequest& wanted, Answered answered) {
-    return asked_.put({wanted, std::move(answered)});
+    return queue_.put({wanted, std::move(answered)});
   }
   /// Sends the requests and takes the answers. Called by the bus thread.
   void poll();
 
  private:
-  struct Asked {
+  struct Queued {
     stack::OperatorRequest wanted;
     Answered answered;
   };
   std::optional<RequestSender> sender_;
-  Inbox<Asked> asked_{kMostConnections};  ///< at most one per connection, so that none is refused
+  Inbox<Queued> queue_{kMostConnections};  ///< at most one per connection, so that none is refused
 };
 
 }  // namespace crane::dashboard

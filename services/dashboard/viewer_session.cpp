@@ -118,16 +118,16 @@ void ViewerSession::obey(const ClientMessage& message) {
   if (const auto* unwanted = std::get_if<Unsubscribe>(&message)) {
     for (const auto id : unwanted->ids)
       std::erase_if(subscriptions_, [id](const auto& entry) { return entry.second == id; });
-  } else if (const auto* asked = std::get_if<GetParameters>(&message)) {
+  } else if (const auto* request = std::get_if<GetParameters>(&message)) {
     const auto& about = server_.model().about();
     nlohmann::json values = nlohmann::json::array();
     const std::array<std::pair<const char*, nlohmann::json>, 3> all{
         {{"crane", about.crane}, {"domain", about.domain}, {"version", about.version}}};
     for (const auto& [name, value] : all)
-      if (asked->names.empty() || std::ranges::find(asked->names, name) != asked->names.end())
+      if (request->names.empty() || std::ranges::find(request->names, name) != request->names.end())
         values.push_back({{"name", name}, {"value", value}});
     nlohmann::json answer{{"op", "parameterValues"}, {"parameters", values}};
-    if (!asked->id.empty()) answer["id"] = asked->id;
+    if (!request->id.empty()) answer["id"] = request->id;
     send_text(answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   }
 }

@@ -129,7 +129,7 @@ std::optional<bus::Announcement> announcement_in(Bytes datagram) {
     rest = rest.subspan(4);
     if (size == 0 || size > rest.size()) size = rest.size();  // 0: up to the end, 9.4.5.1.3
     if (kind == kDataMessage)
-      if (const auto found = announcement_of(rest.first(size), flags)) return found;
+      if (auto found = announcement_of(rest.first(size), flags)) return found;
     rest = rest.subspan(size);
   }
   return std::nullopt;

@@ -49,12 +49,12 @@ Findings examine_network(const Options& options) {
       std::launch::async, [&] { return listen_for_announcements(addresses_of(own), duration_of(options)); });
   const auto heard = listen_on(bus, duration_of(options));
   auto announced = announcements.get();
-  const Asked asked{options.bus.crane, options.bus.domain, options.bus.interfaces,
-                    !options.bus.secure.empty()};
-  auto silence = judge_silence(asked, heard, local, announced);
+  const ExpectedCrane expected{options.bus.crane, options.bus.domain, options.bus.interfaces,
+                               !options.bus.secure.empty()};
+  auto silence = judge_silence(expected, heard, local, announced);
   if (silence.size() == 1 && silence.front().code == "nobody_publishes" && !addresses_of(own).empty()) {
     announced = listen_for_announcements(addresses_of(own), kLongestAnnouncement);
-    silence = judge_silence(asked, heard, local, announced);
+    silence = judge_silence(expected, heard, local, announced);
   }
   add(findings, std::move(silence));
   add(findings, judge_processes_heard(heard));

@@ -45,44 +45,44 @@ std::string list_of(const std::vector<std::string>& all) {
   return text;
 }
 
-std::string where(const Asked& asked) {
-  return "crane '" + asked.crane + "' in domain " + std::to_string(asked.domain) + " on " +
-         list_of(asked.interfaces);
+std::string where(const ExpectedCrane& expected) {
+  return "crane '" + expected.crane + "' in domain " + std::to_string(expected.domain) + " on " +
+         list_of(expected.interfaces);
 }
 
-Finding nobody(const Asked& asked, const std::string& code, const std::string& instead,
+Finding nobody(const ExpectedCrane& expected, const std::string& code, const std::string& instead,
                const std::string& remedy) {
-  return {Grade::problem, "net", code, "nobody publishes for " + where(asked) + instead, remedy};
+  return {Grade::problem, "net", code, "nobody publishes for " + where(expected) + instead, remedy};
 }
 
-/// The option that makes the difference between the asked crane and another one; empty: none.
-std::string options_for(const Asked& asked, const std::string& crane, std::uint32_t domain) {
+/// The option that makes the difference between the expected crane and another one; empty: none.
+std::string options_for(const ExpectedCrane& expected, const std::string& crane, std::uint32_t domain) {
   std::string options;
-  if (crane != asked.crane) options += " --crane " + crane;
-  if (domain != asked.domain) options += " --domain " + std::to_string(domain);
+  if (crane != expected.crane) options += " --crane " + crane;
+  if (domain != expected.domain) options += " --domain " + std::to_string(domain);
   return options;
 }
 
-std::string code_for(const Asked& asked, std::uint32_t domain) {
-  return domain != asked.domain ? "wrong_domain" : "wrong_crane";
+std::string code_for(const ExpectedCrane& expected, std::uint32_t domain) {
+  return domain != expected.domain ? "wrong_domain" : "wrong_crane";
 }
 
 /// Each other crane on this computer once.
-Findings cranes_on_this_computer(const Asked& asked, const std::vector<LocalProcess>& local) {
+Findings cranes_on_this_computer(const ExpectedCrane& expected, const std::vector<LocalProcess>& local) {
   Findings findings;
   std::set<std::string> reported;
   for (const auto& process : local) {
     if (!process.in_loop()) continue;
-    auto options = options_for(asked, process.crane, process.domain);
-    auto code = options.empty() ? "wrong_interface" : code_for(asked, process.domain);
-    if (process.interfaces != asked.interfaces)
+    auto options = options_for(expected, process.crane, process.domain);
+    auto code = options.empty() ? "wrong_interface" : code_for(expected, process.domain);
+    if (process.interfaces != expected.interfaces)
       for (const auto& interface : process.interfaces) options += " --interface " + interface;
-    if (process.secure && !asked.secure) {
+    if (process.secure && !expected.secure) {
       if (options.empty()) code = "wrong_keys";
       options += " --secure DIR";
     }
     if (options.empty() || !reported.insert(options).second) continue;
-    findings.push_back(nobody(asked, code,
+    findings.push_back(nobody(expected, code,
                               "; on this computer crane '" + process.crane + "' runs in domain " +
                                   std::to_string(process.domain) + " on " + list_of(process.interfaces) +
                                   (process.secure ? ", with keys" : ""),
@@ -91,13 +91,13 @@ Findings cranes_on_this_computer(const Asked& asked, const std::vector<LocalProc
   return findings;
 }
 
-Findings cranes_announced(const Asked& asked, const std::vector<Announced>& announced) {
+Findings cranes_announced(const ExpectedCrane& expected, const std::vector<Announced>& announced) {
   Findings findings;
   std::set<std::string> reported;
   for (const auto& one : announced) {
-    const auto options = options_for(asked, one.said.crane, one.domain);
+    const auto options = options_for(expected, one.said.crane, one.domain);
     if (options.empty() || !reported.insert(options + one.address).second) continue;
-    findings.push_back(nobody(asked, code_for(asked, one.domain),
+    findings.push_back(nobody(expected, code_for(expected, one.domain),
                               "; " + one.said.participant + " of crane '" + one.said.crane +
                                   "' announces itself from " + one.address + " in domain " +
                                   std::to_string(one.domain),
@@ -143,14 +143,14 @@ Heard listen_on(bus::Bus& bus, milliseconds duration) {
   return heard;
 }
 
-Findings judge_silence(const Asked& asked, const Heard& heard, const std::vector<LocalProcess>& local,
-                       const std::vector<Announced>& announced) {
+Findings judge_silence(const ExpectedCrane& expected, const Heard& heard,
+                       const std::vector<LocalProcess>& local, const std::vector<Announced>& announced) {
   if (!heard.nodes.empty() || heard.states > 0) return {};
-  auto findings = cranes_on_this_computer(asked, local);
-  std::ranges::move(cranes_announced(asked, announced), std::back_inserter(findings));
+  auto findings = cranes_on_this_computer(expected, local);
+  std::ranges::move(cranes_announced(expected, announced), std::back_inserter(findings));
   if (findings.empty() && heard.other_versions.empty())
     findings.push_back(
-        nobody(asked, "nobody_publishes", ", and no other crane is found",
+        nobody(expected, "nobody_publishes", ", and no other crane is found",
                "start one with `crane up`; on another computer both sides need --interface, and "
                "where multicast is blocked --peer ADDRESS of the opposite host"));
   return findings;

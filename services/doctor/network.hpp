@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "crane/bus/bus.hpp"
 #include "doctor/announcements.hpp"
 #include "doctor/finding.hpp"
 #include "doctor/processes.hpp"
@@ -30,7 +31,7 @@ struct Heard {
 [[nodiscard]] Heard listen_on(bus::Bus& bus, std::chrono::milliseconds duration);
 
 /// Requested crane and domain, and further facts about this computer.
-struct Asked {
+struct ExpectedCrane {
   std::string crane;
   std::uint32_t domain = 0;
   std::vector<std::string> interfaces;
@@ -38,7 +39,7 @@ struct Asked {
 };
 
 /// Not empty when no process was found: where the crane runs instead.
-[[nodiscard]] Findings judge_silence(const Asked& asked, const Heard& heard,
+[[nodiscard]] Findings judge_silence(const ExpectedCrane& expected, const Heard& heard,
                                      const std::vector<LocalProcess>& local,
                                      const std::vector<Announced>& announced);
 /// Processes of the loop that are missing, starting, or far behind; clocks.

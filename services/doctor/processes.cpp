@@ -7,6 +7,7 @@
 #include <charconv>
 #include <fstream>
 #include <map>
+#include <utility>
 
 namespace crane::doctor {
 namespace {
@@ -87,29 +88,38 @@ std::vector<LocalProcess> local_processes(const fs::path& proc) {
   return found;
 }
 
+namespace {
+
+Finding stopped(const LocalProcess& process) {
+  const auto pid = std::to_string(process.pid);
+  return {Grade::problem, "net", "process_stopped",
+          process.program + " (process " + pid + ") is stopped and does not answer",
+          "continue it with `kill -CONT " + pid + "`, or end it with `kill -KILL " + pid + "`"};
+}
+
+Finding runs_twice(const std::string& program, const std::vector<int>& pids, const std::string& crane,
+                   std::uint32_t domain) {
+  std::string all;
+  for (const int pid : pids) all.append(all.empty() ? "" : " and ").append(std::to_string(pid));
+  return {Grade::problem, "net", "process_twice",
+          program + " runs twice for crane '" + crane + "' in domain " + std::to_string(domain) +
+              ": processes " + all,
+          "end the one that is left over from an earlier stack with `kill PID`"};
+}
+
+}  // namespace
+
 Findings judge_processes(const std::vector<LocalProcess>& processes, const std::string& crane,
                          std::uint32_t domain) {
   Findings findings;
   std::map<std::string, std::vector<int>> by_program;
   for (const auto& process : processes) {
     if (!process.in_loop() || process.crane != crane || process.domain != domain) continue;
-    const auto pid = std::to_string(process.pid);
     by_program[process.program].push_back(process.pid);
-    if (process.stopped)
-      findings.push_back(
-          {Grade::problem, "net", "process_stopped",
-           process.program + " (process " + pid + ") is stopped and does not answer",
-           "continue it with `kill -CONT " + pid + "`, or end it with `kill -KILL " + pid + "`"});
+    if (process.stopped) findings.push_back(stopped(process));
   }
-  for (const auto& [program, pids] : by_program) {
-    if (pids.size() < 2) continue;
-    std::string all;
-    for (const int pid : pids) all += (all.empty() ? "" : " and ") + std::to_string(pid);
-    findings.push_back({Grade::problem, "net", "process_twice",
-                        program + " runs twice for crane '" + crane + "' in domain " +
-                            std::to_string(domain) + ": processes " + all,
-                        "end the one that is left over from an earlier stack with `kill PID`"});
-  }
+  for (const auto& [program, pids] : by_program)
+    if (pids.size() > 1) findings.push_back(runs_twice(program, pids, crane, domain));
   return findings;
 }
 

@@ -200,9 +200,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   /// Begins the awaited move: by its plan, or shaped when there is no plan in time.
   void begin_pending(std::uint64_t tick) {
     if (!pending_) return;
-    if (!pending_->asked) pending_->asked = worker_->ask(pending_->problem);
+    if (!pending_->submitted) pending_->submitted = worker_->ask(pending_->problem);
     if (tick < pending_->begin_tick) return;
-    const auto result = pending_->asked ? worker_->take() : std::nullopt;
+    const auto result = pending_->submitted ? worker_->take() : std::nullopt;
     if (result && result->outcome == control::PlanOutcome::solved)
       motion_.start(pending_->problem, result->plan, tick);
     else
@@ -232,7 +232,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     MoveTarget target;
     control::PlanProblem problem;
     std::uint64_t begin_tick;
-    bool asked;
+    bool submitted;
   };
   std::uint64_t planning_ticks_;
   std::optional<PlanWorker> worker_;  ///< only for controllers with time-optimal references

@@ -110,7 +110,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   [[nodiscard]] bool steps_incomplete_ticks() const override { return true; }
 
  private:
-  struct Asked {
+  struct DueRequest {
     msg::Request request;
     bus::ParticipantId sender;
   };
@@ -175,9 +175,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   void step(TickInput& input) {
     input.second_writer = input.second_writer || ports().disputed(now_ns_);
-    const auto asked = collect(input);
+    const auto due = collect(input);
     const auto output = supervisor::step(limits_, input, memory_);
-    for (const auto& asking : asked) answer(asking, output, input.now_s);
+    for (const auto& one : due) answer(one, output, input.now_s);
     jogs_.end_with(output.state, input.now_s);
     const auto command = command_of(last_header_, output);
     commands_.publish(command);
@@ -188,8 +188,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
 
   /// Requests that are due at this tick. Requests with invalid content are refused here.
-  std::vector<Asked> collect(TickInput& input) {
-    std::vector<Asked> asked;
+  std::vector<DueRequest> collect(TickInput& input) {
+    std::vector<DueRequest> due;
     bus::ParticipantId sender{};
     // The planner searches the way of an accepted move from the sample of the same tick.
     const PerAxis& position = input.state_arrived ? input.sample.position : memory_.motion.position;
@@ -204,18 +204,18 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       if (request->kind == crane_REQUEST_RESET) std::ranges::copy(request->selected, input.confirmed.begin());
       if (request->kind == crane_REQUEST_HOME) input.home_axis = home_axis_of(*request);
       input.requests[static_cast<std::size_t>(*request_of(request->kind))] = true;
-      asked.push_back({*request, sender});
+      due.push_back({*request, sender});
     }
-    return asked;
+    return due;
   }
 
-  void answer(const Asked& asked, const TickOutput& output, double now_s) {
-    const auto& request = asked.request;
+  void answer(const DueRequest& due, const TickOutput& output, double now_s) {
+    const auto& request = due.request;
     const auto& verdict = output.answers[static_cast<std::size_t>(*request_of(request.kind))];
     if (moves_axes(request) && verdict.accepted) {
       move_ = accepted_move(request, move_.number + 1);
       ticks_to_take_up_ = kTicksToTakeUp;
-      jogs_.accepted(request, asked.sender, now_s);
+      jogs_.accepted(request, due.sender, now_s);
     }
     requests_.reply(request, last_header_, verdict.accepted, verdict.reason);
   }
@@ -226,11 +226,11 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     const std::string what =
         std::string{name_of(output.state)} +
         (output.cause == Cause::none ? "" : std::string{" because of "} + name_of(output.cause));
-    const bool asked_for = output.cause == Cause::operator_stop || output.cause == Cause::operator_disarm ||
-                           output.cause == Cause::idle || output.cause == Cause::homed;
+    const bool intended = output.cause == Cause::operator_stop || output.cause == Cause::operator_disarm ||
+                          output.cause == Cause::idle || output.cause == Cause::homed;
     if (output.cause == Cause::homing_failed) announce_failure(output);
     if (output.cause == Cause::zone && output.state == State::stop_c1) announce_zone(output);
-    const bool trouble = output.state >= State::stop_c1 && !asked_for;
+    const bool trouble = output.state >= State::stop_c1 && !intended;
     if (trouble)
       node().error("supervisor_state", what, remedy_for(output.cause));
     else

@@ -19,8 +19,8 @@ constexpr std::array<const char*, kAxes> kUnclear{
     "the hoist was moving or at another position when the bridge ended: check that it is where `crane "
     "status` shows it, then `crane reset --confirm-positions`"};
 
-Answer refuse(const char* reason) { return {.asked = true, .accepted = false, .reason = reason}; }
-constexpr Answer kAccepted{.asked = true, .accepted = true, .reason = ""};
+Answer refuse(const char* reason) { return {.requested = true, .accepted = false, .reason = reason}; }
+constexpr Answer kAccepted{.requested = true, .accepted = true, .reason = ""};
 
 Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
   switch (m.state) {
@@ -40,7 +40,7 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
     default:
       return refuse("the crane is armed: there is nothing to reset");
   }
-  if (asked(in, Request::estop))
+  if (requested(in, Request::estop))
     return refuse("an emergency stop was requested in the same tick: reset again");
   if (m.reset_was_up && enabled(reset_edge))
     return refuse("the reset was already requested: end this request, then reset again");
@@ -70,7 +70,7 @@ Answer answer_release(const Limits& limits, const Inputs& in, const Memory& m) {
       return refuse("the crane is not READY: reset first");
   }
   if (const Cause c = blocking_cause(limits, in, m); c != Cause::none) return refuse(remedy_for(c));
-  if (asked(in, Request::stop) || asked(in, Request::disarm)) {
+  if (requested(in, Request::stop) || requested(in, Request::disarm)) {
     return refuse("a stop was requested in the same tick: reset, then arm again");
   }
   if (in.gate_cause == Cause::demand_invalid) return refuse(remedy_for(Cause::demand_invalid));
@@ -92,7 +92,7 @@ Answer answer_home(const Limits& limits, const Inputs& in, const Memory& m) {
   if (m.homing) return refuse("an axis is being homed: wait for LOCKED");
   if (m.state == State::arming || m.state == State::hold || m.state == State::run)
     return refuse("the crane is armed: disarm and reset it first");
-  if (m.state == State::ready && asked(in, Request::arm))
+  if (m.state == State::ready && requested(in, Request::arm))
     return refuse("arming was requested in the same tick: home again");
   return answer_release(limits, in, m);
 }
@@ -111,7 +111,7 @@ Answer answer_move(const Inputs& in, const Memory& m) {
 Answers answer_all(const Limits& limits, const Inputs& in, const Memory& m) noexcept {
   Answers answers;
   const auto put = [&](Request request, const Answer& answer) {
-    if (asked(in, request)) answers[static_cast<std::size_t>(request)] = answer;
+    if (requested(in, request)) answers[static_cast<std::size_t>(request)] = answer;
   };
   put(Request::reset, answer_reset(limits, in, m));
   put(Request::arm, answer_arm(limits, in, m));

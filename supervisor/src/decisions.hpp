@@ -4,7 +4,7 @@
 
 namespace crane::supervisor {
 
-[[nodiscard]] inline bool asked(const Inputs& in, Request request) noexcept {
+[[nodiscard]] inline bool requested(const Inputs& in, Request request) noexcept {
   return in.requests[static_cast<std::size_t>(request)];
 }
 

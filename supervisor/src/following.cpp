@@ -16,17 +16,17 @@ struct Interval {
 };
 
 void remember(const FollowingInput& input, FollowingMemory& memory) noexcept {
-  memory.seen[2] = memory.seen[1];
-  memory.seen[1] = memory.seen[0];
-  memory.seen[0] = {input.sampled_s, input.position, input.swing_radial_rad, input.swing_tangential_rad,
-                    input.applied_v};
+  memory.recent[2] = memory.recent[1];
+  memory.recent[1] = memory.recent[0];
+  memory.recent[0] = {input.sampled_s, input.position, input.swing_radial_rad, input.swing_tangential_rad,
+                      input.applied_v};
   for (std::size_t i = 0; i < kAxes; ++i)
     memory.free_ticks[i] = input.free[i] ? std::min(memory.free_ticks[i] + 1, kSettled_ticks) : 0;
 }
 
 /// The middle sample of three, with mean rates.
 plant::State state_of(const Limits& limits, const FollowingMemory& memory) noexcept {
-  const auto& [newest, middle, oldest] = memory.seen;
+  const auto& [newest, middle, oldest] = memory.recent;
   const double span_s = newest.sampled_s - oldest.sampled_s;
   const auto rate = [span_s](double now, double before) { return (now - before) / span_s; };
   plant::State s;
@@ -49,7 +49,7 @@ PerAxis accelerations(const Limits& limits, const FollowingMemory& memory, const
                       double load_kg) noexcept {
   plant::Parameters p = limits.machine.crane;
   p.load_mass_kg = load_kg;
-  const auto& [newest, middle, oldest] = memory.seen;
+  const auto &newest = memory.recent[0], &middle = memory.recent[1], &oldest = memory.recent[2];
   const double newer = (newest.sampled_s - middle.sampled_s) / (newest.sampled_s - oldest.sampled_s);
   const auto mean_v = [&, newer](std::size_t i) {
     return newer * middle.applied_v[i] + (1 - newer) * oldest.applied_v[i];
@@ -93,7 +93,7 @@ double friction_v(const MachineModel::Friction& friction, double speed) noexcept
 Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& memory,
                  const plant::State& state, double heaviest, double lightest, double v,
                  double before) noexcept {
-  const auto& [newest, middle, oldest] = memory.seen;
+  const auto& [newest, middle, oldest] = memory.recent;
   const double gain = gain_of(limits, i, state);
   const double volts_v = std::max(std::abs(middle.applied_v[i]), std::abs(oldest.applied_v[i]));
   const double drag = i == 2 ? std::abs(v) / limits.machine.crane.hoist_lag_s : 0;
@@ -111,7 +111,7 @@ Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& mem
 
 bool judge_axis(const Limits& limits, std::size_t i, const plant::State& state, double heaviest,
                 double lightest, FollowingMemory& memory) noexcept {
-  const auto& [newest, middle, oldest] = memory.seen;
+  const auto& [newest, middle, oldest] = memory.recent;
   const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
   const double v = (newest.position[i] - middle.position[i]) / newer_s;
   const double before = (middle.position[i] - oldest.position[i]) / older_s;
@@ -132,7 +132,7 @@ double following_limit(const Limits& limits, std::size_t axis, double speed, dou
 }
 
 bool following_error(const Limits& limits, const FollowingInput& input, FollowingMemory& memory) noexcept {
-  if (!limits.machine.known || !(input.sampled_s > memory.seen[0].sampled_s)) return false;
+  if (!limits.machine.known || !(input.sampled_s > memory.recent[0].sampled_s)) return false;
   remember(input, memory);
   const bool any_free =
       std::ranges::any_of(memory.free_ticks, [](int ticks) { return ticks == kSettled_ticks; });

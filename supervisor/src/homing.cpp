@@ -47,7 +47,7 @@ Leg leg_of(const AxisLimits& axis, HomingPhase phase) {
 void begin(HomingPhase phase, const HomingInput& in, HomingMemory& m) {
   m.phase = phase;
   m.ticks = m.still_ticks = 0;
-  m.from = m.opened_at = m.seen_at = in.position;
+  m.from = m.opened_at = m.progress_at = in.position;
 }
 
 /// True when the axis is `back_off` beyond the position at which the switch opened.
@@ -86,8 +86,8 @@ HomingFailure failure_of(const Limits& limits, const AxisLimits& axis, const Leg
   m.other_left = m.other_left || !in.other_switch;
   const double way = leg.direction * (in.position - m.from);
   const double least = kShareOfSpeed * leg.speed * kStill_s;
-  if (std::abs(in.position - m.seen_at) >= least) {
-    m.seen_at = in.position;
+  if (std::abs(in.position - m.progress_at) >= least) {
+    m.progress_at = in.position;
     m.still_ticks = 0;
   }
   const bool still = ++m.still_ticks * limits.period_s > kStill_s;

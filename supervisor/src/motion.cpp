@@ -20,7 +20,7 @@ void observe(const Limits& limits, double now_s, double sampled_s, const PerAxis
   }
   memory.position = position;
   memory.sampled_s = sampled_s;
-  memory.seen_s = now_s;
+  memory.arrived_s = now_s;
   memory.started = true;
 }
 
@@ -41,8 +41,8 @@ void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
 
 bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
                   const AxisFlags& brake_closed, BrakeMemory& memory) noexcept {
-  if (!memory.anchored) {
-    memory = {.anchored = true, .since_s = now_s, .position = motion.position, .speed = motion.speed};
+  if (!memory.valid) {
+    memory = {.valid = true, .since_s = now_s, .position = motion.position, .speed = motion.speed};
     return false;
   }
   bool failed = false;

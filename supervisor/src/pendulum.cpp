@@ -33,7 +33,7 @@ Plane turned(const Plane& a, double angle_rad) {
 }
 
 /// Depth and offsets by (2.11).
-PendulumMemory::Seen seen_of(const Limits& limits, const PendulumInput& input) {
+PendulumMemory::PastSample past_sample(const Limits& limits, const PendulumInput& input) {
   const double cable_m = limits.machine.cable(input.position[2]);
   const double radial = input.radial_rad, tangential = input.tangential_rad;
   const Plane load_offset{-cable_m * std::cos(tangential) * std::sin(radial), cable_m * std::sin(tangential)};
@@ -45,7 +45,7 @@ PendulumMemory::Seen seen_of(const Limits& limits, const PendulumInput& input) {
 
 /// Balance of the newest three samples. @param slew_rad  angle of the jib in the middle sample
 PendulumMemory::Balance balance_of(const Limits& limits, const PendulumMemory& memory) {
-  const auto& [newest, middle, oldest] = memory.seen;
+  const auto& [newest, middle, oldest] = memory.recent;
   const double newer_s = newest.sampled_s - middle.sampled_s, older_s = middle.sampled_s - oldest.sampled_s;
   const double dt_s = (newer_s + older_s) / 2;
   const auto change = [&](const Plane& c, const Plane& b, const Plane& a) {
@@ -78,7 +78,7 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
   }
   error = measured(limits, error, slew_rad);
   memory.swing_change_mps = static_cast<double>(kMeanSamples) * swing_change;
-  const auto& [newest, middle, oldest] = memory.seen;
+  const auto& [newest, middle, oldest] = memory.recent;
   const double swing_mps =
       norm((1 / (newest.sampled_s - oldest.sampled_s)) * (newest.load_offset_m - oldest.load_offset_m));
   const double omega_radps = std::sqrt(limits.machine.crane.gravity_mps2 / cable_m);
@@ -139,19 +139,19 @@ double pendulum_limit(const Limits& limits, double cable_m, double span_s) noexc
 bool swing_sensor_failed(const Limits& limits, const PendulumInput& input, PendulumMemory& memory) noexcept {
   const auto& machine = limits.machine;
   if (!machine.known || !(machine.swing_measured[0] || machine.swing_measured[1])) return false;
-  if (memory.samples > 0 && !(input.sampled_s > memory.seen[0].sampled_s)) return false;
-  if (memory.samples > 0 && input.sampled_s - memory.seen[0].sampled_s > kLongestGap_s)
+  if (memory.samples > 0 && !(input.sampled_s > memory.recent[0].sampled_s)) return false;
+  if (memory.samples > 0 && input.sampled_s - memory.recent[0].sampled_s > kLongestGap_s)
     memory = {.largest = memory.largest};
-  memory.seen[2] = memory.seen[1];
-  memory.seen[1] = memory.seen[0];
-  memory.seen[0] = seen_of(limits, input);
+  memory.recent[2] = memory.recent[1];
+  memory.recent[1] = memory.recent[0];
+  memory.recent[0] = past_sample(limits, input);
   memory.samples = std::min(memory.samples + 1, kMeanSamples + 2);
   if (memory.samples < 3) return false;
   memory.balances[memory.next] = balance_of(limits, memory);
   memory.next = (memory.next + 1) % kMeanSamples;
   if (memory.samples < kMeanSamples + 2) return false;
   const double cable_m = machine.cable(input.position[2]);
-  const double span_s = (memory.seen[0].sampled_s - memory.seen[2].sampled_s) / 2;
+  const double span_s = (memory.recent[0].sampled_s - memory.recent[2].sampled_s) / 2;
   add(limits, cable_m, input.position[1], span_s, memory);
   const double ratio = norm(memory.sum_mps) / pendulum_limit(limits, cable_m, span_s);
   if (follow_counts(limits, input, span_s, memory)) return true;

@@ -77,8 +77,8 @@ void step_ready(const Limits& limits, const Inputs& in, const Answers& answers, 
   const Cause blocking = blocking_cause(limits, in, m);
   if (blocking != Cause::none) {
     enter(State::locked, blocking, in, m);
-  } else if (asked(in, Request::stop) || asked(in, Request::disarm)) {
-    const bool stop = asked(in, Request::stop);
+  } else if (requested(in, Request::stop) || requested(in, Request::disarm)) {
+    const bool stop = requested(in, Request::stop);
     enter(State::locked, stop ? Cause::operator_stop : Cause::operator_disarm, in, m);
   } else if (accepted(answers, Request::arm)) {
     enter(State::arming, Cause::none, in, m);
@@ -105,16 +105,16 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   if (m.homing) return;  // homing ends by a cause: homed, failed, or any other
   if (m.state == State::hold && (accepted(answers, Request::move) || in.reference_moving)) {
     enter(State::run, Cause::none, in, m);
-    m.maneuver_seen = false;
+    m.maneuver_began = false;
   } else if (m.state == State::run && accepted(answers, Request::move)) {
     m.entered_s = in.now_s;
-    m.maneuver_seen = false;
+    m.maneuver_began = false;
   }
   if (m.state != State::run) return;
-  m.maneuver_seen = m.maneuver_seen || in.reference_moving;
+  m.maneuver_began = m.maneuver_began || in.reference_moving;
   // A move that the planner does not begin ends after the settling time of other signals.
-  const bool never_began = !m.maneuver_seen && in.now_s - m.entered_s >= limits.clear_time_s;
-  if ((m.maneuver_seen && !in.reference_moving) || never_began) {
+  const bool never_began = !m.maneuver_began && in.now_s - m.entered_s >= limits.clear_time_s;
+  if ((m.maneuver_began && !in.reference_moving) || never_began) {
     enter(State::hold, Cause::none, in, m);
     m.idle_since_s = in.now_s;
   }
@@ -200,7 +200,7 @@ Outputs step(const Limits& limits, const Inputs& in, Memory& m) noexcept {
   const Answers answers = answer_all(limits, in, m);
   transition(limits, in, answers, m);
   m.homing = m.homing && armed(m);
-  m.reset_was_up = asked(in, Request::reset);
+  m.reset_was_up = requested(in, Request::reset);
   return outputs_of(limits, m, answers);
 }
 

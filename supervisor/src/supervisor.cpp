@@ -131,7 +131,7 @@ EnvelopeInput measured_now(const Limits& limits, const TickMemory& memory) {
 bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
   const State state = memory.machine.state;
   if (memory.machine.releasing || state == State::boot || state == State::selftest)
-    memory.brakes.anchored = false;
+    memory.brakes.valid = false;
   if (memory.machine.releasing || !sampled) return false;
   return brake_failed(limits, input.now_s, memory.motion, memory.sample.brake_closed, memory.brakes);
 }
@@ -161,39 +161,17 @@ GateOutput run_gate(const Limits& limits, const TickInput& input, const Envelope
 /// The homed axis has no known position and is excluded; step_homing() checks its motion.
 bool following_error_now(const Limits& limits, bool sampled, TickMemory& memory) {
   if (!sampled) return false;
-  const Sample& sample = memory.sample;
-  FollowingInput in{.sampled_s = sample.time_s,
-                    .position = sample.position,
-                    .swing_radial_rad = sample.swing_radial_rad,
-                    .swing_tangential_rad = sample.swing_tangential_rad,
-                    .applied_v = sample.applied_v};
+  AxisFlags free{};
   for (std::size_t i = 0; i < kAxes; ++i)
-    in.free[i] = memory.machine.releasing && !memory.machine.homing && !sample.brake_closed[i];
-  const bool found = following_error(limits, in, memory.following);
+    free[i] = memory.machine.releasing && !memory.machine.homing && !memory.sample.brake_closed[i];
+  const bool found = following_error(limits, following_input(memory.sample, free), memory.following);
   return found && drives_active(memory.machine);
 }
 
 bool swing_sensor_now(const Limits& limits, bool sampled, TickMemory& memory) {
   if (!sampled) return false;
-  const Sample& sample = memory.sample;
-  const bool failed = swing_sensor_failed(limits,
-                                          {.sampled_s = sample.time_s,
-                                           .position = sample.position,
-                                           .radial_rad = sample.swing_radial_rad,
-                                           .tangential_rad = sample.swing_tangential_rad},
-                                          memory.pendulum);
+  const bool failed = swing_sensor_failed(limits, pendulum_input(memory.sample), memory.pendulum);
   return failed && drives_active(memory.machine) && !memory.machine.homing;
-}
-
-ZoneInput zone_input(const TickMemory& memory, const PerAxis& gate_output_v) {
-  return {.sampled_s = memory.motion.sampled_s,
-          .position = memory.motion.position,
-          .speed = memory.motion.speed,
-          .swing_radial_rad = memory.sample.swing_radial_rad,
-          .swing_tangential_rad = memory.sample.swing_tangential_rad,
-          .applied_v = memory.sample.applied_v,
-          .gate_output_v = gate_output_v,
-          .missing_ticks = memory.state_missing_in_row};
 }
 
 /// While an axis is homed, its position is unknown and the zones have no effect. A demand that could lead

@@ -10,7 +10,7 @@ namespace crane::supervisor {
 namespace {
 
 using Plane = ZoneMemory::Plane;
-using Seen = ZoneMemory::Seen;
+using PastSample = ZoneMemory::PastSample;
 using control::ReachedSpace;
 using plant::kHoist;
 using plant::kSlew;
@@ -92,7 +92,7 @@ StopTravel hoist_stop_travel(const Limits& limits, const ZoneInput& input,
 /// difference of the true acceleration from this one, and the wind.
 double load_speed_mps(const Limits& limits, const ZoneMemory& memory, const Load& load) noexcept {
   if (memory.samples < 2) return 0;
-  const Seen &now = memory.seen[0], &then = memory.seen[memory.samples - 1];
+  const PastSample &now = memory.recent[0], &then = memory.recent[memory.samples - 1];
   const double span_s = now.sampled_s - then.sampled_s, g = limits.machine.crane.gravity_mps2;
   double speed = 0;
   for (const double cable_m : {load.shortest_m, load.longest_m}) {
@@ -143,7 +143,7 @@ struct Stop {
 /// 3. A
 double swing_of_stop_m(const Limits& limits, const ZoneMemory& memory, const Stop& stop) noexcept {
   const auto& [load, trolley, slew, region, unused] = stop;
-  const Seen& now = memory.seen[0];
+  const PastSample& now = memory.recent[0];
   const double g = limits.machine.crane.gravity_mps2, longest = load.longest_m, shortest = load.shortest_m;
   const double far_m = length(now.pivot_m) + trolley.longest();
   const double travel_m = trolley.longest() + far_m * slew.longest();
@@ -195,7 +195,7 @@ LoadAccelerations load_accelerations(const Limits& limits, const ZoneInput& inpu
 
 Stop stop_of(const Limits& limits, const ZoneInput& input, const ZoneMemory& memory) noexcept {
   constexpr double kShortest_m = 0.01;
-  const Seen& now = memory.seen[0];
+  const PastSample& now = memory.recent[0];
   const StopTravel hoist = hoist_stop_travel(limits, input, memory);
   const double cable_m = limits.machine.cable(input.position[kHoist]), error = limits.clearance.cable_error;
   Stop stop;
@@ -274,17 +274,17 @@ bool is_ahead(const Limits& limits, const ZoneInput& input, const Stop& stop,
 
 void observe_load(const Limits& limits, const ZoneInput& input, ZoneMemory& memory) noexcept {
   if (limits.zones.empty()) return;
-  if (memory.samples > 0 && !(input.sampled_s > memory.seen[0].sampled_s)) return;
+  if (memory.samples > 0 && !(input.sampled_s > memory.recent[0].sampled_s)) return;
   const bool slews = limits.axis[kSlew].present;
   const double slew_rad = slews ? input.position[kSlew] : 0, c = std::cos(slew_rad), s = std::sin(slew_rad);
   const double phi = input.swing_radial_rad, theta = slews ? input.swing_tangential_rad : 0;
   const double along = -std::cos(theta) * std::sin(phi), across = std::sin(theta);  // (2.11)
-  std::shift_right(memory.seen.begin(), memory.seen.end(), 1);
-  memory.seen[0] = {
+  std::shift_right(memory.recent.begin(), memory.recent.end(), 1);
+  memory.recent[0] = {
       .sampled_s = input.sampled_s,
       .pivot_m = polar(input.position[kTrolley], slew_rad),
       .cable = {along * c - across * s, along * s + across * c, -std::cos(theta) * std::cos(phi)}};
-  memory.samples = std::min(memory.samples + 1, memory.seen.size());
+  memory.samples = std::min(memory.samples + 1, memory.recent.size());
   memory.previous_applied_v = memory.applied_v;
   memory.applied_v = input.applied_v;
 }

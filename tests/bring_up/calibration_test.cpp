@@ -88,13 +88,13 @@ TEST(Calibration, WaitsForALoadThatHangsStill) {
   auto wired = tower();
   wired.start.swing_radial_rad = 0.02;
   Bench bench{tower(), wired};
-  int asked = 0;
+  int questions = 0;
   CalibrationOptions options{.ask = [&](const std::string& question) {
     EXPECT_NE(question.find("the load swings"), std::string::npos);
-    return ++asked < 3 ? "y" : "n";
+    return ++questions < 3 ? "y" : "n";
   }};
   EXPECT_THROW(std::ignore = calibrate(bench.session(), options), Ended);
-  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(questions, 3);
   bench.expect_safe();
 }
 

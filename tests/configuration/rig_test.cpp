@@ -1,56 +1,15 @@
-#include "crane/configuration/rig.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <numbers>
-#include <random>
+
+#include "rig_text.hpp"
 
 namespace crane::configuration {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-const std::filesystem::path kRigs = CRANE_RIGS;
-const std::string kTower = (kRigs / "virginia_tech_tower.toml").string();
-
-std::string tower_text() {
-  std::ifstream stream(kTower);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::vector<std::string> problems_of(const std::string& text) {
-  try {
-    (void)parse_rig(text, "rig.toml");
-  } catch (const ConfigurationError& error) {
-    return error.problems();
-  }
-  return {};
-}
-
-/// The file of the tower with the first `from` after `after` replaced by `to`. @pre `from` exists
-class ChangedTower {
- public:
-  ChangedTower& change(const std::string& after, const std::string& from, const std::string& to) {
-    const auto start = text_.find(after);
-    const auto found = start == std::string::npos ? start : text_.find(from, start);
-    if (found == std::string::npos) throw std::logic_error("the rig file has no " + after + " " + from);
-    text_.replace(found, from.size(), to);
-    return *this;
-  }
-  /// "rig.toml:LINE: " of the first `key` after `after`.
-  [[nodiscard]] std::string line(const std::string& after, const std::string& key) const {
-    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(text_.find(key, text_.find(after)));
-    return "rig.toml:" + std::to_string(1 + std::count(text_.begin(), end, '\n')) + ": ";
-  }
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  std::string text_ = tower_text();
-};
 
 TEST(RigFile, HasTheDissertationsTower) {
   const Rig rig = load_rig(kTower);
@@ -108,22 +67,6 @@ TEST(RigFile, TakesTheRestFromTheFileItExtends) {
   EXPECT_EQ(ideal.name, "virginia_tech_tower_ideal");
 }
 
-TEST(RigFile, DoesNotExtendItselfOrWhatIsNotThere) {
-  const auto directory = std::filesystem::path(testing::TempDir()) / "extends";
-  std::filesystem::create_directories(directory);
-  std::ofstream(directory / "a.toml") << "extends = 'b.toml'\n";
-  std::ofstream(directory / "b.toml") << "extends = 'a.toml'\n";
-  try {
-    (void)load_rig(directory / "a.toml");
-    FAIL() << "accepted";
-  } catch (const ConfigurationError& error) {
-    EXPECT_THAT(error.problems(), ElementsAre((directory / "b.toml").string() +
-                                              ":1: extends = \"a.toml\": must not lead back to this file"));
-  }
-  EXPECT_THAT(problems_of("extends = 'nowhere.toml'\n"), ElementsAre(testing::HasSubstr("must name a file")))
-      << "what only the missing file could say is no problem of this one";
-}
-
 TEST(RigFile, SaysHowMovesArePlanned) {
   const Rig tower = load_rig(kTower);
   EXPECT_FALSE(tower.planning.limits_jerk);
@@ -175,22 +118,6 @@ TEST(RigFile, HasTheDefaultsOfTheDesignWritten) {
   EXPECT_EQ(written.fuzzy_point_b, defaults.fuzzy_point_b);
 }
 
-TEST(RigFile, RefusesAFuzzyTableThatCannotBeGenerated) {
-  ChangedTower changed;
-  changed.change("[controller]", "name = \"gain_scheduling_partial\"", "name = \"fuzzy_generated\"")
-      .change("[controller]", "fuzzy_swing_rate = 1.5", "fuzzy_swing_rate = 100");
-  EXPECT_THAT(problems_of(changed.text()),
-              ElementsAre(testing::AllOf(testing::StartsWith(changed.line("[controller]", "name =")),
-                                         testing::HasSubstr("no rule for (NB, NB)"))));
-}
-
-TEST(RigFile, RefusesAShaperWithoutALoad) {
-  std::ifstream stream(kRigs / "drive_axis.toml");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  EXPECT_THAT(problems_of(text + "\n[controller]\nshaper = \"zv\"\n"),
-              ElementsAre(testing::HasSubstr("must be none: a drive_axis carries no load")));
-}
-
 class RigFiles : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(RigFiles, LoadAndGiveADesignWithoutProblems) {
@@ -221,172 +148,6 @@ TEST(RigFile, HasOnlyTheDrivesAndSensorsOfItsKind) {
   EXPECT_THAT(present(load_rig(kRigs / "pendulum.toml")), ElementsAre(false, false, false));
   EXPECT_EQ(load_rig(kRigs / "drive_axis.toml").plant.load_mass_kg, 0);
   EXPECT_EQ(load_rig(kRigs / "gantry.toml").encoders[4].counts_per_unit, 0);
-}
-
-TEST(RigFile, ReportsSeveralProblemsAtOnceEachWithItsLine) {
-  ChangedTower tower;
-  tower.change("[plant]", "load_mass_kg = 2.0", "load_mas_kg = 2.0")
-      .change("[drive.trolley]", "volt_limit_v = 10.0", "volt_limit_v = 12")
-      .change("[encoder.slew]", "channel = 1", "channel = 0")
-      .change("[start]", "slew_angle_rad = 0.0", "slew_angle_deg = 5");
-  EXPECT_THAT(problems_of(tower.text()),
-              ElementsAre(tower.line("[plant]", "load_mas_kg") +
-                              "plant.load_mas_kg = 2: unknown key; did you mean load_mass_kg?",
-                          tower.line("[drive.trolley]", "volt_limit_v") +
-                              "drive.trolley.volt_limit_v = 12: must be in (0, 10]",
-                          tower.line("[encoder.slew]", "channel") +
-                              "encoder.slew.channel = 0: must be used once: another section has this channel",
-                          tower.line("[start]", "slew_angle") +
-                              "start.slew_angle_deg = 5: unit must be rad: slew_angle_rad"));
-}
-
-struct Corruption {
-  const char *name, *section, *from, *to, *rule;
-};
-
-class CorruptedTower : public testing::TestWithParam<Corruption> {};
-
-TEST_P(CorruptedTower, IsRefusedWithOneLineAndItsRule) {
-  const auto& [name, section, from, to, rule] = GetParam();
-  ChangedTower tower;
-  tower.change(section, from, to);
-  EXPECT_THAT(
-      problems_of(tower.text()),
-      ElementsAre(testing::AllOf(testing::StartsWith(tower.line(section, to)), testing::HasSubstr(rule))));
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Rules, CorruptedTower,
-    testing::Values(
-        Corruption{"nan", "[plant]", "gravity_mps2 = 9.81", "gravity_mps2 = nan", "must be in [0.001, 100]"},
-        Corruption{"inf", "[drive.slew]", "max_speed_radps = 3.5", "max_speed_radps = inf",
-                   "must be finite and > 0"},
-        Corruption{"wrong_type", "[plant]", "load_mass_kg = 2.0", "load_mass_kg = '2'", "must be a number"},
-        Corruption{"unknown_kind", "name", "kind = \"tower\"", "kind = \"derrick\"",
-                   "must be one of tower, gantry"},
-        Corruption{"low_above_high", "[drive.hoist]", "low_limit_m = 0.3", "low_limit_m = 1.9",
-                   "must be below high_limit_m"},
-        Corruption{"margin_too_small", "[drive.trolley]", "soft_margin_m = 0.1", "soft_margin_m = 0.01",
-                   "must be at least 0.0"},
-        Corruption{"sign_zero", "[encoder.hoist]", "sign = 1", "sign = 0", "must be 1 or -1"},
-        Corruption{"dac_twice", "[drive.slew]", "dac_channel = 1", "dac_channel = 0", "must be used once"},
-        Corruption{"channel_8", "[encoder.slew]", "channel = 1", "channel = 8",
-                   "must be an integer in [0, 7]"},
-        Corruption{"filter_at_nyquist", "[sensing]", "swing_filter_ratio = 0.05", "swing_filter_ratio = 0.5",
-                   "must be in [0, 0.5)"},
-        Corruption{"filter_axis", "[sensing]", "filter_speed = [\"slew\"]", "filter_speed = [\"slow\"]",
-                   "must name trolley, slew or hoist"},
-        Corruption{"start_outside", "[start]", "trolley_position_m = 0.3", "trolley_position_m = 1.5",
-                   "must be inside the limits"},
-        Corruption{"reference_too_fast", "[drive.hoist]", "reference_speed_mps = 0.2",
-                   "reference_speed_mps = 0.8", "must not exceed max_speed_mps"},
-        Corruption{"unknown_controller", "[controller]", "name = \"gain_scheduling_partial\"",
-                   "name = \"magic\"", "must be one of gain_scheduling_partial"},
-        Corruption{"unknown_term", "[[model.terms]]", "name = \"drive_friction\"", "name = \"magnetism\"",
-                   "must be one of"},
-        Corruption{"term_parameter", "[[model.terms]]", "coulomb_positive_v = 0.9", "coulomb_positiv_v = 0.9",
-                   "did you mean coulomb_positive_v?"},
-        Corruption{"term_range", "[[model.terms]]", "coulomb_positive_v = 0.9", "coulomb_positive_v = -0.9",
-                   "must be in [0, 10]"},
-        Corruption{"term_axis", "[[model.terms]]", "axis = \"trolley\"", "axis = \"radial\"",
-                   "must be one of trolley, slew, hoist"},
-        Corruption{"fuzzy_gain", "[controller]", "fuzzy_gain = -90.0", "fuzzy_gain = 0", "must not be 0"},
-        Corruption{"fuzzy_points", "[controller]", "fuzzy_point_b = 0.6666666666666666",
-                   "fuzzy_point_b = 0.3", "must be at least fuzzy_point_a + 0.01"},
-        Corruption{"fuzzy_swing", "[controller]", "fuzzy_swing_rad = 0.17453292519943295",
-                   "fuzzy_swing_rad = 0", "must be in (0, 3.2]"},
-        Corruption{"delay_2", "[controller]", "delayed_2_delay = 0.31", "delayed_2_delay = 2.5",
-                   "must be in [0, 2]"},
-        Corruption{"anti_swing", "[controller]", "anti_swing_derivative = 8.0", "anti_swing_derivative = 1e6",
-                   "must be in [-100000, 100000]"},
-        Corruption{"shaper", "[controller]", "shaper = \"none\"", "shaper = \"zvdd\"",
-                   "must be one of none, zv, zvd, ei"},
-        Corruption{"trajectory", "[controller]", "trajectory = \"bang_coast_bang\"", "trajectory = \"bang\"",
-                   "must be one of bang_coast_bang, s_curve"},
-        Corruption{"friction_holds", "[controller.friction.slew]", "stiction_positive_v = 0.7",
-                   "stiction_positive_v = 10", "times factor must be below the volt_limit_v"},
-        Corruption{"no_period", "name", "period_s = 0.01", "period_s = 0", "must be in ["},
-        Corruption{"no_cable", "[drive.hoist]", "low_limit_m = 0.3", "low_limit_m = 0", "must be in ["},
-        Corruption{"no_load", "[plant]", "load_mass_kg = 2.0", "load_mass_kg = -1", "must be in [0"},
-        Corruption{"factor", "[controller.friction.slew]", "factor = 1.0", "factor = 2.0",
-                   "must be in [0, 1.5]"},
-        Corruption{"slew_friction_unit", "[controller.friction.slew]", "viscous_positive_vsprad",
-                   "viscous_positive_vspm", "unit must be vsprad"}),
-    [](const auto& entry) { return std::string(entry.param.name); });
-
-TEST(RigFile, MissesSectionsOnce) {
-  EXPECT_THAT(problems_of("name = 'x'\nkind = 'tower'\n"),
-              ElementsAre("rig.toml:1: drive: missing", "rig.toml:1: encoder: missing",
-                          "rig.toml:1: plant: missing"));
-}
-
-TEST(RigFile, RefusesDrivesThatItsKindDoesNotHave) {
-  ChangedTower tower;
-  tower.change("name", "kind = \"tower\"", "kind = \"gantry\"");
-  EXPECT_THAT(problems_of(tower.text()), testing::Contains(tower.line("[drive.slew]", "[drive.slew]") +
-                                                           "drive.slew: a gantry has no slew drive"));
-}
-
-TEST(RigFile, NamesAFileThatCannotBeRead) {
-  EXPECT_THROW((void)load_rig(kRigs / "nowhere.toml"), ConfigurationError);
-  EXPECT_THROW((void)load_rig(kRigs), ConfigurationError);
-}
-
-/// One changed line of the file: removed, repeated, cut, with another byte or another value.
-std::string spoiled(std::mt19937& random, std::vector<std::string> lines) {
-  static const std::vector<std::string> kValues{
-      "nan",  "-inf", "-1", "1e300", "99999999999999999999", "\"\"",
-      "true", "{}",   "[]", "[1,",   "0x7fffffffffffffff",   "1979-05-27"};
-  const auto below = [&random](std::size_t n) {
-    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
-  };
-  std::string& line = lines[below(lines.size())];
-  switch (below(5)) {
-    case 0:
-      line.clear();
-      break;
-    case 1:
-      line += '\n' + line;
-      break;
-    case 2:
-      line.resize(below(line.size() + 1));
-      break;
-    case 3:
-      if (!line.empty()) line[below(line.size())] = static_cast<char>(below(256));
-      break;
-    default:
-      line = line.substr(0, line.find('=') + 1) + kValues[below(kValues.size())];
-      break;
-  }
-  std::string text;
-  for (const auto& each : lines) text += each + '\n';
-  return text;
-}
-
-TEST(RigFile, EitherLoadsOrNamesALineWhateverHappensToOneLine) {
-  constexpr unsigned kSeed = 20240611;
-  SCOPED_TRACE("seed " + std::to_string(kSeed));
-  std::mt19937 random(kSeed);
-  std::vector<std::string> lines;
-  std::ifstream stream(kTower);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  int loaded = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const std::string text = spoiled(random, lines);
-    try {
-      const Rig rig = parse_rig(text, "rig.toml");
-      ASSERT_THAT(control::problems(rig.design), IsEmpty()) << text;
-      ++loaded;
-    } catch (const ConfigurationError& error) {
-      ASSERT_FALSE(error.problems().empty());
-      for (const auto& problem : error.problems()) {
-        ASSERT_TRUE(problem.starts_with("rig.toml:")) << problem;
-        ASSERT_GT(std::stoi(problem.substr(9)), 0) << problem;
-      }
-    }
-  }
-  EXPECT_GT(loaded, 0);     // comments and defaults
-  EXPECT_LT(loaded, 1800);  // most lines matter
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST_F(WithToken, NobodyOperatesWithoutItAlsoNotThroughAProxyThatDoesNotNameItse
   EXPECT_EQ(ask("/api/operator/take", json::object(), "").result_int(), 403U);
   EXPECT_EQ(ask("/api/request", {{"kind", "arm"}}, "").result_int(), 403U);
   EXPECT_EQ(ask("/api/operator/take", json::object(), kToken).result_int(), 200U);
-  EXPECT_EQ(asked_, 0);
+  EXPECT_EQ(requests_, 0);
 }
 
 TEST_F(WithToken, TheRigsOwnComputerMayStopWithoutIt) {
@@ -44,7 +44,7 @@ TEST_F(WithToken, TheRigsOwnComputerMayStopWithoutIt) {
   request.set(http::field::content_type, "application/json");
   request.set("X-Forwarded-For", "192.0.2.1");
   EXPECT_EQ(exchange(request).result_int(), 403U);
-  EXPECT_EQ(asked_, 1);
+  EXPECT_EQ(requests_, 1);
 }
 
 TEST_F(WithToken, AGuessIsAnsweredLateAndDelaysNobodyElse) {
@@ -94,7 +94,7 @@ TEST_F(ServerTest, WhatIsNoRequestIsAnsweredWithAReason) {
     EXPECT_EQ(answer.result_int(), 400U);
     EXPECT_NE(answer.body().find("error"), std::string::npos);
   }
-  EXPECT_EQ(asked_, 0);
+  EXPECT_EQ(requests_, 0);
 }
 
 TEST_F(ServerTest, AReleasedSeatDoesNotOperateAnyMore) {
@@ -109,7 +109,7 @@ TEST_F(ServerTest, AReleasedSeatDoesNotOperateAnyMore) {
   EXPECT_FALSE(
       json::parse(post("/api/operator/release", json::object(), stale).body())["released"].get<bool>());
   EXPECT_EQ(post("/api/operator/renew", json::object(), fresh).result_int(), 200U);
-  EXPECT_EQ(asked_, 0);
+  EXPECT_EQ(requests_, 0);
 }
 
 TEST_F(ServerTest, APageElsewhereLoadsNothingButMayLinkToThePage) {

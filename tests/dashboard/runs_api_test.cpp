@@ -45,13 +45,19 @@ class RunsApiTest : protected Files, public ServerTest {
         std::to_string(bytes) + "\r\n\r\n");
     return answer.size() < 12 ? "" : answer.substr(9, 3);
   }
+  /// The job after its end. The server looks after its jobs at every beat, in which each viewer gets a
+  /// message.
   json ended(std::uint64_t id) {
-    for (int i = 0; i < 1000; ++i) {
+    constexpr std::chrono::seconds kPatience{30};
+    auto beats = view(kViewerProtocol);
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    do {
       const auto all = json::parse(get("/api/jobs").body());
       for (const auto& job : all["jobs"])
         if (job["id"] == id && job["state"] != "running" && job["state"] != "waiting") return job;
-      std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    }
+      (void)read(beats);
+    } while (std::chrono::steady_clock::now() < end);
+    ADD_FAILURE() << "job " << id << " has not ended within " << kPatience.count() << " s";
     return {};
   }
 };

@@ -30,7 +30,7 @@ class ServerTest : public testing::Test {
                 {.version = "0", .crane = "test", .domain = 0, .rig = ""},
                 std::move(rules),
                 [this](const stack::OperatorRequest& wanted, const Answered& answered) {
-                  ++asked_;
+                  ++requests_;
                   answered({wanted.kind != crane_REQUEST_ARM,
                             wanted.kind == crane_REQUEST_ARM ? "not READY" : ""});
                 },
@@ -107,7 +107,7 @@ class ServerTest : public testing::Test {
   }
 
   asio::io_context context_;
-  std::atomic<int> asked_{0};
+  std::atomic<int> requests_{0};
   Server server_;
   std::jthread thread_{[this] { server_.run(); }};
 };

@@ -46,9 +46,9 @@ TEST(BrokenData, SpikesAreNamedWithRowAndTimeAndLeftOut) {
   EXPECT_THAT(loaded.notes[0],
               AllOf(HasSubstr("trolley_position_m: spikes"), HasSubstr("row 701 to 702 at 7 s")));
   EXPECT_THAT(loaded.notes[1], AllOf(HasSubstr("swing_radial_rad: spikes"), HasSubstr("row 401 at 4 s")));
-  EXPECT_FALSE(loaded.runs[0].seen(kRadialSwing, 400));
-  EXPECT_TRUE(loaded.runs[0].seen(kTrolleyPosition, 400));
-  EXPECT_FALSE(loaded.runs[0].seen(kTrolleyPosition, 701));
+  EXPECT_FALSE(loaded.runs[0].is_measured(kRadialSwing, 400));
+  EXPECT_TRUE(loaded.runs[0].is_measured(kTrolleyPosition, 400));
+  EXPECT_FALSE(loaded.runs[0].is_measured(kTrolleyPosition, 701));
 }
 
 TEST(BrokenData, AColumnOfSpikesIsRefused) {
@@ -67,8 +67,8 @@ TEST(BrokenData, FrozenValuesInMotionAreLeftOut) {
   ASSERT_FALSE(loaded.notes.empty());
   EXPECT_THAT(loaded.notes[0], AllOf(HasSubstr("swing_radial_rad: values that do not change while it moves"),
                                      HasSubstr("row " + std::to_string(from + 2))));
-  EXPECT_FALSE(loaded.runs.at(0).seen(kRadialSwing, from + 20));
-  EXPECT_TRUE(loaded.runs.at(0).seen(kTrolleyPosition, from + 20));
+  EXPECT_FALSE(loaded.runs.at(0).is_measured(kRadialSwing, from + 20));
+  EXPECT_TRUE(loaded.runs.at(0).is_measured(kTrolleyPosition, from + 20));
 }
 
 TEST(BrokenData, AnAxisAtRestIsNotFrozen) {
@@ -110,7 +110,7 @@ TEST(BrokenData, MissingValuesAreNamedAndDoNotAffectOtherColumns) {
   const Loaded loaded = load_run(table, broken_lab(), "broken.csv");
   ASSERT_EQ(loaded.runs.size(), 1U);
   EXPECT_THAT(loaded.notes.at(0), AllOf(HasSubstr("30 rows lack a value"), HasSubstr("row 301 at 3 s")));
-  EXPECT_TRUE(loaded.runs[0].seen(kTrolleyPosition, 310));
+  EXPECT_TRUE(loaded.runs[0].is_measured(kTrolleyPosition, 310));
 }
 
 TEST(BrokenData, ASwingOfTheWrongSignIsRefused) {

@@ -26,16 +26,16 @@ Loaded loaded_as(const Recording& recording, double duration_s = 12, const Gantr
 }
 
 std::size_t seen_in(const Run& run, Output output) {
-  std::size_t seen = 0;
-  for (std::size_t row = 0; row < run.rows(); ++row) seen += run.seen(output, row) ? 1 : 0;
-  return seen;
+  std::size_t measured = 0;
+  for (std::size_t row = 0; row < run.rows(); ++row) measured += run.is_measured(output, row) ? 1 : 0;
+  return measured;
 }
 
 /// Every compared row has its own time and value.
 void expect_rows_as_they_are(const recording::Table& table, const Run& run) {
   const auto &time_s = *table.find("time_s"), &position = *table.find("trolley_position_m");
   for (std::size_t row = 0; row < run.rows(); ++row) {
-    if (!run.seen(kTrolleyPosition, row)) continue;
+    if (!run.is_measured(kTrolleyPosition, row)) continue;
     const double at = run.start_s + run.instant_s(row);
     const auto found = std::min_element(time_s.begin(), time_s.end(), [&](double a, double b) {
       return std::abs(a - at) < std::abs(b - at);
@@ -53,7 +53,7 @@ TEST(DataAtTheirOwnTimes, AMissingRowDoesNotCutTheRun) {
   const Loaded loaded = load_run(table, gantry(), "lab.csv");
   ASSERT_EQ(loaded.runs.size(), 1U);
   EXPECT_EQ(seen_in(loaded.runs[0], kTrolleyPosition), table.rows());
-  EXPECT_FALSE(loaded.runs[0].seen(kTrolleyPosition, 500));
+  EXPECT_FALSE(loaded.runs[0].is_measured(kTrolleyPosition, 500));
   expect_rows_as_they_are(table, loaded.runs[0]);
   EXPECT_THAT(loaded.notes.at(0), HasSubstr("1 rows are missing"));
 }
@@ -176,7 +176,8 @@ double worst_prediction(const Recording& lab, Part part, Output output,
       static_cast<std::size_t>(std::find(outputs.begin(), outputs.end(), output) - outputs.begin());
   double worst = 0;
   for (std::size_t k = 0; k < rows; ++k)
-    if (run.seen(output, k)) worst = std::max(worst, std::abs(out[at * rows + k] - run.measured[output][k]));
+    if (run.is_measured(output, k))
+      worst = std::max(worst, std::abs(out[at * rows + k] - run.measured[output][k]));
   return worst;
 }
 
@@ -214,7 +215,7 @@ TEST(MissingData, HaveNoResidual) {
       const Fits fits = problem.fit(replays);
       for (std::size_t w = 0; w < fits.size(); ++w)
         for (std::size_t k = 0; k < problem.windows()[w].rows; ++k)
-          if (!runs[0].run.seen(problem.outputs()[0], problem.windows()[w].first + k)) {
+          if (!runs[0].run.is_measured(problem.outputs()[0], problem.windows()[w].first + k)) {
             const auto row = static_cast<Eigen::Index>(k);
             ASSERT_EQ(problem.measured(problem.windows()[w])[row] - fits[w].simulated[row], 0.0);
             if (whitened) {

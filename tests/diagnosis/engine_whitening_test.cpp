@@ -19,16 +19,16 @@ std::vector<Eigen::VectorXd> windows(double noise, double acceleration, double c
   const double keep = correlation_s > 0 ? std::exp(-kPeriod_s / correlation_s) : 0;
   std::vector<Eigen::VectorXd> all;
   for (int w = 0; w < 60; ++w) {
-    Eigen::VectorXd seen(200);
+    Eigen::VectorXd measured(200);
     double a = acceleration * normal(random), v = 0.1 * normal(random), x = 0.1 * normal(random);
-    for (Eigen::Index k = 0; k < seen.size(); ++k) {
-      seen[k] = x + noise * normal(random);
+    for (Eigen::Index k = 0; k < measured.size(); ++k) {
+      measured[k] = x + noise * normal(random);
       const double middle = v + 0.5 * kPeriod_s * (a - damping_ps * v);
       x += kPeriod_s * middle;
       v += kPeriod_s * (a - damping_ps * middle);
       a = keep * a + std::sqrt(1 - keep * keep) * acceleration * normal(random);
     }
-    all.push_back(seen);
+    all.push_back(measured);
   }
   return all;
 }
@@ -91,7 +91,7 @@ Sticking sticking(std::uint64_t seed) {
   constexpr double kPeriod_s = 0.01, kNoise = 1e-6, kForce = 0.05, kImpulse = 3e-3;
   Sticking all;
   for (int w = 0; w < 40; ++w) {
-    Eigen::VectorXd seen(200);
+    Eigen::VectorXd measured(200);
     WindowMotion motion{kPeriod_s, 0, MotionProfile(200)};
     double x = 0, v = 0, a = 0;
     for (std::size_t k = 0; k < 200; ++k) {
@@ -99,13 +99,13 @@ Sticking sticking(std::uint64_t seed) {
       RowMotion& row_motion = motion.profile[k];
       if (phase < 30) row_motion = {1, MotionPhase::standing};
       if (phase >= 30 && phase < 33) row_motion = {1, MotionPhase::turning};
-      seen[static_cast<Eigen::Index>(k)] = x + kNoise * normal(random);
+      measured[static_cast<Eigen::Index>(k)] = x + kNoise * normal(random);
       if (row_motion.phase != MotionPhase::moving) v = 0;
       if (row_motion.phase == MotionPhase::turning) v = kImpulse * normal(random);
       a = 0.95 * a + 0.31 * kForce * normal(random);
       if (row_motion.phase != MotionPhase::standing) x += kPeriod_s * v, v += kPeriod_s * a;
     }
-    all.residuals.push_back(seen);
+    all.residuals.push_back(measured);
     all.motions.push_back(motion);
   }
   return all;

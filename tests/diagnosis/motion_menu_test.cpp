@@ -60,12 +60,12 @@ TEST_P(MotionMenu, TheNominalRigStaysInsideItsLimits) {
     const auto run = safe_run(rig_, crane, motion);
     ASSERT_TRUE(run) << motion.name;
     for (const plant::Axis axis : {plant::kTrolley, plant::kSlew}) {
-      std::vector<double> asked;
+      std::vector<double> reference;
       for (std::size_t k = 0; k < run->run.rows(); ++k)
-        asked.push_back(motion.reference(axis, static_cast<double>(k) * rig_.period_s).position);
+        reference.push_back(motion.reference(axis, static_cast<double>(k) * rig_.period_s).position);
       // The loop is slow, and friction holds the end of a creep.
       if (rig_.drives[axis].present) {
-        EXPECT_GE(span(run->run.measured[axis]), 0.6 * span(asked)) << motion.name;
+        EXPECT_GE(span(run->run.measured[axis]), 0.6 * span(reference)) << motion.name;
       }
     }
   }

@@ -10,9 +10,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <csignal>
 #include <fstream>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <stop_token>
 #include <thread>
 
 #include "../interop/two_hosts.hpp"
@@ -251,25 +254,24 @@ TEST(OnOneComputer, AUserWithoutRightsMayNotScheduleInRealTime) {
 /// Takes the processor for longer than the loop tolerates, several times, with a priority above the loop's.
 class Hog {
  public:
-  Hog()
-      : thread_{[this] {
-          const sched_param parameters{.sched_priority = 95};
-          granted_ = ::sched_setscheduler(0, SCHED_FIFO, &parameters) == 0;
-          while (!stop_) {
-            const auto end = std::chrono::steady_clock::now() + 8ms;
-            while (std::chrono::steady_clock::now() < end) {
-            }
-            std::this_thread::sleep_for(90ms);
-          }
-        }} {}
-  ~Hog() { stop_ = true; }
-  Hog(const Hog&) = delete;
-  Hog& operator=(const Hog&) = delete;
   [[nodiscard]] bool granted() const { return granted_; }
 
  private:
-  std::atomic<bool> stop_{false}, granted_{false};
-  std::jthread thread_;
+  void run(const std::stop_token& stop) {
+    const sched_param parameters{.sched_priority = 95};
+    granted_ = ::sched_setscheduler(0, SCHED_FIFO, &parameters) == 0;
+    std::unique_lock lock{mutex_};
+    while (!stopped_.wait_for(lock, stop, 90ms, [&stop] { return stop.stop_requested(); })) {
+      const auto end = std::chrono::steady_clock::now() + 8ms;
+      while (std::chrono::steady_clock::now() < end) {
+      }
+    }
+  }
+
+  std::atomic<bool> granted_{false};
+  std::mutex mutex_;
+  std::condition_variable_any stopped_;
+  std::jthread thread_{[this](const std::stop_token& stop) { run(stop); }};
 };
 
 TEST(OnOneComputer, ALateTimerIsAProblemOfWhatTheLoopTolerates) {

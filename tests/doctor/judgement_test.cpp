@@ -29,7 +29,7 @@ Heard whole_loop() {
   return heard;
 }
 
-const Asked kAsked{"crane", 0, {"127.0.0.1"}, false};
+const ExpectedCrane kExpected{"crane", 0, {"127.0.0.1"}, false};
 
 LocalProcess running(const std::vector<std::string>& options) {
   std::vector<std::string> arguments{"crane_plant"};
@@ -39,7 +39,7 @@ LocalProcess running(const std::vector<std::string>& options) {
 
 TEST(Doctor, FindsNothingInAWholeLoop) {
   const auto heard = whole_loop();
-  EXPECT_TRUE(judge_silence(kAsked, heard, {running({"--crane", "other"})}, {}).empty());
+  EXPECT_TRUE(judge_silence(kExpected, heard, {running({"--crane", "other"})}, {}).empty());
   const auto found = judge_processes_heard(heard);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].grade, Grade::good);
@@ -68,18 +68,18 @@ TEST(Doctor, NamesAClockThatDiffers) {
 
 TEST(Doctor, OfSilenceSaysTheOptionThatWouldHelp) {
   const auto remedy = [](const std::vector<std::string>& options) {
-    const auto found = judge_silence(kAsked, {}, {running(options)}, {});
+    const auto found = judge_silence(kExpected, {}, {running(options)}, {});
     return found.size() == 1 ? found[0].code + ": " + found[0].remedy : "";
   };
   EXPECT_EQ(remedy({"--crane", "north"}), "wrong_crane: add --crane north");
   EXPECT_EQ(remedy({"--domain", "4"}), "wrong_domain: add --domain 4");
   EXPECT_EQ(remedy({"--interface", "10.0.0.5"}), "wrong_interface: add --interface 10.0.0.5");
   EXPECT_EQ(remedy({"--secure", "keys"}), "wrong_keys: add --secure DIR");
-  const auto announced = judge_silence(kAsked, {}, {}, {{"10.0.0.9", 3, {1, "north", "crane_plant"}}});
+  const auto announced = judge_silence(kExpected, {}, {}, {{"10.0.0.9", 3, {1, "north", "crane_plant"}}});
   ASSERT_EQ(announced.size(), 1U);
   EXPECT_THAT(announced[0].what, HasSubstr("announces itself from 10.0.0.9 in domain 3"));
   EXPECT_EQ(announced[0].remedy, "add --crane north --domain 3");
-  EXPECT_EQ(judge_silence(kAsked, {}, {}, {})[0].code, "nobody_publishes");
+  EXPECT_EQ(judge_silence(kExpected, {}, {}, {})[0].code, "nobody_publishes");
 }
 
 TEST(Doctor, CountsTheParticipantsThatUnicastFinds) {

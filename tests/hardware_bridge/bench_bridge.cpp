@@ -35,14 +35,14 @@ void encoder_to_converter(benchmark::State& run) {
   for (auto _ : run) {
     const auto inputs = c.board.read();
     benchmark::DoNotOptimize(c.measurement.step(inputs.raw_counts));
-    Seen seen{.brake_closed = inputs.brake_closed};
+    Observation observation{.brake_closed = inputs.brake_closed};
     for (std::size_t i = 0; i < kCounters; ++i) {
-      seen.counts[i] = c.measurement.coordinates()[i].counts();
-      seen.coordinate[i] = c.measurement.coordinates()[i].position();
+      observation.counts[i] = c.measurement.coordinates()[i].counts();
+      observation.coordinate[i] = c.measurement.coordinates()[i].position();
     }
     const CommandView command{tick, {}, {true, true, true}, true};
     ++tick;
-    benchmark::DoNotOptimize(c.board.write(c.line.decide(command, tick, seen)));
+    benchmark::DoNotOptimize(c.board.write(c.line.decide(command, tick, observation)));
   }
 }
 BENCHMARK(encoder_to_converter)->Unit(benchmark::kMicrosecond);
@@ -50,13 +50,13 @@ BENCHMARK(encoder_to_converter)->Unit(benchmark::kMicrosecond);
 void last_line_alone(benchmark::State& run) {
   const auto rig = test::emulated_rig();
   LastLine line{last_line_parameters(rig)};
-  Seen seen;
-  seen.coordinate = {0.6, 0, 1, 0, 0};
+  Observation observation;
+  observation.coordinate = {0.6, 0, 1, 0, 0};
   std::uint64_t tick = 0;
   for (auto _ : run) {
     const CommandView command{tick, {}, {true, true, true}, true};
     ++tick;
-    benchmark::DoNotOptimize(line.decide(command, tick, seen));
+    benchmark::DoNotOptimize(line.decide(command, tick, observation));
   }
 }
 BENCHMARK(last_line_alone)->Unit(benchmark::kMicrosecond);

@@ -6,7 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <csignal>
+#include <ctime>
 #include <iostream>
 #include <thread>
 
@@ -129,6 +131,15 @@ TEST_P(Death, ByNothingASecondBridgeIsRefusedWhileTheFirstLivesOrHangs) {
 INSTANTIATE_TEST_SUITE_P(Models, Death, testing::Values(1, 2),
                          [](const auto& test) { return "servo_to_go_model_" + std::to_string(test.param); });
 
+constexpr std::int64_t kToggle_ns = 5'000'000;  // half a period of the watchdog output
+
+/// The card stamps every change of its lines with CLOCK_MONOTONIC: its bridge must write in real time.
+void wait_until(std::int64_t time_ns) {
+  const timespec time{.tv_sec = time_ns / 1'000'000'000, .tv_nsec = time_ns % 1'000'000'000};
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
+  }
+}
+
 TEST(RigServer, MissesNoToggleThatCameWhileItWasKeptFromItsStep) {
   auto rig = emulated_rig();
   rig.wiring.relay_timeout_s = 1;  // the computer may be busy
@@ -139,11 +150,11 @@ TEST(RigServer, MissesNoToggleThatCameWhileItWasKeptFromItsStep) {
       static_cast<std::uint16_t>(1U << static_cast<unsigned>(rig.wiring.watchdog_output - 16));
   constexpr std::int64_t kLongEnough_ns = 60'000'000;  // for the relay to close
   const auto begin_ns = runtime::monotonic_ns();
-  auto now_ns = begin_ns;
-  for (bool level = true; now_ns < begin_ns + kLongEnough_ns; level = !level) {
-    std::this_thread::sleep_for(std::chrono::milliseconds{5});
-    now_ns = runtime::monotonic_ns();
-    card.set_outputs(level ? toggling : 0);
+  for (std::int64_t at_ns = 0; at_ns < kLongEnough_ns; at_ns += 2 * kToggle_ns) {
+    wait_until(begin_ns + at_ns + kToggle_ns);
+    card.set_outputs(toggling);
+    wait_until(begin_ns + at_ns + 2 * kToggle_ns);
+    card.set_outputs(0);
   }
   server.run_to(runtime::monotonic_ns() - begin_ns, runtime::monotonic_ns());
   EXPECT_FALSE(server.rig().crane().read().watchdog_dropped);
@@ -157,10 +168,11 @@ TEST(RigServer, AppliesTheVoltsOfAPauseAtTheirTimes) {
   RigServer server{rig, name, false, 1};
   EmulatedBoard card{rig, std::make_unique<LinkedRig>(name)};
   const auto begin_ns = runtime::monotonic_ns();
+  std::int64_t at_ns = 0;
   bool level = false;
   const auto write_until = [&](std::int64_t time_ns, double volts_v) {
-    while (runtime::monotonic_ns() < begin_ns + time_ns) {
-      std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    for (; at_ns < time_ns; at_ns += kToggle_ns) {
+      wait_until(begin_ns + at_ns + kToggle_ns);
       card.write({{volts_v, 0, 0}, {true, true, true}, level = !level});
     }
   };

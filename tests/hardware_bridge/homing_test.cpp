@@ -19,7 +19,7 @@ class Hand {
       : homing{rig}, drive_{rig.drives[0]}, encoder_{rig.encoders[0]}, true_m{from_m}, power_on_m_{from_m} {}
 
   Homing homing;
-  bool asked = true, free = true;
+  bool requested = true, free = true;
   std::optional<std::int64_t> change;
 
  private:
@@ -38,7 +38,7 @@ class Hand {
   }
   void tick() {
     const auto found = homing.step(
-        0, {.counts = counts(), .active = active(), .asked = asked, .free = free, .rests = !free});
+        0, {.counts = counts(), .active = active(), .requested = requested, .free = free, .rests = !free});
     if (found) change = found;
   }
   /// Search, back-off, approach, back-off; starts 0.05 m from the mark, on any side.
@@ -51,7 +51,7 @@ class Hand {
     move(-way * 0.05, 1);
   }
   void end() {
-    asked = free = false;
+    requested = free = false;
     tick();
     tick();
   }
@@ -109,10 +109,10 @@ TEST(Homing, DoesNotCountABouncingContactAsTheSecondDetection) {
 }
 
 TEST(Homing, TakesNoSwitchThatSomebodyPressesWhileTheBrakeIsClosedOrNothingIsHomed) {
-  for (const bool asked : {false, true}) {
+  for (const bool requested : {false, true}) {
     Hand hand{homing_tower()};
-    hand.asked = asked;
-    hand.free = !asked;
+    hand.requested = requested;
+    hand.free = !requested;
     hand.run_course();
     hand.end();
     EXPECT_FALSE(hand.homing.known(0));
@@ -124,7 +124,7 @@ TEST(Homing, StaysUnknownWhenItIsInterrupted) {
   hand.move(-0.05, 9.2);
   hand.move(0.05, 0.6);
   hand.end();
-  hand.asked = hand.free = true;
+  hand.requested = hand.free = true;
   hand.move(-0.01, 4);  // first detection of a second homing
   hand.end();
   EXPECT_FALSE(hand.homing.known(0));
@@ -135,7 +135,7 @@ TEST(Homing, OfAnAxisThatIsKnownForgetsItsZeroFirst) {
   hand.run_course();
   hand.end();
   ASSERT_TRUE(hand.homing.known(0));
-  hand.asked = true;
+  hand.requested = true;
   hand.tick();
   EXPECT_FALSE(hand.homing.known(0));
 }

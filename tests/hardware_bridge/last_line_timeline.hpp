@@ -1,5 +1,7 @@
 #pragma once
 /// A trolley with LastLine, tick by tick.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -82,19 +84,19 @@ class Timeline {
     if (commands_come)
       command = CommandView{now - 1, drive_v, {release, release, release}, permission, {homing}};
     move();
-    Seen seen;
-    seen.time_ns = std::llround((static_cast<double>(now) * kPeriod_s + late_s) * 1e9);
+    Observation observation;
+    observation.time_ns = std::llround((static_cast<double>(now) * kPeriod_s + late_s) * 1e9);
     if (!encoder_dead) shown_m_ = trolley_m + encoder_offset_m;
-    seen.coordinate = {shown_m_, 0, 1, swing_rad, 0};
-    seen.counts[0] = std::llround(shown_m_ * rig_.encoders[0].counts_per_unit);
-    seen.applied_v = outputs.drive_v;
+    observation.coordinate = {shown_m_, 0, 1, swing_rad, 0};
+    observation.counts[0] = std::llround(shown_m_ * rig_.encoders[0].counts_per_unit);
+    observation.applied_v = outputs.drive_v;
     const bool open = brake_opens && outputs.brake_release[0];
-    seen.brake_closed = {!open, !open, !open};
-    seen.limit_high[0] = limit_high;
-    seen.unknown[0] = unknown;
-    seen.second_writer = second_writer;
-    seen.mark[0] = mark;
-    outputs = line.decide(command, now, seen);
+    observation.brake_closed = {!open, !open, !open};
+    observation.limit_high[0] = limit_high;
+    observation.unknown[0] = unknown;
+    observation.second_writer = second_writer;
+    observation.mark[0] = mark;
+    outputs = line.decide(command, now, observation);
   }
   /// Without friction; the trolley coasts while the brake is open.
   void move() {

@@ -66,14 +66,8 @@ void gate_envelope_following_error(benchmark::State& run) {
                                    .block_positive = envelope.block_positive,
                                    .block_negative = envelope.block_negative},
                                   gate_memory));
-    benchmark::DoNotOptimize(following_error(limits,
-                                             {.sampled_s = time_s,
-                                              .position = sample.position,
-                                              .swing_radial_rad = sample.swing_radial_rad,
-                                              .swing_tangential_rad = sample.swing_tangential_rad,
-                                              .applied_v = sample.applied_v,
-                                              .free = {true, true, true}},
-                                             following));
+    const FollowingInput in = following_input(sample, {true, true, true});
+    benchmark::DoNotOptimize(following_error(limits, in, following));
   }
   count(run, before);
 }
@@ -86,13 +80,7 @@ void swing_encoders(benchmark::State& run) {
   const std::size_t before = allocations;
   for (auto _ : run) {
     time_s += kTick_s;
-    const Sample sample = sample_at(time_s);
-    benchmark::DoNotOptimize(swing_sensor_failed(limits,
-                                                 {.sampled_s = time_s,
-                                                  .position = sample.position,
-                                                  .radial_rad = sample.swing_radial_rad,
-                                                  .tangential_rad = sample.swing_tangential_rad},
-                                                 memory));
+    benchmark::DoNotOptimize(swing_sensor_failed(limits, pendulum_input(sample_at(time_s)), memory));
   }
   count(run, before);
 }

@@ -190,11 +190,11 @@ class Enumeration : public ::testing::Test {
 TEST_F(Enumeration, EveryStateAgainstEveryFaultAndObservationKeepsTheRules) {  // S15
   for (const Memory& before : memories_) {
     for (unsigned faults = 0; faults < 1U << kFaults; ++faults) {
-      for (unsigned seen = 0; seen < 1U << kObservations; ++seen) {
+      for (unsigned observations = 0; observations < 1U << kObservations; ++observations) {
         Inputs in{.now_s = kNow_s, .self_test = SelfTest::passed};
         set_faults(faults, in);
-        set_observations(seen, in);
-        in.gate_cause = kGateCauses[(faults + seen) % 4];
+        set_observations(observations, in);
+        in.gate_cause = kGateCauses[(faults + observations) % 4];
         in.demand_stale = in.gate_cause == Cause::demand_stale;
         check(before, in);
         if (HasFatalFailure()) return;
@@ -220,13 +220,13 @@ TEST_F(Enumeration, EveryStateAgainstEveryFaultAndRequestKeepsTheRules) {  // S1
 TEST_F(Enumeration, EveryStateAgainstEveryRequestSelfTestAndGateCauseKeepsTheRules) {  // S15
   for (const Memory& before : memories_) {
     for (unsigned requests = 0; requests < 1U << kRequests; ++requests) {
-      for (unsigned seen = 0; seen < 1U << kObservations; ++seen) {
+      for (unsigned observations = 0; observations < 1U << kObservations; ++observations) {
         for (unsigned rest = 0; rest < 16; ++rest) {
           Inputs in{.now_s = kNow_s,
                     .self_test = static_cast<SelfTest>(rest % 4),
                     .gate_cause = kGateCauses[rest / 4]};
           set_requests(requests, in);
-          set_observations(seen, in);
+          set_observations(observations, in);
           check(before, in);
           if (HasFatalFailure()) return;
         }
@@ -283,7 +283,7 @@ TEST(Reactions, EachSignalInRunHasTheCauseAndReactionOfTheTable) {  // S16
       {"not homed", [](Inputs& in) { in.not_homed = true; }, Cause::not_homed},
       {"overrun", [](Inputs& in) { in.overrun = true; }, Cause::overrun}};
   for (const Expectation& row : rows) {
-    Memory m{.state = State::run, .cause = Cause::none, .releasing = true, .maneuver_seen = true};
+    Memory m{.state = State::run, .cause = Cause::none, .releasing = true, .maneuver_began = true};
     Inputs in{.now_s = 1,
               .self_test = SelfTest::passed,
               .brakes_open = true,

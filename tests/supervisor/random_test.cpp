@@ -67,12 +67,12 @@ void act(Random& random, Timeline& t) {
 // Checks I5 and I7 with inputs and outputs only.
 class Observer {
  public:
-  void check(const Limits& limits, const Requests& asked, const TickOutput& out) {
+  void check(const Limits& limits, const Requests& requests, const TickOutput& out) {
     const bool released = out.brake_release[0] || out.brake_release[1] || out.brake_release[2];
     if (!out.watchdog_permission)
       reset_ = armed_ = false;  // the relay is open: reset and arm are required again
-    if (asked[index_of(Request::reset)] && out.answers[index_of(Request::reset)].accepted) reset_ = true;
-    if (reset_ && asked[index_of(Request::arm)] && out.answers[index_of(Request::arm)].accepted)
+    if (requests[index_of(Request::reset)] && out.answers[index_of(Request::reset)].accepted) reset_ = true;
+    if (reset_ && requests[index_of(Request::arm)] && out.answers[index_of(Request::arm)].accepted)
       armed_ = true;
     ASSERT_TRUE(!released || armed_) << "I5: brakes open without reset and arm";
     for (std::size_t i = 0; i < kAxes; ++i) {
@@ -111,9 +111,9 @@ TEST_P(RandomHistory, NeverMovesWithoutResetAndArmNorBeyondTheVoltLimits) {  // 
     for (int i = 0; i < kTicks; ++i) {
       disturb(random, {.fault = GetParam()}, t);
       act(random, t);
-      const Requests asked = t.world.requests;
+      const Requests requests = t.world.requests;
       t.tick();
-      ASSERT_NO_FATAL_FAILURE(observer.check(t.limits, asked, t.out)) << "tick " << i;
+      ASSERT_NO_FATAL_FAILURE(observer.check(t.limits, requests, t.out)) << "tick " << i;
     }
     released += observer.released_ticks();
   }

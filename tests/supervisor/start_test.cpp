@@ -186,7 +186,7 @@ TEST(Supervisor, EveryRefusalNamesAReason) {
       inputs.requests[request] = true;
       const Outputs out = step(test_limits(), inputs, memory);
       const Answer& answer = out.answers[request];
-      EXPECT_TRUE(answer.asked);
+      EXPECT_TRUE(answer.requested);
       EXPECT_EQ(answer.accepted, std::string_view{answer.reason}.empty()) << state << " " << request;
     }
   }

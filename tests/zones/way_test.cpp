@@ -128,7 +128,7 @@ bool flood_connects(const WaySpace& space, const PerAxis& from, const PerAxis& t
     const int row = slews ? static_cast<int>(std::lround((at[1] - space.axis[1].low) / turn)) : 0;
     return row * columns + static_cast<int>(std::lround((at[0] - low) / step));
   };
-  std::vector<char> seen(static_cast<std::size_t>(columns * rows), 0);
+  std::vector<char> visited(static_cast<std::size_t>(columns * rows), 0);
   std::deque<int> open{cell_of(from)};
   while (!open.empty()) {
     const int cell = open.front();
@@ -136,9 +136,10 @@ bool flood_connects(const WaySpace& space, const PerAxis& from, const PerAxis& t
     if (cell == cell_of(to)) return true;
     for (const int next : {cell - 1, cell + 1, cell - columns, cell + columns}) {
       const bool beside = std::abs(next - cell) == 1 && next / columns != cell / columns;
-      if (next < 0 || next >= columns * rows || beside || seen[static_cast<std::size_t>(next)] != 0) continue;
+      if (next < 0 || next >= columns * rows || beside || visited[static_cast<std::size_t>(next)] != 0)
+        continue;
       if (gap_at(space, place(next)) < gap_m) continue;
-      seen[static_cast<std::size_t>(next)] = 1;
+      visited[static_cast<std::size_t>(next)] = 1;
       open.push_back(next);
     }
   }

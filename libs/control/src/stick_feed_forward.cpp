@@ -8,7 +8,7 @@ namespace motion = plant::motion;
 
 Volts feed_forward(const Design& design, const StickLimits& limits, const StickMemory& memory) noexcept {
   if (limits.shaping == Shaping::none || at_rest(memory)) return {};
-  const auto& [after, at, before, oldest] = memory.path;
+  const StickPoint &after = memory.path[0], &at = memory.path[1], &before = memory.path[2];
   const double h = limits.period_s;
   const auto rate = [h](double a, double b) { return (a - b) / (2 * h); };
   const auto second = [h](double a, double b, double c) { return (a - 2 * b + c) / (h * h); };

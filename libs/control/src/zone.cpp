@@ -7,7 +7,7 @@ namespace crane::control {
 namespace {
 
 /// Signed distance of a point from the outline of the zone, m; negative inside.
-double distance_m(const Zone& zone, double x_m, double y_m) noexcept {
+double outline_distance_m(const Zone& zone, double x_m, double y_m) noexcept {
   const double dx = x_m - zone.position_x_m, dy = y_m - zone.position_y_m;
   if (zone.shape == ZoneShape::cylinder) return std::hypot(dx, dy) - zone.radius_m;
   const double beyond_x = std::abs(dx) - zone.size_x_m / 2, beyond_y = std::abs(dy) - zone.size_y_m / 2;
@@ -21,15 +21,15 @@ constexpr double kRounding_m = 1e-9;
 
 int steps_of(const plant::PerAxis& from, const plant::PerAxis& to) noexcept {
   const double radius_m = std::max(std::abs(from[0]), std::abs(to[0]));
-  const double way_m =
+  const double distance_m =
       std::abs(to[0] - from[0]) + radius_m * std::abs(to[1] - from[1]) + std::abs(to[2] - from[2]);
-  return std::clamp(static_cast<int>(std::min(way_m / kStep_m, 1.0 * kMostSteps)), 1, kMostSteps);
+  return std::clamp(static_cast<int>(std::min(distance_m / kStep_m, 1.0 * kMostSteps)), 1, kMostSteps);
 }
 
 }  // namespace
 
 double clearance_m(const Zone& zone, const ReachedSpace& reach, double suspension_height_m) noexcept {
-  const double beside = distance_m(zone, reach.x_m, reach.y_m) - reach.radius_m;
+  const double beside = outline_distance_m(zone, reach.x_m, reach.y_m) - reach.radius_m;
   const double above = reach.lowest_m - zone.top_m, below = zone.bottom_m - suspension_height_m;
   return std::max({beside, above, below});
 }
@@ -44,10 +44,11 @@ ReachedSpace resting_reach(const Clearance& clearance, double gravity_mps2, doub
 }
 
 const Zone* zone_in_path(std::span<const Zone> zones, const Clearance& clearance, double gravity_mps2,
-                         const plant::PerAxis& from, const plant::PerAxis& to, double margin_m) noexcept {
+                         const plant::PerAxis& from, const plant::PerAxis& to,
+                         double least_clearance_m) noexcept {
   const int steps = steps_of(from, to);
   for (const Zone& zone : zones) {
-    double closest_m = margin_m;
+    double closest_m = least_clearance_m;
     for (int i = 0; i <= steps; ++i) {
       const double share = static_cast<double>(i) / steps;
       const auto at = [&](std::size_t axis) { return from[axis] + share * (to[axis] - from[axis]); };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campaign/judge/row_facts.hpp"
+#include "campaign/judge/tick_invariants.hpp"
 #include "campaign/judge/truth.hpp"
 
 namespace crane::campaign {
@@ -12,27 +14,12 @@ constexpr double kCommunicationBound_ms = 70;  // I2: onset of a communication f
 constexpr double kZeroVoltsBound_ms = 20;      // I2: any detection to 0 V
 constexpr double kBrakesBound_ms = 10;         // I3: 0 V to brakes commanded closed: one tick
 constexpr double kControlledStop_ms = 8'200;   // longest controlled stop with its ramp
-constexpr double kOutside = 1e-3;              // I1: m, rad; small compared with any stopping distance
-constexpr double kSlip = 1e-3;                 // I4: m, rad
-constexpr double kAtRest = 1e-6;               // m/s, rad/s: below, an axis of the simulated rig is locked
-constexpr double kVolt = 1e-9;                 // V: rounding error
-constexpr std::size_t kOldestCommand = 6;      // ticks: the bridge applies a command for at most five ticks
-
-double ms(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
-
-/// True in states of a stop: power is, or is being, removed. LOCKED is the end of a stop.
-bool is_stop(crane_SupervisorState state) {
-  return state >= crane_STATE_STOP_C1 || state == crane_STATE_LOCKED || state == crane_STATE_SELFTEST;
-}
 
 bool is_controlled(const Reason& reason) {
   return reason.cause == crane_CAUSE_OPERATOR_STOP || reason.cause == crane_CAUSE_OPERATOR_DISARM ||
          reason.cause == crane_CAUSE_IDLE || reason.cause == crane_CAUSE_SWING_LIMIT ||
          reason.cause == crane_CAUSE_HOMED;
 }
-
-bool no_volts(const Row& row) { return row.truth.written_v == PerAxis{}; }
-bool commanded_closed(const Row& row) { return row.truth.brake_release == AxisFlags{}; }
 
 class Judgement {
  public:
@@ -41,15 +28,7 @@ class Judgement {
   }
 
   Verdict take() {
-    for (std::size_t k = 0; k < run_.rows.size(); ++k) {
-      inside_limits(k);
-      follows_latch(k);
-      runaway_swing(k);
-      braked_stays(k);
-      reset_and_arm(k);
-      if (k > 0) only_supervisor(k);
-      if (k > 0) volts_in_range(k);
-    }
+    check_every_tick(rig_, run_, verdict_);
     no_trip_before_onset();
     find_first_reason();
     right_reason();
@@ -62,117 +41,14 @@ class Judgement {
 
  private:
   void violated(Invariant invariant, std::size_t k, std::string what) {
-    const bool known = std::ranges::any_of(
-        verdict_.violations, [invariant](const auto& other) { return other.invariant == invariant; });
-    if (!known) verdict_.violations.push_back({invariant, run_.rows[k].time_ns, std::move(what)});
-  }
-
-  void inside_limits(std::size_t k) {
-    const Truth& truth = run_.rows[k].truth;
-    for (std::size_t i = 0; i < kAxes; ++i) {
-      const auto& drive = rig_.drives[i];
-      if (!drive.present || truth.brake_closed[i]) continue;
-      const double beyond =
-          std::max(truth.position[i] - drive.high_limit, drive.low_limit - truth.position[i]);
-      verdict_.beyond_limit = std::max(verdict_.beyond_limit, beyond);
-      if (beyond > kOutside && !run_.expectation.position_is_false && !run_.expectation.brakes_are_broken)
-        violated(Invariant::inside_limits, k,
-                 "axis " + std::to_string(i) + " is " + std::to_string(beyond) +
-                     " beyond its hard limit with its brake open");
-    }
-  }
-
-  /// When the bridge has latched, the supervisor must stop, too.
-  void follows_latch(std::size_t k) {
-    constexpr std::size_t kTicks = 3;
-    if (k < kTicks || run_.expectation.supervisor_gone || run_.expectation.supervisor_faulty) return;
-    const bool latched = run_.rows[k - kTicks].state.latch_reason != crane_LATCH_NONE &&
-                         run_.rows[k].state.latch_reason != crane_LATCH_NONE;
-    const auto state = run_.rows[k].status.state;
-    if (latched && (state == crane_STATE_HOLD || state == crane_STATE_RUN))
-      violated(Invariant::right_reason, k, "the supervisor goes on although the bridge has latched");
-  }
-
-  /// A controlled stop cannot damp a swing above 1.25 times its limit: 0 V is required.
-  void runaway_swing(std::size_t k) {
-    constexpr double kRunaway = 1.25, kReserve = 1.02, kBound_ms = 50;
-    const Truth& truth = run_.rows[k].truth;
-    const double limit_rad = kRunaway * kReserve * rig_.limits.swing_limit_rad;
-    const bool beyond =
-        std::abs(truth.swing_radial_rad) > limit_rad || std::abs(truth.swing_tangential_rad) > limit_rad;
-    if (beyond && !runaway_ns_) runaway_ns_ = run_.rows[k].time_ns;
-    if (runaway_ns_ && ms(*runaway_ns_, run_.rows[k].time_ns) > kBound_ms && !no_volts(run_.rows[k]) &&
-        !run_.expectation.supervisor_gone && !run_.expectation.supervisor_faulty &&
-        !run_.expectation.volts_by_rig)
-      violated(Invariant::zero_volts, k, "volts on although the load has swung beyond 1.25 times its limit");
-  }
-
-  void braked_stays(std::size_t k) {
-    const Truth& truth = run_.rows[k].truth;
-    for (std::size_t i = 0; i < kAxes; ++i) {
-      if (!rig_.drives[i].present) continue;
-      if (!truth.brake_closed[i]) anchor_[i].reset();
-      if (truth.brake_closed[i] && !anchor_[i] && std::abs(truth.speed[i]) <= kAtRest)
-        anchor_[i] = truth.position[i];
-      if (anchor_[i] && std::abs(truth.position[i] - *anchor_[i]) > kSlip &&
-          !run_.expectation.brakes_are_broken)
-        violated(Invariant::braked_stays, k, "axis " + std::to_string(i) + " moved under its closed brake");
-    }
-  }
-
-  /// Permission to open brakes begins with reset and arm, and ends with every stop.
-  void reset_and_arm(std::size_t k) {
-    const Row& row = run_.rows[k];
-    const bool was_released = k > 0 && !commanded_closed(run_.rows[k - 1]);
-    const bool may = permitted_;
-    if (is_stop(row.status.state)) permitted_ = reset_ = false;
-    if (row.reset_requested) reset_ = true;
-    if (row.arm_requested && reset_) permitted_ = true;
-    if (row.status.state == crane_STATE_READY && !reset_)
-      violated(Invariant::reset_and_arm, k, "READY without a reset");
-    if (!commanded_closed(row) && !was_released && !may && !permitted_)
-      violated(Invariant::reset_and_arm, k, "a brake was opened without reset and arm");
-  }
-
-  void only_supervisor(std::size_t k) {
-    const Row& row = run_.rows[k];
-    const bool bridge_is_dead = run_.expectation.volts_by_rig && row.time_ns >= run_.begin_ns;
-    if (bridge_is_dead || (no_volts(row) && commanded_closed(row))) return;
-    for (std::size_t age = 1; age <= std::min(k, kOldestCommand); ++age)
-      if (is_of(run_.rows[k - age].command, row.truth)) return;
-    violated(Invariant::only_supervisor, k, "the board was given what the supervisor has not published");
-  }
-
-  [[nodiscard]] bool is_of(const msg::Command& command, const Truth& truth) const {
-    for (std::size_t i = 0; i < kAxes; ++i)
-      if (std::abs(truth.written_v[i] - command.drive_v[i]) > kVolt ||
-          (truth.brake_release[i] && !command.brake_release[i]))
-        return false;
-    return true;
-  }
-
-  void volts_in_range(std::size_t k) {
-    const Row& row = run_.rows[k];
-    const auto tick = row.state.applied_command_tick, before = run_.rows[k - 1].state.applied_command_tick;
-    const double ticks = tick > before ? static_cast<double>(tick - before) : 1;
-    for (std::size_t i = 0; i < kAxes; ++i) {
-      const double u = row.truth.written_v[i], last = run_.rows[k - 1].truth.written_v[i];
-      const auto& drive = rig_.drives[i];
-      const double limit_v = drive.present ? drive.volt_limit_v : 0;
-      const bool towards_zero = u * last >= 0 && std::abs(u) <= std::abs(last);
-      const double most_v = drive.volt_rate_limit_vps * rig_.period_s * ticks;
-      if (!(std::abs(u) <= limit_v + kVolt) || !(towards_zero || std::abs(u - last) <= most_v + kVolt))
-        violated(Invariant::volts_in_range, k,
-                 "axis " + std::to_string(i) + " was given " + std::to_string(u) + " V after " +
-                     std::to_string(last));
-    }
+    add_violation(run_, invariant, k, std::move(what), verdict_);
   }
 
   void no_trip_before_onset() {
     for (std::size_t k = 0; k < run_.rows.size() && run_.rows[k].time_ns < run_.begin_ns; ++k) {
       const auto& status = run_.rows[k].status;
-      const bool asked = status.cause <= crane_CAUSE_OPERATOR_ESTOP;
-      if (run_.rows[k].state.latch_reason != crane_LATCH_NONE || (is_stop(status.state) && !asked))
+      const bool by_operator = status.cause <= crane_CAUSE_OPERATOR_ESTOP;
+      if (run_.rows[k].state.latch_reason != crane_LATCH_NONE || (is_stop(status.state) && !by_operator))
         violated(Invariant::no_false_trip, k,
                  "stopped before the fault, cause " + std::to_string(status.cause));
     }
@@ -326,9 +202,6 @@ class Judgement {
   const Run& run_;
   Verdict verdict_;
   std::size_t onset_ = 0, first_row_ = 0;
-  std::array<std::optional<double>, kAxes> anchor_{};
-  std::optional<std::int64_t> runaway_ns_;
-  bool reset_ = false, permitted_ = false;
 };
 
 }  // namespace

@@ -94,11 +94,11 @@ std::string values_of(const std::vector<diagnosis::Estimate>& estimates) {
 
 void print_check(const diagnosis::Check& check, const DiagnosisData& data) {
   TextTable table{{"candidate", "smallest detectable size", "hardly distinguishable from"}};
-  for (const auto& seen : check.excitation) {
+  for (const auto& visibility : check.excitation) {
     std::string alike;
-    for (const auto& other : seen.alike)
+    for (const auto& other : visibility.alike)
       alike += (alike.empty() ? "" : ", ") + other.label + " (" + rounded(other.cosine) + ")";
-    table.add({seen.label, seen.visible ? values_of(seen.least) : "not detectable", alike});
+    table.add({visibility.label, visibility.visible ? values_of(visibility.least) : "not detectable", alike});
   }
   table.print(std::cout);
   for (const auto& proposal : check.next)

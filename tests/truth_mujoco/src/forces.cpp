@@ -22,8 +22,8 @@ constexpr double kLeast_v = 1e-3;  ///< friction below it counts as this much wh
 double Crane::effective_v(std::size_t axis) const {
   const DriveFault& fault = physics_.drive[axis];
   const double gain = 1 + fault.gain_change - fault.gain_loss_per_minute * std::min(time_s_, 60.0) / 60;
-  const double asked = acting_v_[axis] + fault.crosstalk * acting_v_[1 - axis];
-  const double left = sign_of(asked) * std::max(0.0, std::abs(asked) - fault.dead_zone_v);
+  const double commanded_v = acting_v_[axis] + fault.crosstalk * acting_v_[1 - axis];
+  const double left = sign_of(commanded_v) * std::max(0.0, std::abs(commanded_v) - fault.dead_zone_v);
   return gain * left + fault.offset_v;
 }
 

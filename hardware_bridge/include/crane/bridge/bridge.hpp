@@ -45,10 +45,10 @@ class Bridge : public runtime::Component {
   void apply(Outputs outputs);
   [[nodiscard]] Latched latched_at(std::optional<std::uint64_t> previous, std::uint64_t next,
                                    std::int64_t sample_time_ns) const;
-  void look_for_marks(const Seen& seen);
+  void look_for_marks(const Observation& observation);
   void report_latch();
   void report_relay(const Inputs& inputs, std::int64_t now_ns);
-  [[nodiscard]] Seen seen(const Inputs& inputs) const;
+  [[nodiscard]] Observation observation(const Inputs& inputs) const;
   [[nodiscard]] msg::State state(const Inputs& inputs, const control::Measurement& measured,
                                  std::int64_t sample_time_ns) const;
 

@@ -16,7 +16,7 @@ namespace crane::bridge {
 struct MarkView {
   std::int64_t counts = 0;  ///< unwrapped counts
   bool active = false;      ///< true: the axis is at its homing switch or mark
-  bool asked = false;       ///< true: crane/command homes this axis
+  bool requested = false;   ///< true: crane/command homes this axis
   bool free = false;        ///< true: the brake is commanded open and reports open
   bool rests = false;       ///< true: the closed brake has stopped the axis
 };
@@ -48,7 +48,7 @@ class Homing {
     double approach_counts = 0;   ///< largest change of counts per tick in the approach
     double agreement_counts = 0;  ///< largest difference between the two detections
     double back_off_counts = 0;   ///< smallest distance that the axis must back off between the detections
-    bool was_active = false, was_asked = false;
+    bool was_active = false, was_requested = false;
     bool started = false;  ///< true: `last_counts` and `was_active` are those of the previous tick
     std::int64_t last_counts = 0;
     double farthest_counts = 0;  ///< distance that the axis has backed off from the first detection

@@ -27,7 +27,7 @@ struct CommandView {
 };
 
 /// Measurements of one tick.
-struct Seen {
+struct Observation {
   std::int64_t time_ns = 0;                      ///< time at which the counters were latched
   std::array<std::int64_t, kCounters> counts{};  ///< unwrapped
   std::array<double, kCounters> coordinate{};    ///< m, rad, m of cable, rad, rad
@@ -93,7 +93,7 @@ class History {
  public:
   struct Entry {
     std::uint64_t tick = 0;
-    Seen seen;
+    Observation observation;
     std::array<bool, kDrives> released{};  ///< true: the brake is commanded open
     std::array<bool, kDrives> free{};      ///< true: the brake is commanded open and reports open
   };
@@ -106,7 +106,7 @@ class History {
     return entries_[(newest_ + kLength - age) % kLength];
   }
   void shift(std::size_t coordinate, double change) noexcept {
-    for (auto& entry : entries_) entry.seen.coordinate[coordinate] += change;
+    for (auto& entry : entries_) entry.observation.coordinate[coordinate] += change;
   }
 
  private:
@@ -145,7 +145,7 @@ class LastLine {
   /// @param command  newest command; nothing: no command since the start
   /// @param tick     tick that begins now; the command of tick-1 is due
   [[nodiscard]] Outputs decide(const std::optional<CommandView>& command, std::uint64_t tick,
-                               const Seen& seen) noexcept;
+                               const Observation& observation) noexcept;
 
   /// The latched reason. A latch that is not final ends when new commands first withhold and then grant the
   /// watchdog permission; the supervisor does this after the operator's reset.
@@ -158,8 +158,8 @@ class LastLine {
   void shift(std::size_t axis, double change) noexcept;
 
  private:
-  void observe(std::uint64_t tick, const Seen& seen) noexcept;
-  void follow_brake(std::size_t axis, std::uint64_t tick, const Seen& seen) noexcept;
+  void observe(std::uint64_t tick, const Observation& observation) noexcept;
+  void follow_brake(std::size_t axis, std::uint64_t tick, const Observation& observation) noexcept;
   [[nodiscard]] Reason first_failure(const CheckInput& input) const noexcept;
   void latch(Reason reason, const CheckInput& input) noexcept;
   void reset_on_permission_edge(const CommandView& command) noexcept;

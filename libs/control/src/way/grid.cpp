@@ -8,18 +8,13 @@
 namespace crane::control {
 namespace {
 
-using plant::kHoist;
-using plant::kSlew;
-using plant::kTrolley;
-using plant::PerAxis;
-
 constexpr int kMostNodes = 8000;     // bounds time and memory of a search
 constexpr double kSpacing_m = 0.04;  // smallest distance of neighbouring nodes over the ground
 constexpr int kEndCells = 2;         // nodes on each side of a start or target that are tried
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 /// Evenly spaced values of one axis.
-struct Line {
+struct Nodes {
   double low = 0, step = 0;
   int count = 1;
   [[nodiscard]] double at(int i) const noexcept { return low + step * i; }
@@ -29,7 +24,7 @@ struct Line {
   }
 };
 
-Line line_of(const WaySpace::Axis& axis, double fixed, double spacing) noexcept {
+Nodes nodes_of(const WaySpace::Axis& axis, double fixed, double spacing) noexcept {
   if (!axis.present || !(axis.high > axis.low)) return {.low = fixed};
   const int cells = std::max(1, static_cast<int>(std::ceil((axis.high - axis.low) / spacing)));
   return {.low = axis.low, .step = (axis.high - axis.low) / cells, .count = cells + 1};
@@ -43,17 +38,17 @@ class Grid {
     const double radius_m = std::max({std::abs(trolley.low), std::abs(trolley.high), 0.1});
     double spacing_m = kSpacing_m;
     do {
-      trolley_ = line_of(trolley, from[kTrolley], spacing_m);
-      slew_ = line_of(slew, from[kSlew], spacing_m / radius_m);
+      trolley_ = nodes_of(trolley, from[kTrolley], spacing_m);
+      slew_ = nodes_of(slew, from[kSlew], spacing_m / radius_m);
       spacing_m *= 1.1;
     } while (static_cast<double>(trolley_.count) * slew_.count > kMostNodes);
     target_ = trolley_.count * slew_.count;
     const auto nodes = static_cast<std::size_t>(target_) + 1;
     gap_.resize(nodes, ClosestZone{.clearance_m = std::numeric_limits<double>::quiet_NaN()});
-    cost_s_.resize(nodes, kNever);
+    cost_s_.resize(nodes, kUnreached);
     parent_.resize(nodes, kFromStart);
     done_.resize(nodes, 0);
-    to_target_s_.resize(nodes, kNever);
+    to_target_s_.resize(nodes, kUnreached);
     pass_mps_.resize(nodes, 0);
     for (int i = 0; i < trolley_.count; ++i) {
       const PerAxis at = place(i);
@@ -61,7 +56,7 @@ class Grid {
         for (int up = 0; up < 2; ++up) {
           PerAxis next = at;
           next[kTrolley] += up * trolley_.step, next[kSlew] += across * slew_.step;
-          edges_.push_back({coasting_s(space, at, next, 1), ground_way_m(at, next)});
+          edges_.push_back({cruise_time_s(space, at, next, 1), ground_distance_m(at, next)});
         }
     }
   }
@@ -131,27 +126,27 @@ class Grid {
     if (cost_s >= cost_s_[index(node)]) return;
     cost_s_[index(node)] = cost_s;
     parent_[index(node)] = parent;
-    open_.emplace(cost_s + (node == target_ ? 0 : coasting_s(space_, place(node), to_, 1)), node);
+    open_.emplace(cost_s + (node == target_ ? 0 : cruise_time_s(space_, place(node), to_, 1)), node);
   }
 
   void expand(int node) {
     const int column = node % trolley_.count, row = node / trolley_.count;
-    if (to_target_s_[index(node)] < kNever)
+    if (to_target_s_[index(node)] < kUnreached)
       reach(target_, node, cost_s_[index(node)] + to_target_s_[index(node)]);
     for (int k = std::max(0, row - 1); k <= std::min(slew_.count - 1, row + 1); ++k)
       for (int i = std::max(0, column - 1); i <= std::min(trolley_.count - 1, column + 1); ++i) {
         const int next = k * trolley_.count + i;
         if (next == node || done_[index(next)] != 0 || !is_open(next)) continue;
-        const auto& edge = edges_[static_cast<std::size_t>(4 * std::min(column, i) + 2 * (k != row ? 1 : 0) +
-                                                           (i != column ? 1 : 0))];
-        if (!is_free(node, next, edge.way_m)) continue;
+        const Edge& edge =
+            edges_[4 * index(std::min(column, i)) + (k != row ? 2U : 0U) + (i != column ? 1U : 0U)];
+        if (!is_free(node, next, edge.distance_m)) continue;
         const double speed_mps = std::min(pass_mps_[index(node)], pass_mps_[index(next)]);
-        reach(next, node, cost_s_[index(node)] + std::max(edge.full_s, edge.way_m / speed_mps));
+        reach(next, node, cost_s_[index(node)] + std::max(edge.full_s, edge.distance_m / speed_mps));
       }
   }
 
-  bool is_free(int node, int next, double way_m) {
-    if ((gap(node).clearance_m + gap(next).clearance_m - way_m) / 2 >= kPassGap_m) return true;
+  bool is_free(int node, int next, double distance_m) {
+    if ((gap(node).clearance_m + gap(next).clearance_m - distance_m) / 2 >= kPassGap_m) return true;
     const Leg leg = leg_of(space_, place(node), place(next), kPassGap_m);
     if (!leg.is_free) blocking_[leg.zone] = 1;
     return leg.is_free;
@@ -169,12 +164,12 @@ class Grid {
   const WaySpace& space_;
   PerAxis from_, to_;
   std::vector<char>& blocking_;
-  Line trolley_, slew_;
+  Nodes trolley_, slew_;
   int target_ = 0;  ///< node after those of the grid
   std::vector<ClosestZone> gap_;
   std::vector<double> cost_s_, to_target_s_, pass_mps_;
   struct Edge {
-    double full_s, way_m;  ///< time at the reference speeds, way over the ground
+    double full_s, distance_m;  ///< time at the reference speeds, distance over the ground
   };
   std::vector<Edge> edges_;  ///< by the column of its inner end, then: none, trolley, slew, both
   std::vector<int> parent_;
@@ -190,7 +185,7 @@ Leg end_leg(const WaySpace& space, const PerAxis& from, const PerAxis& to) {
   leg.is_free =
       zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestGap_m) == nullptr;
   leg.speed_share = speed_share(space, from, to, 0);
-  leg.duration_s = coasting_s(space, from, to, leg.speed_share);
+  leg.duration_s = cruise_time_s(space, from, to, leg.speed_share);
   return leg;
 }
 

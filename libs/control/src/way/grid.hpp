@@ -9,14 +9,13 @@
 namespace crane::control {
 
 /// A* from `from` to `to`, which have the same cable length.
-/// @param blocking  gets, per zone, whether it bounds the space that the search has reached
-/// @return the nodes of the fastest way over the grid, with both ends; nothing: no way
-[[nodiscard]] std::optional<std::vector<plant::PerAxis>> search_grid(const WaySpace& space,
-                                                                     const plant::PerAxis& from,
-                                                                     const plant::PerAxis& to,
-                                                                     std::vector<char>& blocking);
+/// @param blocking  by zone, receives 1 for each zone that bounds the space that the search has reached
+/// @return the positions of the fastest way over the grid, with both ends; nothing: no way
+[[nodiscard]] std::optional<std::vector<PerAxis>> search_grid(const WaySpace& space, const PerAxis& from,
+                                                              const PerAxis& to, std::vector<char>& blocking);
 
-/// Leg from the start or to the target: the rule of a straight move, which may leave the margin of a zone.
-[[nodiscard]] Leg end_leg(const WaySpace& space, const plant::PerAxis& from, const plant::PerAxis& to);
+/// First or last leg of a way: its least clearance is kRestGap_m, and it may begin below this clearance if it
+/// increases the clearance.
+[[nodiscard]] Leg end_leg(const WaySpace& space, const PerAxis& from, const PerAxis& to);
 
 }  // namespace crane::control

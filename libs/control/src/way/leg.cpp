@@ -7,20 +7,14 @@
 namespace crane::control {
 namespace {
 
-using plant::kAxes;
-using plant::kHoist;
-using plant::kSlew;
-using plant::kTrolley;
-using plant::PerAxis;
-
 // Chosen by judgement: a wrong value costs time or a stop by the zone filter, which alone keeps the load out.
 constexpr double kSlowest_mps =
     0.03;  // lowest speed over the ground; below it friction makes the motion uneven
 constexpr double kSlowestShare = 0.05;  // lowest speed / reference speed
 constexpr double kBlend_m = 0.01;       // largest distance between a blended corner and its straight legs
-constexpr double kReaction_s = 0.1;     // two ticks, the ramp and the closing time of the brakes
+constexpr double kReaction_s = 0.1;     // two ticks, ramp and closing time of the brakes
 constexpr double kLeastStep_m =
-    0.003;  // smallest distance of two samples; a zone between them is closer by half of it
+    0.003;  // smallest distance of two samples; between them the clearance is smaller by at most half of it
 constexpr double kLargestStep_m = 0.05;  // largest distance of two samples of a leg
 
 PerAxis between(const PerAxis& from, const PerAxis& to, double share) noexcept {
@@ -31,7 +25,7 @@ PerAxis between(const PerAxis& from, const PerAxis& to, double share) noexcept {
 
 }  // namespace
 
-double ground_way_m(const PerAxis& from, const PerAxis& to) noexcept {
+double ground_distance_m(const PerAxis& from, const PerAxis& to) noexcept {
   const double radius_m = std::max(std::abs(from[kTrolley]), std::abs(to[kTrolley]));
   return std::hypot(to[kTrolley] - from[kTrolley], radius_m * (to[kSlew] - from[kSlew]));
 }
@@ -42,7 +36,7 @@ double passing_speed_mps(const WaySpace& space, double clearance_m, double cable
   return std::max(kSlowest_mps, (clearance_m - kRestGap_m - kBlend_m) / (swing_s + kReaction_s));
 }
 
-double coasting_s(const WaySpace& space, const PerAxis& from, const PerAxis& to, double share) noexcept {
+double cruise_time_s(const WaySpace& space, const PerAxis& from, const PerAxis& to, double share) noexcept {
   double longest_s = 0;
   for (std::size_t i = 0; i < kAxes; ++i)
     if (space.axis[i].present)
@@ -52,10 +46,10 @@ double coasting_s(const WaySpace& space, const PerAxis& from, const PerAxis& to,
 
 double speed_share(const WaySpace& space, const PerAxis& from, const PerAxis& to,
                    double clearance_m) noexcept {
-  const double full_s = coasting_s(space, from, to, 1), way_m = ground_way_m(from, to);
-  if (!(full_s > 0) || !(way_m > 0)) return 1;
+  const double full_s = cruise_time_s(space, from, to, 1), distance_m = ground_distance_m(from, to);
+  if (!(full_s > 0) || !(distance_m > 0)) return 1;
   const double cable_m = std::max(from[kHoist], to[kHoist]);
-  return std::clamp(passing_speed_mps(space, clearance_m, cable_m) * full_s / way_m, kSlowestShare, 1.0);
+  return std::clamp(passing_speed_mps(space, clearance_m, cable_m) * full_s / distance_m, kSlowestShare, 1.0);
 }
 
 PerAxis completed(const WaySpace& space, PerAxis position) noexcept {
@@ -86,28 +80,29 @@ double straight_clearance_m(const WaySpace& space, const PerAxis& from, const Pe
   return leg_of(space, from, to, kRestGap_m).clearance_m;
 }
 
-Leg leg_of(const WaySpace& space, const PerAxis& from, const PerAxis& to, double margin_m) noexcept {
+Leg leg_of(const WaySpace& space, const PerAxis& from, const PerAxis& to, double least_clearance_m) noexcept {
   const double growth = std::abs(to[kHoist] - from[kHoist]) * (1 + space.clearance.cable_error) *
                         (1 + 2 * space.clearance.wind_mps2 / space.gravity_mps2);
-  const double way_m = ground_way_m(from, to) + growth;
-  const double needed_m = margin_m + kLeastStep_m / 2;
+  const double distance_m = ground_distance_m(from, to) + growth;
+  const double needed_m = least_clearance_m + kLeastStep_m / 2;
   Leg leg{.is_free = true, .clearance_m = std::numeric_limits<double>::infinity()};
   for (double s = 0;;) {
-    const auto here = closest_zone(space, way_m > 0 ? between(from, to, s / way_m) : to);
+    const auto here = closest_zone(space, distance_m > 0 ? between(from, to, s / distance_m) : to);
     if (!(here.clearance_m >= leg.clearance_m)) leg.clearance_m = here.clearance_m, leg.zone = here.zone;
     if (!(here.clearance_m >= needed_m)) {
       leg.is_free = false;
       return leg;
     }
-    if (s >= way_m) break;
-    s = std::min(way_m, s + std::clamp(here.clearance_m - margin_m, kLeastStep_m, kLargestStep_m));
+    if (s >= distance_m) break;
+    s = std::min(distance_m,
+                 s + std::clamp(here.clearance_m - least_clearance_m, kLeastStep_m, kLargestStep_m));
   }
   leg.speed_share = speed_share(space, from, to, leg.clearance_m);
   double ramp_s = 0;
   for (std::size_t i = 0; i < kAxes; ++i)
     if (space.axis[i].present && to[i] != from[i])
       ramp_s = std::max(ramp_s, leg.speed_share * space.axis[i].speed / (space.axis[i].acceleration / 2));
-  leg.duration_s = coasting_s(space, from, to, leg.speed_share) + ramp_s;
+  leg.duration_s = cruise_time_s(space, from, to, leg.speed_share) + ramp_s;
   return leg;
 }
 

@@ -4,26 +4,33 @@
 
 namespace crane::control {
 
-/// Duration and permitted speed of a leg at rest-to-rest.
+using plant::kAxes;
+using plant::kHoist;
+using plant::kSlew;
+using plant::kTrolley;
+using plant::PerAxis;
+
+/// A straight leg at the largest permitted speed.
 struct Leg {
   bool is_free = false;
-  double clearance_m = 0;  ///< smallest sampled
-  double speed_share = 1;
-  double duration_s = 0;  ///< from rest to rest
-  std::size_t zone = 0;   ///< closest zone
+  double clearance_m = 0;  ///< smallest sampled clearance
+  double speed_share = 1;  ///< speed / reference speeds
+  double duration_s = 0;   ///< from rest to rest
+  std::size_t zone = 0;    ///< index of the closest zone
 };
 
-/// Way over the ground at most, m.
-[[nodiscard]] double ground_way_m(const plant::PerAxis& from, const plant::PerAxis& to) noexcept;
+/// Upper bound of the distance of the suspension point over the ground, m.
+[[nodiscard]] double ground_distance_m(const PerAxis& from, const PerAxis& to) noexcept;
 
-/// Share of the reference speeds for this leg at this clearance.
-[[nodiscard]] double speed_share(const WaySpace& space, const plant::PerAxis& from, const plant::PerAxis& to,
+/// Permitted speed / reference speeds on this leg at this clearance.
+[[nodiscard]] double speed_share(const WaySpace& space, const PerAxis& from, const PerAxis& to,
                                  double clearance_m) noexcept;
-/// Time at this share of the reference speeds, without ramps, s.
-[[nodiscard]] double coasting_s(const WaySpace& space, const plant::PerAxis& from, const plant::PerAxis& to,
-                                double share) noexcept;
-/// Conservative advancement: each sample proves the way as far as its clearance exceeds the margin.
-[[nodiscard]] Leg leg_of(const WaySpace& space, const plant::PerAxis& from, const plant::PerAxis& to,
-                         double margin_m) noexcept;
+/// Duration of the leg at `share` of the reference speeds, without ramps, s.
+[[nodiscard]] double cruise_time_s(const WaySpace& space, const PerAxis& from, const PerAxis& to,
+                                   double share) noexcept;
+/// Conservative advancement: each sample proves that the leg is free for the distance by which its clearance
+/// exceeds `least_clearance_m`.
+[[nodiscard]] Leg leg_of(const WaySpace& space, const PerAxis& from, const PerAxis& to,
+                         double least_clearance_m) noexcept;
 
 }  // namespace crane::control

@@ -11,17 +11,12 @@
 namespace crane::control {
 namespace {
 
-using plant::kHoist;
-using plant::kSlew;
-using plant::kTrolley;
-using plant::PerAxis;
-
-struct Timed {
+struct TimedWay {
   std::vector<Waypoint> points;
   double duration_s = 0;
 };
 
-/// Leg between two places of a way; the first and the last leg have the rule of a straight move.
+/// Leg between two places of a way.
 Leg leg_between(const WaySpace& space, const std::vector<PerAxis>& places, std::size_t i, std::size_t j) {
   if (i == 0 || j + 1 == places.size()) return end_leg(space, places[i], places[j]);
   return leg_of(space, places[i], places[j], kPassGap_m);
@@ -48,7 +43,7 @@ std::vector<PerAxis> thinned(const std::vector<PerAxis>& nodes) {
 
 /// Fastest sequence of straight legs through places of the way: shortest path in the graph of all free legs
 /// over at most kWindow places. The way over the grid is in this graph, so that a result exists.
-Timed straightened(const WaySpace& space, const std::vector<PerAxis>& places) {
+TimedWay straightened(const WaySpace& space, const std::vector<PerAxis>& places) {
   constexpr std::size_t kWindow = 12;
   struct Best {
     double time_s = std::numeric_limits<double>::infinity();
@@ -63,7 +58,7 @@ Timed straightened(const WaySpace& space, const std::vector<PerAxis>& places) {
       if (leg.is_free && best[i].time_s + leg.duration_s < best[j].time_s)
         best[j] = {best[i].time_s + leg.duration_s, i, leg.speed_share};
     }
-  Timed way{.points = {}, .duration_s = best.back().time_s};
+  TimedWay way{.points = {}, .duration_s = best.back().time_s};
   for (std::size_t j = places.size() - 1; j > 0; j = best[j].before)
     way.points.push_back({places[j], best[j].share});
   std::ranges::reverse(way.points);
@@ -76,9 +71,10 @@ PerAxis at_cable(PerAxis position, double cable_m) noexcept {
 }
 
 /// The way at one cable length, with vertical legs at both ends.
-Timed with_lifts(const WaySpace& space, const PerAxis& from, const PerAxis& to, double cable_m, Timed way) {
+TimedWay with_lifts(const WaySpace& space, const PerAxis& from, const PerAxis& to, double cable_m,
+                    TimedWay way) {
   const auto add = [&](const PerAxis& a, const PerAxis& b) {
-    if (a[kHoist] != b[kHoist]) way.duration_s += coasting_s(space, a, b, 1);
+    if (a[kHoist] != b[kHoist]) way.duration_s += cruise_time_s(space, a, b, 1);
     return a[kHoist] != b[kHoist];
   };
   if (add(from, at_cable(from, cable_m)))
@@ -87,18 +83,18 @@ Timed with_lifts(const WaySpace& space, const PerAxis& from, const PerAxis& to, 
   return way;
 }
 
-std::optional<Timed> around(const WaySpace& space, const PerAxis& from, const PerAxis& to, double cable_m,
-                            std::vector<char>& blocking) {
+std::optional<TimedWay> around(const WaySpace& space, const PerAxis& from, const PerAxis& to, double cable_m,
+                               std::vector<char>& blocking) {
   const auto nodes = search_grid(space, at_cable(from, cable_m), at_cable(to, cable_m), blocking);
   if (!nodes) return std::nullopt;
-  Timed way = straightened(space, thinned(*nodes));
+  TimedWay way = straightened(space, thinned(*nodes));
   if (!std::isfinite(way.duration_s)) return std::nullopt;
   return with_lifts(space, from, to, cable_m, std::move(way));
 }
 
-/// Straight over the zones with the longest cable that permits it.
-std::optional<Timed> over(const WaySpace& space, const PerAxis& from, const PerAxis& to, double shortest_m,
-                          double longest_m) {
+/// Straight leg above the zones, with the longest cable at which it is free.
+std::optional<TimedWay> over(const WaySpace& space, const PerAxis& from, const PerAxis& to, double shortest_m,
+                             double longest_m) {
   constexpr int kHalvings = 8;
   const auto leg_at = [&](double cable_m) {
     return leg_of(space, at_cable(from, cable_m), at_cable(to, cable_m), kPassGap_m);
@@ -109,17 +105,17 @@ std::optional<Timed> over(const WaySpace& space, const PerAxis& from, const PerA
     const double middle_m = (high_m + low_m) / 2;
     (leg_at(middle_m).is_free ? high_m : low_m) = middle_m;
   }
-  std::optional<Timed> fastest;
+  std::optional<TimedWay> fastest;
   for (const double cable_m : {high_m, shortest_m}) {  // a higher hook passes faster
     const Leg leg = leg_at(cable_m);
-    Timed way{.points = {{at_cable(to, cable_m), leg.speed_share}}, .duration_s = leg.duration_s};
+    TimedWay way{.points = {{at_cable(to, cable_m), leg.speed_share}}, .duration_s = leg.duration_s};
     way = with_lifts(space, from, to, cable_m, std::move(way));
     if (!fastest || way.duration_s < fastest->duration_s) fastest = std::move(way);
   }
   return fastest;
 }
 
-void take_faster(std::optional<Timed> other, std::optional<Timed>& way) {
+void take_faster(std::optional<TimedWay> other, std::optional<TimedWay>& way) {
   if (other && (!way || other->duration_s < way->duration_s)) way = std::move(other);
 }
 
@@ -138,12 +134,13 @@ Way way_to(const WaySpace& space, const PerAxis& measured, const PerAxis& wanted
     if (!std::isfinite(from[i]) || !std::isfinite(to[i])) return {.outcome = WayOutcome::no_way};
   const bool straight =
       zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestGap_m) == nullptr;
-  std::optional<Timed> way;
+  std::optional<TimedWay> way;
   if (straight) {
     const Leg leg = end_leg(space, from, to);
     if (leg.is_free && leg.speed_share >= 1) return {};
-    way = Timed{.points = {{.position = to, .speed_share = speed_share(space, from, to, leg.clearance_m)}}};
-    way->duration_s = coasting_s(space, from, to, way->points[0].speed_share);
+    way =
+        TimedWay{.points = {{.position = to, .speed_share = speed_share(space, from, to, leg.clearance_m)}}};
+    way->duration_s = cruise_time_s(space, from, to, way->points[0].speed_share);
   } else if (const auto target = closest_zone(space, to); !(target.clearance_m >= kRestGap_m)) {
     return {.outcome = WayOutcome::target_inside, .blocking = {target.zone}};
   }

@@ -28,20 +28,22 @@ class Column {
          Output output)
       : values_(values), time_s_(time_s), rig_(rig), output_(output), error_(sensor_of(values).error()) {
     for (std::size_t k = 0; k < values.size(); ++k)
-      if (std::isfinite(values[k])) seen_.push_back(k);
+      if (std::isfinite(values[k])) measured_rows_.push_back(k);
   }
 
   /// Rows that deviate by more than the credible motion, if the motion continues after them.
   std::vector<BrokenRows> spikes() {
     std::vector<BrokenRows> found;
-    for (std::size_t good = 0, i = 1; i < seen_.size(); ++i) {
-      const std::size_t latest = std::min(i + kLongestSpike, seen_.size() - 1);
+    for (std::size_t good = 0, i = 1; i < measured_rows_.size(); ++i) {
+      const std::size_t latest = std::min(i + kLongestSpike, measured_rows_.size() - 1);
       std::size_t back = i;
-      while (back <= latest && beyond(seen_[good], seen_[back], seen_[back])) ++back;
+      while (back <= latest && beyond(measured_rows_[good], measured_rows_[back], measured_rows_[back]))
+        ++back;
       bool spike = back > i && back <= latest;
-      for (std::size_t k = i; k < back && spike; ++k) spike = beyond(seen_[good], seen_[k], seen_[back]);
+      for (std::size_t k = i; k < back && spike; ++k)
+        spike = beyond(measured_rows_[good], measured_rows_[k], measured_rows_[back]);
       if (spike) {
-        found.push_back({seen_[i], seen_[back - 1]});
+        found.push_back({measured_rows_[i], measured_rows_[back - 1]});
         i = back;
       }
       good = i;
@@ -51,12 +53,14 @@ class Column {
 
   std::vector<BrokenRows> freezes() {
     std::vector<BrokenRows> found;
-    for (std::size_t i = 3; i < seen_.size();) {
+    for (std::size_t i = 3; i < measured_rows_.size();) {
       std::size_t end = i + 1;
-      while (end < seen_.size() && values_[seen_[end]] == values_[seen_[i]]) ++end;
-      const bool lasts = end - i > kFrozenRows && time_s_[seen_[end - 1]] - time_s_[seen_[i]] > kFrozen_s;
-      if (lasts && end < seen_.size() && steps(i - 1, i) && steps(i - 2, i - 1) && !from_rest(end - 1))
-        found.push_back({seen_[i + 1], seen_[end - 1]});
+      while (end < measured_rows_.size() && values_[measured_rows_[end]] == values_[measured_rows_[i]]) ++end;
+      const bool lasts =
+          end - i > kFrozenRows && time_s_[measured_rows_[end - 1]] - time_s_[measured_rows_[i]] > kFrozen_s;
+      if (lasts && end < measured_rows_.size() && steps(i - 1, i) && steps(i - 2, i - 1) &&
+          !from_rest(end - 1))
+        found.push_back({measured_rows_[i + 1], measured_rows_[end - 1]});
       i = end;
     }
     return found;
@@ -67,7 +71,7 @@ class Column {
       for (std::size_t k = rows.first; k <= rows.last; ++k)
         values_[k] = std::numeric_limits<double>::quiet_NaN();
   }
-  [[nodiscard]] std::size_t seen() const { return seen_.size(); }
+  [[nodiscard]] std::size_t measured_rows() const { return measured_rows_.size(); }
 
  private:
   /// Whether the value at `b` differs from that at `a` by more than the credible motion until `until`.
@@ -76,13 +80,13 @@ class Column {
              largest_credible_change(rig_, output_, time_s_[until] - time_s_[a]) + kBeyondSensor * error_);
   }
   [[nodiscard]] bool steps(std::size_t i, std::size_t j) const {
-    return std::abs(values_[seen_[j]] - values_[seen_[i]]) > kMovingRatio * error_;
+    return std::abs(values_[measured_rows_[j]] - values_[measured_rows_[i]]) > kMovingRatio * error_;
   }
 
   /// Whether the motion from `k` to the next row is credible if the axis stands at `k`.
   [[nodiscard]] bool from_rest(std::size_t k) const {
-    const double time_s = time_s_[seen_[k + 1]] - time_s_[seen_[k]];
-    return std::abs(values_[seen_[k + 1]] - values_[seen_[k]]) <=
+    const double time_s = time_s_[measured_rows_[k + 1]] - time_s_[measured_rows_[k]];
+    return std::abs(values_[measured_rows_[k + 1]] - values_[measured_rows_[k]]) <=
            largest_change_from_rest(rig_, output_, time_s) + kMovingRatio * error_;
   }
 
@@ -91,7 +95,7 @@ class Column {
   const configuration::Rig& rig_;
   Output output_;
   double error_;
-  std::vector<std::size_t> seen_;
+  std::vector<std::size_t> measured_rows_;
 };
 
 /// "3 spikes (row 12 at 0.11 s: 1e+07; ...)"
@@ -148,9 +152,9 @@ void leave_broken_out(recording::Table& table, const configuration::Rig& rig, Fi
     const std::vector<BrokenRows> spikes = column.spikes(), freezes = column.freezes();
     column.leave_out(spikes);
     column.leave_out(freezes);
-    add_finding(found->name, "spikes", spikes, times, before, column.seen(), findings);
+    add_finding(found->name, "spikes", spikes, times, before, column.measured_rows(), findings);
     add_finding(found->name, "values that do not change while it moves", freezes, times, before,
-                column.seen(), findings);
+                column.measured_rows(), findings);
   }
 }
 

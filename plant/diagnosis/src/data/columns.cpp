@@ -115,9 +115,9 @@ class Checks {
     const Output drive = output == kTrolleyPosition || output == kRadialSwing ? kTrolleyPosition : kSlewAngle;
     const auto* command = columns_.commands[drive].values;
     const bool support = output < kRadialSwing && command == nullptr;
-    const bool asked = !support && (command == nullptr || largest(*command) > kStandingCommand_v);
+    const bool commanded = !support && (command == nullptr || largest(*command) > kStandingCommand_v);
     const bool measured = std::isfinite(range_of(*columns_.outputs[output].values));
-    if (asked || !measured)
+    if (commanded || !measured)
       findings_.problem(columns_.outputs[output].name, "constant or empty",
                         "a sensor that never changes says nothing");
     else

@@ -86,9 +86,9 @@ class RunSplitter {
     bool measured = false, complete = true;
     for (const Source& source : columns_.outputs)
       if (source.values != nullptr) {
-        const bool seen = std::isfinite((*source.values)[row]);
-        measured = measured || seen;
-        complete = complete && seen;
+        const bool present = std::isfinite((*source.values)[row]);
+        measured = measured || present;
+        complete = complete && present;
       }
     bool commanded = false;
     for (const Source& source : columns_.commands)

@@ -169,10 +169,10 @@ void mark_edges(const std::vector<LostRows>& lost, Run& run) {
 }
 
 /// Measured values, interpolated linearly; without measurements, the value of the rig file.
-std::vector<double> cable_on_grid(const Run& run, const std::vector<double>& seen, double rigs_own_m) {
+std::vector<double> cable_on_grid(const Run& run, const std::vector<double>& measured_m, double rigs_own_m) {
   std::vector<double> time_s, length_m;
-  for (std::size_t k = 0; k < seen.size(); ++k)
-    if (std::isfinite(seen[k])) time_s.push_back(run.instant_s(k)), length_m.push_back(seen[k]);
+  for (std::size_t k = 0; k < measured_m.size(); ++k)
+    if (std::isfinite(measured_m[k])) time_s.push_back(run.instant_s(k)), length_m.push_back(measured_m[k]);
   if (time_s.empty()) return std::vector<double>(run.rows(), rigs_own_m);
   std::vector<double> result(run.rows());
   for (std::size_t k = 0, next = 0; k < result.size(); ++k) {

@@ -51,7 +51,7 @@ Rows measured_rows(const Run& run, Output axis, double gain) {
   Rows rows;
   const bool regular = run.regular(axis);
   for (std::size_t k = 0; k < run.measured[axis].size(); ++k) {
-    if (!run.seen(axis, k)) continue;
+    if (!run.is_measured(axis, k)) continue;
     const double time_s = rows.row.empty() ? run.period_s : run.instant_s(k) - run.instant_s(rows.row.back());
     rows.periods.push_back(regular ? 1 : time_s / run.period_s);
     rows.credible_slip.push_back(credible_slip_of(run, axis, gain, k, time_s));

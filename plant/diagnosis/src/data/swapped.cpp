@@ -33,10 +33,11 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 double correlation_with_drive(const Run& run, const configuration::Rig& rig, Output swing, Output drive) {
   if (!run.has(swing) || !run.has(drive)) return 0;
   const Motion load = smoothed(run, swing);
-  std::vector<double> pull;
+  std::vector<double> specific_force;
   for (std::size_t k = 0; k < run.rows(); ++k)
-    pull.push_back(load.acceleration[k] + rig.plant.gravity_mps2 / run.cable_m[k] * load.position[k]);
-  return correlation(pull, smoothed(run, drive).acceleration);
+    specific_force.push_back(load.acceleration[k] +
+                             rig.plant.gravity_mps2 / run.cable_m[k] * load.position[k]);
+  return correlation(specific_force, smoothed(run, drive).acceleration);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ enum class MotionPhase { moving, turning, standing };
 struct RowMotion {
   double slowness = 0;  ///< 0 at speed, 1 at standstill
   MotionPhase phase = MotionPhase::moving;
-  bool seen = true;            ///< whether the row was measured
+  bool measured = true;        ///< whether the row was measured
   bool speed_unknown = false;  ///< an edge of the command may have been lost: speed unknown
 };
 using MotionProfile = std::vector<RowMotion>;

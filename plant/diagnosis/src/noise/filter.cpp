@@ -77,10 +77,10 @@ void PredictionCovariance::advance(std::size_t row) {
       friction_ * (now == MotionPhase::standing ? kStandingFrictionShare : row_motion.slowness);
   // In a row of ordinary motion, the filter keeps its steady state.
   const bool usual =
-      row_motion.seen && now == MotionPhase::moving && friction == 0 && !row_motion.speed_unknown;
+      row_motion.measured && now == MotionPhase::moving && friction == 0 && !row_motion.speed_unknown;
   if (usual && steady_) return;
   Symmetric p = p_;
-  if (row_motion.seen) {
+  if (row_motion.measured) {
     const double f = variance();
     p.xx -= p_.xx * p_.xx / f;
     p.xv -= p_.xx * p_.xv / f;

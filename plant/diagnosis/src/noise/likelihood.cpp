@@ -46,11 +46,11 @@ Innovations innovations(const VectorXd& residual, const WindowMotion& motion, co
   SumOfLogs logs;
   const Matrix3d step = transition_of(d, motion);
   Vector3d state = Vector3d::Zero();
-  std::size_t seen = 0;
+  std::size_t measured = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(residual.size()); ++k) {
-    if (motion.profile[k].seen) {
+    if (motion.profile[k].measured) {
       const double innovation = residual[static_cast<Index>(k)] - state[0], f = prediction.variance();
-      if (seen++ >= kStart) {
+      if (measured++ >= kStart) {
         logs.add(f);
         all.squares.push_back(innovation * innovation / f);
       }

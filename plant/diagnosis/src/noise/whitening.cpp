@@ -12,7 +12,7 @@ Whitener::Whitener(const Disturbance& disturbance, const WindowMotion& motion)
     : step_(transition_of(disturbance, motion)) {
   PredictionCovariance prediction(disturbance, motion, 0);
   for (std::size_t k = 0; k < motion.profile.size(); ++k) {
-    if (motion.profile[k].seen)
+    if (motion.profile[k].measured)
       rows_.push_back({prediction.gain(), 1 / std::sqrt(prediction.variance()), prediction.phase(k)});
     else
       rows_.push_back({Vector3d::Zero(), 0, prediction.phase(k)});

@@ -49,7 +49,7 @@ namespace {
 struct Samples {
   Samples(const Run& run, Output output) {
     for (std::size_t row = 0; row < run.rows(); ++row)
-      if (run.seen(output, row)) {
+      if (run.is_measured(output, row)) {
         time_s.push_back(run.instant_s(row));
         values.push_back(run.measured[output][row]);
       }
@@ -59,10 +59,11 @@ struct Samples {
 
 /// The drive's acceleration excites the load: steps of a coarse encoder are smoothed first.
 void prepare_drive(const Run& run, Output drive, PreparedRun& prepared) {
-  const Samples seen(run, drive);
-  const std::vector<double> smoothed = rts_smoothed(seen.time_s, seen.values, prepared.least_noise[drive]);
+  const Samples samples(run, drive);
+  const std::vector<double> smoothed =
+      rts_smoothed(samples.time_s, samples.values, prepared.least_noise[drive]);
   prepared.motion[drive] = run.regular(drive) ? spline(smoothed, run.period_s)
-                                              : spline_of(seen.time_s, smoothed, run.period_s, run.rows());
+                                              : spline_of(samples.time_s, smoothed, run.period_s, run.rows());
   prepared.on_grid[drive] = prepared.motion[drive].position;
 }
 
@@ -70,8 +71,8 @@ void prepare_drive(const Run& run, Output drive, PreparedRun& prepared) {
 
 std::vector<double> measured_on_grid(const Run& run, Output output) {
   if (run.regular(output)) return run.measured[output];
-  const Samples seen(run, output);
-  return spline_of(seen.time_s, seen.values, run.period_s, run.rows()).position;
+  const Samples samples(run, output);
+  return spline_of(samples.time_s, samples.values, run.period_s, run.rows()).position;
 }
 
 PreparedRun prepare(Run run, const configuration::Rig& rig) {

@@ -118,13 +118,14 @@ plant::PerAxis StepIntegrator::move_drives(const State& middle, const plant::Inn
   for (const Output axis : {kTrolleyPosition, kSlewAngle}) {
     if (!simulated_[axis]) continue;
     const std::size_t other = 1 - axis;
-    const double pull = free[axis] - (simulated_[other] ? gain_[axis][other] * friction[other] : 0);
+    const double driving = free[axis] - (simulated_[other] ? gain_[axis][other] * friction[other] : 0);
     State moving = middle;
     const auto friction_at = [&](double speed) {
       rate_of(moving, axis) = speed;
       return model_.friction_v(moving, actuation_.drive_v[axis], static_cast<plant::Axis>(axis));
     };
-    const FrictionStep done = friction_step(rate_of(state, axis), pull, gain_[axis][axis], h_, friction_at);
+    const FrictionStep done =
+        friction_step(rate_of(state, axis), driving, gain_[axis][axis], h_, friction_at);
     friction[axis] = done.friction;
     last_[axis] = (done.speed - rate_of(state, axis)) / h_;
     rate_of(state, axis) = done.speed;

@@ -58,11 +58,13 @@ ordered_json held_out_json(const HeldOut& held_out) {
 
 ordered_json excitation_json(const std::vector<Visibility>& excitation) {
   ordered_json json = ordered_json::array();
-  for (const Visibility& seen : excitation) {
+  for (const Visibility& visibility : excitation) {
     ordered_json least = ordered_json::object(), alike = ordered_json::array();
-    for (const Estimate& e : seen.least) least[e.name] = {{"value", e.value}, {"unit", e.unit}};
-    for (const auto& other : seen.alike) alike.push_back({{"label", other.label}, {"cosine", other.cosine}});
-    json.push_back({{"label", seen.label}, {"visible", seen.visible}, {"least", least}, {"alike", alike}});
+    for (const Estimate& e : visibility.least) least[e.name] = {{"value", e.value}, {"unit", e.unit}};
+    for (const auto& other : visibility.alike)
+      alike.push_back({{"label", other.label}, {"cosine", other.cosine}});
+    json.push_back(
+        {{"label", visibility.label}, {"visible", visibility.visible}, {"least", least}, {"alike", alike}});
   }
   return json;
 }

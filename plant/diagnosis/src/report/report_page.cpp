@@ -1,9 +1,7 @@
-#include <cmath>
-#include <cstdio>
-
 #include "crane/diagnosis/report.hpp"
 #include "crane/recording/csv.hpp"
 #include "report/residual_view.hpp"
+#include "report/value_text.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -13,39 +11,7 @@ using report::Tone;
 
 constexpr std::size_t kMostPoints = 1500;  // of a curve or cloud: the resolution of a screen
 constexpr std::size_t kMostCandidates = 20;
-constexpr double kNormalQuantile95 = 1.96;
-constexpr double kLargestPlain = 1e7;  // largest number without an exponent
-constexpr int kMeasuredColor = 8;      // grey
-
-std::string significant(double value, int digits = 4) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 32> text{};
-  // 44210, not 4.421e+04.
-  const bool is_large = std::abs(value) >= std::pow(10, digits) && std::abs(value) < kLargestPlain;
-  if (is_large)
-    std::snprintf(text.data(), text.size(), "%.0f", value);
-  else
-    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return text.data();
-}
-
-std::string unit_of(const Estimate& e) { return e.unit.empty() || e.unit == "1" ? "" : " " + e.unit; }
-
-std::string with_std(const Estimate& e) {
-  return significant(e.value) + " ± " + significant(e.std_dev, 2) + unit_of(e);
-}
-
-/// "delay_s 0.03 [0.028, 0.032] s, ..."
-std::string with_intervals(const std::vector<Estimate>& estimates) {
-  std::string text;
-  for (const Estimate& e : estimates)
-    text += (text.empty() ? "" : ", ") + e.name + " " + significant(e.value, 3) + " [" +
-            significant(e.value - kNormalQuantile95 * e.std_dev, 3) + ", " +
-            significant(e.value + kNormalQuantile95 * e.std_dev, 3) + "]" + unit_of(e);
-  return text;
-}
-
-std::string percent(double share) { return significant(100 * share, 3) + " %"; }
+constexpr int kMeasuredColor = 8;  // grey
 
 Tone tone_of_verdict(Verdict verdict) {
   if (verdict == Verdict::none) return Tone::good;
@@ -222,27 +188,19 @@ report::Section candidates_section(const Diagnosis& diagnosis) {
   return section;
 }
 
-/// "level_v 0.12 V, ..."
-std::string plain_values(const std::vector<Estimate>& estimates) {
-  std::string text;
-  for (const Estimate& e : estimates)
-    text += (text.empty() ? "" : ", ") + e.name + " " + significant(e.value, 3) + unit_of(e);
-  return text;
-}
-
 report::Section excitation_section(const Diagnosis& diagnosis) {
   report::Section section{.title = "What these data can show", .blocks = {}};
   report::Table table{
       .title = "",
       .header = {"candidate", "smallest detectable size", "hardly distinguishable from (cosine)"},
       .rows = {}};
-  for (const Visibility& seen : diagnosis.excitation) {
+  for (const Visibility& visibility : diagnosis.excitation) {
     std::string alike;
-    for (const auto& other : seen.alike)
+    for (const auto& other : visibility.alike)
       alike += (alike.empty() ? "" : ", ") + other.label + " (" + significant(other.cosine, 3) + ")";
-    table.rows.push_back({{seen.label},
-                          {seen.visible ? plain_values(seen.least) : "not detectable",
-                           seen.visible ? Tone::neutral : Tone::muted},
+    table.rows.push_back({{visibility.label},
+                          {visibility.visible ? plain_values(visibility.least) : "not detectable",
+                           visibility.visible ? Tone::neutral : Tone::muted},
                           {alike}});
   }
   section.blocks.emplace_back(std::move(table));

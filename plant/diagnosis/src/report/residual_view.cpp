@@ -43,9 +43,9 @@ std::vector<double> without_start(const Trace& trace, const std::vector<double>&
     const double swing_radps = plant::swing_radps(rig.plant.gravity_mps2, run.cable_m[first]);
     const auto motions = free_motions(is_swing(trace.column), swing_radps, size, run.period_s);
     Eigen::Map<Eigen::VectorXd> window(left.data() + first, size);
-    const Eigen::VectorXd seen = window.unaryExpr([](double x) { return std::isfinite(x) ? 1.0 : 0.0; });
+    const Eigen::VectorXd present = window.unaryExpr([](double x) { return std::isfinite(x) ? 1.0 : 0.0; });
     const Eigen::VectorXd known = window.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
-    window -= motions * (seen.asDiagonal() * motions).colPivHouseholderQr().solve(known).eval();
+    window -= motions * (present.asDiagonal() * motions).colPivHouseholderQr().solve(known).eval();
   }
   return left;
 }

@@ -23,7 +23,7 @@ struct PlainFits {
   [[nodiscard]] std::vector<double> mean_squares(std::size_t output) const {
     std::vector<double> result = problem.squares_left(fits, output);
     for (std::size_t w = 0; w < result.size(); ++w)
-      result[w] /= static_cast<double>(problem.seen_rows(problem.windows()[w], output));
+      result[w] /= static_cast<double>(problem.measured_rows(problem.windows()[w], output));
     return result;
   }
 };
@@ -66,7 +66,7 @@ bool acts_on(const Effects& effects, Output output) {
 std::vector<double> held_value_squares(const Problem& problem, std::size_t output) {
   std::vector<double> result;
   for (const Window& window : problem.windows()) {
-    const Eigen::VectorXd part = problem.seen(window, output);
+    const Eigen::VectorXd part = problem.measured_values(window, output);
     result.push_back((part.array() - part[0]).matrix().squaredNorm() / static_cast<double>(part.size()));
   }
   return result;
@@ -119,7 +119,7 @@ std::vector<Trace> traces(const Study& study, const Study& as_measured, const Ef
         trace.extended.assign(after[w].begin() + first, after[w].begin() + last);
         for (std::size_t k = 0; k < run.rows(); ++k) {
           trace.time_s.push_back(run.start_s + run.instant_s(k));
-          if (run.seen(output, k))
+          if (run.is_measured(output, k))
             trace.extended[k] += run.measured[output][k] - whole.runs()[number].run.measured[output][k];
         }
         all.push_back(std::move(trace));

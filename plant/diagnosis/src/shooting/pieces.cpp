@@ -31,7 +31,7 @@ std::vector<bool> unknown_rows(const Run& run, Output axis) {
   if (run.regular(axis)) return unknown;
   const double longest_s = std::max(kUnknownSpeed_s, kUnknownRows * usual_row_spacing_s(run, axis));
   for (std::size_t row = 0, after = 0; row < run.rows(); ++row) {
-    if (!run.seen(axis, row)) continue;
+    if (!run.is_measured(axis, row)) continue;
     if (run.instant_s(row) - (after > 0 ? run.instant_s(after - 1) : 0) > longest_s)
       std::fill(unknown.begin() + static_cast<std::ptrdiff_t>(after),
                 unknown.begin() + static_cast<std::ptrdiff_t>(row), true);
@@ -102,7 +102,7 @@ VectorXd piece_residual(const PreparedRun& run, const Replay::Increments& drive,
   const double scale = (shown[last] - shown[first]) / (true_position[last] - true_position[first]);
   VectorXd left = VectorXd::Zero(rows);
   for (std::size_t k = 0; k < row_count; ++k) {
-    if (!run.run.seen(axis, first + k)) continue;
+    if (!run.run.is_measured(axis, first + k)) continue;
     const double noise = run.run.measured[axis][first + k] - shown[first + k];
     left[static_cast<Index>(k)] = noise + scale * (true_position[first + k] - way[static_cast<Index>(k)]);
   }
@@ -115,7 +115,7 @@ WindowMotion window_motion_of(const PreparedRun& run, const MovingStretch& at, O
   for (std::size_t k = 0; k < at.rows; ++k) {
     const std::size_t row = at.first + k;
     motion.profile[k].phase = MotionPhase::moving;
-    motion.profile[k].seen = run.run.seen(axis, row);
+    motion.profile[k].measured = run.run.is_measured(axis, row);
     motion.profile[k].speed_unknown = run.run.may_have_lost_edge(axis, row);
   }
   return motion;

@@ -49,7 +49,7 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
                                   ? motion_profile_of(position, run.run.period_s, window.first, window.rows)
                                   : MotionProfile(window.rows);
       for (std::size_t k = 0; k < window.rows; ++k) {
-        profile[k].seen = run.run.seen(output, window.first + k);
+        profile[k].measured = run.run.is_measured(output, window.first + k);
         profile[k].speed_unknown =
             part == Part::drive && run.run.may_have_lost_edge(output, window.first + k);
       }
@@ -133,7 +133,7 @@ VectorXd Problem::simulate(const Replay& replay, const Window& window, const Vec
         Eigen::Map<const VectorXd>(&out[i * all + window.lead], static_cast<Index>(window.rows));
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     for (std::size_t k = 0; k < window.rows; ++k)
-      if (!runs_[window.run].run.seen(outputs_[i], window.first + k))
+      if (!runs_[window.run].run.is_measured(outputs_[i], window.first + k))
         kept[static_cast<Index>(i * window.rows + k)] = 0;
   return kept;
 }
@@ -147,26 +147,26 @@ VectorXd Problem::measured(const Window& window) const {
   return values.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
 }
 
-VectorXd Problem::seen(const Window& window, std::size_t output) const {
+VectorXd Problem::measured_values(const Window& window, std::size_t output) const {
   const Run& run = runs_[window.run].run;
-  VectorXd values(static_cast<Index>(seen_rows(window, output)));
+  VectorXd values(static_cast<Index>(measured_rows(window, output)));
   Index next = 0;
   for (std::size_t k = window.first; k < window.first + window.rows; ++k)
-    if (run.seen(outputs_[output], k)) values[next++] = run.measured[outputs_[output]][k];
+    if (run.is_measured(outputs_[output], k)) values[next++] = run.measured[outputs_[output]][k];
   return values;
 }
 
-std::size_t Problem::seen_rows(const Window& window, std::size_t output) const {
+std::size_t Problem::measured_rows(const Window& window, std::size_t output) const {
   const Run& run = runs_[window.run].run;
   std::size_t rows = 0;
   for (std::size_t k = window.first; k < window.first + window.rows; ++k)
-    rows += run.seen(outputs_[output], k) ? 1 : 0;
+    rows += run.is_measured(outputs_[output], k) ? 1 : 0;
   return rows;
 }
 
-std::size_t Problem::seen_rows(const Window& window) const {
+std::size_t Problem::measured_rows(const Window& window) const {
   std::size_t rows = 0;
-  for (std::size_t output = 0; output < outputs_.size(); ++output) rows += seen_rows(window, output);
+  for (std::size_t output = 0; output < outputs_.size(); ++output) rows += measured_rows(window, output);
   return rows;
 }
 
@@ -209,8 +209,9 @@ VectorXd Problem::change_in(const Replay& replay, std::size_t w, const WindowFit
     const Eigen::ArrayXd information = svd.singularValues().array().square();
     const MatrixXd basis = svd.matrixU() * (1 - 1 / (1 + information).sqrt()).sqrt().matrix().asDiagonal();
     change -= basis * (basis.transpose() * change).eval();
-    const VectorXd pull = svd.matrixU().transpose() * weights_of(at.residual).cwiseProduct(at.residual);
-    own_gain = (pull.array().square() * information / (1 + information)).sum() - information.log1p().sum();
+    const VectorXd gradient = svd.matrixU().transpose() * weights_of(at.residual).cwiseProduct(at.residual);
+    own_gain =
+        (gradient.array().square() * information / (1 + information)).sum() - information.log1p().sum();
   }
   return change;
 }

@@ -76,10 +76,10 @@ class Problem {
   /// simulation too: their residual is 0.
   [[nodiscard]] Eigen::VectorXd measured(const Window& window) const;
   /// Measured values of one output in a window, without missing rows.
-  [[nodiscard]] Eigen::VectorXd seen(const Window& window, std::size_t output) const;
+  [[nodiscard]] Eigen::VectorXd measured_values(const Window& window, std::size_t output) const;
   /// Number of measured rows of an output, or of all.
-  [[nodiscard]] std::size_t seen_rows(const Window& window, std::size_t output) const;
-  [[nodiscard]] std::size_t seen_rows(const Window& window) const;
+  [[nodiscard]] std::size_t measured_rows(const Window& window, std::size_t output) const;
+  [[nodiscard]] std::size_t measured_rows(const Window& window) const;
   /// Sum of squares of measured - simulated [m2 or rad2] by window, of one output.
   [[nodiscard]] std::vector<double> squares_left(const Fits& fits, std::size_t output) const;
 

@@ -155,7 +155,7 @@ WindowFit Problem::fit_from(const Replay& replay, std::size_t at, const VectorXd
 bool Problem::poorly_followed(std::size_t at, const VectorXd& target, const VectorXd& simulated) const {
   const auto rows = static_cast<Index>(windows_[at].rows);
   for (std::size_t output = 0; output < outputs_.size(); ++output) {
-    const VectorXd part = seen(windows_[at], output);
+    const VectorXd part = measured_values(windows_[at], output);
     const double moves = (part.array() - part.mean()).matrix().squaredNorm();
     const auto first = static_cast<Index>(output) * rows;
     const double left = (target - simulated).segment(first, rows).squaredNorm();

@@ -23,7 +23,7 @@ struct Span {
 double usual_row_spacing_s(const Run& run, Output output) {
   std::vector<double> distances;
   for (std::size_t row = 0, before = run.rows(); row < run.rows(); ++row) {
-    if (!run.seen(output, row)) continue;
+    if (!run.is_measured(output, row)) continue;
     if (before < row) distances.push_back(run.instant_s(row) - run.instant_s(before));
     before = row;
   }
@@ -39,7 +39,7 @@ std::vector<Span> outside_gaps(const Run& run, Output output, double longest_s,
   for (const Span& span : spans) {
     std::size_t first = span.first, before = span.first;
     for (std::size_t row = span.first; row < span.last; ++row) {
-      if (!run.seen(output, row)) continue;
+      if (!run.is_measured(output, row)) continue;
       if (run.instant_s(row) - run.instant_s(before) > longest_s) {
         if (before > first) kept.push_back({first, before + 1});
         first = row;
@@ -69,10 +69,10 @@ std::vector<Span> spans_of(const Run& run, Part part, double natural_radps) {
 
 bool determines_start(const PreparedRun& run, Part part, const Window& window) {
   return std::ranges::all_of(simulated_outputs(run, part), [&](Output output) {
-    std::size_t seen = 0;
+    std::size_t measured = 0;
     for (std::size_t k = window.first; k < window.first + window.rows; ++k)
-      seen += run.run.seen(output, k) ? 1 : 0;
-    return seen >= kFewestRows;
+      measured += run.run.is_measured(output, k) ? 1 : 0;
+    return measured >= kFewestRows;
   });
 }
 

@@ -99,8 +99,8 @@ BlockScores joined(const BlockScores& a, const BlockScores& b) {
 Blocks left_out(const BlockScores& at) {
   Blocks cost(static_cast<std::size_t>(at.by_block.rows()), 0.0);
   for (std::size_t block = 0; block < cost.size(); ++block) {
-    const VectorXd pull = at.by_block.row(static_cast<Index>(block)).transpose();
-    cost[block] = 2 * pull.dot(solve(at.curvature - at.curvature_of[block], pull));
+    const VectorXd gradient = at.by_block.row(static_cast<Index>(block)).transpose();
+    cost[block] = 2 * gradient.dot(solve(at.curvature - at.curvature_of[block], gradient));
   }
   return cost;
 }

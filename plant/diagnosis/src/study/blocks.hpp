@@ -15,8 +15,8 @@ struct BlockScores {
   Eigen::MatrixXd by_block;                   ///< block x direction: slope' weighted residual
   Eigen::MatrixXd curvature;                  ///< slope' weighted slope
   std::vector<Eigen::MatrixXd> curvature_of;  ///< the same by block
-  /// By direction, of all blocks.
-  [[nodiscard]] Eigen::VectorXd pull() const { return by_block.colwise().sum().transpose(); }
+  /// By direction, sum over all blocks: -1/2 of the gradient of the loss.
+  [[nodiscard]] Eigen::VectorXd gradient() const { return by_block.colwise().sum().transpose(); }
 };
 [[nodiscard]] BlockScores block_scores(const Problem& problem, const Fits& fits,
                                        const std::vector<std::vector<Eigen::VectorXd>>& slopes,

@@ -111,16 +111,17 @@ std::vector<Visibility> visibility_of(const std::vector<Candidate>& candidates,
     const std::size_t probe = directions[i].probe;
     const bool one_sided = candidate.one_sided || place.shape.large_probe;
     const double least = found_at(directions.size(), one_sided) * deviation(at, static_cast<Index>(i));
-    Visibility seen;
-    seen.label = label_of(candidate, place, probe);
-    seen.cause = candidate.cause, seen.axis = candidate.axis;
-    seen.visible = !beyond_bounds(candidate, place, probe, least);
+    Visibility visibility;
+    visibility.label = label_of(candidate, place, probe);
+    visibility.cause = candidate.cause, visibility.axis = candidate.axis;
+    visibility.visible = !beyond_bounds(candidate, place, probe, least);
     if (std::isfinite(least)) {
       const std::vector<double> values = values_of(candidate, place, probe, least);
       for (std::size_t k = 0; k < values.size(); ++k)
-        seen.least.push_back({candidate.parameters[k].name, candidate.parameters[k].unit, values[k], 0});
+        visibility.least.push_back(
+            {candidate.parameters[k].name, candidate.parameters[k].unit, values[k], 0});
     }
-    all.push_back(std::move(seen));
+    all.push_back(std::move(visibility));
     of.push_back(place.candidate);
   }
   add_alike(of, at, all);

@@ -15,21 +15,22 @@ constexpr std::size_t kProposals = 4;
 /// Size of the assumed effects, in multiples of the least size that the data show.
 constexpr double kTimesLeast = 2;
 
-const Candidate* candidate_of(const Study& study, const Visibility& seen) {
-  const auto found =
-      std::find_if(study.candidates().begin(), study.candidates().end(),
-                   [&](const Candidate& c) { return c.cause == seen.cause && c.axis == seen.axis; });
+const Candidate* candidate_of(const Study& study, const Visibility& visibility) {
+  const auto found = std::find_if(
+      study.candidates().begin(), study.candidates().end(),
+      [&](const Candidate& c) { return c.cause == visibility.cause && c.axis == visibility.axis; });
   return found == study.candidates().end() ? nullptr : &*found;
 }
 
 /// Effect of kTimesLeast times the least size, inside its bounds.
-Effects effect_of(const Study& study, const Visibility& seen) {
-  const Candidate* candidate = candidate_of(study, seen);
-  if (candidate == nullptr || seen.least.size() != candidate->parameters.size()) return {};
+Effects effect_of(const Study& study, const Visibility& visibility) {
+  const Candidate* candidate = candidate_of(study, visibility);
+  if (candidate == nullptr || visibility.least.size() != candidate->parameters.size()) return {};
   std::vector<double> values;
-  for (std::size_t i = 0; i < seen.least.size(); ++i) {
+  for (std::size_t i = 0; i < visibility.least.size(); ++i) {
     const FreeParameter& p = candidate->parameters[i];
-    const double value = i == 0 ? p.null + kTimesLeast * (seen.least[0].value - p.null) : seen.least[i].value;
+    const double value =
+        i == 0 ? p.null + kTimesLeast * (visibility.least[0].value - p.null) : visibility.least[i].value;
     values.push_back(std::clamp(value, p.low, p.high));
   }
   return {{candidate, values}};
@@ -38,19 +39,20 @@ Effects effect_of(const Study& study, const Visibility& seen) {
 /// Questions for an experiment: pairs of candidates with the same effect, in the order of decreasing cosine,
 /// each once; then invisible candidates against the base model.
 std::vector<std::pair<const Visibility*, const Visibility*>> questions(const std::vector<Visibility>& all) {
-  std::vector<std::pair<const Visibility*, const Visibility*>> asked;
-  for (const Visibility& seen : all)
-    if (!seen.visible) asked.emplace_back(&seen, nullptr);
+  std::vector<std::pair<const Visibility*, const Visibility*>> result;
+  for (const Visibility& visibility : all)
+    if (!visibility.visible) result.emplace_back(&visibility, nullptr);
   std::vector<std::tuple<double, const Visibility*, const Visibility*>> pairs;
-  for (const Visibility& seen : all)
-    for (const auto& alike : seen.alike) {
+  for (const Visibility& visibility : all)
+    for (const auto& alike : visibility.alike) {
       const auto other =
           std::find_if(all.begin(), all.end(), [&](const Visibility& v) { return v.label == alike.label; });
-      if (other != all.end() && &seen < &*other) pairs.emplace_back(-std::abs(alike.cosine), &seen, &*other);
+      if (other != all.end() && &visibility < &*other)
+        pairs.emplace_back(-std::abs(alike.cosine), &visibility, &*other);
     }
   std::sort(pairs.begin(), pairs.end());
-  for (const auto& [cosine, a, b] : pairs) asked.emplace_back(a, b);
-  return asked;
+  for (const auto& [cosine, a, b] : pairs) result.emplace_back(a, b);
+  return result;
 }
 
 }  // namespace
@@ -66,10 +68,10 @@ Check check(const configuration::Rig& rig, std::vector<Run> train, const Request
   Check result;
   result.excitation = study.score({}, study.base_train(), request.seed).excitation;
   const Disturbances disturbances = disturbances_of(study);
-  std::size_t asked = 0;
+  std::size_t proposals = 0;
   for (const auto& [a, b] : questions(result.excitation)) {
-    if (asked++ >= kProposals) break;
-    request.progress(0.5 + 0.1 * static_cast<double>(asked), "what to record next");
+    if (proposals++ >= kProposals) break;
+    request.progress(0.5 + 0.1 * static_cast<double>(proposals), "what to record next");
     const Effects one = effect_of(study, *a), other = b != nullptr ? effect_of(study, *b) : Effects{};
     if (one.empty()) continue;
     if (const auto next = propose_experiment(rig, one, other, disturbances))

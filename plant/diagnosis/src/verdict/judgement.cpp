@@ -20,7 +20,7 @@ double mean_loss(const Problem& problem, const Fits& fits) {
   double sum = 0, count = 0;
   for (std::size_t w = 0; w < fits.size(); ++w) {
     sum += loss_of(fits[w].residual);
-    count += static_cast<double>(problem.seen_rows(problem.windows()[w]));
+    count += static_cast<double>(problem.measured_rows(problem.windows()[w]));
   }
   return count > 0 ? sum / (kMeanLoss * count) : 0;
 }
@@ -29,7 +29,7 @@ double mean_loss(const Problem& problem, const Fits& fits) {
 double share_not_followed(const Problem& problem, const Fits& fits, std::size_t output) {
   double moved = 0, count = 0;
   for (const Window& window : problem.windows()) {
-    const Eigen::VectorXd measured = problem.seen(window, output);
+    const Eigen::VectorXd measured = problem.measured_values(window, output);
     moved += (measured.array() - measured.mean()).matrix().squaredNorm();
     count += static_cast<double>(measured.size());
   }
@@ -55,11 +55,11 @@ double lacking_force(const Problem& problem, const Fits& fits, std::size_t outpu
                                      .segment(static_cast<Eigen::Index>(output) * rows, rows);
     const double scale = 1 / std::pow(static_cast<double>(span) * period_s * natural_radps, 2);
     const Run& run = problem.runs()[window.run].run;
-    const auto seen = [&](Eigen::Index k) {
-      return run.seen(problem.outputs()[output], window.first + static_cast<std::size_t>(k));
+    const auto is_measured = [&](Eigen::Index k) {
+      return run.is_measured(problem.outputs()[output], window.first + static_cast<std::size_t>(k));
     };
     for (Eigen::Index k = span; k + span < rows; ++k) {
-      if (!seen(k - span) || !seen(k) || !seen(k + span)) continue;
+      if (!is_measured(k - span) || !is_measured(k) || !is_measured(k + span)) continue;
       const double force = scale * (left[k + span] - 2 * left[k] + left[k - span]) + left[k];
       squares += force * force;
       ++count;

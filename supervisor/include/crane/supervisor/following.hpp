@@ -10,8 +10,8 @@
 /// Two sums add the changes of speed outside the interval (run_length.hpp):
 ///   fast := max(0, fast + dv - high dt),   slow := max(0, slow + low dt - dv)
 /// A sum above limit = kSpeedShare (max_speed + |v|) + noise stops the crane. noise = two counts per sample
-/// interval: the quantisation of the two speeds at the ends of the sum; that of the speeds in between
-/// cancels.
+/// interval: the quantisation of the speeds at both ends of the sum. The quantisation of the speeds between
+/// them cancels.
 ///
 /// Detection time of a voltage error of e volts: limit / (gain (e - tolerances)) + two ticks. False alarms:
 /// none while the parameters are within their tolerances; for a white disturbance of kOffset_v rms beyond
@@ -23,8 +23,8 @@
 namespace crane::supervisor {
 
 struct FollowingInput {
-  double sampled_s = 0;
-  PerAxis position{};
+  double sampled_s = 0;  ///< s, clock of the bridge
+  PerAxis position{};    ///< unit
   double swing_radial_rad = 0, swing_tangential_rad = 0;
   PerAxis applied_v{};  ///< V, acts from this sample on
   AxisFlags free{};     ///< true: the brake is commanded open and reports open
@@ -32,13 +32,13 @@ struct FollowingInput {
 
 struct FollowingMemory {
   /// One sample of the last three, newest first.
-  struct Seen {
+  struct PastSample {
     double sampled_s = 0;
     PerAxis position{};
     double radial_rad = 0, tangential_rad = 0;
     PerAxis applied_v{};
   };
-  std::array<Seen, 3> seen{};
+  std::array<PastSample, 3> recent{};
   std::array<int, kAxes> free_ticks{};  ///< number of samples in a row with an open brake
   PerAxis fast{}, slow{};               ///< sums of unexplained speed, unit/s, >= 0
   PerAxis largest{};                    ///< largest sum / limit so far; above 1 stops the crane

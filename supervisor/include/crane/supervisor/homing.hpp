@@ -32,7 +32,7 @@ struct HomingMemory {
   int still_ticks = 0;      ///< number of ticks without progress
   double from = 0;          ///< position at the start of this phase
   double opened_at = 0;     ///< last position at which the mark was active
-  double seen_at = 0;       ///< position at the last progress
+  double progress_at = 0;   ///< position at the last progress
 };
 
 /// One tick. @return speed of the reference, unit/s; 0 when done or failed

@@ -7,7 +7,7 @@ namespace crane::supervisor {
 struct MotionMemory {
   bool started = false;
   double sampled_s = 0;       ///< time at which `position` was latched, clock of the bridge
-  double seen_s = 0;          ///< time at which `position` arrived, clock of the supervisor
+  double arrived_s = 0;       ///< time at which `position` arrived, clock of the supervisor
   PerAxis position{};         ///< newest sample, unit
   PerAxis speed{};            ///< backward difference of the two newest samples, unit/s
   PerAxis window_position{};  ///< middle of the window that the axis has not left
@@ -23,12 +23,12 @@ void observe(const Limits& limits, double now_s, double sampled_s, const PerAxis
 /// standstill_time_s.
 [[nodiscard]] bool standstill(const Limits& limits, double now_s, const MotionMemory& memory) noexcept;
 
-/// State at the moment when the brakes were commanded closed.
+/// Motion at the tick at which the brakes were commanded closed.
 struct BrakeMemory {
-  bool anchored = false;  ///< true: the following fields are valid
-  double since_s = 0;
-  PerAxis position{};
-  PerAxis speed{};
+  bool valid = false;  ///< true: the following fields are valid
+  double since_s = 0;  ///< time of this tick, clock of the supervisor
+  PerAxis position{};  ///< unit
+  PerAxis speed{};     ///< unit/s
 };
 
 /// Homing has set the present position of the axis to `position`. Call this before the first sample with the

@@ -46,7 +46,7 @@ struct PendulumInput {
 struct PendulumMemory {
   using Plane = std::array<double, 2>;
   /// One sample of the last three, newest first, in coordinates of the ground.
-  struct Seen {
+  struct PastSample {
     double sampled_s = 0;
     Plane pivot_m{}, load_offset_m{};  ///< horizontal: trolley, and load relative to the trolley
     double depth_m = 1;                ///< depth of the load below the jib
@@ -54,7 +54,7 @@ struct PendulumMemory {
   struct Balance {
     Plane error_mps{}, swing_change_mps{};  ///< e, and the change of the swing rate times the cable length
   };
-  std::array<Seen, 3> seen{};
+  std::array<PastSample, 3> recent{};
   std::size_t samples = 0;  ///< number of samples since the start, at most kMeanSamples + 2
   std::array<Balance, kMeanSamples> balances{};
   std::size_t next = 0;  ///< index of the next balance

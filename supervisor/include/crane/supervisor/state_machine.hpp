@@ -58,16 +58,16 @@ struct Inputs {
 struct Memory {
   State state = State::boot;
   Cause cause = Cause::start;
-  double entered_s = 0;        ///< time at which `state` was entered
-  double clear_since_s = 0;    ///< time since which no cause blocks a reset
-  double fresh_since_s = 0;    ///< time since which state and demand are complete
-  double idle_since_s = 0;     ///< HOLD: end of the last move
-  double release_since_s = 0;  ///< ARMING: time at which the brakes were commanded open
-  bool releasing = false;      ///< true: the brakes are commanded open
-  bool ramping = false;        ///< STOP_C1: true: the voltage ramps to zero
-  int ramp_tick = 0;           ///< number of ticks of the ramp so far
-  bool maneuver_seen = false;  ///< RUN: true: the reference has moved
-  bool reset_was_up = false;   ///< true: the previous tick requested a reset
+  double entered_s = 0;         ///< time at which `state` was entered
+  double clear_since_s = 0;     ///< time since which no cause blocks a reset
+  double fresh_since_s = 0;     ///< time since which state and demand are complete
+  double idle_since_s = 0;      ///< HOLD: end of the last move
+  double release_since_s = 0;   ///< ARMING: time at which the brakes were commanded open
+  bool releasing = false;       ///< true: the brakes are commanded open
+  bool ramping = false;         ///< STOP_C1: true: the voltage ramps to zero
+  int ramp_tick = 0;            ///< number of ticks of the ramp so far
+  bool maneuver_began = false;  ///< RUN: true: the reference has moved
+  bool reset_was_up = false;    ///< true: the previous tick requested a reset
   bool self_test_passed = false;
   bool homing = false;  ///< true: the crane is armed only to home one axis
 };
@@ -76,7 +76,7 @@ enum class Volts : std::uint8_t { zero, pass, ramp };
 
 /// Answer to one request. `reason` states cause and remedy of a refusal; empty when accepted.
 struct Answer {
-  bool asked = false;
+  bool requested = false;
   bool accepted = false;
   const char* reason = "";
 };

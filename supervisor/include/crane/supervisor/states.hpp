@@ -1,6 +1,6 @@
 #pragma once
-/// States, causes and reactions of the supervisor. docs/safety.md draws the states; the numbers are those of
-/// idl/crane.idl.
+/// States, causes and reactions of the supervisor. Names and numbers are those of idl/crane.idl, which states
+/// the meaning of each state, cause and failure, and what ends it. docs/safety.md draws the states.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ enum class State : std::uint8_t {
 };
 inline constexpr std::size_t kStates = 11;
 
-/// The causes of crane.idl in lower case; crane.idl explains them.
+/// The causes of crane.idl in lower case.
 enum class Cause : std::uint8_t {
 #define CRANE_CAUSE(name, text) name,
 #include "crane/causes.def"

@@ -30,6 +30,10 @@ struct Sample {
   PerAxis applied_v{};           ///< V, acts from this sample on
 };
 
+/// The sample as input of the model checks. @param free  axes whose brake is commanded open and reports open
+[[nodiscard]] FollowingInput following_input(const Sample& sample, const AxisFlags& free) noexcept;
+[[nodiscard]] PendulumInput pendulum_input(const Sample& sample) noexcept;
+
 struct TickInput {
   double now_s =
       0;  ///< clock of the supervisor, never runs backwards; times of silence and of idleness use it
@@ -67,6 +71,10 @@ struct TickMemory {
   PerAxis ramp_from_v{};       ///< V, voltage at the start of the ramp
   PerAxis release_position{};  ///< positions when the brakes were commanded open
 };
+
+/// Newest sample and motion as input of the zone filter. @param gate_output_v  V, output of the gate in this
+/// tick
+[[nodiscard]] ZoneInput zone_input(const TickMemory& memory, const PerAxis& gate_output_v) noexcept;
 
 /// Fields of crane/supervisor; false = healthy.
 struct StatusFlags {

@@ -1,12 +1,13 @@
 #pragma once
-/// Reference along a way: straight legs with parabolic blends.
+/// Reference along a way: straight legs with parabolic blends (J. J. Craig, Introduction to Robotics, 7.3).
 ///
 /// Leg k runs from P_(k-1) to P_k with the profile sigma_k (0 to 1, trajectory.hpp) from the time t_k on:
 ///   r(t) = P_0 + sum over k of (P_k - P_(k-1)) sigma_k(t - t_k)
-/// A leg begins before the one before it has ended, by at most the ramps of both. Then at most two legs are
-/// active, with the acceleration limited to half of the reference acceleration each, and r stays inside the
-/// triangle between the corner and the points where the overlap begins and ends. A corner is blended only
-/// when the far side of this triangle is free.
+/// A blended leg begins before the previous leg has ended; the overlap is at most the shorter of the ramps of
+/// both legs. Therefore at most two legs are active. Each of them has at most half of the reference
+/// acceleration, and r stays inside the triangle whose vertices are the corner P_k and the two positions at
+/// which the overlap begins and ends. A corner is blended only when the side of this triangle that is
+/// opposite to the corner is free at the speeds of both legs.
 #include <vector>
 
 #include "crane/control/trajectory.hpp"
@@ -15,16 +16,16 @@
 namespace crane::control {
 
 struct RouteStyle {
-  bool blends = false;    ///< false: rests for delay_s at each waypoint
-  bool overlaps = false;  ///< a blended leg begins before the one before it has ended
-  double delay_s = 0;  ///< time over which a shaper distributes the reference, or the lag of the controller
-  double speed_factor = 1;  ///< on all speeds, in (0, 1]
+  bool blends = false;    ///< false: the reference rests for delay_s at each waypoint
+  bool overlaps = false;  ///< true: a blended leg begins before the previous leg has ended; false: at its end
+  double delay_s = 0;     ///< s, delay of the shaper, or lag of the controller behind its reference; >= 0
+  double speed_factor = 1;  ///< factor of all speeds, in (0, 1]
 };
 
 class Route {
  public:
   Route() = default;
-  /// @param start  present reference; an axis that the rig does not have keeps it
+  /// @param start  present reference (m, rad, m of cable). An axis that the rig does not have stays there
   /// @throws std::invalid_argument when speeds or accelerations of `space` are outside the ranges of
   /// AxisLimits
   Route(const WaySpace& space, const plant::PerAxis& start, const std::vector<Waypoint>& points,
@@ -32,21 +33,21 @@ class Route {
 
   [[nodiscard]] double duration_s() const noexcept { return duration_s_; }
   [[nodiscard]] const plant::PerAxis& target() const noexcept { return target_; }
-  /// At rest at the start before time 0, and at the target from duration_s() on. No allocation.
+  /// Before time 0 the reference rests at the start, from duration_s() on at the target. Does not allocate.
   [[nodiscard]] AxisReference at(std::size_t axis, double time_s) const noexcept;
 
  private:
   struct RouteLeg {
-    AxisProfile profile;  ///< sigma
-    plant::PerAxis way{};
-    double begin_s = 0;
+    AxisProfile profile;            ///< sigma_k
+    plant::PerAxis displacement{};  ///< P_k - P_(k-1), unit
+    double begin_s = 0;             ///< t_k
   };
   std::vector<RouteLeg> legs_;
   plant::PerAxis start_{}, target_{};
   double duration_s_ = 0;
 };
 
-/// One axis of a route as a profile (shaper.hpp). The route must outlive it.
+/// One axis of a route as the profile that shaper.hpp shapes. `route` must outlive this object.
 struct RouteOfAxis {
   const Route& route;
   std::size_t axis;

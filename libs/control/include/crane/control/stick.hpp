@@ -50,10 +50,13 @@ struct StickLimits {
 };
 
 /// Changes of v that act in this and in later ticks. A copy copies the pending ticks only.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): only the pending slots have values
 class PendingChanges {
  public:
+  // NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
   PendingChanges() = default;
   PendingChanges(const PendingChanges& other) noexcept { *this = other; }
+  // NOLINTEND(cppcoreguidelines-pro-type-member-init)
   PendingChanges& operator=(const PendingChanges& other) noexcept;
   /// Change in `ticks` ticks; 0: this tick.
   [[nodiscard]] double in(std::size_t ticks) const noexcept {

@@ -1,15 +1,24 @@
 #pragma once
-/// Way of a move around the no-go zones: a pure search in the coordinates of the axes. Supervisor and planner
-/// call it with the same data, so that an accepted way is the executed one. docs/zones.md#ways-around-zones.
+/// Search for the way of a move around the no-go zones. A way is a sequence of legs; a leg is straight in the
+/// coordinates of the axes. Pure. Supervisor and planner call way_to() with the same data.
+/// docs/zones.md#ways-around-zones.
 ///
-/// Free space. A shorter cable is free wherever a longer one is (the resting reach shrinks on all sides and
-/// its lower end rises). Every way in three coordinates therefore has a free counterpart at the shortest
-/// cable: a search over trolley and slew at one cable length decides whether a way exists, and vertical
-/// motions at both ends are free. Along a way of the length s over the ground the clearance changes by at
-/// most s (a distance function), so that a sample with the clearance c proves the way up to c - margin.
+/// The clearance of a position is the distance between a load that rests there (resting_reach) and the
+/// closest zone. A position is free when its clearance is at least kPassGap_m.
 ///
-/// Search: A* over a grid of trolley and slew. The cost is the time; a lower clearance permits less speed. A
-/// shortest path through the visible corners of the result removes the steps of the grid.
+/// Cable length. A position that is free is also free with a shorter cable, because the space of the resting
+/// load shrinks on all sides and its lower end rises. Therefore a free way in three coordinates stays free
+/// when all its cable lengths are replaced by the shortest one: a search over trolley and slew with the
+/// shortest cable decides whether a way exists. Raising the load at the start and lowering it at the target
+/// are free, too.
+///
+/// Legs. Along a leg the clearance changes by at most the distance d over the ground. Therefore a sample with
+/// the clearance c proves that the leg is free for the next c - kPassGap_m (conservative advancement).
+///
+/// Search: A* (P. E. Hart, N. J. Nilsson, B. Raphael, IEEE Trans. Syst. Sci. Cybern. 4 (1968) 100) over a
+/// grid of trolley and slew. The cost is the time; a smaller clearance permits less speed
+/// (passing_speed_mps). A shortest path in the graph of all free legs between nodes of the result then
+/// removes the steps of the grid.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,11 +29,12 @@
 
 namespace crane::control {
 
-/// What the search knows of a rig. configuration::way_space_of() makes it from the rig file.
+/// Input of the search that depends on the rig only. configuration::way_space_of() reads it from the rig
+/// file.
 struct WaySpace {
   struct Axis {
     bool present = false;
-    double low = 0, high = 0;  ///< permitted targets, unit
+    double low = 0, high = 0;  ///< permitted targets, unit: m, rad, m of cable
     double speed = 0;          ///< reference speed, unit/s, > 0 when present
     double acceleration = 0;   ///< reference acceleration, unit/s^2, > 0 when present
     double jerk = std::numeric_limits<double>::infinity();  ///< of S-curves, unit/s^3
@@ -38,23 +48,23 @@ struct WaySpace {
 };
 
 enum class WayOutcome : std::uint8_t {
-  straight,       ///< the straight move is free and may have full speed; no waypoints
-  around,         ///< `points` leads to the target, around zones or slowly beside them
-  target_inside,  ///< the target is inside the margin of the first zone of `blocking`
-  no_way          ///< the zones of `blocking` bound the space that the load can reach from the start
+  straight,       ///< the straight leg to the target is free at the reference speeds; no waypoints
+  around,         ///< `points` lead to the target: around zones, or straight at reduced speed
+  target_inside,  ///< the clearance of the target from the first zone of `blocking` is below kRestGap_m
+  no_way          ///< the zones of `blocking` enclose the free space around the start
 };
 
-/// Distance of a target or a resting load from the margin of a zone, m: the noise of the zone filter at rest
-/// is smaller.
+/// Least clearance of a target, and of the start and the end of a way, m. The noise of the zone filter at
+/// rest is smaller.
 inline constexpr double kRestGap_m = 0.02;
-/// Least distance from the margin of a zone on the way, except from the start and to the target, m: what the
-/// filter needs at kSlowest_mps.
+/// Least clearance of a way between its first and its last leg, m: the zone filter needs it at the lowest
+/// speed of a leg.
 inline constexpr double kPassGap_m = 0.05;
 
-/// End of a leg that is straight in the coordinates of the axes.
+/// End of a leg.
 struct Waypoint {
   plant::PerAxis position{};  ///< trolley m, slew rad, cable m
-  double speed_share = 1;     ///< of the reference speeds, in (0, 1]
+  double speed_share = 1;     ///< speed of the leg / reference speeds, in (0, 1]
 };
 
 struct Way {
@@ -63,29 +73,32 @@ struct Way {
   std::vector<std::size_t> blocking{};  ///< indices of zones, without repetition
 };
 
-/// The way from `from` to `to`. Equal arguments give equal ways, bit for bit; no clock, no random numbers.
-/// Time and memory are bounded by 8000 nodes of the grid and the number of zones. A passage that is narrower
-/// than the spacing of the grid (4 cm, or more on a large crane) beside kPassGap_m may not be found.
-/// @param from  trolley m, slew rad, cable m as measured; @param to  the target, inside the limits
+/// The way from `from` to `to`. Equal arguments give equal ways, bit for bit. The number of zones and the
+/// 8000 nodes of the grid bound time and memory. The search may miss a passage whose width beyond
+/// 2 kPassGap_m is below the spacing of the grid (4 cm over the ground; more on a large crane).
+/// @param from  measured trolley position m, slew angle rad, cable length m
+/// @param to    target in the same units, inside the limits of the axes
 /// @return no_way without `blocking` when a value is not finite
 [[nodiscard]] Way way_to(const WaySpace& space, const plant::PerAxis& from, const plant::PerAxis& to);
 
-/// Position with the values that stand in for axes that are absent or not measured.
+/// Replaces coordinates that the rig does not have or does not measure: slew angle 0, cable length
+/// `space.cable_m`. A measured cable length is at least 0.05 m.
 [[nodiscard]] plant::PerAxis completed(const WaySpace& space, plant::PerAxis position) noexcept;
 
-/// Clearance of a resting load at this position from the closest zone, m. @return infinity without zones
+/// The clearance of a position, m, and its zone (index); infinity without zones.
 struct ClosestZone {
   double clearance_m = 0;
   std::size_t zone = 0;
 };
 [[nodiscard]] ClosestZone closest_zone(const WaySpace& space, const plant::PerAxis& position) noexcept;
 
-/// Smallest clearance on the straight path between two completed positions, m; below kRestGap_m: not free.
+/// Smallest clearance on the straight leg between two completed positions, m. A value below kRestGap_m is an
+/// upper bound: the first such sample ends the calculation.
 [[nodiscard]] double straight_clearance_m(const WaySpace& space, const plant::PerAxis& from,
                                           const plant::PerAxis& to) noexcept;
 
-/// Largest speed of the suspension point over the ground at which the zone filter lets a load pass at this
-/// clearance, m/s.
+/// Largest speed of the suspension point over the ground at this clearance, m/s, at which the zone filter
+/// does not stop the crane. docs/zones.md#ways-around-zones states the formula.
 [[nodiscard]] double passing_speed_mps(const WaySpace& space, double clearance_m, double cable_m) noexcept;
 
 }  // namespace crane::control

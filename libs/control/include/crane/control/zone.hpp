@@ -1,7 +1,7 @@
 #pragma once
 /// No-go zones: obstacles that the load, the hook and the cable must not enter. A zone is an upright box or
-/// cylinder in coordinates of the ground: x along the jib at slew angle 0 (gantry: along the track), y to its
-/// left, height above the ground. docs/zones.md.
+/// cylinder in coordinates of the ground: x along the jib at slew angle 0 (gantry: along the track), y in the
+/// direction of positive slew, z upwards from the ground. docs/zones.md.
 #include <array>
 #include <numbers>
 #include <span>
@@ -25,7 +25,7 @@ struct Zone {
   bool operator==(const Zone&) const = default;
 };
 
-/// Section [clearance] of a rig file: size of the load, and errors that the zones must permit.
+/// Section [clearance] of a rig file: size of the load, and errors that the zone filter allows for.
 struct Clearance {
   double load_radius_m = 0;        ///< sphere around the end of the cable that contains hook and load
   double suspension_height_m = 0;  ///< height of the suspension point above the ground
@@ -133,23 +133,23 @@ struct ReachedSpace {
   double lowest_m = 0;  ///< height above the ground
 };
 
-/// Distance between the reach and the zone, m; <= 0: they touch or overlap. Its horizontal part is the signed
-/// distance of the axis of the reach from the outline of the zone, minus the radius of the reach; its
-/// vertical part is the gap between both. The larger part separates them.
+/// Distance between `reach` and `zone`, m; <= 0: they touch or overlap. The larger of two distances:
+/// horizontal, from the outline of the zone to the axis of the reach, minus the radius of the reach;
+/// vertical, between the nearer ends of both.
 [[nodiscard]] double clearance_m(const Zone& zone, const ReachedSpace& reach,
                                  double suspension_height_m) noexcept;
 
-/// ReachedSpace of a load that hangs at rest below this suspension point. The wind may deflect it by w L / g
-/// and, as a gust, by twice as much. @param gravity_mps2  > 0
+/// Space of a load that hangs at rest below this suspension point. Steady wind deflects the load by f L / g,
+/// a gust by 2 f L / g, with f = wind_mps2 and L = (1 + cable_error) cable_m. @param gravity_mps2  > 0
 [[nodiscard]] ReachedSpace resting_reach(const Clearance& clearance, double gravity_mps2, double trolley_m,
                                          double slew_rad, double cable_m) noexcept;
 
-/// First zone whose clearance from the path of a move is below `margin_m`; nullptr: none. The path is
-/// straight in the coordinates of the axes. A move that begins closer to a zone may leave it, but not come
-/// closer.
+/// First zone whose clearance from the straight path of a move is below `least_clearance_m`; nullptr: none.
+/// The path is straight in the coordinates of the axes. A move that begins below this clearance may increase
+/// it, and must not reduce it.
 /// @param from, to  trolley m, slew rad, cable m
 [[nodiscard]] const Zone* zone_in_path(std::span<const Zone> zones, const Clearance& clearance,
                                        double gravity_mps2, const plant::PerAxis& from,
-                                       const plant::PerAxis& to, double margin_m) noexcept;
+                                       const plant::PerAxis& to, double least_clearance_m) noexcept;
 
 }  // namespace crane::control

@@ -2,7 +2,7 @@
 /// A component is one part of the control loop, for example the tracking law. It has named inputs and
 /// outputs, internal state, and one step per tick. Two hosts run the same component: a separate process over
 /// DDS (process.hpp), or one process that runs all components of a stack over the memory bus
-/// (in_process.hpp). A component never blocks, sleeps or reads a clock. Time is an argument.
+/// (in_process.hpp). A component never blocks or sleeps. For control it reads no clock: time is an argument.
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -22,8 +22,8 @@ class Component {
  public:
   virtual ~Component() = default;
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// Processes the samples that have arrived. @return true when it did some work; the host then calls poll()
-  /// again before it waits
+  /// Processes the samples that have arrived. @return true when poll() did some work; the host then calls
+  /// poll() again before the host waits
   virtual bool poll(std::int64_t now_ns) = 0;
   /// Time of the next poll() that is due without a new sample; kNever: only new samples need a poll().
   [[nodiscard]] virtual std::int64_t wake_at_ns() const { return kNever; }

@@ -1,6 +1,6 @@
 #pragma once
 /// A whole stack in one process over the memory bus, for tests and for large numbers of runs. Lockstep only.
-/// The recording is bit for bit the recording of a stack of processes.
+/// Its recording equals, bit for bit, the recording of a stack of separate processes.
 #include <memory>
 #include <span>
 #include <string>
@@ -20,7 +20,8 @@ class InProcessStack {
 
   /// The network of the components, for the Bus of an operator or a recorder.
   [[nodiscard]] const std::shared_ptr<bus::MemoryNetwork>& network() const { return network_; }
-  /// Polls all components until every component waits. @return true when a component did some work
+  /// Polls all components repeatedly until every component waits for input. @return true when a component did
+  /// some work
   bool pump();
   /// One line per component with its missing inputs.
   [[nodiscard]] std::string waiting_for() const;

@@ -27,7 +27,7 @@ struct JoinCounts {
   std::uint64_t lost = 0;       ///< ticks with a missing input or a missing leader
   std::uint64_t late = 0;       ///< samples of a tick that is already finished
   std::uint64_t duplicate = 0;  ///< second samples of one tick
-  std::uint64_t ahead = 0;      ///< samples of a tick that cannot have begun yet
+  std::uint64_t ahead = 0;      ///< dropped samples of a tick that cannot have begun yet
 };
 
 /// Buffer for the samples of one topic, by tick.
@@ -193,7 +193,7 @@ class TickJoin {
   std::uint64_t tick_ = 0;
   std::uint64_t first_useful_ = 0;  ///< all earlier ticks are finished
   std::int64_t due_ns_ = 0;         ///< end of the wait for the other inputs of the open tick
-  bool has_respite_ = false;
+  bool has_respite_ = false;        ///< true: the wait of the open tick has been extended
   bool started_ = false, opened_ = false;
 };
 

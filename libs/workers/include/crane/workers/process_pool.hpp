@@ -1,7 +1,8 @@
 #pragma once
-/// Runs tasks 0 ... count - 1, each in a separate process (fork). Tasks share no memory; a crash or an
-/// endless loop affects its own task only. The next task starts when a process has ended. Call it while this
-/// process has one thread: a fork copies the calling thread only.
+/// Runs tasks 0 ... count - 1, each in a separate process (fork). Tasks share no memory: a crash of one task
+/// does not affect the others. At most `at_a_time` processes run at the same time; the next task starts when
+/// a process has ended. An endless task occupies its process until `cancelled` returns true. Call run() while
+/// the calling process has one thread: fork copies the calling thread only.
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -9,12 +10,12 @@
 
 namespace crane::workers {
 
-/// Sends records of a task to the parent process. A process that the task forks may also send, while the task
-/// waits for it.
+/// Sends records of a task to the parent process. A child process of the task may also send while the task
+/// waits for this child.
 class Outbox {
  public:
   explicit Outbox(int descriptor) : descriptor_{descriptor} {}
-  /// Ends the process when the parent has ended.
+  /// Ends the calling process when the parent process has ended.
   void send(std::string_view record) const;
 
  private:
@@ -24,13 +25,15 @@ class Outbox {
 struct Tasks {
   std::size_t count = 0;
   std::size_t at_a_time = 1;  ///< >= 1
-  /// In the process of the task. An exception ends the process with exit code 1.
+  /// Called in the process of the task. An exception ends the process with exit code 1.
   std::function<void(std::size_t task, const Outbox& outbox)> work;
-  /// In this process, for each record as it arrives; records of one task arrive in their order.
+  /// Called in the parent process for each record; records of one task arrive in the order of sending.
   std::function<void(std::size_t task, std::string record)> take;
-  /// In this process, when the process of the task has ended, after its last record. May be empty.
+  /// Called in the parent process when the process of the task has ended, after its last record. May be
+  /// empty.
   std::function<void(std::size_t task, const std::string& failure)> ended{};
-  /// true: kill the running tasks and return. Called after each event. May be empty.
+  /// Called in the parent process after each event. true: run() kills the running tasks and returns. May be
+  /// empty.
   std::function<bool()> cancelled{};
 };
 

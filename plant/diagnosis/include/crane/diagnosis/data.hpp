@@ -60,7 +60,7 @@ struct Run {
   [[nodiscard]] std::size_t rows() const { return command_v.size(); }
   [[nodiscard]] double duration_s() const { return static_cast<double>(rows()) * period_s; }
   [[nodiscard]] bool has(Output output) const { return !measured[output].empty(); }
-  [[nodiscard]] bool seen(Output output, std::size_t row) const {
+  [[nodiscard]] bool is_measured(Output output, std::size_t row) const {
     return std::isfinite(measured[output][row]);
   }
   /// Time of a row since row 0.

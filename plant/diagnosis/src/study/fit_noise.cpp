@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "study/blocks.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+using Eigen::VectorXd;
+
+/// Largest number of alternations of fit and noise model, and the decrease of the deviance below which they
+/// end.
+constexpr int kMostNoiseRounds = 3;
+constexpr double kWorthARound = 2;
+
+ShowsIn shown_in(const Effects& effects) {
+  ShowsIn parts;
+  for (const Effect& effect : effects) {
+    parts.drive = parts.drive || effect.candidate->drive;
+    parts.load = parts.load || effect.candidate->load;
+  }
+  return parts;
+}
+
+/// Error of the simulation by output: mean over the windows of the rms error of each.
+std::array<double, kOutputs> errors_of(const std::vector<std::pair<const Problem*, const Fits*>>& parts) {
+  std::array<double, kOutputs> errors{};
+  for (const auto& [problem, fits] : parts)
+    for (std::size_t i = 0; i < problem->outputs().size(); ++i) {
+      const std::vector<double> squares = problem->squares_left(*fits, i);
+      double& error = errors[problem->outputs()[i]];
+      for (std::size_t w = 0; w < squares.size(); ++w)
+        error +=
+            std::sqrt(squares[w] / static_cast<double>(problem->measured_rows(problem->windows()[w], i))) /
+            static_cast<double>(squares.size());
+    }
+  return errors;
+}
+
+/// Schwarz's penalty per value, ln N for N blocks, over Akaike's penalty, 2: the probability that a
+/// superfluous value is accepted decreases with the amount of data (G. Schwarz, Ann. Statist. 6 (1978) 461;
+/// for composite likelihoods X. Gao, P. X.-K. Song, J. Amer. Statist. Assoc. 105 (2010) 1531).
+double schwarz_over_akaike(const Blocks& left_out) {
+  const auto blocks = std::count_if(left_out.begin(), left_out.end(), [](double cost) { return cost > 0; });
+  return std::max(1.0, 0.5 * std::log(std::max<double>(1, static_cast<double>(blocks))));
+}
+
+}  // namespace
+
+Blocks Study::deviance_of(const Body& body, const Evaluation& at) {
+  Blocks deviance = at.blocks;
+  const auto add = [&deviance](std::size_t first, const Blocks& more) {
+    for (std::size_t i = 0; i < more.size(); ++i) deviance[first + i] += more[i];
+  };
+  add(0, log_variances_of(body.drive));
+  const std::vector<double> of_pieces = body.equation_error.log_variances();
+  for (std::size_t i = 0; i < of_pieces.size(); ++i)
+    deviance[body.equation_error.windows()[i]] += of_pieces[i];
+  add(at.drive_blocks, log_variances_of(body.load));
+  return deviance;
+}
+
+void Study::judge_by_likelihood(Fitted& fitted) const {
+  fitted.noise = noise();
+  fitted.deviance = deviance_of(train_, fitted.train);
+  const double schwarz = schwarz_over_akaike(fitted.left_out);
+  for (std::size_t i = 0; i < fitted.left_out.size(); ++i) fitted.deviance[i] += schwarz * fitted.left_out[i];
+  fitted.penalty = schwarz * sum(fitted.left_out);
+  fitted.error = errors_of({{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}});
+  if (whole_runs_.empty()) return;
+  const Fits whole = whole_runs_.fit(replays_of(train_.runs, with(fitted.effects)));
+  fitted.whole_error = errors_of({{&whole_runs_, &whole}});
+}
+
+Blocks Study::held_out_deviance(const Fitted& fitted) {
+  whiten_test(fitted.noise);
+  return deviance_of(test_, evaluated(test_, replays_of(test_.runs, with(fitted.effects))));
+}
+
+Fitted Study::base_model() const {
+  Fitted base;
+  base.train = base_train_;
+  base.first_noise = noise_of(base);
+  judge_by_likelihood(base);
+  return base;
+}
+
+Noise Study::noise_of(const Fitted& fitted, const Noise& unchanged) const {
+  const ShowsIn parts = shown_in(fitted.effects);
+  Noise noise = unchanged;
+  if (!train_.drive.empty() && (parts.drive || unchanged.drive.empty())) {
+    noise.drive = train_.drive.disturbances_of(fitted.train.drive);
+    noise.equation_error =
+        train_.equation_error.disturbances_of(replays_of(train_.runs, with(fitted.effects)));
+  }
+  if (!train_.load.empty() && (parts.load || unchanged.load.empty()))
+    noise.load = train_.load.disturbances_of(fitted.train.load);
+  return noise;
+}
+
+Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
+  Fitted best = first_fit, last = first_fit;
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMostNoiseRounds; ++round) {
+    const Noise noise = round == 0 ? first_fit.first_noise : noise_of(last);
+    whiten_training(noise);
+    last = fit(last.effects, std::numeric_limits<double>::infinity(), evaluated_again(last));
+    judge_by_likelihood(last);
+    last.misfit = first_fit.misfit;
+    last.first_noise = first_fit.first_noise;
+    const double gained = least - sum(last.deviance);
+    if (!(gained > 0)) break;
+    best = last;
+    least -= gained;
+    if (gained < kWorthARound) break;
+  }
+  whiten_training(best.noise);
+  return best;
+}
+
+}  // namespace crane::diagnosis
