@@ -1,7 +1,9 @@
 /// The fast method against CVODE, on rigs with brakes, end stops and every term.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "closed_loop.hpp"
 #include "crane/simulator/simulated_board.hpp"
@@ -100,6 +102,47 @@ TEST(FastIntegrator, AgreesWithCvodeWithoutTerms) {
   expect_agreement(gantry(), {});
 }
 TEST(FastIntegrator, AgreesWithCvodeForEachTermOnTheGantry) { expect_agreement_with_each_term(gantry()); }
+
+/// Random commands around the break-away voltage, with which the drives stick, creep and slip in turn.
+std::vector<plant::State> stick_and_slip(std::uint64_t seed, Method method,
+                                         const Tolerances& tolerances = {}) {
+  SimulatedRig rig;
+  rig.drives[plant::kTrolley].low_stop = -10;
+  rig.drives[plant::kTrolley].high_stop = 10;
+  rig.terms = test::rig_friction();
+  rig.integrator = method;
+  SimulatedBoard board{rig, 0, tolerances};
+  std::mt19937_64 random{seed};
+  std::uniform_real_distribution<double> volts{-2, 2};
+  std::uniform_int_distribution<int> held_ticks{1, 40};
+  bridge::Outputs outputs;
+  outputs.brake_release = {true, true, true};
+  std::vector<plant::State> motion;
+  for (int tick = 0, next = 0; tick < 1000; ++tick) {
+    board.advance_to(tick * kStep_ns);
+    motion.push_back(board.truth());
+    if (tick == next) {
+      outputs.drive_v = {volts(random), volts(random), 0};
+      next += held_ticks(random);
+    }
+    outputs.watchdog_level = !outputs.watchdog_level;
+    board.write(outputs);
+  }
+  return motion;
+}
+
+TEST(FastIntegrator, AgreesWithCvodeWhileDrivesStickAndSlip) {
+  int closer = 0;
+  constexpr int kRuns = 40;
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    const auto seeded = static_cast<std::uint64_t>(seed);
+    const auto exact = stick_and_slip(seeded, Method::cvode, kTight);
+    const double error = largest_difference(stick_and_slip(seeded, Method::fast), exact);
+    EXPECT_LT(error, kErrorOfCvode) << "seed " << seed;
+    closer += error < largest_difference(stick_and_slip(seeded, Method::cvode), exact);
+  }
+  EXPECT_GT(closer, 0.9 * kRuns) << "runs in which the fast method is closer to the exact motion than CVODE";
+}
 
 /// The time of an impact on the way of a body that CVODE and the fast method have in common.
 TEST(FastIntegrator, FindsTheImpactAndTheStandstillOfABrakedAxis) {

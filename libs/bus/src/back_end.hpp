@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "endpoint.hpp"
 
@@ -25,6 +26,7 @@ class Doorbell {
   }
   bool wait(std::chrono::nanoseconds timeout) {
     std::unique_lock lock{mutex_};
+    if (timeout.count() <= 0) return std::exchange(rung_, false);
     const bool rung = condition_.wait_for(lock, timeout, [this] { return rung_; });
     rung_ = false;
     return rung;

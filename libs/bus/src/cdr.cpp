@@ -221,6 +221,22 @@ CdrCodec::CdrCodec(const dds_topic_descriptor_t& descriptor) : sample_bytes_{des
       end = align(end, field.size) + field.size * field.count;
   }
   max_encoded_bytes_ = end;
+  make_blocks();
+}
+
+void CdrCodec::make_blocks() {
+  for (const Field& field : fields_) {
+    const bool string = field.kind == Kind::string;
+    const std::uint32_t bytes = field.size * field.count;
+    if (!blocks_.empty() && !string && !blocks_.back().string) {
+      Block& last = blocks_.back();
+      if (field.offset == last.offset + last.bytes && field.size <= last.alignment) {
+        last.bytes += bytes;
+        continue;
+      }
+    }
+    blocks_.push_back({field.offset, bytes, alignment(field), string});
+  }
 }
 
 const CdrCodec& CdrCodec::of(const dds_topic_descriptor_t& descriptor) {
@@ -255,19 +271,18 @@ bool CdrCodec::is_sealable() const {
 std::size_t CdrCodec::encode(const void* sample, std::span<std::uint8_t> out) const {
   const auto* base = static_cast<const std::uint8_t*>(sample);
   std::uint32_t at = 0;
-  for (const Field& field : fields_) {
-    const std::uint8_t* value = base + field.offset;
-    const std::uint32_t begin = align(at, alignment(field));
-    std::uint32_t bytes = field.size * field.count;
-    const bool string = field.kind == Kind::string;
-    if (string) {
-      bytes = static_cast<std::uint32_t>(strnlen(reinterpret_cast<const char*>(value), field.count)) + 1;
-      if (bytes > field.count) return 0;
+  for (const Block& block : blocks_) {
+    const std::uint8_t* value = base + block.offset;
+    const std::uint32_t begin = align(at, block.alignment);
+    std::uint32_t bytes = block.bytes;
+    if (block.string) {
+      bytes = static_cast<std::uint32_t>(strnlen(reinterpret_cast<const char*>(value), block.bytes)) + 1;
+      if (bytes > block.bytes) return 0;
     }
-    const std::uint32_t prefix = string ? 4 : 0;
+    const std::uint32_t prefix = block.string ? 4 : 0;
     if (begin + prefix + bytes > out.size()) return 0;
     if (begin != at) std::memset(out.data() + at, 0, begin - at);
-    if (string) std::memcpy(out.data() + begin, &bytes, 4);
+    if (block.string) std::memcpy(out.data() + begin, &bytes, 4);
     std::memcpy(out.data() + begin + prefix, value, bytes);
     at = begin + prefix + bytes;
   }
@@ -297,10 +312,10 @@ bool CdrCodec::decode(std::span<const std::uint8_t> in, bool big_endian, void* s
 
 bool CdrCodec::make_texts_printable(void* sample) const {
   bool changed = false;
-  for (const Field& field : fields_) {
-    if (field.kind != Kind::string) continue;
-    auto* const text = static_cast<char*>(sample) + field.offset;
-    changed = fields::make_printable({text, strnlen(text, field.count)}) || changed;
+  for (const Block& block : blocks_) {
+    if (!block.string) continue;
+    auto* const text = static_cast<char*>(sample) + block.offset;
+    changed = fields::make_printable({text, strnlen(text, block.bytes)}) || changed;
   }
   return changed;
 }

@@ -14,8 +14,6 @@ using nlohmann::ordered_json;
 using plant::kAxes, plant::kCoordinates, plant::kTrolley, plant::kSlew, plant::kHoist, plant::kSwingRadial,
     plant::kSwingTangential;
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-
 /// Builds a table row by row; columns are found by name.
 class RowWriter {
  public:
@@ -38,17 +36,18 @@ std::array<std::string, kAxes> columns_of_drives(const char* quantity) {
   return columns;
 }
 
-void canonical_cells(RowWriter& row, const msg::State& state, double time_s) {
+void canonical_cells(RowWriter& row, double time_s, std::uint64_t tick, const plant::PerAxis& applied_v,
+                     std::span<const double> measured) {
   row.cell("time_s", time_s);
-  row.cell(kCoordinates[kTrolley].command_v, state.applied_v[kTrolley]);
-  row.cell(kCoordinates[kSlew].command_v, state.applied_v[kSlew]);
-  row.cell(kCoordinates[kTrolley].column, state.trolley_position_m);
-  row.cell(kCoordinates[kSlew].column, state.slew_angle_rad);
-  row.cell(kCoordinates[kSwingRadial].column, state.swing_radial_rad);
-  row.cell(kCoordinates[kSwingTangential].column, state.swing_tangential_rad);
-  row.cell(kCoordinates[kHoist].column, state.cable_length_m);
-  row.cell("tick", static_cast<double>(state.header.tick));
-  row.cell(kCoordinates[kHoist].command_v, state.applied_v[kHoist]);
+  row.cell(kCoordinates[kTrolley].command_v, applied_v[kTrolley]);
+  row.cell(kCoordinates[kSlew].command_v, applied_v[kSlew]);
+  row.cell(kCoordinates[kTrolley].column, measured[kTrolley]);
+  row.cell(kCoordinates[kSlew].column, measured[kSlew]);
+  row.cell(kCoordinates[kSwingRadial].column, measured[kSwingRadial]);
+  row.cell(kCoordinates[kSwingTangential].column, measured[kSwingTangential]);
+  row.cell(kCoordinates[kHoist].column, measured[kHoist]);
+  row.cell("tick", static_cast<double>(tick));
+  row.cell(kCoordinates[kHoist].command_v, applied_v[kHoist]);
 }
 
 msg::State state_from(const ordered_json& j) {
@@ -106,9 +105,37 @@ void add_message(RunTable& run, const std::string& topic, const ordered_json& sa
 
 }  // namespace
 
+RunTable::Row& RunTable::row(std::uint64_t tick) {
+  if (!rows_.empty() && rows_.rbegin()->first == tick) return rows_.rbegin()->second;
+  return rows_[tick];
+}
+
+void RunTable::add(const msg::State& sample) {
+  Row& of = row(sample.header.tick);
+  of.sample_time_ns = sample.header.sample_time_ns;
+  std::copy_n(sample.applied_v, kAxes, of.applied_v.begin());
+  of.measured[kTrolley] = sample.trolley_position_m;
+  of.measured[kSlew] = sample.slew_angle_rad;
+  of.measured[kHoist] = sample.cable_length_m;
+  of.measured[kSwingRadial] = sample.swing_radial_rad;
+  of.measured[kSwingTangential] = sample.swing_tangential_rad;
+}
+void RunTable::add(const msg::Reference& sample) {
+  Row& of = row(sample.header.tick);
+  for (std::size_t i = 0; i < kAxes; ++i) of.reference[i] = sample.axis[i].position;
+}
+void RunTable::add(const msg::Demand& sample) {
+  Row& of = row(sample.header.tick);
+  std::copy_n(sample.control_v, kAxes, of.control_v.begin());
+  std::copy_n(sample.friction_v, kAxes, of.friction_v.begin());
+}
+void RunTable::add(const msg::SupervisorStatus& sample) {
+  row(sample.header.tick).supervisor_state = static_cast<double>(sample.state);
+}
+
 Table RunTable::table() const {
   for (const auto& [tick, row] : rows_)
-    if (row.state) return table(row.state->header.sample_time_ns);
+    if (row.sample_time_ns) return table(*row.sample_time_ns);
   return table(0);
 }
 
@@ -118,19 +145,14 @@ Table RunTable::table(std::int64_t zero_time_ns) const {
   Table result;
   RowWriter row{result};
   for (const auto& [tick, of] : rows_) {
-    if (!of.state) continue;
+    if (!of.sample_time_ns) continue;
     row.begin();
-    canonical_cells(row, *of.state,
-                    static_cast<double>(of.state->header.sample_time_ns - zero_time_ns) / 1e9);
-    const auto reference = [&of = of](std::size_t axis) {
-      return of.reference ? of.reference->axis[axis].position : kMissing;
-    };
-    for (std::size_t i = 0; i < kAxes; ++i) row.cell(kCoordinates[i].reference, reference(i));
-    for (std::size_t i = 0; i < kAxes; ++i)
-      row.cell(control_columns[i].c_str(), of.demand ? of.demand->control_v[i] : kMissing);
-    for (std::size_t i = 0; i < kAxes; ++i)
-      row.cell(friction_columns[i].c_str(), of.demand ? of.demand->friction_v[i] : kMissing);
-    row.cell("supervisor_state", of.supervisor ? static_cast<double>(of.supervisor->state) : kMissing);
+    canonical_cells(row, static_cast<double>(*of.sample_time_ns - zero_time_ns) / 1e9, tick, of.applied_v,
+                    of.measured);
+    for (std::size_t i = 0; i < kAxes; ++i) row.cell(kCoordinates[i].reference, of.reference[i]);
+    for (std::size_t i = 0; i < kAxes; ++i) row.cell(control_columns[i].c_str(), of.control_v[i]);
+    for (std::size_t i = 0; i < kAxes; ++i) row.cell(friction_columns[i].c_str(), of.friction_v[i]);
+    row.cell("supervisor_state", of.supervisor_state);
   }
   return result;
 }

@@ -35,10 +35,13 @@ void InProcessStack::add(const ComponentSpec& spec, const configuration::Rig& ri
 bool InProcessStack::pump() {
   const auto now_ns = monotonic_ns();
   bool anything = false;
-  for (bool progress = true; progress;) {
+  for (bool first = true, progress = true; progress; first = false) {
     progress = false;
-    for (auto& room : rooms_)
+    for (auto& room : rooms_) {
+      const bool has_samples = room.bus->wait(std::chrono::nanoseconds{0});
+      if (!first && !has_samples) continue;  // the component would find nothing new
       while (room.hosted->component().poll(now_ns)) progress = anything = true;
+    }
   }
   return anything;
 }

@@ -82,7 +82,7 @@ Accelerations accelerations(const Parameters& p, const State& s, const Forces& f
   if (!locks.radial) right.phi = forces.radial_nm - motion::radial_bias<kMoving>(p, at);
   if (!locks.axis[kSlew]) right.gamma = forces.slew_nm - motion::slew_bias<kMoving>(p, at);
   if (!locks.tangential) right.theta = forces.tangential_nm - motion::tangential_bias<kMoving>(p, at);
-  const Column q = solve(mass(p, s), right, locks);
+  const Column q = solve(motion::mass(p, at.angles, s.trolley_m, s.cable_m), right, locks);
   return {.trolley_mps2 = q.x,
           .radial_radps2 = q.phi,
           .slew_radps2 = q.gamma,

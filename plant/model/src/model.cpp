@@ -83,6 +83,13 @@ PerAxis Model::friction_v(const State& state, const PerAxis& drive_v) const noex
   return sum;
 }
 
+PerAxis Model::free_drives_friction_v(const State& state, const Actuation& actuation) const noexcept {
+  PerAxis sum{};
+  for (const Axis axis : {kTrolley, kSlew, kHoist})
+    if (!actuation.locks.axis[axis]) sum[axis] = friction_v(state, actuation.drive_v[axis], axis);
+  return sum;
+}
+
 double Model::friction_v(const State& state, double drive_v, Axis axis) const noexcept {
   PerAxis sum{};
   double carried_v = drive_v;
@@ -177,7 +184,8 @@ void Model::correct(const State& state, const PerAxis& unexplained, const InnerS
 
 Accelerations Model::accelerations(const State& state, const Actuation& actuation, const InnerState& inner,
                                    InnerAccelerations& inner_accelerations) const noexcept {
-  return accelerations(state, actuation, friction_v(state, actuation.drive_v), inner, inner_accelerations);
+  return accelerations(state, actuation, free_drives_friction_v(state, actuation), inner,
+                       inner_accelerations);
 }
 
 Accelerations Model::accelerations(const State& state, const Actuation& actuation) const noexcept {

@@ -54,8 +54,8 @@ class CvodeSolver final : public Solver {
     if (context != nullptr) SUNContext_Free(&context);
   }
 
-  Advance advance(Motion& motion, const plant::Actuation& inputs, double span_s,
-                  const Watch& events) override {
+  Advance advance(Motion& motion, const plant::Actuation& inputs, double span_s, const Watch& events,
+                  double /*first_step_s*/) override {
     actuation = &inputs;
     watch = &events;
     store(motion, inner, N_VGetArrayPointer(y));
@@ -69,8 +69,8 @@ class CvodeSolver final : public Solver {
     const int flag = CVode(cvode, span_s, y, &reached, CV_NORMAL);
     must(flag, "integration");
     motion = motion_of(N_VGetArrayPointer(y), inner);
-    if (flag == CV_ROOT_RETURN) return {.elapsed_s = reached, .event = found()};
-    return {.elapsed_s = span_s, .event = std::nullopt};
+    if (flag == CV_ROOT_RETURN) return {.elapsed_s = reached, .event = found(), .next_first_step_s = span_s};
+    return {.elapsed_s = span_s, .event = std::nullopt, .next_first_step_s = span_s};
   }
   [[nodiscard]] long evaluations() const noexcept override { return count; }
 

@@ -3,14 +3,16 @@
 ///
 /// Explicit, Dormand and Prince, order 5(4): a tick of 10 ms without standstill is one step of 7 evaluations.
 ///
-/// Implicit, RODAS, order 4(3), L-stable: at standstill the friction of an axis rises steeply with its speed
-/// and limits an explicit step to less than 1 ms. A tick at rest is one implicit step of 16 evaluations.
+/// Linearly implicit, Rosenbrock-W, order 3(2): at standstill the friction of a drive rises steeply with its
+/// speed and limits an explicit step to less than 1 ms. The matrix J of the formula contains this rise only,
+/// so that a step costs 4 evaluations and the inverse of a 3x3 matrix.
 ///
 /// An event ends the step in which a watched distance changes its sign. The time of the event is found by
 /// repeating the step with other lengths.
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -25,12 +27,12 @@ using plant::kAxes;
 
 /// The explicit formula is stable up to 3.3 on the negative real axis.
 constexpr double kMostExplicit = 2;
-/// Difference for slopes [m, rad, per second]; small compared with every smoothing speed of the terms.
+/// Difference for the slope of the friction [m/s, rad/s]; small compared with every smoothing speed of the
+/// terms.
 constexpr double kDifference = 1.5e-8;
-/// Permitted local error / tolerance of CVODE: with it, the errors of whole maneuvers are those of CVODE
-/// (integrator_test.cpp), which adds up the errors of many more steps. The flanks of a backlash are kinks,
-/// at which an estimate of the error is too small.
-constexpr double kPermitted = 100, kPermittedWithKinks = 10;
+/// Permitted local error / tolerance of CVODE: with it, whole motions are as exact as with CVODE
+/// (fast_integrator_test.cpp), which adds up the errors of many more steps.
+constexpr double kPermitted = 10;
 /// A shorter step than this [s] means that the equations have no solution any more.
 constexpr double kShortest_s = 1e-11;
 /// The time of an event is found to this [s].
@@ -44,44 +46,57 @@ class FastSolver final : public Solver {
   FastSolver(const plant::Model& model, const Tolerances& tolerances)
       : model_(model), tolerances_(tolerances) {}
 
-  Advance advance(Motion& motion, const plant::Actuation& actuation, double span_s,
-                  const Watch& watch) override {
+  Advance advance(Motion& motion, const plant::Actuation& actuation, double span_s, const Watch& watch,
+                  double first_step_s) override {
     actuation_ = &actuation;
     watch_ = watch.active() ? &watch : nullptr;
     store(motion, kInner, y_.data());
-    slope_ = slope_at(y_);
-    double left_s = span_s, h = span_s;
+    begin_step_at(slope_at(y_));
+    response_known_ = false;
+    double left_s = span_s, h = first_step_s, next_first_s = 0;
     std::optional<Event> event;
     while (left_s > 0 && !event) {
       h = std::min(h, left_s);
       if (h < left_s && left_s < 2 * h) h = left_s / 2;
+      implicit_ = h * steepest_1ps_ > kMostExplicit;
+      // A drive that comes to rest within an explicit step would pass the rise of its friction unseen.
+      if (!implicit_) h = std::min(h, standstill_s());
+      if (implicit_ && !response_known_) find_response();
       const Trial trial = step(h);
+      const double next_h = h * growth(trial);
       if (!(trial.error <= 1)) {
-        h *= growth(trial);
+        h = next_h;
         if (!(h > kShortest_s)) fail();
         continue;
       }
+      if (next_first_s == 0) next_first_s = next_h;
       const auto [reached_s, end, found] = first_event(h, trial);
       left_s -= reached_s;
       y_ = end;
       event = found;
-      if (left_s > 0 && !event) slope_ = slope_at(y_);
-      h *= growth(trial);
+      if (left_s > 0 && !event) begin_step_at(implicit_ ? slope_at(y_) : trial.at_end);
+      h = next_h;
     }
     motion = motion_of(y_.data(), kInner);
-    return {.elapsed_s = event ? span_s - left_s : span_s, .event = event};
+    return {.elapsed_s = event ? span_s - left_s : span_s, .event = event, .next_first_step_s = next_first_s};
   }
   [[nodiscard]] long evaluations() const noexcept override { return evaluations_; }
 
  private:
   static constexpr std::size_t kHalf = kRigid + kInner;
-  using Matrix = Eigen::Matrix<double, kHalf, kHalf>;
+  using Half = std::array<double, kHalf>;
   using Vector = std::array<double, 2 * kHalf>;
+  using AxisMatrix = Eigen::Matrix<double, kAxes, kAxes>;
 
+  struct Slope {
+    Vector y{};                   ///< y'
+    plant::PerAxis friction_v{};  ///< the friction in it
+  };
   struct Trial {
     Vector end{};
     double error = 0;  ///< largest local error / permitted error
     double order = 0;  ///< the error grows with h^order
+    Slope at_end{};    ///< explicit step only
   };
   struct Reached {
     double after_s;
@@ -89,63 +104,91 @@ class FastSolver final : public Solver {
     std::optional<Event> event;
   };
 
-  [[nodiscard]] Vector slope_at(const Vector& y) {
-    ++evaluations_;
+  [[nodiscard]] Slope slope_at(const Vector& y) {
     const Motion motion = motion_of(y.data(), kInner);
-    plant::InnerAccelerations own{};
-    const plant::Accelerations a = model_.accelerations(motion.state, *actuation_, motion.inner, own);
-    Vector slope;
-    std::copy_n(y.begin() + kHalf, kHalf, slope.begin());
-    const std::array<double, kRigid> rigid{a.trolley_mps2, a.radial_radps2, a.slew_radps2,
-                                           a.tangential_radps2, a.cable_mps2};
-    std::copy(rigid.begin(), rigid.end(), slope.begin() + kHalf);
-    std::copy_n(own.begin(), kInner, slope.begin() + kHalf + kRigid);
+    Slope slope{.friction_v = model_.free_drives_friction_v(motion.state, *actuation_)};
+    const Half accelerations = accelerations_at(motion, slope.friction_v);
+    std::copy_n(y.begin() + kHalf, kHalf, slope.y.begin());
+    std::copy_n(accelerations.begin(), kHalf, slope.y.begin() + kHalf);
     return slope;
+  }
+  [[nodiscard]] Half accelerations_at(const Motion& motion, const plant::PerAxis& friction_v) {
+    ++evaluations_;
+    plant::InnerAccelerations own{};
+    const plant::Accelerations a =
+        model_.accelerations(motion.state, *actuation_, friction_v, motion.inner, own);
+    Half all{a.trolley_mps2, a.radial_radps2, a.slew_radps2, a.tangential_radps2, a.cable_mps2};
+    std::copy_n(own.begin(), kInner, all.begin() + kRigid);
+    return all;
   }
 
   static void add(Vector& y, double factor, const Vector& k) {
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += factor * k[i];
   }
 
-  [[nodiscard]] Trial step(double h) {
-    implicit_ = h * steepest() > kMostExplicit;
-    if (!implicit_) return explicit_step(h);
-    find_jacobian();
-    return implicit_step(h);
+  void begin_step_at(const Slope& slope) {
+    slope_ = slope;
+    find_steepness();
   }
-  [[nodiscard]] Trial repeated(double h) { return implicit_ ? implicit_step(h) : explicit_step(h); }
+  /// Time until the first free drive comes to rest with its present acceleration.
+  [[nodiscard]] double standstill_s() const {
+    double first_s = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      const std::size_t i = kHalf + plant::kPositionIndex[axis];
+      const double rest_s = -y_[i] / slope_.y[i];
+      if (!actuation_->locks.axis[axis] && rest_s > kShortest_s) first_s = std::min(first_s, rest_s);
+    }
+    return first_s;
+  }
+  [[nodiscard]] Trial step(double h) { return implicit_ ? implicit_step(h) : explicit_step(h); }
 
-  /// Largest rate [1/s] at which the friction of a drive alone brings its speed to rest.
-  [[nodiscard]] double steepest() const {
+  /// d friction / d speed of each drive, and the largest rate [1/s] at which the friction of a drive alone
+  /// brings it to rest.
+  void find_steepness() {
     const plant::Parameters& p = model_.parameters();
     const plant::PerAxis gain{p.trolley_gain_mps2pv, p.slew_gain_radps2pv,
                               p.hoist_gain_mpspv / p.hoist_lag_s};
     plant::State state = motion_of(y_.data(), kInner).state;
-    double most = 0;
+    steepest_1ps_ = 0;
     for (std::size_t i = 0; i < kAxes; ++i) {
-      const auto axis = static_cast<Axis>(i);
+      steepness_[i] = 0;
       if (actuation_->locks.axis[i]) continue;
       double& v = state.*plant::kAxisSpeed[i];
       const double kept = v;
-      const double before = model_.friction_v(state, actuation_->drive_v[i], axis);
       v += kDifference;
-      const double after = model_.friction_v(state, actuation_->drive_v[i], axis);
-      most = std::max(most, gain[i] * (after - before) / (v - kept));
+      const double after_v = model_.friction_v(state, actuation_->drive_v[i], static_cast<Axis>(i));
+      steepness_[i] = (after_v - slope_.friction_v[i]) / (v - kept);
+      steepest_1ps_ = std::max(steepest_1ps_, gain[i] * steepness_[i]);
       v = kept;
     }
-    return most;
+  }
+
+  /// d q'' / d friction of each drive. The friction enters linearly. The response depends on the position,
+  /// and is kept until the end of the span: the W-method permits it.
+  void find_response() {
+    const Motion motion = motion_of(y_.data(), kInner);
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      response_[axis] = {};
+      if (actuation_->locks.axis[axis]) continue;
+      plant::PerAxis more_v = slope_.friction_v;
+      more_v[axis] += 1;
+      const Half moved = accelerations_at(motion, more_v);
+      for (std::size_t i = 0; i < kHalf; ++i) response_[axis][i] = moved[i] - slope_.y[kHalf + i];
+    }
+    response_known_ = true;
   }
 
   [[nodiscard]] Trial explicit_step(double h) {
     using F = DormandPrince;
     std::array<Vector, F::kStages> k;
-    k[0] = slope_;
+    k[0] = slope_.y;
     Trial trial{.end = y_, .order = 5};
     for (std::size_t i = 1; i < F::kStages; ++i) {
       Vector at = y_;
       for (std::size_t j = 0; j < i; ++j)
         if (F::kA[i][j] != 0) add(at, h * F::kA[i][j], k[j]);
-      k[i] = slope_at(at);
+      trial.at_end = slope_at(at);
+      k[i] = trial.at_end.y;
       trial.end = at;  // the last stage is the result
     }
     Vector error{};
@@ -154,63 +197,50 @@ class FastSolver final : public Solver {
     return trial;
   }
 
-  /// J = [0 I; A B], A = d q''/d q, B = d q''/d q', by forward differences. A coordinate that does not move
-  /// has columns of 0: they are not used.
-  void find_jacobian() {
-    Vector at = y_;
-    for (std::size_t i = 0; i < 2 * kHalf; ++i) {
-      auto& block = i < kHalf ? by_position_ : by_rate_;
-      const auto column = static_cast<Eigen::Index>(i % kHalf);
-      if (is_fixed(i % kHalf)) {
-        block.col(column).setZero();
-        continue;
-      }
-      const double kept = at[i];
-      at[i] += kDifference * std::max(1.0, std::abs(kept));
-      const double inverse = 1 / (at[i] - kept);
-      const Vector moved = slope_at(at);
-      for (std::size_t j = 0; j < kHalf; ++j)
-        block(static_cast<Eigen::Index>(j), column) = (moved[kHalf + j] - slope_[kHalf + j]) * inverse;
-      at[i] = kept;
-    }
-  }
-  [[nodiscard]] bool is_fixed(std::size_t coordinate) const {
-    if (coordinate >= kRigid) return coordinate - kRigid >= model_.inner_coordinates();
-    const plant::Locks& locks = actuation_->locks;
-    const std::array<bool, kRigid> locked{locks.axis[plant::kTrolley], locks.radial, locks.axis[plant::kSlew],
-                                          locks.tangential, locks.axis[plant::kHoist]};
-    return locked[coordinate];
-  }
-
-  /// With w = 1 / (h gamma): (w - B - A / w) u_v = r_v + A r_p / w,  u_p = (r_p + u_v) / w
+  /// With w = 1 / (h gamma), J = [0 I; 0 R S], the response R (find_response) and the steepness S = diag(s):
+  ///   u_v = (r_v + R S t) / w,  u_p = (r_p + u_v) / w,  (w - R_a S) t = r_a,
+  /// where a are the rows of the drives and t is u_v of the drives.
   [[nodiscard]] Trial implicit_step(double h) {
-    using F = Rodas;
-    const double w = 1 / (h * F::kGamma), inverse_w = h * F::kGamma;
-    lu_.compute(w * Matrix::Identity() - by_rate_ - inverse_w * by_position_);
+    using F = RosenbrockW;
+    const double w = 1 / (h * F::kGamma);
+    AxisMatrix matrix;
+    for (std::size_t i = 0; i < kAxes; ++i)
+      for (std::size_t j = 0; j < kAxes; ++j)
+        matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            (i == j ? w : 0) - response_[j][plant::kPositionIndex[i]] * steepness_[j];
+    const AxisMatrix of_drives = matrix.inverse();
     std::array<Vector, F::kStages> u;
-    Trial trial{.end = y_, .order = 4};
+    Trial trial{.end = y_, .order = 3};
     for (std::size_t i = 0; i < F::kStages; ++i) {
       Vector at = y_;
       for (std::size_t j = 0; j < i; ++j)
         if (F::kA[i][j] != 0) add(at, F::kA[i][j], u[j]);
-      Vector r = i == 0 ? slope_ : slope_at(at);
-      for (std::size_t j = 0; j < i; ++j) add(r, F::kC[i][j] / h, u[j]);
-      u[i] = solved(r, inverse_w);
+      Vector r = i == 0 ? slope_.y : slope_at(at).y;
+      for (std::size_t j = 0; j < i; ++j) add(r, F::c(i, j) / h, u[j]);
+      u[i] = solved(of_drives, r, h * F::kGamma);
       trial.end = at;
     }
     add(trial.end, 1, u.back());
-    trial.error = scaled(u.back(), trial.end);
+    Vector error{};
+    for (std::size_t i = 0; i < F::kStages; ++i) add(error, F::kError[i], u[i]);
+    trial.error = scaled(error, trial.end);
     return trial;
   }
-  [[nodiscard]] Vector solved(const Vector& r, double inverse_w) const {
-    using Half = Eigen::Matrix<double, kHalf, 1>;
-    const Eigen::Map<const Half> of_positions(r.data()), of_rates(&r[kHalf]);
-    const Half rates = lu_.solve(of_rates + inverse_w * (by_position_ * of_positions));
+  [[nodiscard]] Vector solved(const AxisMatrix& of_drives, const Vector& r, double inverse_w) const {
+    Eigen::Matrix<double, kAxes, 1> right;
+    for (std::size_t i = 0; i < kAxes; ++i)
+      right[static_cast<Eigen::Index>(i)] = r[kHalf + plant::kPositionIndex[i]];
+    const Eigen::Matrix<double, kAxes, 1> drives = of_drives * right;
+    Half rates;
+    std::copy_n(r.begin() + kHalf, kHalf, rates.begin());
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      const double friction_v = steepness_[axis] * drives[static_cast<Eigen::Index>(axis)];
+      for (std::size_t i = 0; i < kHalf; ++i) rates[i] += response_[axis][i] * friction_v;
+    }
     Vector u;
     for (std::size_t i = 0; i < kHalf; ++i) {
-      const double rate = rates[static_cast<Eigen::Index>(i)];
-      u[i] = (r[i] + rate) * inverse_w;
-      u[kHalf + i] = rate;
+      u[kHalf + i] = rates[i] * inverse_w;
+      u[i] = (r[i] + u[kHalf + i]) * inverse_w;
     }
     return u;
   }
@@ -222,7 +252,7 @@ class FastSolver final : public Solver {
           std::abs(error[i]) / (tolerances_.absolute + tolerances_.relative * std::abs(end[i]));
       if (!(ratio <= most)) most = ratio;  // also when it is no number
     }
-    return most / (kInner == 0 ? kPermitted : kPermittedWithKinks);
+    return most / kPermitted;
   }
 
   /// Factor of the next step's length.
@@ -257,7 +287,7 @@ class FastSolver final : public Solver {
     int side = 0;  // end of the interval that the last trial has moved
     for (int trial = 0; trial < kMostEventTrials && high - low > kEventTime_s && high_value != 0; ++trial) {
       const double at = high - high_value * (high - low) / (high_value - low_value);
-      const Vector there = repeated(at).end;
+      const Vector there = step(at).end;
       std::array<double, kDistances> value{};
       measure_distances(*watch_, there.data(), kHalf, value.data());
       if (value[distance] * low_value > 0) {
@@ -285,10 +315,14 @@ class FastSolver final : public Solver {
   Tolerances tolerances_;
   const plant::Actuation* actuation_ = nullptr;
   const Watch* watch_ = nullptr;
-  Vector y_{}, slope_{};  ///< at the beginning of the step
-  /// A and B at the beginning of an implicit step.
-  Matrix by_position_ = Matrix::Zero(), by_rate_ = Matrix::Zero();
-  Eigen::PartialPivLU<Matrix> lu_;
+  // at the beginning of the step
+  Vector y_{};
+  Slope slope_{};
+  plant::PerAxis steepness_{};  ///< d friction / d speed [V s/m, V s/rad]
+  double steepest_1ps_ = 0;
+  /// d q'' / d friction [per V] of each drive, of some step of the span
+  std::array<Half, kAxes> response_{};
+  bool response_known_ = false;
   bool implicit_ = false;  ///< formula of the last step
   long evaluations_ = 0;
 };

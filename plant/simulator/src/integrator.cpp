@@ -27,9 +27,9 @@ Advance Integrator::advance(plant::State& state, const plant::Actuation& actuati
 }
 
 Advance Integrator::advance(plant::State& state, plant::InnerState& inner, const plant::Actuation& actuation,
-                            double span_s, const Watch& watch) {
+                            double span_s, const Watch& watch, double first_step_s) {
   Motion motion{state, inner};
-  const Advance advance = solver_->advance(motion, actuation, span_s, watch);
+  const Advance advance = solver_->advance(motion, actuation, span_s, watch, first_step_s);
   state = motion.state;
   inner = motion.inner;
   return advance;

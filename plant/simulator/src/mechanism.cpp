@@ -65,7 +65,9 @@ void Mechanism::run(double seconds) {
     if (events > kMostEvents)
       throw std::runtime_error("simulated rig: brakes and end stops do not come to rest");
     const Situation now = situation();
-    const Advance advance = integrator_.advance(state_, inner_, now.actuation, left_s, now.watch);
+    const Advance advance =
+        integrator_.advance(state_, inner_, now.actuation, left_s, now.watch, first_step_s_);
+    first_step_s_ = advance.next_first_step_s;
     left_s -= advance.elapsed_s;
     if (!advance.event) return;
     const Axis axis = advance.event->axis;

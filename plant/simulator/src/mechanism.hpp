@@ -1,5 +1,7 @@
 #pragma once
 /// Mechanical model of the rig: equations of motion with brakes and end stops.
+#include <limits>
+
 #include "crane/simulator/integrator.hpp"
 #include "crane/simulator/simulated_rig.hpp"
 
@@ -40,6 +42,7 @@ class Mechanism {
   plant::Locks absent_;
   std::array<bool, plant::kAxes> brake_closed_{true, true, true};
   plant::PerAxis drive_v_{};
+  double first_step_s_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace crane::simulator

@@ -65,7 +65,7 @@ class Solver {
   virtual ~Solver() = default;
   /// @see Integrator::advance
   virtual Advance advance(Motion& motion, const plant::Actuation& actuation, double span_s,
-                          const Watch& watch) = 0;
+                          const Watch& watch, double first_step_s) = 0;
   [[nodiscard]] virtual long evaluations() const noexcept = 0;
 };
 

@@ -51,12 +51,22 @@ class MemoryReader final : public detail::Reader {
   MemoryReader& operator=(const MemoryReader&) = delete;
   ~MemoryReader() override { network_->remove(port_); }
 
-  bool take(void* sample, SampleInfo& info) override { return network_->take(port_, sample, info); }
+  bool take(void* sample, SampleInfo& info) override {
+    const auto stamp = network_->take(port_, sample);
+    if (!stamp) return false;
+    info = stamp->info;
+    sealed_for_ = stamp->sealed_for;
+    return true;
+  }
+  [[nodiscard]] bool delivered_as_sealed(std::uint32_t messages_version) const override {
+    return sealed_for_ == messages_version;
+  }
   [[nodiscard]] int matched() const override { return network_->matched(port_); }
 
  private:
   std::shared_ptr<MemoryNetwork> network_;
   ReaderPort port_;
+  std::optional<std::uint32_t> sealed_for_;  ///< Stamp of the last taken sample
 };
 
 class MemoryBackEnd final : public BackEnd {
@@ -65,6 +75,7 @@ class MemoryBackEnd final : public BackEnd {
       : network_{options.network},
         number_{network_->next_participant()},
         partition_{options.crane},
+        messages_version_{options.messages_version},
         doorbell_{std::move(doorbell)} {}
 
   std::unique_ptr<detail::Writer> writer(const topics::Description& topic,
@@ -72,7 +83,8 @@ class MemoryBackEnd final : public BackEnd {
     const CdrCodec& codec = CdrCodec::of(*topic.descriptor);
     const auto depth = static_cast<std::size_t>(quality(topic, options).depth);
     return std::make_unique<MemoryWriter>(network_,
-                                          WriterPort{port(topic, options), memory::History{codec, depth}});
+                                          WriterPort{port(topic, options), memory::History{codec, depth},
+                                                     messages_version_});
   }
   std::unique_ptr<detail::Reader> reader(const topics::Description& topic,
                                          const EndpointOptions& options) override {
@@ -89,6 +101,7 @@ class MemoryBackEnd final : public BackEnd {
   std::shared_ptr<MemoryNetwork> network_;
   std::uint64_t number_;
   std::string partition_;
+  std::uint32_t messages_version_;
   std::shared_ptr<Doorbell> doorbell_;
 };
 

@@ -116,6 +116,7 @@ void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose
   Stamp stamp{++published_, {.source_time_ns = time_ns, .valid = !dispose, .disposed = dispose}};
   std::memcpy(stamp.info.writer.data(), &writer.number, sizeof writer.number);
   std::memcpy(stamp.info.participant.data(), &writer.participant, sizeof writer.participant);
+  if (!wire_) stamp.sealed_for = writer.messages_version;
   const auto deliver = [&](const void* arriving) {
     for (ReaderPort* reader : writer.readers) {
       reader->queue.push(arriving, stamp);
@@ -132,13 +133,13 @@ void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose
     writer.history.keep(sample, stamp);
 }
 
-bool MemoryNetwork::take(ReaderPort& reader, void* sample, SampleInfo& info) {
+std::optional<Stamp> MemoryNetwork::take(ReaderPort& reader, void* sample) {
   const std::lock_guard lock{mutex_};
-  if (reader.queue.size() == 0) return false;
+  if (reader.queue.size() == 0) return std::nullopt;
   std::memcpy(sample, reader.queue.sample(0), reader.topic->descriptor->m_size);
-  info = reader.queue.stamp(0).info;
+  const Stamp stamp = reader.queue.stamp(0);
   reader.queue.pop();
-  return true;
+  return stamp;
 }
 
 int MemoryNetwork::matched(const WriterPort& port) const {

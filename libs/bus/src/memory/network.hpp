@@ -2,6 +2,7 @@
 /// The in-process network: connections between writers and readers, and their queues.
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Port {
 struct ReaderPort;
 struct WriterPort : Port {
   History history;
+  std::uint32_t messages_version = 0;
   std::uint64_t number = 0;            ///< assigned by the network, unique in the network
   std::vector<ReaderPort*> readers{};  ///< in order of their creation
 };
@@ -45,7 +47,8 @@ class MemoryNetwork {
   void remove(memory::ReaderPort& reader);
 
   void publish(memory::WriterPort& writer, const void* sample, bool dispose);
-  bool take(memory::ReaderPort& reader, void* sample, SampleInfo& info);
+  /// Copies the oldest sample to `sample`. @return its stamp; nothing when the queue is empty
+  std::optional<memory::Stamp> take(memory::ReaderPort& reader, void* sample);
   [[nodiscard]] int matched(const memory::WriterPort& writer) const;
   [[nodiscard]] int matched(const memory::ReaderPort& reader) const;
   void set_wire(Wire wire);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "crane/bus/bus.hpp"
@@ -13,6 +14,8 @@ namespace crane::bus::memory {
 struct Stamp {
   std::uint64_t order = 0;  ///< serial number of the publication in the network
   SampleInfo info;
+  /// Version of the messages for which the delivered bytes are sealed; nothing: a wire may have changed them.
+  std::optional<std::uint32_t> sealed_for{};
 };
 
 class SampleQueue {

@@ -59,7 +59,18 @@ class CdrCodec {
   bool make_texts_printable(void* sample) const;
 
  private:
+  /// Fields of fixed size without padding between them, in the struct and in CDR: encoded by one copy. A string
+  /// is a block of its own.
+  struct Block {
+    std::uint32_t offset = 0;     ///< bytes from the start of the C struct
+    std::uint32_t bytes = 0;      ///< string: capacity with the final NUL
+    std::uint32_t alignment = 1;  ///< of the first field, the largest of the block
+    bool string = false;
+  };
+  void make_blocks();
+
   std::vector<Field> fields_;
+  std::vector<Block> blocks_;
   std::size_t max_encoded_bytes_ = 0;
   std::size_t sample_bytes_ = 0;
 };

@@ -1,9 +1,12 @@
 #pragma once
 /// Converts a run to a table: one row per crane/state, with the samples of other topics of the same tick.
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 
+#include "crane/plant/coordinates.hpp"
+#include "crane/plant/state.hpp"
 #include "crane/recording/csv.hpp"
 #include "crane/recording/mcap_reader.hpp"
 #include "crane/topics.hpp"
@@ -15,10 +18,10 @@ namespace crane::recording {
 /// SupervisorState in crane.idl). The cells of a topic without a sample for the tick are NaN.
 class RunTable {
  public:
-  void add(const msg::State& sample) { rows_[sample.header.tick].state = sample; }
-  void add(const msg::Reference& sample) { rows_[sample.header.tick].reference = sample; }
-  void add(const msg::Demand& sample) { rows_[sample.header.tick].demand = sample; }
-  void add(const msg::SupervisorStatus& sample) { rows_[sample.header.tick].supervisor = sample; }
+  void add(const msg::State& sample);
+  void add(const msg::Reference& sample);
+  void add(const msg::Demand& sample);
+  void add(const msg::SupervisorStatus& sample);
 
   /// time_s is the time since the first crane/state, or since `zero_time_ns`. A tick without crane/state has
   /// no row.
@@ -26,12 +29,18 @@ class RunTable {
   [[nodiscard]] Table table(std::int64_t zero_time_ns) const;
 
  private:
+  static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+  static constexpr plant::PerAxis kNoAxis{kMissing, kMissing, kMissing};
+  using Coordinates = std::array<double, plant::kCoordinates.size()>;
+  /// The values of one tick that become cells.
   struct Row {
-    std::optional<msg::State> state;
-    std::optional<msg::Reference> reference;
-    std::optional<msg::Demand> demand;
-    std::optional<msg::SupervisorStatus> supervisor;
+    std::optional<std::int64_t> sample_time_ns;  ///< nothing: no crane/state
+    plant::PerAxis applied_v{};
+    Coordinates measured{};  ///< by plant::CoordinateIndex
+    plant::PerAxis reference = kNoAxis, control_v = kNoAxis, friction_v = kNoAxis;
+    double supervisor_state = kMissing;
   };
+  [[nodiscard]] Row& row(std::uint64_t tick);
   std::map<std::uint64_t, Row> rows_;
 };
 

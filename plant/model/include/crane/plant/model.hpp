@@ -50,6 +50,8 @@ class Model {
   /// @param drive_v  output of the amplifiers [V]: friction in a gear grows with the force it carries
   [[nodiscard]] PerAxis friction_v(const State& state, const PerAxis& drive_v) const noexcept;
   [[nodiscard]] double friction_v(const State& state, double drive_v, Axis axis) const noexcept;
+  /// The same for the axes that are not locked; 0 V for a locked axis.
+  [[nodiscard]] PerAxis free_drives_friction_v(const State& state, const Actuation& actuation) const noexcept;
 
   /// Decrease of the accelerations of trolley and slew per volt of friction: [accelerated axis][axis with
   /// friction].

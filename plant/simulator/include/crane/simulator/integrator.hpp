@@ -55,6 +55,9 @@ struct Event {
 struct Advance {
   double elapsed_s = 0;        ///< integrated time: the whole span, or the time of the event
   std::optional<Event> event;  ///< the first event; nothing: no event
+  /// A first step that suits a next span like this one. Motions of successive spans are alike, and a step
+  /// that is too long is computed in vain.
+  double next_first_step_s = 0;
 };
 
 class Solver;
@@ -69,10 +72,12 @@ class Integrator {
   ~Integrator();
 
   /// Advances `state` and the inner coordinates by `span_s`, or up to the first event.
-  /// @pre span_s > 0; locked coordinates have rate 0
+  /// @param first_step_s  first step that the fast method tries, within the span; cvode ignores it
+  /// @pre span_s > 0, first_step_s > 0; locked coordinates have rate 0
   /// @throws std::runtime_error when the step size becomes too small (theta at 90 degrees, cable length 0)
   Advance advance(plant::State& state, plant::InnerState& inner, const plant::Actuation& actuation,
-                  double span_s, const Watch& watch = {});
+                  double span_s, const Watch& watch = {},
+                  double first_step_s = std::numeric_limits<double>::infinity());
   /// Advances a model without inner coordinates, or with inner coordinates that start at rest at 0.
   Advance advance(plant::State& state, const plant::Actuation& actuation, double span_s,
                   const Watch& watch = {});
