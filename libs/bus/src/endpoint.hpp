@@ -18,8 +18,8 @@ class Reader {
   virtual ~Reader() = default;
   /// Copies the oldest sample that was not yet taken. @return false when there is none
   virtual bool take(void* sample, SampleInfo& info) = 0;
-  /// True when the last taken sample is, bit for bit, a sample that a publisher of this process has sealed for
-  /// messages of this version: its CRC need not be computed again.
+  /// True when the last taken sample is, bit for bit, a sample that a publisher of this process has sealed
+  /// for messages of this version: its CRC need not be computed again.
   [[nodiscard]] virtual bool delivered_as_sealed(std::uint32_t /*messages_version*/) const { return false; }
   [[nodiscard]] virtual int matched() const = 0;
 };

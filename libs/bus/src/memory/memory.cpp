@@ -82,9 +82,8 @@ class MemoryBackEnd final : public BackEnd {
                                          const EndpointOptions& options) override {
     const CdrCodec& codec = CdrCodec::of(*topic.descriptor);
     const auto depth = static_cast<std::size_t>(quality(topic, options).depth);
-    return std::make_unique<MemoryWriter>(network_,
-                                          WriterPort{port(topic, options), memory::History{codec, depth},
-                                                     messages_version_});
+    return std::make_unique<MemoryWriter>(
+        network_, WriterPort{port(topic, options), memory::History{codec, depth}, messages_version_});
   }
   std::unique_ptr<detail::Reader> reader(const topics::Description& topic,
                                          const EndpointOptions& options) override {

@@ -59,8 +59,8 @@ class CdrCodec {
   bool make_texts_printable(void* sample) const;
 
  private:
-  /// Fields of fixed size without padding between them, in the struct and in CDR: encoded by one copy. A string
-  /// is a block of its own.
+  /// Fields of fixed size without padding between them, in the struct and in CDR: encoded by one copy. A
+  /// string is a block of its own.
   struct Block {
     std::uint32_t offset = 0;     ///< bytes from the start of the C struct
     std::uint32_t bytes = 0;      ///< string: capacity with the final NUL
