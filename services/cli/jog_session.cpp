@@ -75,4 +75,11 @@ bool JogSession::drive(double timeout_s, bool stops, const std::function<std::op
   }
 }
 
+void JogSession::release(double timeout_s) {
+  const bool rests = drive(
+      timeout_s, false, [] { return std::nullopt; }, [this] { return held(); });
+  if (!rests)
+    throw std::runtime_error("jog: the crane was not at rest before the timeout: look at `crane status`");
+}
+
 }  // namespace crane::cli

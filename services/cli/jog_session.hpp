@@ -31,6 +31,10 @@ class JogSession {
   bool drive(double timeout_s, bool stops, const std::function<std::optional<Deflection>()>& stick,
              const std::function<bool()>& over);
 
+  /// Sends the release until the crane is in HOLD. @throws std::runtime_error like drive(), and at the
+  /// timeout
+  void release(double timeout_s);
+
   /// True when the supervisor has been in HOLD for some ticks.
   [[nodiscard]] bool held() const { return held_ticks_ >= kHeldTicks; }
   /// Begins a new measurement.

@@ -41,18 +41,25 @@ bool MoveFollower::over(std::uint64_t id) {
 }
 
 void MoveFollower::follow(std::uint64_t id, double timeout_s) {
+  if (follow_until(id, timeout_s, [] { return false; })) return;
+  throw std::runtime_error(
+      runtime::stop_requested()
+          ? "move: waiting was interrupted; the crane continues to move"
+          : "move: the target was not reached before the timeout; the crane continues to move");
+}
+
+bool MoveFollower::follow_until(std::uint64_t id, double timeout_s, const std::function<bool()>& stopped) {
   accepted_ = executed_ = false;
   number_ = 0;
   held_ticks_ = 0;
-  if (!wait_until(bus_, timeout_s, [this, id] { return over(id); }))
-    throw std::runtime_error(
-        runtime::stop_requested()
-            ? "move: waiting was interrupted; the crane continues to move"
-            : "move: the target was not reached before the timeout; the crane continues to move");
+  bool is_over = false;
+  (void)wait_until(bus_, timeout_s, [&] { return (is_over = over(id)) || stopped(); });
+  if (!is_over) return false;
   if (!executed_)
     throw std::runtime_error(
         "move: the trajectory planner has not executed the move; the crane has not moved; repeat the "
         "command");
+  return true;
 }
 
 }  // namespace crane::cli

@@ -1,5 +1,7 @@
 #pragma once
 /// Waits for the end of a requested move.
+#include <functional>
+
 #include "cli/tool_bus.hpp"
 
 namespace crane::cli {
@@ -15,6 +17,9 @@ class MoveFollower {
   /// @throws std::runtime_error with the reason: the crane stopped, another move replaced this one, the
   ///   planner did not execute the move, or timeout
   void follow(std::uint64_t id, double timeout_s);
+  /// The same, but the wait also ends when `stopped` holds.
+  /// @return false after a stop signal, at the timeout, or when `stopped` holds; the crane still moves
+  [[nodiscard]] bool follow_until(std::uint64_t id, double timeout_s, const std::function<bool()>& stopped);
 
  private:
   /// @return true when the supervisor has been in HOLD for enough ticks. @throws std::runtime_error

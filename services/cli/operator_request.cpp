@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <iostream>
 #include <vector>
 
@@ -106,6 +107,21 @@ Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& 
   Conversation conversation{bus, wanted};
   conversation.find_listeners(patience.find_s);
   return conversation.exchange(patience.reply_s);
+}
+
+bool stop_crane(bus::Bus& bus, double patience_s) {
+  constexpr std::chrono::milliseconds kRepeat{20};
+  const auto end_ns = runtime::monotonic_ns() + static_cast<std::int64_t>(patience_s * 1e9);
+  stack::OperatorClient client{bus, client_name(), first_id()};
+  std::vector<std::uint64_t> sent;
+  while (runtime::monotonic_ns() < end_ns) {
+    if (client.listeners() > 0) sent.push_back(client.send({.kind = crane_REQUEST_STOP}));
+    bus.wait(kRepeat);
+    client.receive();
+    for (const auto id : sent)
+      if (client.take_reply(id, crane_SOURCE_SUPERVISOR)) return true;
+  }
+  return false;
 }
 
 int report(const char* what, const Answer& answer) {

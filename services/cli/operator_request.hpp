@@ -33,6 +33,10 @@ struct Patience {
 /// @throws NoAnswer
 [[nodiscard]] Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience = {});
 
+/// Repeats a stop until the supervisor answers, also after a stop signal to this program.
+/// @return false: no answer within `patience_s`
+bool stop_crane(bus::Bus& bus, double patience_s = 5);
+
 /// Prints "accepted" on standard output, or the reason on standard error. @return exit code
 int report(const char* what, const Answer& answer);
 

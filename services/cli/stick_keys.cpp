@@ -10,7 +10,6 @@ struct Sequence {
   std::size_t axis;
   double share;
 };
-constexpr double kMicroShare = StickKeys::kMicro;
 /// xterm: arrows, page keys, and the same with shift.
 constexpr std::array kSequences{Sequence{"\x1b[A", 0, 1},
                                 Sequence{"\x1b[B", 0, -1},
@@ -22,12 +21,12 @@ constexpr std::array kSequences{Sequence{"\x1b[A", 0, 1},
                                 Sequence{"\x1bOB", 0, -1},
                                 Sequence{"\x1bOC", 1, 1},
                                 Sequence{"\x1bOD", 1, -1},
-                                Sequence{"\x1b[1;2A", 0, kMicroShare},
-                                Sequence{"\x1b[1;2B", 0, -kMicroShare},
-                                Sequence{"\x1b[1;2C", 1, kMicroShare},
-                                Sequence{"\x1b[1;2D", 1, -kMicroShare},
-                                Sequence{"\x1b[5;2~", 2, -kMicroShare},
-                                Sequence{"\x1b[6;2~", 2, kMicroShare}};
+                                Sequence{"\x1b[1;2A", 0, kMicroSpeed},
+                                Sequence{"\x1b[1;2B", 0, -kMicroSpeed},
+                                Sequence{"\x1b[1;2C", 1, kMicroSpeed},
+                                Sequence{"\x1b[1;2D", 1, -kMicroSpeed},
+                                Sequence{"\x1b[5;2~", 2, -kMicroSpeed},
+                                Sequence{"\x1b[6;2~", 2, kMicroSpeed}};
 
 }  // namespace
 
@@ -36,6 +35,38 @@ void StickKeys::press(std::size_t axis, double share, double now_s) {
   const bool repeats = key.share == share && now_s <= key.until_s;
   key = {share, now_s + (repeats ? kRepeat_s : kFirst_s)};
   last_s_ = now_s;
+  if (inching_ && !repeats) step_ = InchingStep{.axis = axis, .direction = share < 0 ? -1 : 1};
+}
+
+void StickKeys::release() {
+  key_ = {};
+  step_.reset();
+  last_s_ = -1;
+}
+
+void StickKeys::take_letter(char letter) {
+  switch (letter) {
+    case ' ':
+      release();
+      released_ = true;
+      break;
+    case 'q':
+      quits_ = true;
+      break;
+    case 'm':
+      micro_ = !micro_;
+      break;
+    case 'i':  // a key that deflects the stick must not act as a step, nor the other way round
+      release();
+      inching_ = !inching_;
+      break;
+    case 'r':
+      release();
+      returns_ = true;
+      break;
+    default:
+      break;
+  }
 }
 
 /// Takes one key from the front. @return false when the bytes are the beginning of a sequence
@@ -51,13 +82,8 @@ bool StickKeys::take_sequence(double now_s) {
       begins = begins || bytes.starts_with(pending_);
     }
     if (begins) return false;
-  } else if (pending_.front() == ' ') {
-    key_ = {};
-    last_s_ = -1;
-  } else if (pending_.front() == 'q') {
-    quits_ = true;
-  } else if (pending_.front() == 'm') {
-    micro_ = !micro_;
+  } else {
+    take_letter(pending_.front());
   }
   pending_.erase(0, 1);
   return true;
@@ -70,9 +96,10 @@ void StickKeys::take(std::string_view bytes, double now_s) {
 
 std::array<double, 3> StickKeys::deflection(double now_s) const {
   std::array<double, 3> result{};
+  if (inching_) return result;
   for (std::size_t i = 0; i < key_.size(); ++i) {
     if (now_s > key_[i].until_s) continue;
-    result[i] = micro_ ? std::clamp(key_[i].share, -kMicro, kMicro) : key_[i].share;
+    result[i] = micro_ ? std::clamp(key_[i].share, -kMicroSpeed, kMicroSpeed) : key_[i].share;
   }
   return result;
 }

@@ -2,8 +2,12 @@
 /// Keys of a terminal as a stick. A terminal reports no release of a key: a key acts for a limited time,
 /// which each repetition renews. Time is an argument.
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "cli/inching.hpp"
 
 namespace crane::cli {
 
@@ -12,28 +16,42 @@ class StickKeys {
   static constexpr double kFirst_s =
       0.6;  ///< after the first press: longer than the delay of a key's repetition
   static constexpr double kRepeat_s = 0.15;  ///< after a repetition
-  static constexpr double kMicro = 0.1;      ///< deflection with shift, and while micro-speed is on
+
+  /// Modes at the start; the keys m and i change them.
+  explicit StickKeys(bool micro = false, bool inching = false) : micro_{micro}, inching_{inching} {}
 
   /// Takes bytes of the terminal; a sequence may be split between calls.
   void take(std::string_view bytes, double now_s);
-  /// Deflection of trolley, slew and hoist.
+  /// Deflection of trolley, slew and hoist; 0 while inching is on.
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
   /// Time of the last key that deflects the stick; negative: none yet, or released by the space bar.
   [[nodiscard]] double last_s() const { return last_s_; }
   [[nodiscard]] bool quits() const { return quits_; }
   [[nodiscard]] bool micro() const { return micro_; }
+  [[nodiscard]] bool inching() const { return inching_; }
+
+  /// Step of a key pressed while inching is on, once. A key that the keyboard repeats is one press.
+  [[nodiscard]] std::optional<InchingStep> take_step() { return std::exchange(step_, std::nullopt); }
+  /// True once after the key r, which also releases the stick.
+  [[nodiscard]] bool take_return() { return std::exchange(returns_, false); }
+  /// True once after the space bar.
+  [[nodiscard]] bool take_release() { return std::exchange(released_, false); }
 
  private:
   struct Key {
     double share = 0, until_s = -1;
   };
   void press(std::size_t axis, double share, double now_s);
+  void release();
+  void take_letter(char letter);
   bool take_sequence(double now_s);
 
   std::string pending_;
   std::array<Key, 3> key_{};
   double last_s_ = -1;
-  bool quits_ = false, micro_ = false;
+  std::optional<InchingStep> step_;
+  bool micro_, inching_;
+  bool quits_ = false, returns_ = false, released_ = false;
 };
 
 }  // namespace crane::cli

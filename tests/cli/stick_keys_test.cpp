@@ -31,10 +31,10 @@ TEST(StickKeys, DeflectAnAxisEach) {
 }
 
 TEST(StickKeys, AreSlowWithShiftAndInMicroSpeed) {
-  EXPECT_EQ(after("\x1b[1;2A"), (Deflection{StickKeys::kMicro, 0, 0}));
-  EXPECT_EQ(after("\x1b[6;2~"), (Deflection{0, 0, StickKeys::kMicro}));
-  EXPECT_EQ(after("m\x1b[D"), (Deflection{0, -StickKeys::kMicro, 0}));
-  EXPECT_EQ(after("\x1b[Dm"), (Deflection{0, -StickKeys::kMicro, 0})) << "m slows a key that acts";
+  EXPECT_EQ(after("\x1b[1;2A"), (Deflection{kMicroSpeed, 0, 0}));
+  EXPECT_EQ(after("\x1b[6;2~"), (Deflection{0, 0, kMicroSpeed}));
+  EXPECT_EQ(after("m\x1b[D"), (Deflection{0, -kMicroSpeed, 0}));
+  EXPECT_EQ(after("\x1b[Dm"), (Deflection{0, -kMicroSpeed, 0})) << "m slows a key that acts";
   EXPECT_EQ(after("mm\x1b[D"), (Deflection{0, -1, 0}));
 }
 
@@ -72,6 +72,48 @@ TEST(StickKeys, AreReleasedByTheSpaceBar) {
   EXPECT_NE(keys.deflection(1.5), kReleased) << "the key after the space bar is a first press";
 }
 
+TEST(StickKeys, PressedWhileInchingAreOneStepEach) {
+  StickKeys keys{false, true};
+  keys.take("\x1b[A", 1);
+  EXPECT_EQ(keys.deflection(1), kReleased);
+  EXPECT_EQ(keys.take_step(), (InchingStep{.axis = 0, .direction = 1}));
+  EXPECT_EQ(keys.take_step(), std::nullopt) << "a step is taken once";
+  keys.take("\x1b[D", 1.1);
+  EXPECT_EQ(keys.take_step(), (InchingStep{.axis = 1, .direction = -1}));
+}
+
+TEST(StickKeys, HeldDownWhileInchingAreOneStep) {
+  StickKeys keys{false, true};
+  keys.take("\x1b[A", 1);
+  ASSERT_NE(keys.take_step(), std::nullopt);
+  double now_s = 1.5;  // the keyboard repeats after half a second
+  for (int i = 0; i < 100; ++i, now_s += 0.03) keys.take("\x1b[A", now_s);
+  EXPECT_EQ(keys.take_step(), std::nullopt);
+  keys.take("\x1b[A", now_s + StickKeys::kRepeat_s);
+  EXPECT_NE(keys.take_step(), std::nullopt) << "the key was released in between";
+}
+
+TEST(StickKeys, NeverMixStepsAndDeflections) {
+  StickKeys keys;
+  keys.take("\x1b[Ai", 1);
+  EXPECT_TRUE(keys.inching());
+  EXPECT_EQ(keys.deflection(1), kReleased) << "i releases the stick";
+  EXPECT_EQ(keys.take_step(), std::nullopt);
+  keys.take("\x1b[Bi", 2);
+  EXPECT_FALSE(keys.inching());
+  EXPECT_EQ(keys.take_step(), std::nullopt) << "i discards the step";
+  EXPECT_EQ(keys.deflection(2), kReleased);
+}
+
+TEST(StickKeys, ReturnToTheStopPointWithRAfterARelease) {
+  StickKeys keys;
+  keys.take("\x1b[Ar", 1);
+  EXPECT_EQ(keys.deflection(1), kReleased);
+  EXPECT_LT(keys.last_s(), 0);
+  EXPECT_TRUE(keys.take_return());
+  EXPECT_FALSE(keys.take_return()) << "once per key";
+}
+
 TEST(StickKeys, EndWithQ) {
   StickKeys keys;
   keys.take("\x1b[A", 1);
@@ -86,7 +128,7 @@ TEST(StickKeys, MayArriveByteByByte) {
     EXPECT_EQ(keys.deflection(1), kReleased);
     keys.take({&byte, 1}, 1);
   }
-  EXPECT_EQ(keys.deflection(1), (Deflection{0, StickKeys::kMicro, 0}));
+  EXPECT_EQ(keys.deflection(1), (Deflection{0, kMicroSpeed, 0}));
 }
 
 TEST(StickKeys, OfOtherProgramsHaveNoEffect) {

@@ -1,4 +1,5 @@
-/// The operator's program is killed while the stick is deflected: the crane stops by itself.
+/// The operator's program: deflections, inching, return to the stop point. When it ends in any way, the crane
+/// stops by itself.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,6 +7,7 @@
 #include "program_run.hpp"
 #include "running_stack.hpp"
 #include "stack/data_files.hpp"
+#include "terminal_run.hpp"
 
 namespace crane::system_test {
 namespace {
@@ -48,6 +50,116 @@ TEST(JogProgram, KilledWithADeflectedStickLeavesACraneThatStopsInHold) {
       15s));
   EXPECT_EQ(observer.statuses().back().cause, crane_CAUSE_NONE);
   EXPECT_LT(std::abs(observer.states().back().trolley_speed_mps), 0.02);
+}
+
+constexpr auto kUp = "\x1b[A", kRight = "\x1b[C";
+
+class JogKeyboard : public testing::Test {
+ protected:
+  JogKeyboard() { stack_.session().arm(); }
+
+  [[nodiscard]] TerminalRun keyboard(std::vector<std::string> more) const {
+    std::vector<std::string> all{"jog", "--domain", std::to_string(kDomain), "--crane",
+                                 stack_.bus_options().crane};
+    all.insert(all.end(), more.begin(), more.end());
+    return {stack::program_directory() / "crane", all, 120, 24};
+  }
+  [[nodiscard]] const msg::State& state() {
+    stack_.listen(50ms);
+    return stack_.observer().states().back();
+  }
+  [[nodiscard]] bool until_the_trolley_moves() {
+    stack_.forget();
+    return stack_.until(
+        [&] {
+          const auto& states = stack_.observer().states();
+          return !states.empty() && std::abs(states.back().trolley_speed_mps) > 0.02;
+        },
+        10s);
+  }
+  [[nodiscard]] bool until(crane_SupervisorState wanted) {
+    return stack_.until(
+        [&] {
+          const auto& statuses = stack_.observer().statuses();
+          return !statuses.empty() && statuses.back().state == wanted;
+        },
+        15s);
+  }
+
+  RunningStack stack_{kDomain, "virginia_tech_tower"};
+};
+
+TEST_F(JogKeyboard, InchesByTheStepOnceForAKeyHeldDown) {
+  constexpr double kStatic_m = 0.008;  // static friction may hold the trolley this far from its reference
+  auto jog = keyboard({"--inch", "--step", "30mm"});
+  ASSERT_TRUE(jog.wait_for("30 mm", 20s)) << jog.output();
+  const double before_m = state().trolley_position_m;
+  for (int i = 0; i < 30; ++i) {
+    jog.type(kUp);
+    stack_.listen(30ms);
+  }
+  ASSERT_TRUE(jog.wait_for("inch: trolley", 20s)) << jog.output();
+  stack_.listen(1s);
+  EXPECT_NEAR(state().trolley_position_m - before_m, 0.03, kStatic_m);
+  jog.type("q");
+  EXPECT_EQ(jog.wait(10s), 0);
+}
+
+TEST_F(JogKeyboard, ReturnsToTheStopPoint) {
+  constexpr double kBand = 0.01;       // m, rad: the planner regards a move within this band as finished
+  constexpr double kDelay_rad = 0.03;  // at most 0.3 rad/s between the key and the sample of this test: 0.1 s
+  auto jog = keyboard({});
+  ASSERT_TRUE(jog.wait_for("full speed", 20s)) << jog.output();
+  ASSERT_TRUE(stack_.until(
+      [&] {
+        jog.type(kRight);
+        stack_.listen(30ms);
+        return std::abs(stack_.observer().states().back().slew_speed_radps) > 0.1;
+      },
+      10s));
+  jog.type(" ");
+  const auto released = state();
+  ASSERT_TRUE(jog.wait_for("from the stop point", 20s)) << jog.output();
+  EXPECT_GT(state().slew_angle_rad - released.slew_angle_rad, 0.05) << "the shaped stop takes its distance";
+  jog.type("r");
+  ASSERT_TRUE(jog.wait_for("return: from the stop point", 30s)) << jog.output();
+  EXPECT_NEAR(state().slew_angle_rad, released.slew_angle_rad, kBand + kDelay_rad);
+  EXPECT_NEAR(state().trolley_position_m, released.trolley_position_m, kBand);
+  jog.type("q");
+  EXPECT_EQ(jog.wait(10s), 0);
+}
+
+TEST_F(JogKeyboard, RefusesAStepBeyondTheLimitsLikeAMove) {
+  auto jog = keyboard({"--inch", "--step", "50mm"});
+  ASSERT_TRUE(jog.wait_for("50 mm", 20s)) << jog.output();
+  const auto near_limit_m = 1.45 - 0.14 - 0.01;  // high_limit and soft_margin of the rig file
+  stack_.session().move_to({true, false, false}, {near_limit_m, 0, 0}, 30s);
+  jog.type(kUp);
+  EXPECT_TRUE(jog.wait_for("inch: refused: trolley target", 20s)) << jog.output();
+  EXPECT_TRUE(until(crane_STATE_HOLD));
+  jog.type("q");
+  EXPECT_EQ(jog.wait(10s), 0);
+}
+
+TEST_F(JogKeyboard, StopsTheCraneWhenTheOperatorEndsAStep) {
+  auto jog = keyboard({"--inch", "--step", "50mm"});
+  ASSERT_TRUE(jog.wait_for("50 mm", 20s)) << jog.output();
+  jog.type(kUp);
+  ASSERT_TRUE(until_the_trolley_moves());
+  jog.type(" ");
+  EXPECT_TRUE(jog.wait_for("stopped by the operator", 10s)) << jog.output();
+  EXPECT_EQ(jog.wait(10s), 1);
+  EXPECT_TRUE(until(crane_STATE_LOCKED));
+}
+
+TEST_F(JogKeyboard, StopsTheCraneWhenTheTerminalClosesDuringAStep) {
+  auto jog = keyboard({"--inch", "--step", "50mm"});
+  ASSERT_TRUE(jog.wait_for("50 mm", 20s)) << jog.output();
+  jog.type(kUp);
+  ASSERT_TRUE(until_the_trolley_moves());
+  jog.send(SIGHUP);
+  EXPECT_EQ(jog.wait(10s), 1);
+  EXPECT_TRUE(until(crane_STATE_LOCKED));
 }
 
 }  // namespace

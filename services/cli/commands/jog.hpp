@@ -1,0 +1,23 @@
+#pragma once
+/// The ways to operate the stick of `crane jog`.
+#include <array>
+
+#include "cli/inching.hpp"
+#include "cli/tool_bus.hpp"
+
+namespace crane::cli {
+
+struct StickOptions {
+  std::array<bool, 3> selected{};  ///< axes of a session and of inching
+  bool micro = false;              ///< micro-speed at the start
+  bool inching = false;            ///< inching at the start
+  double step_m = kInchingStep_m;
+  double timeout_s = 60;  ///< longest wait for rest
+  runtime::BusOptions bus = tool_bus();
+};
+
+/// Operates the stick with the keys of the terminal until q. @return exit code
+/// @throws std::runtime_error: standard input is no terminal, or the crane has stopped, with the reason
+int jog_by_keyboard(const StickOptions& options);
+
+}  // namespace crane::cli

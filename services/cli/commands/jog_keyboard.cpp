@@ -1,0 +1,93 @@
+/// The keyboard of a terminal as the stick of `crane jog`.
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "cli/jog_loop.hpp"
+#include "cli/stick_keys.hpp"
+#include "jog.hpp"
+
+namespace crane::cli {
+namespace {
+
+/// The terminal without echo and line editing. Ctrl-C still ends the program; suspending is off, because a
+/// suspended program leaves the terminal as it is.
+class RawTerminal {
+ public:
+  RawTerminal() {
+    if (isatty(STDIN_FILENO) == 0 || tcgetattr(STDIN_FILENO, &before_) != 0)
+      throw std::runtime_error(
+          "jog: standard input is no terminal: give --trolley, --slew or --hoist, and --for");
+    termios raw = before_;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    raw.c_cc[VSUSP] = raw.c_cc[VQUIT] = _POSIX_VDISABLE;
+    raw.c_cc[VMIN] = raw.c_cc[VTIME] = 0;
+    tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+  }
+  ~RawTerminal() { tcsetattr(STDIN_FILENO, TCSANOW, &before_); }
+  RawTerminal(const RawTerminal&) = delete;
+  RawTerminal& operator=(const RawTerminal&) = delete;
+
+  /// Bytes that have arrived; "q" when the terminal has closed.
+  [[nodiscard]] static std::string read_keys() {
+    pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    if (poll(&input, 1, 0) <= 0) return "";
+    std::array<char, 64> bytes{};
+    const auto count = read(STDIN_FILENO, bytes.data(), bytes.size());
+    return count > 0 ? std::string(bytes.data(), static_cast<std::size_t>(count)) : "q";
+  }
+
+ private:
+  termios before_{};
+};
+
+class Keyboard : public OperatorStick {
+ public:
+  Keyboard(bool micro, bool inching, double step_m) : keys_{micro, inching}, step_m_{step_m} {}
+
+  void read(double now_s) override {
+    const bool micro = keys_.micro(), inching = keys_.inching();
+    keys_.take(RawTerminal::read_keys(), now_s);
+    if (keys_.micro() != micro || keys_.inching() != inching) print_mode();
+  }
+  [[nodiscard]] std::optional<std::array<double, 3>> deflection(double now_s) const override {
+    constexpr double kIdle_s = 10;  // without a key the session ends
+    if (keys_.last_s() < 0 || now_s - keys_.last_s() > kIdle_s) return std::nullopt;
+    return keys_.deflection(now_s);
+  }
+  std::optional<InchingStep> take_step() override { return keys_.take_step(); }
+  bool take_return() override { return keys_.take_return(); }
+  bool take_release() override { return keys_.take_release(); }
+  [[nodiscard]] bool quits() const override { return keys_.quits(); }
+  [[nodiscard]] const std::string& problem() const override { return problem_; }
+
+  void print_mode() const {
+    if (keys_.inching())
+      std::cout << "inching: each key press moves one axis by " << step_m_ * 1e3 << " mm" << std::endl;
+    else
+      std::cout << (keys_.micro() ? "micro-speed" : "full speed") << std::endl;
+  }
+
+ private:
+  RawTerminal terminal_;
+  StickKeys keys_;
+  double step_m_;
+  std::string problem_;  ///< a closed terminal ends the program like the key q
+};
+
+}  // namespace
+
+int jog_by_keyboard(const StickOptions& options) {
+  Keyboard keyboard{options.micro, options.inching, options.step_m};
+  auto bus = open_bus(options.bus, crane_SOURCE_OPERATOR);
+  JogLoop loop{bus, keyboard, {options.selected, options.step_m, options.timeout_s}};
+  std::cout << "up/down: trolley, left/right: slew, PgUp/PgDn: hoist, shift or m: micro-speed, i: inching, "
+               "space: release,\nr: return to the stop point, q: end"
+            << std::endl;
+  keyboard.print_mode();
+  return loop.run();
+}
+
+}  // namespace crane::cli

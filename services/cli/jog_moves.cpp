@@ -1,0 +1,45 @@
+#include "cli/jog_moves.hpp"
+
+#include "crane/runtime/convert.hpp"
+
+namespace crane::cli {
+
+JogMoves::JogMoves(bus::Bus& bus)
+    : bus_{bus},
+      follower_{bus},
+      states_{bus.subscriber(topics::state)},
+      references_{bus.subscriber(topics::reference)} {}
+
+void JogMoves::receive() {
+  while (const auto state = states_.take()) measured_ = runtime::positions(*state);
+  while (const auto sample = references_.take())
+    reference_ = {sample->axis[0].position, sample->axis[1].position, sample->axis[2].position};
+}
+
+bool JogMoves::execute(const char* what, const AxisTargets& targets, double timeout_s,
+                       const std::function<bool()>& stopped) {
+  std::optional<Answer> answer;
+  try {
+    answer = ask(bus_, {.kind = crane_REQUEST_MOVE, .selected = targets.selected, .target = targets.target});
+  } catch (const NoAnswer& error) {  // the supervisor may have accepted the move
+    stop(what, error.what());
+  }
+  if (!answer->accepted) {
+    report(what, *answer);
+    return false;
+  }
+  bool by_operator = false;
+  if (follower_.follow_until(answer->id, timeout_s, [&] { return by_operator = stopped(); })) return true;
+  stop(what, by_operator || runtime::stop_requested() ? "stopped by the operator"
+                                                      : "the target was not reached before the timeout");
+}
+
+void JogMoves::stop(const char* what, const std::string& why) {
+  const std::string prefix = std::string{what} + ": " + why;
+  if (stop_crane(bus_))
+    throw std::runtime_error(prefix + "; the crane stops and locks: `crane reset`, then `crane arm`");
+  throw std::runtime_error(prefix +
+                           "; the supervisor has not answered the request to stop: press the emergency stop");
+}
+
+}  // namespace crane::cli
