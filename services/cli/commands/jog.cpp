@@ -20,6 +20,7 @@ struct JogOptions {
   std::array<bool, 3> selected{};
   double for_s = 1;
   StickOptions stick;
+  std::optional<std::string> gamepad;                ///< device; empty: the only one
   std::vector<std::string> axes{"trolley", "slew"};  ///< of the keyboard
 };
 
@@ -110,6 +111,13 @@ void add_jog(CLI::App& app, Action& chosen) {
                    "axes of the keyboard; with the hoist, all stops take longer (docs/jog.md)")
       ->check(CLI::IsMember(plant::drive_names()))
       ->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--gamepad", [options](const std::string& device) { options->gamepad = device; },
+          "a gamepad as the stick; without DEVICE the only one in /dev/input")
+      ->expected(0, 1)
+      ->default_str("")
+      ->type_name("DEVICE");
   command->add_option("--timeout", options->stick.timeout_s, "longest wait for rest in s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -119,6 +127,8 @@ void add_jog(CLI::App& app, Action& chosen) {
       "          crane jog --inch --step 1mm                      # each key press is one step\n"
       "          crane jog --trolley 0.5 --slew -0.2 --for 2      # deflects, releases, prints travel and "
       "swing\n"
+      "          crane jog --gamepad /dev/input/event5            # the sticks act while the left shoulder "
+      "button is held\n"
       "The crane must be in HOLD. Keys: up/down trolley, left/right slew, PgUp/PgDn hoist; with shift, or "
       "after\n"
       "m, micro-speed; space releases; q ends. A terminal reports no release of a key: a key acts for\n"
@@ -141,7 +151,12 @@ void add_jog(CLI::App& app, Action& chosen) {
     for (std::size_t i = 0; i < options->stick.selected.size(); ++i)
       options->stick.selected[i] =
           std::ranges::find(options->axes, plant::kCoordinates[i].name) != options->axes.end();
-    chosen = [options, any] { return any ? scripted(*options) : jog_by_keyboard(options->stick); };
+    if (options->gamepad && (any || options->stick.inching))
+      throw CLI::ValidationError("--gamepad", "excludes --trolley, --slew, --hoist and --inch");
+    chosen = [options, any] {
+      if (options->gamepad) return jog_by_gamepad(*options->gamepad, options->stick);
+      return any ? scripted(*options) : jog_by_keyboard(options->stick);
+    };
   });
 }
 

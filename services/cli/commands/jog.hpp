@@ -1,6 +1,7 @@
 #pragma once
 /// The ways to operate the stick of `crane jog`.
 #include <array>
+#include <string>
 
 #include "cli/inching.hpp"
 #include "cli/tool_bus.hpp"
@@ -19,5 +20,10 @@ struct StickOptions {
 /// Operates the stick with the keys of the terminal until q. @return exit code
 /// @throws std::runtime_error: standard input is no terminal, or the crane has stopped, with the reason
 int jog_by_keyboard(const StickOptions& options);
+
+/// Operates the stick with a gamepad until Ctrl-C. @param device_path  empty: the only gamepad in /dev/input
+/// @return exit code
+/// @throws GamepadError; std::runtime_error: the gamepad was unplugged, or the crane has stopped
+int jog_by_gamepad(const std::string& device_path, const StickOptions& options);
 
 }  // namespace crane::cli

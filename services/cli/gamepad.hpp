@@ -1,0 +1,38 @@
+#pragma once
+/// A gamepad in the hands of an operator: the events of a device, and the law of the gamepad.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/gamepad_law.hpp"
+#include "cli/operator_stick.hpp"
+
+namespace crane::cli {
+
+/// Appends the events that have arrived. @return errno of a device that cannot be read any more, otherwise 0
+using GamepadReader = std::function<int(std::vector<GamepadEvent>&)>;
+
+class Gamepad : public OperatorStick {
+ public:
+  /// @param name  of the device, for messages
+  Gamepad(std::string name, GamepadReader reader, const GamepadLaw& law);
+
+  void read(double now_s) override;
+  [[nodiscard]] std::optional<std::array<double, 3>> deflection(double now_s) const override;
+  std::optional<InchingStep> take_step() override { return std::nullopt; }
+  bool take_return() override { return law_.take_return(); }
+  /// A move goes on only while the dead-man's button is held.
+  bool take_release() override { return !law_.held(); }
+  [[nodiscard]] bool quits() const override { return false; }
+  [[nodiscard]] const std::string& problem() const override { return problem_; }
+
+ private:
+  std::string name_;
+  GamepadReader reader_;
+  GamepadLaw law_;
+  std::vector<GamepadEvent> events_;
+  std::string problem_;
+  bool asked_for_centre_ = false;
+};
+
+}  // namespace crane::cli

@@ -1,0 +1,125 @@
+/// A gamepad drives the processes of a crane: it is released, and it vanishes during motion.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <linux/input-event-codes.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <future>
+
+#include "cli/gamepad.hpp"
+#include "cli/jog_loop.hpp"
+#include "cli/tool_bus.hpp"
+#include "running_stack.hpp"
+
+namespace crane::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+constexpr std::uint32_t kDomain = 77;
+constexpr int kAway = -32768;
+constexpr std::array kTrolley{true, false, false};
+
+/// In the place of the device. The test changes it while the loop of the operator reads it.
+struct HandAtTheGamepad {
+  std::atomic<bool> held = false, unplugged = false;
+  std::atomic<int> stick = 0;
+
+  int read(std::vector<cli::GamepadEvent>& events) {
+    if (unplugged) return ENODEV;
+    if (held != was_held_) events.push_back({EV_KEY, BTN_TL, held ? 1 : 0});
+    was_held_ = held;
+    events.push_back({EV_ABS, ABS_Y, stick});
+    return 0;
+  }
+
+ private:
+  bool was_held_ = false;
+};
+
+class JogGamepad : public testing::Test {
+ protected:
+  JogGamepad() {
+    stack_.session().arm();
+    run_ = std::async(std::launch::async, [this] { return operate(); });
+    hand_.held = true;
+    stack_.listen(1s);
+    hand_.stick = kAway;
+  }
+  ~JogGamepad() override {
+    hand_.unplugged = true;  // ends the operator
+    if (run_.valid()) run_.wait();
+  }
+
+  /// @return reason for the end
+  std::string operate() {
+    auto options = stack_.bus_options();
+    options.vendor = "fastdds";
+    auto bus = cli::open_bus(options, crane_SOURCE_OPERATOR);
+    cli::Gamepad gamepad{"pad", [this](auto& events) { return hand_.read(events); },
+                         cli::GamepadLaw{cli::StickRanges{}, kTrolley}};
+    cli::JogLoop loop{bus, gamepad, {.selected = kTrolley}};
+    try {
+      return "exit code " + std::to_string(loop.run());
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+  }
+  [[nodiscard]] bool until_the_trolley_drives() {
+    stack_.forget();
+    return stack_.until(
+        [&] {
+          const auto& states = stack_.observer().states();
+          return !states.empty() && states.back().trolley_speed_mps > 0.1;
+        },
+        15s);
+  }
+  [[nodiscard]] bool until_hold() {
+    stack_.forget();
+    return stack_.until(
+        [&] {
+          const auto& statuses = stack_.observer().statuses();
+          return !statuses.empty() && statuses.back().state == crane_STATE_HOLD;
+        },
+        15s);
+  }
+  [[nodiscard]] double speed_mps() const {
+    return std::abs(stack_.observer().states().back().trolley_speed_mps);
+  }
+
+  RunningStack stack_{kDomain, "virginia_tech_tower"};
+  HandAtTheGamepad hand_;
+  std::future<std::string> run_;
+};
+
+TEST_F(JogGamepad, ThatVanishesDuringMotionLeavesTheCraneAtRestInHold) {
+  ASSERT_TRUE(until_the_trolley_drives());
+  hand_.unplugged = true;
+  const auto reason = run_.get();
+  EXPECT_THAT(reason, HasSubstr("jog: the gamepad pad was unplugged"));
+  ASSERT_TRUE(until_hold());
+  EXPECT_LT(speed_mps(), 0.02);
+  EXPECT_EQ(stack_.observer().statuses().back().cause, crane_CAUSE_NONE);
+}
+
+TEST_F(JogGamepad, StopsWhenTheDeadMansButtonIsReleasedAndDoesNotResumeWithADeflectedStick) {
+  ASSERT_TRUE(until_the_trolley_drives());
+  hand_.held = false;
+  ASSERT_TRUE(until_hold());
+  stack_.listen(1s);
+  hand_.held = true;
+  stack_.forget();
+  stack_.listen(2s);
+  EXPECT_LT(speed_mps(), 0.02);
+  EXPECT_EQ(stack_.observer().statuses().back().state, crane_STATE_HOLD);
+  hand_.stick = 0;
+  stack_.listen(200ms);
+  hand_.stick = kAway;
+  EXPECT_TRUE(until_the_trolley_drives()) << "the stick was in the centre";
+}
+
+}  // namespace
+}  // namespace crane::system_test
