@@ -79,11 +79,12 @@ void JogLoop::note_release(const std::optional<Deflection>& stick) {
 
 bool JogLoop::execute(const char* what, const AxisTargets& targets) {
   (void)stick_.take_release();
-  return moves_.execute(what, targets, options_.timeout_s, [this] {
+  return moves_.execute(what, targets, options_.timeout_s, [this]() -> std::string {
     read();
     (void)stick_.take_step();  // a key pressed during a move has no effect after it
     (void)stick_.take_return();
-    return stick_.take_release() || stick_.quits() || !stick_.problem().empty();
+    if (!stick_.problem().empty()) return stick_.problem();
+    return stick_.take_release() || stick_.quits() ? "stopped by the operator" : "";
   });
 }
 

@@ -17,7 +17,7 @@ void JogMoves::receive() {
 }
 
 bool JogMoves::execute(const char* what, const AxisTargets& targets, double timeout_s,
-                       const std::function<bool()>& stopped) {
+                       const std::function<std::string()>& stopped) {
   std::optional<Answer> answer;
   try {
     answer = ask(bus_, {.kind = crane_REQUEST_MOVE, .selected = targets.selected, .target = targets.target});
@@ -28,10 +28,15 @@ bool JogMoves::execute(const char* what, const AxisTargets& targets, double time
     report(what, *answer);
     return false;
   }
-  bool by_operator = false;
-  if (follower_.follow_until(answer->id, timeout_s, [&] { return by_operator = stopped(); })) return true;
-  stop(what, by_operator || runtime::stop_requested() ? "stopped by the operator"
-                                                      : "the target was not reached before the timeout");
+  std::string why;
+  const auto ended = [&] {
+    why = stopped();
+    return !why.empty();
+  };
+  if (follower_.follow_until(answer->id, timeout_s, ended)) return true;
+  if (why.empty())
+    why = runtime::stop_requested() ? "interrupted" : "the target was not reached before the timeout";
+  stop(what, why);
 }
 
 void JogMoves::stop(const char* what, const std::string& why) {

@@ -2,6 +2,7 @@
 /// Moves of an operator between the sessions of a stick: a step of inching, the return to the stop point.
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "cli/inching.hpp"
 #include "cli/move_follower.hpp"
@@ -21,11 +22,11 @@ class JogMoves {
 
   /// Requests a move and waits for its end. The supervisor refuses it like every other move; the reason is
   /// then printed after `what`. The crane is stopped (and locked) when the wait ends earlier.
-  /// @param stopped  the operator stops the crane
+  /// @param stopped  why the crane must stop now; empty: it need not
   /// @return false: refused
   /// @throws std::runtime_error, NoAnswer: the crane has stopped, with reason and remedy
   [[nodiscard]] bool execute(const char* what, const AxisTargets& targets, double timeout_s,
-                             const std::function<bool()>& stopped);
+                             const std::function<std::string()>& stopped);
 
  private:
   [[noreturn]] void stop(const char* what, const std::string& why);

@@ -25,7 +25,7 @@ constexpr std::array kTrolley{true, false, false};
 
 /// In the place of the device. The test changes it while the loop of the operator reads it.
 struct HandAtTheGamepad {
-  std::atomic<bool> held = false, unplugged = false;
+  std::atomic<bool> held = false, unplugged = false, returns = false;
   std::atomic<int> stick = 0;
 
   int read(std::vector<cli::GamepadEvent>& events) {
@@ -33,6 +33,7 @@ struct HandAtTheGamepad {
     if (held != was_held_) events.push_back({EV_KEY, BTN_TL, held ? 1 : 0});
     was_held_ = held;
     events.push_back({EV_ABS, ABS_Y, stick});
+    if (returns.exchange(false)) events.push_back({EV_KEY, BTN_SOUTH, 1});
     return 0;
   }
 
@@ -68,23 +69,33 @@ class JogGamepad : public testing::Test {
       return error.what();
     }
   }
-  [[nodiscard]] bool until_the_trolley_drives() {
+  /// @param direction  1: outwards, -1: inwards
+  [[nodiscard]] bool until_the_trolley_drives(double direction = 1) {
     stack_.forget();
     return stack_.until(
         [&] {
           const auto& states = stack_.observer().states();
-          return !states.empty() && states.back().trolley_speed_mps > 0.1;
+          return !states.empty() && direction * states.back().trolley_speed_mps > 0.1;
         },
         15s);
   }
-  [[nodiscard]] bool until_hold() {
+  [[nodiscard]] bool until(crane_SupervisorState wanted) {
     stack_.forget();
     return stack_.until(
         [&] {
           const auto& statuses = stack_.observer().statuses();
-          return !statuses.empty() && statuses.back().state == crane_STATE_HOLD;
+          return !statuses.empty() && statuses.back().state == wanted;
         },
         15s);
+  }
+  [[nodiscard]] bool until_hold() { return until(crane_STATE_HOLD); }
+  /// Drives, stops beyond the stop point, and returns. @return true while the return is under way
+  [[nodiscard]] bool begin_return() {
+    if (!until_the_trolley_drives()) return false;
+    hand_.stick = 0;
+    stack_.listen(500ms);  // the trolley is still on the way to its stop
+    hand_.returns = true;
+    return until_the_trolley_drives(-1);
   }
   [[nodiscard]] double speed_mps() const {
     return std::abs(stack_.observer().states().back().trolley_speed_mps);
@@ -119,6 +130,20 @@ TEST_F(JogGamepad, StopsWhenTheDeadMansButtonIsReleasedAndDoesNotResumeWithADefl
   stack_.listen(200ms);
   hand_.stick = kAway;
   EXPECT_TRUE(until_the_trolley_drives()) << "the stick was in the centre";
+}
+
+TEST_F(JogGamepad, ThatVanishesDuringAReturnStopsAndLocksTheCrane) {
+  ASSERT_TRUE(begin_return());
+  hand_.unplugged = true;
+  EXPECT_THAT(run_.get(), AllOf(HasSubstr("return: the gamepad pad was unplugged"), HasSubstr("crane arm")));
+  EXPECT_TRUE(until(crane_STATE_LOCKED));
+}
+
+TEST_F(JogGamepad, WhoseButtonIsReleasedDuringAReturnStopsAndLocksTheCrane) {
+  ASSERT_TRUE(begin_return());
+  hand_.held = false;
+  EXPECT_THAT(run_.get(), HasSubstr("return: stopped by the operator"));
+  EXPECT_TRUE(until(crane_STATE_LOCKED));
 }
 
 }  // namespace
