@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "cli/jog_session.hpp"
+#include "cli/number_range.hpp"
 #include "cli/stick_keys.hpp"
 #include "commands.hpp"
 #include "crane/plant/coordinates.hpp"
@@ -143,7 +144,7 @@ void add_axis(CLI::App& command, JogOptions& options, std::size_t axis, const st
             options.selected[axis] = true;
           },
           help)
-      ->check(CLI::Range(-1.0, 1.0))
+      ->check(number_in(-1.0, 1.0))
       ->type_name("SHARE");
 }
 
@@ -158,7 +159,7 @@ void add_jog(CLI::App& app, Action& chosen) {
   command
       ->add_option("--for", options->for_s,
                    "time of the deflection in s, shorter than the minute of a stuck stick")
-      ->check(CLI::Range(0.02, 50.0))
+      ->check(number_in(0.02, 50.0))
       ->capture_default_str();
   command
       ->add_option("--axes", options->axes,
@@ -166,7 +167,7 @@ void add_jog(CLI::App& app, Action& chosen) {
       ->check(CLI::IsMember(plant::drive_names()))
       ->capture_default_str();
   command->add_option("--timeout", options->timeout_s, "longest wait for rest in s")
-      ->check(CLI::PositiveNumber)
+      ->check(number_in(kShortestWait_s, kLongestWait_s))
       ->capture_default_str();
   runtime::add_bus_options(*command, options->bus);
   command->footer(
