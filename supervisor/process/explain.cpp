@@ -38,6 +38,7 @@ Inputs inputs_of(const Limits& limits, const msg::SupervisorStatus& status, cons
   in.state_stale = status.state_stale || state == nullptr;
   in.demand_stale = status.demand_stale;
   in.second_writer = status.second_writer;
+  in.configuration_differs = status.configuration_differs;
   if (status.demand_invalid) in.gate_cause = Cause::demand_invalid;
   if (state != nullptr) {
     const Sample sample = sample_of(*state);

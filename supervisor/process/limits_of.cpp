@@ -64,8 +64,13 @@ Limits limits_of(const configuration::Rig& rig) {
   limits.clearance = rig.clearance;
   limits.zones = rig.zones;
   limits.way_space = configuration::way_space_of(rig);
-  for (std::size_t i = 0; i < kAxes; ++i)
-    limits.reference_acceleration[i] = rig.drives[i].present ? rig.drives[i].reference_acceleration : 0;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const auto& drive = rig.drives[i];
+    if (!drive.present) continue;
+    limits.reference_acceleration[i] = drive.reference_acceleration;
+    limits.follow_begin[i] =
+        drive.reference_speed * drive.reference_speed / (2 * drive.reference_acceleration);
+  }
   return limits;
 }
 

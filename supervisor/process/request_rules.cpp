@@ -55,6 +55,20 @@ std::string follow_problem(const msg::Request& request, const Limits& limits) {
   return lasts ? "" : "follow: duration_s must lie in [0, 3600]";
 }
 
+/// The controllers would answer the jump to a distant reference with full voltage. Without sines the
+/// reference is a step, whose response is to be measured.
+std::string begin_problem(const msg::Request& request, const Limits& limits, const PerAxis& position) {
+  if (excursion_of(request).distance == 0) return "";
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const double distance = std::abs(request.target[i] - position[i]);
+    if (!request.selected[i] || distance <= limits.follow_begin[i]) continue;
+    return "follow: the reference begins " + std::to_string(distance) + " from the " +
+           plant::kCoordinates[i].name + ", at most " + std::to_string(limits.follow_begin[i]) +
+           " is permitted: move there first";
+  }
+  return "";
+}
+
 constexpr const char* kHint = " (the radius of the load counts; crane zone list)";
 
 /// Sines are followed on the straight path only.
@@ -133,6 +147,7 @@ std::string problem_of(const msg::Request& request, const Limits& limits) {
 std::string problem_at(const msg::Request& request, const Limits& limits, const PerAxis& position) {
   std::string problem = problem_of(request, limits);
   const bool moves = request.kind == crane_REQUEST_MOVE, follows = request.kind == crane_REQUEST_FOLLOW;
+  if (problem.empty() && follows) problem = begin_problem(request, limits, position);
   if (!problem.empty() || (!moves && !follows) || limits.zones.empty()) return problem;
   if (moves) {
     PerAxis target = position;

@@ -23,7 +23,8 @@ static_assert(same(State::stop_c1, crane_STATE_STOP_C1));
 static_assert(same(State::stop_c0, crane_STATE_STOP_C0));
 static_assert(same(State::estop, crane_STATE_ESTOP));
 static_assert(same(State::fault, crane_STATE_FAULT));
-static_assert(same(Cause::zone, crane_CAUSE_ZONE));  // the enumerators are generated from crane.idl
+static_assert(same(Cause::configuration_differs,
+                   crane_CAUSE_CONFIGURATION_DIFFERS));  // the enumerators are generated from crane.idl
 static_assert(same(HomingFailure::mark_not_found, crane_HOMING_MARK_NOT_FOUND));
 static_assert(same(HomingFailure::mark_stuck, crane_HOMING_MARK_STUCK));
 static_assert(same(HomingFailure::other_switch, crane_HOMING_OTHER_SWITCH));
@@ -95,6 +96,7 @@ msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& out
   status.bridge_latched = output.flags.bridge_latched;
   status.estop_active = output.flags.estop_active;
   status.second_writer = output.flags.second_writer;
+  status.configuration_differs = output.flags.configuration_differs;
   for (std::size_t i = 0; i < kAxes; ++i) {
     status.low_limit[i] = limits.axis[i].low_limit;
     status.high_limit[i] = limits.axis[i].high_limit;

@@ -32,6 +32,9 @@ constexpr const char* kTwoWriters =
     "two processes write the same topic, or one forges commands: end one of them, give each crane its own "
     "name or domain, or "
     "use keys (crane up --secure)";
+constexpr const char* kOtherConfiguration =
+    "the processes have different rig files or controllers, the event names them: restart them with the same "
+    "ones, then reset";
 constexpr const char* kBrakeSupply = "check the brake supply and its relay";
 constexpr const char* kEnvelope =
     "the axis would not have stopped before its limit, or moved while its brake opened: check target and "
@@ -71,6 +74,10 @@ constexpr std::array kRules{
          [](L, I in, M) noexcept { return in.second_writer; },
          "a loop topic has had a second writer within the last second", "same tick; 1 tick later when another process detects it",
          kTwoWriters},
+    Rule{"supervisor_configuration_differs", Cause::configuration_differs, Reaction::power_off, Scope::armed, true,
+         [](L, I in, M) noexcept { return in.configuration_differs; },
+         "the rig file of a process of the loop differs from that of the supervisor in a value, or two of them have different controllers",
+         "first `crane/node` of the process", kOtherConfiguration},
     Rule{"supervisor_bridge_latched", Cause::bridge_latched, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return bridge_stopped(in) && bridge_matters(m); },
          "the bridge has latched, or the watchdog relay is open", "same tick", kBridgeStopped},

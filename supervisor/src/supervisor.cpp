@@ -205,6 +205,7 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .bridge_latched = sample.command_stale || sample.command_invalid,
       .watchdog_dropped = sample.watchdog_dropped,
       .second_writer = input.second_writer,
+      .configuration_differs = input.configuration_differs,
       .foreign_command = input.foreign_command,
       .bridge_restarted = input.bridge_restarted,
       .position_doubtful = (unclear < kAxes),
@@ -246,7 +247,8 @@ StatusFlags flags_of(const Inputs& in, const GateOutput& gated, State state) {
           .swing_exceeded = in.envelope.swing,
           .bridge_latched = in.bridge_latched || in.watchdog_dropped,
           .estop_active = in.estop_pressed || state == State::estop,
-          .second_writer = in.second_writer};
+          .second_writer = in.second_writer,
+          .configuration_differs = in.configuration_differs};
 }
 
 }  // namespace

@@ -59,6 +59,14 @@ TEST_F(Hw, SelftestEndsWithOneLineAFaultAndExitCodeOne) {
   EXPECT_EQ(nlohmann::json::parse(json.output)["findings"][0]["subject"], "trolley, slew");
 }
 
+TEST_F(Hw, SelftestRefusesVoltsThatAreNoNumberBecauseNoDriveWouldBeTested) {
+  for (const char* volts : {"nan", "-nan", "inf", "1e308", "0.99", "5.01", "3V"}) {
+    const auto refused = hw({"selftest", "--rig", tower_, "--volts", volts});
+    EXPECT_EQ(refused.exit_code, 2) << volts << refused.output;
+    EXPECT_NE(refused.errors.find("must be a number in [1, 5]"), std::string::npos) << refused.errors;
+  }
+}
+
 /// Wrong signs: calibration, then a self-test with the calibrated file.
 TEST_F(Hw, CalibratesAWronglyWiredRigSoThatItPasses) {
   const auto wired =

@@ -57,5 +57,62 @@ INSTANTIATE_TEST_SUITE_P(InAMove, EncoderDies,
                                   std::to_string(std::lround(100 * test.param.distance));
                          });
 
+struct WrongWires {
+  const char* name;
+  std::size_t axis;  ///< that moves
+  Spoil spoil;
+};
+std::ostream& operator<<(std::ostream& out, const WrongWires& wires) { return out << wires.name; }
+
+class EncoderWiredWrong : public testing::TestWithParam<WrongWires> {};
+
+TEST_P(EncoderWiredWrong, StopsTheFirstMoveInsideTheHardLimits) {
+  const auto [name, axis, spoil] = GetParam();
+  auto rig = tower();
+  rig.limits.model_checks = true;
+  LockstepCrane crane{"simulated", rig, rig};
+  crane.spoil = spoil;
+  crane.arm();
+  const std::array<double, 2> start{crane.truth(0), crane.truth(1)};
+  stack::OperatorRequest move{.kind = crane_REQUEST_MOVE};
+  move.selected[axis] = true;
+  move.target[axis] = crane.shown(axis) + 0.5;
+  ASSERT_EQ(crane.ask(move), "");
+  double farthest = 0;
+  bool inside = true;
+  crane.every_tick = [&] {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double truth = crane.truth(i);
+      farthest = std::max(farthest, std::abs(truth - start[i]));
+      inside = inside && truth >= rig.drives[i].low_limit && truth <= rig.drives[i].high_limit;
+    }
+  };
+  crane.run_until([&crane] { return crane.status().state == crane_STATE_LOCKED; }, 10);
+  EXPECT_EQ(crane.cause(), supervisor::Cause::following_error) << supervisor::name_of(crane.cause());
+  EXPECT_TRUE(crane.safe());
+  EXPECT_TRUE(inside) << "moved by " << farthest;
+  std::cout << name << ": stopped after " << farthest << '\n';
+}
+
+/// The motion that the counters of trolley and slew axis count is that of the encoders `source`, times
+/// `sign`.
+Spoil rewired(std::array<std::size_t, 2> source, std::array<int, 2> sign) {
+  return [=, first = std::optional<std::array<std::int32_t, 2>>{}](bridge::Inputs& inputs,
+                                                                   const plant::State& /*truth*/) mutable {
+    const std::array<std::int32_t, 2> raw{inputs.raw_counts[0], inputs.raw_counts[1]};
+    if (!first) first = raw;
+    for (std::size_t i = 0; i < 2; ++i)
+      inputs.raw_counts[i] = (*first)[i] + sign[i] * (raw[source[i]] - (*first)[source[i]]);
+  };
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    InAMove, EncoderWiredWrong,
+    testing::Values(WrongWires{"exchanged_trolley", plant::kTrolley, rewired({1, 0}, {1, 1})},
+                    WrongWires{"exchanged_slew", plant::kSlew, rewired({1, 0}, {1, 1})},
+                    WrongWires{"sign_trolley", plant::kTrolley, rewired({0, 1}, {-1, 1})},
+                    WrongWires{"sign_slew", plant::kSlew, rewired({0, 1}, {1, -1})}),
+    [](const auto& test) { return std::string{test.param.name}; });
+
 }  // namespace
 }  // namespace crane::homing_test

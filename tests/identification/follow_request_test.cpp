@@ -64,6 +64,19 @@ TEST(FollowRequest, IsRefusedBeyondTheSpeed) {
   EXPECT_NE(refusal_of(following(0.2, 2)).find("speed"), std::string::npos);
 }
 
+TEST(FollowRequest, IsRefusedWhenTheReferenceBeginsFartherFromTheAxisThanAMoveNeedsToReachItsSpeed) {
+  constexpr double kNear_m = 0.12, kFar_m = 0.13;  // V_max^2 / 2 a_max = 0.125 m, (3.54)
+  const auto beginning = [](double distance_m, double amplitude_m) {
+    auto scenario = following(amplitude_m, 0.25);
+    scenario.start[plant::kTrolley] = kMiddle_m + distance_m;
+    return refusal_of(scenario);
+  };
+  EXPECT_NE(beginning(kFar_m, 0.1).find("move there first"), std::string::npos);
+  EXPECT_NE(beginning(-kFar_m, 0.1).find("move there first"), std::string::npos);
+  EXPECT_EQ(beginning(kNear_m, 0.1), "accepted");
+  EXPECT_EQ(beginning(kFar_m, 0), "accepted") << "without sines the reference is a step";
+}
+
 TEST(FollowRequest, IsRefusedAboveHalfTheTickRateWhereTheReferenceWouldJumpOrNotBeFinite) {
   EXPECT_EQ(refusal_of(following(0.002, 49)), "accepted");
   EXPECT_NE(refusal_of(following(0.002, 51)).find("frequency_hz"), std::string::npos);

@@ -213,7 +213,7 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
   f.header(s.header);
   s.state = crane_STATE_STOP_C1;
   s.cause = crane_CAUSE_STOP_TIMEOUT;
-  s.demand_stale = s.demand_clamped = s.swing_exceeded = s.estop_active = true;
+  s.demand_stale = s.demand_clamped = s.swing_exceeded = s.estop_active = s.configuration_differs = true;
   for (int i = 0; i < 3; ++i) {
     s.low_limit[i] = f.real();
     s.high_limit[i] = f.real();
@@ -250,6 +250,7 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
                           {"bridge_latched", false},
                           {"estop_active", true},
                           {"second_writer", false},
+                          {"configuration_differs", true},
                           {"low_limit", expected(s.low_limit)},
                           {"high_limit", expected(s.high_limit)},
                           {"volt_limit_v", expected(s.volt_limit_v)},
@@ -344,6 +345,7 @@ TEST(TopicSchema, ReadsEveryFieldOfNodeAndEvent) {
   f.text(n.vendor);
   f.text(n.version);
   f.text(n.controller);
+  f.number(n.rig_digest);
   f.number(n.pid);
   n.phase = crane_PHASE_STOPPING;
   for (auto* value : {&n.ticks, &n.lost_ticks, &n.late_samples, &n.duplicate_samples, &n.rejected_samples,
@@ -358,6 +360,7 @@ TEST(TopicSchema, ReadsEveryFieldOfNodeAndEvent) {
                           {"vendor", n.vendor},
                           {"version", n.version},
                           {"controller", n.controller},
+                          {"rig_digest", n.rig_digest},
                           {"pid", n.pid},
                           {"phase", "PHASE_STOPPING"},
                           {"ticks", n.ticks},

@@ -280,6 +280,7 @@ TEST(Reactions, EachSignalInRunHasTheCauseAndReactionOfTheTable) {  // S16
       {"brake failed", [](Inputs& in) { in.brake_failed = true; }, Cause::brake_did_not_close},
       {"second writer", [](Inputs& in) { in.second_writer = true; }, Cause::second_writer,
        Reaction::power_off},
+      {"configuration", [](Inputs& in) { in.configuration_differs = true; }, Cause::configuration_differs},
       {"not homed", [](Inputs& in) { in.not_homed = true; }, Cause::not_homed},
       {"overrun", [](Inputs& in) { in.overrun = true; }, Cause::overrun}};
   for (const Expectation& row : rows) {

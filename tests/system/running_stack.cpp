@@ -72,12 +72,14 @@ void RunningStack::send(const std::string& component, int signal) const {
   if (::kill(*pid, signal) != 0) throw std::runtime_error("cannot signal " + component);
 }
 
-void RunningStack::start_again(const std::string& component) {
+void RunningStack::start_again(const std::string& component, const std::string& rig) {
   while (children_.ended()) {
   }
   auto specs = specs_;
   std::erase_if(specs, [&](const runtime::ComponentSpec& spec) { return spec.name != component; });
-  stack::launch(children_, specs, options_);
+  auto options = options_;
+  if (!rig.empty()) options.rig = stack::find_rig(rig).string();
+  stack::launch(children_, specs, options);
 }
 
 bool RunningStack::until(const std::function<bool()>& condition, std::chrono::milliseconds patience) {

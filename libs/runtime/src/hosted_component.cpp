@@ -6,7 +6,9 @@ HostedComponent::HostedComponent(bus::Bus& bus, const ComponentSpec& spec, const
                                  const control::Controller& controller, Clock clock,
                                  std::int64_t (*monotonic_ns)())
     : spec_{spec},
-      node_{bus, {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : ""}},
+      node_{bus,
+            {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : "",
+             configuration::digest(rig)}},
       ports_{bus, spec_, controller, clock},
       component_{spec_.make(Context{ports_, node_, rig, controller, bus.options(), clock, monotonic_ns})} {
   ports_.require_complete();

@@ -14,6 +14,7 @@
 
 #include "cli/commands/bench.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/number_range.hpp"
 #include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
 #include "stack/launch.hpp"
@@ -185,7 +186,7 @@ void add_bench(CLI::App& app, Action& chosen) {
       command->add_subcommand("loop", "Measure lost ticks and latency in real time, compared with raw UDP");
   loop->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
   loop->add_option("--seconds", options->seconds, "duration in s")
-      ->check(CLI::Range(1.0, 86400.0))
+      ->check(number_in(1.0, 86400.0))
       ->capture_default_str();
   loop->add_option("--priority", options->launch.priority, "SCHED_FIFO priority, 0: ordinary scheduling")
       ->check(CLI::Range(0, 98))

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/bench.hpp"
+#include "cli/number_range.hpp"
 #include "cli/text_table.hpp"
 #include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
@@ -118,7 +119,7 @@ void add_bench_cpu(CLI::App& bench, Action& chosen) {
       ->check(CLI::IsMember({"hardware", "sim"}))
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "duration in s")
-      ->check(CLI::Range(1.0, 86400.0))
+      ->check(number_in(1.0, 86400.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print as JSON");
   runtime::add_bus_options(*command, options->launch.bus);

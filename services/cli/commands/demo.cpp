@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/commands/commands.hpp"
+#include "cli/number_range.hpp"
 #include "crane/bridge/component.hpp"
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/picture.hpp"
@@ -157,7 +158,7 @@ void add_demo(CLI::App& app, Action& chosen) {
   command->add_option("--out", options->out, "directory for recordings, CSV files and pictures")
       ->capture_default_str();
   command->add_option("--seconds", options->seconds_per_maneuver, "time measured after each move, in s")
-      ->check(CLI::Range(5.0, 60.0))
+      ->check(number_in(5.0, 60.0))
       ->capture_default_str();
   command->add_flag("--dashboard", options->dashboard,
                     "show the run in a browser page; the stack then runs until Ctrl-C");

@@ -1,5 +1,6 @@
 /// crane doctor: why a crane is not heard, and what of this computer hinders its loop.
 #include "doctor/doctor.hpp"
+#include "cli/number_range.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -68,7 +69,7 @@ void add_doctor(CLI::App& app, Action& chosen) {
   command
       ->add_option("--duration", options->examined.duration_s,
                    "duration of listening and of the timer measurement in s")
-      ->check(CLI::Range(0.5, 3600.0))
+      ->check(number_in(0.5, 3600.0))
       ->capture_default_str();
   command
       ->add_option("--priority", options->examined.priority,

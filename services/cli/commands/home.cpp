@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/number_range.hpp"
 #include "cli/operator_request.hpp"
 #include "commands.hpp"
 #include "crane/plant/coordinates.hpp"
@@ -131,7 +132,7 @@ void add_home(CLI::App& app, Action& chosen) {
                    "trolley, slew or hoist (repeatable); default: all axes that are not homed")
       ->check(CLI::IsMember(plant::drive_names()));
   command->add_option("--timeout", options->timeout_s, "longest wait for one axis in s")
-      ->check(CLI::PositiveNumber)
+      ->check(number_in(kShortestWait_s, kLongestWait_s))
       ->capture_default_str();
   runtime::add_bus_options(*command, options->bus);
   command->footer(

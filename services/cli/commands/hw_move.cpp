@@ -11,6 +11,7 @@
 
 #include "cli/commands/hw.hpp"
 #include "cli/commands/hw_commands.hpp"
+#include "cli/number_range.hpp"
 #include "cli/text_table.hpp"
 #include "crane/bring_up/calibration.hpp"
 #include "crane/bring_up/jog.hpp"
@@ -151,7 +152,7 @@ void add_largest_volts(CLI::App& command, HwMoveOptions& options) {
   command
       .add_option("--volts", options.largest_v,
                   "largest voltage; the voltage increases from 1 V until the axis moves")
-      ->check(CLI::Range(1.0, bring_up::kLargestJog_v))
+      ->check(number_in(1.0, bring_up::kLargestJog_v))
       ->capture_default_str();
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/commands.hpp"
+#include "cli/number_range.hpp"
 #include "cli/text_table.hpp"
 #include "crane/identification/study.hpp"
 #include "identification/axis_data.hpp"
@@ -152,15 +153,15 @@ void add_friction(CLI::App& identify, Action& chosen) {
   command->add_option("--out", options->out, "directory for runs, estimates, picture and the new rig file")
       ->capture_default_str();
   command->add_option("--seconds", experiment.duration_s, "length of the sum of sines")
-      ->check(CLI::Range(20.0, 600.0))
+      ->check(number_in(20.0, 600.0))
       ->capture_default_str();
   command->add_option("--zero-band", experiment.zero_band, "d_s in m/s or rad/s; slower rows are not used")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(number_in(0.0, 10.0))
       ->capture_default_str();
   command
       ->add_option("--cut-off", experiment.cutoff_ratio,
                    "cut-off / sampling frequency of the zero-phase filter; 0: no filter")
-      ->check(CLI::Range(0.0, 0.49))
+      ->check(number_in(0.0, 0.49))
       ->capture_default_str();
   command
       ->add_option("--from", options->from,

@@ -7,6 +7,7 @@
 
 #include "cli/inching.hpp"
 #include "cli/jog_session.hpp"
+#include "cli/number_range.hpp"
 #include "cli/units.hpp"
 #include "commands.hpp"
 #include "crane/plant/coordinates.hpp"
@@ -81,7 +82,7 @@ void add_axis(CLI::App& command, JogOptions& options, std::size_t axis, const st
             options.selected[axis] = true;
           },
           help)
-      ->check(CLI::Range(-1.0, 1.0))
+      ->check(number_in(-1.0, 1.0))
       ->type_name("SHARE");
 }
 
@@ -96,7 +97,7 @@ void add_jog(CLI::App& app, Action& chosen) {
   command
       ->add_option("--for", options->for_s,
                    "time of the deflection in s, shorter than the minute of a stuck stick")
-      ->check(CLI::Range(0.02, 50.0))
+      ->check(number_in(0.02, 50.0))
       ->capture_default_str();
   command->add_flag("--micro", options->stick.micro,
                     "micro-speed: a tenth of the speed; with the keyboard until m is pressed");
@@ -119,7 +120,7 @@ void add_jog(CLI::App& app, Action& chosen) {
       ->default_str("")
       ->type_name("DEVICE");
   command->add_option("--timeout", options->stick.timeout_s, "longest wait for rest in s")
-      ->check(CLI::PositiveNumber)
+      ->check(number_in(kShortestWait_s, kLongestWait_s))
       ->capture_default_str();
   runtime::add_bus_options(*command, options->stick.bus);
   command->footer(

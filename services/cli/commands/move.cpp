@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/move_follower.hpp"
+#include "cli/number_range.hpp"
 #include "cli/operator_request.hpp"
 #include "cli/units.hpp"
 #include "commands.hpp"
@@ -57,7 +58,7 @@ void add_move(CLI::App& app, Action& chosen) {
   command->add_flag("--wait", options->wait,
                     "wait until the crane is in HOLD again, or print the reason of a failure");
   command->add_option("--timeout", options->timeout_s, "longest wait of --wait in s")
-      ->check(CLI::PositiveNumber)
+      ->check(number_in(kShortestWait_s, kLongestWait_s))
       ->capture_default_str();
   runtime::add_bus_options(*command, options->bus);
   command->footer(

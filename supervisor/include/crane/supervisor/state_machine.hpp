@@ -33,8 +33,9 @@ struct Inputs {
   bool bridge_latched = false;    ///< the bridge holds 0 V and closed brakes by itself
   bool watchdog_dropped = false;  ///< the relay has removed the brake supply
   bool second_writer = false;
-  bool foreign_command = false;   ///< a voltage acts that this supervisor has not commanded
-  bool bridge_restarted = false;  ///< a new bridge writes crane/state and has not passed the self-test
+  bool configuration_differs = false;  ///< processes of the loop have different rig files or controllers
+  bool foreign_command = false;        ///< a voltage acts that this supervisor has not commanded
+  bool bridge_restarted = false;       ///< a new bridge writes crane/state and has not passed the self-test
   bool position_doubtful =
       false;  ///< the restart has made the position of an axis doubtful, and no reset confirmed it
   std::size_t doubtful_axis = 0;     ///< first axis with such a position, < kAxes

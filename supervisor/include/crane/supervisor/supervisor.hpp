@@ -46,6 +46,7 @@ struct TickInput {
   PerAxis demand_v{};
   bool reference_moving = false;
   bool second_writer = false;
+  bool configuration_differs = false;
   bool foreign_command = false;             ///< true: a voltage acts that this supervisor has not commanded
   bool brake_open_without_command = false;  ///< true: a brake is open long after the command to close
   SelfTest self_test = SelfTest::not_started;
@@ -87,6 +88,7 @@ struct StatusFlags {
   bool bridge_latched = false;
   bool estop_active = false;
   bool second_writer = false;
+  bool configuration_differs = false;
 };
 
 struct TickOutput {
