@@ -1,41 +1,41 @@
 #pragma once
 /// Shared by the three back ends: interface, quality of service in numbers, wake-up of Bus::wait().
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "endpoint.hpp"
 
 namespace crane::bus {
 
 /// Wakes Bus::wait(). Every reader of a bus rings when a sample arrives. A ring that no thread waits for is
-/// remembered until the next wait.
+/// remembered until the next wait. `rung_` is sequentially consistent: a reader whose sample arrives after
+/// the look of the woken thread into its queue rings again.
 class Doorbell {
  public:
   void ring() {
+    if (rung_) return;
     {
       const std::lock_guard lock{mutex_};
-      if (rung_) return;
       rung_ = true;
     }
     condition_.notify_one();
   }
   bool wait(std::chrono::nanoseconds timeout) {
+    if (timeout.count() <= 0) return rung_ && rung_.exchange(false);
     std::unique_lock lock{mutex_};
-    if (timeout.count() <= 0) return std::exchange(rung_, false);
-    const bool rung = condition_.wait_for(lock, timeout, [this] { return rung_; });
-    rung_ = false;
-    return rung;
+    condition_.wait_for(lock, timeout, [this] { return rung_.load(); });
+    return rung_.exchange(false);
   }
 
  private:
   std::mutex mutex_;
   std::condition_variable condition_;
-  bool rung_ = false;
+  std::atomic<bool> rung_ = false;  ///< set under the mutex
 };
 
 /// Calls the event handler of an endpoint.

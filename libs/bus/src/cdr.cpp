@@ -258,6 +258,9 @@ std::size_t CdrCodec::sample_bytes() const { return sample_bytes_; }
 bool CdrCodec::has_key() const {
   return std::any_of(fields_.begin(), fields_.end(), [](const Field& field) { return field.key; });
 }
+bool CdrCodec::has_texts() const {
+  return std::any_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.string; });
+}
 
 bool CdrCodec::is_sealable() const {
   static const CdrCodec header{crane_Header_desc};

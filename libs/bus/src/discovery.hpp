@@ -10,6 +10,12 @@ namespace crane::bus {
 ///   participant then contacts the known ports of its own host and of the peers
 [[nodiscard]] bool discovers_by_unicast(const Options& options);
 
+/// Participants of one domain on one host, equal for both vendors: unicast discovery contacts this number of
+/// ports. The ports of a domain suffice for 120. The limit is lower, because every participant exchanges its
+/// endpoints with all others: at 48 participants, discovery takes the processor time of the control loops
+/// (docs/benchmarks.md).
+inline constexpr std::uint32_t kMostParticipants = 31;
+
 /// True when samples may leave this computer and datagrams may be lost: with peers, or with an interface
 /// other than loop-back. A lost datagram holds back all later samples of its topic until the reader asks for
 /// it after the next heartbeat. Every kNetworkHeartbeat Cyclone DDS repairs a sample within its tick.

@@ -28,7 +28,10 @@ int UntypedPublisher::matched() const { return writer_->matched(); }
 
 UntypedSubscriber::UntypedSubscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader,
                                      const Options& options)
-    : topic_{&topic}, reader_{std::move(reader)}, messages_version_{options.messages_version} {}
+    : topic_{&topic},
+      has_texts_{CdrCodec::of(*topic.descriptor).has_texts()},
+      reader_{std::move(reader)},
+      messages_version_{options.messages_version} {}
 UntypedSubscriber::~UntypedSubscriber() = default;
 UntypedSubscriber::UntypedSubscriber(UntypedSubscriber&&) noexcept = default;
 UntypedSubscriber& UntypedSubscriber::operator=(UntypedSubscriber&&) noexcept = default;
@@ -55,7 +58,7 @@ bool UntypedSubscriber::receive(void* sample, SampleInfo* info) {
     if (info != nullptr) *info = local;
     if (local.valid) {
       ++counts_.taken;
-      make_printable(sample);
+      if (has_texts_) make_printable(sample);
     }
     return true;
   }

@@ -35,13 +35,15 @@ void InProcessStack::add(const ComponentSpec& spec, const configuration::Rig& ri
 bool InProcessStack::pump() {
   const auto now_ns = monotonic_ns();
   bool anything = false;
-  for (bool first = true, progress = true; progress; first = false) {
+  // A component without new samples is polled only when all others wait: it may still hold samples of later
+  // ticks, or requests that are due.
+  for (bool all = true, progress = true; all || progress; all = !all && !progress) {
     progress = false;
     for (auto& room : rooms_) {
       const bool has_samples = room.bus->wait(std::chrono::nanoseconds{0});
-      if (!first && !has_samples) continue;  // the component would find nothing new
-      while (room.hosted->component().poll(now_ns)) progress = anything = true;
+      if (all || has_samples) progress = room.hosted->component().poll(now_ns) || progress;
     }
+    anything = anything || progress;
   }
   return anything;
 }

@@ -27,10 +27,7 @@ WriterBinding::Verdict WriterBinding::refuse(const Writer& writer, std::int64_t 
 }
 
 WriterBinding::Verdict WriterBinding::judge(const Writer& writer, std::int64_t now_ns, int matched) {
-  if (bound_ == writer) {
-    heard_ns_ = now_ns;
-    return Verdict::own;
-  }
+  if (is_own(writer, now_ns)) return Verdict::own;
   // A process keeps its source and epoch. The bound DDS writer with another source or epoch is no restarted
   // process.
   const bool renamed = bound_ && bound_->id == writer.id;

@@ -2,6 +2,7 @@
 
 #include <dds/ddsrt/log.h>
 
+#include <atomic>
 #include <map>
 #include <mutex>
 
@@ -37,8 +38,8 @@ std::string configuration(const Options& options) {
   for (const auto& address : own) xml += "<NetworkInterface address=\"" + address + "\"/>";
   xml += "</Interfaces></General><Discovery><ParticipantIndex>";
   xml += unicast ? "auto" : "none";
-  xml +=
-      "</ParticipantIndex><MaxAutoParticipantIndex>30</MaxAutoParticipantIndex>";  // default 9: 10 processes
+  xml += "</ParticipantIndex><MaxAutoParticipantIndex>" + std::to_string(kMostParticipants - 1);
+  xml += "</MaxAutoParticipantIndex>";  // default 9: 10 processes
   if (unicast) {
     xml += "<Peers>";
     for (const auto& peer : options.peers) xml += "<Peer address=\"" + peer + "\"/>";
@@ -58,11 +59,26 @@ std::string configuration(const Options& options) {
   return xml;
 }
 
+/// Set when Cyclone DDS has found no free participant index; its return code does not state this cause.
+std::atomic<bool> no_free_index = false;
+
 void report(void* /*unused*/, const dds_log_data_t* entry) {
   const std::string_view line{entry->message, entry->size};
+  if (line.find("Failed to find a free participant index") != std::string_view::npos) no_free_index = true;
   // The domain opens shortly before its participant exists. Other threads call this function again.
   if (line.find("Remote secure participant") != std::string_view::npos) return;
   vendor_log("Cyclone DDS", line);
+}
+
+std::string cannot_open(const Options& options) {
+  const std::string domain = std::to_string(options.domain), host = options.interfaces.front();
+  if (no_free_index)
+    return "domain " + domain + " has no free participant index on " + host + ": it holds " +
+           std::to_string(kMostParticipants) +
+           " participants per host (a crane has about eight; UDP ports that other programs use count, too); "
+           "start this crane with another --domain";
+  return "cannot open domain " + domain + " on " + host + "; is the interface up, and are UDP ports " +
+         std::to_string(first_port(options.domain)) + " and up free?";
 }
 
 }  // namespace
@@ -79,11 +95,9 @@ Domain::Domain(const Options& options) : number_{options.domain} {
   dds_set_log_sink(report, nullptr);
   const auto found = domains.by_number.find(number_);
   if (found == domains.by_number.end()) {
-    const dds_entity_t entity =
-        checked_entity(dds_create_domain(number_, wanted.c_str()),
-                       "cannot open domain " + std::to_string(number_) + " on " + options.interfaces.front() +
-                           "; is the interface up, and are UDP ports " + std::to_string(first_port(number_)) +
-                           " and up free?");
+    no_free_index = false;
+    const dds_entity_t created = dds_create_domain(number_, wanted.c_str());
+    const dds_entity_t entity = checked_entity(created, created < 0 ? cannot_open(options) : "");
     domains.by_number.emplace(number_, Open{entity, wanted, 1});
     return;
   }

@@ -63,7 +63,6 @@ void bind_to_interfaces(dds::DomainParticipantQos& qos, const Options& options) 
 }
 
 void discover_peers_by_unicast(dds::DomainParticipantQos& qos, const Options& options) {
-  constexpr std::uint32_t kParticipantsPerHost = 20;  // a stack is about 10 processes
   auto& builtin = qos.wire_protocol().builtin;
   auto hosts = options.peers;
   hosts.insert(hosts.end(), options.interfaces.begin(), options.interfaces.end());
@@ -71,7 +70,7 @@ void discover_peers_by_unicast(dds::DomainParticipantQos& qos, const Options& op
   locator.kind = LOCATOR_KIND_UDPv4;
   for (const auto& host : hosts) {
     fastrtps::rtps::IPLocator::setIPv4(locator, host);
-    for (std::uint32_t index = 0; index < kParticipantsPerHost; ++index) {
+    for (std::uint32_t index = 0; index < kMostParticipants; ++index) {
       locator.port = qos.wire_protocol().port.getUnicastPort(options.domain, index);
       builtin.initialPeersList.push_back(locator);
     }
@@ -102,7 +101,7 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
 }
 
 /// Participant numbers of this process. By default Fast DDS never uses a number twice. The ports of a
-/// participant with a number above 30 are outside the range that unicast discovery contacts.
+/// participant with a number from kMostParticipants on are outside the range that unicast discovery contacts.
 class ParticipantNumber {
  public:
   ParticipantNumber() {

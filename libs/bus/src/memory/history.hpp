@@ -11,7 +11,8 @@ namespace crane::bus::memory {
 
 class History {
  public:
-  History(const CdrCodec& codec, std::size_t depth) : codec_{&codec}, depth_{depth} {}
+  History(const CdrCodec& codec, std::size_t depth)
+      : codec_{&codec}, keyed_{codec.has_key()}, depth_{depth} {}
 
   void keep(const void* sample, const Stamp& stamp) {
     SampleQueue& samples = instance(sample).samples;
@@ -36,6 +37,7 @@ class History {
   };
 
   Instance& instance(const void* sample) {
+    if (!keyed_ && !instances_.empty()) return instances_.front();
     Key key{};
     (void)codec_->encode_key(sample, key);
     for (Instance& known : instances_)
@@ -44,6 +46,7 @@ class History {
   }
 
   const CdrCodec* codec_;
+  bool keyed_;
   std::size_t depth_;
   std::vector<Instance> instances_;
 };

@@ -33,7 +33,7 @@ class MemoryWriter final : public detail::Writer {
     return true;
   }
   bool assert_liveliness() override { return true; }
-  [[nodiscard]] int matched() const override { return network_->matched(port_); }
+  [[nodiscard]] int matched() const override { return static_cast<int>(port_.matched); }
 
  private:
   std::shared_ptr<MemoryNetwork> network_;
@@ -61,7 +61,7 @@ class MemoryReader final : public detail::Reader {
   [[nodiscard]] bool delivered_as_sealed(std::uint32_t messages_version) const override {
     return sealed_for_ == messages_version;
   }
-  [[nodiscard]] int matched() const override { return network_->matched(port_); }
+  [[nodiscard]] int matched() const override { return static_cast<int>(port_.matched); }
 
  private:
   std::shared_ptr<MemoryNetwork> network_;

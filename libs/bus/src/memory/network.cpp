@@ -32,8 +32,10 @@ struct MemoryNetwork::News {
     int current;
   };
   std::vector<Item> items;
-  template <class PortType, class Peers>
-  void add(const PortType& port, int change, const Peers& peers) {
+  /// Call after each change of the counterparts of `port`.
+  template <class Peers>
+  void add(memory::Port& port, int change, const Peers& peers) {
+    port.matched = peers.size();
     if (port.announce.handler) items.push_back({port.announce, change, static_cast<int>(peers.size())});
   }
   void tell() const {
@@ -77,6 +79,7 @@ void MemoryNetwork::add(ReaderPort& reader) {
     std::sort(past.begin(), past.end(),
               [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
     for (const auto& [sample, stamp] : past) reader.queue.push(sample, stamp);
+    reader.queued = reader.queue.size();
     if (!past.empty()) reader.doorbell->ring();
   }
   news.tell();
@@ -120,6 +123,7 @@ void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose
   const auto deliver = [&](const void* arriving) {
     for (ReaderPort* reader : writer.readers) {
       reader->queue.push(arriving, stamp);
+      reader->queued = reader->queue.size();
       reader->doorbell->ring();
     }
   };
@@ -134,22 +138,13 @@ void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose
 }
 
 std::optional<Stamp> MemoryNetwork::take(ReaderPort& reader, void* sample) {
+  if (reader.queued == 0) return std::nullopt;
   const std::lock_guard lock{mutex_};
-  if (reader.queue.size() == 0) return std::nullopt;
   std::memcpy(sample, reader.queue.sample(0), reader.topic->descriptor->m_size);
   const Stamp stamp = reader.queue.stamp(0);
   reader.queue.pop();
+  reader.queued = reader.queue.size();
   return stamp;
-}
-
-int MemoryNetwork::matched(const WriterPort& port) const {
-  const std::lock_guard lock{mutex_};
-  return static_cast<int>(port.readers.size());
-}
-
-int MemoryNetwork::matched(const ReaderPort& port) const {
-  const std::lock_guard lock{mutex_};
-  return static_cast<int>(port.writers.size());
 }
 
 std::uint64_t MemoryNetwork::next_participant() {

@@ -1,5 +1,6 @@
 #pragma once
 /// The in-process network: connections between writers and readers, and their queues.
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,12 +12,28 @@
 
 namespace crane::bus::memory {
 
+/// A number that the network changes under its mutex and that endpoints read without it.
+class Count {
+ public:
+  Count() = default;
+  Count(Count&& other) noexcept : value_{other.value_.load()} {}  ///< before the endpoint is registered
+  Count& operator=(std::size_t value) {
+    value_ = value;
+    return *this;
+  }
+  operator std::size_t() const { return value_; }
+
+ private:
+  std::atomic<std::size_t> value_ = 0;
+};
+
 /// Topic and quality of service of an endpoint, which decide about its connections, and its event handler.
 struct Port {
   const topics::Description* topic;
   std::string partition;
   Announcer announce;
   std::uint64_t participant = 0;  ///< number of the bus, unique in the network
+  Count matched{};                ///< connected counterparts
 };
 [[nodiscard]] bool connects(const Port& a, const Port& b);
 
@@ -31,6 +48,7 @@ struct ReaderPort : Port {
   std::shared_ptr<Doorbell> doorbell;
   SampleQueue queue;
   bool wants_history = false;
+  Count queued{};  ///< samples in `queue`
   std::vector<WriterPort*> writers{};
 };
 
@@ -49,15 +67,13 @@ class MemoryNetwork {
   void publish(memory::WriterPort& writer, const void* sample, bool dispose);
   /// Copies the oldest sample to `sample`. @return its stamp; nothing when the queue is empty
   std::optional<memory::Stamp> take(memory::ReaderPort& reader, void* sample);
-  [[nodiscard]] int matched(const memory::WriterPort& writer) const;
-  [[nodiscard]] int matched(const memory::ReaderPort& reader) const;
   void set_wire(Wire wire);
   /// @return 1, 2, ...
   [[nodiscard]] std::uint64_t next_participant();
 
  private:
   struct News;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   Wire wire_;
   std::vector<memory::WriterPort*> writers_;
   std::vector<memory::ReaderPort*> readers_;

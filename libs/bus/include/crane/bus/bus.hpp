@@ -199,6 +199,7 @@ class UntypedSubscriber {
  private:
   void make_printable(void* sample) const;
   const topics::Description* topic_;
+  bool has_texts_;
   std::unique_ptr<detail::Reader> reader_;
   std::uint32_t messages_version_;
   ReaderCounts counts_;
@@ -215,6 +216,10 @@ class Subscriber : public UntypedSubscriber {
     if (!receive(&*sample, info)) sample.reset();
     return sample;
   }
+  /// The same without copies: overwrites `sample`. @return false when there is no sample; `sample` then has
+  /// no
+  ///   defined value
+  [[nodiscard]] bool take_into(T& sample, SampleInfo* info = nullptr) { return receive(&sample, info); }
 };
 
 /// Reader of any topic, for tools. It returns plain-CDR bytes (little endian, with the 4-byte encapsulation

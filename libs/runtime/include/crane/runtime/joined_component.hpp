@@ -1,6 +1,5 @@
 #pragma once
 /// Base class of most components: it joins the samples of one tick and calls one step per tick.
-#include <chrono>
 #include <string>
 
 #include "crane/runtime/component.hpp"
@@ -34,12 +33,10 @@ class JoinedComponent : public Component {
     if (result == JoinResult::incomplete && !steps_incomplete_ticks()) return true;
     ports_.watch(now_ns);
     disputed_ = ports_.disputed(now_ns);
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin_ns = clock_ns();
     std::apply([this](const auto*... sample) { on_tick(join_.tick(), sample...); }, samples());
-    const auto spent = std::chrono::steady_clock::now() - begin;
     const auto* leader = join_.template get<0>();
-    node_.stepped(join_.tick(), leader != nullptr ? leader->header.sample_time_ns : 0,
-                  std::chrono::nanoseconds{spent}.count());
+    node_.stepped(join_.tick(), leader != nullptr ? leader->header.sample_time_ns : 0, clock_ns() - begin_ns);
     return true;
   }
   [[nodiscard]] std::int64_t wake_at_ns() const override { return join_.due_ns().value_or(kNever); }
@@ -55,6 +52,7 @@ class JoinedComponent : public Component {
   JoinedComponent(const Context& context, double wait_share, const topics::Topic<Inputs>&... inputs)
       : node_{context.node},
         ports_{context.ports},
+        monotonic_ns_{context.monotonic_ns},
         join_{join_policy(context, wait_share), context.ports.loop_input(inputs)...} {}
 
   /// One step. A pointer is null only when its sample is missing and steps_incomplete_ticks() is true.
@@ -85,8 +83,12 @@ class JoinedComponent : public Component {
   [[nodiscard]] std::tuple<const Inputs*...> samples(std::index_sequence<I...>) const {
     return {join_.template get<I>()...};
   }
+  /// Clock for the execution time of a step; 0 in virtual time.
+  [[nodiscard]] std::int64_t clock_ns() const { return monotonic_ns_ != nullptr ? monotonic_ns_() : 0; }
+
   Node& node_;
   Ports& ports_;
+  std::int64_t (*monotonic_ns_)();  ///< see Context
   TickJoin<Inputs...> join_;
   bool disputed_ = false;
 };

@@ -37,7 +37,7 @@ class LoopReader final : public LoopInput {
       : LoopInput{topic.description}, subscriber_{std::move(subscriber)} {}
 
   struct Taken {
-    T sample;
+    const T& sample;  ///< valid until the next take()
     bool taken_over;  ///< true: first sample of a new writer; samples of the old writer must be discarded
   };
   /// @param budget  number of samples that this poll() may still take; each taken sample decrements it
@@ -45,14 +45,14 @@ class LoopReader final : public LoopInput {
   std::optional<Taken> take(std::int64_t now_ns, std::size_t& budget) {
     bus::SampleInfo info;
     while (budget > 0) {
-      auto sample = subscriber_.take(&info);
-      if (!sample) return std::nullopt;
+      if (!subscriber_.take_into(sample_, &info)) return std::nullopt;
       --budget;
       if (!info.valid) continue;
-      const Writer writer{info.writer, sample->header.source, sample->header.epoch};
+      const Writer writer{info.writer, sample_.header.source, sample_.header.epoch};
+      if (binding_.is_own(writer, now_ns)) return Taken{sample_, false};
       const auto verdict = binding_.judge(writer, now_ns, matched());
       if (verdict == WriterBinding::Verdict::foreign) continue;
-      return Taken{std::move(*sample), verdict == WriterBinding::Verdict::taken_over};
+      return Taken{sample_, verdict == WriterBinding::Verdict::taken_over};
     }
     return std::nullopt;
   }
@@ -61,6 +61,7 @@ class LoopReader final : public LoopInput {
 
  private:
   bus::Subscriber<T> subscriber_;
+  T sample_{};  ///< the sample that was taken last
 };
 
 /// A reader for tools and tests, which have no ComponentSpec.
