@@ -1,5 +1,5 @@
 #pragma once
-/// A gamepad in the hands of an operator: the events of a device, and the law of the gamepad.
+/// A gamepad as the stick of an operator: reads the events of a device and gives them to GamepadLaw.
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,19 +9,19 @@
 
 namespace crane::cli {
 
-/// Appends the events that have arrived. @return errno of a device that cannot be read any more, otherwise 0
+/// Appends the events that have arrived. @return 0, or errno when the device cannot be read any more
 using GamepadReader = std::function<int(std::vector<GamepadEvent>&)>;
 
 class Gamepad : public OperatorStick {
  public:
-  /// @param name  of the device, for messages
+  /// @param name  name of the device in messages
   Gamepad(std::string name, GamepadReader reader, const GamepadLaw& law);
 
   void read(double now_s) override;
   [[nodiscard]] std::optional<std::array<double, 3>> deflection(double now_s) const override;
   std::optional<InchingStep> take_step() override { return std::nullopt; }
   bool take_return() override { return law_.take_return(); }
-  /// A move goes on only while the dead-man's button is held.
+  /// True while the dead-man's button is released: the operator then stops a move.
   bool take_release() override { return !law_.held(); }
   [[nodiscard]] bool quits() const override { return false; }
   [[nodiscard]] const std::string& problem() const override { return problem_; }

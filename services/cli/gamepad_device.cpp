@@ -75,14 +75,14 @@ void GamepadDevice::check(const std::filesystem::path& path, const std::array<bo
 }
 
 int GamepadDevice::read(std::vector<GamepadEvent>& events) {
-  constexpr int kMost = 4096;  // a broken device must not keep the loop from sending
+  constexpr int kMost = 4096;  // a device that sends endlessly must not block the loop
   unsigned flags = LIBEVDEV_READ_FLAG_NORMAL;
   for (int i = 0; i < kMost; ++i) {
     input_event event{};
     const int status = libevdev_next_event(device_, flags, &event);
     if (status == -EAGAIN) {
       if (flags == LIBEVDEV_READ_FLAG_NORMAL) return 0;
-      flags = LIBEVDEV_READ_FLAG_NORMAL;  // all replacements of lost events are read
+      flags = LIBEVDEV_READ_FLAG_NORMAL;  // libevdev has restored the present values
       continue;
     }
     if (status < 0) return -status;

@@ -21,7 +21,7 @@ class GamepadError : public std::runtime_error {
 class GamepadDevice {
  public:
   /// Opens the device and reserves it: no other program receives its events.
-  /// @param selected  axes that must have a stick
+  /// @param selected  axes of the session; the device must have a stick for each
   /// @throws GamepadError
   GamepadDevice(const std::filesystem::path& path, const std::array<bool, 3>& selected);
   ~GamepadDevice();
@@ -30,8 +30,9 @@ class GamepadDevice {
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const StickRanges& ranges() const { return ranges_; }
-  /// Appends the events that have arrived, also those that replace lost ones (SYN_DROPPED). Does not wait.
-  /// @return errno of a device that cannot be read any more (ENODEV: unplugged), otherwise 0
+  /// Appends the events that have arrived. After a loss of events (SYN_DROPPED), appends the events with
+  /// which libevdev restores the present values. Does not wait.
+  /// @return 0, or errno when the device cannot be read any more (ENODEV: unplugged)
   int read(std::vector<GamepadEvent>& events);
 
  private:
@@ -43,8 +44,8 @@ class GamepadDevice {
   StickRanges ranges_{};
 };
 
-/// The only device in `directory` with the dead-man's button of a gamepad.
-/// @throws GamepadError: none, or several, with their names
+/// @return path of the only device in `directory` that has BTN_TL and ABS_X
+/// @throws GamepadError when no device has them, or several have them; what() lists these devices
 [[nodiscard]] std::filesystem::path find_gamepad(const std::filesystem::path& directory = "/dev/input");
 
 }  // namespace crane::cli

@@ -14,18 +14,18 @@ namespace {
 
 constexpr std::array<std::uint16_t, 3> kCodes{ABS_Y, ABS_X, ABS_RY};
 constexpr std::array<const char*, 3> kNames{"ABS_Y", "ABS_X", "ABS_RY"};
-constexpr std::array<double, 3> kSigns{-1, 1, 1};  // evdev counts grow to the right and towards the operator
+constexpr std::array<double, 3> kSigns{-1, 1, 1};  // counts increase to the right and towards the operator
 
 double half_range(const StickRange& range) {
   return (static_cast<double>(range.maximum) - static_cast<double>(range.minimum)) / 2;
 }
 
-/// Share of half the range that does not act.
+/// Dead zone as a share of half the range.
 double dead_zone(const StickRange& range) {
   return std::max(GamepadLaw::kDeadZone, static_cast<double>(range.flat) / half_range(range));
 }
 
-/// y = sign(x) (|x| - d) / (1 - d), with x in [-1, 1] and the dead zone d: no jump at its edge.
+/// y = sign(x) (|x| - d) / (1 - d) for |x| > d, otherwise 0; x in [-1, 1], dead zone d. y has no jump at d.
 double share_of(const StickRange& range) {
   const double centre = range.minimum + half_range(range);
   const double x = (range.value - centre) / half_range(range);
@@ -57,7 +57,7 @@ GamepadLaw::GamepadLaw(const StickRanges& ranges, const std::array<bool, 3>& sel
     : ranges_{ranges}, selected_{selected}, micro_{micro} {}
 
 void GamepadLaw::take_button(std::uint16_t code, int value) {
-  constexpr int kReleased = 0, kPressed = 1;  // 2: the kernel repeats a key
+  constexpr int kReleased = 0, kPressed = 1;  // 2: repetition by the kernel
   if (value != kReleased && value != kPressed) return;
   const bool pressed = value == kPressed;
   if (code == BTN_TL) {

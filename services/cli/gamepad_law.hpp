@@ -1,5 +1,5 @@
 #pragma once
-/// Events of a gamepad as a stick: which control acts on which axis, and when it acts. Time is an argument.
+/// Law of the gamepad: maps its events to deflections of the stick. Time is an argument.
 ///
 /// The codes are those of the Linux gamepad specification (docs.kernel.org/input/gamepad.html):
 ///   left stick, vertical    ABS_Y      trolley; pushed away from the operator: outwards
@@ -19,32 +19,33 @@ struct GamepadEvent {
   int value = 0;
 };
 
-/// Range of one stick axis as the device states it, in counts.
+/// Range and value of one stick axis as the device reports them, in counts.
 struct StickRange {
   bool present = true;  ///< false: the device has no such axis
   int minimum = -32768, maximum = 32767;
-  int flat = 0;   ///< dead zone that the driver states, from the centre to one side
+  int flat = 0;   ///< dead zone that the driver reports, from the centre to one side
   int value = 0;  ///< present value
 };
 
-/// Of trolley, slew and hoist.
+/// Sticks of trolley, slew and hoist.
 using StickRanges = std::array<StickRange, 3>;
 
 /// ABS code of trolley, slew and hoist.
 [[nodiscard]] std::uint16_t stick_code(std::size_t axis);
 
 /// @param selected  axes of the session; the others are not checked
-/// @return which axis has no usable range, and why; empty: none
+/// @return first axis without a usable range, and the reason; empty when all ranges are usable
 [[nodiscard]] std::string problem_of(const StickRanges& ranges, const std::array<bool, 3>& selected);
 
 class GamepadLaw {
  public:
-  /// Dead zone as a share of half the range, if the driver states none or a smaller one. Sticks of 16 bit
-  /// come to rest within 4096 of 32768 counts, although their drivers state 128 (Android, key layout of the
-  /// controller 0e6f:f501).
+  /// Smallest dead zone, as a share of half the range; a larger one of the driver replaces it. Sticks with 16
+  /// bits come to rest within 4096 of 32768 counts, although their drivers report 128 (Android, key layout of
+  /// the controller 0e6f:f501).
   static constexpr double kDeadZone = 0.125;
-  /// A gamepad reports changes only: silence while the stick is deflected means a still hand or a broken
-  /// radio link. As long as an operator at the keyboard may rest; judgement.
+  /// Longest time without an event. A gamepad reports only changes: silence with a deflected stick means a
+  /// still hand or a broken radio link. Equal to the time without a key that ends a session of the keyboard;
+  /// judgement.
   static constexpr double kSilence_s = 10;
 
   /// @pre problem_of(ranges, selected) is empty
@@ -52,18 +53,22 @@ class GamepadLaw {
 
   void take(const GamepadEvent& event, double now_s);
 
-  /// True: deflection() acts. The dead-man's button was pressed after the start, is held, all sticks have
-  /// been in their dead zones since, and the last event is at most kSilence_s old. After a silence, the
-  /// button must be released and pressed again.
+  /// True when deflection() acts: the dead-man's button was pressed after the start and is held; since this
+  /// press, the sticks of all selected axes have been in their dead zones at the same time; no return is
+  /// requested; the last event is at most kSilence_s old. After a longer silence, the operator must release
+  /// the button and press it again.
   [[nodiscard]] bool engaged(double now_s) const;
-  /// Of the selected axes, without regard to engaged(). 0 in the dead zone, ±1 at the ends of the range.
+  /// Deflection of the selected axes, whether engaged() or not. 0 in the dead zone, ±1 at the ends of the
+  /// range, a tenth of it in micro-speed.
   [[nodiscard]] std::array<double, 3> deflection() const;
-  /// True: the dead-man's button is held, but a stick was deflected when it was pressed, and still is.
+  /// True when the dead-man's button is held, but the sticks have not been in their dead zones since it was
+  /// pressed.
   [[nodiscard]] bool waits_for_centre() const { return held_ && !centred_; }
-  /// True: the dead-man's button is held, whatever the sticks do.
+  /// True while the dead-man's button is held.
   [[nodiscard]] bool held() const { return held_; }
-  /// True once after a press of the button of the return while the dead-man's button is held.
+  /// True once after each press of BTN_SOUTH while the dead-man's button is held.
   bool take_return();
+  /// True from this press until take_return(), or until the dead-man's button is released.
   [[nodiscard]] bool returns() const { return returns_; }
 
  private:
@@ -72,10 +77,10 @@ class GamepadLaw {
 
   StickRanges ranges_;
   std::array<bool, 3> selected_;
-  bool micro_;         ///< always
-  bool slow_ = false;  ///< while the button is held
+  bool micro_;         ///< micro-speed also without BTN_TR
+  bool slow_ = false;  ///< BTN_TR is held
   bool held_ = false, centred_ = false, returns_ = false;
-  double heard_s_ = 0;  ///< last event
+  double heard_s_ = 0;  ///< time of the last event
 };
 
 }  // namespace crane::cli

@@ -6,7 +6,7 @@
 namespace crane::cli {
 
 double arc_rad(double step_m, double trolley_position_m) {
-  constexpr double kShortestRadius_m = 0.1;  // the angle stays finite on the axis of slewing
+  constexpr double kShortestRadius_m = 0.1;  // the angle stays finite at radius 0
   return step_m / std::max(std::abs(trolley_position_m), kShortestRadius_m);
 }
 

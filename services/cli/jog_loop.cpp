@@ -81,7 +81,7 @@ bool JogLoop::execute(const char* what, const AxisTargets& targets) {
   (void)stick_.take_release();
   return moves_.execute(what, targets, options_.timeout_s, [this]() -> std::string {
     read();
-    (void)stick_.take_step();  // a key pressed during a move has no effect after it
+    (void)stick_.take_step();  // a step or return requested during a move is discarded
     (void)stick_.take_return();
     if (!stick_.problem().empty()) return stick_.problem();
     return stick_.take_release() || stick_.quits() ? "stopped by the operator" : "";
@@ -93,7 +93,7 @@ void JogLoop::inch(const InchingStep& step) {
     std::cerr << "inch: the " << plant::kCoordinates.at(step.axis).name << " is not one of the --axes\n";
     return;
   }
-  constexpr double kPatience_s = 5;  // from the start of the program to the first sample
+  constexpr double kPatience_s = 5;  // longest wait for the first samples
   const auto arrived = [this] {
     moves_.receive();
     return moves_.reference() && moves_.measured();

@@ -1,5 +1,6 @@
 #pragma once
-/// An operator at a stick: sessions while the stick is deflected, inching and returns between them.
+/// Loop of the interactive `crane jog`: a session while the stick is deflected; steps of inching and returns
+/// between sessions.
 #include <optional>
 
 #include "cli/jog_moves.hpp"
@@ -16,20 +17,22 @@ struct JogLoopOptions {
 
 class JogLoop {
  public:
-  /// @param bus    of an operator. @param stick  must outlive the loop
+  /// @param bus    bus of an operator; must outlive the loop
+  /// @param stick  must outlive the loop
   JogLoop(bus::Bus& bus, OperatorStick& stick, const JogLoopOptions& options);
 
-  /// Until the operator ends the program, or a session is refused. @return exit code
+  /// Runs until the operator ends the program, or until the supervisor refuses a session. @return exit code
   /// @throws std::runtime_error, NoAnswer: the crane has stopped, or the stick cannot be used any more
   int run();
 
  private:
-  /// One session. @return false: refused
+  /// Drives one session. @return false when the supervisor refused it
   bool drive();
-  /// Positions at which the operator has released the stick: all axes when the last axis is released.
+  /// Stores the stop point when the stick was deflected and no axis is deflected any more.
   void note_release(const std::optional<Deflection>& stick);
   void inch(const InchingStep& step);
   void go_back();
+  /// Executes a move, which the operator can stop. @return false when the supervisor refused it
   bool execute(const char* what, const AxisTargets& targets);
   void read();
 
@@ -38,7 +41,7 @@ class JogLoop {
   JogLoopOptions options_;
   JogSession session_;
   JogMoves moves_;
-  bool deflected_ = false;
+  bool deflected_ = false;                           ///< at the last call of note_release()
   std::optional<std::array<double, 3>> stop_point_;  ///< m, rad, m of cable
 };
 

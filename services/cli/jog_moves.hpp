@@ -1,5 +1,5 @@
 #pragma once
-/// Moves of an operator between the sessions of a stick: a step of inching, the return to the stop point.
+/// Moves between the sessions of a stick: steps of inching and returns to the stop point.
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,19 +16,22 @@ class JogMoves {
 
   /// Takes the samples that have arrived.
   void receive();
-  /// Newest positions (m, rad, m of cable); nothing before the first sample.
+  /// Newest measured and reference positions (m, rad, m of cable); nothing before the first sample.
   [[nodiscard]] const std::optional<std::array<double, 3>>& measured() const { return measured_; }
   [[nodiscard]] const std::optional<std::array<double, 3>>& reference() const { return reference_; }
 
-  /// Requests a move and waits for its end. The supervisor refuses it like every other move; the reason is
-  /// then printed after `what`. The crane is stopped (and locked) when the wait ends earlier.
-  /// @param stopped  why the crane must stop now; empty: it need not
-  /// @return false: refused
-  /// @throws std::runtime_error, NoAnswer: the crane has stopped, with reason and remedy
+  /// Requests a move and waits for its end. When the wait ends before the move, requests a stop, which locks
+  /// the crane.
+  /// @param what     prefix of all messages
+  /// @param stopped  returns the reason for which the crane must stop now; empty: none
+  /// @return false when the supervisor refused the move; the reason is then printed
+  /// @throws std::runtime_error with reason and remedy: the wait ended early, the crane stopped, another move
+  ///   replaced this one, or the planner did not execute it
   [[nodiscard]] bool execute(const char* what, const AxisTargets& targets, double timeout_s,
                              const std::function<std::string()>& stopped);
 
  private:
+  /// Requests a stop. @throws std::runtime_error always: `why`, and whether the supervisor answered
   [[noreturn]] void stop(const char* what, const std::string& why);
 
   bus::Bus& bus_;

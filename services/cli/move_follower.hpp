@@ -17,8 +17,10 @@ class MoveFollower {
   /// @throws std::runtime_error with the reason: the crane stopped, another move replaced this one, the
   ///   planner did not execute the move, or timeout
   void follow(std::uint64_t id, double timeout_s);
-  /// The same, but the wait also ends when `stopped` holds.
-  /// @return false after a stop signal, at the timeout, or when `stopped` holds; the crane still moves
+  /// Waits like follow(), until `stopped` returns true at the latest.
+  /// @return true at the end of the move; false after a stop signal, at the timeout, or when `stopped`
+  ///   returned true: the crane may still move
+  /// @throws std::runtime_error like follow(), except at the timeout
   [[nodiscard]] bool follow_until(std::uint64_t id, double timeout_s, const std::function<bool()>& stopped);
 
  private:

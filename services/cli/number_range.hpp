@@ -8,7 +8,7 @@
 namespace crane::cli {
 
 inline constexpr double kShortestWait_s = 1e-3;
-inline constexpr double kLongestWait_s = 86400;  ///< a day; a time in ns fits into 64 bits
+inline constexpr double kLongestWait_s = 86400;  ///< a day; in ns it fits into 64 bits
 
 /// Accepts a number in [low, high]; refuses any other text, NaN and infinity. @pre low and high are finite
 [[nodiscard]] inline CLI::Validator number_in(double low, double high) {

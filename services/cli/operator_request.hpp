@@ -33,8 +33,9 @@ struct Patience {
 /// @throws NoAnswer
 [[nodiscard]] Answer ask(bus::Bus& bus, const stack::OperatorRequest& wanted, const Patience& patience = {});
 
-/// Repeats a stop until the supervisor answers, also after a stop signal to this program.
-/// @return false: no answer within `patience_s`
+/// Repeats the request `stop` every 20 ms until the supervisor answers. A stop signal to this program does
+/// not end the wait.
+/// @return false when the supervisor has not answered within `patience_s`
 bool stop_crane(bus::Bus& bus, double patience_s = 5);
 
 /// Prints "accepted" on standard output, or the reason on standard error. @return exit code

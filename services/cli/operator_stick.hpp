@@ -1,5 +1,5 @@
 #pragma once
-/// What an operator holds: keyboard or gamepad. Time is an argument.
+/// Interface of keyboard and gamepad as the stick of an operator. Time is an argument.
 #include <array>
 #include <optional>
 #include <string>
@@ -17,17 +17,18 @@ class OperatorStick {
 
   /// Takes the input that has arrived. Does not wait.
   virtual void read(double now_s) = 0;
-  /// Deflection of trolley, slew and hoist in [-1, 1]; nothing: the operator does not hold the stick.
+  /// Deflection of trolley, slew and hoist in [-1, 1]; nothing while the stick is released.
   [[nodiscard]] virtual std::optional<std::array<double, 3>> deflection(double now_s) const = 0;
-  /// Step of inching, once.
+  /// Step of inching that the operator has requested since the last call.
   virtual std::optional<InchingStep> take_step() = 0;
-  /// True once when the operator asks for the return to the stop point.
+  /// True once after each request for the return to the stop point.
   virtual bool take_return() = 0;
-  /// True once when the operator stops a move.
+  /// True when the operator stops a move: once after the space bar, or while the dead-man's button is
+  /// released.
   virtual bool take_release() = 0;
-  /// True: the operator ends the program.
+  /// True when the operator ends the program.
   [[nodiscard]] virtual bool quits() const = 0;
-  /// Why the stick cannot be used any more, with the remedy; empty: it can.
+  /// Reason for which the stick cannot be used any more, with the remedy; empty while it can be used.
   [[nodiscard]] virtual const std::string& problem() const = 0;
 };
 

@@ -56,7 +56,7 @@ void StickKeys::take_letter(char letter) {
     case 'm':
       micro_ = !micro_;
       break;
-    case 'i':  // a key that deflects the stick must not act as a step, nor the other way round
+    case 'i':  // a key pressed before the change must not act after it
       release();
       inching_ = !inching_;
       break;

@@ -30,9 +30,10 @@ class StickKeys {
   [[nodiscard]] bool micro() const { return micro_; }
   [[nodiscard]] bool inching() const { return inching_; }
 
-  /// Step of a key pressed while inching is on, once. A key that the keyboard repeats is one press.
+  /// Step that a key requested while inching was on, once. The repetitions of a key that is held down request
+  /// no further step.
   [[nodiscard]] std::optional<InchingStep> take_step() { return std::exchange(step_, std::nullopt); }
-  /// True once after the key r, which also releases the stick.
+  /// True once after the key r. The key also releases the stick.
   [[nodiscard]] bool take_return() { return std::exchange(returns_, false); }
   /// True once after the space bar.
   [[nodiscard]] bool take_release() { return std::exchange(released_, false); }

@@ -55,8 +55,8 @@ std::string follow_problem(const msg::Request& request, const Limits& limits) {
   return lasts ? "" : "follow: duration_s must lie in [0, 3600]";
 }
 
-/// The controllers would answer the jump to a distant reference with full voltage. Without sines the
-/// reference is a step, whose response is to be measured.
+/// A reference of sines that starts far from its axis is a jump, to which the controllers respond with full
+/// voltage. Without sines the reference is a step; its response is the purpose of the request.
 std::string begin_problem(const msg::Request& request, const Limits& limits, const PerAxis& position) {
   if (excursion_of(request).distance == 0) return "";
   for (std::size_t i = 0; i < kAxes; ++i) {

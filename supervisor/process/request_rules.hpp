@@ -15,8 +15,9 @@ namespace crane::supervisor {
 [[nodiscard]] bool moves_axes(const msg::Request& request);
 /// @return why axes, targets or sines of the request are not permitted; empty when they are permitted
 [[nodiscard]] std::string problem_of(const msg::Request& request, const Limits& limits);
-/// The same, and a reference of sines that begins far from `position`, and the zone that contains the target
-/// or lies in the straight path (in the coordinates of the axes) from `position` to it.
+/// problem_of(), and problems that depend on the present `position`: a reference of sines that starts far
+/// from it (Limits::follow_begin), and a zone that contains the target or lies in the straight path (in the
+/// coordinates of the axes) from `position` to the target.
 [[nodiscard]] std::string problem_at(const msg::Request& request, const Limits& limits,
                                      const PerAxis& position);
 /// Axis of a homing request. @pre problem_of() is empty

@@ -3,7 +3,7 @@
 namespace crane::supervisor {
 namespace {
 
-/// @return nothing for a process that is not part of the loop, and for the supervisor
+/// @return index in `newest_`; nothing for the supervisor and for a process outside the loop
 std::optional<std::size_t> place_of(std::uint32_t source) {
   switch (source) {
     case crane_SOURCE_PLANT:

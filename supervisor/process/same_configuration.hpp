@@ -1,7 +1,6 @@
 #pragma once
-/// Compares the rig files and the controllers of the processes of the loop, from crane/node. Limits,
-/// calibration and zones of a process that was started with another file contradict those that the supervisor
-/// checks.
+/// Compares the rig files and the controllers of the processes of the loop, from crane/node. A process with
+/// another rig file works with other limits, calibration and zones than those that the supervisor checks.
 #include <array>
 #include <optional>
 #include <string>
@@ -16,11 +15,11 @@ class SameConfiguration {
   explicit SameConfiguration(const runtime::Context& context)
       : statuses_{context.ports.input(topics::node)}, node_{context.node} {}
 
-  /// Takes a bounded number of samples: a flood must not delay the step. An event names the process when a
-  /// difference begins.
+  /// Takes a bounded number of samples, so that a flood does not delay the step. Reports one event, with the
+  /// name of the process, when a difference begins.
   void receive();
-  /// True while the newest statuses contradict each other. The status of a process counts until the process
-  /// stops or another process takes its place.
+  /// True while the newest statuses differ in rig file or controller. A status counts until its process
+  /// reports PHASE_STOPPING, or until another process reports from the same place.
   [[nodiscard]] bool differs() const { return !difference_.empty(); }
 
  private:
@@ -32,7 +31,7 @@ class SameConfiguration {
   bus::Subscriber<msg::NodeStatus> statuses_;
   runtime::Node& node_;
   std::array<std::optional<msg::NodeStatus>, kPlaces> newest_;
-  std::string difference_;  ///< in words; empty: none
+  std::string difference_;  ///< description of the difference; empty: none
 };
 
 }  // namespace crane::supervisor

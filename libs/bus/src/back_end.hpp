@@ -13,8 +13,9 @@
 namespace crane::bus {
 
 /// Wakes Bus::wait(). Every reader of a bus rings when a sample arrives. A ring that no thread waits for is
-/// remembered until the next wait. `rung_` is sequentially consistent: a reader whose sample arrives after
-/// the look of the woken thread into its queue rings again.
+/// remembered until the next wait. A ring has no effect while `rung_` is set: the woken thread clears `rung_`
+/// before it looks into the queues, and therefore finds the sample of this ring. This order requires
+/// sequential consistency.
 class Doorbell {
  public:
   void ring() {

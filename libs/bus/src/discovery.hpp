@@ -10,10 +10,9 @@ namespace crane::bus {
 ///   participant then contacts the known ports of its own host and of the peers
 [[nodiscard]] bool discovers_by_unicast(const Options& options);
 
-/// Participants of one domain on one host, equal for both vendors: unicast discovery contacts this number of
-/// ports. The ports of a domain suffice for 120. The limit is lower, because every participant exchanges its
-/// endpoints with all others: at 48 participants, discovery takes the processor time of the control loops
-/// (docs/benchmarks.md).
+/// Largest number of participants of one domain on one host with unicast discovery, for both vendors:
+/// discovery contacts the ports of this number of participants. The ports of a domain suffice for 120. The
+/// limit is lower, because eight cranes in one domain lost many ticks (docs/benchmarks.md).
 inline constexpr std::uint32_t kMostParticipants = 31;
 
 /// True when samples may leave this computer and datagrams may be lost: with peers, or with an interface

@@ -35,8 +35,9 @@ void InProcessStack::add(const ComponentSpec& spec, const configuration::Rig& ri
 bool InProcessStack::pump() {
   const auto now_ns = monotonic_ns();
   bool anything = false;
-  // A component without new samples is polled only when all others wait: it may still hold samples of later
-  // ticks, or requests that are due.
+  // The first pass polls all components, the next passes only those with new samples. When such a pass makes
+  // no progress, one more pass polls all: a component may hold samples of later ticks, or requests that are
+  // due.
   for (bool all = true, progress = true; all || progress; all = !all && !progress) {
     progress = false;
     for (auto& room : rooms_) {

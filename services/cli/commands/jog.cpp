@@ -1,4 +1,4 @@
-/// crane jog: drives the axes by speed, from the keyboard or for a given time.
+/// crane jog: drives the axes by speed, from the keyboard, with a gamepad, or for a given time.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -21,8 +21,8 @@ struct JogOptions {
   std::array<bool, 3> selected{};
   double for_s = 1;
   StickOptions stick;
-  std::optional<std::string> gamepad;                ///< device; empty: the only one
-  std::vector<std::string> axes{"trolley", "slew"};  ///< of the keyboard
+  std::optional<std::string> gamepad;                ///< device; empty: the only one; nothing: none
+  std::vector<std::string> axes{"trolley", "slew"};  ///< of keyboard and gamepad
 };
 
 void print_axes(const char* what, const Measured& measured) {

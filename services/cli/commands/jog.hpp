@@ -1,5 +1,5 @@
 #pragma once
-/// The ways to operate the stick of `crane jog`.
+/// Operation of the stick of `crane jog` with a keyboard or a gamepad.
 #include <array>
 #include <string>
 
@@ -18,12 +18,13 @@ struct StickOptions {
 };
 
 /// Operates the stick with the keys of the terminal until q. @return exit code
-/// @throws std::runtime_error: standard input is no terminal, or the crane has stopped, with the reason
+/// @throws std::runtime_error when standard input is no terminal, or when the crane has stopped
 int jog_by_keyboard(const StickOptions& options);
 
 /// Operates the stick with a gamepad until Ctrl-C. @param device_path  empty: the only gamepad in /dev/input
 /// @return exit code
-/// @throws GamepadError; std::runtime_error: the gamepad was unplugged, or the crane has stopped
+/// @throws GamepadError when the gamepad cannot be used
+/// @throws std::runtime_error when the gamepad was unplugged, or when the crane has stopped
 int jog_by_gamepad(const std::string& device_path, const StickOptions& options);
 
 }  // namespace crane::cli

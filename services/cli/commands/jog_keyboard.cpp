@@ -53,7 +53,7 @@ class Keyboard : public OperatorStick {
     if (keys_.micro() != micro || keys_.inching() != inching) print_mode();
   }
   [[nodiscard]] std::optional<std::array<double, 3>> deflection(double now_s) const override {
-    constexpr double kIdle_s = 10;  // without a key the session ends
+    constexpr double kIdle_s = 10;  // time without a key after which the stick is released
     if (keys_.last_s() < 0 || now_s - keys_.last_s() > kIdle_s) return std::nullopt;
     return keys_.deflection(now_s);
   }
@@ -74,7 +74,7 @@ class Keyboard : public OperatorStick {
   RawTerminal terminal_;
   StickKeys keys_;
   double step_m_;
-  std::string problem_;  ///< a closed terminal ends the program like the key q
+  std::string problem_;  ///< always empty: a closed terminal acts like the key q
 };
 
 }  // namespace

@@ -59,7 +59,8 @@ std::string configuration(const Options& options) {
   return xml;
 }
 
-/// Set when Cyclone DDS has found no free participant index; its return code does not state this cause.
+/// Set when Cyclone DDS logs that it has found no free participant index; its return code does not state
+/// this.
 std::atomic<bool> no_free_index = false;
 
 void report(void* /*unused*/, const dds_log_data_t* entry) {

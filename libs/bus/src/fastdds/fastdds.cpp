@@ -100,8 +100,8 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
   return qos;
 }
 
-/// Participant numbers of this process. By default Fast DDS never uses a number twice. The ports of a
-/// participant with a number from kMostParticipants on are outside the range that unicast discovery contacts.
+/// Participant numbers of this process. By default Fast DDS never uses a number twice. Unicast
+/// discovery does not contact the ports of numbers of kMostParticipants and above.
 class ParticipantNumber {
  public:
   ParticipantNumber() {

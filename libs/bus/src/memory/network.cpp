@@ -32,7 +32,8 @@ struct MemoryNetwork::News {
     int current;
   };
   std::vector<Item> items;
-  /// Call after each change of the counterparts of `port`.
+  /// Stores the number of `peers`, the endpoints connected to `port`, and queues the call of its event
+  /// handler. Call after each change of `peers`.
   template <class Peers>
   void add(memory::Port& port, int change, const Peers& peers) {
     port.matched = peers.size();

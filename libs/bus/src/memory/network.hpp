@@ -12,11 +12,11 @@
 
 namespace crane::bus::memory {
 
-/// A number that the network changes under its mutex and that endpoints read without it.
+/// A number that the network writes under its mutex and that endpoints read without the mutex.
 class Count {
  public:
   Count() = default;
-  Count(Count&& other) noexcept : value_{other.value_.load()} {}  ///< before the endpoint is registered
+  Count(Count&& other) noexcept : value_{other.value_.load()} {}  ///< only before the endpoint is registered
   Count& operator=(std::size_t value) {
     value_ = value;
     return *this;
@@ -33,7 +33,7 @@ struct Port {
   std::string partition;
   Announcer announce;
   std::uint64_t participant = 0;  ///< number of the bus, unique in the network
-  Count matched{};                ///< connected counterparts
+  Count matched{};                ///< number of connected endpoints of the other kind
 };
 [[nodiscard]] bool connects(const Port& a, const Port& b);
 
@@ -48,7 +48,7 @@ struct ReaderPort : Port {
   std::shared_ptr<Doorbell> doorbell;
   SampleQueue queue;
   bool wants_history = false;
-  Count queued{};  ///< samples in `queue`
+  Count queued{};  ///< number of samples in `queue`
   std::vector<WriterPort*> writers{};
 };
 

@@ -66,7 +66,7 @@ struct Limits : control::OperatingLimits {
   std::vector<control::Zone> zones{};  ///< empty: the zone filter has no effect
   control::WaySpace way_space{};       ///< for moves around zones
   PerAxis reference_acceleration{};    ///< of the planner's stop, unit/s^2; 0: no stop before the ramped one
-  /// Largest distance between an axis and the begin of a reference of sines, unit: reference_speed^2 /
+  /// Largest distance between an axis and the start of a reference of sines, unit: reference_speed^2 /
   /// (2 reference_acceleration), the distance in which a move reaches its speed.
   PerAxis follow_begin{};
   double creeping_ratio =

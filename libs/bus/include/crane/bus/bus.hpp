@@ -216,9 +216,8 @@ class Subscriber : public UntypedSubscriber {
     if (!receive(&*sample, info)) sample.reset();
     return sample;
   }
-  /// The same without copies: overwrites `sample`. @return false when there is no sample; `sample` then has
-  /// no
-  ///   defined value
+  /// Takes a sample like take(), without a copy: overwrites `sample`.
+  /// @return false when there is no sample; `sample` is then undefined
   [[nodiscard]] bool take_into(T& sample, SampleInfo* info = nullptr) { return receive(&sample, info); }
 };
 

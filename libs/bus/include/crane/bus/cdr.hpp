@@ -39,7 +39,7 @@ class CdrCodec {
   [[nodiscard]] std::size_t max_encoded_bytes() const;  ///< without the encapsulation header
   [[nodiscard]] std::size_t sample_bytes() const;       ///< sizeof the C struct
   [[nodiscard]] bool has_key() const;
-  [[nodiscard]] bool has_texts() const;                                       ///< strings
+  [[nodiscard]] bool has_texts() const;                                       ///< true: has string fields
   [[nodiscard]] const std::vector<Field>& fields() const { return fields_; }  ///< in order of encoding
   /// @return true when the type begins with crane::Header and ends with a uint32 for the CRC
   [[nodiscard]] bool is_sealable() const;

@@ -152,8 +152,8 @@ class ConfigurationError : public std::runtime_error {
 /// bit for bit, except for its path. Values that follow from other fields (volts, lengths and period of the
 /// design) are not written.
 [[nodiscard]] std::string to_toml(const Rig& rig);
-/// Hash of to_toml(rig): FNV-1a with 32 bits, never 0. Rigs that differ in one character of this text always
-/// have different digests; other different rigs have the same digest with a probability of 2^-32.
+/// Hash of to_toml(rig): FNV-1a with 32 bits; 1 replaces 0. Two texts that differ in one character have
+/// different hashes; other different texts have equal hashes with a probability of about 2^-32.
 [[nodiscard]] std::uint32_t digest(const Rig& rig);
 /// The table [[zone]] of one zone.
 [[nodiscard]] std::string to_toml(const control::Zone& zone);

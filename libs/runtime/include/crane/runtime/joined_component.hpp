@@ -83,7 +83,7 @@ class JoinedComponent : public Component {
   [[nodiscard]] std::tuple<const Inputs*...> samples(std::index_sequence<I...>) const {
     return {join_.template get<I>()...};
   }
-  /// Clock for the execution time of a step; 0 in virtual time.
+  /// Time in ns, for the execution time of a step; 0 without a clock (Context::monotonic_ns).
   [[nodiscard]] std::int64_t clock_ns() const { return monotonic_ns_ != nullptr ? monotonic_ns_() : 0; }
 
   Node& node_;

@@ -61,7 +61,7 @@ class LoopReader final : public LoopInput {
 
  private:
   bus::Subscriber<T> subscriber_;
-  T sample_{};  ///< the sample that was taken last
+  T sample_{};  ///< newest sample that was taken
 };
 
 /// A reader for tools and tests, which have no ComponentSpec.

@@ -40,8 +40,8 @@ class WriterBinding {
   };
   /// Judges the origin of a sample that is taken at `now_ns`. @param matched  number of matched writers
   [[nodiscard]] Verdict judge(const Writer& writer, std::int64_t now_ns, int matched);
-  /// The common case of judge(), which needs no number of writers: a sample of the bound writer.
-  /// @return false: call judge()
+  /// Accepts a sample of the bound writer: the common case of judge(), without the number of matched writers.
+  /// @return false for every other writer; then call judge()
   [[nodiscard]] bool is_own(const Writer& writer, std::int64_t now_ns) {
     if (bound_ != writer) return false;
     heard_ns_ = now_ns;
