@@ -1,4 +1,5 @@
-/// Reading a gamepad: virtual devices of the kernel where it offers them, and devices that cannot be used.
+/// Reading a gamepad: devices that cannot be used, and virtual devices (uinput) where the kernel permits
+/// them.
 #include "cli/gamepad_device.hpp"
 
 #include <gmock/gmock.h>
@@ -64,7 +65,7 @@ TEST(GamepadStick, ThatIsUnpluggedIsReleasedWithTheRemedy) {
   EXPECT_NE(gamepad.problem(), "") << "a device that comes back does not act";
 }
 
-/// A gamepad that the kernel simulates.
+/// Virtual gamepad of the kernel (uinput).
 class VirtualGamepad {
  public:
   explicit VirtualGamepad(int highest = 32767) : description_{libevdev_new()} {

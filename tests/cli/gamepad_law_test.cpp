@@ -1,4 +1,4 @@
-/// Sequences of events of a gamepad: what the sticks deflect, and when they act.
+/// Events of a gamepad: the deflection of each stick, and the conditions under which the sticks act.
 #include "cli/gamepad_law.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ constexpr int kFar = 32767, kDown = 1, kUp = 0;
 GamepadEvent stick(std::uint16_t code, int value) { return {EV_ABS, code, value}; }
 GamepadEvent button(std::uint16_t code, int value) { return {EV_KEY, code, value}; }
 
-/// A gamepad with the ranges of a common controller, whose dead-man's button is held from 1 s on.
+/// A gamepad with 16-bit ranges. Its dead-man's button is held from 1 s on.
 class HeldGamepad : public testing::Test {
  protected:
   HeldGamepad() { law_.take(button(BTN_TL, kDown), 1); }

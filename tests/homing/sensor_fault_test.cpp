@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(InAMove, EncoderDies,
 
 struct WrongWires {
   const char* name;
-  std::size_t axis;  ///< that moves
+  std::size_t axis;  ///< axis of the move
   Spoil spoil;
 };
 std::ostream& operator<<(std::ostream& out, const WrongWires& wires) { return out << wires.name; }
@@ -94,8 +94,8 @@ TEST_P(EncoderWiredWrong, StopsTheFirstMoveInsideTheHardLimits) {
   std::cout << name << ": stopped after " << farthest << '\n';
 }
 
-/// The motion that the counters of trolley and slew axis count is that of the encoders `source`, times
-/// `sign`.
+/// Wiring fault of the encoders of trolley and slew axis: counter i counts the motion of encoder source[i]
+/// times sign[i].
 Spoil rewired(std::array<std::size_t, 2> source, std::array<int, 2> sign) {
   return [=, first = std::optional<std::array<std::int32_t, 2>>{}](bridge::Inputs& inputs,
                                                                    const plant::State& /*truth*/) mutable {

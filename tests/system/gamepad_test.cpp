@@ -1,4 +1,5 @@
-/// A gamepad drives the processes of a crane: it is released, and it vanishes during motion.
+/// A gamepad drives a running stack. Its button is released, or it is unplugged, during motion and during a
+/// return.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
@@ -23,7 +24,7 @@ constexpr std::uint32_t kDomain = 77;
 constexpr int kAway = -32768;
 constexpr std::array kTrolley{true, false, false};
 
-/// In the place of the device. The test changes it while the loop of the operator reads it.
+/// Replaces the device. The test sets its state while the operator's loop reads its events.
 struct HandAtTheGamepad {
   std::atomic<bool> held = false, unplugged = false, returns = false;
   std::atomic<int> stick = 0;
@@ -51,11 +52,11 @@ class JogGamepad : public testing::Test {
     hand_.stick = kAway;
   }
   ~JogGamepad() override {
-    hand_.unplugged = true;  // ends the operator
+    hand_.unplugged = true;  // ends the operator's loop
     if (run_.valid()) run_.wait();
   }
 
-  /// @return reason for the end
+  /// Runs the operator's loop. @return its exit code, or the message of its exception
   std::string operate() {
     auto options = stack_.bus_options();
     options.vendor = "fastdds";
@@ -89,11 +90,11 @@ class JogGamepad : public testing::Test {
         15s);
   }
   [[nodiscard]] bool until_hold() { return until(crane_STATE_HOLD); }
-  /// Drives, stops beyond the stop point, and returns. @return true while the return is under way
+  /// Drives, releases the stick, and requests the return. @return true when the trolley drives back
   [[nodiscard]] bool begin_return() {
     if (!until_the_trolley_drives()) return false;
     hand_.stick = 0;
-    stack_.listen(500ms);  // the trolley is still on the way to its stop
+    stack_.listen(500ms);  // the trolley has not stopped yet
     hand_.returns = true;
     return until_the_trolley_drives(-1);
   }

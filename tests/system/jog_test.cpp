@@ -1,5 +1,5 @@
-/// The operator's program: deflections, inching, return to the stop point. When it ends in any way, the crane
-/// stops by itself.
+/// The program `crane jog` with a running stack: deflections, inching, return to the stop point, and the stop
+/// of the crane when the program ends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -90,7 +90,7 @@ class JogKeyboard : public testing::Test {
 };
 
 TEST_F(JogKeyboard, InchesByTheStepOnceForAKeyHeldDown) {
-  constexpr double kStatic_m = 0.008;  // static friction may hold the trolley this far from its reference
+  constexpr double kStatic_m = 0.008;  // static friction can hold the trolley this far from its reference
   auto jog = keyboard({"--inch", "--step", "30mm"});
   ASSERT_TRUE(jog.wait_for("30 mm", 20s)) << jog.output();
   const double before_m = state().trolley_position_m;
@@ -106,8 +106,8 @@ TEST_F(JogKeyboard, InchesByTheStepOnceForAKeyHeldDown) {
 }
 
 TEST_F(JogKeyboard, ReturnsToTheStopPoint) {
-  constexpr double kBand = 0.01;       // m, rad: the planner regards a move within this band as finished
-  constexpr double kDelay_rad = 0.03;  // at most 0.3 rad/s between the key and the sample of this test: 0.1 s
+  constexpr double kBand = 0.01;       // m, rad: largest position error of a finished move (planner)
+  constexpr double kDelay_rad = 0.03;  // 0.1 s between the key and this test's sample, at 0.3 rad/s
   auto jog = keyboard({});
   ASSERT_TRUE(jog.wait_for("full speed", 20s)) << jog.output();
   ASSERT_TRUE(stack_.until(

@@ -1,4 +1,4 @@
-/// A process of a running stack restarts with another rig file, or with another controller.
+/// A process of a running stack restarts with another rig file, or reports another controller.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr const char* kOtherRig = "virginia_tech_tower_silo";  // the same crane
 
 class OtherConfiguration : public testing::Test {
  protected:
-  /// Ends `component`, starts it with `rig`, and waits until it takes part in the loop.
+  /// Kills `component`, starts it with `rig`, and waits until it has completed a tick.
   void restart(const std::string& component, const std::string& rig) {
     running_.send(component, SIGKILL);
     running_.listen(200ms);
@@ -31,9 +31,9 @@ class OtherConfiguration : public testing::Test {
                  node->second.pid == static_cast<std::uint32_t>(*running_.children().pid_of(component));
         },
         10s));
-    running_.listen(1500ms);  // the causes of the restart itself are inactive again
+    running_.listen(1500ms);  // until the causes of the restart itself are inactive
   }
-  /// Reason for the refusal of a reset; empty when accepted.
+  /// Requests a reset. @return reason of the refusal; empty when accepted
   std::string refusal() {
     try {
       running_.session().request({.kind = crane_REQUEST_RESET}, "reset");

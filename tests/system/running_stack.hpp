@@ -58,7 +58,7 @@ class RunningStack {
 
   /// Sends `signal` to a process of the stack.
   void send(const std::string& component, int signal) const;
-  /// Restarts a process of the stack. @param rig  its rig file; empty: that of the stack
+  /// Restarts a process of the stack. @param rig  name of its rig file; empty: the rig file of the stack
   void start_again(const std::string& component, const std::string& rig = "");
   /// Receives until `condition` holds. @return false when it does not within `patience`
   bool until(const std::function<bool()>& condition, std::chrono::milliseconds patience);
