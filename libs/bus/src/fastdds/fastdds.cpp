@@ -101,7 +101,7 @@ dds::DomainParticipantQos participant_qos(const Options& options, int number) {
 }
 
 /// Participant numbers of this process. By default Fast DDS never uses a number twice. Unicast
-/// discovery does not contact the ports of numbers of kMostParticipants and above.
+/// discovery contacts only the ports of numbers below kMostParticipants.
 class ParticipantNumber {
  public:
   ParticipantNumber() {

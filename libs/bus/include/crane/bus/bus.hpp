@@ -217,7 +217,7 @@ class Subscriber : public UntypedSubscriber {
     return sample;
   }
   /// Takes a sample like take(), without a copy: overwrites `sample`.
-  /// @return false when there is no sample; `sample` is then undefined
+  /// @return false when there is no sample; `sample` then has no defined value
   [[nodiscard]] bool take_into(T& sample, SampleInfo* info = nullptr) { return receive(&sample, info); }
 };
 

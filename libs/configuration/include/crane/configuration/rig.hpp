@@ -153,7 +153,8 @@ class ConfigurationError : public std::runtime_error {
 /// design) are not written.
 [[nodiscard]] std::string to_toml(const Rig& rig);
 /// Hash of to_toml(rig): FNV-1a with 32 bits; 1 replaces 0. Two texts that differ in one character have
-/// different hashes; other different texts have equal hashes with a probability of about 2^-32.
+/// different hashes, except for the pair 0 and 1; other different texts have equal hashes with a probability
+/// of about 2^-32.
 [[nodiscard]] std::uint32_t digest(const Rig& rig);
 /// The table [[zone]] of one zone.
 [[nodiscard]] std::string to_toml(const control::Zone& zone);
