@@ -23,16 +23,15 @@ class JogSession {
 
   /// Requests a session for the selected axes.
   [[nodiscard]] Answer begin(const std::array<bool, 3>& selected);
-  /// Sends the stick at most every 20 ms, until `over` holds. @throws std::runtime_error when the crane
-  /// stops,
-  ///   or another move or session replaces this one
+  /// Sends the deflection every 20 ms until `over` returns true.
   /// @param stops  true: a stop signal ends the wait
   /// @return false at the timeout or after a stop signal
+  /// @throws std::runtime_error when the crane stops, or another move or session replaces this one
   bool drive(double timeout_s, bool stops, const std::function<std::optional<Deflection>()>& stick,
              const std::function<bool()>& over);
 
-  /// Sends the release until the crane is in HOLD. @throws std::runtime_error like drive(), and at the
-  /// timeout
+  /// Sends the release until the crane is in HOLD.
+  /// @throws std::runtime_error like drive(), and at the timeout
   void release(double timeout_s);
 
   /// True when the supervisor has been in HOLD for some ticks.
