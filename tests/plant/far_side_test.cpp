@@ -80,6 +80,22 @@ TEST(Backlash, LosesEnergyWhileTheMotorRestsAndStaysInItsGap) {
   }
 }
 
+TEST(Backlash, MovesTheKnownShareOfTheGuideFrictionFromTheMotorToTheLoadSide) {
+  constexpr double kLevel_v = 0.6, kShare = 0.4, kGuide = 0.5, kKnown = 0.75;
+  const Parameters crane;
+  const Model model{crane,
+                    {{"drive_friction", "trolley", {{"coulomb_positive_v", kLevel_v}}},
+                     {"backlash",
+                      "trolley",
+                      {{"gap", kGap_m},
+                       {"guide_deceleration", kGuide},
+                       {"driven_share", kShare},
+                       {"known_guide_share", kKnown}}}}};
+  const double moved_v = kKnown * kShare * kGuide / crane.trolley_gain_mps2pv;
+  EXPECT_NEAR(model.friction_v({.trolley_mps = 0.3}, PerAxis{})[kTrolley], kLevel_v - moved_v, 1e-12);
+  EXPECT_NEAR(model.friction_v({.trolley_mps = -0.3}, PerAxis{})[kTrolley], moved_v, 1e-12);
+}
+
 /// Torque of the motors without friction, and the parts that accelerate each side.
 TEST(FarSide, KeepsTheMomentumOfMotorAndJibWithItsTrolley) {
   constexpr double kShare = 0.65, kVolts = 2;

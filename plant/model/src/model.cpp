@@ -98,6 +98,7 @@ double Model::friction_v(const State& state, double drive_v, Axis axis) const no
     carried_v -= term->position_force_v(state);
   }
   for (const auto& term : drive_terms_[axis]) term->add_gear_friction(state, std::abs(carried_v), sum);
+  for (const auto& structure : structure_terms_) structure.term->relieve_friction(parameters_, state, sum);
   return sum[axis];
 }
 

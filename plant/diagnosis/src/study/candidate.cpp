@@ -145,13 +145,20 @@ class Builder {
     const double carriage = rig_.plant.trolley_mass_kg / rig_.plant.trolley_inertia_kg;
     const double share = output == kTrolleyPosition ? std::clamp(carriage, 0.05, 0.85) : 0.6;
     std::vector<std::vector<double>> settings;
-    for (const double gap : {0.001, 0.0014, 0.002, 0.0027, 0.0038, 0.0054, 0.0075, 0.0105, 0.0148})
-      for (const double guide : {0.1, 0.6}) settings.push_back({gap * scale, guide, share});
+    std::vector<double> gaps{0.001, 0.0014, 0.002, 0.0027, 0.0038, 0.0054, 0.0075, 0.0105, 0.0148};
+    for (double& width : gaps) width *= scale;
+    for (const double width : gaps)
+      for (const double guide : {0.1, 0.6}) settings.push_back({width, guide, share, 1});
     Candidate gap = at_once("backlash", axis,
                             {free_parameter("backlash", "gap", 0.0002, 0.05, 0.001),
                              free_parameter("backlash", "guide_deceleration", 0, 2, 0.1),
-                             free_parameter("backlash", "driven_share", 0.02, 0.9, 0.05)},
+                             free_parameter("backlash", "driven_share", 0.02, 0.9, 0.05),
+                             free_parameter("backlash", "known_guide_share", 0, 1, 0.1)},
                             settings);
+    gap.parameters.back().at_a_bound = true;
+    for (const double width : gaps)
+      for (const double guide : {0.1, 0.3, 0.8})
+        for (const double of_axis : {0.2, 0.4, 0.65}) gap.rough_starts.push_back({width, guide, of_axis, 1});
     gap.rough = true;
     gap.law = GoesWith::jumps;
     all_.add(std::move(gap), Changes::both);

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "parallel.hpp"
 #include "study/blocks.hpp"
 
 namespace crane::diagnosis {
@@ -47,6 +48,9 @@ Flat flatten(const Effects& effects) {
   flat.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
   return flat;
 }
+
+/// True if slopes do not describe the loss; beside other effects, the fit has the values of a fit alone.
+bool is_rough(const Effects& effects) { return effects.size() == 1 && effects[0].candidate->rough; }
 
 bool same_values(const Effects& a, const Effects& b) {
   return std::equal(a.begin(), a.end(), b.begin(),
@@ -155,12 +159,15 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
   return true;
 }
 
-void Study::step_around(Fitted& best, double Evaluation::*loss) const {
+void Study::step_around(Fitted& best, double Evaluation::*loss, bool hold_bounds) const {
   const Flat from = flatten(best.effects);
   VectorXd values = from.values, steps(values.size());
   for (Index i = 0; i < steps.size(); ++i)
     steps[i] =
         std::max(kFirstStep * std::abs(values[i]), 0.5 * from.parameters[static_cast<std::size_t>(i)]->step);
+  if (hold_bounds)
+    for (Index i = 0; i < steps.size(); ++i)
+      if (from.parameters[static_cast<std::size_t>(i)]->at_a_bound) steps[i] = 0;
   const VectorXd least = kLastStep * steps;
   const auto better = [&](const VectorXd& step) {
     Fitted tried;
@@ -175,6 +182,7 @@ void Study::step_around(Fitted& best, double Evaluation::*loss) const {
   while ((steps.array().abs() > least.array()).any()) {
     const VectorXd before = flatten(best.effects).values;
     for (Index i = 0; i < steps.size(); ++i) {
+      if (steps[i] == 0) continue;
       const VectorXd step = steps[i] * VectorXd::Unit(steps.size(), i);
       if (better(step))
         steps[i] *= kLonger;
@@ -187,8 +195,38 @@ void Study::step_around(Fitted& best, double Evaluation::*loss) const {
   }
 }
 
+Effects Study::search_around(const Effects& effects, const Evaluation& near) const {
+  Fitted best;
+  best.effects = effects;
+  best.train = train(effects, near);
+  if (!train_.load.empty()) step_around(best, &Evaluation::load_loss, true);
+  const Candidate* candidate = effects[0].candidate;
+  std::vector<Fitted> others(candidate->rough_starts.size());
+  parallel_for(others.size(), [&](std::size_t i) {
+    others[i].effects = {{candidate, candidate->rough_starts[i]}};
+    others[i].train = train(others[i].effects, near);
+  });
+  for (Fitted& other : others)
+    if (other.train.loss < best.train.loss) best = std::move(other);
+  const Fitted start = best;
+  const std::vector<FreeParameter>& parameters = candidate->parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!parameters[i].at_a_bound) continue;
+    best.train.loss = std::numeric_limits<double>::infinity();
+    for (const double bound : {parameters[i].low, parameters[i].high}) {
+      Fitted held = start;
+      held.effects[0].values[i] = bound;
+      held.train = evaluate(train_, held.effects, start.train);
+      step_around(held, &Evaluation::loss, true);
+      if (held.train.loss < best.train.loss) best = std::move(held);
+    }
+  }
+  return best.effects;
+}
+
 Fitted Study::first_fit(const Effects& effects, const Fitted& near) const {
-  Fitted fitted = fit(effects, near.train.loss - kLeastGain, near.train);
+  const Effects from = is_rough(effects) ? search_around(effects, near.train) : effects;
+  Fitted fitted = fit(from, near.train.loss - kLeastGain, near.train);
   fitted.first_noise = noise_of(fitted, near.first_noise);
   for (const auto* of :
        {&fitted.first_noise.drive, &fitted.first_noise.equation_error, &fitted.first_noise.load})
@@ -205,10 +243,7 @@ Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near) 
   start.effects = std::move(effects);
   start.train = train(start.effects, near);
   Fitted best = start;
-  if (best.effects.size() == 1 && best.effects[0].candidate->rough) {
-    if (!train_.load.empty()) step_around(best, &Evaluation::load_loss);
-    step_around(best, &Evaluation::loss);
-  }
+  if (is_rough(best.effects)) step_around(best, &Evaluation::loss, false);
   start = best;
   std::optional<Slopes> along;
   const bool can_beat = descend(best, Loss::squares, loss_to_beat, along);

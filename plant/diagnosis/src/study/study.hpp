@@ -160,8 +160,12 @@ class Study {
   /// return
   /// @return false when the loss cannot fall below `loss_to_beat`
   bool descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along) const;
-  /// Coordinate search with decreasing steps.
-  void step_around(Fitted& best, double Evaluation::*loss) const;
+  /// Pattern search with decreasing steps. @param hold_bounds  parameters that are usually at a bound stay
+  void step_around(Fitted& best, double Evaluation::*loss, bool hold_bounds) const;
+  /// Initial values of one effect with a rough loss: the best of its rough_starts and of a pattern search by
+  /// the loss of the load; from there a pattern search by the whole loss, with each parameter that is usually
+  /// at a bound held at both.
+  [[nodiscard]] Effects search_around(const Effects& effects, const Evaluation& near) const;
   /// Scores of directions around `at`.
   [[nodiscard]] BlockScores block_scores(const Evaluation& at, const Slopes& slopes,
                                          Loss loss = Loss::robust) const;

@@ -27,9 +27,19 @@ class Backlash final : public Term {
         contact_radps_(slew_ ? kGear_radps : kNut_radps),
         gap_(s.parameters.at("gap")),
         guide_deceleration_(s.parameters.at("guide_deceleration")),
+        known_share_(s.parameters.at("known_guide_share")),
+        smoothing_speed_(s.parameters.at("smoothing_speed")),
         far_(slew_, gap_ > 0 ? s.parameters.at("driven_share") : 0) {}
 
   void change_parameters(Parameters& crane) const noexcept override { far_.split(crane); }
+  /// The friction of the rig file was measured on the whole axis: the guide's part of it leaves the motor.
+  void relieve_friction(const Parameters& crane, const State& state,
+                        PerAxis& friction_v) const noexcept override {
+    if (!far_.carries() || known_share_ == 0) return;
+    const Axis axis = slew_ ? kSlew : kTrolley;
+    friction_v[axis] -= known_share_ * far_.own_inertia(crane) * guide_deceleration_ /
+                        far_.motor_force(crane) * smooth_sign(speed(state, axis), smoothing_speed_);
+  }
   [[nodiscard]] std::size_t inner_coordinates() const noexcept override { return gap_ > 0 ? 1 : 0; }
   /// The guide friction damps the motion in the gap: the initial position has no lasting effect.
   [[nodiscard]] bool rings() const noexcept override { return false; }
@@ -45,8 +55,8 @@ class Backlash final : public Term {
     if (gap_ == 0) return;
     const double speed = slew_ ? state.slew_radps : state.trolley_mps;  // of the load side
     const double motor = slew_ ? drives.slew_radps2 : drives.trolley_mps2;
-    acceleration[0] = far_.acceleration(crane, state, contact(inner[0])) -
-                      guide_deceleration_ * smooth_sign(speed, kGuideSmoothing) - motor;
+    const double guide = guide_deceleration_ * smooth_sign(speed, kGuideSmoothing);
+    acceleration[0] = far_.acceleration(crane, state, contact(inner[0]) - guide) - motor;
     // Centrifugal acceleration of the trolley; the motor takes up its force only when a flank touches.
     if (!slew_) acceleration[0] += state.trolley_m * state.slew_radps * state.slew_radps;
   }
@@ -74,7 +84,7 @@ class Backlash final : public Term {
     return -side * std::max(0.0, contact_radps_ * contact_radps_ * depth + damping * side * inner.rate);
   }
   bool slew_;
-  double contact_radps_, gap_, guide_deceleration_;
+  double contact_radps_, gap_, guide_deceleration_, known_share_, smoothing_speed_;
   FarSide far_;
 };
 
@@ -84,27 +94,30 @@ TermKind backlash() {
   return {
       .name = "backlash",
       .equation =
-          "suspension point at p + b, b'' = (j J k + P - C) / (j J + M_j x2) - a tanh((p' + b')/v_s) + Z - "
-          "p''; "
-          "contact k = 0 for |b| < h/2, otherwise a damped spring of 25 Hz (trolley) or 15 Hz (jib); "
+          "suspension point at p + b, b'' = (j J (k - a tanh((p' + b')/v_s)) + P - C) / (j J + M_j x2) + Z - "
+          "p''; contact k = 0 for |b| < h/2, otherwise a damped spring of 25 Hz (trolley) or 15 Hz (jib); "
           "M_j x2 and C = 2 M_j x x' slew' for a jib only, Z = (x + b) slew'^2 for a trolley only; inertia "
-          "of "
-          "the motor (1 - j) J, force on the motor -(j J k + P)",
+          "of the motor (1 - j) J, force on the motor -(j J k + P), friction of the motor smaller by r j a / "
+          "K",
       .source =
           "the nut of the trolley or the gear of the jib has play; the encoder measures the motor, not the "
           "trolley "
           "or the jib",
       .acts_on = ActsOn::structure,
       .axes = {"trolley", "slew"},
-      .parameters = {{"gap", "m or rad", 0, 0, 0.1,
-                      "h, distance that the load side moves from one flank to the other"},
-                     {"guide_deceleration", "m/s2 or rad/s2", 1, 0, 2,
-                      "a, deceleration of the load side by the friction of its guide; it acts with and "
-                      "without contact"},
-                     {"driven_share", "1", 0, 0, 0.9,
-                      "j, inertia on the load side of the gap / inertia J of the axis; 0: the load side has "
-                      "no inertia, the "
-                      "motor accelerates J"}},
+      .parameters =
+          {{"gap", "m or rad", 0, 0, 0.1, "h, distance that the load side moves from one flank to the other"},
+           {"guide_deceleration", "m/s2 or rad/s2", 1, 0, 2,
+            "a, deceleration of the inertia j J by the friction of the guide; it acts with and "
+            "without contact"},
+           {"driven_share", "1", 0, 0, 0.9,
+            "j, inertia on the load side of the gap / inertia J of the axis; 0: the load side has "
+            "no inertia, the "
+            "motor accelerates J"},
+           {"known_guide_share", "1", 0, 0, 1,
+            "r, share of the guide's friction j J a that the friction of the rig file contains: the "
+            "friction of the motor is smaller by this share"},
+           {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1, "width of the step of r j a / K at v = 0"}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<Backlash>(s); }};
 }
 

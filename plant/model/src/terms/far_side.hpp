@@ -8,7 +8,8 @@
 namespace crane::plant {
 
 /// The far side has the share j of the axis's inertia J and carries trolley and load (jib) or the load
-/// (trolley). With j = 0 the far side is only the suspension point, without inertia; the motor then
+/// (trolley). The force of the load is that of the static cable tension; its error increases with the square
+/// of the swing. With j = 0 the far side is only the suspension point, without inertia; the motor then
 /// accelerates everything.
 class FarSide {
  public:
@@ -26,6 +27,11 @@ class FarSide {
   /// Inertia j J of the far side, kg or kg m2. @param crane  parameters after split()
   [[nodiscard]] double own_inertia(const Parameters& crane) const {
     return share_ / (1 - share_) * (slew_ ? crane.jib_inertia_kgm2 : crane.trolley_inertia_kg);
+  }
+  /// Force of the motor per volt, N/V or N m/V; it does not depend on j.
+  [[nodiscard]] double motor_force(const Parameters& crane) const {
+    return slew_ ? crane.jib_inertia_kgm2 * crane.slew_gain_radps2pv
+                 : crane.trolley_inertia_kg * crane.trolley_gain_mps2pv;
   }
   /// j J / (total inertia of the far side); a jib also turns the trolley.
   [[nodiscard]] double own_share(const Parameters& crane, const State& seen) const {

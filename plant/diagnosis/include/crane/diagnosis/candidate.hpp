@@ -16,6 +16,7 @@ struct FreeParameter {
   double null = 0;           ///< no effect
   double low = 0, high = 0;  ///< physical bounds, with sign
   double step = 0;           ///< finite difference: visible and small
+  bool at_a_bound = false;   ///< the value is usually one of its bounds: a rough fit first holds it at each
 };
 
 /// One form of an effect: probes of a small amount each. The score test uses the probes of one shape jointly.
@@ -44,7 +45,9 @@ struct Candidate {
   /// Values from which a fit may begin, beside the shapes. Inner coordinates that ring freely in each window
   /// show what they gain only after a fit of the starts. All are within the bounds of `parameters`.
   std::vector<std::vector<double>> ringing_starts;
-  bool rough = false;                    ///< the loss has steps: slopes do not describe it
+  bool rough = false;  ///< the loss has steps: slopes do not describe it
+  /// Of a rough candidate: values of which the fit compares the whole loss before it begins.
+  std::vector<std::vector<double>> rough_starts;
   std::optional<GoesWith> law;           ///< the only variable of its force on its axis
   bool changes_known_parameter = false;  ///< the base model has this quantity with another value
   /// Parameter values for amounts of a shape's small probes.

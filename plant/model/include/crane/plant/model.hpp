@@ -46,7 +46,7 @@ class Model {
   /// Output of the amplifiers for a command [V]. Call once per tick: command terms may have a memory.
   [[nodiscard]] PerAxis drive_voltage(const PerAxis& command_v) noexcept;
 
-  /// Friction of the drives, the sum over the drive terms [V].
+  /// Friction of the drives, the sum over the drive terms minus Term::relieve_friction [V].
   /// @param drive_v  output of the amplifiers [V]: friction in a gear grows with the force it carries
   [[nodiscard]] PerAxis friction_v(const State& state, const PerAxis& drive_v) const noexcept;
   [[nodiscard]] double friction_v(const State& state, double drive_v, Axis axis) const noexcept;

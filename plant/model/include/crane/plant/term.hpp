@@ -56,6 +56,9 @@ class Term {
   ///   position [V]: where P is a weight, motor and weight work against each other in the gear
   virtual void add_gear_friction(const State& /*state*/, double /*carried_v*/,
                                  PerAxis& /*friction_v*/) const noexcept {}
+  /// Structure terms: subtracts the part of a drive's friction that acts beyond the structure.
+  virtual void relieve_friction(const Parameters& /*crane*/, const State& /*state*/,
+                                PerAxis& /*friction_v*/) const noexcept {}
   /// Load terms, once per tick: changes a force that varies at random over time. The force is constant within
   /// a tick.
   virtual void begin_tick(double /*period_s*/) noexcept {}
