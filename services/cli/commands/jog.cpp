@@ -109,7 +109,7 @@ void add_jog(CLI::App& app, Action& chosen) {
       ->type_name("LENGTH");
   command
       ->add_option("--axes", options->axes,
-                   "axes of the keyboard; with the hoist, all stops take longer (docs/jog.md)")
+                   "axes of keyboard and gamepad; with the hoist, all stops take longer (docs/jog.md)")
       ->check(CLI::IsMember(plant::drive_names()))
       ->capture_default_str();
   command
