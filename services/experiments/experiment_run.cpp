@@ -58,6 +58,22 @@ void require_rehearsal(const configuration::Rig& rig) {
                                              "`crane up --plant hardware` and `crane move`"});
 }
 
+/// Origin of a recording, with all that `crane replay` needs beside the rig file.
+recording::Metadata origin_of(const ExperimentOptions& options, const ExperimentResult& run) {
+  return {
+      {"clock", "lockstep"},
+      {"rig", run.rig},
+      {"controller", run.controller},
+      {"scenario", run.scenario},
+      {"variant", run.variant},
+      {"plant", options.plant == stack::Plant::hardware ? "hardware" : "sim"},
+      {"integrator", std::string{simulator::kMethodNames.at(static_cast<std::size_t>(options.integrator))}},
+      {"version", CRANE_VERSION},
+      {"log_time", "sample time: tick times period, ns"},
+      {"publish_time", "sample time: tick times period, ns"},
+      {"sequence", "tick"}};
+}
+
 void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
   std::ofstream out{file};
   out << json.dump(2) << '\n';
@@ -118,6 +134,7 @@ ExperimentResult run_experiment(const ExperimentOptions& options) {
   result.controller = controller.name;
   result.rig = rig.name;
   result.variant = options.variant;
+  log.describe(origin_of(options, result), started_rig_text(started));
   result.outcome = options.in_process
                        ? run_in_process(started, controller, scenario, log, options.plant,
                                         twin ? &*twin : nullptr, options.integrator)

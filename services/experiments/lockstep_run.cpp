@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "crane/bus/seal.hpp"
 #include "crane/runtime/process.hpp"
 #include "crane/supervisor/states.hpp"
 
@@ -82,6 +83,7 @@ class LockstepRun {
         rig_{rig},
         scenario_{scenario},
         log_{log},
+        bus_{bus.options()},
         operator_{bus, "crane_run", 1},
         collected_{collect_from(bus)},
         others_{other_topics(bus, components)} {}
@@ -216,6 +218,9 @@ class LockstepRun {
   void request(stack::OperatorRequest wanted, std::initializer_list<crane_Source> sources) {
     wanted.apply_tick = std::max(wanted.apply_tick, frontier_ + 1);
     const auto id = operator_.send(wanted);
+    auto sent = operator_.last_sent();
+    bus::seal(topics::request.description, &sent, bus_.source, bus_.epoch, bus_.messages_version);
+    log_.receive(topics::request, sent);
     for (const auto source : sources)
       until([&] { return operator_.take_reply(id, source, true).has_value(); },
             "a confirmation of a request");
@@ -244,6 +249,7 @@ class LockstepRun {
   const configuration::Rig& rig_;
   const Scenario& scenario_;
   TickLog& log_;
+  bus::Options bus_;
   stack::OperatorClient operator_;
   Collected collected_;
   std::vector<OtherTopic> others_;

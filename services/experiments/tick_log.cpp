@@ -19,16 +19,26 @@ TickLog::TickLog(const std::optional<std::filesystem::path>& recording) {
   channels_ = recording::add_topic_channels(*writer_);
 }
 
-template <class T>
-void TickLog::write(const topics::Topic<T>& topic, const T& sample, std::int64_t time_ns,
+void TickLog::describe(const recording::Metadata& run, std::string_view rig_text) {
+  if (!writer_) return;
+  writer_->metadata("crane", run);
+  writer_->attachment("rig.toml", "application/toml", 0,
+                      {reinterpret_cast<const std::uint8_t*>(rig_text.data()), rig_text.size()});
+}
+
+std::vector<std::uint8_t> TickLog::encoded(const topics::Description& topic, const void* sample) {
+  constexpr std::array<std::uint8_t, bus::kEncapsulation_bytes> kPlainCdrLittleEndian{0, 1, 0, 0};
+  const auto& codec = bus::CdrCodec::of(*topic.descriptor);
+  std::vector<std::uint8_t> cdr(kPlainCdrLittleEndian.begin(), kPlainCdrLittleEndian.end());
+  cdr.resize(kPlainCdrLittleEndian.size() + codec.max_encoded_bytes());
+  cdr.resize(kPlainCdrLittleEndian.size() +
+             codec.encode(sample, std::span{cdr}.subspan(kPlainCdrLittleEndian.size())));
+  return cdr;
+}
+
+void TickLog::write(const topics::Description& topic, std::span<const std::uint8_t> cdr, std::int64_t time_ns,
                     std::uint64_t tick) {
-  constexpr std::array<std::uint8_t, 4> kPlainCdrLittleEndian{0, 1, 0, 0};
-  const auto& codec = bus::CdrCodec::of(*topic.description.descriptor);
-  bytes_.assign(kPlainCdrLittleEndian.begin(), kPlainCdrLittleEndian.end());
-  bytes_.resize(kPlainCdrLittleEndian.size() + codec.max_encoded_bytes());
-  const auto size = codec.encode(&sample, std::span{bytes_}.subspan(kPlainCdrLittleEndian.size()));
-  writer_->message(channels_[index_of(topic.description)], static_cast<std::uint32_t>(tick), time_ns, time_ns,
-                   std::span{bytes_}.first(kPlainCdrLittleEndian.size() + size));
+  writer_->message(channels_[index_of(topic)], static_cast<std::uint32_t>(tick), time_ns, time_ns, cdr);
 }
 
 void TickLog::add(const Tick& tick, std::span<const OtherSample> others) {
@@ -41,16 +51,19 @@ void TickLog::add(const Tick& tick, std::span<const OtherSample> others) {
   rows_.add(*tick.demand);
   rows_.add(*tick.supervisor);
   if (!writer_) return;
-  write(topics::state, *tick.state, time_ns, number);
-  write(topics::reference, *tick.reference, time_ns, number);
-  write(topics::tracking, *tick.tracking, time_ns, number);
-  write(topics::anti_swing, *tick.anti_swing, time_ns, number);
-  write(topics::demand, *tick.demand, time_ns, number);
-  write(topics::command, *tick.command, time_ns, number);
-  write(topics::supervisor, *tick.supervisor, time_ns, number);
-  for (const auto& other : others)
-    writer_->message(channels_[index_of(*other.topic)], static_cast<std::uint32_t>(number), time_ns, time_ns,
-                     other.cdr);
+  for (const auto& input : inputs_) write(*input.topic, input.cdr, time_ns, number);
+  inputs_.clear();
+  const auto store = [&](const auto& topic, const auto& sample) {
+    write(topic.description, encoded(topic.description, &sample), time_ns, number);
+  };
+  store(topics::state, *tick.state);
+  store(topics::reference, *tick.reference);
+  store(topics::tracking, *tick.tracking);
+  store(topics::anti_swing, *tick.anti_swing);
+  store(topics::demand, *tick.demand);
+  store(topics::command, *tick.command);
+  store(topics::supervisor, *tick.supervisor);
+  for (const auto& other : others) write(*other.topic, other.cdr, time_ns, number);
 }
 
 void TickLog::close() {

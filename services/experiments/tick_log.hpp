@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "crane/recording/mcap_writer.hpp"
 #include "crane/recording/run_table.hpp"
@@ -31,6 +33,15 @@ class TickLog {
  public:
   /// @param recording  MCAP file; nothing: table only. @throws recording::WriteError
   explicit TickLog(const std::optional<std::filesystem::path>& recording);
+  /// Stores the origin of the run (metadata record "crane") and its rig file (attachment "rig.toml"), from
+  /// which `crane replay` builds the stack again. @throws recording::WriteError
+  void describe(const recording::Metadata& run, std::string_view rig_text);
+  /// Keeps a sample of an operator that the stack receives before its next tick. add() of this tick stores
+  /// it before the samples of the tick, with the time of the tick.
+  template <class T>
+  void receive(const topics::Topic<T>& topic, const T& sample) {
+    if (writer_) inputs_.push_back({&topic.description, encoded(topic.description, &sample)});
+  }
   /// @throws recording::WriteError
   void add(const Tick& tick, std::span<const OtherSample> others = {});
   void close();
@@ -38,12 +49,17 @@ class TickLog {
   [[nodiscard]] recording::Table table(std::uint64_t zero_tick) const;
 
  private:
-  template <class T>
-  void write(const topics::Topic<T>& topic, const T& sample, std::int64_t time_ns, std::uint64_t tick);
+  struct Input {
+    const topics::Description* topic;
+    std::vector<std::uint8_t> cdr;
+  };
+  static std::vector<std::uint8_t> encoded(const topics::Description& topic, const void* sample);
+  void write(const topics::Description& topic, std::span<const std::uint8_t> cdr, std::int64_t time_ns,
+             std::uint64_t tick);
   std::optional<recording::McapWriter> writer_;
   recording::TopicChannels channels_{};
   recording::RunTable rows_;
-  std::vector<std::uint8_t> bytes_;
+  std::vector<Input> inputs_;  ///< of the next tick
   std::int64_t period_ns_ = 0, last_time_ns_ = 0;
 };
 

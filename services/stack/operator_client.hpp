@@ -36,6 +36,8 @@ class OperatorClient {
   [[nodiscard]] int answerers() const { return replies_.matched(); }
   /// @return id of the request
   std::uint64_t send(const OperatorRequest& wanted);
+  /// The newest request of send(), without header and checksum, which the bus adds.
+  [[nodiscard]] const msg::Request& last_sent() const { return last_sent_; }
   /// Sends a request that is always refused, because its id is 0 (kProbe). The reply proves that requests
   /// reach the supervisor and replies reach this client; other readers of crane/request do not reply.
   void probe();
@@ -52,6 +54,7 @@ class OperatorClient {
   bus::Subscriber<msg::Reply> replies_;
   std::string client_;
   std::uint64_t next_id_;
+  msg::Request last_sent_{};
   std::vector<msg::Reply> received_;
 };
 

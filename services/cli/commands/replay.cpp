@@ -1,0 +1,159 @@
+/// crane replay: repeats a recorded run with the present programs, and compares every sample.
+#include "replay/replay.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/output_file.hpp"
+#include "cli/text_table.hpp"
+#include "commands.hpp"
+#include "replay/swap.hpp"
+
+namespace crane::cli {
+namespace {
+
+struct ReplayOptions {
+  std::filesystem::path file, out;
+  std::string swap;
+  bool json = false, force = false;
+};
+
+void print_problems(const std::vector<std::string>& problems) {
+  for (const auto& problem : problems) std::cerr << problem << '\n';
+}
+
+nlohmann::ordered_json to_json(const replay::Result& found) {
+  nlohmann::ordered_json json{
+      {"equal", !found.first}, {"equal_ticks", found.equal_ticks}, {"recording", found.origin}};
+  if (found.first)
+    json["first_difference"] = {{"tick", found.first->tick},
+                                {"time_s", found.first->time_s},
+                                {"topic", found.first->topic},
+                                {"field", found.first->what.field},
+                                {"recorded", found.first->what.recorded},
+                                {"replayed", found.first->what.replayed}};
+  json["problems"] = found.problems;
+  return json;
+}
+
+int compare(const ReplayOptions& options) {
+  const auto found = replay::replay(options.file, replay::loop_components());
+  const auto ticks = std::to_string(found.equal_ticks) + " ticks";
+  if (options.json)
+    std::cout << to_json(found).dump(2) << '\n';
+  else if (!found.first)
+    std::cout << "equal bit for bit, " << ticks << '\n';
+  else
+    std::cout << "equal bit for bit for " << ticks << ", then different: " << replay::sentence(*found.first)
+              << '\n';
+  print_problems(found.problems);
+  if (!found.problems.empty())
+    std::cerr << "the recording is damaged: the replay ends after tick " << found.equal_ticks - 1 << '\n';
+  return found.first ? runtime::kExitFailed : runtime::kExitDone;
+}
+
+constexpr std::array kAxisNames{"trolley", "slew", "hoist"};
+
+nlohmann::ordered_json to_json(const replay::SwapResult& found) {
+  nlohmann::ordered_json json{{"recorded", found.recorded}, {"other", found.other}, {"ticks", found.ticks}};
+  json["first_different_tick"] =
+      found.first_differs ? nlohmann::json(*found.first_differs) : nlohmann::json();
+  for (std::size_t i = 0; i < kAxisNames.size(); ++i) {
+    const auto& largest = found.largest[i];
+    json["largest"][kAxisNames[i]] = {{"difference_v", largest.difference_v},
+                                      {"tick", largest.tick},
+                                      {"time_s", largest.time_s},
+                                      {"recorded_v", largest.recorded_v},
+                                      {"other_v", largest.other_v}};
+  }
+  json["problems"] = found.problems;
+  return json;
+}
+
+void print(const replay::SwapResult& found) {
+  if (!found.first_differs) {
+    std::cout << found.other << " demands the same as " << found.recorded << ", bit for bit, " << found.ticks
+              << " ticks\n";
+    return;
+  }
+  std::cout << found.other << " instead of " << found.recorded << ", " << found.ticks
+            << " ticks; first other demand in tick " << *found.first_differs << '\n';
+  TextTable table{
+      {"axis", "largest difference [V]", "at [s]", "tick", found.recorded + " [V]", found.other + " [V]"}};
+  for (std::size_t i = 0; i < kAxisNames.size(); ++i) {
+    const auto& largest = found.largest[i];
+    if (largest.difference_v > 0)
+      table.add({kAxisNames[i], fixed(largest.difference_v, 3), fixed(largest.time_s, 2),
+                 std::to_string(largest.tick), fixed(largest.recorded_v, 3), fixed(largest.other_v, 3)});
+    else
+      table.add({kAxisNames[i], "0", "", "", "", ""});
+  }
+  table.print(std::cout);
+}
+
+/// @return NAME of "controller=NAME"
+std::string controller_of(const std::string& swap) {
+  constexpr std::string_view kKey = "controller=";
+  if (!swap.starts_with(kKey))
+    throw configuration::ConfigurationError({"--swap = " + swap + ": must be controller=NAME"});
+  return swap.substr(kKey.size());
+}
+
+int swap(const ReplayOptions& options) {
+  const auto controller = controller_of(options.swap);
+  auto out = options.out;
+  if (out.empty()) out = std::filesystem::path{options.file}.replace_extension(controller + ".csv");
+  require_new(out, options.force);
+  const auto found = replay::swap_controller(options.file, controller);
+  recording::write_csv(out, found.table);
+  if (options.json) {
+    std::cout << to_json(found).dump(2) << '\n';
+  } else {
+    print(found);
+    std::cout << "demands of every tick: " << out.string() << '\n';
+  }
+  print_problems(found.problems);
+  return runtime::kExitDone;
+}
+
+int run(const ReplayOptions& options) {
+  spdlog::set_level(spdlog::level::off);  // the replayed components would report the recorded stops again
+  try {
+    return options.swap.empty() ? compare(options) : swap(options);
+  } catch (const recording::ReadError& error) {
+    std::cerr << "crane: " << error.what() << '\n';
+  } catch (const replay::Refusal& refusal) {
+    std::cerr << refusal.what() << '\n';
+  }
+  return runtime::kExitBadInput;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& chosen) {
+  auto options = std::make_shared<ReplayOptions>();
+  auto* command = app.add_subcommand(
+      "replay", "Repeat a recorded run with the present programs, and compare every sample bit for bit");
+  command->add_option("FILE", options->file, "recording of crane run (.mcap)")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--swap", options->swap,
+                      "controller=NAME: compute what this controller would have demanded at the recorded "
+                      "states, and write a CSV file");
+  command->add_option("--out", options->out,
+                      "CSV file of --swap; default: FILE with the name of the controller and .csv");
+  command->add_flag("--force", options->force, "overwrite the CSV file");
+  command->add_flag("--json", options->json, "one JSON object");
+  command->footer(
+      "Examples: crane replay out/recording.mcap\n"
+      "          crane replay out/recording.mcap --swap controller=delayed_1\n"
+      "Exit code 1 when a sample differs: the output names tick, topic, field and both values.\n"
+      "Only recordings in lockstep can be replayed (docs/data.md).");
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace crane::cli

@@ -1,0 +1,105 @@
+#include "replay/recorded_run.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "crane/bus/cdr.hpp"
+#include "crane/recording/run_table.hpp"
+
+namespace crane::replay {
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const auto& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+const topics::Description* topic_named(std::string_view name) {
+  const auto found = std::ranges::find(topics::kAll, name, &topics::Description::name);
+  return found == topics::kAll.end() ? nullptr : &*found;
+}
+
+bool is_input(const topics::Description& topic) {
+  return topic.name == topics::request.description.name || topic.name == topics::jog.description.name;
+}
+
+recording::Metadata origin_of(recording::McapReader& reader) {
+  for (auto& record : reader.metadata())
+    if (record.name == "crane") return record.entries;
+  return {};
+}
+
+/// The header is the first field of every topic; its first value is the tick.
+std::optional<std::uint64_t> tick_of(recording::Bytes cdr) {
+  std::uint64_t tick = 0;
+  if (cdr.size() < bus::kEncapsulation_bytes + sizeof tick) return std::nullopt;
+  std::memcpy(&tick, cdr.data() + bus::kEncapsulation_bytes, sizeof tick);
+  return tick;
+}
+
+}  // namespace
+
+RecordedRun::RecordedRun(const std::filesystem::path& file)
+    : file_{file.string()}, reader_{file}, origin_{origin_of(reader_)} {
+  std::vector<std::string> problems;
+  const auto refuse = [&](const std::string& reason) { problems.push_back(file_ + ": " + reason); };
+  if (const auto version = recording::messages_version(reader_); version != crane_MESSAGES_VERSION)
+    refuse("messages of version " + std::to_string(version.value_or(1)) + ", this program has version " +
+           std::to_string(crane_MESSAGES_VERSION));
+  const auto clock = origin_.find("clock");
+  if (clock == origin_.end() || clock->second != "lockstep")
+    refuse(
+        "clock: no recording in lockstep (metadata crane.clock); the recorder stores samples in the order of "
+        "their arrival, so that the recording does not show which samples a component had; `crane run` "
+        "writes recordings in lockstep");
+  const auto attachments = reader_.attachments();
+  const auto rig = std::ranges::find(attachments, "rig.toml", &recording::AttachmentRecord::name);
+  if (rig == attachments.end()) {
+    refuse("rig.toml: no such attachment");
+  } else {
+    try {
+      rig_ = configuration::parse_rig({rig->data.begin(), rig->data.end()}, file_ + ": rig.toml");
+    } catch (const configuration::ConfigurationError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  const auto name = origin_.find("controller");
+  controller_ = name == origin_.end() ? nullptr : control::find_controller(name->second);
+  if (name == origin_.end())
+    refuse("controller: missing in the metadata crane");
+  else if (controller_ == nullptr)
+    refuse("controller = " + name->second + ": this program has no such controller");
+  if (!problems.empty()) throw Refusal(joined(problems));
+}
+
+void RecordedRun::for_each(const std::function<bool(const RecordedTick&)>& visit) {
+  RecordedTick tick;
+  std::optional<std::uint32_t> sequence;  // of the messages of `tick`
+  bool goes_on = true;
+  const auto finish = [&] {
+    if (!tick.samples.empty()) goes_on = visit(tick);
+    tick = {};
+  };
+  reader_.for_each({}, [&](const recording::Message& message) {
+    const auto* topic = topic_named(message.channel->topic);
+    if (topic == nullptr || (!topic->every_tick && !is_input(*topic))) return true;
+    if (sequence && *sequence != message.sequence) finish();
+    if (!goes_on) return false;
+    sequence = message.sequence;
+    Cdr cdr{message.data.begin(), message.data.end()};
+    if (is_input(*topic)) {
+      tick.inputs.push_back({topic, std::move(cdr)});
+      return true;
+    }
+    tick.number = tick_of(message.data).value_or(message.sequence);
+    if (!tick.samples.try_emplace(topic->name, std::move(cdr)).second)
+      throw Refusal(file_ + ": tick " + std::to_string(tick.number) + ": two samples of " +
+                    std::string{topic->name} + "; is it a merged recording?");
+    return true;
+  });
+  if (goes_on) finish();
+}
+
+}  // namespace crane::replay

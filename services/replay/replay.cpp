@@ -1,0 +1,123 @@
+#include "replay/replay.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "crane/bus/cdr.hpp"
+#include "crane/bus/seal.hpp"
+#include "replay/replayed_stack.hpp"
+#include "stack/stack.hpp"
+
+namespace crane::replay {
+namespace {
+
+/// In the order of the data flow of one tick.
+const std::array kCompared{&topics::reference.description,  &topics::tracking.description,
+                           &topics::anti_swing.description, &topics::demand.description,
+                           &topics::command.description,    &topics::supervisor.description};
+
+std::optional<msg::State> state_of(const RecordedTick& tick) {
+  const auto* cdr = tick.find(topics::state.description);
+  msg::State state{};
+  if (cdr == nullptr || !bus::CdrCodec::of(*topics::state.description.descriptor)
+                             .decode(std::span{*cdr}.subspan(bus::kEncapsulation_bytes), false, &state))
+    return std::nullopt;
+  return state;
+}
+
+class Comparison {
+ public:
+  Comparison(RecordedRun& run, std::span<const runtime::ComponentSpec> components)
+      : run_{run}, stack_{components, run.rig(), run.controller()} {}
+
+  Result make() {
+    run_.for_each([this](const RecordedTick& tick) { return add(tick); });
+    if (next_ == 0 && !result_.first) throw Refusal("no tick of the recording can be replayed" + damage());
+    result_.equal_ticks = next_;
+    result_.problems = run_.problems();
+    result_.origin = run_.origin();
+    return result_;
+  }
+
+ private:
+  /// @return true when the replay goes on with the next tick
+  bool add(const RecordedTick& tick) {
+    if (next_ == 0 && tick.number != 0)
+      throw Refusal("the recording begins with tick " + std::to_string(tick.number) +
+                    "; a replay needs tick 0, because the components have memory" + damage());
+    const auto state = tick.number == next_ ? state_of(tick) : std::nullopt;
+    if (!state) return misses(topics::state.description);
+    time_s_ = static_cast<double>(state->header.sample_time_ns) / 1e9;
+    if (!is_intact(*state)) return false;
+    if (!stack_.receive(tick)) throw Refusal("tick " + std::to_string(next_) + ": a sample is not valid");
+    for (const auto* topic : kCompared)
+      if (!is_equal(*topic, tick)) return false;
+    stack_.forget_until(next_++);
+    return true;
+  }
+
+  /// A changed measurement is no difference of the components: its checksum shows the change.
+  bool is_intact(const msg::State& state) {
+    if (bus::intact(topics::state.description, &state)) return true;
+    auto sealed = state;
+    bus::seal(topics::state.description, &sealed, state.header.source, state.header.epoch);
+    return differs(topics::state.description,
+                   {"crc32c", std::to_string(state.crc32c), std::to_string(sealed.crc32c)});
+  }
+
+  bool is_equal(const topics::Description& topic, const RecordedTick& tick) {
+    const auto* recorded = tick.find(topic);
+    const auto* replayed = stack_.find(topic, next_);
+    if (recorded == nullptr) return misses(topic);
+    if (replayed == nullptr) return differs(topic, {"", "a sample", "no sample"});
+    const auto found = first_difference(topic, *recorded, *replayed);
+    return !found || differs(topic, *found);
+  }
+
+  bool differs(const topics::Description& topic, FieldDifference what) {
+    result_.first = Difference{next_, time_s_, std::string{topic.name}, std::move(what)};
+    return false;
+  }
+
+  /// A damaged recording ends before its first tick without all samples. In an intact one, the missing sample
+  /// is a difference.
+  bool misses(const topics::Description& topic) {
+    if (run_.problems().empty()) return differs(topic, {"", "no sample", "a sample"});
+    return false;
+  }
+
+  [[nodiscard]] std::string damage() const {
+    std::string lines;
+    for (const auto& problem : run_.problems()) lines += '\n' + problem;
+    return lines;
+  }
+
+  RecordedRun& run_;
+  ReplayedStack stack_;
+  Result result_;
+  std::uint64_t next_ = 0;  ///< tick
+  double time_s_ = 0;
+};
+
+}  // namespace
+
+std::vector<runtime::ComponentSpec> loop_components() {
+  auto components = stack::simulated_stack();
+  components.erase(components.begin());  // the clock master
+  return components;
+}
+
+Result replay(const std::filesystem::path& file, std::span<const runtime::ComponentSpec> components) {
+  RecordedRun run{file};
+  return Comparison{run, components}.make();
+}
+
+std::string sentence(const Difference& difference) {
+  std::array<char, 32> time_s{};
+  std::snprintf(time_s.data(), time_s.size(), "%.6g", difference.time_s);
+  return difference.topic + " of tick " + std::to_string(difference.tick) + " (" + time_s.data() +
+         " s): " + (difference.what.field.empty() ? "" : difference.what.field + ": ") + "recorded " +
+         difference.what.recorded + ", replayed " + difference.what.replayed;
+}
+
+}  // namespace crane::replay

@@ -1,0 +1,102 @@
+#include "replay/swap.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "crane/bus/cdr.hpp"
+#include "crane/runtime/process.hpp"
+#include "crane/supervisor/component.hpp"
+#include "replay/replay.hpp"
+#include "replay/replayed_stack.hpp"
+
+namespace crane::replay {
+namespace {
+
+constexpr std::array kAxisNames{"trolley", "slew", "hoist"};
+
+std::optional<msg::Demand> demand_of(const Cdr* cdr) {
+  msg::Demand demand{};
+  if (cdr == nullptr || !bus::CdrCodec::of(*topics::demand.description.descriptor)
+                             .decode(std::span{*cdr}.subspan(bus::kEncapsulation_bytes), false, &demand))
+    return std::nullopt;
+  return demand;
+}
+
+/// The components that compute the demand. The supervisor is not among them: it would judge the motion by
+/// the commands of the other controller, which did not cause the motion.
+std::vector<runtime::ComponentSpec> demanding_components() {
+  auto components = loop_components();
+  std::erase_if(components, [](const auto& component) {
+    return component.source == supervisor::supervisor_spec().source;
+  });
+  return components;
+}
+
+recording::Table empty_table() {
+  recording::Table table;
+  table.columns.push_back({"time_s", {}});
+  table.columns.push_back({"tick", {}});
+  for (const auto* axis : kAxisNames)
+    for (const auto* who : {"recorded", "other"})
+      table.columns.push_back({std::string{axis} + "_" + who + "_v", {}});
+  return table;
+}
+
+class Swap {
+ public:
+  Swap(RecordedRun& run, const control::Controller& other)
+      : run_{run}, stack_{demanding_components(), run.rig(), other} {
+    result_.recorded = run.controller().name;
+    result_.other = other.name;
+    result_.table = empty_table();
+  }
+
+  SwapResult make() {
+    run_.for_each([this](const RecordedTick& tick) { return add(tick); });
+    if (result_.ticks == 0) throw Refusal("the recording does not begin with a complete tick 0");
+    result_.problems = run_.problems();
+    return std::move(result_);
+  }
+
+ private:
+  bool add(const RecordedTick& tick) {
+    if (tick.number != result_.ticks || !stack_.receive(tick)) return false;
+    const auto recorded = demand_of(tick.find(topics::demand.description));
+    const auto other = demand_of(stack_.find(topics::demand.description, tick.number));
+    if (!recorded || !other) return false;
+    note(*recorded, *other);
+    stack_.forget_until(result_.ticks++);
+    return true;
+  }
+
+  void note(const msg::Demand& recorded, const msg::Demand& other) {
+    const auto tick = recorded.header.tick;
+    const double time_s = static_cast<double>(recorded.header.sample_time_ns) / 1e9;
+    auto column = result_.table.columns.begin();
+    (column++)->values.push_back(time_s);
+    (column++)->values.push_back(static_cast<double>(tick));
+    for (std::size_t i = 0; i < kAxisNames.size(); ++i) {
+      const double was_v = recorded.total_v[i], would_v = other.total_v[i];
+      (column++)->values.push_back(was_v);
+      (column++)->values.push_back(would_v);
+      if (!result_.first_differs && std::memcmp(&was_v, &would_v, sizeof was_v) != 0)
+        result_.first_differs = tick;
+      const double difference_v = std::abs(would_v - was_v);
+      if (difference_v > result_.largest[i].difference_v)
+        result_.largest[i] = {difference_v, was_v, would_v, tick, time_s};
+    }
+  }
+
+  RecordedRun& run_;
+  ReplayedStack stack_;
+  SwapResult result_;
+};
+
+}  // namespace
+
+SwapResult swap_controller(const std::filesystem::path& file, const std::string& other) {
+  RecordedRun run{file};
+  return Swap{run, runtime::chosen_controller(other, run.rig())}.make();
+}
+
+}  // namespace crane::replay
