@@ -8,6 +8,15 @@
 #include "mcap_format.hpp"
 
 namespace crane::recording {
+
+/// A message and the chunk that contains its data.
+struct Pending {
+  Message message;
+  std::uint64_t chunk_offset = 0;
+  std::size_t position = 0;  // in the chunk
+  std::shared_ptr<const std::string> chunk;
+};
+
 namespace {
 
 using mcap::Cursor;
@@ -17,14 +26,6 @@ using mcap::Op;
 Bytes as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
-
-/// A message and the chunk that contains its data.
-struct Pending {
-  Message message;
-  std::uint64_t chunk_offset = 0;
-  std::size_t position = 0;  // in the chunk
-  std::shared_ptr<const std::string> chunk;
-};
 
 bool earlier(const Pending& a, const Pending& b) {
   return std::tie(a.message.log_time_ns, a.chunk_offset, a.position) <
@@ -191,23 +192,54 @@ std::vector<AttachmentRecord> McapReader::attachments() {
   return list;
 }
 
-void McapReader::for_each(const Selection& selection, const std::function<bool(const Message&)>& visit) {
-  std::vector<const ChunkPlace*> order;
+struct MessageStream::State {
+  McapReader::State* reader;
+  Selection selection;
+  std::vector<const ChunkPlace*> chunks;  ///< by their first log time
+  std::size_t loaded = 0;                 ///< number of loaded chunks
+  std::vector<Pending> pending;           ///< sorted
+  std::size_t next = 0;                   ///< in `pending`
+
+  /// A chunk that is not loaded yet may have earlier messages.
+  [[nodiscard]] bool ready() const {
+    return next < pending.size() &&
+           (loaded == chunks.size() || pending[next].message.log_time_ns < chunks[loaded]->first_ns);
+  }
+  void load() {
+    pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(next));
+    next = 0;
+    reader->load(*chunks[loaded++], selection, pending);
+    std::sort(pending.begin(), pending.end(), earlier);
+  }
+};
+
+MessageStream::MessageStream(std::unique_ptr<State> state) : state_{std::move(state)} {}
+MessageStream::~MessageStream() = default;
+MessageStream::MessageStream(MessageStream&&) noexcept = default;
+MessageStream& MessageStream::operator=(MessageStream&&) noexcept = default;
+
+const Message* MessageStream::next() {
+  while (!state_->ready()) {
+    if (state_->loaded == state_->chunks.size()) return nullptr;
+    state_->load();
+  }
+  return &state_->pending[state_->next++].message;
+}
+
+MessageStream McapReader::messages(const Selection& selection) {
+  auto stream = std::make_unique<MessageStream::State>(
+      MessageStream::State{.reader = state_.get(), .selection = selection, .chunks = {}, .pending = {}});
   for (const ChunkPlace& chunk : state_->contents.chunks)
     if (chunk.has_messages && chunk.last_ns >= selection.from_ns && chunk.first_ns <= selection.until_ns)
-      order.push_back(&chunk);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const ChunkPlace* a, const ChunkPlace* b) { return a->first_ns < b->first_ns; });
-  std::vector<Pending> pending;  // sorted by time; chunks that are not loaded yet may have earlier messages
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    state_->load(*order[i], selection, pending);
-    std::sort(pending.begin(), pending.end(), earlier);
-    const bool last = i + 1 == order.size();
-    auto ready = pending.begin();
-    for (; ready != pending.end() && (last || ready->message.log_time_ns < order[i + 1]->first_ns); ++ready)
-      if (!visit(ready->message)) return;
-    pending.erase(pending.begin(), ready);
-  }
+      stream->chunks.push_back(&chunk);
+  std::ranges::stable_sort(stream->chunks, {}, [](const ChunkPlace* chunk) { return chunk->first_ns; });
+  return MessageStream{std::move(stream)};
+}
+
+void McapReader::for_each(const Selection& selection, const std::function<bool(const Message&)>& visit) {
+  auto stream = messages(selection);
+  while (const auto* message = stream.next())
+    if (!visit(*message)) return;
 }
 
 }  // namespace crane::recording

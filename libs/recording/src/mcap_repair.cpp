@@ -1,27 +1,9 @@
-#include <system_error>
+#include <array>
 
 #include "crane/recording/mcap_reader.hpp"
+#include "recording_copy.hpp"
 
 namespace crane::recording {
-namespace {
-
-void copy_messages(McapReader& reader, McapWriter& writer, CheckReport& report) {
-  std::map<std::uint16_t, std::uint16_t> schema_ids{{std::uint16_t{0}, std::uint16_t{0}}};
-  for (const SchemaRecord& schema : reader.schemas())
-    schema_ids[schema.id] = writer.schema(schema.name, schema.encoding, schema.text);
-  std::map<std::uint16_t, std::uint16_t> channel_ids;
-  for (const ChannelRecord& channel : reader.channels())
-    channel_ids[channel.id] = writer.channel(schema_ids[channel.schema_id], channel.topic,
-                                             channel.message_encoding, channel.metadata);
-  reader.for_each({}, [&](const Message& message) {
-    writer.message(channel_ids[message.channel->id], message.sequence, message.log_time_ns,
-                   message.publish_time_ns, message.data);
-    ++report.messages;
-    return true;
-  });
-}
-
-}  // namespace
 
 CheckReport check(const std::filesystem::path& file) {
   McapReader reader{file};
@@ -38,26 +20,13 @@ CheckReport check(const std::filesystem::path& file) {
 
 CheckReport repair(const std::filesystem::path& damaged, const std::filesystem::path& repaired) {
   McapReader reader{damaged};
-  std::error_code ignored;
-  if (std::filesystem::equivalent(damaged, repaired, ignored))
-    throw WriteError(repaired.string() + ": is the damaged file itself; give another name");
-  const std::filesystem::path partial = repaired.string() + ".partial";
+  RecordingCopy copy{repaired, std::array{damaged}};
+  const auto channels = copy.add_channels(reader);
+  auto messages = reader.messages();
+  while (const auto* message = messages.next()) copy.add(*message, channels);
+  copy.add_attachments(reader);
   CheckReport report;
-  try {
-    McapWriter writer{partial};
-    copy_messages(reader, writer, report);
-    for (const MetadataRecord& each : reader.metadata()) writer.metadata(each.name, each.entries);
-    for (const AttachmentRecord& each : reader.attachments())
-      writer.attachment(each.name, each.media_type, each.time_ns, each.data);
-    writer.close();
-  } catch (...) {
-    std::filesystem::remove(partial, ignored);
-    throw;
-  }
-  std::error_code failure;
-  std::filesystem::rename(partial, repaired, failure);
-  if (failure)
-    throw WriteError(repaired.string() + ": cannot rename " + partial.string() + ": " + failure.message());
+  report.messages = copy.finish();
   report.problems = reader.problems();
   return report;
 }

@@ -1,12 +1,14 @@
-/// crane log: describes, checks, repairs and exports recordings.
+/// crane log: describes, checks, repairs, cuts, merges and exports recordings.
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "cli/log_export.hpp"
+#include "cli/output_file.hpp"
 #include "cli/text_table.hpp"
 #include "commands.hpp"
+#include "crane/recording/mcap_edit.hpp"
 #include "crane/recording/run_table.hpp"
 
 namespace crane::cli {
@@ -16,8 +18,10 @@ using recording::McapReader;
 
 struct LogOptions {
   std::filesystem::path file, out;
+  std::vector<std::filesystem::path> files;  ///< of merge: the recordings, then the new file
+  recording::TimeRange range;
   std::string topic;
-  bool json = false;
+  bool json = false, force = false;
 };
 using Shared = std::shared_ptr<LogOptions>;
 
@@ -72,19 +76,38 @@ int check(const LogOptions& options) {
   return found.problems.empty() ? runtime::kExitDone : runtime::kExitFailed;
 }
 
+void print_copied(const std::filesystem::path& out, const recording::CheckReport& found) {
+  std::cout << out.string() << ": " << found.messages << " samples saved\n";
+  print_problems(found.problems);
+}
+
 int repair(const LogOptions& options) {
   auto out = options.out;
   if (out.empty()) out = std::filesystem::path{options.file}.replace_extension("repaired.mcap");
-  const auto found = recording::repair(options.file, out);
-  std::cout << out.string() << ": " << found.messages << " samples saved\n";
-  print_problems(found.problems);
+  require_new(out, options.force);
+  print_copied(out, recording::repair(options.file, out));
+  return runtime::kExitDone;
+}
+
+int cut(const LogOptions& options) {
+  require_new(options.out, options.force);
+  print_copied(options.out, recording::cut(options.file, options.range, options.out));
+  return runtime::kExitDone;
+}
+
+int merge(const LogOptions& options) {
+  const auto& out = options.files.back();
+  require_new(out, options.force);
+  print_copied(out, recording::merge(std::span{options.files}.first(options.files.size() - 1), out));
   return runtime::kExitDone;
 }
 
 /// Calls `write` with --out or standard output. @throws std::runtime_error when the file cannot be written
 template <class Write>
-void to_output(const std::filesystem::path& out, const Write& write) {
+void to_output(const LogOptions& options, const Write& write) {
+  const auto& out = options.out;
   if (out.empty()) return write(std::cout);
+  require_new(out, options.force);
   std::ofstream file{out, std::ios::binary};
   if (file) write(file);
   file.close();
@@ -94,7 +117,7 @@ void to_output(const std::filesystem::path& out, const Write& write) {
 int export_csv(const LogOptions& options) {
   McapReader recording{options.file};
   if (!options.topic.empty()) note_other_version(recording);
-  to_output(options.out, [&](std::ostream& out) {
+  to_output(options, [&](std::ostream& out) {
     options.topic.empty() ? recording::write_csv(out, recording::run_table(recording))
                           : write_topic_csv(out, recording, options.topic);
   });
@@ -105,17 +128,20 @@ int export_csv(const LogOptions& options) {
 int export_json(const LogOptions& options) {
   McapReader recording{options.file};
   note_other_version(recording);
-  to_output(options.out, [&](std::ostream& out) { write_json_lines(out, recording, options.topic); });
+  to_output(options, [&](std::ostream& out) { write_json_lines(out, recording, options.topic); });
   print_problems(recording.problems());
   return runtime::kExitDone;
 }
 
-/// A file that is no recording has the exit code of a wrong argument.
+/// A file that is no recording, or does not fit to the others, has the exit code of a wrong argument.
 int run(int (*action)(const LogOptions&), const LogOptions& options) {
   try {
     return action(options);
   } catch (const recording::ReadError& error) {
     std::cerr << "crane: " << error.what() << '\n';
+    return runtime::kExitBadInput;
+  } catch (const recording::EditError& error) {
+    std::cerr << error.what() << '\n';
     return runtime::kExitBadInput;
   }
 }
@@ -127,6 +153,39 @@ CLI::App* add(CLI::App& log, Action& chosen, const Shared& options, int (*action
   command->callback(
       [options, action, &chosen] { chosen = [options, action] { return run(action, *options); }; });
   return command;
+}
+
+void add_force(CLI::App* command, const Shared& options) {
+  command->add_flag("--force", options->force, "overwrite an existing file");
+}
+
+void add_cut(CLI::App& log, Action& chosen, const Shared& options) {
+  auto* command = add(log, chosen, options, cut, "cut", "Copy a range of time to a new recording");
+  command->add_option("OUT", options->out, "recording to write")->required();
+  command->add_option("--from", options->range.from_s, "first time, in s from the first sample; default: 0")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option(
+          "--to", options->range.until_s,
+          "end, in s from the first sample; a sample at this time is not copied; default: the end of "
+          "the recording")
+      ->check(CLI::PositiveNumber);
+  add_force(command, options);
+  command->footer("Example: crane log cut run.mcap --from 12.5 --to 20 stop.mcap");
+}
+
+void add_merge(CLI::App& log, Action& chosen, const Shared& options) {
+  auto* command =
+      log.add_subcommand("merge", "Merge recordings to a new recording, in the order of log time");
+  constexpr int kFewest = 3, kMost = 1000;
+  command->add_option("FILES", options->files, "recordings (.mcap), then the recording to write")
+      ->required()
+      ->expected(kFewest, kMost);
+  add_force(command, options);
+  command->footer(
+      "Example: crane log merge first.mcap second.mcap both.mcap\n"
+      "Refuses recordings with different schemas or rig files.");
+  command->callback([options, &chosen] { chosen = [options] { return run(merge, *options); }; });
 }
 
 void add_export(CLI::App& log, Action& chosen, const Shared& options) {
@@ -143,6 +202,7 @@ void add_export(CLI::App& log, Action& chosen, const Shared& options) {
   for (auto* format : {csv, json}) {
     format->add_option("--topic", options->topic, "only this topic");
     format->add_option("--out", options->out, "file to write; default: standard output");
+    add_force(format, options);
   }
 }
 
@@ -150,7 +210,7 @@ void add_export(CLI::App& log, Action& chosen, const Shared& options) {
 
 void add_log(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<LogOptions>();
-  auto* log = app.add_subcommand("log", "Inspect, check, repair and export recordings");
+  auto* log = app.add_subcommand("log", "Inspect, check, repair, cut, merge and export recordings");
   auto* described = add(*log, chosen, options, info, "info", "Show topics, counts, times and metadata");
   described->add_flag("--json", options->json, "one JSON object");
   described->footer("Example: crane log info run.mcap");
@@ -161,6 +221,9 @@ void add_log(CLI::App& app, Action& chosen) {
                        "Copy the readable part of a damaged recording to a new file");
   repaired->add_option("--out", options->out, "file to write; default: FILE with .repaired.mcap");
   repaired->footer("Example: crane log repair run.mcap --out saved.mcap");
+  add_force(repaired, options);
+  add_cut(*log, chosen, options);
+  add_merge(*log, chosen, options);
   add_export(*log, chosen, options);
 }
 

@@ -53,6 +53,26 @@ struct Selection {
   std::int64_t until_ns = std::numeric_limits<std::int64_t>::max();  ///< inclusive
 };
 
+class McapReader;
+
+/// The selected messages one after the other, in the order of log time (equal times: in file order). Made by
+/// McapReader::messages(); the reader must outlive it.
+class MessageStream {
+ public:
+  ~MessageStream();
+  MessageStream(MessageStream&&) noexcept;
+  MessageStream& operator=(MessageStream&&) noexcept;
+  /// @return valid until the next call; nullptr after the last message. Damaged chunks are skipped and
+  ///   reported in McapReader::problems()
+  [[nodiscard]] const Message* next();
+
+ private:
+  friend class McapReader;
+  struct State;
+  explicit MessageStream(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
 class McapReader {
  public:
   /// Reads the index. Without an intact index it scans the whole file. @throws ReadError
@@ -71,14 +91,15 @@ class McapReader {
   [[nodiscard]] std::int64_t first_time_ns() const;  ///< first log time of all chunks; 0 without chunks
   [[nodiscard]] std::int64_t last_time_ns() const;   ///< last log time of all chunks; 0 without chunks
 
-  /// Calls `visit` for each selected message in the order of log time (equal times: in file order), until
-  /// `visit` returns false. Damaged chunks are skipped and reported in problems().
+  [[nodiscard]] MessageStream messages(const Selection& selection = {});
+  /// Calls `visit` for each selected message in the order of messages(), until `visit` returns false.
   void for_each(const Selection& selection, const std::function<bool(const Message&)>& visit);
 
   /// Problems found so far, one line each, with file and byte position. Reading may add problems.
   [[nodiscard]] const std::vector<std::string>& problems() const;
 
  private:
+  friend class MessageStream;
   struct State;
   std::unique_ptr<State> state_;
 };
@@ -91,8 +112,8 @@ struct CheckReport {
 /// Reads the whole file. @throws ReadError
 [[nodiscard]] CheckReport check(const std::filesystem::path& file);
 
-/// Copies everything readable from `damaged` to a new file `repaired`. The new file appears only when it is
-/// complete.
+/// Copies everything readable from `damaged` to the file `repaired`, which appears, or replaces an existing
+/// file, only when it is complete.
 /// @return number of copied messages, and the losses. @throws ReadError, WriteError
 CheckReport repair(const std::filesystem::path& damaged, const std::filesystem::path& repaired);
 

@@ -1,0 +1,37 @@
+#pragma once
+/// Makes recordings from recordings: a part of one, or several in one. The new recording keeps the messages
+/// without change, and the channels, metadata and attachments. It appears, or replaces an existing file, only
+/// when it is complete.
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+
+#include "crane/recording/mcap_reader.hpp"
+
+namespace crane::recording {
+
+/// Recordings that must not be in one file, or an empty part. what() has one line for each problem.
+class EditError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A range of log time, in s from the first message of the recording: from_s <= t < until_s. Consecutive
+/// ranges contain each message once.
+struct TimeRange {
+  double from_s = 0;
+  double until_s = std::numeric_limits<double>::infinity();
+};
+
+/// Adds the metadata record "cut" with the range. @return number of copied messages, and the damage of `file`
+/// @throws ReadError, WriteError; EditError when no message is within the range
+CheckReport cut(const std::filesystem::path& file, const TimeRange& range, const std::filesystem::path& out);
+
+/// Messages in the order of log time; of equal times, those of the recording named first come first. Equal
+/// metadata and attachments are stored once. Adds the metadata record "merge" with the names of the files.
+/// @return number of copied messages, and the damage of all files
+/// @throws ReadError, WriteError; EditError when two recordings have different schemas of one type, different
+///   types of one topic, or different attachments of one name or of TOML (rig files)
+CheckReport merge(std::span<const std::filesystem::path> files, const std::filesystem::path& out);
+
+}  // namespace crane::recording

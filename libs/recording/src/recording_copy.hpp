@@ -1,0 +1,41 @@
+#pragma once
+/// A new recording that contains parts of others: repair, cut, merge.
+#include <filesystem>
+#include <map>
+#include <span>
+
+#include "crane/recording/mcap_reader.hpp"
+
+namespace crane::recording {
+
+class RecordingCopy {
+ public:
+  /// Writes FILE.partial. @throws WriteError, also when `file` is one of `sources`
+  RecordingCopy(const std::filesystem::path& file, std::span<const std::filesystem::path> sources);
+  /// Removes FILE.partial, unless finish() was called.
+  ~RecordingCopy();
+  RecordingCopy(const RecordingCopy&) = delete;
+  RecordingCopy& operator=(const RecordingCopy&) = delete;
+
+  using ChannelIds = std::map<std::uint16_t, std::uint16_t>;  ///< of a source -> of the copy
+  /// Adds the schemas and channels of a source; those that the copy already has are added once.
+  [[nodiscard]] ChannelIds add_channels(const McapReader& source);
+  /// Adds the metadata and attachments of a source; those that the copy already has are added once.
+  void add_attachments(McapReader& source);
+  void add_metadata(const std::string& name, const Metadata& entries);
+  void add(const Message& message, const ChannelIds& channels);
+
+  /// Renames FILE.partial to FILE. @return number of messages. @throws WriteError
+  std::uint64_t finish();
+
+ private:
+  std::filesystem::path file_, partial_;
+  McapWriter writer_;
+  std::map<std::uint16_t, SchemaRecord> schemas_;    ///< of the copy, by id
+  std::map<std::uint16_t, ChannelRecord> channels_;  ///< of the copy, by id
+  std::vector<MetadataRecord> metadata_;
+  std::vector<AttachmentRecord> attachments_;
+  bool finished_ = false;
+};
+
+}  // namespace crane::recording

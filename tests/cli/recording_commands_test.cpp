@@ -1,0 +1,118 @@
+// crane log and crane replay as a user starts them: exit codes, refusals, and no overwritten file.
+#include <gmock/gmock.h>
+
+#include "../replay/recorded_crane.hpp"
+#include "../system/program_run.hpp"
+#include "stack/child_processes.hpp"
+
+namespace crane::cli {
+namespace {
+
+using recording::contents_of;
+using recording::put_contents;
+using system_test::Ended;
+using testing::HasSubstr;
+
+Ended crane(const std::vector<std::string>& arguments) {
+  return system_test::run_program(stack::program_directory() / "crane", arguments);
+}
+
+class RecordingCommands : public testing::Test {
+ protected:
+  void SetUp() override {
+    replay_test::RecordedCrane crane{directory_ / "run.mcap", "virginia_tech_tower",
+                                     "gain_scheduling_partial"};
+    crane.arm();
+    crane.ask({.kind = crane_REQUEST_MOVE, .selected = {true, false, false}, .target = {0.8, 0, 0}});
+    crane.run(1);
+    ticks_ = std::to_string(crane.finish());
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return (directory_ / name).string(); }
+
+  recording::TemporaryDirectory directory_;
+  std::string run_ = path("run.mcap"), ticks_;
+};
+
+/// Every command with a file that it writes: the words before and after the name of the file.
+TEST_F(RecordingCommands, RefuseToOverwriteAFileWithoutForce) {
+  ASSERT_EQ(crane({"log", "cut", run_, path("part.mcap"), "--to", "1"}).exit_code, 0);
+  const auto out = path("precious");
+  const std::vector<std::vector<std::string>> commands{
+      {"log", "cut", run_, out, "--to", "1"},
+      {"log", "merge", run_, path("part.mcap"), out},
+      {"log", "repair", run_, "--out", out},
+      {"log", "export", "csv", run_, "--out", out},
+      {"log", "export", "csv", run_, "--topic", "crane/state", "--out", out},
+      {"log", "export", "json", run_, "--topic", "crane/demand", "--out", out},
+      {"replay", run_, "--swap", "controller=delayed_1", "--out", out}};
+  for (auto command : commands) {
+    SCOPED_TRACE(testing::PrintToString(command));
+    put_contents(out, "precious");
+    const auto refused = crane(command);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.errors, out + ": exists; choose another name or --force\n");
+    EXPECT_EQ(refused.output, "");
+    EXPECT_EQ(contents_of(out), "precious");
+
+    command.emplace_back("--force");
+    const auto forced = crane(command);
+    EXPECT_EQ(forced.exit_code, 0) << forced.errors;
+    EXPECT_GT(contents_of(out).size(), 1000U);
+    std::filesystem::remove(out);
+
+    command.pop_back();
+    const auto written = crane(command);
+    EXPECT_EQ(written.exit_code, 0) << written.errors;
+    EXPECT_TRUE(std::filesystem::exists(out));
+  }
+}
+
+TEST_F(RecordingCommands, RefuseToOverwriteTheFileOfTheDefaultName) {
+  EXPECT_EQ(crane({"log", "repair", run_}).exit_code, 0);
+  EXPECT_THAT(crane({"log", "repair", run_}).errors, HasSubstr("run.repaired.mcap: exists"));
+  const std::vector<std::string> swap{"replay", run_, "--swap", "controller=lqr"};
+  EXPECT_EQ(crane(swap).exit_code, 0);
+  EXPECT_THAT(crane(swap).errors, HasSubstr("run.lqr.csv: exists"));
+}
+
+TEST_F(RecordingCommands, RefuseToWriteOverTheirSourceEvenWithForce) {
+  const auto before = contents_of(run_);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"log", "cut", run_, run_, "--force"},
+        std::vector<std::string>{"log", "repair", run_, "--out", run_, "--force"}}) {
+    const auto refused = crane(command);
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_THAT(refused.errors, HasSubstr("is the recording that is read"));
+  }
+  EXPECT_EQ(contents_of(run_), before);
+}
+
+TEST_F(RecordingCommands, CutsOfARunAreMergedToARecordingThatIsReplayed) {
+  ASSERT_EQ(crane({"log", "cut", run_, path("a.mcap"), "--to", "1.5"}).exit_code, 0);
+  ASSERT_EQ(crane({"log", "cut", run_, path("b.mcap"), "--from", "1.5"}).exit_code, 0);
+  ASSERT_EQ(crane({"log", "merge", path("b.mcap"), path("a.mcap"), path("both.mcap")}).exit_code, 0);
+  const auto all = crane({"replay", path("both.mcap")});
+  EXPECT_EQ(all.output, "equal bit for bit, " + ticks_ + " ticks\n") << all.errors;
+  EXPECT_EQ(crane({"replay", path("a.mcap")}).output, "equal bit for bit, 150 ticks\n");
+  const auto later = crane({"replay", path("b.mcap")});
+  EXPECT_EQ(later.exit_code, 2);
+  EXPECT_THAT(later.errors, HasSubstr("begins with tick 150"));
+}
+
+TEST_F(RecordingCommands, ReplayNamesTheDifferenceWithExitCode1) {
+  replay_test::copy_changed(run_, path("changed.mcap"),
+                            [](const recording::Message& message, std::vector<std::uint8_t>& data) {
+                              if (message.channel->topic == "crane/demand" && message.sequence == 300)
+                                data.at(76) ^= 1U;
+                              return true;
+                            });
+  const auto found = crane({"replay", path("changed.mcap")});
+  EXPECT_EQ(found.exit_code, 1);
+  EXPECT_THAT(found.output, HasSubstr("different: crane/demand of tick 300 (3 s): total_v[0]: recorded "));
+  const auto json = crane({"replay", path("changed.mcap"), "--json"});
+  EXPECT_EQ(json.exit_code, 1);
+  EXPECT_THAT(json.output, HasSubstr(R"("tick": 300)"));
+}
+
+}  // namespace
+}  // namespace crane::cli
