@@ -17,6 +17,7 @@
 
 #include "crane/runtime/hosted_component.hpp"
 #include "crane/runtime/signals.hpp"
+#include "crane/runtime/spin_limit.hpp"
 
 namespace crane::runtime {
 namespace {
@@ -36,6 +37,7 @@ void enter_realtime(Node& node, int priority) {
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     node.warning("memory_not_locked", std::string{"mlockall failed: "} + std::strerror(errno),
                  "grant CAP_IPC_LOCK or raise the memlock limit");
+  end_when_spinning();
   const sched_param parameters{.sched_priority = priority};
   for (const auto& thread : std::filesystem::directory_iterator{"/proc/self/task"}) {
     const auto id = static_cast<pid_t>(std::stol(thread.path().filename().string()));
