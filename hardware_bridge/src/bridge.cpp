@@ -248,6 +248,7 @@ msg::State Bridge::state(const Inputs& inputs, const control::Measurement& measu
   sample.latch_reason = static_cast<crane_LatchReason>(reason);
   sample.watchdog_dropped = inputs.watchdog_dropped;
   sample.overruns = overruns_;
+  sample.configuration = node_.identity().configuration;
   return sample;
 }
 

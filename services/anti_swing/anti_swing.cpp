@@ -27,6 +27,7 @@ class AntiSwing : public runtime::JoinedComponent<msg::State, msg::Reference> {
     runtime::assign(sample.drive_v, contribution.drive_v);
     runtime::assign(sample.correction, contribution.correction);
     sample.second_writer = disputed();
+    sample.configuration = configuration();
     output_.publish(sample);
   }
 

@@ -30,6 +30,7 @@ class FrictionCompensation
       sample.total_v[i] = sample.control_v[i] + sample.friction_v[i];
     }
     sample.second_writer = disputed() || tracking->second_writer || anti_swing->second_writer;
+    sample.configuration = configuration();
     output_.publish(sample);
   }
 

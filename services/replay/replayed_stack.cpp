@@ -28,6 +28,7 @@ bool writes(const runtime::ComponentSpec& component, const topics::Description& 
 ReplayedStack::ReplayedStack(std::span<const runtime::ComponentSpec> components,
                              const configuration::Rig& rig, const control::Controller& controller)
     : stack_{components, rig, controller},
+      configuration_{configuration::digest(rig, controller.name)},
       bus_{runtime::memory_options(stack_.network(), "crane_replay", crane_SOURCE_MONITOR)},
       has_supervisor_{std::ranges::any_of(components, [](const auto& component) {
         return writes(component, topics::supervisor.description);
@@ -60,8 +61,11 @@ ReplayedStack::Operator& ReplayedStack::operator_of(const msg::Header& header, c
 template <class T>
 bool ReplayedStack::publish(std::unique_ptr<Outside<T>>& outside, const topics::Topic<T>& topic,
                             const Cdr& cdr) {
-  const auto sample = decoded(topic, cdr);
+  auto sample = decoded(topic, cdr);
   if (!sample) return false;
+  // Another controller must not find that the recorded state has another configuration.
+  if constexpr (requires { sample->configuration; })
+    if (!has_supervisor_) sample->configuration = configuration_;
   if (!outside) {
     auto bus = bus_of(sample->header, "recorded_" + std::string{topic.description.name});
     auto publisher = bus.publisher(topic, runtime::loop_endpoint(runtime::Clock::lockstep));

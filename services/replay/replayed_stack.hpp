@@ -54,6 +54,7 @@ class ReplayedStack {
   void run();
 
   runtime::InProcessStack stack_;
+  std::uint32_t configuration_;  ///< of the replayed components
   bus::Bus bus_;
   std::map<std::string_view, Output> outputs_;
   std::unique_ptr<Outside<msg::State>> clock_master_;

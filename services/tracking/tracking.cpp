@@ -15,7 +15,8 @@ class TrackingStep {
       : law_{control::tracking_law(context.controller, context.rig.design)},
         output_{context.ports.output(topics::tracking)} {}
 
-  void operator()(const msg::State& state, const control::Reference& reference, bool disputed) {
+  void operator()(const msg::State& state, const control::Reference& reference, bool disputed,
+                  std::uint32_t configuration) {
     const auto measured = runtime::measurement(state);
     if (!started_) law_->reset(measured);
     started_ = true;
@@ -24,6 +25,7 @@ class TrackingStep {
     sample.header = runtime::answer_to(state.header);
     runtime::assign(sample.drive_v, contribution.drive_v);
     sample.second_writer = disputed;
+    sample.configuration = configuration;
     output_.publish(sample);
   }
 
@@ -42,7 +44,7 @@ class Tracking : public runtime::JoinedComponent<msg::State, msg::Reference> {
 
  protected:
   void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Reference* reference) override {
-    step_(*state, runtime::reference(*reference), disputed());
+    step_(*state, runtime::reference(*reference), disputed(), configuration());
   }
 
  private:
@@ -67,7 +69,7 @@ class CorrectedTracking : public runtime::JoinedComponent<msg::State, msg::Refer
       wanted[i].speed += correction[i].speed;
       wanted[i].acceleration += correction[i].acceleration;
     }
-    step_(*state, wanted, disputed());
+    step_(*state, wanted, disputed(), configuration());
   }
 
  private:

@@ -220,6 +220,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     runtime::assign(sample, reference);
     sample.move_number = move_number_;
     sample.second_writer = disputed();
+    sample.configuration = configuration();
     sample.moving = pending_ || waiting_ || !motion_.arrived(measured, tick);
     output_.publish(sample);
     published_ = tick;

@@ -15,7 +15,6 @@
 #include "process/command_echo.hpp"
 #include "process/jog_desk.hpp"
 #include "process/request_rules.hpp"
-#include "process/same_configuration.hpp"
 #include "process/samples.hpp"
 #include "process/start_up_test.hpp"
 
@@ -43,7 +42,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
                    crane_REQUEST_FOLLOW, crane_REQUEST_JOG, crane_REQUEST_STOP, crane_REQUEST_ESTOP,
                    crane_REQUEST_HOME}},
         jogs_{context},
-        configuration_{context},
         commands_{context.ports.output(topics::command)},
         statuses_{context.ports.output(topics::supervisor)} {
     if (auto found = problems(limits_); !found.empty()) {
@@ -56,7 +54,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   void handle_requests(std::int64_t now_ns) override {
     now_ns_ = now_ns;
     requests_.receive();
-    configuration_.receive();
   }
 
   void on_tick(std::uint64_t tick, const msg::State* state, const msg::Demand* demand,
@@ -178,7 +175,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
 
   void step(TickInput& input) {
     input.second_writer = input.second_writer || ports().disputed(now_ns_);
-    input.configuration_differs = configuration_.differs();
+    input.configuration_differs = configuration() == 0;
     const auto due = collect(input);
     const auto output = supervisor::step(limits_, input, memory_);
     for (const auto& one : due) answer(one, output, input.now_s);
@@ -258,7 +255,6 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   ClockOffset bridge_clock_;
   runtime::RequestInbox requests_;
   JogDesk jogs_;
-  SameConfiguration configuration_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;
   StartUpTest self_test_;
@@ -287,8 +283,7 @@ runtime::ComponentSpec supervisor_spec() {
                 {&topics::demand.description, "volts for the gate"},
                 {&topics::reference.description, "whether a move is under way"},
                 {&topics::request.description, "reset, arm, disarm, move, follow, jog, home, stop, e-stop"},
-                {&topics::jog.description, "deflection of the operator's stick"},
-                {&topics::node.description, "whether all processes have the same rig file and controller"}},
+                {&topics::jog.description, "deflection of the operator's stick"}},
       .writes = {{&topics::command.description, "volts, brakes, watchdog permission"},
                  {&topics::supervisor.description, "safety state, and the move that was accepted"},
                  {&topics::reply.description, "answers to requests"}},

@@ -77,7 +77,7 @@ constexpr std::array kRules{
     Rule{"supervisor_configuration_differs", Cause::configuration_differs, Reaction::power_off, Scope::armed, true,
          [](L, I in, M) noexcept { return in.configuration_differs; },
          "the rig file of a process of the loop differs from that of the supervisor in a value, or two of them have different controllers",
-         "first `crane/node` of the process", kOtherConfiguration},
+         "same tick", kOtherConfiguration},
     Rule{"supervisor_bridge_latched", Cause::bridge_latched, Reaction::power_off, Scope::armed, false,
          [](L, I in, M m) noexcept { return bridge_stopped(in) && bridge_matters(m); },
          "the bridge has latched, or the watchdog relay is open", "same tick", kBridgeStopped},

@@ -128,7 +128,8 @@ struct Elsewhere {
 /// source, too.
 constexpr std::array kElsewhere{
     Elsewhere{"bus_checksum_of_topic", "Intact.IsFalseOnAnotherTopicOfTheSameType"},
-    Elsewhere{"supervisor_configuration_differs", "OtherConfiguration.ReportedWhileArmedRemovesPower"},
+    Elsewhere{"supervisor_configuration_differs",
+              "AnotherConfiguration.OfTheDemandRemovesPowerInTheSameTick"},
     Elsewhere{"supervisor_zone", "HostileRuns.NeverLeadTheLoadIntoAZone"},
     Elsewhere{"supervisor_zone_ahead", "ZoneStop.OfAFastCraneIsControlledFirst"}};
 

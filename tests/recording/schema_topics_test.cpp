@@ -107,6 +107,7 @@ TEST(TopicSchema, ReadsEveryFieldOfState) {
   f.number(s.overruns);
   s.latch_reason = crane_LATCH_LOST_COUNTS;
   s.position_known[0] = s.mark_active[1] = s.mark_found[2] = true;
+  f.number(s.configuration);
   f.number(s.crc32c);
   const ordered_json want{{"header", expected(s.header)},
                           {"counts", expected(s.counts)},
@@ -134,6 +135,7 @@ TEST(TopicSchema, ReadsEveryFieldOfState) {
                           {"position_known", {true, false, false}},
                           {"mark_active", {false, true, false}},
                           {"mark_found", {false, false, true}},
+                          {"configuration", s.configuration},
                           {"crc32c", s.crc32c}};
   EXPECT_EQ(through_the_codec(topics::state, s), want);
 }
@@ -150,6 +152,7 @@ TEST(TopicSchema, ReadsEveryFieldOfReferenceAndContribution) {
   r.moving = true;
   f.number(r.move_number);
   r.second_writer = true;
+  f.number(r.configuration);
   f.number(r.crc32c);
   EXPECT_EQ(through_the_codec(topics::reference, r),
             (ordered_json{{"header", expected(r.header)},
@@ -161,18 +164,18 @@ TEST(TopicSchema, ReadsEveryFieldOfReferenceAndContribution) {
                           {"moving", true},
                           {"move_number", r.move_number},
                           {"second_writer", true},
+                          {"configuration", r.configuration},
                           {"crc32c", r.crc32c}}));
   msg::Contribution c{};
   f.header(c.header);
   for (double& value : c.drive_v) value = f.real();
   for (auto& axis : c.correction) f.axis(axis);
   c.second_writer = true;
+  f.number(c.configuration);
   f.number(c.crc32c);
-  const ordered_json want{{"header", expected(c.header)},
-                          {"drive_v", expected(c.drive_v)},
-                          {"correction", expected(c.correction)},
-                          {"second_writer", true},
-                          {"crc32c", c.crc32c}};
+  const ordered_json want{{"header", expected(c.header)},         {"drive_v", expected(c.drive_v)},
+                          {"correction", expected(c.correction)}, {"second_writer", true},
+                          {"configuration", c.configuration},     {"crc32c", c.crc32c}};
   EXPECT_EQ(through_the_codec(topics::tracking, c), want);
   EXPECT_EQ(through_the_codec(topics::anti_swing, c), want);
 }
@@ -187,12 +190,14 @@ TEST(TopicSchema, ReadsEveryFieldOfDemandAndCommand) {
     d.total_v[i] = f.real();
   }
   d.second_writer = true;
+  f.number(d.configuration);
   f.number(d.crc32c);
   EXPECT_EQ(through_the_codec(topics::demand, d), (ordered_json{{"header", expected(d.header)},
                                                                 {"control_v", expected(d.control_v)},
                                                                 {"friction_v", expected(d.friction_v)},
                                                                 {"total_v", expected(d.total_v)},
                                                                 {"second_writer", true},
+                                                                {"configuration", d.configuration},
                                                                 {"crc32c", d.crc32c}}));
   msg::Command c{};
   f.header(c.header);
@@ -345,7 +350,6 @@ TEST(TopicSchema, ReadsEveryFieldOfNodeAndEvent) {
   f.text(n.vendor);
   f.text(n.version);
   f.text(n.controller);
-  f.number(n.rig_digest);
   f.number(n.pid);
   n.phase = crane_PHASE_STOPPING;
   for (auto* value : {&n.ticks, &n.lost_ticks, &n.late_samples, &n.duplicate_samples, &n.rejected_samples,
@@ -360,7 +364,6 @@ TEST(TopicSchema, ReadsEveryFieldOfNodeAndEvent) {
                           {"vendor", n.vendor},
                           {"version", n.version},
                           {"controller", n.controller},
-                          {"rig_digest", n.rig_digest},
                           {"pid", n.pid},
                           {"phase", "PHASE_STOPPING"},
                           {"ticks", n.ticks},

@@ -18,6 +18,8 @@ class SupervisorInRealTime : public testing::Test {
   /// Ten complete ticks in time; the step of tick 10 is at 100.5 ms.
   /// @param bridge_ahead_ns  offset of the clock of the bridge's host relative to that of the supervisor
   explicit SupervisorInRealTime(std::int64_t bridge_ahead_ns = 0) : bridge_ahead_ns_{bridge_ahead_ns} {
+    state_.configuration = demand_.configuration = reference_.configuration =
+        configuration::digest(rig_, rig_.controller);
     for (std::uint64_t tick = 1; tick <= 10; ++tick) {
       const double at_ms = 10.0 * static_cast<double>(tick);
       state_comes(tick);
@@ -33,9 +35,8 @@ class SupervisorInRealTime : public testing::Test {
     EXPECT_TRUE(states_.publish(state_));
   }
   void demand_comes(std::uint64_t tick) {
-    msg::Demand demand{};
-    demand.header = header(tick);
-    EXPECT_TRUE(demands_.publish(demand));
+    demand_.header = header(tick);
+    EXPECT_TRUE(demands_.publish(demand_));
     reference_.header = header(tick);
     EXPECT_TRUE(references_.publish(reference_));
   }
@@ -60,8 +61,10 @@ class SupervisorInRealTime : public testing::Test {
   [[nodiscard]] bool state_is_stale() const { return status_.state_stale; }
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] crane_SupervisorState supervisor_state() const { return status_.state; }
+  [[nodiscard]] crane_Cause cause() const { return status_.cause; }
 
   msg::State state_{};
+  msg::Demand demand_{};
   msg::Reference reference_{};
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
 
@@ -242,6 +245,47 @@ TEST_F(RunInRealTime, ALateStateDoesNotEndTheMove) {
   ticks(1);
   EXPECT_EQ(supervisor_state(), crane_STATE_HOLD);
 }
+
+/// One input states another configuration (1), or states that one of its own inputs has another one (0).
+class AnotherConfiguration : public RunInRealTime, public testing::WithParamInterface<std::uint32_t> {
+ protected:
+  void expect_power_removed() {
+    ticks(1);
+    EXPECT_EQ(supervisor_state(), crane_STATE_STOP_C0);
+    EXPECT_EQ(cause(), crane_CAUSE_CONFIGURATION_DIFFERS);
+  }
+};
+
+TEST_P(AnotherConfiguration, OfTheBridgeRemovesPowerInTheSameTick) {
+  state_.configuration = GetParam();
+  expect_power_removed();
+}
+
+TEST_P(AnotherConfiguration, OfTheDemandRemovesPowerInTheSameTick) {
+  demand_.configuration = GetParam();
+  expect_power_removed();
+}
+
+TEST_P(AnotherConfiguration, OfTheReferenceRemovesPowerInTheSameTick) {
+  reference_.configuration = GetParam();
+  expect_power_removed();
+}
+
+TEST_P(AnotherConfiguration, RefusesTheResetUntilTheProcessHasTheSameOne) {
+  const auto own = std::exchange(reference_.configuration, GetParam());
+  reference_.moving = false;
+  ticks(200);
+  ask(crane_REQUEST_RESET);
+  ticks(1);
+  EXPECT_EQ(supervisor_state(), crane_STATE_LOCKED);
+  reference_.configuration = own;
+  ticks(200);
+  ask(crane_REQUEST_RESET);
+  ticks(1);
+  EXPECT_EQ(supervisor_state(), crane_STATE_READY);
+}
+
+INSTANTIATE_TEST_SUITE_P(AnotherOneOrADifferenceUpstream, AnotherConfiguration, testing::Values(1, 0));
 
 }  // namespace
 }  // namespace crane::supervisor

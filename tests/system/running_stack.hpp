@@ -46,9 +46,11 @@ class Observer {
 
 class RunningStack {
  public:
-  /// Starts a stack on Cyclone DDS and waits until it is ready. @param keys  directory of keys; empty: none
+  /// Starts a stack and waits until it is ready.
+  /// @param keys    directory of keys; empty: none
+  /// @param vendor  DDS vendor of all processes
   RunningStack(std::uint32_t domain, const std::string& rig, stack::Plant plant = stack::Plant::simulated,
-               const std::string& keys = "");
+               const std::string& keys = "", const std::string& vendor = "cyclone");
 
   [[nodiscard]] experiments::RealtimeSession& session() { return *session_; }
   [[nodiscard]] stack::ChildProcesses& children() { return children_; }

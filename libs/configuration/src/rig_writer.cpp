@@ -112,10 +112,11 @@ std::string to_toml(const Rig& rig) {
   return tables.text() + terms_text(rig.terms) + zones_text(rig.zones);
 }
 
-std::uint32_t digest(const Rig& rig) {
+std::uint32_t digest(const Rig& rig, std::string_view controller) {
   constexpr std::uint32_t kOffset = 2166136261, kPrime = 16777619;  // Fowler, Noll, Vo
   std::uint32_t hash = kOffset;
-  for (const char c : to_toml(rig)) hash = (hash ^ static_cast<std::uint8_t>(c)) * kPrime;
+  for (const char c : to_toml(rig) + std::string{controller})
+    hash = (hash ^ static_cast<std::uint8_t>(c)) * kPrime;
   return hash == 0 ? 1 : hash;
 }
 

@@ -25,7 +25,6 @@ Node::Node(bus::Bus& bus, NodeIdentity identity)
   assign(report_.vendor, bus::to_string(bus.options().vendor));
   assign(report_.version, CRANE_VERSION);
   assign(report_.controller, identity_.controller);
-  report_.rig_digest = identity_.rig_digest;
 }
 
 void Node::info(std::string_view code, std::string_view what) {

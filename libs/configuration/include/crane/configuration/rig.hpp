@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crane/control/drive_limits.hpp"
@@ -152,10 +153,10 @@ class ConfigurationError : public std::runtime_error {
 /// bit for bit, except for its path. Values that follow from other fields (volts, lengths and period of the
 /// design) are not written.
 [[nodiscard]] std::string to_toml(const Rig& rig);
-/// Hash of to_toml(rig): FNV-1a with 32 bits; 1 replaces 0. Two texts that differ in one character have
-/// different hashes, except for the pair 0 and 1; other different texts have equal hashes with a probability
-/// of about 2^-32.
-[[nodiscard]] std::uint32_t digest(const Rig& rig);
+/// Hash of to_toml(rig) and the name of a controller: FNV-1a with 32 bits; 1 replaces 0. Two texts that
+/// differ in one character have different hashes, except for the pair 0 and 1; other different texts have
+/// equal hashes with a probability of about 2^-32.
+[[nodiscard]] std::uint32_t digest(const Rig& rig, std::string_view controller);
 /// The table [[zone]] of one zone.
 [[nodiscard]] std::string to_toml(const control::Zone& zone);
 

@@ -1,9 +1,12 @@
 #pragma once
 /// Base class of most components: it joins the samples of one tick and calls one step per tick.
+#include <optional>
 #include <string>
 
+#include "crane/runtime/agreement.hpp"
 #include "crane/runtime/component.hpp"
 #include "crane/runtime/node.hpp"
+#include "crane/runtime/process_name.hpp"
 #include "crane/runtime/tick_join.hpp"
 
 namespace crane::runtime {
@@ -33,6 +36,7 @@ class JoinedComponent : public Component {
     if (result == JoinResult::incomplete && !steps_incomplete_ticks()) return true;
     ports_.watch(now_ns);
     disputed_ = ports_.disputed(now_ns);
+    compare_configurations(std::index_sequence_for<Inputs...>{});
     const auto begin_ns = clock_ns();
     std::apply([this](const auto*... sample) { on_tick(join_.tick(), sample...); }, samples());
     const auto* leader = join_.template get<0>();
@@ -53,7 +57,8 @@ class JoinedComponent : public Component {
       : node_{context.node},
         ports_{context.ports},
         monotonic_ns_{context.monotonic_ns},
-        join_{join_policy(context, wait_share), context.ports.loop_input(inputs)...} {}
+        join_{join_policy(context, wait_share), context.ports.loop_input(inputs)...},
+        agreement_{context.node.identity().configuration} {}
 
   /// One step. A pointer is null only when its sample is missing and steps_incomplete_ticks() is true.
   virtual void on_tick(std::uint64_t tick, const Inputs*... samples) = 0;
@@ -70,6 +75,8 @@ class JoinedComponent : public Component {
   [[nodiscard]] const JoinCounts& counts() const { return join_.counts(); }
   /// True when a topic that this component reads had a second writer at the start of this step.
   [[nodiscard]] bool disputed() const { return disputed_; }
+  /// Configuration of this process and of all newest inputs; 0 when they differ. Every output states it.
+  [[nodiscard]] std::uint32_t configuration() const { return agreement_.configuration(); }
   /// Number of times that a new writer of the leading topic has taken over.
   [[nodiscard]] std::uint64_t restarts() const { return join_.restarts(); }
   [[nodiscard]] const Ports& ports() const { return ports_; }
@@ -83,6 +90,17 @@ class JoinedComponent : public Component {
   [[nodiscard]] std::tuple<const Inputs*...> samples(std::index_sequence<I...>) const {
     return {join_.template get<I>()...};
   }
+  template <std::size_t... I>
+  void compare_configurations(std::index_sequence<I...>) {
+    (agreement_.note(I, join_.template get<I>()), ...);
+    const auto other = agreement_.other();
+    if (other && other != reported_)
+      node_.error("configuration_differs",
+                  std::string{process_name(*other)} + " has another rig file or controller than " +
+                      node_.identity().name,
+                  "restart the processes with the same rig file and controller");
+    reported_ = other;
+  }
   /// Time in ns, for the execution time of a step; 0 without a clock (Context::monotonic_ns).
   [[nodiscard]] std::int64_t clock_ns() const { return monotonic_ns_ != nullptr ? monotonic_ns_() : 0; }
 
@@ -90,6 +108,8 @@ class JoinedComponent : public Component {
   Ports& ports_;
   std::int64_t (*monotonic_ns_)();  ///< see Context
   TickJoin<Inputs...> join_;
+  Agreement<sizeof...(Inputs)> agreement_;
+  std::optional<crane_Source> reported_;  ///< process with another configuration, named in the last event
   bool disputed_ = false;
 };
 

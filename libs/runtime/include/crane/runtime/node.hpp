@@ -12,9 +12,9 @@
 namespace crane::runtime {
 
 struct NodeIdentity {
-  std::string name;              ///< "tracking"
-  std::string controller;        ///< name of the controller; empty: the process runs no controller
-  std::uint32_t rig_digest = 0;  ///< configuration::digest() of its rig; 0: the process reads no rig file
+  std::string name;                 ///< "tracking"
+  std::string controller;           ///< name of the controller; empty: the process runs no controller
+  std::uint32_t configuration = 0;  ///< configuration::digest(); 0: the process reads no rig file
 };
 
 class Node {
