@@ -1,4 +1,4 @@
-/// Hazards 24, 25 and 31: brakes, emergency stop and limit switches.
+/// Hazards 24, 25, 31, 45 and 46: brakes, watchdog relay, emergency stop and limit switches.
 #include "campaign/evidence.hpp"
 #include "campaign/hazards.hpp"
 #include "campaign/judge/truth.hpp"
@@ -64,7 +64,7 @@ Injection slides_without_latch(Bench& bench, Random& /*random*/) {
   constexpr double kBound_ms = 100;
   bench.publish_fault = falsify(topics::state, [](msg::State& state) {
     state.latch_reason = crane_LATCH_NONE;
-    state.command_invalid = state.command_stale = state.watchdog_dropped = false;
+    state.command_invalid = state.command_stale = false;
   });
   bench.request(crane_REQUEST_ESTOP);
   return {.expectation = {.reasons = {because(crane_CAUSE_BRAKE_DID_NOT_CLOSE)},
@@ -97,6 +97,17 @@ Injection brake_closes(Bench& bench, Random& random) {
           .watched_s = 1.5};
 }
 
+/// The contacts of the relay are welded: it stays closed without toggling. Detection time: relay_timeout_s,
+/// 110 ms, and one tick each for command and sample.
+Injection relay_stays_closed(Bench& bench, Random& /*random*/) {
+  bench.rig().change_inputs = [](bridge::Inputs& inputs) { inputs.watchdog_dropped = false; };
+  bench.request(crane_REQUEST_ESTOP);
+  const double timeout_s = bench.setting().configured.wiring.relay_timeout_s;
+  return {.expectation = {.reasons = {because(crane_CAUSE_RELAY_DID_NOT_OPEN)},
+                          .detection_ms = 1000 * timeout_s + 110 + 20},
+          .watched_s = 1};
+}
+
 Injection inputs_pressed(Bench& bench, Random& random) {
   if (random.pick(3) > 0) {
     const bool by_wire = random.pick(2) == 0;
@@ -110,6 +121,7 @@ Injection inputs_pressed(Bench& bench, Random& random) {
 constexpr std::array kBrakeHazards{
     Hazard{.number = 24, .name = "brake fails to close", .prepare = broken_brake, .inject = brake_stays_open},
     Hazard{.number = 25, .name = "brake fails to open", .inject = brake_closes},
+    Hazard{.number = 46, .name = "watchdog relay fails to open", .inject = relay_stays_closed},
     Hazard{.number = 45,
            .name = "worn brake, silent bridge",
            .prepare = worn_brake,

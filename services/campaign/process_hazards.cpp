@@ -109,8 +109,8 @@ constexpr std::array kProcessHazards{
     Hazard{.number = 26,
            .name = "wall-clock jump",
            .test_bed = TestBed::process,
-           .verified_by =
-               "no test: time is an argument of every component, and processes read CLOCK_MONOTONIC only"},
+           .verified_by = "tests/system (ClockJump.*): processes read CLOCK_MONOTONIC only; the DDS "
+                          "libraries read the wall clock"},
     Hazard{.number = 27, .name = "CPU starvation", .inject = starved},
 };
 

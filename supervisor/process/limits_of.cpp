@@ -59,6 +59,7 @@ Limits limits_of(const configuration::Rig& rig) {
   Limits limits{rig.limits};
   for (std::size_t i = 0; i < kAxes; ++i) limits.axis[i] = rig.drives[i];
   limits.period_s = rig.period_s;
+  limits.relay_timeout_s = rig.wiring.relay_timeout_s;
   limits.demand_stale_after_ticks = rig.ticks_in(rig.limits.demand_stale_after_s);
   limits.machine = machine_of(rig);
   limits.clearance = rig.clearance;

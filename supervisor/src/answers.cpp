@@ -45,6 +45,7 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
   if (m.reset_was_up && enabled(reset_edge))
     return refuse("the reset was already requested: end this request, then reset again");
   if (const Cause c = blocking_cause(limits, in, m); c != Cause::none) return refuse(remedy_for(c));
+  if (in.relay_closed) return refuse("the watchdog relay has not opened yet: wait, then reset");
   if (in.swing_zero_doubtful && enabled(reset_swing_zero_doubtful))
     return refuse(
         "the load swung when the bridge started, so that the zero of its encoders is wrong: let it hang at "

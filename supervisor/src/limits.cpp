@@ -78,6 +78,8 @@ void check_common(const Limits& limits, Problems& problems) {
   problems.positive("arm_volt_limit_v", limits.arm_volt_limit_v);
   problems.positive("brake_test_time_s", limits.brake_test_time_s);
   problems.positive("brake_report_time_s", limits.brake_report_time_s);
+  problems.positive("relay_timeout_s", limits.relay_timeout_s);
+  problems.positive("relay_report_time_s", limits.relay_report_time_s);
   problems.at_least("creeping_ratio", limits.creeping_ratio, 1);
   problems.require(std::ranges::any_of(limits.axis, &AxisLimits::present), "axis", 0,
                    "at least one must be present");

@@ -61,4 +61,13 @@ bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion
   return failed;
 }
 
+bool relay_failed(const Limits& limits, double now_s, bool relay_closed, RelayMemory& memory) noexcept {
+  if (!memory.withheld) {
+    memory = {.withheld = true, .since_s = now_s};
+    return false;
+  }
+  const double report_s = limits.period_s + limits.relay_timeout_s + limits.relay_report_time_s;
+  return relay_closed && now_s - memory.since_s > report_s;
+}
+
 }  // namespace crane::supervisor

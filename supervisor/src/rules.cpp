@@ -26,6 +26,10 @@ bool opening_is_late(L limits, I in, M m) noexcept {
 }
 
 constexpr const char* kCheckBrakes = "check the brakes, then restart the supervisor";
+constexpr const char* kWeldedRelay =
+    "the contacts of the watchdog relay may be welded, or its contact input is wrong: check them, then "
+    "restart "
+    "the supervisor";
 constexpr const char* kBridgeStopped =
     "the bridge or its relay has stopped the crane: read the events of the bridge, then reset";
 constexpr const char* kTwoWriters =
@@ -56,6 +60,9 @@ constexpr std::array kRules{
          [](L, I in, M) noexcept { return in.brake_failed; },
          "an axis moves by more than twice its stopping distance plus `brake_slip` after the command to close its brake, or the "
          "brake does not report closed within its closing time plus 110 ms", "same tick", kCheckBrakes},
+    Rule{"supervisor_relay_did_not_open", Cause::relay_did_not_open, Reaction::fault, Scope::past_self_test, false,
+         [](L, I in, M) noexcept { return in.relay_failed; },
+         "without permission, the watchdog relay reports closed for `relay_timeout_s` plus 110 ms", "same tick", kWeldedRelay},
     Rule{"supervisor_selftest_failed", Cause::selftest_failed, Reaction::fault, Scope::selftest, false,
          [](L, I in, M) noexcept { return in.self_test == SelfTest::failed; },
          "the board does not show 0 V, closed brakes and open relay for 0.1 s", "2 s",

@@ -26,6 +26,7 @@ void take_over_bridge(const Limits& limits, const TickInput& input, TickMemory& 
             memory.restart);
   memory.motion = {};
   memory.brakes = {};
+  memory.relay = {};
   memory.following = {};
   memory.pendulum = {};
   memory.zones = {};
@@ -136,6 +137,13 @@ bool watch_brakes(const Limits& limits, const TickInput& input, bool sampled, Ti
   return brake_failed(limits, input.now_s, memory.motion, memory.sample.brake_closed, memory.brakes);
 }
 
+bool watch_relay(const Limits& limits, const TickInput& input, bool sampled, TickMemory& memory) {
+  const State state = memory.machine.state;
+  if (memory.relay_permitted || state == State::boot || state == State::selftest) memory.relay = {};
+  if (memory.relay_permitted || !sampled) return false;
+  return relay_failed(limits, input.now_s, !memory.sample.watchdog_dropped, memory.relay);
+}
+
 /// While an axis is homed, the other axes get 0 V, and its volts are limited to those of creeping.
 PerAxis demand_of(const Limits& limits, const TickInput& input, const TickMemory& memory) {
   PerAxis demand_v = input.demand_v;
@@ -189,7 +197,8 @@ ZoneVerdict guard_zones(const Limits& limits, bool sampled, GateOutput& gated, T
 }
 
 Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelope& envelope,
-                      const GateOutput& gated, bool brakes_failed, const TickMemory& memory) {
+                      const GateOutput& gated, bool brakes_failed, bool relay_stuck,
+                      const TickMemory& memory) {
   const Sample& sample = memory.sample;
   const std::size_t unhomed = first_of(unknown_axes(limits, memory));
   const std::size_t unclear = first_of(unclear_axes(input, memory));
@@ -213,6 +222,8 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .swing_zero_doubtful = memory.restart.swing_zero_doubtful,
       .overrun = limits.overruns_in_row > 0 && memory.overruns_in_row >= limits.overruns_in_row,
       .brake_failed = brakes_failed || input.brake_open_without_command,
+      .relay_failed = relay_stuck,
+      .relay_closed = !memory.relay_permitted && !sample.watchdog_dropped,
       .moved_while_arming =
           memory.machine.releasing && moved(limits, memory.release_position, memory.motion.position),
       .demand_near_zero = gated.near_zero,
@@ -258,10 +269,11 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
   const bool sampled = take_sample(limits, input, memory);
   const Envelope envelope = check_envelope(limits, measured_now(limits, memory));
   const bool brakes_failed = watch_brakes(limits, input, sampled, memory);
+  const bool relay_stuck = watch_relay(limits, input, sampled, memory);
   GateOutput gated = run_gate(limits, input, envelope, memory);
   const ZoneVerdict zone = guard_zones(limits, sampled, gated, memory);
   const double creeping_speed = creep(limits, memory);
-  Inputs inputs = machine_inputs(limits, input, envelope, gated, brakes_failed, memory);
+  Inputs inputs = machine_inputs(limits, input, envelope, gated, brakes_failed, relay_stuck, memory);
   inputs.following_error = following_error_now(limits, sampled, memory);
   inputs.swing_sensor_failed = swing_sensor_now(limits, sampled, memory);
   inputs.zone_ahead = zone.ahead;
@@ -296,6 +308,7 @@ TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory
     if (out.homing[i] && decided.state == State::run) out.homing_speed[i] = creeping_speed;
   }
   memory.gate.last_v = out.drive_v;
+  memory.relay_permitted = out.watchdog_permission;
   return out;
 }
 

@@ -53,6 +53,7 @@ std::vector<std::string_view> all_protections() {
 std::vector<Need> needs() {
   using enum protection::Protection;
   return {{"supervisor_brake_did_not_close", {24}},
+          {"supervisor_relay_did_not_open", {46}},
           {"supervisor_selftest_failed", {34}},
           {"supervisor_foreign_command", {43}},
           {"supervisor_estop_input", {31}},

@@ -64,6 +64,8 @@ void set_faults(unsigned bits, Inputs& in) {
   in.position_doubtful = bit(9) && bit(1);
   in.swing_zero_doubtful = bit(9) && bit(2);
   in.brake_failed = bit(10);
+  in.relay_failed = bit(10) && bit(0);
+  in.relay_closed = bit(10) && bit(1);
   in.estop_pressed = bit(11);
 }
 
@@ -134,8 +136,9 @@ const char* broken_rule(const Memory& before, const Inputs& in, const Memory& af
     return "relay off where all is off";
   if (was == State::fault && is != State::fault) return "FAULT ends by a restart only";
   if (estop && is != State::estop && is != State::fault) return "ESTOP wins";
-  if (is == State::fault && was != State::fault && !in.brake_failed && in.self_test != SelfTest::failed) {
-    return "FAULT has two causes";
+  if (is == State::fault && was != State::fault && !in.brake_failed && !in.relay_failed &&
+      in.self_test != SelfTest::failed) {
+    return "FAULT has three causes";
   }
   if (in.bridge_restarted && is != State::selftest && is != State::locked && is != State::estop &&
       is != State::fault)
@@ -277,6 +280,7 @@ TEST(Reactions, EachSignalInRunHasTheCauseAndReactionOfTheTable) {  // S16
       {"zone", [](Inputs& in) { in.zone_ahead = in.zone_touched = true; }, Cause::zone,
        Reaction::ramped_stop},
       {"brake", [](Inputs& in) { in.brakes_open = false; }, Cause::brake_did_not_open},
+      {"relay welded", [](Inputs& in) { in.relay_failed = true; }, Cause::relay_did_not_open},
       {"brake failed", [](Inputs& in) { in.brake_failed = true; }, Cause::brake_did_not_close},
       {"second writer", [](Inputs& in) { in.second_writer = true; }, Cause::second_writer,
        Reaction::power_off},

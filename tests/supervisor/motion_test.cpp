@@ -141,6 +141,39 @@ TEST(Supervisor, ABrakeThatDoesNotReportClosedIsAFault) {  // S13
   EXPECT_EQ(t.state(), State::fault);
 }
 
+TEST(Supervisor, AWatchdogRelayThatDoesNotOpenIsAFault) {  // S54
+  const std::array<void (*)(Timeline&), 3> stops{[](Timeline& t) { t.estop(); },
+                                                 [](Timeline& t) { t.world.second_writer = true; },
+                                                 [](Timeline& t) { t.disarm(); }};
+  for (const auto stop : stops) {
+    Timeline t;
+    t.to_hold();
+    t.relay_obeys = false;
+    stop(t);
+    t.run(0.5);
+    EXPECT_EQ(t.state(), State::fault);
+    EXPECT_EQ(t.cause(), Cause::relay_did_not_open);
+    t.relay_obeys = true;
+    t.run(3);
+    EXPECT_FALSE(t.reset().accepted);
+  }
+}
+
+/// Otherwise resets in quick succession could hide a welded relay.
+TEST(Supervisor, AResetWaitsUntilTheWatchdogRelayHasOpened) {  // S54
+  Timeline t;
+  t.to_ready();
+  t.run(0.1);
+  t.relay_obeys = false;
+  t.disarm();
+  ASSERT_EQ(t.state(), State::locked);
+  t.tick();
+  EXPECT_FALSE(t.reset().accepted);
+  t.relay_obeys = true;
+  t.ticks(3);
+  EXPECT_TRUE(t.reset().accepted);
+}
+
 TEST(Supervisor, OrdinaryBrakingIsNoFault) {  // S13
   for (const double deceleration : {5.0, 8.0, 50.0}) {
     Timeline t;

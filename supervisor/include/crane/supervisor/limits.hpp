@@ -58,7 +58,9 @@ struct Limits : control::OperatingLimits {
       0.2;  ///< longest time until a brake reports open, longer than its opening time, > 0
   double brake_report_time_s =
       0.1;  ///< longest time from the end of the closing time until a brake reports closed, > 0
-  double load_still_rad = 0.005;  ///< largest swing of a load that is at rest when a bridge starts, > 0
+  double relay_timeout_s = 0.05;     ///< longest time from the last toggle until the relay opens, > 0
+  double relay_report_time_s = 0.1;  ///< longest time from then until the relay reports open, > 0
+  double load_still_rad = 0.005;     ///< largest swing of a load that is at rest when a bridge starts, > 0
   double load_watch_s =
       10;  ///< duration of the watch of the load after a restart of the bridge, >= clear_time_s
   MachineModel machine{};

@@ -43,4 +43,15 @@ void set_homed_position(std::size_t axis, double position, MotionMemory& motion,
 [[nodiscard]] bool brake_failed(const Limits& limits, double now_s, const MotionMemory& motion,
                                 const AxisFlags& brake_closed, BrakeMemory& memory) noexcept;
 
+/// The watchdog permission since it was withheld.
+struct RelayMemory {
+  bool withheld = false;  ///< true: `since_s` is valid
+  double since_s = 0;     ///< time of the first tick without permission, clock of the supervisor
+};
+
+/// Call at every tick with a sample while the watchdog permission is withheld.
+/// @return true when the relay still reports closed although it must have opened: its contacts are welded
+[[nodiscard]] bool relay_failed(const Limits& limits, double now_s, bool relay_closed,
+                                RelayMemory& memory) noexcept;
+
 }  // namespace crane::supervisor

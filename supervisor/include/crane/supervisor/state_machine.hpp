@@ -42,6 +42,8 @@ struct Inputs {
   bool swing_zero_doubtful = false;  ///< the load swung when the bridge started
   bool overrun = false;              ///< too many late ticks in a row
   bool brake_failed = false;         ///< see motion.hpp
+  bool relay_failed = false;         ///< see motion.hpp
+  bool relay_closed = false;         ///< the relay is still closed although its permission is withheld
   bool moved_while_arming = false;   ///< an axis moved while the brakes were being opened
   bool demand_near_zero = false;     ///< true: the demand matches a crane at rest
   bool brakes_open = false;          ///< true: every present brake reports open

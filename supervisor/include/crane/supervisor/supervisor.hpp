@@ -62,6 +62,8 @@ struct TickMemory {
   GateMemory gate{};
   MotionMemory motion{};
   BrakeMemory brakes{};
+  RelayMemory relay{};
+  bool relay_permitted = false;  ///< watchdog permission of the last command
   RestartMemory restart{};
   FollowingMemory following{};
   PendulumMemory pendulum{};
