@@ -78,13 +78,14 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   void was_read(error_code error) {
     if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
+    // Before every other answer: an immediate refusal of its body would tell that the token is wrong.
+    if (parser_->is_header_done() && guesses(server_.rules(), visitor())) return answer_guess();
     if (error == http::error::header_limit) return refuse(431, "the header is longer than 8192 bytes");
     if (error == http::error::body_limit)
       return refuse(413, "the body is longer than 4096 bytes, or an upload than 16 MB");
     if (error && error.category() == http::make_error_code(http::error::bad_method).category())
       return refuse(400, "this is no HTTP request");
     if (error) return close();
-    if (guesses(server_.rules(), visitor())) return answer_guess();
     if (beast::websocket::is_upgrade(parser_->get())) return upgrade();
     answer();
   }

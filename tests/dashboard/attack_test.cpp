@@ -63,6 +63,19 @@ TEST_F(WithToken, AGuessIsAnsweredLateAndDelaysNobodyElse) {
   for (auto& guess : guesses) EXPECT_GE(guess.get().second, kGuessDelay);
 }
 
+/// The limit of a body depends on the token. An answer before the delay would tell that the guess is wrong.
+TEST_F(WithToken, AGuessWithALongBodyIsAnsweredAsLate) {
+  for (const char* body : {"Content-Length: 100000\r\n\r\n", "Transfer-Encoding: chunked\r\n\r\nFFFFF\r\n"}) {
+    const auto begin = Clock::now();
+    const auto answer =
+        raw(std::string{"POST /api/uploads/a.csv HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: "
+                        "application/octet-stream\r\nAuthorization: Bearer guess\r\n"} +
+            body + std::string(5000, 'x'));
+    EXPECT_GE(Clock::now() - begin, kGuessDelay) << body;
+    EXPECT_NE(answer.find("403"), std::string::npos) << answer.substr(0, 80);
+  }
+}
+
 TEST_F(WithToken, AGuessThatHangsUpKeepsItsConnectionForAsLong) {
   const auto begin = Clock::now();
   for (std::size_t i = 0; i < kMostConnections; ++i) {
