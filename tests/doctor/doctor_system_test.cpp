@@ -92,7 +92,7 @@ TEST_F(OnTwoHosts, MulticastThatTheInterfaceOrAFirewallDoesNotPass) {
   EXPECT_THAT(lines(far(options)), Contains(HasSubstr("multicast passes")));
   const std::string firewall = "ip netns exec " + hosts_.far() + " iptables -A INPUT -d 239.255.0.1 -j DROP";
   const auto dropping = hosts::run(firewall);
-  ASSERT_EQ(dropping.exit_code, 0) << dropping.output;
+  ASSERT_EQ(dropping.exit_code, 0) << dropping.errors;
   EXPECT_THAT(lines(far(options)), Contains(HasSubstr("multicast_blocked")));
   ASSERT_EQ(
       hosts::run("ip -n " + hosts_.far() + " link set " + hosts_.far_device() + " multicast off").exit_code,

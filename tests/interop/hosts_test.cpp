@@ -94,7 +94,7 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
     ASSERT_TRUE(hosts.ok()) << "cannot make network namespaces with `ip netns`";
     if (GetParam().secured) {
       const auto made = hosts.on_far("keys make " + keys());
-      ASSERT_EQ(made.exit_code, 0) << made.output;
+      ASSERT_EQ(made.exit_code, 0) << made.errors;
     }
   }
   [[nodiscard]] std::string keys() const { return (directory / "keys").string(); }
@@ -131,17 +131,17 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
 TEST_P(FromAnotherHost, StatusAndTopicsAreSeen) {
   const Running stack{hosts.near(), up()};
   const auto status = patiently("status --json", {"supervisor", "friction_compensation", "cyclone"});
-  ASSERT_EQ(status.exit_code, 0) << status.output;
+  ASSERT_EQ(status.exit_code, 0) << status.errors;
   const auto json = nlohmann::json::parse(status.output);
   EXPECT_THAT(json.dump(),
               testing::AllOf(testing::HasSubstr("supervisor"), testing::HasSubstr("friction_compensation"),
                              testing::HasSubstr("cyclone")));
   EXPECT_EQ(json.at("insecure"), !GetParam().secured);
   const auto echo = patiently("topic echo crane/state --count 3 --json");
-  ASSERT_EQ(echo.exit_code, 0) << echo.output;
+  ASSERT_EQ(echo.exit_code, 0) << echo.errors;
   EXPECT_THAT(echo.output, testing::HasSubstr("trolley_position_m"));
   const auto rate = patiently("topic hz crane/state --duration 2 --json");
-  ASSERT_EQ(rate.exit_code, 0) << rate.output;
+  ASSERT_EQ(rate.exit_code, 0) << rate.errors;
   EXPECT_THAT(rate.output, testing::HasSubstr("lost"));
 }
 
@@ -189,8 +189,8 @@ TEST(AnotherHost, WithoutCarrierIsNamedAndRefused) {
   for (const std::string vendor : {"cyclone", "fastdds"}) {
     const auto refused =
         hosts.on_far("status --domain 84 --dds " + vendor + " --interface " + TwoHosts::kFar);
-    EXPECT_EQ(refused.exit_code, 1) << refused.output;
-    EXPECT_THAT(refused.output, testing::HasSubstr("the interface of 10.77.0.2 is down or has no carrier"));
+    EXPECT_EQ(refused.exit_code, 1) << refused.errors;
+    EXPECT_THAT(refused.errors, testing::HasSubstr("the interface of 10.77.0.2 is down or has no carrier"));
   }
 }
 
@@ -199,19 +199,19 @@ using WithKeys = FromAnotherHost;
 TEST_P(WithKeys, AnOperatorIsObeyedAndAHostWithoutKeysHearsNothing) {
   const Running stack{hosts.near(), up()};
   const auto status = patiently("status --json", {"LOCKED"});
-  ASSERT_EQ(status.exit_code, 0) << status.output;
+  ASSERT_EQ(status.exit_code, 0) << status.errors;
   const auto reset = patiently("reset");
-  EXPECT_EQ(reset.exit_code, 0) << reset.output;
+  EXPECT_EQ(reset.exit_code, 0) << reset.errors;
   const auto without =
       hosts.on_far("status --dds fastdds --domain 83 --interface " + std::string{TwoHosts::kFar});
-  EXPECT_EQ(without.exit_code, 1) << without.output;
-  EXPECT_THAT(without.output, testing::HasSubstr("--secure"));
+  EXPECT_EQ(without.exit_code, 1) << without.errors;
+  EXPECT_THAT(without.errors, testing::HasSubstr("--secure"));
 }
 
 TEST_P(WithKeys, AStackOnAnOpenNetworkIsRefusedWithoutThem) {
   const auto refused = hosts.on_far("up --interface " + std::string{TwoHosts::kFar});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.output,
+  EXPECT_THAT(refused.errors,
               testing::AllOf(testing::HasSubstr("crane keys make"), testing::HasSubstr("--insecure")));
 }
 

@@ -9,24 +9,29 @@
 #include <string>
 #include <vector>
 
+#include "../recording/temporary_directory.hpp"
 #include "stack/child_processes.hpp"
 
 namespace crane::hosts {
 
 struct Answer {
   int exit_code = -1;
-  std::string output;
+  std::string output;  ///< standard output only: messages of a DDS library can come at any time
+  std::string errors;  ///< standard error
 };
 
 inline Answer run(const std::string& command) {
   Answer answer;
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  const recording::TemporaryDirectory directory;
+  const auto errors = directory / "errors";
+  FILE* pipe = ::popen((command + " 2>" + errors.string()).c_str(), "r");
   if (pipe == nullptr) return answer;
   std::array<char, 4096> buffer{};
   for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
     answer.output.append(buffer.data(), n);
   const int status = ::pclose(pipe);
   if (WIFEXITED(status)) answer.exit_code = WEXITSTATUS(status);
+  answer.errors = recording::contents_of(errors);
   return answer;
 }
 
