@@ -4,12 +4,14 @@
 
 #include <cmath>
 
+#include "crane/configuration/extended_file.hpp"
 #include "crane/configuration/rig.hpp"
 
 namespace crane::configuration {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 std::vector<std::string> problems_of(TomlTable& root) {
@@ -154,6 +156,54 @@ TEST(TomlReader, TakesLackingKeysFromTheBaseAndNamesItsLines) {
   EXPECT_THAT(root.table("t").tables("rows"), IsEmpty());
   (void)root.number("b", Range::positive());
   EXPECT_THAT(problems_of(root), ElementsAre("base:1: b = -2: must be finite and > 0"));
+}
+
+std::string refusal_of(const std::string& text) {
+  try {
+    TomlTable root(text, "f");
+  } catch (const ConfigurationError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string key_of(int parts) {
+  std::string key = "a";
+  for (int i = 1; i < parts; ++i) key += i % 2 == 0 ? " . \"x=\"" : ".b";
+  return key;
+}
+
+/// toml++ puts each part into a table of its own and frees them recursively: 100,000 parts end the program.
+TEST(TomlReader, RefusesAKeyWithMoreThan32Parts) {
+  const std::string many = key_of(33), rule = "a key must have at most 32 parts";
+  EXPECT_EQ(refusal_of("\n" + key_of(100'000) + " = 1\n"), "f:2: " + rule);
+  for (const auto& text : {many + " = 1", "[" + many + "]", "[[" + many + "]]", "x = {" + many + " = 1}",
+                           "x = [\"\"\"a\"\"\"\"\", {" + many + " = 1}]", "x = ['\\', {" + many + " = 1}]",
+                           "x = \"\\\"\" # \"\n" + many + " = 1"})
+    EXPECT_THAT(refusal_of(text), HasSubstr(rule)) << text;
+}
+
+TEST(TomlReader, CountsTheDotsOfKeysOnly) {
+  const std::string dots(100, '.');
+  for (const auto& text : {key_of(32) + " = 1", "# " + dots, "x = \"" + dots + "\"", "x = '" + dots + "'",
+                           "x = \"\"\"\n\"" + dots + "\"\n\"\"\"", "\"" + dots + "\" = 1",
+                           "x = [0.1, 0.2" + std::string(1000, ' ') + ", 0.3]"})
+    EXPECT_EQ(refusal_of(text), "") << text;
+}
+
+TEST(TomlReader, RefusesATextThatIsLongerThanOneMegabyte) {
+  EXPECT_EQ(refusal_of(std::string(1U << 20U, '\n')), "");
+  EXPECT_THAT(refusal_of(std::string((1U << 20U) + 1, '\n')), HasSubstr("at most 1 MB"));
+}
+
+TEST(TomlReader, ReadsAtMostOneMegabyteOfADeviceWithoutEnd) {
+  EXPECT_THROW((void)with_base(file_text("/dev/zero"), "/dev/zero"), ConfigurationError);
+}
+
+TEST(TomlReader, ShowsControlCharactersOfAKeyAsPrintableText) {
+  TomlTable root("\"\\u001b[2J\\u202e\" = 1\n", "f");
+  for (const auto& problem : problems_of(root))
+    EXPECT_EQ(problem.find_first_of("\x1b\xe2"), std::string::npos) << problem;
 }
 
 TEST(Range, TakesItsEndsAsDeclared) {

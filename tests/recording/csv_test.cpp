@@ -115,6 +115,17 @@ TEST(Csv, NamesFileAndReasonWhenItCannotWrite) {
             "/dev/full: cannot write: No space left on device");
 }
 
+TEST(Csv, ShowsTheBeginOfALongCellAndNoControlCharacter) {
+  try {
+    (void)parse_csv("a\n\x1b[2J" + std::string(1'000'000, '1') + "\n", "f", {});
+    FAIL() << "accepted";
+  } catch (const CsvError& error) {
+    const std::string what = error.what();
+    EXPECT_LT(what.size(), 200U);
+    EXPECT_EQ(what.find('\x1b'), std::string::npos);
+  }
+}
+
 TEST(Csv, ReadsTheFileItWrote) {
   const TemporaryDirectory directory;
   write_csv(directory / "a.csv", Table{{{"time_s", {0, 0.01}}}});

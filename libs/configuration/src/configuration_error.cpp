@@ -1,4 +1,5 @@
 #include "crane/configuration/rig.hpp"
+#include "crane/fields/printable.hpp"
 
 namespace crane::configuration {
 namespace {
@@ -9,9 +10,15 @@ std::string one_a_line(const std::vector<std::string>& problems) {
   return text;
 }
 
+/// Keys and values of a file may contain any character.
+std::vector<std::string> printable(std::vector<std::string> problems) {
+  for (auto& problem : problems) fields::make_printable(problem);
+  return problems;
+}
+
 }  // namespace
 
 ConfigurationError::ConfigurationError(std::vector<std::string> problems)
-    : std::runtime_error(one_a_line(problems)), problems_(std::move(problems)) {}
+    : std::runtime_error(one_a_line(printable(problems))), problems_(printable(std::move(problems))) {}
 
 }  // namespace crane::configuration

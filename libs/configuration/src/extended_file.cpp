@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 
 #include "crane/configuration/rig.hpp"
+#include "toml_limits.hpp"
 
 namespace crane::configuration {
 namespace {
@@ -36,7 +36,11 @@ std::string file_text(const std::filesystem::path& file) {
   if (!stream || std::filesystem::is_directory(file)) {
     throw ConfigurationError({file.string() + ":1: file: cannot be read"});
   }
-  return {std::istreambuf_iterator<char>(stream), {}};
+  // One byte more than permitted: the reader of TOML refuses the text, and a device without end ends here.
+  std::string text(kLongestToml_bytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
 }
 
 TomlTable with_base(const std::string& text, const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 
 #include "crane/configuration/rig.hpp"
 #include "toml_document.hpp"
+#include "toml_limits.hpp"
 
 namespace crane::configuration {
 namespace {
@@ -34,6 +35,8 @@ std::string listed(const std::vector<std::string>& choices) {
 
 TomlTable::TomlTable(const std::string& text, const std::string& file)
     : document_(std::make_shared<Document>()), place_(nullptr) {
+  if (const auto excess = excess_of(text))
+    throw ConfigurationError({file + ':' + std::to_string(excess->line) + ": " + excess->rule});
   try {
     document_->root = toml::parse(std::string_view(text), std::string_view(file));
   } catch (const toml::parse_error& error) {
