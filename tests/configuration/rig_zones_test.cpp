@@ -27,6 +27,15 @@ std::vector<std::string> zone_problems(const std::string& added, const std::stri
   }
 }
 
+TEST(RigZones, AreAtMostAHundred) {
+  std::string hundred;
+  for (int i = 0; i < 100; ++i) hundred += box("silo " + std::to_string(i));
+  EXPECT_THAT(zone_problems(kMargins + hundred), testing::IsEmpty());
+  const auto problems = zone_problems(kMargins + hundred + box("one more"));
+  ASSERT_THAT(problems, SizeIs(1));
+  EXPECT_THAT(problems[0], HasSubstr("has 101 tables: must be at most 100"));
+}
+
 TEST(RigZones, AreReadAndWrittenBack) {
   const auto rig = parse_rig(file_text(kZonedTower) + kMargins + box("silo") +
                                  "\n[[zone]]\nname = \"mast\"\nshape = \"cylinder\"\nposition_x_m = -0.8\n"

@@ -9,6 +9,9 @@ namespace {
 using control::Zone;
 using control::ZoneShape;
 
+/// The supervisor checks every zone in every tick: 5 us for a hundred (docs/zones.md).
+constexpr std::size_t kMostZones = 100;
+
 void check_size(TomlTable& table, const char* key, double size, bool needed, const char* shape) {
   if (needed && size == 0)
     table.problem(key, std::string{"must be above 0: the shape is a "} + shape);
@@ -108,9 +111,14 @@ void read_zones(TomlTable& root, Rig& rig) {
   const auto known = [](double value) { return std::isfinite(value); };
   const bool placed = known(rig.clearance.load_radius_m) && known(rig.clearance.suspension_height_m) &&
                       known(rig.clearance.cable_error) && known(rig.clearance.wind_mps2);
-  for (TomlTable& table : root.tables("zone")) {
+  auto tables = root.tables("zone");
+  if (tables.size() > kMostZones)
+    root.problem("zone", "has " + std::to_string(tables.size()) + " tables: must be at most " +
+                             std::to_string(kMostZones));
+  for (TomlTable& table : tables) {
     Zone zone;
     read_section(table, control::kZoneFields, zone, &rig);
+    if (rig.zones.size() >= kMostZones) continue;
     if (table.has("name") && zone.name.empty()) table.problem("name", "must not be empty");
     if (std::ranges::find(rig.zones, zone.name, &Zone::name) != rig.zones.end() && !zone.name.empty())
       table.problem("name", "two zones have this name");
