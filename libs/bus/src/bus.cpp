@@ -80,6 +80,10 @@ UntypedSubscriber Bus::make_subscriber(const topics::Description& topic, const E
   return {topic, state_->back_end->reader(topic, endpoint), state_->options};
 }
 
+CdrPublisher Bus::cdr_publisher(const topics::Description& topic, const EndpointOptions& endpoint) {
+  return {topic, make_publisher(topic, endpoint)};
+}
+
 CdrSubscriber Bus::cdr_subscriber(const topics::Description& topic, const EndpointOptions& endpoint) {
   return CdrSubscriber{make_subscriber(topic, endpoint)};
 }

@@ -26,6 +26,17 @@ bool UntypedPublisher::dispose_of(const void* sample) { return writer_->dispose(
 bool UntypedPublisher::assert_liveliness() { return writer_->assert_liveliness(); }
 int UntypedPublisher::matched() const { return writer_->matched(); }
 
+CdrPublisher::CdrPublisher(const topics::Description& topic, UntypedPublisher&& untyped)
+    : UntypedPublisher{std::move(untyped)},
+      topic_{&topic},
+      sample_(CdrCodec::of(*topic.descriptor).sample_bytes()) {}
+
+bool CdrPublisher::publish(std::span<const std::uint8_t> cdr) {
+  return cdr.size() >= kEncapsulation_bytes && cdr[1] == 1 &&
+         CdrCodec::of(*topic_->descriptor).decode(cdr.subspan(kEncapsulation_bytes), false, sample_.data()) &&
+         send(sample_.data());
+}
+
 UntypedSubscriber::UntypedSubscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader,
                                      const Options& options)
     : topic_{&topic},

@@ -110,18 +110,23 @@ void merge_messages(std::vector<Source>& sources, RecordingCopy& copy) {
 
 }  // namespace
 
+Selection selection_of(const McapReader& recording, const TimeRange& range) {
+  const auto first_ns = recording.first_time_ns();
+  const auto end_ns = log_time_ns(first_ns, range.until_s);
+  return {.topics = {},
+          .from_ns = log_time_ns(first_ns, range.from_s),
+          .until_ns = std::max(end_ns, kEarliest_ns + 1) - 1};
+}
+
 CheckReport cut(const path& file, const TimeRange& range, const path& out) {
   McapReader reader{file};
-  const auto first_ns = reader.first_time_ns();
-  const auto from_ns = log_time_ns(first_ns, range.from_s);
-  const auto end_ns = log_time_ns(first_ns, range.until_s);
-  auto messages =
-      reader.messages({.topics = {}, .from_ns = from_ns, .until_ns = std::max(end_ns, kEarliest_ns + 1) - 1});
+  auto messages = reader.messages(selection_of(reader, range));
   const auto* message = range.from_s < range.until_s ? messages.next() : nullptr;
   if (message == nullptr)
     throw EditError(file.string() + ": no message from " + shortest(range.from_s) + " s to " +
                     shortest(range.until_s) + " s; the recording has " +
-                    shortest(static_cast<double>(reader.last_time_ns() - first_ns) / 1e9) + " s");
+                    shortest(static_cast<double>(reader.last_time_ns() - reader.first_time_ns()) / 1e9) +
+                    " s");
   RecordingCopy copy{out, std::array{file}};
   const auto channels = copy.add_channels(reader);
   copy.add_attachments(reader);

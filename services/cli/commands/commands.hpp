@@ -32,6 +32,7 @@ void add_dashboard(CLI::App& app, Action& chosen);
 void add_black_box(CLI::App& app, Action& chosen);
 void add_review(CLI::App& app, Action& chosen);
 void add_record(CLI::App& app, Action& chosen);
+void add_play(CLI::App& app, Action& chosen);
 void add_replay(CLI::App& app, Action& chosen);
 void add_log(CLI::App& app, Action& chosen);
 void add_identify(CLI::App& app, Action& chosen);

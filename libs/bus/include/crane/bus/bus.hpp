@@ -21,6 +21,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -178,6 +179,21 @@ class Publisher : public UntypedPublisher {
   [[nodiscard]] bool dispose(const T& sample) { return dispose_of(&sample); }
 };
 
+/// Writer of any topic, for tools, from the plain-CDR bytes of recordings.
+class CdrPublisher : public UntypedPublisher {
+ public:
+  CdrPublisher(const topics::Description& topic, UntypedPublisher&& untyped);
+  /// Sets source, epoch and CRC of the sample and sends it. @param cdr  little endian, with the 4-byte
+  /// encapsulation header
+  /// @return false when `cdr` is no sample of the topic, or when the middleware did not send it
+  [[nodiscard]] bool publish(std::span<const std::uint8_t> cdr);
+  [[nodiscard]] const topics::Description& topic() const { return *topic_; }
+
+ private:
+  const topics::Description* topic_;
+  std::vector<std::uint8_t> sample_;
+};
+
 /// The part of a subscriber that does not depend on the type of its samples.
 class UntypedSubscriber {
  public:
@@ -251,6 +267,8 @@ class Bus {
                                          const EndpointOptions& endpoint = {}) {
     return Subscriber<T>{make_subscriber(topic.description, endpoint)};
   }
+  [[nodiscard]] CdrPublisher cdr_publisher(const topics::Description& topic,
+                                           const EndpointOptions& endpoint = {});
   [[nodiscard]] CdrSubscriber cdr_subscriber(const topics::Description& topic,
                                              const EndpointOptions& endpoint = {});
 

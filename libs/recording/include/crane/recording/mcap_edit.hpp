@@ -23,6 +23,9 @@ struct TimeRange {
   double until_s = std::numeric_limits<double>::infinity();
 };
 
+/// The messages of all topics within the range.
+[[nodiscard]] Selection selection_of(const McapReader& recording, const TimeRange& range);
+
 /// Adds the metadata record "cut" with the range. @return number of copied messages, and the damage of `file`
 /// @throws ReadError, WriteError; EditError when no message is within the range
 CheckReport cut(const std::filesystem::path& file, const TimeRange& range, const std::filesystem::path& out);
