@@ -119,6 +119,43 @@ TEST(BrokenData, ASwingOfTheWrongSignIsRefused) {
   EXPECT_THAT(refusal_of(table), AllOf(HasSubstr("swing_radial_rad"), HasSubstr("sign?")));
 }
 
+/// A tower whose jib turns to and fro: L tangential'' + g tangential = -(x slew'' + 2 x' slew').
+recording::Table turning_tower(double sign) {
+  const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  const double length_m = rig.start.position[plant::kHoist], gravity_mps2 = rig.plant.gravity_mps2;
+  recording::Table table;
+  for (const char* name : {"time_s", "trolley_voltage_v", "slew_voltage_v", "trolley_position_m",
+                           "slew_angle_rad", "swing_radial_rad", "swing_tangential_rad"})
+    table.columns.push_back({name, {}});
+  constexpr double kStep_s = 1e-3, kTrolley_m = 0.8, kTurn_rad = 0.4;
+  double swing = 0, rate = 0;
+  for (int k = 0; k < 60000; ++k) {
+    const double t = k * kStep_s, slow = 0.9 * t, fast = 2.3 * t;
+    const double slew_rad = kTurn_rad * (std::sin(slow) + 0.3 * std::sin(fast));
+    const double acceleration = -kTurn_rad * (0.81 * std::sin(slow) + 0.3 * 5.29 * std::sin(fast));
+    if (k % 10 == 0) {
+      const double values[] = {
+          t,        0.01 * std::sin(t),       std::sin(slow), kTrolley_m + 0.02 * std::sin(0.3 * t),
+          slew_rad, 0.01 * std::sin(0.7 * t), sign * swing};
+      for (std::size_t i = 0; i < std::size(values); ++i) table.columns[i].values.push_back(values[i]);
+    }
+    rate -= kStep_s * (gravity_mps2 * swing + kTrolley_m * acceleration) / length_m;
+    swing += kStep_s * rate;
+  }
+  return table;
+}
+
+TEST(BrokenData, ATangentialSwingOfTheWrongSignIsRefused) {
+  const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  EXPECT_NO_THROW((void)load_run(turning_tower(1), rig, "tower.csv"));
+  try {
+    (void)load_run(turning_tower(-1), rig, "tower.csv");
+    FAIL() << "it was accepted";
+  } catch (const DataError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("swing_tangential_rad"), HasSubstr("sign?")));
+  }
+}
+
 TEST(BrokenData, AllProblemsAreNamedAtOnce) {
   auto table = whole_file();
   for (double& swing : values_of(table, "swing_radial_rad")) swing *= 4000;

@@ -21,10 +21,13 @@ TEST(Loss, IsQuadraticForNoiseAndLogarithmicForSlips) {
 
 /// 1 s at 0.1 m/s, 1 s of rest, 1 s back.
 TEST(MotionProfile, HasThePhasesOfTheMotion) {
-  std::vector<double> position;
+  PreparedRun run;
+  std::vector<double>& position = run.on_grid[kTrolleyPosition];
   double x = 0;
   for (int k = 0; k < 300; ++k) position.push_back(x += k < 100 ? 1e-3 : k < 200 ? 0 : -1e-3);
-  const MotionProfile profile = motion_profile_of(position, 0.01, 20, 260);
+  run.run.period_s = 0.01;
+  run.run.measured[kTrolleyPosition] = position;
+  const MotionProfile profile = motion_profile_of(run, kTrolleyPosition, 20, 260);
   EXPECT_EQ(profile[30].phase, MotionPhase::moving);
   EXPECT_LT(profile[30].slowness, 1e-9);
   EXPECT_EQ(profile[130].phase, MotionPhase::standing);

@@ -121,6 +121,28 @@ TEST(Whitener, FindsThatAnAxisSticks) {
   EXPECT_LT(learned.acceleration, 0.12);
 }
 
+/// A command that changes once in a window acts at an inaccurate time: from then on, the speed is wrong.
+TEST(Whitener, TakesTheErrorOfAnInaccurateTimeForWhatItIs) {
+  constexpr double kSpeedError = 2e-3, kNoise = 1e-5;
+  constexpr std::size_t kEdge = 90;
+  auto residuals = windows(kNoise, 0, 0, 0, 6);
+  auto accurate = moving(residuals), inaccurate = accurate;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  for (std::size_t w = 0; w < residuals.size(); ++w) {
+    const double error = kSpeedError * normal(random);
+    for (Eigen::Index k = kEdge; k < residuals[w].size(); ++k)
+      residuals[w][k] += error * 0.01 * static_cast<double>(k - static_cast<Eigen::Index>(kEdge));
+    inaccurate[w].profile[kEdge].speed_inaccuracy = kSpeedError;
+  }
+  const Disturbance known = learn(residuals, inaccurate, kLeastNoise);
+  EXPECT_NEAR(known.noise, kNoise, 0.1 * kNoise);
+  EXPECT_LT(known.acceleration, 1e-3);
+  const Disturbance unknown = learn(residuals, accurate, kLeastNoise);
+  EXPECT_GT(unknown.acceleration, 10 * known.acceleration) << "it passes for a disturbance";
+  EXPECT_LT(known.misfit, unknown.misfit);
+}
+
 TEST(Whitener, FindsThatASlowAxisDoesNotStick) {
   auto residuals = windows(1e-4, 0.05, 0.5, 4, 5);
   auto motions = moving(residuals);

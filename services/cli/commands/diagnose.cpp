@@ -27,6 +27,7 @@ struct DiagnoseOptions {
   std::optional<double> from_s, to_s;
   std::uint64_t seed = 1;
   std::size_t effects = 3;
+  diagnosis::Accuracy accuracy = diagnosis::kUsualAccuracy;
   bool json = false, no_picture = false, check = false, progress = false;
 };
 
@@ -59,6 +60,14 @@ std::string rounded(double value) {
   return text.str();
 }
 
+std::string values_of(const std::vector<diagnosis::Estimate>& estimates) {
+  std::string text;
+  for (const auto& e : estimates)
+    text +=
+        (text.empty() ? "" : ", ") + e.name + " " + rounded(e.value) + (e.unit == "1" ? "" : " " + e.unit);
+  return text;
+}
+
 void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options) {
   std::cout << name_of(diagnosis.verdict) << ": " << diagnosis.sentence << '\n';
   if (!diagnosis.causes.empty()) {
@@ -68,6 +77,10 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
         table.add({cause.name, cause.axis, e.name, rounded(e.value), rounded(e.std_dev), e.unit});
     table.print(std::cout);
   }
+  for (const auto& effect : diagnosis.within_accuracy)
+    std::cout << "within the accuracy of the rig file: " << effect.name
+              << (effect.axis.empty() ? "" : " (" + effect.axis + ")") << ", " << values_of(effect.parameters)
+              << '\n';
   for (const auto& cause : diagnosis.attempted)
     std::cout << "tried: " << cause.name << (cause.axis.empty() ? "" : " (" + cause.axis + ")")
               << " explains most of the error and is not proven as a cause\n";
@@ -82,14 +95,6 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
   for (const std::string& note : diagnosis.notes) std::cout << "note: " << note << '\n';
   std::cout << "seed " << options.seed << ", " << rounded(diagnosis.runtime_s) << " s; "
             << (fs::path{options.out} / "report.html").string() << '\n';
-}
-
-std::string values_of(const std::vector<diagnosis::Estimate>& estimates) {
-  std::string text;
-  for (const auto& e : estimates)
-    text +=
-        (text.empty() ? "" : ", ") + e.name + " " + rounded(e.value) + (e.unit == "1" ? "" : " " + e.unit);
-  return text;
 }
 
 void print_check(const diagnosis::Check& check, const DiagnosisData& data) {
@@ -108,10 +113,17 @@ void print_check(const diagnosis::Check& check, const DiagnosisData& data) {
   for (const std::string& note : data.notes) std::cout << "note: " << note << '\n';
 }
 
-int check_data(const DiagnoseOptions& options, const configuration::Rig& rig, DiagnosisData data) {
+diagnosis::Request request_of(const DiagnoseOptions& options) {
   diagnosis::Request request;
   request.seed = options.seed;
+  request.most_effects = options.effects;
+  request.accuracy = options.accuracy;
   request.progress = progress_of(options);
+  return request;
+}
+
+int check_data(const DiagnoseOptions& options, const configuration::Rig& rig, DiagnosisData data) {
+  const diagnosis::Request request = request_of(options);
   const diagnosis::Check check = diagnosis::check(rig, std::move(data.train), request);
   if (options.json)
     std::cout << diagnosis::to_json(check).dump(2) << '\n';
@@ -131,10 +143,7 @@ int diagnose_data(const DiagnoseOptions& options) {
   DiagnosisData data = read_diagnosis_data(options.train, options.test, mapping, rig);
   if (options.check) return check_data(options, rig, std::move(data));
   fs::create_directories(options.out);  // fails before the long computation
-  diagnosis::Request request;
-  request.seed = options.seed;
-  request.most_effects = options.effects;
-  request.progress = progress_of(options);
+  const diagnosis::Request request = request_of(options);
   Diagnosis result = diagnosis::diagnose(rig, data.train, data.test, request);
   result.notes.insert(result.notes.begin(), data.notes.begin(), data.notes.end());
   diagnosis::write_report(options.out, result, rig, data.test);
@@ -153,6 +162,26 @@ int diagnose(const DiagnoseOptions& options) {
     std::cerr << error.what() << '\n';
     return runtime::kExitBadInput;
   }
+}
+
+void add_accuracy(CLI::App& command, diagnosis::Accuracy& accuracy) {
+  command
+      .add_option(
+          "--accuracy", accuracy.values,
+          "accuracy of gains, lengths, masses and scales in the rig file, as a share of the value; the "
+          "report lists smaller effects, which do not change the verdict")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command
+      .add_option("--friction-accuracy", accuracy.friction,
+                  "relative accuracy of the Coulomb and viscous friction of the drives")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command
+      .add_option("--time-accuracy", accuracy.times_periods,
+                  "accuracy of delays and lags, in control periods")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -182,6 +211,7 @@ void add_diagnose(CLI::App& app, Action& chosen) {
                    "largest number of simultaneous causes to search for; a smaller number takes less time")
       ->check(CLI::Range(1, 3))
       ->capture_default_str();
+  add_accuracy(*command, options->accuracy);
   command->add_option("--seed", options->seed, "seed of the random resampling")->capture_default_str();
   command->add_flag(
       "--check", options->check,
@@ -194,7 +224,7 @@ void add_diagnose(CLI::App& app, Action& chosen) {
       "out/diagnose\n"
       "         crane run maneuver_1 --rig out/diagnose/extended.toml\n"
       "Verdicts:\n"
-      "  none        these data show no error of the simulation\n"
+      "  none        these data show no error of the simulation beyond the accuracy of the rig file\n"
       "  named       the simulation lacks these causes\n"
       "  parameter   a value of the rig file is wrong\n"
       "  ambiguous   several causes explain the data equally; the next experiment distinguishes them\n"

@@ -50,7 +50,7 @@ WindowMisfit::WindowMisfit(const PreparedRun& run, Part part, double gravity_mps
       const std::size_t first = first_of(w) + lead_, kept = rows_ - lead_;
       const WindowMotion motion =
           part == Part::drive
-              ? WindowMotion{period_s, 0, motion_profile_of(run.on_grid[output], period_s, first, kept)}
+              ? WindowMotion{period_s, 0, motion_profile_of(run, output, first, kept)}
               : WindowMotion{period_s, plant::swing_radps(gravity_mps2, run.run.cable_m[first]),
                              MotionProfile(kept)};
       whiteners_.emplace_back(disturbances[output], motion);

@@ -78,30 +78,58 @@ std::vector<Variable> variables_of(const Runs& runs, Output axis) {
           {name + ": command of the other drive", GoesWith::other_command, 1, times, time, other_command}};
 }
 
+/// Forces of a piece, row x bin.
+MatrixXd forces_of(const Piece& piece, const Variable& variable) {
+  const auto last = static_cast<double>(variable.bins - 1);
+  MatrixXd forces = MatrixXd::Zero(static_cast<Index>(piece.rows), static_cast<Index>(variable.bins));
+  for (Index k = 0; k < forces.rows(); ++k) {
+    const std::size_t row = piece.first + static_cast<std::size_t>(k);
+    const double share = (variable.value(piece.run, row) - variable.over.low) / variable.over.width();
+    const double at = last * std::clamp(share, 0.0, 1.0), force = variable.force(piece.run, row);
+    for (Index bin = 0; bin < forces.cols(); ++bin)
+      forces(k, bin) = force * std::max(0.0, 1 - std::abs(at - static_cast<double>(bin)));
+  }
+  return forces;
+}
+
 /// One pattern per bin, by piece.
 std::vector<NormalEquations> normal_equations_of(const Pieces& pieces, const Variable& variable) {
-  const auto last = static_cast<double>(variable.bins - 1);
   std::vector<NormalEquations> all;
-  for (const Piece& piece : pieces.all) {
-    MatrixXd forces = MatrixXd::Zero(static_cast<Index>(piece.rows), static_cast<Index>(variable.bins));
-    for (Index k = 0; k < forces.rows(); ++k) {
-      const std::size_t row = piece.first + static_cast<std::size_t>(k);
-      const double share = (variable.value(piece.run, row) - variable.over.low) / variable.over.width();
-      const double at = last * std::clamp(share, 0.0, 1.0), force = variable.force(piece.run, row);
-      for (Index bin = 0; bin < forces.cols(); ++bin)
-        forces(k, bin) = force * std::max(0.0, 1 - std::abs(at - static_cast<double>(bin)));
-    }
-    all.push_back(normal_equations(pieces, piece, std::move(forces)));
-  }
+  all.reserve(pieces.all.size());
+  for (const Piece& piece : pieces.all)
+    all.push_back(normal_equations(pieces, piece, forces_of(piece, variable)));
   return all;
+}
+
+NormalEquations total(const std::vector<NormalEquations>& pieces) {
+  NormalEquations all{pieces[0].score.size()};
+  for (const NormalEquations& piece : pieces) all += piece;
+  return all;
+}
+
+/// Small penalty of the amplitudes, on the diagonal of the Hessian.
+double ridge_of(const NormalEquations& all) {
+  return 1e-3 * all.hessian.trace() / static_cast<double>(all.score.size()) + 1e-12;
+}
+
+/// Rms over the rows of the fitted acceleration.
+double rms_acceleration(const Pieces& pieces, const Variable& variable) {
+  NormalEquations all = total(normal_equations_of(pieces, variable));
+  all.hessian.diagonal().array() += ridge_of(all);
+  const VectorXd amplitudes = all.hessian.ldlt().solve(all.score);
+  double squares = 0, count = 0;
+  for (const Piece& piece : pieces.all) {
+    squares += (forces_of(piece, variable) * amplitudes).squaredNorm();
+    count += static_cast<double>(piece.rows);
+  }
+  return std::sqrt(squares / count);
 }
 
 /// Decrease of the loss of pieces outside the fit; 0 unless all folds but one have a gain.
 double cross_validated_gain(const std::vector<NormalEquations>& pieces) {
   const Index n = pieces[0].score.size();
-  NormalEquations all{n};
-  for (const NormalEquations& piece : pieces) all += piece;
-  const double ridge = 1e-3 * all.hessian.trace() / static_cast<double>(n);
+  const NormalEquations all = total(pieces);
+  const double ridge = ridge_of(all);
   double gain = 0;
   std::size_t agreeing = 0;
   for (std::size_t fold = 0; fold < kPatternFolds; ++fold) {
@@ -109,7 +137,7 @@ double cross_validated_gain(const std::vector<NormalEquations>& pieces) {
     for (std::size_t w = 0; w < pieces.size(); ++w)
       if (w * kPatternFolds / pieces.size() == fold) own += pieces[w];
     others -= own;
-    others.hessian.diagonal().array() += ridge + 1e-12;
+    others.hessian.diagonal().array() += ridge;
     const double gained = own.gain(others.hessian.ldlt().solve(others.score));
     gain += gained;
     agreeing += gained > 0 ? 1 : 0;
@@ -137,7 +165,8 @@ std::vector<Unexplained> find_unexplained(const Pieces& pieces) {
   parallel_for(variables.size(), [&](std::size_t v) { gains[v] = pattern_gain_of(pieces, variables[v]); });
   for (std::size_t v = 0; v < variables.size(); ++v)
     if (gains[v] > 0)
-      found.push_back({variables[v].name, variables[v].with, pieces.output, gains[v], gains[v] / loss});
+      found.push_back({variables[v].name, variables[v].with, pieces.output, gains[v], gains[v] / loss,
+                       rms_acceleration(pieces, variables[v])});
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
   return found;
 }

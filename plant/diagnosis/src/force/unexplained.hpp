@@ -1,6 +1,7 @@
 #pragma once
 /// Force on a drive that no candidate explains: free in each bin of one variable (position, speed, distance
 /// since the last reversal, command ...), cross-validated.
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct Unexplained {
   Output output = kTrolleyPosition;
   double gain = 0;      ///< decrease of the loss, cross-validated
   double fraction = 0;  ///< of the pieces' loss
+  /// Of a pattern of a drive over its variable: rms acceleration of the drive that it stands for, m/s2 or
+  /// rad/s2. Infinite for other patterns.
+  double acceleration = std::numeric_limits<double>::infinity();
 };
 
 /// Patterns with a positive cross-validated gain, strongest first.

@@ -15,8 +15,9 @@ struct Disturbance {
   double damping_ps = 0;     ///< c, 1/s
   double friction = 0;       ///< standard deviation of u at standstill, m/s2 or rad/s2
   bool sticks = false;
-  double misfit =
-      0;  ///< minus twice the log likelihood of the residuals it was learnt from, without constant
+  double unit = 1;  ///< of the values above, m or rad; infinite: the speed is never inaccurate
+  /// Minus twice the log likelihood of the residuals it was learnt from, without constant.
+  double misfit = 0;
 };
 
 /// Motion of the axis in a row. moving: the error of the speed persists. turning: the axis reverses or stops,
@@ -27,8 +28,9 @@ enum class MotionPhase { moving, turning, standing };
 struct RowMotion {
   double slowness = 0;  ///< 0 at speed, 1 at standstill
   MotionPhase phase = MotionPhase::moving;
-  bool measured = true;        ///< whether the row was measured
-  bool speed_unknown = false;  ///< an edge of the command may have been lost: speed unknown
+  bool measured = true;         ///< whether the row was measured
+  bool speed_unknown = false;   ///< an edge of the command may have been lost: speed unknown
+  double speed_inaccuracy = 0;  ///< PreparedRun::speed_inaccuracy
 };
 using MotionProfile = std::vector<RowMotion>;
 

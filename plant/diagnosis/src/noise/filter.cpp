@@ -44,7 +44,8 @@ PredictionCovariance::PredictionCovariance(const Disturbance& d, const WindowMot
     : motion_(motion),
       sticks_(d.sticks),
       step_(transition_of(d, motion)),
-      noise_variance_(d.noise * d.noise) {
+      noise_variance_(d.noise * d.noise),
+      unit_(d.unit) {
   const double a = d.acceleration * d.acceleration, t = motion.period_s;
   p_.xx = start_variance;
   p_.vv = start_variance / (t * t);
@@ -76,8 +77,9 @@ void PredictionCovariance::advance(std::size_t row) {
   const double friction =
       friction_ * (now == MotionPhase::standing ? kStandingFrictionShare : row_motion.slowness);
   // In a row of ordinary motion, the filter keeps its steady state.
-  const bool usual =
-      row_motion.measured && now == MotionPhase::moving && friction == 0 && !row_motion.speed_unknown;
+  const double inaccuracy = row_motion.speed_inaccuracy / unit_;
+  const bool usual = row_motion.measured && now == MotionPhase::moving && friction == 0 && inaccuracy == 0 &&
+                     !row_motion.speed_unknown;
   if (usual && steady_) return;
   Symmetric p = p_;
   if (row_motion.measured) {
@@ -90,7 +92,7 @@ void PredictionCovariance::advance(std::size_t row) {
     p.aa -= p_.xa * p_.xa / f;
   }
   if (now != MotionPhase::moving) p.xv = p.vv = p.va = 0;
-  p.vv += friction + (row_motion.speed_unknown ? unknown_speed_ : 0);
+  p.vv += friction + inaccuracy * inaccuracy + (row_motion.speed_unknown ? unknown_speed_ : 0);
   p = propagated(p);
   p.aa += process_noise_;
   steady_ = usual && steady(p_.xx, p.xx) && steady(p_.vv, p.vv) && steady(p_.aa, p.aa);

@@ -43,7 +43,7 @@ class PredictionCovariance {
   bool sticks_ = false, steady_ = false;
   Eigen::Matrix3d step_;
   Symmetric p_;
-  double noise_variance_ = 0, process_noise_ = 0, friction_ = 0, unknown_speed_ = 0;
+  double noise_variance_ = 0, process_noise_ = 0, friction_ = 0, unknown_speed_ = 0, unit_ = 1;
 };
 
 }  // namespace crane::diagnosis

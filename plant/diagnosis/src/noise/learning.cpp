@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "noise/likelihood.hpp"
 
@@ -18,6 +19,12 @@ constexpr std::array kDampings_ps{0.0, 1.0, 4.0, 12.0};
 constexpr std::array kCorrelations_s{0.0, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0};
 /// A sweep that decreases minus twice the log likelihood by less is the last one.
 constexpr double kWorthASweep = 1;
+/// Largest number of searches with inaccurate times; they end when the noise changes by less than this share.
+constexpr int kScaleRounds = 3;
+constexpr double kSameScale = 0.1;
+/// A search from scratch uses about this number of windows, evenly distributed; a search near its result uses
+/// all.
+constexpr std::size_t kFewWindows = 30;
 
 /// Coordinate search on grids. Accelerations are in multiples of the noise.
 class Learning {
@@ -27,25 +34,46 @@ class Learning {
       : residuals_(residuals), motions_(motions), least_noise_(least_noise) {}
 
   Disturbance run(const Disturbance& near) {
-    if (near.noise > 0) return search(in_noises(near));
+    if (near.noise > 0) return inaccurate_times() ? with_inaccurate_times(near) : search(in_noises(near));
     Disturbance start;
     start.noise = 1;
     start.correlation_s = 0.2;
-    Disturbance best = search(start);
+    start.unit = std::numeric_limits<double>::infinity();
+    const Disturbance best = search(start);
     if (pendulum()) return best;
-    const double without = found_.value;
     start.sticks = true;
     start.friction = 1;
     const Disturbance sticking = search(start);
-    return found_.value < without ? sticking : best;
+    const Disturbance& likelier = sticking.misfit < best.misfit ? sticking : best;
+    return inaccurate_times() ? with_inaccurate_times(likelier) : likelier;
   }
 
  private:
   static Disturbance in_noises(Disturbance d) {
     d.acceleration /= d.noise;
     d.friction /= d.noise;
+    d.unit = d.noise;
     d.noise = 1;
     return d;
+  }
+
+  /// Searches from `near`. The inaccuracy of the speed has a known size, so that its ratio to the noise
+  /// follows from the noise of the search before.
+  Disturbance with_inaccurate_times(const Disturbance& near) {
+    Disturbance found = search(in_noises(near));
+    for (int round = 1; round < kScaleRounds; ++round) {
+      const double before = found.noise;
+      found = search(in_noises(found));
+      if (std::abs(found.noise - before) < kSameScale * before) break;
+    }
+    return found;
+  }
+
+  [[nodiscard]] bool inaccurate_times() const {
+    return std::ranges::any_of(motions_, [](const WindowMotion& motion) {
+      return std::ranges::any_of(motion.profile,
+                                 [](const RowMotion& row) { return row.speed_inaccuracy > 0; });
+    });
   }
 
   Disturbance search(const Disturbance& start) {
@@ -57,7 +85,7 @@ class Learning {
       const double before = found_.value;
       for (const double factor : {0.3, 0.7, 1.4, 3.0})
         try_with(best_.acceleration, factor * best_.acceleration);
-      for (const double correlation_s : kCorrelations_s) try_colour(correlation_s);
+      for (const double correlation_s : colours_near(start, sweep)) try_colour(correlation_s);
       if (!pendulum()) try_drive();
       if (before - found_.value < kWorthASweep) break;
     }
@@ -66,6 +94,7 @@ class Learning {
     found.acceleration *= noise;
     found.friction *= noise;
     found.noise = std::max(noise, least_noise_);
+    found.unit = 1;
     found.misfit = std::isfinite(found_.value) ? found_.value : 0;  // all residuals are zero
     return found;
   }
@@ -86,6 +115,20 @@ class Learning {
         if (tried.value < found_.value) found_ = tried, likeliest = best_;
       }
     best_ = likeliest;
+  }
+
+  /// Correlation times of a sweep: all in the first sweep from scratch, later the present one and its
+  /// neighbours.
+  [[nodiscard]] std::vector<double> colours_near(const Disturbance& start, int sweep) const {
+    if (sweep == 0 && start.acceleration == 0) return {kCorrelations_s.begin(), kCorrelations_s.end()};
+    std::vector<double> near;
+    for (std::size_t i = 0; i < kCorrelations_s.size(); ++i) {
+      const std::size_t before = i - std::min<std::size_t>(i, 1),
+                        after = std::min(i + 1, kCorrelations_s.size() - 1);
+      if (kCorrelations_s[before] <= best_.correlation_s && best_.correlation_s <= kCorrelations_s[after])
+        near.push_back(kCorrelations_s[i]);
+    }
+    return near;
   }
 
   /// Another correlation time, at the same strength or the same power at low frequencies, with every damping.
@@ -138,7 +181,16 @@ class Learning {
 
 Disturbance learn(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
                   double least_noise, const Disturbance& near) {
-  return Learning(residuals, motions, least_noise).run(near);
+  const std::size_t stride = residuals.size() / kFewWindows;
+  if (near.noise > 0 || stride < 2) return Learning(residuals, motions, least_noise).run(near);
+  std::vector<VectorXd> few;
+  std::vector<WindowMotion> their_motions;
+  for (std::size_t w = stride / 2; w < residuals.size(); w += stride) {
+    few.push_back(residuals[w]);
+    their_motions.push_back(motions[w]);
+  }
+  const Disturbance begin = Learning(few, their_motions, least_noise).run({});
+  return Learning(residuals, motions, least_noise).run(begin);
 }
 
 }  // namespace crane::diagnosis

@@ -14,8 +14,9 @@ constexpr std::size_t kSpeedRows = 3, kStillRows = 5;
 
 }  // namespace
 
-MotionProfile motion_profile_of(const std::vector<double>& position, double period_s, std::size_t first,
-                                std::size_t rows) {
+MotionProfile motion_profile_of(const PreparedRun& run, Output drive, std::size_t first, std::size_t rows) {
+  const std::vector<double>&position = run.on_grid[drive], &inaccuracy = run.speed_inaccuracy[drive];
+  const double period_s = run.run.period_s;
   const std::size_t last = position.size() - 1;
   const auto speed = [&](std::size_t row, std::size_t half) {
     const std::size_t from = row - std::min(row, half), to = std::min(row + half, last);
@@ -29,7 +30,11 @@ MotionProfile motion_profile_of(const std::vector<double>& position, double peri
     const MotionPhase phase = fastest < kStillSpeed           ? MotionPhase::standing
                               : speed(row, 1) < kTurningSpeed ? MotionPhase::turning
                                                               : MotionPhase::moving;
-    profile.push_back({std::exp(-std::pow(speed(row, kSpeedRows) / kSlowSpeed, 2)), phase});
+    profile.push_back({.slowness = std::exp(-std::pow(speed(row, kSpeedRows) / kSlowSpeed, 2)),
+                       .phase = phase,
+                       .measured = run.run.is_measured(drive, row),
+                       .speed_unknown = run.run.may_have_lost_edge(drive, row),
+                       .speed_inaccuracy = inaccuracy.empty() ? 0 : inaccuracy[row]});
   }
   return profile;
 }

@@ -75,8 +75,35 @@ std::vector<double> measured_on_grid(const Run& run, Output output) {
   return spline_of(samples.time_s, samples.values, run.period_s, run.rows()).position;
 }
 
-PreparedRun prepare(Run run, const configuration::Rig& rig) {
+namespace {
+
+/// A command that acts by dt too late or too early makes the speed wrong by gain * change of the command *
+/// dt.
+std::vector<double> speed_inaccuracy_of(const Run& run, std::size_t drive, double gain, double time_s) {
+  std::vector<double> squares(run.rows(), 0.0);
+  const auto add = [&](std::size_t row, double volts) { squares[row] += std::pow(gain * volts * time_s, 2); };
+  if (run.commands.empty()) {
+    for (std::size_t row = 1; row < run.rows(); ++row)
+      add(row, run.command_v[row][drive] - run.command_v[row - 1][drive]);
+  } else {
+    for (std::size_t i = 1; i < run.commands.size(); ++i) {
+      const double row =
+          std::clamp(run.commands[i].time_s / run.period_s, 0.0, static_cast<double>(run.rows() - 1));
+      add(static_cast<std::size_t>(row), run.commands[i].drive_v[drive] - run.commands[i - 1].drive_v[drive]);
+    }
+  }
+  for (double& square : squares) square = std::sqrt(square);
+  return squares;
+}
+
+}  // namespace
+
+PreparedRun prepare(Run run, const configuration::Rig& rig, const Accuracy& accuracy) {
   PreparedRun prepared;
+  const double time_s = accuracy.times_periods * rig.period_s;
+  const std::array gains{rig.plant.trolley_gain_mps2pv, rig.plant.slew_gain_radps2pv};
+  for (std::size_t drive = 0; time_s > 0 && drive < gains.size(); ++drive)
+    prepared.speed_inaccuracy[drive] = speed_inaccuracy_of(run, drive, gains[drive], time_s);
   prepared.least_noise = quantisation_noise(run, rig);
   for (const Output output : kAllOutputs) {
     if (!run.has(output)) continue;

@@ -99,6 +99,7 @@ ordered_json to_json(const Diagnosis& diagnosis) {
   return {{"verdict", name_of(diagnosis.verdict)},
           {"sentence", diagnosis.sentence},
           {"causes", causes_json(diagnosis.causes)},
+          {"within_accuracy", causes_json(diagnosis.within_accuracy)},
           {"attempted", causes_json(diagnosis.attempted)},
           {"ambiguous_with", diagnosis.ambiguous_with},
           {"next_experiment", next},
@@ -109,6 +110,10 @@ ordered_json to_json(const Diagnosis& diagnosis) {
           {"candidates", candidates_json(diagnosis.ranking)},
           {"excitation", excitation_json(diagnosis.excitation)},
           {"detection_p_value", diagnosis.detection_p_value},
+          {"accuracy",
+           {{"values", diagnosis.accuracy.values},
+            {"friction", diagnosis.accuracy.friction},
+            {"times_periods", diagnosis.accuracy.times_periods}}},
           {"rules", rules_json()},
           {"notes", diagnosis.notes},
           {"runtime_s", diagnosis.runtime_s}};

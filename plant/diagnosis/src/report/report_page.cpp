@@ -62,6 +62,9 @@ report::Section verdict_section(const Diagnosis& diagnosis) {
   if (!diagnosis.extension.empty())
     section.blocks.emplace_back(report::Paragraph{gain_sentence(diagnosis.held_out)});
   if (!diagnosis.causes.empty()) section.blocks.emplace_back(causes_table("Causes", diagnosis.causes));
+  if (!diagnosis.within_accuracy.empty())
+    section.blocks.emplace_back(
+        causes_table("Within the accuracy of the rig file", diagnosis.within_accuracy));
   if (!diagnosis.attempted.empty())
     section.blocks.emplace_back(
         causes_table("Explains most of it, and is not proven as a cause", diagnosis.attempted));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <random>
 #include <string_view>
@@ -16,18 +17,32 @@ constexpr int kVotes = 500;
 
 }  // namespace
 
-double share_of_error(const Fitted& fitted, const Fitted& before) {
+namespace {
+
+using Errors = std::array<double, kOutputs> Fitted::*;
+
+double largest_reduction(const Fitted& fitted, const Fitted& before, std::initializer_list<Errors> kinds) {
   double most = 0;
   for (std::size_t output = 0; output < kOutputs; ++output) {
     const bool acts = std::ranges::any_of(fitted.effects, [&](const Effect& effect) {
       return !has(before.effects, effect.candidate) && effect.candidate->acts_on(static_cast<Output>(output));
     });
     if (!acts) continue;
-    for (const auto errors : {&Fitted::error, &Fitted::whole_error})
+    for (const Errors errors : kinds)
       if (const double left = (before.*errors)[output]; left > 0)
         most = std::max(most, 1 - (fitted.*errors)[output] / left);
   }
   return most;
+}
+
+}  // namespace
+
+double share_of_error(const Fitted& fitted, const Fitted& before) {
+  return largest_reduction(fitted, before, {&Fitted::error, &Fitted::whole_error});
+}
+
+double share_of_error_in_windows(const Fitted& fitted, const Fitted& before) {
+  return largest_reduction(fitted, before, {&Fitted::error});
 }
 
 namespace {
@@ -170,14 +185,40 @@ ShowsIn only_in(const Fitted& a, const Fitted& b) {
   return parts;
 }
 
+/// Share of the fitted values that are further amounts of an effect without significant size. The simpler
+/// form of the effect, without these amounts, explains the data as well.
+double superfluous_share(const Fitted& fitted) {
+  std::size_t first = 0, superfluous = 0;
+  for (const Effect& effect : fitted.effects) {
+    for (std::size_t k = 1; k < effect.candidate->amount_count; ++k) {
+      const double distance = std::abs(effect.values[k] - effect.candidate->parameters[k].null);
+      const double p_value = std::erfc(distance / (fitted.std_dev[first + k] * std::numbers::sqrt2));
+      superfluous += p_value > rules::kFamilywiseLevel ? 1 : 0;
+    }
+    first += effect.values.size();
+  }
+  return first > 0 ? static_cast<double>(superfluous) / static_cast<double>(first) : 0;
+}
+
+/// Deviance by block, without the penalty of superfluous amounts.
+Blocks deviance_of_needed(const Fitted& fitted) {
+  Blocks deviance = fitted.deviance;
+  const double penalty = sum(fitted.left_out) > 0 ? fitted.penalty / sum(fitted.left_out) : 0;
+  const double share = superfluous_share(fitted);
+  for (std::size_t i = 0; i < fitted.left_out.size(); ++i)
+    deviance[i] -= share * penalty * fitted.left_out[i];
+  return deviance;
+}
+
 /// Decrease of the deviance from `best` to `rival` by block, in the parts in which the effects that only
 /// `best` has are visible. 0 in the other parts.
 std::vector<double> advantage(const Fitted& rival, const Fitted& best) {
   const ShowsIn parts = only_in(best, rival);
+  const Blocks of_best = deviance_of_needed(best), of_rival = deviance_of_needed(rival);
   std::vector<double> margins;
-  for (std::size_t i = 0; i < best.deviance.size(); ++i) {
+  for (std::size_t i = 0; i < of_best.size(); ++i) {
     const bool counts = i < best.train.drive_blocks ? parts.drive : parts.load;
-    margins.push_back(counts ? best.deviance[i] - rival.deviance[i] : 0);
+    margins.push_back(counts ? of_best[i] - of_rival[i] : 0);
   }
   limit(margins);
   return margins;

@@ -26,6 +26,9 @@ namespace crane::diagnosis {
 /// over whole runs. Only the columns on which an effect acts that `before` does not have.
 [[nodiscard]] double share_of_error(const Fitted& fitted, const Fitted& before);
 
+/// The same in windows only.
+[[nodiscard]] double share_of_error_in_windows(const Fitted& fitted, const Fitted& before);
+
 /// True when the gain of likelihood is significant for the best of `candidates` (Bonferroni), and the error
 /// decreases by kLeastAlone (first effect) or kLeastBeside (further effect).
 [[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates);

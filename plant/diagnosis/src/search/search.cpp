@@ -23,8 +23,9 @@ constexpr std::size_t kPaired = 3;
 /// Number of candidates that replace an effect in turn.
 constexpr std::size_t kExchanged = 2;
 /// Largest number of hypotheses of one size that are refitted with their own noise: the first fits with the
-/// largest likelihood.
-constexpr std::size_t kRefitted = 4;
+/// largest likelihood, and of the others those with the smallest error. With fine sensors, small errors of
+/// the times are likelier than the cause of a large error.
+constexpr std::size_t kLikeliest = 2, kSmallestError = 2;
 
 /// Strongest candidates: half of them by predicted share of the loss, half by p value. The score of a large
 /// effect scatters from block to block, which raises its p value; in a rough residual the predicted share is
@@ -185,12 +186,22 @@ class Search {
       }
   }
 
-  /// Refits the likeliest of the tried hypotheses with their own noise. @return in the order of decreasing
-  /// likelihood
+  /// Sorts `tried_` from `first` on, and keeps `count` of these.
+  template <class Before>
+  void keep_tried(std::size_t first, std::size_t count, Before before) {
+    const auto from = tried_.begin() + static_cast<std::ptrdiff_t>(std::min(first, tried_.size()));
+    std::sort(from, tried_.end(), before);
+    tried_.resize(std::min(tried_.size(), first + count));
+  }
+
+  /// Refits the likeliest of the tried hypotheses, and those with the smallest error, with their own noise.
+  /// @return in the order of decreasing likelihood
   std::vector<Fitted> refit_likeliest() {
-    std::sort(tried_.begin(), tried_.end(),
-              [](const Fitted& a, const Fitted& b) { return a.misfit < b.misfit; });
-    tried_.resize(std::min(tried_.size(), kRefitted));
+    const std::size_t all = tried_.size();
+    keep_tried(0, all, [](const Fitted& a, const Fitted& b) { return a.misfit < b.misfit; });
+    keep_tried(kLikeliest, kSmallestError, [&](const Fitted& a, const Fitted& b) {
+      return share_of_error_in_windows(a, found_.base) > share_of_error_in_windows(b, found_.base);
+    });
     std::vector<Fitted> level;
     for (const Fitted& tried : tried_)
       level.push_back(no_worse_than_its_parts(study_, found_.all, study_.refit_with_own_noise(tried)));

@@ -110,14 +110,8 @@ VectorXd piece_residual(const PreparedRun& run, const Replay::Increments& drive,
 }
 
 WindowMotion window_motion_of(const PreparedRun& run, const MovingStretch& at, Output axis) {
-  WindowMotion motion{run.run.period_s, 0,
-                      motion_profile_of(run.on_grid[axis], run.run.period_s, at.first, at.rows)};
-  for (std::size_t k = 0; k < at.rows; ++k) {
-    const std::size_t row = at.first + k;
-    motion.profile[k].phase = MotionPhase::moving;
-    motion.profile[k].measured = run.run.is_measured(axis, row);
-    motion.profile[k].speed_unknown = run.run.may_have_lost_edge(axis, row);
-  }
+  WindowMotion motion{run.run.period_s, 0, motion_profile_of(run, axis, at.first, at.rows)};
+  for (RowMotion& row : motion.profile) row.phase = MotionPhase::moving;
   return motion;
 }
 

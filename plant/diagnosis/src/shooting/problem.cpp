@@ -45,14 +45,10 @@ Problem::Problem(const Runs& runs, Part part, double window_s, double natural_ra
       const PreparedRun& run = runs[window.run];
       const std::vector<double>& position = run.on_grid[output];
       const double radps = part == Part::drive ? 0 : natural_radps * frequency_ratio(position, window);
-      MotionProfile profile = part == Part::drive
-                                  ? motion_profile_of(position, run.run.period_s, window.first, window.rows)
-                                  : MotionProfile(window.rows);
-      for (std::size_t k = 0; k < window.rows; ++k) {
+      MotionProfile profile = part == Part::drive ? motion_profile_of(run, output, window.first, window.rows)
+                                                  : MotionProfile(window.rows);
+      for (std::size_t k = 0; part == Part::load && k < window.rows; ++k)
         profile[k].measured = run.run.is_measured(output, window.first + k);
-        profile[k].speed_unknown =
-            part == Part::drive && run.run.may_have_lost_edge(output, window.first + k);
-      }
       of_output.push_back({run.run.period_s, radps, std::move(profile)});
     }
   }
@@ -119,6 +115,25 @@ std::vector<double> Problem::squares_left(const Fits& fits, std::size_t output) 
     const VectorXd residual = measured(windows_[w]) - fits[w].simulated;
     squares.push_back(residual.segment(static_cast<Index>(output) * rows, rows).squaredNorm());
   }
+  return squares;
+}
+
+std::vector<double> Problem::squares_changed(const Replays& crane, const Fits& at) const {
+  std::vector<std::vector<double>> of_windows(windows_.size());
+  parallel_for(windows_.size(), [&](std::size_t w) {
+    const Window& window = windows_[w];
+    const Replay& replay = crane[window.run];
+    VectorXd start = measured_start(replay, window);
+    const auto known = std::min(at[w].start.size(), start.size());
+    start.head(known) = transferred_start(at[w], start).head(known);
+    const VectorXd change = simulate(replay, window, start) - at[w].simulated;
+    const auto rows = static_cast<Index>(window.rows);
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      of_windows[w].push_back(change.segment(static_cast<Index>(i) * rows, rows).squaredNorm());
+  });
+  std::vector<double> squares(outputs_.size(), 0.0);
+  for (const std::vector<double>& of_window : of_windows)
+    for (std::size_t i = 0; i < squares.size(); ++i) squares[i] += of_window[i];
   return squares;
 }
 

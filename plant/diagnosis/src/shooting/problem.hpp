@@ -82,6 +82,9 @@ class Problem {
   [[nodiscard]] std::size_t measured_rows(const Window& window) const;
   /// Sum of squares of measured - simulated [m2 or rad2] by window, of one output.
   [[nodiscard]] std::vector<double> squares_left(const Fits& fits, std::size_t output) const;
+  /// Sum of squares of the change of the simulation from `at` to another crane with the same starts [m2 or
+  /// rad2], by output.
+  [[nodiscard]] std::vector<double> squares_changed(const Replays& crane, const Fits& at) const;
 
  private:
   /// Residuals [output][window], not whitened, at the starts of `fits`.

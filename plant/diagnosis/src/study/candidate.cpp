@@ -7,31 +7,13 @@
 
 #include "replay/travel.hpp"
 #include "study/candidate_shapes.hpp"
+#include "study/known_friction.hpp"
 #include "study/load_candidates.hpp"
 
 namespace crane::diagnosis {
 namespace {
 
 using plant::TermSetting;
-
-/// Friction of an axis in the rig file (term drive_friction).
-struct KnownFriction {
-  double least_coulomb_v = 0, least_viscous = 0;
-  bool present = false;
-};
-KnownFriction known_friction(const configuration::Rig& rig, const std::string& axis) {
-  KnownFriction known;
-  for (const TermSetting& term : rig.terms) {
-    if (term.name != "drive_friction" || term.axis != axis) continue;
-    const auto value = [&](const char* name) {
-      const auto found = term.parameters.find(name);
-      return found == term.parameters.end() ? 0.0 : found->second;
-    };
-    known = {std::min(value("coulomb_positive_v"), value("coulomb_negative_v")),
-             std::min(value("viscous_positive_vspm"), value("viscous_negative_vspm")), true};
-  }
-  return known;
-}
 
 InRigFile in_rig_file(bool known) { return known ? InRigFile::yes : InRigFile::no; }
 

@@ -227,6 +227,7 @@ Effects Study::search_around(const Effects& effects, const Evaluation& near) con
 Fitted Study::first_fit(const Effects& effects, const Fitted& near) const {
   const Effects from = is_rough(effects) ? search_around(effects, near.train) : effects;
   Fitted fitted = fit(from, near.train.loss - kLeastGain, near.train);
+  fitted.error = errors_of(fitted.train);
   fitted.first_noise = noise_of(fitted, near.first_noise);
   for (const auto* of :
        {&fitted.first_noise.drive, &fitted.first_noise.equation_error, &fitted.first_noise.load})

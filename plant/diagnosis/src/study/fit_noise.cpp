@@ -23,8 +23,8 @@ ShowsIn shown_in(const Effects& effects) {
   return parts;
 }
 
-/// Error of the simulation by output: mean over the windows of the rms error of each.
-std::array<double, kOutputs> errors_of(const std::vector<std::pair<const Problem*, const Fits*>>& parts) {
+/// Mean over the windows of the rms error of each.
+std::array<double, kOutputs> mean_errors(const std::vector<std::pair<const Problem*, const Fits*>>& parts) {
   std::array<double, kOutputs> errors{};
   for (const auto& [problem, fits] : parts)
     for (std::size_t i = 0; i < problem->outputs().size(); ++i) {
@@ -67,10 +67,14 @@ void Study::judge_by_likelihood(Fitted& fitted) const {
   const double schwarz = schwarz_over_akaike(fitted.left_out);
   for (std::size_t i = 0; i < fitted.left_out.size(); ++i) fitted.deviance[i] += schwarz * fitted.left_out[i];
   fitted.penalty = schwarz * sum(fitted.left_out);
-  fitted.error = errors_of({{&train_.drive, &fitted.train.drive}, {&train_.load, &fitted.train.load}});
+  fitted.error = errors_of(fitted.train);
   if (whole_runs_.empty()) return;
   const Fits whole = whole_runs_.fit(replays_of(train_.runs, with(fitted.effects)));
-  fitted.whole_error = errors_of({{&whole_runs_, &whole}});
+  fitted.whole_error = mean_errors({{&whole_runs_, &whole}});
+}
+
+std::array<double, kOutputs> Study::errors_of(const Evaluation& at) const {
+  return mean_errors({{&train_.drive, &at.drive}, {&train_.load, &at.load}});
 }
 
 Blocks Study::held_out_deviance(const Fitted& fitted) {

@@ -140,6 +140,7 @@ class Study {
 
   [[nodiscard]] const Problem& drive() const { return train_.drive; }
   [[nodiscard]] const Problem& load() const { return train_.load; }
+  [[nodiscard]] const Problem& whole_runs() const { return whole_runs_; }  ///< of the load, training
   [[nodiscard]] const Problem& test_drive() const { return test_.drive; }
   [[nodiscard]] const Problem& test_load() const { return test_.load; }
 
@@ -194,6 +195,8 @@ class Study {
   /// Minus twice the log likelihood by block in the present noise.
   [[nodiscard]] static Blocks deviance_of(const Body& body, const Evaluation& at);
   void whiten_test(const Noise& noise);
+  /// Error of the simulation by output: mean over the windows of the rms error of each, m or rad.
+  [[nodiscard]] std::array<double, kOutputs> errors_of(const Evaluation& at) const;
   /// Sets noise and deviance in the present noise.
   void judge_by_likelihood(Fitted& fitted) const;
 

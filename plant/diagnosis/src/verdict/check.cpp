@@ -58,7 +58,7 @@ std::vector<std::pair<const Visibility*, const Visibility*>> questions(const std
 }  // namespace
 
 Check check(const configuration::Rig& rig, std::vector<Run> train, const Request& request) {
-  Runs runs = prepared(std::move(train), rig), none;
+  Runs runs = prepared(std::move(train), rig, request.accuracy), none;
   require_excitation(runs, none, rig);
   hold_resting_drives(runs, none);
   Study study(rig, runs, none, request.excluded);

@@ -17,13 +17,15 @@
 namespace crane::diagnosis {
 namespace {
 
-void give_values(const Fitted& best, Diagnosis& result) {
+/// @param within_accuracy by effect
+void give_values(const Fitted& best, const std::vector<bool>& within_accuracy, Diagnosis& result) {
   const std::vector<Estimate> values = estimates(best);
   auto next = values.begin();
+  auto cause = result.causes.begin(), small = result.within_accuracy.begin();
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     const Effect& effect = best.effects[i];
     const auto end = next + static_cast<std::ptrdiff_t>(effect.values.size());
-    result.causes[i].parameters.assign(next, end);
+    (within_accuracy[i] ? small++ : cause++)->parameters.assign(next, end);
     next = end;
     result.extension.push_back(effect.candidate->setting(effect.values));
   }
@@ -123,8 +125,8 @@ struct Data {
 /// or if training and held-out data together are not significant and the held-out likelihood decreases no
 /// more than superfluous values cause. Otherwise the error has another cause.
 /// @param best the unproven fit, with its intervals
-bool nothing_wrong(Study& study, const Hypotheses& found, const Fitted& best, const Proof& proof,
-                   const HeldOut& held_out, std::uint64_t seed) {
+bool nothing_wrong(Study& study, const Hypotheses& found, const StatedAccuracy& accuracy, const Fitted& best,
+                   const Proof& proof, const HeldOut& held_out, std::uint64_t seed) {
   const std::size_t candidates = study.candidates().size();
   const bool matters = share_of_error(found.best, found.base) >= rules::kWorthwhile;
   const bool insignificant_effect =
@@ -135,7 +137,7 @@ bool nothing_wrong(Study& study, const Hypotheses& found, const Fitted& best, co
   Hypotheses base = found;
   base.best = found.base;
   study.whiten_with(found.base.noise);
-  const bool nothing = judge(study, base, {}, seed).diagnosis.verdict == Verdict::none;
+  const bool nothing = judge(study, base, accuracy, {}, seed).diagnosis.verdict == Verdict::none;
   study.whiten_with(found.best.noise);
   return nothing;
 }
@@ -148,13 +150,18 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   study.learn_disturbance();
   Hypotheses found = searched(study, request);
   request.progress(0.85, "what is left");
-  auto [result, rival] = judge(study, found, losing, request.seed);
+  const StatedAccuracy accuracy(rig, request.accuracy);
+  auto [result, rival, within_accuracy] = judge(study, found, accuracy, losing, request.seed);
   result.excitation = found.excitation;
   Fitted best = found.best;
   if (!best.effects.empty()) {
     request.progress(0.88, "how well the data know it");
     best = with_intervals(study, best, request.seed);
-    give_values(best, result);
+    give_values(best, within_accuracy, result);
+  }
+  if (result.verdict == Verdict::none) {
+    best = found.base;
+    result.extension.clear();
   }
   request.progress(0.92, "held-out runs");
   result.held_out = held_out(study, as_measured, best.effects, request.seed);
@@ -166,7 +173,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   const Proof proof = proof_of(result.held_out, best.effects);
   if (proof.outcome != Proof::Outcome::proven) {
     if (losing.empty() && result.verdict != Verdict::unknown &&
-        nothing_wrong(study, found, best, proof, result.held_out, request.seed)) {
+        nothing_wrong(study, found, accuracy, best, proof, result.held_out, request.seed)) {
       best = found.base;
       nothing_found(result);
       result.held_out = held_out(study, as_measured, {}, request.seed);
@@ -204,7 +211,7 @@ const char* name_of(Verdict verdict) {
 Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::vector<Run> test,
                    const Request& request) {
   const auto begin = std::chrono::steady_clock::now();
-  Data measured{prepared(train, rig), prepared(test, rig)};
+  Data measured{prepared(train, rig, request.accuracy), prepared(test, rig, request.accuracy)};
   require_excitation(measured.train, measured.test, rig);
   hold_resting_drives(measured.train, measured.test);
   Study as_measured(rig, measured.train, measured.test, request.excluded);
@@ -214,12 +221,13 @@ Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::v
   if (losing.empty()) {
     result = diagnosed(rig, as_measured, as_measured, losing, request);
   } else {
-    Data mended{prepared(put_back(std::move(train), losing, rig), rig),
-                prepared(put_back(std::move(test), losing, rig), rig)};
+    Data mended{prepared(put_back(std::move(train), losing, rig), rig, request.accuracy),
+                prepared(put_back(std::move(test), losing, rig), rig, request.accuracy)};
     hold_resting_drives(mended.train, mended.test);
     Study study(rig, mended.train, mended.test, request.excluded);
     result = diagnosed(rig, study, as_measured, losing, request);
   }
+  result.accuracy = request.accuracy;
   result.runtime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

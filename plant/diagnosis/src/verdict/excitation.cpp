@@ -73,9 +73,9 @@ void require_same_columns(const Runs& train, const Runs& test) {
 
 }  // namespace
 
-Runs prepared(std::vector<Run> runs, const configuration::Rig& rig) {
+Runs prepared(std::vector<Run> runs, const configuration::Rig& rig, const Accuracy& accuracy) {
   Runs all;
-  for (Run& run : runs) all.push_back(prepare(std::move(run), rig));
+  for (Run& run : runs) all.push_back(prepare(std::move(run), rig, accuracy));
   return all;
 }
 

@@ -5,7 +5,7 @@
 
 namespace crane::diagnosis {
 
-[[nodiscard]] Runs prepared(std::vector<Run> runs, const configuration::Rig& rig);
+[[nodiscard]] Runs prepared(std::vector<Run> runs, const configuration::Rig& rig, const Accuracy& accuracy);
 
 /// Prescribes the measured motion of each drive that no training run moves: such a drive has no information
 /// about its friction, motor or command, and its creep is smaller than the error of a friction law.

@@ -70,24 +70,32 @@ double lacking_force(const Problem& problem, const Fits& fits, std::size_t outpu
 
 class Judgement {
  public:
-  Judgement(const Study& study, const Hypotheses& hypotheses, const std::vector<LosingEncoder>& losing,
-            std::uint64_t seed)
-      : study_(study), all_(hypotheses), best_(hypotheses.best), losing_(losing), seed_(seed) {
+  Judgement(const Study& study, const Hypotheses& hypotheses, const StatedAccuracy& accuracy,
+            const std::vector<LosingEncoder>& losing, std::uint64_t seed)
+      : study_(study),
+        all_(hypotheses),
+        best_(hypotheses.best),
+        accuracy_(accuracy),
+        losing_(losing),
+        seed_(seed),
+        within_(accuracy.contains_each(study, best_.effects)) {
+    for (std::size_t i = 0; i < within_.size(); ++i)
+      if (!within_[i]) causes_.push_back(best_.effects[i]);
     result_.ranking = hypotheses.ranking;
     result_.detection_p_value = hypotheses.detection_p_value;
   }
 
   Judged run() {
     const bool doubted = doubt();
-    if (best_.effects.empty())
-      result_.verdict = doubted ? Verdict::unknown : Verdict::none;
-    else if (doubted)
+    if (doubted)
       result_.verdict = Verdict::unknown;
+    else if (causes_.empty())
+      result_.verdict = Verdict::none;
     else
       name();
-    if (result_.verdict != Verdict::none) report_causes();
+    report_causes();
     result_.sentence = sentence_of(result_);
-    return {std::move(result_), std::move(rival_)};
+    return {std::move(result_), std::move(rival_), std::move(within_)};
   }
 
  private:
@@ -107,7 +115,8 @@ class Judgement {
       remainder.from.push_back(lacking);
       return true;
     }
-    const std::vector<Pattern> left = patterns_left(study_, all_, losing_, seed_);
+    std::vector<Pattern> left = patterns_left(study_, all_, losing_, seed_);
+    std::erase_if(left, [&](const Pattern& pattern) { return accuracy_.contains(pattern.what); });
     if (left.empty()) return false;
     remainder.predictable_fraction = left[0].what.fraction;
     for (std::size_t i = 0; i < std::min<std::size_t>(3, left.size()); ++i)
@@ -153,12 +162,19 @@ class Judgement {
     return "";
   }
 
+  /// Whether a hypothesis lacks a cause of the best one. Otherwise it differs by effects within the accuracy
+  /// of the rig file.
+  [[nodiscard]] bool lacks_a_cause(const Fitted& fitted) const {
+    return std::ranges::any_of(causes_,
+                               [&](const Effect& cause) { return !has(fitted.effects, cause.candidate); });
+  }
+
   /// Vote among the best hypothesis and the rivals of the same size that explain an error. A hypothesis that
   /// the held-out data alone do not confirm may still be the cause.
   void name() {
     std::vector<const Fitted*> equals;
     for (const Fitted& fitted : all_.all)
-      if (fitted.effects.size() == best_.effects.size() && !same(fitted.effects, best_.effects) &&
+      if (fitted.effects.size() == best_.effects.size() && lacks_a_cause(fitted) &&
           possible(fitted, all_.base, seed_))
         equals.push_back(&fitted);
     const std::vector<double> picked = frequencies(best_, equals, seed_);
@@ -169,7 +185,7 @@ class Judgement {
     }
     for (const Effect& effect : best_.effects) frequency_[effect.candidate] += left;
     bool clear = true, known = true;
-    for (const Effect& effect : best_.effects) {
+    for (const Effect& effect : causes_) {
       clear = clear && frequency_[effect.candidate] >= rules::kClearWin;
       known = known && effect.candidate->changes_known_parameter;
     }
@@ -192,13 +208,14 @@ class Judgement {
   }
 
   void report_causes() {
-    for (const Effect& effect : best_.effects) {
+    for (std::size_t i = 0; i < best_.effects.size(); ++i) {
+      const Effect& effect = best_.effects[i];
       Cause cause{effect.candidate->cause, effect.candidate->axis, {}, 1, 0};
       for (const Ranked& ranked : result_.ranking)
         if (ranked.label == effect.candidate->label()) cause.p_value = ranked.p_value;
       const auto found = frequency_.find(effect.candidate);
       cause.resampling_frequency = found == frequency_.end() ? 0 : found->second;
-      result_.causes.push_back(cause);
+      (within_[i] ? result_.within_accuracy : result_.causes).push_back(cause);
     }
     for (Ranked& ranked : result_.ranking)
       for (const auto& [candidate, share] : frequency_)
@@ -210,8 +227,11 @@ class Judgement {
   const Study& study_;
   const Hypotheses& all_;
   const Fitted& best_;
+  const StatedAccuracy& accuracy_;
   const std::vector<LosingEncoder>& losing_;
   std::uint64_t seed_;
+  std::vector<bool> within_;  ///< by effect of `best_`: within the accuracy of the rig file
+  Effects causes_;            ///< the other effects of `best_`
   std::map<const Candidate*, double> frequency_;
   Effects rival_;
   Diagnosis result_;
@@ -232,7 +252,9 @@ std::string sentence_of(const Diagnosis& d) {
   for (const std::string& rival : d.ambiguous_with) add(rivals, ", ", rival);
   switch (d.verdict) {
     case Verdict::none:
-      return "These data show no error of the model.";
+      return d.within_accuracy.empty()
+                 ? "These data show no error of the model."
+                 : "These data show no error of the model beyond the accuracy of the rig file.";
     case Verdict::named:
       return "The simulation lacks " + names + ".";
     case Verdict::parameter:
@@ -255,9 +277,9 @@ void doubt(Diagnosis& diagnosis, const std::string& why) {
   diagnosis.sentence = sentence_of(diagnosis);
 }
 
-Judged judge(const Study& study, const Hypotheses& hypotheses, const std::vector<LosingEncoder>& losing,
-             std::uint64_t seed) {
-  return Judgement(study, hypotheses, losing, seed).run();
+Judged judge(const Study& study, const Hypotheses& hypotheses, const StatedAccuracy& accuracy,
+             const std::vector<LosingEncoder>& losing, std::uint64_t seed) {
+  return Judgement(study, hypotheses, accuracy, losing, seed).run();
 }
 
 }  // namespace crane::diagnosis

@@ -2,6 +2,7 @@
 /// Verdict on the fitted hypotheses.
 #include "data/lost_counts.hpp"
 #include "search/search.hpp"
+#include "verdict/stated_accuracy.hpp"
 
 namespace crane::diagnosis {
 
@@ -10,6 +11,7 @@ struct Judged {
   Diagnosis diagnosis;
   Effects rival;  ///< of all hypotheses the one that would most often replace the best one; only when
                   ///< ambiguous
+  std::vector<bool> within_accuracy;  ///< by effect of the best hypothesis; the others are causes
 };
 /// The verdict in words.
 [[nodiscard]] std::string sentence_of(const Diagnosis& diagnosis);
@@ -19,7 +21,7 @@ struct Judged {
 void doubt(Diagnosis& diagnosis, const std::string& why);
 
 /// @param losing encoders whose lost counts were restored: residuals that depend on them are explained
-[[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses,
+[[nodiscard]] Judged judge(const Study& study, const Hypotheses& hypotheses, const StatedAccuracy& accuracy,
                            const std::vector<LosingEncoder>& losing, std::uint64_t seed);
 
 }  // namespace crane::diagnosis

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "crane/diagnosis/accuracy.hpp"
 #include "crane/diagnosis/candidate.hpp"
 #include "crane/diagnosis/data.hpp"
 
@@ -91,8 +92,11 @@ struct Trace {
 
 struct Diagnosis {
   Verdict verdict = Verdict::none;
-  std::string sentence;          ///< the verdict in words
-  std::vector<Cause> causes;     ///< confirmed, or ambiguous
+  std::string sentence;       ///< the verdict in words
+  std::vector<Cause> causes;  ///< confirmed, or ambiguous
+  /// Effects that are likely and no larger than the stated accuracy of the rig file. They do not decide the
+  /// verdict.
+  std::vector<Cause> within_accuracy;
   std::vector<Cause> attempted;  ///< with `unknown`: best explanation, unproven
   std::vector<std::string> ambiguous_with;
   std::optional<NextExperiment> next_experiment;
@@ -104,6 +108,7 @@ struct Diagnosis {
   std::vector<std::string> notes;
   std::vector<Visibility> excitation;  ///< visibility in the training data
   double detection_p_value = 1;        ///< p value of the largest score of all candidates
+  Accuracy accuracy{};                 ///< of the request
   double runtime_s = 0;
 };
 
@@ -121,6 +126,7 @@ struct Request {
   std::uint64_t seed = 1;  ///< of the resampling
   std::size_t most_effects = 3;
   std::vector<std::string> excluded{};  ///< causes that are no candidates
+  Accuracy accuracy = kUsualAccuracy;   ///< of the rig file
   /// Called with the share done, 0..1, and the current step.
   std::function<void(double, const std::string&)> progress = [](double, const std::string&) {};
 };

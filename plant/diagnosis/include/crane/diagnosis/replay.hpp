@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "crane/diagnosis/accuracy.hpp"
 #include "crane/diagnosis/data.hpp"
 #include "crane/diagnosis/kinematics.hpp"
 #include "crane/plant/model.hpp"
@@ -39,8 +40,12 @@ struct PreparedRun {
   /// `motion` in the middle of each step: [0] without, [1] with inner coordinates.
   std::array<std::vector<MeasuredKinematics>, 2> mid_step;
   std::array<double, kOutputs> least_noise{};  ///< quantisation noise, standard deviation, m or rad
+  /// Trolley, slew; by row: standard deviation of the change of the speed's error, because the time at which
+  /// the command acts is inaccurate, m/s or rad/s. Empty: exact.
+  std::array<std::vector<double>, 2> speed_inaccuracy;
 };
-[[nodiscard]] PreparedRun prepare(Run run, const configuration::Rig& rig);
+/// @param accuracy of the rig file; by default it is exact
+[[nodiscard]] PreparedRun prepare(Run run, const configuration::Rig& rig, const Accuracy& accuracy = {});
 
 /// Half width of the Savitzky-Golay filter, in samples: 30 ms, at least 3 samples.
 [[nodiscard]] int smoothing_half_width(double period_s);

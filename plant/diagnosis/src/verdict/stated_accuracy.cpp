@@ -1,0 +1,97 @@
+#include "verdict/stated_accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "search/parts.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+/// Whether the inaccuracy of this quantity limits other effects too. An error of the cable length or of a
+/// time turns the phase of the swing, which no other effect does: the swing is limited by the error of its
+/// scale.
+bool is_limit(const Candidate& candidate) {
+  return candidate.cause != "cable_length" && candidate.cause != "payload_mass" &&
+         candidate.cause != "swing_delay";
+}
+
+}  // namespace
+
+StatedAccuracy::StatedAccuracy(const configuration::Rig& rig, const Accuracy& accuracy)
+    : rig_(rig),
+      accuracy_(accuracy),
+      friction_{known_friction(rig, "trolley"), known_friction(rig, "slew")} {}
+
+std::optional<double> StatedAccuracy::inaccurate_value(const Candidate& candidate) const {
+  const double time_s = accuracy_.times_periods * rig_.period_s;
+  const std::string& cause = candidate.cause;
+  if (cause == "motor_gain" || cause == "position_scale" || cause == "swing_scale")
+    return 1 + accuracy_.values;
+  if (cause == "cable_length") return accuracy_.values * rig_.start.position[plant::kHoist];
+  if (cause == "payload_mass") return accuracy_.values * rig_.plant.load_mass_kg;
+  if (cause == "command_delay" || cause == "swing_delay") return time_s;
+  if (cause == "coulomb_friction")
+    return accuracy_.friction * friction_[candidate.drive_output()].least_coulomb_v;
+  if (cause == "viscous_friction")
+    return accuracy_.friction * friction_[candidate.drive_output()].least_viscous;
+  return std::nullopt;
+}
+
+bool StatedAccuracy::contains_value(const Effect& effect) const {
+  const std::optional<double> limit = inaccurate_value(*effect.candidate);
+  const double null = effect.candidate->parameters[0].null;
+  return limit && std::abs(effect.values[0] - null) <= std::abs(*limit - null);
+}
+
+std::vector<Crane> StatedAccuracy::inaccurate(const Study& study, const Crane& crane) const {
+  std::vector<Crane> cranes;
+  std::map<std::string, std::size_t> of_friction;  // by axis: one crane
+  for (const Candidate& candidate : study.candidates()) {
+    const std::optional<double> value = inaccurate_value(candidate);
+    if (!value || *value == candidate.parameters[0].null || !is_limit(candidate)) continue;
+    std::size_t at = cranes.size();
+    if (candidate.law == GoesWith::speed) at = of_friction.try_emplace(candidate.axis, at).first->second;
+    if (at == cranes.size()) cranes.push_back(crane);
+    cranes[at].terms.push_back(candidate.setting({*value}));
+  }
+  return cranes;
+}
+
+std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Effects& effects) const {
+  if (effects.empty()) return {};
+  std::vector<Crane> cranes = inaccurate(study, study.with(effects));
+  const std::size_t inaccuracies = cranes.size();
+  for (std::size_t i = 0; i < effects.size(); ++i) cranes.push_back(study.with(without(effects, i)));
+  std::vector<Changes> changes(cranes.size(), Changes{});
+  for (const Problem* part : {&study.drive(), &study.load(), &study.whole_runs()}) {
+    if (part->empty()) continue;
+    const std::size_t first = part == &study.whole_runs() ? kOutputs : 0;
+    const Problem plain = part->plain();
+    const Fits fits = plain.fit(replays_of(plain.runs(), study.with(effects)));
+    for (std::size_t c = 0; c < cranes.size(); ++c) {
+      const std::vector<double> squares = plain.squares_changed(replays_of(plain.runs(), cranes[c]), fits);
+      for (std::size_t i = 0; i < squares.size(); ++i) changes[c][first + plain.outputs()[i]] = squares[i];
+    }
+  }
+  Changes largest{};
+  for (std::size_t c = 0; c < inaccuracies; ++c)
+    for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], changes[c][i]);
+  std::vector<bool> contained;
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    contained.push_back(contains_value(effects[i]) ||
+                        std::ranges::equal(changes[inaccuracies + i], largest, std::less_equal{}));
+  return contained;
+}
+
+bool StatedAccuracy::contains(const Unexplained& pattern) const {
+  if (pattern.output > kSlewAngle) return false;
+  const bool slews = pattern.output == kSlewAngle;
+  const double gain = slews ? rig_.plant.slew_gain_radps2pv : rig_.plant.trolley_gain_mps2pv;
+  return pattern.acceleration <= accuracy_.friction * gain * friction_[pattern.output].least_coulomb_v;
+}
+
+}  // namespace crane::diagnosis

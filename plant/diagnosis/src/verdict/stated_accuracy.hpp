@@ -1,0 +1,40 @@
+#pragma once
+/// Effects and patterns that are no larger than the errors of an accurate rig file.
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "crane/diagnosis/accuracy.hpp"
+#include "force/unexplained.hpp"
+#include "study/known_friction.hpp"
+#include "study/study.hpp"
+
+namespace crane::diagnosis {
+
+class StatedAccuracy {
+ public:
+  StatedAccuracy(const configuration::Rig& rig, const Accuracy& accuracy);
+
+  /// Whether each effect has a value within the stated accuracy of its quantity, or changes the simulation of
+  /// no output by more than the largest of the stated inaccuracies of drives, positions and swing scale: rms
+  /// in the windows of the training data and, for a swing, over whole runs, from the same starts.
+  [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Effects& effects) const;
+  /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
+  [[nodiscard]] bool contains(const Unexplained& pattern) const;
+
+ private:
+  /// Sums of squares [m2 or rad2] by output: in windows, then over whole runs (swing only).
+  using Changes = std::array<double, 2 * kOutputs>;
+
+  /// Value of the candidate that is wrong by the stated accuracy; nothing if its quantity has none.
+  [[nodiscard]] std::optional<double> inaccurate_value(const Candidate& candidate) const;
+  [[nodiscard]] bool contains_value(const Effect& effect) const;
+  /// Cranes whose rig file is wrong by one stated inaccuracy each.
+  [[nodiscard]] std::vector<Crane> inaccurate(const Study& study, const Crane& crane) const;
+
+  const configuration::Rig& rig_;
+  Accuracy accuracy_;
+  std::array<KnownFriction, 2> friction_;  ///< trolley, slew
+};
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,75 @@
+/// Effects within the accuracy of a rig file do not decide the verdict.
+#include <gtest/gtest.h>
+
+#include "crane/diagnosis/diagnosis.hpp"
+#include "strange_lab.hpp"
+#include "study/study.hpp"
+#include "verdict/stated_accuracy.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+configuration::Rig accurate_lab() { return configuration::load_rig(CRANE_RIGS "/gantry.toml"); }
+
+constexpr double kFileRow_s = 0.01;
+
+/// The command of the file, constant from row to row.
+double file_command(double begin_s, double time_s) {
+  return strange::rich_command(begin_s + kFileRow_s * std::floor(time_s / kFileRow_s + 1e-6));
+}
+
+/// @param delay_s of the command on its way to the motor
+std::vector<Run> runs_of_gantry(const strange::Gantry& gantry, double delay_s, double begin_s) {
+  const auto delayed = [&](double t) { return file_command(begin_s, std::max(0.0, t - delay_s)); };
+  auto table = strange::recorded(strange::moved(gantry, 24, delayed),
+                                 {.row_s = kFileRow_s, .position_step_m = 1e-6, .swing_step_rad = 1e-5});
+  for (std::size_t row = 0; row < table.columns[0].values.size(); ++row)
+    table.columns[1].values[row] = file_command(begin_s, table.columns[0].values[row]);
+  return load_run(table, accurate_lab(), "gantry.csv").runs;
+}
+
+Diagnosis diagnosed(const strange::Gantry& gantry, double delay_s) {
+  Request request;
+  request.most_effects = 2;
+  return diagnose(accurate_lab(), runs_of_gantry(gantry, delay_s, 0), runs_of_gantry(gantry, delay_s, 40),
+                  request);
+}
+
+TEST(StatedAccuracy, MakesNoCauseOfASmallErrorThatAFineSensorShows) {
+  const Diagnosis found = diagnosed({.gain_mps2pv = 1.2 * 1.01}, 0.004);
+  EXPECT_EQ(found.verdict, Verdict::none) << found.sentence;
+  EXPECT_FALSE(found.within_accuracy.empty());
+  EXPECT_EQ(found.sentence, "These data show no error of the model beyond the accuracy of the rig file.");
+  EXPECT_TRUE(found.extension.empty());
+}
+
+TEST(StatedAccuracy, LeavesALargeErrorItsNameBesideASmallOne) {
+  const Diagnosis found = diagnosed({.gain_mps2pv = 1.2 * 1.01}, 0.03);
+  ASSERT_EQ(found.verdict, Verdict::named) << found.sentence;
+  ASSERT_EQ(found.causes.size(), 1U);
+  EXPECT_EQ(found.causes[0].name, "command_delay");
+  EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.03, 0.002);
+}
+
+TEST(StatedAccuracy, ContainsAPatternThatIsSmallBesideTheFriction) {
+  configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/drive_axis.toml");
+  const double gain = rig.plant.trolley_gain_mps2pv;
+  double coulomb_v = 0;
+  for (const plant::TermSetting& term : rig.terms)
+    if (term.name == "drive_friction" && term.axis == "trolley")
+      coulomb_v =
+          std::min(term.parameters.at("coulomb_positive_v"), term.parameters.at("coulomb_negative_v"));
+  ASSERT_GT(coulomb_v, 0);
+  const StatedAccuracy accuracy(rig, kUsualAccuracy), exact(rig, {});
+  Unexplained pattern;
+  pattern.acceleration = 0.04 * coulomb_v * gain;
+  EXPECT_TRUE(accuracy.contains(pattern));
+  EXPECT_FALSE(exact.contains(pattern));
+  pattern.acceleration = 0.06 * coulomb_v * gain;
+  EXPECT_FALSE(accuracy.contains(pattern));
+  pattern.acceleration = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(accuracy.contains(pattern)) << "a line or a jump";
+}
+
+}  // namespace
+}  // namespace crane::diagnosis
