@@ -168,7 +168,7 @@ TEST(OnOneComputer, AStoppedProcessIsNamedAndAWholeStackIsGood) {
         system_test::run_program(stack::program_directory() / "crane",
                                  {"doctor", "--net", "--json", "--domain", std::to_string(kDomain), "--crane",
                                   system_test::crane_name()});
-    return Answer{ended.exit_code, ended.output};
+    return Answer{.exit_code = ended.exit_code, .output = ended.output, .errors = {}};
   };
   const auto healthy = ask();
   EXPECT_THAT(lines(healthy), Contains(HasSubstr("6 processes are heard")));
