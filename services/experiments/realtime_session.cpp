@@ -89,6 +89,8 @@ void RealtimeSession::request_with_patience(const stack::OperatorRequest& wanted
 }
 
 void RealtimeSession::wait_for(crane_SupervisorState wanted, std::chrono::milliseconds patience) {
+  // The last status may be older than the last look: a stop that has ended since must not end the wait.
+  take(std::chrono::nanoseconds{0});
   const bool reached =
       until([&] { return status_ && (status_->state == wanted || status_->state >= crane_STATE_STOP_C1); },
             patience);

@@ -65,6 +65,32 @@ TEST(Realtime, AMoveSettlesAsInLockstep) {
   EXPECT_LE(static_cast<double>(metrics.lost_ticks), 0.01 * static_cast<double>(samples.size()));
 }
 
+/// The last stop that the session has seen has ended when the session looks again.
+TEST(Realtime, ASessionArmsACraneThatWasLockedWhileNobodyLooked) {
+  RunningStack stack{kDomain, "virginia_tech_tower"};
+  auto& session = stack.session();
+  session.arm();
+  session.request({.kind = crane_REQUEST_MOVE, .selected = {true, false, false}, .target = {1.0, 0, 0}},
+                  "move");
+  session.wait_for(crane_STATE_RUN, 1s);
+  session.wait(300ms);
+  session.request({.kind = crane_REQUEST_STOP}, "stop");
+  for (int i = 0; i < 50 && session.status()->state != crane_STATE_STOP_C1; ++i) session.wait(10ms);
+  ASSERT_EQ(session.status()->state, crane_STATE_STOP_C1);
+  bus::Bus other_bus{runtime::bus_options(stack.bus_options(), "observer", crane_SOURCE_OPERATOR, 0)};
+  Observer other{other_bus};
+  const auto is_locked = [&other] {
+    return !other.statuses().empty() && other.statuses().back().state == crane_STATE_LOCKED;
+  };
+  const auto deadline = std::chrono::steady_clock::now() + 5s;
+  while (!is_locked() && std::chrono::steady_clock::now() < deadline) {
+    other_bus.wait(20ms);
+    other.take();
+  }
+  ASSERT_TRUE(is_locked());
+  EXPECT_NO_THROW(session.arm());
+}
+
 TEST(Realtime, AScenarioByCommandLeavesWhatWasMeasured) {
   const recording::TemporaryDirectory directory;
   recording::put_contents(directory / "move.toml", kScenario);
