@@ -108,7 +108,7 @@ void Bridge::take_commands(std::int64_t now_ns) {
   std::size_t budget = runtime::LoopReader<msg::Command>::kMostPerPoll;
   while (const auto taken = commands_->take(now_ns, budget)) {
     const auto* command = &taken->sample;
-    if (!tick_ || command->header.tick > *tick_) {  // command for an earlier bridge
+    if (!tick_ || command->header.tick > *tick_) {  // a command for a tick of an earlier bridge
       ++counts_.late;
       continue;
     }
@@ -260,7 +260,8 @@ void Bridge::report_latch() {
   reported_ = reason;
 }
 
-/// Reports a relay that opens without a latch of the bridge. Only the bridge knows the delay of the toggles.
+/// Reports a relay that opens without a latch of the bridge. No other process can measure the delay of the
+/// toggles.
 void Bridge::report_relay(const Inputs& inputs, std::int64_t now_ns) {
   const auto tick_ns = now_ns - ticked_ns_;
   if (relay_closed_ && inputs.watchdog_dropped && toggles_ && !inputs.estop_pressed) {

@@ -61,7 +61,7 @@ bool command_range(const LastLineParameters& parameters, const CheckInput& input
   return false;
 }
 
-/// Any step towards 0 V is permitted, because it stops the crane.
+/// Every step towards 0 V is permitted, because it brings the crane to rest.
 bool command_rate(const LastLineParameters& parameters, const CheckInput& input) noexcept {
   if (input.command == nullptr) return false;
   const auto ticks = input.command->tick > input.before.tick ? input.command->tick - input.before.tick : 0;
@@ -142,7 +142,7 @@ bool encoder_jump(const LastLineParameters& parameters, const CheckInput& input)
   return false;
 }
 
-/// True when the homing mark is detected at another position than before.
+/// True when the homing mark operates farther than `back_off` from its position.
 bool mark_disagrees(const AxisLine& axis, const CheckInput& input, std::size_t i) noexcept {
   const auto& history = *input.history;
   if (!axis.homes() || history.size() < 2 || history[1].observation.unknown[i]) return false;
@@ -153,7 +153,8 @@ bool mark_disagrees(const AxisLine& axis, const CheckInput& input, std::size_t i
   return !(axis.homing.position >= low && axis.homing.position <= high);
 }
 
-/// A limit switch is a reference mark: when it is pressed far from the limit, counts are lost.
+/// A limit switch is a reference mark: if the switch is pressed at a measured position far from the limit,
+/// the encoder has lost counts.
 bool counts_lost(const LastLineParameters& parameters, const CheckInput& input, std::size_t i) noexcept {
   const AxisLine& axis = parameters.axis[i];
   const auto& observation = (*input.history)[0].observation;
@@ -182,8 +183,8 @@ bool unmoved(const History& history, std::size_t i, std::size_t newer, std::size
          kFlicker_counts;
 }
 
-/// Number of ticks up to now in which the axis was free, the voltage had its present sign, and the counter
-/// did not change.
+/// Number of consecutive ticks, up to this tick, in which the axis was free, the voltage had its present
+/// sign, and the counter did not change.
 std::size_t ticks_without_motion(const History& history, std::size_t i) {
   const double side = history[0].observation.applied_v[i] > 0 ? 1 : -1;
   std::size_t ticks = 0;

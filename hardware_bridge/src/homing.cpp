@@ -51,7 +51,7 @@ std::optional<std::int64_t> Homing::step(std::size_t i, const MarkView& view) no
   if (view.requested && !axis.was_requested) forget(i);
   if (view.requested && view.free && axis.started) look(axis, view);
   const bool over = !view.requested && !axis.was_requested;
-  if (over && axis.first && !axis.found) forget(i);  // homing ended before the second detection
+  if (over && axis.first && !axis.found) forget(i);  // homing has ended before the second detection
   axis.was_requested = view.requested;
   axis.was_active = view.active;
   axis.last_counts = view.counts;

@@ -58,8 +58,8 @@ void LastLine::observe(std::uint64_t tick, const Observation& observation) noexc
   history_.add(entry);
 }
 
-/// Stores the coordinate at the tick at which the closed brake has stopped the axis. The axis must then stay
-/// there.
+/// Stores the coordinate at the tick at which the closed brake has stopped the axis. From then on the axis
+/// must stay at this coordinate.
 void LastLine::follow_brake(std::size_t axis, std::uint64_t tick, const Observation& observation) noexcept {
   if (executed_.brake_release[axis]) {
     commanded_closed_[axis] = false;

@@ -7,7 +7,7 @@
 namespace crane::bridge {
 namespace {
 
-/// Smallest and largest acceleration per volt: the drive accelerates the swinging load fully or not at all.
+/// Smallest and largest acceleration per volt: with the whole load mass and without the load.
 void set_gains(AxisLine& axis, std::size_t i, const configuration::Rig& rig) {
   const auto& crane = rig.design.crane;
   const double load_kg = crane.load_mass_kg;

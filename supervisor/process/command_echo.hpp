@@ -1,7 +1,7 @@
 #pragma once
-/// Checks that the bridge executes the commands of this supervisor. A forged packet with the GUID of the
-/// supervisor's writer is indistinguishable from a true one above the middleware. Every state, however,
-/// contains the voltage that acts and the tick of its command. Pure.
+/// Checks that the bridge executes the commands of this supervisor. Above the middleware, a forged packet
+/// with the GUID of the supervisor's writer cannot be distinguished from a genuine one. Every state contains
+/// the voltage that the bridge outputs and the tick of the command of this voltage. Pure.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -18,18 +18,18 @@ class CommandEcho {
   static constexpr double kTolerance_v = 0.1;
   /// Number of stored commands: more than the largest permitted age of a command (stale_after_ticks).
   static constexpr std::size_t kRemembered = 64;
-  /// Number of contradicting states in a row that end the supervisor.
+  /// Number of consecutive contradicting states that end the supervisor.
   static constexpr int kStates = 2;
-  /// Longest time from the last release command to a closed brake. An open brake after this time has not
-  /// closed, or another program has opened it. Longer than the detection of a brake that does not close
-  /// (closing time and 0.11 s).
+  /// Longest time from the last release command to a closed brake. A brake that is open after this time has
+  /// failed to close, or another program has opened it. The time is longer than the detection of a brake that
+  /// does not close (closing time and 0.11 s).
   static constexpr std::uint64_t kBrake_ticks = 50;
 
   /// @param present  axes that have a drive
   explicit CommandEcho(const std::array<bool, 3>& present) noexcept : present_{present} {}
 
-  /// What was published for `command.header.tick`; a tick may be commanded more than once while no state
-  /// comes.
+  /// Stores a published command by its tick. While no state arrives, the supervisor publishes several
+  /// commands for the same tick.
   void commanded(const msg::Command& command) noexcept {
     auto& slot = commands_[command.header.tick % kRemembered];
     if (!first_tick_) first_tick_ = command.header.tick;

@@ -16,18 +16,19 @@ namespace crane::supervisor {
 /// @return why axes, targets or sines of the request are not permitted; empty when they are permitted
 [[nodiscard]] std::string problem_of(const msg::Request& request, const Limits& limits);
 /// problem_of(), and problems that depend on the present `position`: a reference of sines that starts far
-/// from it (Limits::follow_begin), and a zone that contains the target or lies in the straight path (in the
-/// coordinates of the axes) from `position` to the target.
+/// from it (Limits::largest_follow_jump), and a zone that contains the target or lies in the straight path
+/// (in the coordinates of the axes) from `position` to the target.
 [[nodiscard]] std::string problem_at(const msg::Request& request, const Limits& limits,
                                      const PerAxis& position);
 /// Axis of a homing request. @pre problem_of() is empty
 [[nodiscard]] std::size_t home_axis_of(const msg::Request& request);
 
-/// Requests of which only the first of a tick is executed: the search for the way of a move may take a third
-/// of a tick, and a flood of moves must not delay the command; one axis is homed at a time.
+/// Requests of which only the first in each tick is executed. The search for the way of a move may take a
+/// third of a tick, and a flood of moves must not delay the command. Only one axis is homed at a time.
 class OncePerTick {
  public:
-  /// @return why a request is refused after those before it in this tick; empty: it is the first
+  /// @return why the request is refused after the earlier requests of this tick; empty: it is the first such
+  /// request
   [[nodiscard]] std::string problem_of(const msg::Request& request, const Limits& limits);
 
  private:

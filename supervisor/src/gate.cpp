@@ -11,11 +11,12 @@ namespace {
 using enum protection::Protection;
 using protection::enabled;
 
-// Weight of a tick with limited rate relative to one without. A demand that jumps to and fro has limited rate
-// in every second tick only; it stops the crane after 2 kPressure / (kPressure - 1) times as many ticks as a
+// Weight of a tick with limited rate relative to one without. A demand that alternates has a limited rate
+// only in every second tick; it stops the crane after 2 kPressure / (kPressure - 1) times as many ticks as a
 // demand with limited rate in every tick.
 constexpr int kPressure = 4;
-constexpr int kCountEnd = 1'000'000;  // upper end of the counters: a stream can be missing for months
+// largest value of the counters, which would overflow if a stream were missing for months
+constexpr int kCountEnd = 1'000'000;
 
 void limit_range(const Limits& limits, PerAxis& volts_v, GateOutput& output) noexcept {
   for (std::size_t i = 0; i < kAxes; ++i) {

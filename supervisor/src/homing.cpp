@@ -10,15 +10,14 @@ using control::Mark;
 
 constexpr double kMargin = 1.1;          // longest search / travel of the axis, for errors of scale
 constexpr double kStill_s = 1;           // longest time without progress
-constexpr double kShareOfSpeed = 0.005;  // progress: share of the commanded way; a drive breaks loose slowly
-constexpr double kLongestBack = 4;       // longest way back / back_off
-constexpr double kWrongWay =
-    2;  // longest motion in the wrong direction / back_off, while the axis turns round
+constexpr double kShareOfSpeed = 0.005;  // progress / commanded distance; a drive breaks loose slowly
+constexpr double kLongestBack = 4;       // longest distance away from the mark / back_off
+constexpr double kWrongWay = 2;  // longest motion in the wrong direction / back_off, while the axis reverses
 constexpr int kTicksToBeFound = 5;  // ticks from the active mark until the bridge reports it as found
 
 struct Leg {
   double direction = 0, speed = 0;
-  double longest = 0;  // longest way, unit
+  double longest = 0;  // longest distance, unit
   HomingFailure too_long = HomingFailure::none;
 };
 

@@ -85,7 +85,7 @@ void check_common(const Limits& limits, Problems& problems) {
                    "at least one must be present");
 }
 
-// Rules that relate several values. @pre each value is in its range
+// Rules that relate several values. @pre each value is inside its range
 void check_margins(const Limits& limits, Problems& problems) {
   for (std::size_t i = 0; i < kAxes; ++i) {
     const AxisLimits& axis = limits.axis[i];

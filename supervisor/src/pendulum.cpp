@@ -9,7 +9,7 @@ namespace {
 using Plane = PendulumMemory::Plane;
 
 constexpr double kLongestGap_s = 0.1;  // a longer time without samples clears the sum
-constexpr double kLeastDepth = 0.2;    // share of the cable; the swing of a higher load is not checked
+constexpr double kLeastDepth = 0.2;    // share of the cable; the check ignores a load that is higher
 
 Plane operator-(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
 Plane operator+(const Plane& a, const Plane& b) { return {a[0] + b[0], a[1] + b[1]}; }

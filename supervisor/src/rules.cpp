@@ -12,7 +12,8 @@ using L = const Limits&;
 using I = const Inputs&;
 using M = const Memory&;
 
-// ARMING waits for the bridge before it opens the brakes. Afterwards a stopped bridge is a cause.
+// ARMING waits for the bridge before it opens the brakes. After ARMING, a bridge that is not ready is a
+// cause.
 bool bridge_matters(M m) noexcept { return m.state != State::arming || m.releasing; }
 
 bool bridge_stopped(I in) noexcept { return in.bridge_latched || in.watchdog_dropped; }

@@ -5,7 +5,7 @@
 namespace crane::supervisor {
 namespace {
 
-// Severity of the present state: only a severer reaction changes it.
+// Severity of the present state: only a reaction with a higher severity changes the state.
 Reaction severity(const Memory& m) {
   switch (m.state) {
     case State::stop_c1:
@@ -64,7 +64,7 @@ bool accepted(const Answers& answers, Request request) {
   return answers[static_cast<std::size_t>(request)].accepted;
 }
 
-/// The self-test of the old bridge does not hold for a new one. ESTOP and FAULT remain.
+/// A passed self-test of the old bridge is not valid for a new bridge. ESTOP and FAULT do not change.
 void begin_anew(const Inputs& in, Memory& m) {
   m.self_test_passed = false;
   m.clear_since_s = m.fresh_since_s = in.now_s;
@@ -102,7 +102,7 @@ void step_arming(const Inputs& in, Memory& m) {
 }
 
 void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, Memory& m) {
-  if (m.homing) return;  // homing ends by a cause: homed, failed, or any other
+  if (m.homing) return;  // a cause ends homing: HOMED, HOMING_FAILED, or any other cause
   if (m.state == State::hold && (accepted(answers, Request::move) || in.reference_moving)) {
     enter(State::run, Cause::none, in, m);
     m.maneuver_began = false;
@@ -112,7 +112,7 @@ void step_armed(const Limits& limits, const Inputs& in, const Answers& answers, 
   }
   if (m.state != State::run) return;
   m.maneuver_began = m.maneuver_began || in.reference_moving;
-  // A move that the planner does not begin ends after the settling time of other signals.
+  // A move that the planner does not begin ends after clear_time_s.
   const bool never_began = !m.maneuver_began && in.now_s - m.entered_s >= limits.clear_time_s;
   if ((m.maneuver_began && !in.reference_moving) || never_began) {
     enter(State::hold, Cause::none, in, m);

@@ -8,7 +8,8 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr int kCounterEnd = 1'000'000;  // upper end of the counters: a stream can be missing for months
+// largest value of the counters, which would overflow if a stream were missing for months
+constexpr int kCounterEnd = 1'000'000;
 
 bool all_finite(const Sample& sample) {
   return std::isfinite(sample.time_s) &&
@@ -16,7 +17,7 @@ bool all_finite(const Sample& sample) {
          std::isfinite(sample.swing_radial_rad) && std::isfinite(sample.swing_tangential_rad);
 }
 
-/// All samples so far are those of the old bridge.
+/// All earlier samples are those of the old bridge.
 void take_over_bridge(const Limits& limits, const TickInput& input, TickMemory& memory) {
   if (!input.bridge_restarted) return;
   AxisFlags known{};
@@ -48,7 +49,7 @@ bool take_sample(const Limits& limits, const TickInput& input, TickMemory& memor
       set_homed_position(i, input.sample.position[i], memory.motion, memory.brakes);
   memory.sample = input.sample;
   observe(limits, input.now_s, input.sample.time_s, input.sample.position, memory.motion);
-  for (std::size_t i = 0; i < kAxes; ++i)  // homing replaces a doubtful position
+  for (std::size_t i = 0; i < kAxes; ++i)  // homing ends the doubt about a position
     if (memory.sample.position_unknown[i]) memory.restart.doubted[i] = false;
   watch_load(limits, input.now_s, memory.sample.swing_radial_rad, memory.sample.swing_tangential_rad,
              memory.restart);
@@ -144,7 +145,8 @@ bool watch_relay(const Limits& limits, const TickInput& input, bool sampled, Tic
   return relay_failed(limits, input.now_s, !memory.sample.watchdog_dropped, memory.relay);
 }
 
-/// While an axis is homed, the other axes get 0 V, and its volts are limited to those of creeping.
+/// While an axis is homed, the other axes get 0 V, and the voltage of the homed axis is limited to
+/// volt_limit_v of its homing.
 PerAxis demand_of(const Limits& limits, const TickInput& input, const TickMemory& memory) {
   PerAxis demand_v = input.demand_v;
   if (!memory.machine.homing || !std::ranges::all_of(demand_v, [](double v) { return std::isfinite(v); }))

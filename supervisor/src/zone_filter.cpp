@@ -35,7 +35,8 @@ struct Load {
   double speed_mps = 0;
 };
 
-/// Impulse of the voltages that are already decided, V s, in one direction (+1 or -1).
+/// Integral over time of the voltages of the previous, the present and the next tick, V s, in one direction
+/// (+1 or -1).
 double impulse_vs(const Limits& limits, std::size_t axis, double direction, const ZoneInput& input,
                   const ZoneMemory& memory) noexcept {
   const auto push = [direction](double v) { return std::max(direction * v, 0.0); };
@@ -48,7 +49,7 @@ double gain_of(const Limits& limits, std::size_t axis) noexcept {
   return (1 + kGainTolerance) * (axis == kTrolley ? crane.trolley_gain_mps2pv : crane.slew_gain_radps2pv);
 }
 
-/// 1. @param load_acceleration  by load, centrifugal and Coriolis force, unit/s^2
+/// Step 1 of zone_filter.hpp. @param load_acceleration  by load, centrifugal and Coriolis force, unit/s^2
 StopTravel stop_travel(const Limits& limits, std::size_t axis, const ZoneInput& input,
                        const ZoneMemory& memory, double load_acceleration) noexcept {
   if (!limits.axis[axis].present) return {};
@@ -113,7 +114,7 @@ double load_speed_mps(const Limits& limits, const ZoneMemory& memory, const Load
   return speed + counts_m / span_s + unmodelled * span_s / 2;
 }
 
-/// 2.
+/// Step 2 of zone_filter.hpp.
 struct StopRegion {
   double middle_m = 0, middle_rad = 0;  ///< centre, trolley and slew
   Plane centre{};                       ///< the same over the ground
@@ -140,7 +141,7 @@ struct Stop {
   double swing_m = 0;  ///< A
 };
 
-/// 3. A
+/// A: step 3 of zone_filter.hpp.
 double swing_of_stop_m(const Limits& limits, const ZoneMemory& memory, const Stop& stop) noexcept {
   const auto& [load, trolley, slew, region, unused] = stop;
   const PastSample& now = memory.recent[0];
@@ -212,7 +213,7 @@ Stop stop_of(const Limits& limits, const ZoneInput& input, const ZoneMemory& mem
   return stop;
 }
 
-/// 4.
+/// Step 4 of zone_filter.hpp.
 ReachedSpace reach_of(const Limits& limits, const Stop& stop) noexcept {
   const auto& clearance = limits.clearance;
   const double longest = stop.load.longest_m;
@@ -232,13 +233,13 @@ Closest closest_of(const Limits& limits, const ReachedSpace& reach) noexcept {
   Closest closest;
   for (std::size_t i = 0; i < limits.zones.size(); ++i) {
     const double gap_m = control::clearance_m(limits.zones[i], reach, limits.clearance.suspension_height_m);
-    if (!(gap_m >= closest.clearance_m)) closest = {i, gap_m};  // NaN counts as closest
+    if (!(gap_m >= closest.clearance_m)) closest = {i, gap_m};  // a zone with NaN counts as the closest
   }
   return closest;
 }
 
-/// StopTravel beyond that of a ramped stop that an early deceleration needs, in the direction of motion,
-/// signed; unit.
+/// Signed distance that a controlled stop needs in the direction of motion beyond the distance of a ramped
+/// stop, unit.
 double deceleration_travel(const Limits& limits, std::size_t axis, double speed,
                            double omega_radps) noexcept {
   constexpr int kTicksOfStop =
@@ -250,7 +251,8 @@ double deceleration_travel(const Limits& limits, std::size_t axis, double speed,
   return speed > 0 ? travel : -travel;
 }
 
-/// True when the ramped reach, moved along the travel of an early deceleration, touches a zone.
+/// True when the reached space of a ramped stop, shifted by deceleration_travel() of each axis, touches a
+/// zone.
 bool is_ahead(const Limits& limits, const ZoneInput& input, const Stop& stop,
               const ReachedSpace& now) noexcept {
   constexpr int kPoints = 8;
@@ -304,7 +306,7 @@ ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input, ZoneMemor
     const ReachedSpace resting = control::resting_reach(
         limits.clearance, limits.machine.crane.gravity_mps2, input.position[kTrolley],
         limits.axis[kSlew].present ? input.position[kSlew] : 0, limits.machine.cable(input.position[kHoist]));
-    // Another arming inside the same margin permits no further step towards the zone.
+    // Arming again inside the same margin permits no further approach to the zone.
     const double before_m = memory.permitted_m < 0 ? memory.permitted_m : gap_m;
     memory.permitted_m =
         closest_of(limits, resting).clearance_m < 0 ? std::min(std::max(before_m, gap_m), 0.0) : 0;

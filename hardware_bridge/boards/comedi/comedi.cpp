@@ -52,7 +52,7 @@ Comedi::Comedi(const configuration::Rig& rig) : wiring_{rig.wiring}, lines_{rig}
     if (lines_.present(i)) find_converter(i, as_index(rig.drives[i].dac_channel));
   make_safe();
   find_lines();
-  make_safe();  // the lines may have any level when they become outputs
+  make_safe();  // a line may have any level at the time when it becomes an output
   for (const auto& counter : counters_) start_counter(counter);
 }
 
@@ -137,7 +137,7 @@ void Comedi::start_counter(const Counter& counter) {
   if (::comedi_data_write(handle_.device, subdevice, counter.channel, 0, AREF_GROUND, wanted) < 0 ||
       ::comedi_data_read(handle_.device, subdevice, counter.channel, 0, AREF_GROUND, &found) < 0)
     fail(label + " does not answer");
-  // A moving encoder changes only the lowest bits in the meantime.
+  // Between writing and reading, a moving encoder changes only the lowest bits.
   constexpr std::int32_t kTolerance_counts = 0x1000;
   if (std::abs(counts_of_24_bits(found - wanted)) > kTolerance_counts)
     fail(label + " does not hold a written value: use another channel, or another board");
@@ -196,7 +196,7 @@ std::array<double, kDrives> Comedi::write(const Outputs& outputs) {
   return given_v;
 }
 
-/// Sets every output, also after one has failed.
+/// Sets every output, even if a previous output has failed.
 void Comedi::make_safe() noexcept {
   for (const auto& converter : converters_)
     ::comedi_data_write(handle_.device, as_index(wiring_.analog_output_subdevice), converter.channel,

@@ -134,7 +134,7 @@ std::uint8_t EmulatedServoToGo::board_test() noexcept {
 }
 
 void EmulatedServoToGo::command_timer(std::uint8_t command) noexcept {
-  if (command >> 6U != 0) return;  // timers 1 and 2 only divide the clock
+  if (command >> 6U != 0) return;  // the modes of timers 1 and 2, which divide the clock, have no effect here
   state_.timer_period_ns = 0;      // a mode word stops the timer until a count is written
   state_.timer_0_high_next = false;
   state_.timer_0_loadable = command == kTimer0Periodic;

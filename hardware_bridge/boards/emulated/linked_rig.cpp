@@ -18,7 +18,7 @@ constexpr std::int64_t kSilence_ns = 500'000'000;  // a running rig steps more o
 constexpr int kLatchWaits = 14;
 constexpr std::int64_t kLatchWait_ns = 1'000'000;
 
-/// The shared file of a running rig; nothing when no rig runs.
+/// @return the shared file of a running rig; nothing when no rig runs
 std::unique_ptr<SharedFile> find(const std::string& name, SharedLines*& lines) {
   if (!SharedFile::exists(name)) return nullptr;
   auto file = std::make_unique<SharedFile>(name);
@@ -76,8 +76,9 @@ void LinkedRig::advance_to(std::int64_t time_ns) {
       throw BoardError("the emulated rig does not answer: look for its message, then start the stack again");
 }
 
-/// The counters of a real card count while the computer pauses, so that a latch always gives the present
-/// positions. A rig that does not answer leaves the lines as they are; require_alive() detects its end.
+/// The counters of a real card continue to count while the computer pauses, so that a latch always gives the
+/// present positions. If the rig does not answer, the lines keep their values; require_alive() detects the
+/// end of the rig.
 void LinkedRig::advance_to_now() {
   const auto now_ns = monotonic_ns();
   lines_->until_ns = now_ns;

@@ -5,7 +5,7 @@
 namespace crane::bridge {
 namespace {
 
-/// A card with a lock. Two bridges on one card would overwrite each other's outputs.
+/// A card with a lock: two bridges on one card would overwrite each other's outputs.
 class OwnedServoToGo final : public Board {
  public:
   explicit OwnedServoToGo(const configuration::Rig& rig)

@@ -43,7 +43,7 @@ ServoToGo::ServoToGo(const configuration::Rig& rig, std::unique_ptr<PortIo> port
   make_safe();
   ports_->out_8(at(kDirectionAbc), kAbInCOut);
   ports_->out_8(at(kDirectionD), kDOut);
-  make_safe();  // the lines may have any level when they become outputs
+  make_safe();  // a line may have any level at the time when it becomes an output
   stop_timer();
   for (const auto& counter : counters_)
     if (counter.used) start_counter(counter);
@@ -55,7 +55,8 @@ std::string_view ServoToGo::name() const {
   return model_ == 1 ? "servo_to_go model 1" : "servo_to_go model 2";
 }
 
-/// Reads the serial number: each of eight readings has one bit and its index. No port is written before.
+/// Reads the serial number: each of eight readings has one bit and its index. Before this check the driver
+/// writes to no port.
 int ServoToGo::recognised_model() const {
   unsigned serial = 0, seen = 0, reading = 0;
   for (std::size_t i = 0; i < kChannels; ++i) {
@@ -70,7 +71,7 @@ int ServoToGo::recognised_model() const {
                    "): check the card, its address jumpers and base_address in [wiring] of the rig file");
 }
 
-/// A running timer would latch the counters between the bytes of a reading.
+/// A running timer would latch the counters while the driver reads their bytes.
 void ServoToGo::stop_timer() noexcept {
   ports_->out_8(at(kTimerCommand), kTimerStop);
   ports_->out_8(at(kTimerCommand), kTimer0NoCount);
@@ -80,7 +81,7 @@ void ServoToGo::start_counter(const Counter& counter) {
   const auto control = at(counter_control(counter.channel));
   for (const auto command : {kMasterReset, kInputControl, kOutputControl, kQuadrature, kZero})
     ports_->out_8(control, command);
-  // A moving encoder changes only the lowest bits in the meantime.
+  // Between writing and reading, a moving encoder changes only the lowest bits.
   constexpr std::int32_t kTolerance_counts = 0x1000;
   for (const std::int32_t pattern : {0x2A5A5A, -0x2A5A5A}) {
     preset(counter.channel, pattern);

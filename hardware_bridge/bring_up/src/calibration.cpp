@@ -82,7 +82,7 @@ class Calibrating {
     return fits;
   }
 
-  /// The present angle of the load is the zero of the swing encoders: the load must hang at rest.
+  /// The present angle of the load is the zero of the swing encoders. Therefore the load must hang at rest.
   void settle() {
     while (true) {
       const auto fits = swings();

@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using configuration::ConfigurationError;
 
-/// Text that is read back as the same floating-point number.
+/// Text of a number that gives the same floating-point number when it is read.
 std::string exact(double value) {
   std::array<char, 40> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;

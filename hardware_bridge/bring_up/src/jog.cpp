@@ -80,7 +80,7 @@ class Running {
     double passed_s = 0;
     for (; passed_s < allowed_s; passed_s += period_s) step({}, {});
     jog_.closed_again = session_.sample().inputs.brake_closed[plan_.axis];
-    // Waits until the suspension point is at rest. A late brake has one more second.
+    // Waits until the suspension point is at rest. Waits one second longer for a brake that closes late.
     for (; passed_s < 0.3 || (passed_s < 1.5 && !session_.sample().inputs.brake_closed[plan_.axis]);
          passed_s += period_s)
       step({}, {});

@@ -139,7 +139,7 @@ class Judgement {
       judge_standstill(i);
   }
 
-  /// The counter of the axis changed. Checks its direction.
+  /// Checks the direction of the counter of the axis, which has changed.
   void judge_direction(std::size_t i) {
     const auto& axis = evidence_.axis[i];
     const bool outward = axis.moved[i] > 0;
@@ -188,7 +188,7 @@ class Judgement {
             named(i) + ": check its 5 V supply and counter " + std::to_string(rig_.encoders[swing].channel));
   }
 
-  /// The counter of a drive that shows the swing of the load.
+  /// @return the counter of a drive that shows the swing of the load
   [[nodiscard]] std::optional<std::size_t> counter_that_swings(std::size_t i) const {
     if (swing_of(rig_, i) == 0) return {};
     for (std::size_t k = 0; k < kDrives; ++k)
@@ -196,12 +196,12 @@ class Judgement {
     return {};
   }
 
-  /// Counter of another encoder that follows axis i.
+  /// @return the counter of another encoder that follows axis i
   [[nodiscard]] std::optional<std::size_t> counter_that_moved(std::size_t i) const {
     const auto& axis = evidence_.axis[i];
     for (std::size_t k = 0; k < kDrives; ++k)
       if (k != i && std::abs(axis.moved[k]) > kStandstill) return k;
-    for (std::size_t k = 0; k < kSwings; ++k)  // the load swings back, an axis does not
+    for (std::size_t k = 0; k < kSwings; ++k)  // the load swings back; an axis does not move back
       if (std::abs(axis.shifted_rad[k]) > 2 * kNoSwing_rad) return kDrives + k;
     return {};
   }
@@ -213,7 +213,7 @@ class Judgement {
             std::to_string(rig_.encoders[high].channel) + ")");
   }
 
-  /// No counter changed.
+  /// Judges an axis whose push has changed no counter.
   void judge_standstill(std::size_t i) {
     const auto& axis = evidence_.axis[i];
     const auto name = named(i);

@@ -1,8 +1,9 @@
 #pragma once
-/// Determines the zeros of the encoders. The position of an axis with Zero::homing is unknown until its mark
-/// has been detected twice: first in the search, then at the approach speed after the axis has backed off.
-/// The second detection determines the position. The counter is set after the brake has closed, so that no
-/// position jumps while a drive is active. Pure. This class only observes the axis; the supervisor moves it.
+/// Determines the zeros of the encoders during homing. The position of an axis with Zero::homing is unknown
+/// until its mark has been detected twice: first in the search, then at the approach speed after the axis has
+/// backed off. The second detection determines the position. The counter is set after the brake has closed,
+/// so that no position jumps while a drive is active. Pure. This class only observes the axis; the supervisor
+/// moves it.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -18,7 +19,7 @@ struct MarkView {
   bool active = false;      ///< true: the axis is at its homing switch or mark
   bool requested = false;   ///< true: crane/command homes this axis
   bool free = false;        ///< true: the brake is commanded open and reports open
-  bool rests = false;       ///< true: the closed brake has stopped the axis
+  bool rests = false;       ///< true: the closed brake has brought the axis to rest
 };
 
 /// State of the switch of an axis' homing mark: a limit switch or a separate switch. @return false for an

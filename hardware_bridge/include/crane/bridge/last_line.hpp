@@ -1,6 +1,6 @@
 #pragma once
-/// Last check of every command before it reaches the drives ("last line of defence"). The check works without
-/// any other process: invalid commands, missing commands and unexpected motion of the rig all lead to a safe
+/// Last check of every command before it reaches the drives ("last line of defence"). The check needs no
+/// other process: invalid commands, missing commands and unexpected motion of the rig all lead to a safe
 /// output. Pure; called once per tick.
 ///
 /// All checks run at every tick, in the order of last_line_checks(). The first failed check is latched as

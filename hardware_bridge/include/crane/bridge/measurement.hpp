@@ -33,7 +33,7 @@ struct Latched {
 class Coordinate {
  public:
   /// @param cut_off_ratio    cut-off / sampling frequency of the low-pass filter; 0: no filter
-  /// @param filter_position  true: position() is low-pass filtered, too
+  /// @param filter_position  true: position() is also low-pass filtered
   Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
              bool filter_position = false);
   void step(std::int32_t raw_counts, const Latched& latched = {}) noexcept;

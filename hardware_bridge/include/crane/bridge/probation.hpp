@@ -1,9 +1,9 @@
 #pragma once
 /// Quiet time of a new writer of crane/command. The bridge executes the commands of a new writer only after
-/// kQuiet_s of quiet commands: 0 V, closed brakes, no homing, no watchdog permission. A supervisor is quiet
-/// for longer (self-test, then 1 s without a cause before a reset). A program that commands a motion at once
-/// moves nothing, even when no supervisor runs; discovery reports a second writer within the quiet time.
-/// Pure.
+/// the writer has sent quiet commands for kQuiet_s: 0 V, closed brakes, no homing, no watchdog permission. A
+/// supervisor sends quiet commands for longer (self-test, then 1 s without a cause before a reset). A program
+/// that commands a motion at once therefore moves nothing, even when no supervisor runs. Discovery reports a
+/// second writer within the quiet time. Pure.
 #include <cstdint>
 #include <optional>
 
@@ -19,8 +19,8 @@ class Probation {
 
   explicit Probation(double period_s) : quiet_ticks_{static_cast<std::uint64_t>(kQuiet_s / period_s)} {}
 
-  /// @return `command`; during the quiet time of its writer a command without volts, releases, homing and
-  ///   permission. @param new_writer  true: the first command of this writer
+  /// @return `command`; during the quiet time of its writer: a command with 0 V, closed brakes, without
+  ///   homing and permission. @param new_writer  true: the first command of this writer
   [[nodiscard]] CommandView believed(const CommandView& command, bool new_writer) noexcept {
     if (new_writer) since_tick_.reset();
     const bool asks = command.watchdog_permission || command.drive_v != CommandView{}.drive_v ||
@@ -33,8 +33,8 @@ class Probation {
 
  private:
   std::uint64_t quiet_ticks_;
-  std::optional<std::uint64_t>
-      since_tick_;  ///< start of the quiet time: first command, or last request within the quiet time
+  std::optional<std::uint64_t> since_tick_;  ///< start of the quiet time: tick of the first command, or of
+                                             ///< the last command that was not quiet
 };
 
 }  // namespace crane::bridge

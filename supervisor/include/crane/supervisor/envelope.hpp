@@ -17,7 +17,7 @@ struct EnvelopeInput {
 struct Envelope {
   AxisFlags block_positive{};  ///< the axis would not stop before its high limit: no positive voltage
   AxisFlags block_negative{};  ///< the same for the low limit and negative voltage
-  bool stopping = false;       ///< x +- v t +- v^2/2a of an axis is outside a hard limit
+  bool stopping = false;       ///< an axis cannot stop before a hard limit: x +- (v t + v^2/2a)
   bool position = false;       ///< an axis is outside a hard limit
   bool limit_switch = false;
   bool overspeed = false;

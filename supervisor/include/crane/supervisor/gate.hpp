@@ -20,8 +20,8 @@ struct GateInput {
 
 struct GateMemory {
   PerAxis last_v{};        ///< V, output of the previous tick
-  int missing_in_row = 0;  ///< ticks in a row without a usable demand
-  int invalid_in_row = 0;  ///< rejected demands in a row
+  int missing_in_row = 0;  ///< consecutive ticks without a usable demand
+  int invalid_in_row = 0;  ///< consecutive rejected demands
   int rate_pressure = 0;   ///< +4 for each tick with limited rate, -1 for every other tick, >= 0
   std::uint64_t clamped_count = 0;
   std::uint64_t rejected_count = 0;
@@ -33,7 +33,7 @@ struct GateOutput {
   Cause cause = Cause::none;  ///< none, demand_stale, demand_invalid or demand_rate
   bool clamped = false;       ///< true: range or rate was limited
   bool invalid = false;    ///< true: the demand was rejected: a value is not finite, or above kRejectionRatio
-  bool stale = false;      ///< true: too many ticks in a row without a usable demand
+  bool stale = false;      ///< true: too many consecutive ticks without a usable demand
   bool near_zero = false;  ///< true: usable demand, all present axes within arm_volt_limit_v
 };
 
@@ -44,7 +44,7 @@ struct GateOutput {
 /// @post memory.last_v is unchanged: the caller stores the voltage that it sends
 [[nodiscard]] GateOutput gate(const Limits& limits, const GateInput& input, GateMemory& memory) noexcept;
 
-/// rate_pressure that stops the crane: a full reversal and ten more ticks in a row with limited rate.
+/// rate_pressure that stops the crane: a full reversal and ten more consecutive ticks with limited rate.
 [[nodiscard]] int rate_pressure_limit(const Limits& limits) noexcept;
 
 }  // namespace crane::supervisor

@@ -12,7 +12,7 @@ enum class HomingPhase : std::uint8_t {
   search,          ///< towards the mark at the homing speed, until the mark is active
   back_off,        ///< away from the mark, until the axis is `back_off` beyond the opening of the switch
   approach,        ///< towards the mark at the approach speed, until the mark is active
-  leave,           ///< as back_off; meanwhile the bridge must report the mark as found
+  leave,           ///< as back_off; during this phase the bridge must report the mark as found
   done             ///< the position is known; the speed is 0
 };
 
@@ -27,12 +27,13 @@ struct HomingMemory {
   HomingPhase phase = HomingPhase::leave_at_first;
   HomingFailure failure = HomingFailure::none;
   bool started = false;
-  bool other_left = false;  ///< true: an earlier tick had no such switch pressed
-  int ticks = 0;            ///< number of ticks in this phase
-  int still_ticks = 0;      ///< number of ticks without progress
-  double from = 0;          ///< position at the start of this phase
-  double opened_at = 0;     ///< last position at which the mark was active
-  double progress_at = 0;   ///< position at the last progress
+  bool other_left =
+      false;             ///< true: in an earlier tick, no limit switch other than the homing mark was pressed
+  int ticks = 0;         ///< number of ticks in this phase
+  int still_ticks = 0;   ///< number of ticks without progress
+  double from = 0;       ///< position at the start of this phase
+  double opened_at = 0;  ///< last position at which the mark was active
+  double progress_at = 0;  ///< position at the last progress
 };
 
 /// One tick. @return speed of the reference, unit/s; 0 when done or failed

@@ -6,16 +6,17 @@
 /// depth below the jib. All of them are measured. Therefore the balance of one sample
 ///   e = change of r' + (g + z'') (r - p) / h dt
 /// does not depend on drives, friction or load mass. The mean of e over kMeanSamples samples is summed as a
-/// vector (run_length.hpp) and reduced by the tolerances. Those for the zero error kZeroError_rad, the wind
-/// of the rig file (Limits::clearance) and the damping ratio kDampingRatio apply in any direction. A cable k
-/// times as long as measured leaves e = (1 - k) dr', so that kCableTolerance of the change of the swing rate
-/// dr' applies along dr' only. When the sum exceeds kPermittedSum_mps plus the quantisation of the swing
-/// rate, a swing encoder or the encoder of the axis that carries the load has failed.
+/// vector (run_length.hpp) and reduced by the tolerances. The tolerances for the zero error kZeroError_rad,
+/// the wind of the rig file (Limits::clearance) and the damping ratio kDampingRatio apply in every direction.
+/// A cable k times as long as measured causes e = (1 - k) dr'. Therefore the tolerance kCableTolerance times
+/// the change of the swing rate dr' applies only along dr'. When the sum exceeds kPermittedSum_mps plus the
+/// quantisation of the swing rate, a swing encoder or the encoder of the axis that carries the load has
+/// failed.
 ///
 /// Push: a pushed load gains its speed within one or two samples and swings as a pendulum afterwards. One sum
 /// per kPushInterval_s that exceeds the limit within kPush_ticks is tolerated when at least half of it is a
-/// change of the swing rate in the same direction. It is not tolerated when a swing encoder that was counting
-/// does not change for kNoCount_ticks afterwards, because a push does not stop a load exactly.
+/// change of the swing rate in the same direction. The push is not tolerated when a swing encoder that was
+/// counting does not change for kNoCount_ticks afterwards: a push does not stop a load exactly.
 ///
 /// Detection time of a frozen swing encoder with the error a, rad:
 ///   (kPermittedSum_mps + noise) / (g (|a| - kZeroError_rad) - wind) + (kMeanSamples + 2) ticks.
@@ -33,9 +34,10 @@ inline constexpr double kCableTolerance =
 inline constexpr double kZeroError_rad = 0.02;     ///< zero error of a swing encoder
 inline constexpr double kDampingRatio = 0.05;      ///< damping ratio of air, bearing and cable
 inline constexpr double kPermittedSum_mps = 0.05;  ///< permitted sum without quantisation
-inline constexpr int kPush_ticks = 6;              ///< kMeanSamples and the two samples of a speed
+inline constexpr int kPush_ticks = 6;              ///< kMeanSamples, and the two samples of a speed
 inline constexpr double kPushInterval_s = 0.5;     ///< shortest time between two pushes
-inline constexpr int kNoCount_ticks = 8;  ///< at 0.3 rad/s an encoder of 4000 counts shows 90 counts in them
+/// at 0.3 rad/s, an encoder with 3820 counts per rad changes by 90 counts in this time
+inline constexpr int kNoCount_ticks = 8;
 
 struct PendulumInput {
   double sampled_s = 0;
@@ -63,7 +65,8 @@ struct PendulumMemory {
   int growing_ticks = 0;                ///< number of ticks with a sum above 0
   double push_left_s = 0;               ///< time until another push is permitted; <= 0: at once
   std::array<double, 2> swing_rad{};    ///< newest, radial and tangential
-  std::array<int, 2> counting_ticks{};  ///< > 0: the encoder has counted recently; ticks until this ends
+  std::array<int, 2> counting_ticks{};  ///< > 0: the encoder has counted recently; number of ticks for which
+                                        ///< this still holds
   std::array<int, 2> no_count_ticks{};  ///< ticks without a count since the push
   std::array<bool, 2> counted_before_push{};
   double largest = 0;  ///< largest sum / limit so far; above 1 is a failure

@@ -14,7 +14,7 @@ namespace crane::supervisor {
 /// b = threshold / sigma + 1.166).
 /// @param drift      margin per sample: mean of -e, > 0
 /// @param sigma      standard deviation of the disturbance per sample, > 0, same unit
-/// @param threshold  of the sum, same unit
+/// @param threshold  threshold of the sum, same unit
 [[nodiscard]] inline double average_run_length(double drift, double sigma, double threshold) noexcept {
   constexpr double kOvershoot = 1.166;  // mean excess of a normal random walk over both boundaries, in sigma
   const double d = drift / sigma, b = threshold / sigma + kOvershoot;

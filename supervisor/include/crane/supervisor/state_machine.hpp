@@ -16,7 +16,8 @@ enum class Request : std::uint8_t { reset, arm, disarm, move, stop, estop, home 
 inline constexpr std::size_t kRequests = 7;
 using Requests = std::array<bool, kRequests>;  ///< indexed by Request; true: requested in this tick
 
-/// Inputs of one tick. A flag is false = healthy, unless its comment begins with "true:".
+/// Inputs of one tick. The value false of a flag is healthy, unless the comment of the flag begins with
+/// "true:".
 struct Inputs {
   double now_s = 0;  ///< time of the sample, never runs backwards
   SelfTest self_test = SelfTest::not_started;
@@ -34,10 +35,10 @@ struct Inputs {
   bool watchdog_dropped = false;  ///< the relay has removed the brake supply
   bool second_writer = false;
   bool configuration_differs = false;  ///< processes of the loop have different rig files or controllers
-  bool foreign_command = false;        ///< a voltage acts that this supervisor has not commanded
-  bool bridge_restarted = false;       ///< a new bridge writes crane/state and has not passed the self-test
-  bool position_doubtful =
-      false;  ///< the restart has made the position of an axis doubtful, and no reset confirmed it
+  bool foreign_command = false;      ///< the bridge outputs a voltage that this supervisor has not commanded
+  bool bridge_restarted = false;     ///< a new bridge writes crane/state and has not passed the self-test
+  bool position_doubtful = false;    ///< the restart has made the position of an axis doubtful, and no reset
+                                     ///< has confirmed this position
   std::size_t doubtful_axis = 0;     ///< first axis with such a position, < kAxes
   bool swing_zero_doubtful = false;  ///< the load swung when the bridge started
   bool overrun = false;              ///< too many late ticks in a row
@@ -77,7 +78,7 @@ struct Memory {
 
 enum class Volts : std::uint8_t { zero, pass, ramp };
 
-/// Answer to one request. `reason` states cause and remedy of a refusal; empty when accepted.
+/// Answer to one request. `reason` states cause and remedy of a refusal; it is empty for an accepted request.
 struct Answer {
   bool requested = false;
   bool accepted = false;
@@ -96,7 +97,7 @@ struct Outputs {
   std::array<Answer, kRequests> answers{};
 };
 
-/// One tick. Total: any input in any state gives a defined output.
+/// One tick. The function is total: every input in every state has a defined output.
 [[nodiscard]] Outputs step(const Limits& limits, const Inputs& inputs, Memory& memory) noexcept;
 
 /// True when the drives execute the demands: HOLD, RUN, and STOP_C1 before its ramp.

@@ -41,7 +41,7 @@ inline constexpr std::size_t kCauses =
     }
         .size();
 
-/// Why an axis has not been homed.
+/// Reason for which homing of an axis failed.
 enum class HomingFailure : std::uint8_t {
   none,
   mark_not_found,

@@ -35,10 +35,10 @@ struct Sample {
 [[nodiscard]] PendulumInput pendulum_input(const Sample& sample) noexcept;
 
 struct TickInput {
-  double now_s =
-      0;  ///< clock of the supervisor, never runs backwards; times of silence and of idleness use it
+  double now_s = 0;  ///< clock of the supervisor, never runs backwards; silence and idle time are measured
+                     ///< with this clock
   std::uint64_t tick = 0;
-  bool state_arrived = false;  ///< false: no state arrived in time; the step takes place without it
+  bool state_arrived = false;  ///< false: no state arrived in time; the step is executed without a state
   Sample sample{};  ///< valid when state_arrived; a sample with a value that is not finite counts as missing
   bool bridge_restarted =
       false;  ///< true: a new bridge writes crane/state from this tick on; its ticks start at 0
@@ -47,7 +47,8 @@ struct TickInput {
   bool reference_moving = false;
   bool second_writer = false;
   bool configuration_differs = false;
-  bool foreign_command = false;             ///< true: a voltage acts that this supervisor has not commanded
+  /// true: the bridge outputs a voltage that this supervisor has not commanded
+  bool foreign_command = false;
   bool brake_open_without_command = false;  ///< true: a brake is open long after the command to close
   SelfTest self_test = SelfTest::not_started;
   Requests requests{};

@@ -84,8 +84,8 @@ struct ZoneVerdict {
 
 /// A crane whose resting load has a clearance below 0 (a changed rig file, an axis moved by hand) may be
 /// armed and leave the zone. Its clearance must not fall by more than kLeaveTolerance_m below the largest
-/// clearance since it fell below 0, however often the crane is armed. The tolerance permits a departure with
-/// the acceleration 2 g kLeaveTolerance_m / L: 0.4 m/s2 for a cable of 1 m.
+/// clearance since it fell below 0, even if the crane is armed several times. With this tolerance the crane
+/// can leave with the acceleration 2 g kLeaveTolerance_m / L: 0.4 m/s2 for a cable of 1 m.
 inline constexpr double kLeaveTolerance_m = 0.02;
 
 /// Stores one sample. Call for every sample, also while the brakes are closed.

@@ -1,5 +1,6 @@
 #pragma once
-/// The card's end of the shared lines, in the process of the bridge. The rig's end is in plant/emulated_rig.
+/// The shared lines as seen by the card, in the process of the bridge. plant/emulated_rig accesses the same
+/// lines for the rig.
 #include <memory>
 #include <string>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Shared by all cards with counters and digital lines: assignment of lines to signals, and initial counts.
+/// Assignment of digital lines to signals, and initial counts of the encoders. All cards with counters and
+/// digital lines use these functions.
 #include "crane/bridge/board.hpp"
 #include "crane/configuration/rig.hpp"
 

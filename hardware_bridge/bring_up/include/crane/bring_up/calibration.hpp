@@ -12,12 +12,12 @@
 namespace crane::bring_up {
 
 /// Largest swing of a load that counts as hanging at rest: about eight counts of the encoders of the Virginia
-/// Tech rig. Incremental swing encoders have their zero at the start, so that a swing at the start becomes an
-/// offset.
+/// Tech rig. Incremental swing encoders have their zero at the start of the session. A swing at this time
+/// therefore becomes an offset.
 inline constexpr double kSettled_rad = 2e-3;
 
 struct CalibrationOptions {
-  double largest_v = 4;                                 ///< pushes grow from 1 V to this, (0, kLargestJog_v]
+  double largest_v = 4;  ///< largest voltage of a push; pushes begin at 1 V; in (0, kLargestJog_v]
   std::array<double, kDrives> distance{0.1, 0.3, 0.1};  ///< m, rad, m
   /// Asks a question and waits for the answer. @throws Ended at the end of input
   std::function<std::string(const std::string& question)> ask;

@@ -1,10 +1,10 @@
 #pragma once
 /// Finds wiring faults from the reaction of the rig to small pushes of each drive. Pure functions.
 ///
-/// Only the axis with the open brake can move, so that the changing counter is its encoder. The load shows
-/// the true direction, because it lags behind its suspension point. Of drive, axis encoder and swing encoder,
-/// the one that contradicts the other two has the wrong sign. If several explanations fit, the one with the
-/// fewest faults is reported.
+/// Only the axis with the open brake can move. Therefore the counter that changes belongs to the encoder of
+/// this axis. The load shows the true direction, because it lags behind its suspension point. Of drive, axis
+/// encoder and swing encoder, the one that contradicts the other two has the wrong sign. If several
+/// explanations fit, the one with the fewest faults is reported.
 #include <array>
 #include <string>
 #include <string_view>
@@ -41,10 +41,10 @@ struct AxisEvidence {
   /// share of it (share_of).
   double expected_rad = 0;
   double share = 0;
-  /// After the push, with closed brakes: swing in the counter of a drive, with the scale of the swing
+  /// After the push, with closed brakes: swing that the counter of a drive shows, in the scale of the swing
   /// encoder.
   std::array<double, kDrives> counter_swings_rad{};
-  /// `moved` with all brakes open whose contact did not report open.
+  /// As `moved`, measured with all brakes open whose contact did not report open.
   std::array<double, kDrives> moved_unlocked{};
 };
 

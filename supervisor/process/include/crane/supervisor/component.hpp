@@ -1,6 +1,6 @@
 #pragma once
 /// The supervisor on the bus: joins crane/state, crane/demand and crane/reference, answers requests, and is
-/// the only writer of crane/command. It decides nothing itself; crane/supervisor/supervisor.hpp does.
+/// the only writer of crane/command. crane/supervisor/supervisor.hpp makes all decisions.
 #include "crane/runtime/process.hpp"
 #include "crane/supervisor/limits.hpp"
 
