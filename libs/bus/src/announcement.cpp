@@ -12,7 +12,8 @@ namespace {
 constexpr std::string_view kBegin = "crane messages=";
 constexpr std::string_view kCrane = " crane=";
 constexpr std::string_view kParticipant = " participant=";
-constexpr std::size_t kMostShown = 256;  // bytes of a name that another program has chosen
+// bytes; another program has chosen the name, which can have any length
+constexpr std::size_t kMostShown = 256;
 
 }  // namespace
 

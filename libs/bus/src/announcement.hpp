@@ -22,8 +22,8 @@ class Census {
   using Key = std::array<std::uint8_t, 16>;
 
   Census(std::uint32_t version, std::string crane) : version_{version}, crane_{std::move(crane)} {}
-  /// Stores the announcement of a participant. Participants without one, of another crane, or of the same
-  /// version are ignored.
+  /// Stores the announcement of a participant. Participants without an announcement, of another crane, or of
+  /// the same version are ignored.
   void note(const Key& participant, std::string_view user_data);
   void forget(const Key& participant);
   [[nodiscard]] std::vector<OtherVersion> others() const;

@@ -12,10 +12,10 @@
 
 namespace crane::bus {
 
-/// Wakes Bus::wait(). Every reader of a bus rings when a sample arrives. A ring that no thread waits for is
-/// remembered until the next wait. A ring has no effect while `rung_` is set: the woken thread clears `rung_`
-/// before it looks into the queues, and therefore finds the sample of this ring. This order requires
-/// sequential consistency.
+/// Wakes Bus::wait(). Every reader of a bus rings when a sample arrives. If no thread waits, the ring is
+/// stored until the next wait. A ring has no effect while `rung_` is set: the woken thread clears `rung_`
+/// before it reads the queues, and therefore finds the sample of this ring. This order requires sequential
+/// consistency.
 class Doorbell {
  public:
   void ring() {
@@ -82,7 +82,8 @@ std::shared_ptr<BackEnd> make_cyclone(const Options&, std::shared_ptr<Doorbell>)
 std::shared_ptr<BackEnd> make_fastdds(const Options&, std::shared_ptr<Doorbell>);
 std::shared_ptr<BackEnd> make_memory(const Options&, std::shared_ptr<Doorbell>);
 
-/// Checks the options, so that the user gets a message with remedy, and resolves the host names of the peers.
+/// Checks the options and resolves the host names of the peers. A wrong option gives a message with the
+/// remedy.
 /// @throws Error with all problems
 [[nodiscard]] Options checked(Options options);
 

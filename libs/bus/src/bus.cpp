@@ -52,7 +52,8 @@ struct Bus::State {
 };
 
 Bus::Bus(Options options) : state_{std::make_unique<State>()} {
-  for (const auto& topic : topics::kAll) require_sealable(topic);  // at the start, not at the first sample
+  for (const auto& topic : topics::kAll)
+    require_sealable(topic);  // reported at the start, not at the first sample
   state_->options = checked(std::move(options));
   state_->back_end = make_back_end(state_->options, state_->doorbell);
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// Discovery of participants. Both vendors must use the same kind (multicast or unicast), hence one rule.
+/// Discovery of participants. Both vendors must use the same kind of discovery (multicast or unicast).
+/// Therefore one rule selects the kind for both.
 #include <chrono>
 
 #include "crane/bus/bus.hpp"
@@ -16,8 +17,9 @@ namespace crane::bus {
 inline constexpr std::uint32_t kMostParticipants = 31;
 
 /// True when samples may leave this computer and datagrams may be lost: with peers, or with an interface
-/// other than loop-back. A lost datagram holds back all later samples of its topic until the reader asks for
-/// it after the next heartbeat. Every kNetworkHeartbeat Cyclone DDS repairs a sample within its tick.
+/// other than loop-back. A lost datagram delays all later samples of its topic until the reader requests the
+/// datagram after the next heartbeat. With the period kNetworkHeartbeat, Cyclone DDS repairs a sample within
+/// its tick.
 [[nodiscard]] bool crosses_network(const Options& options);
 inline constexpr std::chrono::milliseconds kHeartbeat{20}, kNetworkHeartbeat{2};
 

@@ -49,7 +49,7 @@ UntypedSubscriber& UntypedSubscriber::operator=(UntypedSubscriber&&) noexcept = 
 
 int UntypedSubscriber::matched() const { return reader_->matched(); }
 
-/// Any program may write any text. Every reader (terminal, page, recording, log) gets visible text only, and
+/// Any program may write any text. Every reader (terminal, page, recording, log) gets only visible text, and
 /// the CRC of this text.
 void UntypedSubscriber::make_printable(void* sample) const {
   if (!CdrCodec::of(*topic_->descriptor).make_texts_printable(sample)) return;

@@ -47,7 +47,7 @@ void seal(const topics::Description& topic, void* sample, crane_Source source, s
   header->epoch = epoch;
   std::uint32_t crc = 0;
   if (!checksum(topic, sample, messages_version, crc))
-    return;  // an unterminated string, which write() refuses as well
+    return;  // an unterminated string; write() also refuses it
   std::memcpy(static_cast<std::uint8_t*>(sample) + codec.fields().back().offset, &crc, kCrcBytes);
 }
 

@@ -11,8 +11,8 @@
 namespace crane::bus {
 
 void vendor_log(std::string_view vendor, std::string_view line) noexcept {
-  constexpr int kMostLines =
-      20;  // lines of kMostBytes: together less than the buffer of a pipe (64 kB), so that no write blocks
+  constexpr int kMostLines = 20;  // number of lines of kMostBytes; all lines fit into the buffer of a pipe
+                                  // (64 kB), so that no write blocks
   constexpr std::size_t kMostBytes = 500;
   constexpr std::string_view kLast = " (further messages of this kind are dropped)";
   static std::atomic<int> lines{0};
@@ -30,7 +30,8 @@ void vendor_log(std::string_view vendor, std::string_view line) noexcept {
   put(line.substr(0, kMostBytes));
   if (number == kMostLines) put(kLast);
   fields::make_printable(
-      {text.data(), static_cast<std::size_t>(end - text.data())});  // names of other programs
+      {text.data(), static_cast<std::size_t>(
+                        end - text.data())});  // the line may contain names that other programs have chosen
   put("\n");
   (void)!::write(STDERR_FILENO, text.data(), static_cast<std::size_t>(end - text.data()));
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// Limits the messages of a DDS implementation about its peers. Any program on the network can cause such
-/// messages, and a write to a stopped terminal would block a receive thread. The first lines go to standard
-/// error; all others are dropped.
+/// messages, and a write to a stopped terminal would block a receive thread. The first lines are written to
+/// standard error; all later lines are dropped.
 #include <string_view>
 
 namespace crane::bus {

@@ -10,7 +10,7 @@ std::string one_a_line(const std::vector<std::string>& problems) {
   return text;
 }
 
-/// Keys and values of a file may contain any character.
+/// Makes the text printable, because keys and values of a file may contain any character.
 std::vector<std::string> printable(std::vector<std::string> problems) {
   for (auto& problem : problems) fields::make_printable(problem);
   return problems;

@@ -9,7 +9,7 @@ namespace crane::configuration {
 struct KeyHint {
   std::string rule =
       "unknown key";  ///< "unknown key; did you mean load_mass_kg?", "unit must be rad: slew_angle_rad"
-  std::string meant;  ///< the known key; empty: no known key is similar
+  std::string meant;  ///< the most similar known key; empty: no known key is similar
 };
 
 [[nodiscard]] KeyHint key_hint(std::string_view unknown, const std::set<std::string, std::less<>>& known);

@@ -64,14 +64,16 @@ struct FieldText {
   }
 };
 
-/// The unit as the document prints it. When the key contains the unit, that of the trolley is printed.
+/// The unit as the document prints it. When the key contains the unit, the document prints the unit of the
+/// trolley.
 template <class Section>
 std::string unit_text(const Field<Section>& field) {
   constexpr std::array<std::string_view, 6> kOfMetres{"", "m", "m/s", "m/s²", "m/s³", "V per m/s"};
   return std::string{field.unit.empty() ? kOfMetres[static_cast<std::size_t>(field.quantity)] : field.unit};
 }
 
-/// Not inlined: GCC 12 otherwise warns about reads beyond the end of small sections.
+/// This function is not inlined, because GCC 12 would otherwise warn about reads beyond the end of small
+/// sections.
 template <class Section, std::size_t N>
 [[gnu::noinline]] std::string rows(const std::array<Field<Section>, N>& fields, const Section& initial) {
   std::string text;

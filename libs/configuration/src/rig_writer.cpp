@@ -7,7 +7,7 @@
 namespace crane::configuration {
 namespace {
 
-/// A number with a fraction or an exponent. TOML would read any other text as a 64-bit integer.
+/// @return the number with a fraction or an exponent; TOML would read any other text as a 64-bit integer
 std::string toml_of(double value) {
   const auto text = shortest_number(value);
   return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;

@@ -92,7 +92,8 @@ bool is_whole(const Zone& zone) {
          known(zone.size_y_m) && known(zone.radius_m) && known(zone.bottom_m) && known(zone.top_m);
 }
 
-/// The zones of this rig can be supervised: a load on a moved, measured suspension point.
+/// Reports a rig whose zones the supervisor cannot check. The check needs a load on a moving suspension point
+/// and measured swing angles.
 void check_rig(TomlTable& table, const Rig& rig) {
   if (rig.kind != RigKind::tower && rig.kind != RigKind::gantry)
     table.problem("zones need a tower or a gantry");

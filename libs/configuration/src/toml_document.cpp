@@ -57,7 +57,7 @@ void TomlTable::Document::report_unknown_and_missing(Place& place) {
     report(&node, place, place.name_of(key.str()) + " = " + written(node) + ": " + hint.rule);
   }
   for (const auto& key : place.missing) {
-    // A misspelt key was reported above as unknown; it is not reported as missing, too.
+    // A misspelt key was reported above as unknown. The same key is not also reported as missing.
     if (!meant.contains(key)) report(nullptr, place, place.name_of(key) + ": missing");
   }
   place.missing.clear();

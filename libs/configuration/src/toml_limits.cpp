@@ -5,7 +5,7 @@
 namespace crane::configuration {
 namespace {
 
-/// Length of the string or comment at the begin of `text`; 0: neither.
+/// Length of the string or comment at the beginning of `text`; 0: neither.
 std::size_t opaque_length(std::string_view text) {
   if (text.front() == '#') return std::min(text.find('\n'), text.size());
   if (text.front() != '"' && text.front() != '\'') return 0;

@@ -1,6 +1,7 @@
 #pragma once
-/// Limits of a TOML text that toml++ does not have. Without them a short file ends the program: each part of
-/// a dotted key is a table inside the table of the part before, and toml++ frees nested tables recursively.
+/// Limits of a TOML text that toml++ does not check. Without these limits a short file could crash the
+/// program: each part of a dotted key is a table inside the table of the previous part, and toml++ frees
+/// nested tables recursively.
 #include <optional>
 #include <string>
 #include <string_view>

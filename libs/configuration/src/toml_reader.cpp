@@ -13,7 +13,7 @@ namespace {
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNoInteger = std::numeric_limits<int>::min();
 
-/// Moves nodes instead of copying them, because only a move keeps their file and line.
+/// Moves nodes instead of copying them, because only a move preserves file and line of a node.
 void move_lacking(toml::table& base, toml::table& into) {
   for (auto&& [key, node] : base) {
     toml::node* own = into.get(key.str());

@@ -218,7 +218,7 @@ class ObservedLaw final : public Law {
       : law_{std::move(law)}, observer_{design}, period_s_{design.period_s} {}
 
   Contribution step(const Measurement& measured, const Reference& reference) noexcept override {
-    // NaN reaches the law and, through its output, the gate of the supervisor.
+    // NaN is passed on to the law and, through the output of the law, to the gate of the supervisor.
     const Measurement ahead = finite(measured) ? at_effect(observer_.step(measured)) : measured;
     Reference wanted = reference;
     for (auto& axis : wanted) {

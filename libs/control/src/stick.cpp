@@ -38,7 +38,7 @@ double feasible(double wanted, const ShaperImpulses& shares, const RateLimit& pa
     low = std::max(low, (-pace.change - pending.in(ticks)) / weight);
     high = std::min(high, (pace.change - pending.in(ticks)) / weight);
   }
-  // Rounding may put a full tick above its limit by its last bit.
+  // Rounding may raise the change in a tick above the limit by one unit of the last bit.
   return std::clamp(wanted, std::min(low, 0.0), std::max(high, 0.0));
 }
 
@@ -75,7 +75,7 @@ Reach release_of(const ShaperImpulses& shares, const RateLimit& pace, StickAxis 
   return reach;
 }
 
-/// Positions of a stop. Where no stop can reach a limit, only the present position is computed.
+/// Positions of a stop. If no stop can reach a limit, the function returns only the present position.
 Reach release_in(const StickAxisLimits& limits, const ShaperImpulses& shares, const RateLimit& pace,
                  const StickAxis& axis) noexcept {
   const double delay_s = static_cast<double>(shares.share[shares.count - 1].ticks) * pace.period_s;
@@ -97,7 +97,8 @@ void step_axis(const StickAxisLimits& limits, const ShaperImpulses& shares, doub
   if (!(limits.speed > 0)) return;
   const RateLimit pace{limits.acceleration * period_s, period_s};
   const double braking = limits.acceleration / shares.largest_weight, tick_way = limits.speed * period_s;
-  const double end = axis.position - axis.lag;  // of the way without the braking from u
+  // position at the end of the pending changes, without the braking distance from u
+  const double end = axis.position - axis.lag;
   const double up = speed_for(limits.high - end - tick_way, braking, shares.mean_s);
   const double down = speed_for(end - limits.low - tick_way, braking, shares.mean_s);
   StickAxis trial = axis;
@@ -120,7 +121,7 @@ void follow(double frequency_radps, double period_s, StickAxis& axis) noexcept {
   const double from = axis.load_offset + shift, rate = axis.load_offset_rate;
   axis.load_offset = from * c + rate / frequency_radps * s - shift;
   axis.load_offset_rate = rate * c - from * frequency_radps * s;
-  constexpr double kRounding = 1e-9;  // m, rad: remains of a shaper that leaves nothing
+  constexpr double kRounding = 1e-9;  // m, rad: a smaller offset of a load at rest is a rounding error
   const bool rests = axis.speed == 0 && axis.unshaped == 0 && axis.pending.empty();
   if (rests && std::abs(axis.load_offset) < kRounding && std::abs(axis.load_offset_rate) < kRounding)
     axis.load_offset = axis.load_offset_rate = 0;
@@ -156,7 +157,7 @@ StickPoint point_of(const StickLimits& limits, const StickMemory& memory) noexce
   return point;
 }
 
-constexpr int kPathTicks = 4;  // points of a path that no longer moves
+constexpr int kPathTicks = 4;  // number of equal points of a path at rest
 
 bool s_at_rest(const StickMemory& memory) noexcept {
   return std::ranges::all_of(memory.axis, [](const StickAxis& axis) {
@@ -164,7 +165,7 @@ bool s_at_rest(const StickMemory& memory) noexcept {
   });
 }
 
-/// Limits of s, which leave room for the motion of P that slewing and hoisting add.
+/// Limits of s. They leave room for the additional motion of P that slewing and hoisting cause.
 /// tests/control/stick_test.cpp measures the room that random histories need.
 std::array<StickAxisLimits, kAxes> limits_of_s(const StickLimits& limits,
                                                const Reference& reference) noexcept {
@@ -256,7 +257,7 @@ void begin(const StickLimits& limits, const Reference& reference, StickMemory& m
                                 {own.acceleration * limits.period_s, limits.period_s}, axis);
   }
   memory.path.fill(point_of(limits, memory));
-  for (std::size_t k = 1; k < memory.path.size(); ++k)  // where the point was before
+  for (std::size_t k = 1; k < memory.path.size(); ++k)  // previous position of the point
     for (std::size_t i = 0; i < kAxes; ++i)
       memory.path[k].position[i] -= static_cast<double>(k) * memory.axis[i].speed * limits.period_s;
 }

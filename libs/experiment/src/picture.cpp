@@ -55,7 +55,7 @@ struct Panel {
 
 double in(double value, double scale) {
   return std::round(value * scale * 1e6) / 1e6;
-}  // keeps the file small
+}  // fewer points keep the file small
 
 std::string data_block(std::span<const Sample> run, double zero_s) {
   std::string text = "$run << END\n";

@@ -68,7 +68,7 @@ class PositionReader {
   void check(TomlTable& table, const std::string& key, std::size_t axis, double position) const {
     const configuration::Drive& drive = rig_->drives[axis];
     if (!drive.present) {
-      // A start position is permitted without a drive: a pendulum has a cable, but no hoist.
+      // A start position is permitted for an axis without a drive: a pendulum has a cable but no hoist.
       if (inside_margin_)
         table.problem(key, rig_->name + " has no " + plant::kCoordinates[axis].name + " drive");
       return;
@@ -243,7 +243,8 @@ Rig started_by(Rig rig, const Scenario& scenario) {
   rig.start.swing_radial_rad = scenario.swing_radial_rad;
   rig.start.swing_tangential_rad = scenario.swing_tangential_rad;
   rig.start.cable_length_offset_m += scenario.cable_length_offset_m;
-  // The check of the swing encoders would detect a cable that is several times longer than measured.
+  // With a larger error of the cable length, the check of the swing encoders would stop the crane. The model
+  // checks are then switched off.
   constexpr double kPlausible = 0.55;  // kCableTolerance of crane/supervisor/pendulum.hpp
   if (std::abs(scenario.cable_length_offset_m) > kPlausible * rig.start.position[plant::kHoist])
     rig.limits.model_checks = false;

@@ -21,7 +21,7 @@ double risen(double condition, double& previous) {
   return before == 0 ? 1 : kUnknown;
 }
 
-/// A value that is not finite is no measurement: the comparison with it is unknown.
+/// A comparison with a value that is not finite is unknown.
 double finite(double value) { return std::isfinite(value) ? value : kUnknown; }
 
 /// Operation on two values; of conditions by Kleene's rules.

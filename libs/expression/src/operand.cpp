@@ -28,7 +28,7 @@ std::optional<std::string> no_condition(const Operand& operand, std::string_view
 }
 
 std::optional<std::string> no_dimension(const fields::Dimension& dimension, std::string_view of) {
-  constexpr int kLargestExponent = 20;  // far below the bound at which a Dimension saturates
+  constexpr int kLargestExponent = 20;  // far below the largest exponent of a Dimension
   for (const int exponent : {dimension.length, dimension.angle, dimension.time, dimension.voltage})
     if (std::abs(exponent) > kLargestExponent)
       return std::string{of} + " gives the unit " + fields::text_of(dimension) +

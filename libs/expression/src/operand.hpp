@@ -6,23 +6,26 @@
 
 namespace crane::expression {
 
-/// What the parser knows of a part of the expression.
+/// Type of a part of the expression.
 struct Operand {
   Type type{};
-  bool bare = false;     ///< a number without unit: adopts the quantity of the other side
-  bool unknown = false;  ///< its problem has been reported; fits everywhere
+  bool bare = false;     ///< true: a number without unit, which takes the quantity of the other side
+  bool unknown = false;  ///< true: a problem of this part has been reported; the part fits every operator
 };
 
 /// "a quantity in m", "a condition", "a value of SupervisorState"
 [[nodiscard]] std::string text_of(const Operand& operand);
 
-/// Operand of an operator or function that needs a quantity. @return problem; nothing: it is one
+/// Checks the operand of an operator or function that needs a quantity. @return the problem; nothing: the
+/// operand is a quantity
 [[nodiscard]] std::optional<std::string> no_quantity(const Operand& operand, std::string_view of);
 [[nodiscard]] std::optional<std::string> no_condition(const Operand& operand, std::string_view of);
-/// Unit of a product or quotient. @return problem; nothing: its exponents are small enough to be exact
+/// Checks the unit of a product or quotient. @return the problem; nothing: the exponents of the unit are
+/// within kLargestExponent
 [[nodiscard]] std::optional<std::string> no_dimension(const fields::Dimension& dimension,
                                                       std::string_view of);
-/// Both sides of a comparison, sum or difference. @return problem; nothing: they fit
+/// Checks both sides of a comparison, sum or difference. @return the problem; nothing: both sides have the
+/// same quantity
 [[nodiscard]] std::optional<std::string> unequal_quantities(const Operand& a, const Operand& b,
                                                             std::string_view of);
 

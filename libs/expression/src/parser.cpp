@@ -10,7 +10,7 @@ namespace {
 
 using Code = Expression::Code;
 
-/// Ends the parse: the parser cannot guess the structure of the rest.
+/// Ends the parse, because the structure of the rest of the text is unknown.
 struct Stop {};
 
 struct Operator {
@@ -24,7 +24,7 @@ constexpr std::array<Operator, 6> kComparisons{{{"<", Code::less},
                                                 {"==", Code::equal},
                                                 {"!=", Code::unequal}}};
 constexpr std::array<std::string_view, 4> kFunctions{"abs", "min", "max", "rising"};
-constexpr std::size_t kDeepest = 64;  // nested parentheses; the parser needs stack for each
+constexpr std::size_t kDeepest = 64;  // nested parentheses; each level needs stack
 constexpr std::size_t kShownOfLongText = 60;
 
 class Parser {

@@ -69,7 +69,7 @@ class Scanner {
     if (is_letter(c)) return take(Token::Kind::name, name_length(rest()));
     for (const std::string_view sign : {"<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "(", ")", ","})
       if (rest().starts_with(sign)) return take(Token::Kind::sign, sign.size());
-    std::size_t length = 1;  // all bytes of a character beyond ASCII
+    std::size_t length = 1;  // number of bytes of the character, which may be outside ASCII
     while (at_ + length < text_.size() && (static_cast<unsigned char>(text_[at_ + length]) & 0xC0U) == 0x80U)
       ++length;
     const std::string hint = c == '='   ? "; a comparison is written =="

@@ -15,7 +15,8 @@ struct Token {
   const fields::Unit* unit = nullptr;  ///< number: nullptr without a unit
 };
 
-/// The last token is the end. Text that is no token is left out and reported in `problems`.
+/// The last token is the end of the text. The function omits text that is not a token and reports it in
+/// `problems`.
 [[nodiscard]] std::vector<Token> tokens_of(std::string_view text, std::vector<Problem>& problems);
 
 }  // namespace crane::expression

@@ -9,13 +9,13 @@ namespace {
 
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-/// A character at the begin of a text.
+/// The first character of a text.
 struct Character {
-  std::size_t bytes = 0;  ///< 0: the text begins with no UTF-8
+  std::size_t bytes = 0;  ///< 0: the text does not begin with valid UTF-8
   std::uint32_t code = 0;
 };
 
-/// Decodes by RFC 3629: overlong forms, surrogates and codes above U+10FFFF are no UTF-8.
+/// Decodes UTF-8 by RFC 3629, which forbids overlong forms, surrogates and codes above U+10FFFF.
 Character first_of(std::span<const char> text) {
   constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
   const auto lead = static_cast<unsigned char>(text.front());

@@ -16,7 +16,8 @@ std::string shown(double value) {
 
 bool Range::contains(double value) const {
   if (!std::isfinite(value)) return false;
-  // With the negation a NaN bound permits every value. The wrong bound has its own report.
+  // Because of the negation, a bound that is NaN permits every value. The NaN bound itself is reported
+  // elsewhere.
   const bool too_low = low_included ? value < low : value <= low;
   const bool too_high = high_included ? value > high : value >= high;
   return !too_low && !too_high;

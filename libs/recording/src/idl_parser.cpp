@@ -30,7 +30,8 @@ const std::map<std::string, Kind, std::less<>> kPrimitives{{"boolean", Kind::boo
                                                            {"float", Kind::float32},
                                                            {"double", Kind::float64}};
 
-/// Units in brackets at the begin of a comment: "// [m, rad, m of cable] measured position" has m, rad, m.
+/// Units in brackets at the beginning of a comment: "// [m, rad, m of cable] measured position" has m, rad,
+/// m.
 std::vector<std::string> units_in(std::string_view comment) {
   const auto open = comment.find_first_not_of("/< ");
   const auto close = comment.find(']');

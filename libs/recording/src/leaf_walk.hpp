@@ -13,8 +13,8 @@ namespace crane::recording {
   return found->second;
 }
 
-/// Calls visit(name, field, index); `index` is that of the innermost array that contains the value, 0 without
-/// an array.
+/// Calls visit(name, field, index); `index` is the index in the innermost array that contains the value, or 0
+/// outside of arrays.
 template <class Visit>
 void for_each_leaf(const Structure& type, const Visit& visit, const std::string& prefix = "",
                    std::uint32_t outer_index = 0) {

@@ -13,7 +13,8 @@ using mcap::Cursor;
 using mcap::FormatError;
 using mcap::Op;
 
-/// Maximum size of a chunk, bytes. A larger value is a damaged size; the limit bounds the allocated memory.
+/// Maximum size of a chunk, bytes. A larger value indicates a damaged size. The limit bounds the allocated
+/// memory.
 constexpr std::uint64_t kMaxChunk = 1ULL << 30U;
 
 ChunkPlace read_chunk_index(Cursor content) {

@@ -30,7 +30,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// What two recordings say about the same thing.
+/// Compares the schemas, channels and attachments of two recordings.
 class Contradictions {
  public:
   Contradictions(const path& a, const path& b) : files_{a.string() + " and " + b.string()} {}

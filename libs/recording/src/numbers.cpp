@@ -110,7 +110,7 @@ NumberReader Schema::number_reader(std::string_view type) const {
       case Kind::float64:
         return {8, float64};
       case Kind::string:
-      case Kind::structure:  // for_each_leaf() visits its members
+      case Kind::structure:  // for_each_leaf() visits the members of the structure instead
         break;
     }
     return {};

@@ -1,5 +1,5 @@
 #pragma once
-/// A file to which data are only appended. When the disk is full, an incomplete part is removed.
+/// A file to which data are only appended. If the disk is full, the file removes the incomplete part.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -19,7 +19,7 @@ class OutputFile {
   void append(std::string_view bytes);
   /// @throws WriteError
   void sync();
-  /// @throws WriteError: some file systems report a full disk only here
+  /// @throws WriteError; some file systems report a full disk only in this call
   void close();
   [[nodiscard]] std::uint64_t size() const { return size_; }
   /// @throws WriteError, with the first failure, when a call has failed

@@ -1,5 +1,5 @@
 #pragma once
-/// A new recording that contains parts of others: repair, cut, merge.
+/// A new recording that contains parts of other recordings; used by repair, cut and merge.
 #include <filesystem>
 #include <map>
 #include <span>

@@ -80,7 +80,7 @@ msg::Demand demand_from(const ordered_json& j) {
   return demand;
 }
 
-/// Converts the state by its name, because the numbers of an older recording may differ.
+/// Converts the state by its name, because its number may differ in an older recording.
 msg::SupervisorStatus supervisor_from(const ordered_json& j) {
   static constexpr std::array kNames{
 #define CRANE_STATE(name, text) "STATE_" text,

@@ -127,7 +127,7 @@ class Decoder {
     if (max_length > 0 && value.size() > max_length)
       fail("has " + std::to_string(value.size()) + " characters, at most " + std::to_string(max_length) +
            " are allowed");
-    fields::make_printable(value);  // a file may come from any program
+    fields::make_printable(value);  // the file may come from any program
     return value;
   }
 

@@ -35,7 +35,7 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-/// Escapes '<' in JSON, which could end the enclosing script element.
+/// Escapes '<' in JSON, because '<' could end the enclosing script element.
 std::string escaped_json(const nlohmann::ordered_json& json) {
   std::string text;
   for (const char c : json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace))
@@ -130,7 +130,7 @@ Cell number(double value, int digits, Tone tone) { return {decimals(value, digit
 std::string to_html(const Page& page) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      // Prevents every load from a network, independently of the texts.
+      // This policy prevents every load from a network, whatever the texts contain.
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
       "script-src 'unsafe-inline'; img-src data:\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +

@@ -1,5 +1,5 @@
-/// Options with which a process joins the bus: command line, keys, and the rule that a process that writes is
-/// reachable from other hosts with keys only.
+/// Options with which a process joins the bus: command line, keys, and the rule that other hosts may reach a
+/// writing process only with keys.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>

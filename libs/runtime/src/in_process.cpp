@@ -35,9 +35,9 @@ void InProcessStack::add(const ComponentSpec& spec, const configuration::Rig& ri
 bool InProcessStack::pump() {
   const auto now_ns = monotonic_ns();
   bool anything = false;
-  // The first pass polls all components, the next passes only those with new samples. When such a pass makes
-  // no progress, one more pass polls all: a component may hold samples of later ticks, or requests that are
-  // due.
+  // The first pass polls all components, the next passes only those with new samples. When such a pass
+  // processes nothing, one more pass polls all components, because a component may store samples of later
+  // ticks or requests that are due.
   for (bool all = true, progress = true; all || progress; all = !all && !progress) {
     progress = false;
     for (auto& room : rooms_) {

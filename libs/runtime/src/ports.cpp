@@ -52,7 +52,7 @@ bool Ports::connected() const {
 }
 
 void Ports::watch(std::int64_t now_ns) {
-  if (clock_ == Clock::lockstep) return;  // in virtual time, a pause of a writer has no meaning
+  if (clock_ == Clock::lockstep) return;  // in virtual time, a writer cannot be silent
   for (const auto& input : loop_inputs_) input->watch(now_ns);
 }
 

@@ -25,7 +25,7 @@ namespace {
 void sleep_until(std::int64_t time_ns) {
   const timespec at{.tv_sec = time_ns / 1'000'000'000, .tv_nsec = time_ns % 1'000'000'000};
   const int error = ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
-  if (error != 0 && error != EINTR)  // a signal may end the sleep early; no tick is due then
+  if (error != 0 && error != EINTR)  // a signal may end the sleep early, before a tick is due
     throw std::system_error{error, std::generic_category(), "clock_nanosleep"};
 }
 

@@ -37,7 +37,7 @@ bool RequestInbox::receive() {
       continue;
     }
     const bool full = waiting_.size() >= kMostWaiting;
-    const bool stops_now = stops(*request) && request->apply_tick == 0;  // accepted during a flood, too
+    const bool stops_now = stops(*request) && request->apply_tick == 0;  // accepted also during a flood
     if (full && !(stops_now && waiting_.size() < kMostWaiting + kMostStops)) {
       reply(*request, request->header, false, "too many requests wait for their tick: send fewer at a time");
       continue;

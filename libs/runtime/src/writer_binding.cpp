@@ -28,8 +28,8 @@ WriterBinding::Verdict WriterBinding::refuse(const Writer& writer, std::int64_t 
 
 WriterBinding::Verdict WriterBinding::judge(const Writer& writer, std::int64_t now_ns, int matched) {
   if (is_own(writer, now_ns)) return Verdict::own;
-  // A process keeps its source and epoch. The bound DDS writer with another source or epoch is no restarted
-  // process.
+  // A process keeps its source and epoch. A sample of the bound DDS writer with another source or epoch does
+  // not come from a restarted process.
   const bool renamed = bound_ && bound_->id == writer.id;
   if ((!topics::may_write(*topic_, writer.source) && enabled(bus_source)) || renamed)
     return refuse(writer, now_ns);

@@ -24,7 +24,7 @@ std::string utc(std::int64_t time_s) {
   return text;
 }
 
-/// The name of a crane is a partition. An identity is valid for all cranes of its authority.
+/// The name of a crane is a DDS partition. An identity is valid for all cranes of its authority.
 std::string criteria(const char* kind, const std::vector<std::string_view>& names) {
   if (names.empty()) return "";
   std::string text = std::string{"<"} + kind + "><topics>";

@@ -43,7 +43,7 @@ class Pool {
   explicit Pool(const Tasks& tasks) : tasks_{tasks} {}
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
-  /// Ends what still runs: after an exception or a cancellation.
+  /// Ends the tasks that still run after an exception or a cancellation.
   ~Pool() {
     for (const Running& one : running_) ::kill(one.process, SIGKILL);
     for (const Running& one : running_) {
@@ -80,7 +80,7 @@ class Pool {
 
   [[noreturn]] void be_the_task(std::size_t task, pid_t parent, int descriptor) const {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);  // it had ended before the request
+    if (::getppid() != parent) ::_exit(1);  // the parent has ended before this process requested the signal
     int code = 0;
     try {
       tasks_.work(task, Outbox{descriptor});

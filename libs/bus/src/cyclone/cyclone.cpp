@@ -174,7 +174,8 @@ class CycloneReader final : public detail::Reader {
   }
 
  private:
-  /// The search takes microseconds and allocates: it is made only when another writer has written.
+  /// The search takes microseconds and allocates memory. Therefore it is made only when the writer has
+  /// changed.
   ParticipantId participant_of(dds_instance_handle_t writer) {
     if (writer == writer_ && participant_ != kUnknownParticipant) return participant_;
     writer_ = writer;

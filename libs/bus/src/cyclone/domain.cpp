@@ -28,7 +28,7 @@ OpenDomains& open_domains() {
   return domains;
 }
 
-/// Complete configuration, so that CYCLONEDDS_URI of the environment has no effect.
+/// The configuration is complete, so that the environment variable CYCLONEDDS_URI has no effect.
 std::string configuration(const Options& options) {
   const auto& own = options.interfaces;
   const bool unicast = discovers_by_unicast(options);
@@ -39,7 +39,7 @@ std::string configuration(const Options& options) {
   xml += "</Interfaces></General><Discovery><ParticipantIndex>";
   xml += unicast ? "auto" : "none";
   xml += "</ParticipantIndex><MaxAutoParticipantIndex>" + std::to_string(kMostParticipants - 1);
-  xml += "</MaxAutoParticipantIndex>";  // default 9: 10 processes
+  xml += "</MaxAutoParticipantIndex>";  // the default 9 permits 10 processes
   if (unicast) {
     xml += "<Peers>";
     for (const auto& peer : options.peers) xml += "<Peer address=\"" + peer + "\"/>";

@@ -46,7 +46,7 @@ void translate(EndpointQos& qos, const Quality& quality, bool history, const End
     qos.liveliness().announcement_period = duration(options.liveliness_lease / 3);
   }
   qos.endpoint().history_memory_policy = fastrtps::rtps::PREALLOCATED_MEMORY_MODE;
-  qos.data_sharing().off();  // the shared memory of a killed process remains and delays its restart
+  qos.data_sharing().off();  // the shared memory of a killed process would remain and delay its restart
 }
 
 dds::DataWriterQos writer_qos(const Quality& quality, const EndpointOptions& options) {

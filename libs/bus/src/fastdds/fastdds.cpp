@@ -37,7 +37,7 @@ void switch_intraprocess_delivery_off() {
   });
 }
 
-/// Writes the log to standard error. Standard output is for the results of a tool.
+/// Writes the log to standard error. Standard output contains only the results of a tool.
 class LogToVendorLog final : public dds::LogConsumer {
  public:
   void Consume(const dds::Log::Entry& entry) override { vendor_log("Fast DDS", entry.message); }

@@ -19,7 +19,7 @@ class History {
     if (samples.size() == depth_) samples.pop();
     samples.push(sample, stamp);
   }
-  /// Removes a disposed instance: late joiners do not receive it.
+  /// Removes a disposed instance, so that readers that join later do not receive it.
   void forget(const void* sample) { instance(sample).samples.clear(); }
 
   template <class Visit>

@@ -23,7 +23,7 @@ class MemoryWriter final : public detail::Writer {
 
   bool write(const void* sample) override {
     const auto* bytes = static_cast<const char*>(sample);
-    for (const auto& string : strings_)  // the DDS back ends refuse an unterminated string, too
+    for (const auto& string : strings_)  // as in the DDS back ends, which also refuse an unterminated string
       if (strnlen(bytes + string.offset, string.count) == string.count) return false;
     network_->publish(port_, sample, false);
     return true;

@@ -1,6 +1,6 @@
 #pragma once
-/// First-in, first-out queue of samples of one type. It grows when full and keeps its memory, so that the
-/// steady state allocates no memory.
+/// First-in, first-out queue of samples of one type. A full queue grows; a queue never releases its memory.
+/// In the steady state it allocates no memory.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,7 +14,8 @@ namespace crane::bus::memory {
 struct Stamp {
   std::uint64_t order = 0;  ///< serial number of the publication in the network
   SampleInfo info;
-  /// Version of the messages for which the delivered bytes are sealed; nothing: a wire may have changed them.
+  /// Version of the messages for which the delivered bytes are sealed; nothing: a wire may have changed the
+  /// bytes.
   std::optional<std::uint32_t> sealed_for{};
 };
 

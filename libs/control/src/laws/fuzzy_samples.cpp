@@ -27,7 +27,7 @@ void append_response(const Design& design, double swing, double transfer, std::v
   DelayLine past(delay_ticks);
   past.reset(swing);
   double position = 0, speed = 0, rate = 0;
-  // With unsuitable gains of delayed_1 the load can pass the vertical; later samples are then useless.
+  // With unsuitable gains of delayed_1 the swing can exceed pi; the experiment then ends.
   for (int k = 0; k * kStep < kDuration && std::abs(swing) < pi; ++k) {
     past.push(swing);
     const double late = past.at(delay_ticks);

@@ -25,8 +25,8 @@ struct LqrGains {
 
 constexpr double kEffortWeight =
     1;  // w; a smaller value: faster, more volts, less tolerance of a wrong cable length
-// Of the distance from a plan. 0.05 settles maneuver 2 in 2.22 s instead of 2.37 s, and a cable 20 % shorter
-// than measured makes it unstable.
+// w with a plan, for the distance from the plan. 0.05 settles maneuver 2 in 2.22 s instead of 2.37 s, and a
+// cable 20 % shorter than measured makes it unstable.
 constexpr double kPlanEffortWeight = 0.18;
 
 /// Riccati equation A'P + PA - P b b' P / w + q q' = 0 by integration of its differential equation to the

@@ -16,13 +16,13 @@ constexpr double kBarrierFactor = 0.3;
 constexpr double kEffort = 5e-3;      // s: effort of full volts on both drives during the whole move
 constexpr double kEndSlack = 1e-8;    // regularises the end condition
 constexpr double kToBoundary = 0.99;  // largest share of the way to a bound in one step
-constexpr double kClosed = 1e-4;      // sum of all gaps of a solution, m, rad and their rates
+constexpr double kClosed = 1e-4;      // sum of the absolute gaps of a solution, m, rad and their rates
 constexpr double kMostChange = 0.2;   // largest relative change of T in one step
 constexpr int kMostHalvings = 12;
 constexpr double kDamping = 1e-7;  // s per V^2 of change
 // With a duration slightly above the optimum, fixed, the gaps close quickly.
 constexpr double kRoom = 1.003;        // duration / optimal duration
-constexpr double kRoomBarrier = 1e-3;  // the objective then has no other part
+constexpr double kRoomBarrier = 1e-3;  // the objective then consists of the barriers only
 constexpr double kNearOptimum = 5e-3;  // relative change of T below which the duration is fixed
 constexpr double kNearGaps = 0.3;      // sum of the gaps below which the duration is fixed
 constexpr int kMostSearching = 60;     // iterations with free duration
@@ -52,7 +52,8 @@ double share_within(double value, double change, double low, double high) noexce
 void move_dual(double& dual, double room, double room_change, double mu) noexcept {
   const double change = (mu - dual * room_change) / room - dual;
   const double share = change < -kToBoundary * dual ? kToBoundary * dual / -change : 1;
-  // Keeps the dual variable near the central path, so that one bad step cannot spoil the curvature.
+  // Keeps the dual variable near the central path, so that one unsuitable step does not falsify the
+  // curvature.
   dual = std::clamp(dual + share * change, mu / room / 1e8, mu / room * 1e8);
 }
 
@@ -251,7 +252,7 @@ bool Solver::search(int& iterations) noexcept {
     ++iterations;
     linearise();
     find_step();
-    if (!take_step()) return true;  // no step of this linearisation comes nearer
+    if (!take_step()) return true;  // no step of this linearisation improves the iterate
     const bool near = std::abs(change_.duration_s) < kNearOptimum * at_.duration_s;
     const double gaps = merit(at_).gaps;
     if (!std::isfinite(gaps)) return false;

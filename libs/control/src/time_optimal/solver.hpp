@@ -38,7 +38,7 @@ class Solver {
 
   void guess(const Plan* warm) noexcept;
   void centre_duals() noexcept;
-  /// Moves towards the shortest duration. @return false when the iterate is lost
+  /// Moves towards the shortest duration. @return false when the iterations have failed
   [[nodiscard]] bool search(int& iterations) noexcept;
   void fix_duration(double factor) noexcept;
   [[nodiscard]] bool close_gaps(int& iterations) noexcept;
@@ -54,7 +54,7 @@ class Solver {
   Control volt_limit_;
   double barrier_ = 0;  ///< mu
   bool fixed_ = false;  ///< true: the duration is fixed, the iterations close the gaps
-  double share_ = 1;    ///< share of the last step that was taken
+  double share_ = 1;    ///< executed share of the last step
   Iterate at_, change_, trial_;
   std::array<Step, kIntervals> steps_;
   std::array<State, kIntervals> gaps_;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostNodes = 8000;     // bounds time and memory of a search
 constexpr double kSpacing_m = 0.04;  // smallest distance of neighbouring nodes over the ground
-constexpr int kEndCells = 2;         // nodes on each side of a start or target that are tried
+constexpr int kEndCells = 2;  // nodes on each side of a start or target that are tried as its neighbours
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 /// Evenly spaced values of one axis.
@@ -76,7 +76,8 @@ class Grid {
 
  private:
   static constexpr int kFromStart = -1;
-  using Open = std::pair<double, int>;  // estimated time of the whole way, node: ties go to the smaller node
+  using Open = std::pair<double, int>;  // estimated duration of the whole way, node; of equal durations the
+                                        // smaller node is first
 
   static std::size_t index(int node) noexcept { return static_cast<std::size_t>(node); }
   [[nodiscard]] PerAxis place(int node) const noexcept {

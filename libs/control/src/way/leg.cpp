@@ -7,7 +7,8 @@
 namespace crane::control {
 namespace {
 
-// Chosen by judgement: a wrong value costs time or a stop by the zone filter, which alone keeps the load out.
+// The values are chosen, not derived. A wrong value causes a longer move or a stop by the zone filter. Only
+// the zone filter keeps the load out of the zones.
 constexpr double kSlowest_mps =
     0.03;  // lowest speed over the ground; below it friction makes the motion uneven
 constexpr double kSlowestShare = 0.05;  // lowest speed / reference speed
@@ -31,7 +32,8 @@ double ground_distance_m(const PerAxis& from, const PerAxis& to) noexcept {
 }
 
 double passing_speed_mps(const WaySpace& space, double clearance_m, double cable_m) noexcept {
-  // A stop from the speed v leaves a swing of v sqrt(L/g); the acceleration before may have left as much.
+  // A stop from the speed v leaves a swing of v sqrt(L/g). The acceleration before the stop may have left the
+  // same swing.
   const double swing_s = 2 * std::sqrt(cable_m * (1 + space.clearance.cable_error) / space.gravity_mps2);
   return std::max(kSlowest_mps, (clearance_m - kRestGap_m - kBlend_m) / (swing_s + kReaction_s));
 }
@@ -69,9 +71,9 @@ ClosestZone closest_zone(const WaySpace& space, const PerAxis& position) noexcep
     const double bound_m =
         std::max(std::abs(reach.x_m - zone.position_x_m) - (box ? zone.size_x_m / 2 : zone.radius_m),
                  std::abs(reach.y_m - zone.position_y_m) - (box ? zone.size_y_m / 2 : zone.radius_m));
-    if (bound_m - reach.radius_m > closest.clearance_m) continue;  // a lower bound of the distance beside it
+    if (bound_m - reach.radius_m > closest.clearance_m) continue;  // lower bound of the horizontal distance
     const double gap_m = clearance_m(zone, reach, space.clearance.suspension_height_m);
-    if (!(gap_m >= closest.clearance_m)) closest = {gap_m, i};  // NaN counts as closest
+    if (!(gap_m >= closest.clearance_m)) closest = {gap_m, i};  // a zone with NaN counts as the closest
   }
   return closest;
 }

@@ -42,7 +42,7 @@ std::vector<PerAxis> thinned(const std::vector<PerAxis>& nodes) {
 }
 
 /// Fastest sequence of straight legs through places of the way: shortest path in the graph of all free legs
-/// over at most kWindow places. The way over the grid is in this graph, so that a result exists.
+/// over at most kWindow places. The graph contains the way over the grid. Therefore a result exists.
 TimedWay straightened(const WaySpace& space, const std::vector<PerAxis>& places) {
   constexpr std::size_t kWindow = 12;
   struct Best {
@@ -106,7 +106,7 @@ std::optional<TimedWay> over(const WaySpace& space, const PerAxis& from, const P
     (leg_at(middle_m).is_free ? high_m : low_m) = middle_m;
   }
   std::optional<TimedWay> fastest;
-  for (const double cable_m : {high_m, shortest_m}) {  // a higher hook passes faster
+  for (const double cable_m : {high_m, shortest_m}) {  // with a higher hook, the move is faster
     const Leg leg = leg_at(cable_m);
     TimedWay way{.points = {{at_cable(to, cable_m), leg.speed_share}}, .duration_s = leg.duration_s};
     way = with_lifts(space, from, to, cable_m, std::move(way));

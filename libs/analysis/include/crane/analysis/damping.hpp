@@ -8,8 +8,8 @@
 
 namespace crane::analysis {
 
-/// A loop with delay has infinite chains of roots. With growing |s| their damping ratio tends to zero,
-/// although they decay faster and faster. Therefore "all roots" means the roots with Im s up to this limit:
+/// A loop with delay has infinite chains of roots. With increasing |s| their damping ratio tends to zero,
+/// although their decay rate increases. Therefore "all roots" means the roots with Im s up to this limit:
 /// eight load frequencies.
 inline constexpr double kHighest = 50.26548245743669;  // 16 pi
 

@@ -14,7 +14,8 @@
 /// Every sample carries a Header and a CRC-32C. publish() writes source, epoch and CRC. take() returns only
 /// samples with a correct CRC, and counts the rejected ones. Samples of programs with another version of
 /// crane.idl have a wrong CRC; Bus::other_versions() names these programs. Texts of taken samples are
-/// printable (crane/fields/printable.hpp): a program on the bus cannot control the terminal of another one.
+/// printable (crane/fields/printable.hpp): a program on the bus cannot control the terminal of another
+/// program.
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -144,7 +145,7 @@ class Writer;  ///< writer of one vendor
 class Reader;
 }  // namespace detail
 
-/// The part of a publisher that does not depend on the type of its samples.
+/// Part of a publisher that does not depend on the type of its samples.
 class UntypedPublisher {
  public:
   UntypedPublisher(const topics::Description& topic, std::unique_ptr<detail::Writer> writer,
@@ -179,7 +180,7 @@ class Publisher : public UntypedPublisher {
   [[nodiscard]] bool dispose(const T& sample) { return dispose_of(&sample); }
 };
 
-/// Writer of any topic, for tools, from the plain-CDR bytes of recordings.
+/// Writer of any topic, for tools. It publishes the plain-CDR bytes that recordings store.
 class CdrPublisher : public UntypedPublisher {
  public:
   CdrPublisher(const topics::Description& topic, UntypedPublisher&& untyped);
@@ -194,7 +195,7 @@ class CdrPublisher : public UntypedPublisher {
   std::vector<std::uint8_t> sample_;
 };
 
-/// The part of a subscriber that does not depend on the type of its samples.
+/// Part of a subscriber that does not depend on the type of its samples.
 class UntypedSubscriber {
  public:
   UntypedSubscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader,
@@ -293,12 +294,13 @@ class Bus {
 
 /// Delivers a sample of the topic to all its readers.
 using Deliver = std::function<void(const void* sample)>;
-/// Decides which samples an in-process network delivers for a published sample: calls `deliver` once for
-/// every delivered sample, which may be this one or any other of its topic. The function must not use the
-/// network.
+/// Decides which samples an in-process network delivers for a published sample: calls `deliver` once for each
+/// sample to deliver. A delivered sample may be the published sample or any other sample of its topic. The
+/// function must not use the network.
 using Wire =
     std::function<void(const topics::Description& topic, const void* sample, const Deliver& deliver)>;
-/// Passes all later samples through `wire`. An empty `wire` delivers each sample once.
+/// Passes all samples that are published from now on through `wire`. An empty `wire` delivers each sample
+/// once.
 void set_wire(MemoryNetwork& network, Wire wire);
 
 }  // namespace crane::bus

@@ -1,6 +1,6 @@
 #pragma once
-/// Source, epoch and checksum of a sample. Publishers and subscribers call these functions; tests forge and
-/// check samples with them.
+/// Source, epoch and checksum of a sample. Publishers and subscribers call these functions; tests use them to
+/// forge and check samples.
 #include "crane/topics.hpp"
 
 namespace crane::bus {

@@ -55,10 +55,10 @@ struct Sensing {
 
 /// Digital lines of one drive. Line numbers: 0..7 port A, 8..15 port B, 16..23 port C, 24..31 port D.
 struct DriveLines {
-  int limit_low_input = 0, limit_high_input = 0;  ///< contact opens at the limit
-  int brake_closed_input = 0;                     ///< contact closes with the brake
+  int limit_low_input = 0, limit_high_input = 0;  ///< the contact opens at the limit
+  int brake_closed_input = 0;                     ///< the contact closes with the brake
   int brake_release_output = 0;                   ///< on: 24 V to the brake, if the relay is closed
-  int mark_input = -1;                            ///< contact closes below the axis' mark; -1: not wired
+  int mark_input = -1;  ///< the contact closes while the axis is below its mark; -1: not wired
 
   bool operator==(const DriveLines&) const = default;
 };
@@ -70,8 +70,8 @@ struct Wiring {
   int base_address = 0x200;             ///< servo_to_go: 0x200 + 0x20 n
   std::string device = "/dev/comedi0";  ///< comedi: device file. Subdevices: those of an s626
   int counter_subdevice = 5, analog_output_subdevice = 1, input_subdevice = 2, output_subdevice = 3;
-  int estop_input = 0;            ///< contact opens with the emergency stop
-  int relay_closed_input = 10;    ///< contact closes with the watchdog relay
+  int estop_input = 0;            ///< the contact opens when the emergency stop is pressed
+  int relay_closed_input = 10;    ///< the contact closes with the watchdog relay
   int watchdog_output = 19;       ///< must toggle every tick
   double relay_timeout_s = 0.05;  ///< the watchdog relay opens when its input is constant for longer
   std::array<DriveLines, plant::kAxes> drives{{{1, 2, 7, 16}, {3, 4, 8, 17}, {5, 6, 9, 18}}};
@@ -129,7 +129,7 @@ struct Rig {
   [[nodiscard]] bool measures(std::size_t coordinate) const {
     return encoders[coordinate].counts_per_unit > 0;
   }
-  /// Whole ticks within a time, at least one.
+  /// Number of whole ticks within a time, at least one.
   [[nodiscard]] int ticks_in(double time_s) const;
 
   bool operator==(const Rig&) const = default;

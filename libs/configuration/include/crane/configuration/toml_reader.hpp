@@ -42,13 +42,13 @@ class TomlTable {
   /// Finite number within the range; integers are accepted.
   [[nodiscard]] double number(std::string_view key, const Range& range);
   [[nodiscard]] double number(std::string_view key, const Range& range, double fallback);
-  /// low <= value <= high
+  /// Integer with low <= value <= high.
   [[nodiscard]] int integer(std::string_view key, int low, int high);
   [[nodiscard]] int integer(std::string_view key, int low, int high, int fallback);
   [[nodiscard]] bool boolean(std::string_view key, bool fallback);
   [[nodiscard]] std::string text(std::string_view key);
   [[nodiscard]] std::string text(std::string_view key, std::string_view fallback);
-  /// One of `choices`.
+  /// A text that is one of `choices`.
   [[nodiscard]] std::string choice(std::string_view key, const std::vector<std::string>& choices);
   [[nodiscard]] std::string choice(std::string_view key, const std::vector<std::string>& choices,
                                    std::string_view fallback);

@@ -1,6 +1,6 @@
 #pragma once
-/// The rig file as the search for ways sees it. Supervisor, planner and `crane zone way` use this function,
-/// so that they search in the same space.
+/// Converts a rig to the input of the search for ways. Supervisor, planner and `crane zone way` use this
+/// function, so that all of them search in the same space.
 #include "crane/configuration/rig.hpp"
 #include "crane/control/way.hpp"
 

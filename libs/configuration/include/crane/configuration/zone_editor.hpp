@@ -1,6 +1,7 @@
 #pragma once
-/// Adds and removes zones in the text of a rig file. All other text, comments included, stays as it is. The
-/// new text is read again: it must give the same rig with only this zone changed, or nothing is returned.
+/// Adds and removes zones in the text of a rig file. All other text, including comments, does not change. The
+/// functions read the new text again and return it only if it describes the same rig with only this zone
+/// changed.
 #include <string>
 
 #include "crane/configuration/rig.hpp"

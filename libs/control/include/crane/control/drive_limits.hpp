@@ -7,9 +7,9 @@ namespace crane::control {
 
 /// Origin of the position of an axis.
 enum class Zero : std::uint8_t {
-  start,  ///< assumed: before the bridge starts, the operator has moved the axis to the position in [start]
+  start,     ///< assumed: the operator has moved the axis to the position in [start] before the bridge starts
   absolute,  ///< an absolute encoder measures the position
-  homing     ///< unknown until the axis has crept to its homing mark
+  homing     ///< unknown until homing has found the mark
 };
 
 /// Switch that marks a known position.

@@ -47,7 +47,7 @@ struct TowerGains {
 [[nodiscard]] SwingAxis slew_axis(const plant::Parameters& crane, double cable_length_m,
                                   double trolley_position_m) noexcept;
 
-/// Partial-state feedback: the axis determines K. @pre every field of axis is in its range
+/// Partial-state feedback: the axis determines K. @pre every field of axis is inside its range
 [[nodiscard]] Gains partial_state_gains(const SwingAxis& axis) noexcept;
 /// Full-state feedback for a given forward gain K, V/m or V/rad. @pre forward_gain > 0
 [[nodiscard]] Gains full_state_gains(const SwingAxis& axis, double forward_gain) noexcept;

@@ -12,9 +12,8 @@
 /// Correction: a filter with three equal poles per drive, a Kalman filter of (phi, phi', e, o) per swing
 /// plane:
 ///   phi'' = (equations) + (g/L) e,   measured = phi + o
-/// A constant force and an encoder offset have the same effect on the measured angle, (g/L)(e + o): no
-/// observer can separate them. This observer attributes the constant part to the offset and slow changes to
-/// the force.
+/// A constant force and an encoder offset have the same effect (g/L)(e + o) and cannot be distinguished. This
+/// observer attributes the constant part to the offset and slow changes to the force.
 #include <Eigen/Core>
 
 #include "crane/control/law.hpp"
@@ -64,7 +63,7 @@ class PendulumObserver {
 /// unknown force holds the load, so that wind does not displace the crane.
 [[nodiscard]] Measurement at_effect(const CraneEstimate& estimate) noexcept;
 
-/// Wraps the law in a pendulum observer. A law that already has an observer is returned unchanged.
+/// Wraps the law in a pendulum observer. Returns a law that already has an observer unchanged.
 [[nodiscard]] std::unique_ptr<Law> with_observer(std::unique_ptr<Law> law, const Design& design);
 /// The law of `controller`, behind a pendulum observer when design.swing_observer is true.
 [[nodiscard]] std::unique_ptr<Law> tracking_law(const Controller& controller, const Design& design);

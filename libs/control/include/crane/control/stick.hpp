@@ -1,7 +1,9 @@
 #pragma once
-/// Stick mode: an operator commands the speed of trolley, slew and hoist; the load comes to rest with them.
+/// Stick mode: an operator commands the speeds of trolley, slew and hoist. The load comes to rest together
+/// with the axes.
 ///
-/// 1. The unshaped speed u of each axis follows the wanted speed. An input shaper (shaper.hpp) delays parts
+/// 1. The unshaped speed u of each axis follows the commanded speed (`wanted`). An input shaper (shaper.hpp)
+/// delays parts
 ///    of each change of u,
 ///      v(t) = sum_i w_i u(t - t_i),   zv: w = 1/2, 1/2; t = 0, T/2   (Singer and Seering 1990)
 ///    The weights w_i are positive and their sum is 1, so that v stays between the smallest and the largest
@@ -20,7 +22,8 @@
 ///    Without slewing, and with the longest cable of the session, P = s.
 ///
 /// Position limits: each tick simulates the stop that a release in this tick causes, including the pending
-/// changes. If this stop leaves the limits, the law brakes instead of following the wanted speed.
+/// changes. If this stop would leave the limits, the law decelerates the axis instead of following the
+/// commanded speed.
 #include <array>
 #include <cstddef>
 #include <string>
@@ -49,7 +52,7 @@ struct StickLimits {
   double longest_cable_m = 100;   ///< longest cable of the session, > 0
 };
 
-/// Changes of v that act in this and in later ticks. A copy copies the pending ticks only.
+/// Changes of v that act in this and in later ticks. The copy operations copy only the pending ticks.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): only the pending slots have values
 class PendingChanges {
  public:
@@ -122,7 +125,8 @@ struct StickMemory {
 void begin(const StickLimits& limits, const Reference& reference, StickMemory& memory) noexcept;
 
 /// One tick. No allocation.
-/// @param wanted  speed per axis, unit/s; clamped to the speed limit; a value that is not finite counts as 0
+/// @param wanted  commanded speed per axis, unit/s; limited to the largest speed; a value that is not finite
+/// counts as 0
 /// @return reference at path[2]; its swing is that of path[1], because the command of a tick acts one tick
 ///   later; `start` and `feed_forward_v` are 0
 Reference step(const StickLimits& limits, const std::array<double, kAxes>& wanted,
@@ -133,7 +137,7 @@ Reference step(const StickLimits& limits, const std::array<double, kAxes>& wante
 [[nodiscard]] Volts feed_forward(const Design& design, const StickLimits& limits,
                                  const StickMemory& memory) noexcept;
 
-/// True when nothing moves and nothing is pending.
+/// True when no axis moves and no change of speed is pending.
 [[nodiscard]] bool at_rest(const StickMemory& memory) noexcept;
 
 }  // namespace crane::control

@@ -47,7 +47,7 @@ struct Plan {
 
 enum class PlanOutcome : std::uint8_t {
   solved,
-  not_converged,  ///< too many iterations, or no step made progress
+  not_converged,  ///< too many iterations, or no step improved the iterate
   impossible      ///< problems() states the reason
 };
 

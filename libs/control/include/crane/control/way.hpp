@@ -9,8 +9,8 @@
 /// Cable length. A position that is free is also free with a shorter cable, because the space of the resting
 /// load shrinks on all sides and its lower end rises. Therefore a free way in three coordinates stays free
 /// when all its cable lengths are replaced by the shortest one: a search over trolley and slew with the
-/// shortest cable decides whether a way exists. Raising the load at the start and lowering it at the target
-/// are free, too.
+/// shortest cable decides whether a way exists. Raising the load at the start and lowering the load at the
+/// target are also free.
 ///
 /// Legs. Along a leg the clearance changes by at most the distance d over the ground. Therefore a sample with
 /// the clearance c proves that the leg is free for the next c - kPassGap_m (conservative advancement).

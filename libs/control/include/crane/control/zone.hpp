@@ -35,7 +35,7 @@ struct Clearance {
   bool operator==(const Clearance&) const = default;
 };
 
-/// No zone lies farther from the tower than the positions of an axis.
+/// A zone cannot be farther from the tower than the largest position of an axis.
 inline constexpr fields::Range kZoneSizes = fields::Range::closed(0, plant::kPositions.high);
 
 inline constexpr std::array kZoneFields{
@@ -144,9 +144,9 @@ struct ReachedSpace {
 [[nodiscard]] ReachedSpace resting_reach(const Clearance& clearance, double gravity_mps2, double trolley_m,
                                          double slew_rad, double cable_m) noexcept;
 
-/// First zone whose clearance from the straight path of a move is below `least_clearance_m`; nullptr: none.
-/// The path is straight in the coordinates of the axes. A move that begins below this clearance may increase
-/// it, and must not reduce it.
+/// @return the first zone whose clearance from the straight path of a move is below `least_clearance_m`;
+/// nullptr: none. The path is straight in the coordinates of the axes. A move that begins below this
+/// clearance may increase it, and must not reduce it.
 /// @param from, to  trolley m, slew rad, cable m
 [[nodiscard]] const Zone* zone_in_path(std::span<const Zone> zones, const Clearance& clearance,
                                        double gravity_mps2, const plant::PerAxis& from,

@@ -27,8 +27,8 @@ struct ComparedRun {
 /// to_json(Metrics). Missing figures are empty cells.
 void write_comparison_csv(std::ostream& out, std::span<const ComparedRun> runs);
 
-/// A value as a cell of a CSV file: numbers as the shortest text that reads back as the same double, texts
-/// quoted where needed, null as an empty cell.
+/// A value as a cell of a CSV file: a number as the shortest text that gives the same double when read, a
+/// text with quotes if necessary, null as an empty cell.
 [[nodiscard]] std::string csv_cell(const nlohmann::ordered_json& value);
 
 /// The same data as an array of objects; missing figures are null.

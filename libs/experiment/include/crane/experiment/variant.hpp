@@ -15,7 +15,7 @@ struct Variant {
   void (*change)(configuration::Rig& started);  ///< changes the result of started_by()
 };
 
-/// All variants: first those of a comparison, then those of single figures.
+/// All variants: first the variants of a comparison, then the variants of single figures.
 [[nodiscard]] const std::vector<Variant>& variants();
 /// Variants of a comparison without the option --variant.
 [[nodiscard]] std::vector<std::string> default_variants();

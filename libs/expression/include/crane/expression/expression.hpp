@@ -3,10 +3,10 @@
 ///   abs(state.swing_radial_rad) > 5deg and not rising(supervisor.state == STATE_RUN)
 ///
 /// Operators, weakest first: or; and; not; < <= > >= == != (a < b < c is refused); + -; * /; unary -.
-/// Operands: numbers with units (5deg, 20 ms, 0.1 m/s), names, ( ), abs(x), min(x, ...), max(x, ...),
-/// rising(condition). Values are in SI units. Both operands of a comparison, sum or difference have the same
-/// dimension; a number without unit has the SI unit of the other operand. rising(c) is true in the row in
-/// which c becomes true, and unknown before c has been false once.
+/// Operands: numbers with units (5deg, 20 ms, 0.1 m/s), names, expressions in parentheses, abs(x), min(x,
+/// ...), max(x, ...), rising(condition). Values are in SI units. Both operands of a comparison, sum or
+/// difference have the same dimension; a number without unit has the SI unit of the other operand. rising(c)
+/// is true in the row in which c becomes true, and unknown before c has been false once.
 ///
 /// A missing value is NaN. A comparison with a missing value is unknown. `and`, `or`, `not` follow Kleene's
 /// logic: (false and unknown) is false, (true or unknown) is true. A quotient, product, sum or difference
@@ -50,7 +50,8 @@ struct Vocabulary {
   std::function<std::string(std::string_view name)> explain;
 };
 
-/// Largest number of bytes of an expression, and of problems that are reported: both bound the message.
+/// Largest number of bytes of an expression, and largest number of reported problems: both limit the length
+/// of the message.
 inline constexpr std::size_t kLongestText = 4096, kMostProblems = 20;
 
 struct Problem {

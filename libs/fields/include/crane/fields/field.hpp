@@ -14,7 +14,8 @@
 
 namespace crane::fields {
 
-/// Quantity of the section's coordinate that the number measures. All except `fixed` add a unit to the key.
+/// Quantity that the number measures. Every quantity except `fixed` adds a unit to the key, according to the
+/// coordinate of the section.
 enum class Quantity { fixed, position, speed, acceleration, jerk, volts_per_speed };
 
 /// When a file must contain the field.

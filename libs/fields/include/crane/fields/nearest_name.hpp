@@ -1,5 +1,5 @@
 #pragma once
-/// The known name that an unknown one most likely means.
+/// Finds the known name that is most similar to an unknown name.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace crane::fields {
 
-/// Levenshtein's distance: insertions, deletions and substitutions that make one word of the other.
+/// Levenshtein's distance: number of insertions, deletions and substitutions that change one word into the
+/// other.
 [[nodiscard]] std::size_t edit_distance(std::string_view from, std::string_view to);
 
-/// @param known  a range of strings. @return the nearest; empty: none is similar
+/// @param known  a range of strings. @return the most similar string; empty: no string is similar
 template <class Names>
 [[nodiscard]] std::string nearest_name(std::string_view unknown, const Names& known) {
   std::string nearest;

@@ -21,7 +21,7 @@ struct Range {
 
   /// False for NaN and infinities.
   [[nodiscard]] bool contains(double value) const;
-  /// "[0, 10]", "(0, 10]", "> 0"; empty without bounds
+  /// "[0, 10]", "(0, 10]", "> 0"; empty for a range without bounds
   [[nodiscard]] std::string interval() const;
   /// "must be finite and > 0", "must be in (0, 10]", ...
   [[nodiscard]] std::string rule() const;

@@ -1,5 +1,5 @@
 #pragma once
-/// The units of numbers that a person writes ("5deg", "20 ms") and of names ("trolley_speed_mps").
+/// Units of numbers in user input ("5deg", "20 ms") and of names ("trolley_speed_mps").
 #include <cstdint>
 #include <span>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace crane::fields {
 
-/// Exponents of the base quantities. Angles are a quantity of their own: an angle compared with a length, or
-/// with a number that is no angle, is an error of its writer.
+/// Exponents of the base quantities. Angle is a separate base quantity, so that a comparison of an angle with
+/// a length or a plain number is an error.
 struct Dimension {
   std::int8_t length = 0, angle = 0, time = 0, voltage = 0;
   bool operator==(const Dimension&) const = default;

@@ -1,9 +1,9 @@
 #pragma once
 /// Reads and writes measured data as CSV: separator comma, one header line, one number per cell. A file has
 /// any subset of the canonical columns, with `time_s` first, and then other columns. The sampling may be
-/// non-uniform. Row k has the measurement at t_k and the voltage that acts from t_k on. Numbers are written
-/// as the shortest text that reads back as the same double, so that equal data give equal bytes. An empty
-/// cell and `nan` are NaN.
+/// non-uniform. Row k has the measurement at t_k and the voltage that acts from t_k on. Each number is
+/// written as the shortest text that gives the same double when read. Equal data therefore give equal bytes.
+/// An empty cell and `nan` are read as NaN.
 #include <array>
 #include <cstddef>
 #include <filesystem>
@@ -46,7 +46,7 @@ class CsvError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Shortest text that reads back as `value`: "0.01", "1e-07", "nan".
+/// Shortest text that gives `value` when read: "0.01", "1e-07", "nan".
 [[nodiscard]] std::string shortest(double value);
 
 /// @throws CsvError when columns differ in length, when a name is empty, occurs twice or contains a comma, or
@@ -54,9 +54,9 @@ class CsvError : public std::runtime_error {
 void write_csv(std::ostream& out, const Table& table);
 void write_csv(const std::filesystem::path& file, const Table& table);
 
-/// Ignores blank lines and lines that begin with '#'. The first other line is the header.
-/// @param wanted  columns to return, in this order; empty: all. A wanted column that the file lacks is
-///   omitted
+/// Ignores blank lines and lines that begin with '#'. The first remaining line is the header.
+/// @param wanted  columns to return, in this order; empty: all. A wanted column that the file does not
+///   contain is omitted
 /// @throws CsvError with file and line
 [[nodiscard]] Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& wanted = {});
 [[nodiscard]] Table parse_csv(std::string_view text, const std::string& file,

@@ -1,7 +1,7 @@
 #pragma once
-/// Makes recordings from recordings: a part of one, or several in one. The new recording keeps the messages
-/// without change, and the channels, metadata and attachments. It appears, or replaces an existing file, only
-/// when it is complete.
+/// Cuts a part out of a recording, or merges several recordings into one. The new recording contains the
+/// messages without change, and the channels, metadata and attachments. The new file appears, or replaces an
+/// existing file, only when it is complete.
 #include <filesystem>
 #include <span>
 #include <stdexcept>
@@ -10,7 +10,7 @@
 
 namespace crane::recording {
 
-/// Recordings that must not be in one file, or an empty part. what() has one line for each problem.
+/// The recordings must not be merged, or the part contains no message. what() has one line for each problem.
 class EditError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -23,15 +23,17 @@ struct TimeRange {
   double until_s = std::numeric_limits<double>::infinity();
 };
 
-/// The messages of all topics within the range.
+/// Selection of the messages of all topics within the range.
 [[nodiscard]] Selection selection_of(const McapReader& recording, const TimeRange& range);
 
-/// Adds the metadata record "cut" with the range. @return number of copied messages, and the damage of `file`
+/// Copies the messages within the range and adds the metadata record "cut" with the range. @return number of
+/// copied messages, and the damage of `file`
 /// @throws ReadError, WriteError; EditError when no message is within the range
 CheckReport cut(const std::filesystem::path& file, const TimeRange& range, const std::filesystem::path& out);
 
-/// Messages in the order of log time; of equal times, those of the recording named first come first. Equal
-/// metadata and attachments are stored once. Adds the metadata record "merge" with the names of the files.
+/// Merges the messages in the order of log time. Of messages with equal times, those of the recording named
+/// first come first. Equal metadata and attachments are stored once. Adds the metadata record "merge" with
+/// the names of the files.
 /// @return number of copied messages, and the damage of all files
 /// @throws ReadError, WriteError; EditError when two recordings have different schemas of one type, different
 ///   types of one topic, or different attachments of one name or of TOML (rig files)

@@ -55,8 +55,8 @@ struct Selection {
 
 class McapReader;
 
-/// The selected messages one after the other, in the order of log time (equal times: in file order). Made by
-/// McapReader::messages(); the reader must outlive it.
+/// Iterates over the selected messages in the order of log time; messages with equal times are in file order.
+/// Made by McapReader::messages(); the reader must outlive it.
 class MessageStream {
  public:
   ~MessageStream();
@@ -112,8 +112,8 @@ struct CheckReport {
 /// Reads the whole file. @throws ReadError
 [[nodiscard]] CheckReport check(const std::filesystem::path& file);
 
-/// Copies everything readable from `damaged` to the file `repaired`, which appears, or replaces an existing
-/// file, only when it is complete.
+/// Copies all readable data from `damaged` to the file `repaired`. The file `repaired` appears, or replaces
+/// an existing file, only when it is complete.
 /// @return number of copied messages, and the losses. @throws ReadError, WriteError
 CheckReport repair(const std::filesystem::path& damaged, const std::filesystem::path& repaired);
 

@@ -43,7 +43,7 @@ class McapWriter {
  public:
   /// Creates or truncates `file`. @throws WriteError
   explicit McapWriter(const std::filesystem::path& file, const WriterOptions& options = {});
-  /// Closes the file and ignores errors. Call close() first to receive them.
+  /// Closes the file and ignores errors. Call close() before to receive the errors.
   ~McapWriter();
   McapWriter(McapWriter&&) noexcept;
   McapWriter& operator=(McapWriter&&) noexcept;

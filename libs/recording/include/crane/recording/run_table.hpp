@@ -15,7 +15,7 @@ namespace crane::recording {
 
 /// Accepts samples in any order. Columns: the canonical columns; tick; hoist_voltage_v; for each axis
 /// trolley_/slew_/hoist_ …_reference_m|rad, …_control_v, …_friction_v; supervisor_state (number of the
-/// SupervisorState in crane.idl). The cells of a topic without a sample for the tick are NaN.
+/// SupervisorState in crane.idl). If a topic has no sample of a tick, its cells of this tick are NaN.
 class RunTable {
  public:
   void add(const msg::State& sample);

@@ -1,6 +1,6 @@
 #pragma once
-/// Decodes plain CDR with the IDL text of a recording, so that tools can read types that they were not
-/// compiled with. Supported IDL: modules, uint32 constants, enums, @final structs, @key, nested structs,
+/// Decodes plain CDR with the IDL text of a recording. Tools can therefore read types that they do not
+/// contain. Supported IDL: modules, uint32 constants, enums, @final structs, @key, nested structs,
 /// one-dimensional arrays, bounded and unbounded strings, primitives, comments.
 #include <cstdint>
 #include <memory>

@@ -1,9 +1,10 @@
 #pragma once
 /// All processes of the loop must have the same rig file and the same controller: limits, calibration, zones
 /// and gains belong together. Each sample of the loop states the configuration of its process. A process that
-/// reads a sample with another configuration states 0, and so does every process that reads this 0: the
-/// supervisor learns of a difference anywhere in the loop. Only the one writer of a loop topic can state the
-/// configuration of its process; crane/node, which many processes may write, does not count.
+/// reads a sample with another configuration states 0, and so does every process that reads this 0. The
+/// supervisor therefore detects a difference anywhere in the loop. Only the one writer of a loop topic can
+/// state the configuration of its process. Statuses on crane/node have no effect, because every process may
+/// write this topic.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -20,8 +21,8 @@ class Agreement {
   /// @param own  configuration::digest() of this process
   explicit Agreement(std::uint32_t own) : own_{own} { newest_.fill({own, crane_SOURCE_NONE}); }
 
-  /// Takes the newest sample of an input; null: the sample is missing, and the last one counts. A topic
-  /// without a configuration has no effect.
+  /// Takes the newest sample of an input; null: the sample is missing, and the previous sample remains valid.
+  /// A topic without a configuration has no effect.
   template <class T>
   void note(std::size_t input, const T* sample) {
     if constexpr (requires { sample->configuration; })

@@ -22,8 +22,8 @@ class Component {
  public:
   virtual ~Component() = default;
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// Processes the samples that have arrived. @return true when poll() did some work; the host then calls
-  /// poll() again before the host waits
+  /// Processes the samples that have arrived. @return true when poll() has processed something; the host then
+  /// calls poll() again before it waits
   virtual bool poll(std::int64_t now_ns) = 0;
   /// Time of the next poll() that is due without a new sample; kNever: only new samples need a poll().
   [[nodiscard]] virtual std::int64_t wake_at_ns() const { return kNever; }

@@ -20,8 +20,8 @@ class InProcessStack {
 
   /// The network of the components, for the Bus of an operator or a recorder.
   [[nodiscard]] const std::shared_ptr<bus::MemoryNetwork>& network() const { return network_; }
-  /// Polls all components repeatedly until every component waits for input. @return true when a component did
-  /// some work
+  /// Polls all components repeatedly until every component waits for input. @return true when a component has
+  /// processed something
   bool pump();
   /// One line per component with its missing inputs.
   [[nodiscard]] std::string waiting_for() const;

@@ -64,7 +64,7 @@ class JoinedComponent : public Component {
   virtual void on_tick(std::uint64_t tick, const Inputs*... samples) = 0;
   [[nodiscard]] virtual bool steps_incomplete_ticks() const { return false; }
   virtual void handle_requests(std::int64_t /*now_ns*/) {}
-  /// Called when no tick is complete. @return true when it did some work
+  /// Called when no tick is complete. @return true when the call has processed something
   virtual bool on_idle(std::int64_t /*now_ns*/) { return false; }
 
   /// Sample of the leading topic for the open tick, which waits for its other inputs; null when no tick is

@@ -30,8 +30,8 @@ class Node {
   /// Records the tick and the execution time of one step.
   void stepped(std::uint64_t tick, std::int64_t sample_time_ns, std::int64_t step_ns);
   /// Publishes the status once a second and on every change of phase. Reports an event when `ports` begins to
-  /// drop samples: samples of a second writer, of a process with another version of the messages, samples
-  /// with a wrong CRC, samples that could not be sent.
+  /// drop samples: samples of a second writer, samples with another version of the messages, samples with a
+  /// wrong CRC, or samples that could not be sent.
   void beat(std::int64_t now_ns, const Ports& ports, const JoinCounts& counts);
   /// Publishes the status of a process without ports (recorder). @param rejected  samples with a wrong CRC
   void beat(std::int64_t now_ns, crane_NodePhase phase, const JoinCounts& counts, std::uint64_t rejected);

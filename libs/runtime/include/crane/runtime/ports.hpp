@@ -14,7 +14,8 @@ namespace crane::runtime {
 
 enum class Clock : std::uint8_t {
   realtime,  ///< the clock master follows CLOCK_MONOTONIC; a late process loses the tick
-  lockstep   ///< the plant starts tick k+1 after command k; no process is late, and runs repeat bit for bit
+  lockstep   ///< the plant starts tick k+1 after command k; no process can be late, and runs are reproducible
+             ///< bit for bit
 };
 
 /// Endpoint options of loop topics. In lockstep a process that joins late must receive every tick from the

@@ -65,8 +65,8 @@ void add_loop_options(CLI::App& app, LoopOptions& options);
 /// clock differences between hosts have no effect.
 [[nodiscard]] std::uint32_t random_epoch();
 
-/// Time for which a process searches for another writer before it writes. Discovery across vendors can take
-/// longer; therefore the readers also check for a second writer at every tick (writer_binding.hpp).
+/// Time for which a process searches for another writer before its first sample. Discovery across vendors can
+/// take longer; therefore the readers also check for a second writer at every tick (writer_binding.hpp).
 inline constexpr std::chrono::milliseconds kSoleWriterLook{400};
 
 /// @throws bus::Error that names both versions when a program of this crane has messages of another version

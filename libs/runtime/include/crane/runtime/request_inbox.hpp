@@ -26,9 +26,9 @@ class RequestInbox {
 
   /// Takes up to 64 requests from the bus. Refuses a request when kMostWaiting requests wait already.
   /// In lockstep, answers a request for a later tick with the reason "scheduled". In real time, a request
-  /// acts at once or not at all: an operator must not start motion that acts after the operator has left, or
-  /// after a stop in between. A request for a later tick is refused then, and a stop for a later tick acts at
-  /// once.
+  /// acts at once or not at all. Otherwise a request could start a motion after its operator has left, or
+  /// after a stop. Therefore the inbox refuses a request for a later tick, and a stop for a later tick acts
+  /// at once.
   /// @return true when a request arrived
   bool receive();
   /// @param sender  participant that sent the request

@@ -4,13 +4,13 @@
 
 namespace crane::runtime {
 
-/// Longest computation of a real-time thread without waiting. A tick computes for less than a millisecond, a
-/// plan of the time-optimal planner for less than 100 ms.
+/// Longest computation of a real-time thread without waiting. The computation of a tick takes less than a
+/// millisecond, that of a time-optimal plan less than 100 ms.
 inline constexpr std::chrono::milliseconds kLongestSpin{500};
 
 /// From now on the kernel sends SIGXCPU to this process when one of its threads with SCHED_FIFO has used the
 /// processor for kLongestSpin without a blocking call, and SIGKILL when it continues for as long again. Such
-/// a thread starves all processes of lower priority, the supervisor and the operator's shell included. When
+/// a thread starves all processes of lower priority, including the supervisor and the operator's shell. When
 /// the process has ended, its silence stops the crane. Has no effect on threads with ordinary scheduling.
 /// @throws std::system_error
 void end_when_spinning();

@@ -82,8 +82,8 @@ class TickInput {
     }
   }
   /// A wrong tick number far ahead would make all following samples late. The limit is twice the nominal
-  /// number of ticks since the newest sample (clocks of two hosts differ) plus one history (samples queue
-  /// up).
+  /// number of ticks since the newest sample, because the clocks of two hosts differ, plus one history,
+  /// because samples wait in the queue.
   [[nodiscard]] bool is_ahead(std::uint64_t tick, std::int64_t now_ns) const {
     constexpr std::uint64_t kQueued_ticks = 128;
     if (policy_.period_ns <= 0 || !newest_ || tick <= *newest_) return false;
@@ -162,7 +162,7 @@ class TickJoin {
     has_respite_ = false;
     return true;
   }
-  /// A process that was scheduled late may not yet have received samples that have arrived at the host.
+  /// When this process was scheduled late, samples may have arrived at the host without being delivered yet.
   /// Therefore this function extends the wait by half the bound, once per tick.
   bool woke_late(std::int64_t now_ns) {
     if (has_respite_ || now_ns < due_ns_ + policy_.bound_ns / 2) return false;

@@ -3,9 +3,9 @@
 ///
 /// The first writer whose kind of process may write the topic is bound, provided that it is the only writer.
 /// A sample from another DDS writer, or with another source or start-up number in its header, is foreign: the
-/// reader drops it, and the topic is disputed. A restarted process takes over after the bound writer has sent
-/// nothing for kSilence_ns. Supervisor and bridge stop the crane earlier (stale_after_s), so that the
-/// crane waits for an operator when another writer takes over.
+/// reader drops the sample, and the topic counts as disputed. A restarted process takes over after the bound
+/// writer has sent nothing for kSilence_ns. Supervisor and bridge stop the crane earlier (stale_after_s), so
+/// that the crane waits for an operator when another writer takes over.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -40,8 +40,8 @@ class WriterBinding {
   };
   /// Judges the origin of a sample that is taken at `now_ns`. @param matched  number of matched writers
   [[nodiscard]] Verdict judge(const Writer& writer, std::int64_t now_ns, int matched);
-  /// Accepts a sample of the bound writer: the common case of judge(), without the number of matched writers.
-  /// @return false for every other writer; then call judge()
+  /// Fast path of judge() for the bound writer, which does not need the number of matched writers. @return
+  /// false for every other writer; then call judge()
   [[nodiscard]] bool is_own(const Writer& writer, std::int64_t now_ns) {
     if (bound_ != writer) return false;
     heard_ns_ = now_ns;

@@ -51,7 +51,7 @@ struct Entry {
   std::int64_t until_s = 0;
   std::vector<std::string> problems;
 };
-/// All identities in `directory`. A copy for another host may contain some of the roles only.
+/// All identities in `directory`. A copy for another host may contain only some of the roles.
 [[nodiscard]] std::vector<Entry> entries(const std::filesystem::path& directory);
 
 }  // namespace crane::security
