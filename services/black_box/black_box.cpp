@@ -92,7 +92,7 @@ std::filesystem::path default_directory() {
 Options default_options() {
   Options options;
   options.directory = default_directory();
-  options.bus.vendor = "fastdds";  // like all tools, so that ordinary use exercises both vendors together
+  options.bus.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
   return options;
 }
 
@@ -129,7 +129,7 @@ int run(const Options& options) {
     observer.poll();
     keep(false);
   }
-  // Receives samples that are still in transit. The end of the other processes is no fault.
+  // Receives samples that are still in transit. The end of the other processes is not a fault.
   const auto stop_ns = observation::log_now_ns();
   incidents.ignore_causes_after(stop_ns);
   while (observation::log_now_ns() < stop_ns + kLinger_ns) observer.poll();

@@ -28,7 +28,7 @@ void Incidents::open(const observation::Fault& fault) {
       std::min(std::max(open_->until_ns, fault.last_ns + kAfter_ns), open_->from_ns + kLongest_ns);
   if (fault.number > newest_fault_) ++open_->faults;
   newest_fault_ = std::max(newest_fault_, fault.number);
-  // The first cause may be detected after its consequence, for example a process that is silent.
+  // The first cause may be detected after its consequence, for example when a process has become silent.
   if (open_->faults == 1) open_->first = fault.notes.front();
 }
 

@@ -24,7 +24,7 @@ struct Incident {
 class Incidents {
  public:
   static constexpr std::int64_t kBefore_ns = FaultTimeline::kBefore_ns, kAfter_ns = FaultTimeline::kAfter_ns;
-  /// Longest incident: a crane that trips continuously gives one file per minute.
+  /// Longest duration of an incident: a crane that trips continuously causes one file per minute.
   static constexpr std::int64_t kLongest_ns = 60'000'000'000;
   static constexpr std::int64_t kKept_ns = kBefore_ns + kLongest_ns + kAfter_ns;
 

@@ -11,7 +11,7 @@
 namespace crane::campaign {
 namespace {
 
-static_assert(std::is_trivially_copyable_v<Result>);  // goes from process to process as bytes
+static_assert(std::is_trivially_copyable_v<Result>);  // the result is sent from process to process as bytes
 
 /// Mixes the parts of a tuple (splitmix64).
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
@@ -100,7 +100,7 @@ Result inject(const Tuple& tuple, Bench& bench, const std::optional<std::filesys
   return result_of(tuple, what.expectation, judge(bench.setting().configured, run));
 }
 
-/// Prepares the crane for this run only. A refused configuration is a result.
+/// Prepares the crane for this run only. A refused configuration is a result, not an error.
 Result run_alone(const Tuple& tuple, const std::optional<std::filesystem::path>& recording) {
   const Hazard& hazard = *find_hazard(tuple.hazard);
   Setting made = setting(tuple.seed % kSettings, tuple.moment);

@@ -44,8 +44,8 @@ bool has_moved(const Setting& setting, const std::vector<Row>& rows, std::size_t
   return false;
 }
 
-/// A controlled stop has taken too long because an axis still moves: it moved by more than half a count
-/// within the 0.1 s that count as standstill.
+/// True when a controlled stop has taken too long because an axis still moves: the axis moved by more than
+/// half a count within the 0.1 s that define standstill.
 bool stops_without_rest(const Setting& setting, const std::vector<Row>& rows, std::size_t at) {
   constexpr std::size_t kStandstill_ticks = 10;
   return at >= kStandstill_ticks && has_moved(setting, rows, at - kStandstill_ticks, at, [&](std::size_t i) {
@@ -53,7 +53,7 @@ bool stops_without_rest(const Setting& setting, const std::vector<Row>& rows, st
          });
 }
 
-/// The force of a swinging load moves an axis while its brake opens.
+/// True when the force of a swinging load moved an axis while its brake opened.
 bool moves_while_arming(const Setting& setting, const std::vector<Row>& rows, std::size_t at) {
   std::size_t since = at;
   while (since > 0 && rows[since - 1].status.state == crane_STATE_ARMING) --since;
@@ -81,7 +81,7 @@ class FaultFreeRun {
 
   void run() {
     if (!bench_.prepare(Moment::armed_idle)) return fail("never armed");
-    (void)bench_.take_rows();  // LOCKED after power-on is no trip
+    (void)bench_.take_rows();  // the state LOCKED after power-on is not a trip
     while (seconds_ < kShare_s && trip_.empty()) {
       operate();
       const auto rows = bench_.take_rows();

@@ -7,8 +7,8 @@
 namespace crane::campaign {
 namespace {
 
-/// A faulty supervisor: it opens brakes, drives one axis without an end, and reports that the bridge obeys.
-/// The judge ignores its status. @param all_axes  true: opens every brake
+/// A faulty supervisor opens brakes, drives one axis without end, and reports that the bridge obeys. The
+/// judge ignores the status of this supervisor. @param all_axes  true: opens every brake
 Injection faulty_supervisor(Bench& bench, double volts_v, bool all_axes) {
   bench.publish_fault = [i = bench.axis(), volts_v, all_axes, before = 0.0, released = AxisFlags{}](
                             const topics::Description& topic, void* sample) mutable {
@@ -105,7 +105,7 @@ Injection drives_with_reversed_sign(Bench& bench) {
   return injection;
 }
 
-/// The axis creeps with closed brake. Detection time: two ticks after it has moved by `brake_slip`.
+/// The axis creeps with closed brake. Detection time: two ticks after the axis has moved by `brake_slip`.
 Injection creeps_with_closed_brake(Bench& bench) {
   const std::size_t i = bench.axis();
   bench.request(crane_REQUEST_ESTOP);

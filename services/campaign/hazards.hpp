@@ -44,8 +44,8 @@ struct Hazard {
   const char* verified_by = "";  ///< for other test beds than the campaign: where the hazard is verified
   std::uint64_t every = 1;       ///< only every n-th seed, because a run takes long
   bool from_power_on = false;    ///< true: the fault acts from power-on, independent of the moment
-  /// Changes the rig before the stack starts; null: no change. Such a run shares its preparation with no
-  /// other run.
+  /// Changes the rig before the stack starts; null: no change. The preparation of such a run is not shared
+  /// with another run.
   void (*prepare)(Setting&, Random&) = nullptr;
   /// Injects the fault at the moment. It may run ticks for its requests: the onset is the tick after it
   /// returns.

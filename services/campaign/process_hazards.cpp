@@ -30,7 +30,7 @@ Injection supervisor_gone(Bench& bench, Random& random) {
   return injection;
 }
 
-/// The converters keep the last voltage. Only the rig can remove the power: its relay closes the brakes.
+/// The converters keep the last voltage. Only the rig can stop the crane: its relay closes the brakes.
 Injection bridge_gone(Bench& bench, Random& random) {
   if (random.pick(2) == 0)
     bench.stack().kill(crane_SOURCE_PLANT);

@@ -163,8 +163,7 @@ Injection corrupted(Bench& bench, Random& random) {
     if (seldom && ++*count % 5 == 0) copy.change_value(axis);
     deliver(copy.look());
   });
-  // A controller that loses every fifth sample may let the load swing: a stop at the swing limit is then
-  // correct.
+  // If a controller loses every fifth sample, the load may swing. A stop at the swing limit is then correct.
   if (seldom)
     return {.expectation = {.reasons = {because(crane_CAUSE_SWING_LIMIT)}, .detection_ms = 20},
             .watched_s = 0.6,

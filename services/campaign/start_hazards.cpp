@@ -33,8 +33,8 @@ Injection never_armed(Bench& /*bench*/, Random& /*random*/) {
 void bad_start(Setting& setting, Random& random) {
   auto& start = setting.configured.start;
   if (random.pick(2) == 0)
-    start.position[setting.axis] =
-        setting.configured.drives[setting.axis].high_limit + 0.01;  // the limit switch is broken, too
+    // the limit switch is also broken
+    start.position[setting.axis] = setting.configured.drives[setting.axis].high_limit + 0.01;
   else
     start.swing_radial_rad = setting.configured.limits.swing_limit_rad * 1.3;
   setting.actual = setting.configured;

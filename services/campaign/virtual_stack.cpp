@@ -8,7 +8,8 @@
 namespace crane::campaign {
 namespace {
 constexpr std::uint32_t kFirstEpoch = 1;
-constexpr std::int64_t kShortestStep_ns = 100'000;  // delay of a component that requests a time in the past
+// delay before the next poll of a component that requests a time in the past
+constexpr std::int64_t kShortestStep_ns = 100'000;
 }  // namespace
 
 VirtualStack::VirtualStack(std::span<const runtime::ComponentSpec> specs, const configuration::Rig& rig,

@@ -1,6 +1,7 @@
 #pragma once
 /// A stack with the real-time clock in one process and in virtual time. The components wait, lose ticks and
-/// stop as in separate processes. Nothing depends on the computer, so that runs repeat bit for bit.
+/// stop as in separate processes. No result depends on the computer. Runs are therefore reproducible bit for
+/// bit.
 #include <cstdint>
 #include <memory>
 #include <span>

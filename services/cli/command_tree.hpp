@@ -24,7 +24,7 @@ struct Command {
 /// The command and all below it, in the order of --help.
 [[nodiscard]] std::vector<Command> commands_of(const CLI::App& root);
 
-/// Script that completes commands and options; files elsewhere.
+/// Script that completes commands and options, and file names in all other places.
 [[nodiscard]] std::string bash_completion(const std::vector<Command>& commands);
 [[nodiscard]] std::string zsh_completion(const std::vector<Command>& commands);
 /// Page of section 1 (man-pages(7)).

@@ -42,7 +42,7 @@ class Canvas {
       dot(between(x0, x1), between(y0, y1));
     }
   }
-  /// @param mark  column of a vertical line, where the curve leaves room; -1: none
+  /// @param mark  column of a vertical line, which is drawn where the curve is not; -1: none
   [[nodiscard]] std::string row(int row, int mark) const {
     std::string text;
     for (int column = 0; column < columns_; ++column) {
@@ -84,7 +84,7 @@ std::optional<Extent> extent_of(std::span<const double> values) {
 
 std::string draw_curve(std::span<const double> time_s, std::span<const double> values, const CurveBox& box) {
   auto extent = extent_of(values).value_or(Extent{0, 0});
-  if (extent.high == extent.low) {  // a constant lies in the middle
+  if (extent.high == extent.low) {  // a constant is drawn in the middle
     const double margin = extent.low == 0 ? 1 : std::abs(extent.low) * 0.5;
     extent = {extent.low - margin, extent.high + margin};
   }

@@ -8,14 +8,14 @@
 namespace crane::cli {
 
 /// Factor of the deflection in micro-speed. The standard states no value. With 0.1, the largest speed of the
-/// trolley of the rig files decreases from 0.5 m/s to 0.05 m/s; judgement.
+/// trolley of the rig files decreases from 0.5 m/s to 0.05 m/s. The value is chosen, not derived.
 inline constexpr double kMicroSpeed = 0.1;
 
-/// Step of inching in m: a fifth of the band (10 mm) in which the planner regards a move as finished;
-/// judgement.
+/// Step of inching in m: a fifth of the band (10 mm) in which the planner regards a move as finished. The
+/// value is chosen, not derived.
 inline constexpr double kInchingStep_m = 0.002;
-/// Range of the step in m. A step below the resolution of the encoders causes no motion; a longer one
-/// is a task of `crane move`.
+/// Range of the step in m. A step below the resolution of the encoders causes no motion. Use `crane move` for
+/// longer steps.
 inline constexpr double kSmallestStep_m = 0.0005, kLargestStep_m = 0.05;
 
 /// One step of inching: axis and direction.

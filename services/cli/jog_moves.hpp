@@ -24,7 +24,7 @@ class JogMoves {
   /// the crane.
   /// @param what     prefix of all messages
   /// @param stopped  returns the reason for which the crane must stop now; empty: none
-  /// @return false when the supervisor refused the move; the reason is then printed
+  /// @return false when the supervisor refused the move; the function then prints the reason
   /// @throws std::runtime_error with reason and remedy: the wait ended early, the crane stopped, another move
   ///   replaced this one, or the planner did not execute it
   [[nodiscard]] bool execute(const char* what, const AxisTargets& targets, double timeout_s,

@@ -63,7 +63,8 @@ int run(const cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit then causes a write error with a message
+  // a write beyond the file-size limit then fails with an error message instead of a signal
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"Control of gantry and tower cranes as separate processes over DDS.", "crane"};
   app.set_version_flag("--version", "crane " CRANE_VERSION);
   app.footer(kFooter);

@@ -63,7 +63,8 @@ class Conversation {
   [[nodiscard]] bool heard_planner() const { return !planner_ || heard_reference_; }
 
   /// Several processes read crane/request: the plant, the supervisor, recorders, dashboards. A request that
-  /// may not be repeated is sent when the supervisor has answered a probe, and the planner is heard.
+  /// must not be repeated is sent only after the supervisor has answered a probe and a status of the planner
+  /// has arrived.
   bool found() {
     constexpr std::int64_t kProbeEvery_ns = 50'000'000;
     while (supervisor_.take()) heard_supervisor_ = true;

@@ -13,17 +13,17 @@
 
 namespace crane::cli {
 
-/// True for the topics that crane play may publish. A process executes what it receives on crane/request and
-/// crane/jog from any program; the samples of all other topics are accepted from the sources of their topic
-/// only, and the player is none of them.
+/// True for the topics that crane play may publish. A process executes requests and jog samples of any
+/// program. Processes accept samples of all other topics only from the sources of the topic, and the source
+/// of the player is none of these.
 [[nodiscard]] bool may_play(const topics::Description& topic);
 
-/// Other programs that write loop topics. One participant of each vendor looks for them, because programs of
-/// one vendor discover each other faster than programs of two vendors.
+/// Searches for other programs that write loop topics. One participant of each vendor searches, because
+/// programs of the same vendor discover each other faster than programs of different vendors.
 class OtherWriters {
  public:
   explicit OtherWriters(const bus::Options& options);
-  /// One writer of this topic is the player's.
+  /// Tells the search that one writer of this topic belongs to the player.
   void except(const topics::Description& topic) { own_.insert_or_assign(topic.name, 1); }
   /// @return a loop topic with a writer of another program; nothing when there is none
   [[nodiscard]] std::optional<std::string> find() const;
@@ -44,7 +44,8 @@ struct PlayCounts {
 
 class Player {
  public:
-  /// Looks for other writers, creates its writers, and waits until readers can have discovered them.
+  /// Searches for other writers, creates the writers of the player, and waits until readers can have
+  /// discovered these writers.
   /// @param options  of the writers; with a source that may write no topic
   /// @param topics   played topics. @throws bus::Error when another program writes a loop topic
   Player(const bus::Options& options, recording::McapReader& recording,
@@ -54,7 +55,7 @@ class Player {
   /// @param rate  seconds of the recording per second
   /// @return false when another writer has appeared or a stop signal has arrived
   [[nodiscard]] bool play(const recording::Selection& selection, std::int64_t begin_ns, double rate);
-  /// Waits until the readers have received the last samples: those of an ended writer are lost.
+  /// Waits until the readers have received the last samples, because samples of an ended writer are lost.
   void finish() const;
 
   /// A loop topic with another writer; nothing after a complete play() and after a signal.

@@ -56,7 +56,7 @@ void filter_swing_in_place_of_delay(PlannedRun& plan, double ratio) {
     plan.rig.design.*delay = std::max(0.0, plan.rig.design.*delay - late);
 }
 
-/// Gains of a controller that a user can choose; empty when the crane determines every gain.
+/// Gains of a controller that a rig file can set; empty when the crane determines every gain.
 std::vector<double Design::*> gains_of(std::string_view controller) {
   if (controller == "gain_scheduling_full") return {&Design::full_feedback_gain_pm};
   if (controller == "anti_swing_pd")

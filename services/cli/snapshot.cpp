@@ -91,8 +91,8 @@ void print_latch(std::ostream& out, const msg::State& state) {
 }
 
 Snapshot listen(bus::Bus& bus, double timeout_s) {
-  // Discovery is complete after this time without a new process. With keys a handshake precedes it, which is
-  // slow on a busy computer.
+  // Discovery is complete after this time without a new process. With keys, a handshake precedes the
+  // discovery. The handshake is slow on a busy computer.
   const std::int64_t quiet_ns = bus.options().credentials ? 1'500'000'000 : 300'000'000;
   auto nodes = bus.subscriber(topics::node);
   auto supervisors = bus.subscriber(topics::supervisor);

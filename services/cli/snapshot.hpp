@@ -30,7 +30,7 @@ void print(std::ostream& out, const Snapshot& snapshot);
 void print_supervisor(std::ostream& out, const msg::SupervisorStatus& status);
 /// Prints the latched reason of the bridge, if any.
 void print_latch(std::ostream& out, const msg::State& state);
-/// What the operator does about the cause; empty without a cause.
+/// Remedy for the cause; empty without a cause.
 [[nodiscard]] const char* remedy(const msg::SupervisorStatus& status);
 
 }  // namespace crane::cli

@@ -56,7 +56,7 @@ void StickKeys::take_letter(char letter) {
     case 'm':
       micro_ = !micro_;
       break;
-    case 'i':  // a key pressed before the change must not act after it
+    case 'i':  // a key that was pressed before the change of mode must not act after the change
       release();
       inching_ = !inching_;
       break;

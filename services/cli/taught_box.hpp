@@ -5,7 +5,7 @@
 
 namespace crane::cli {
 
-/// Box around the places of the hook, in coordinates of the ground.
+/// Box around the recorded positions of the hook, in coordinates of the ground.
 class TaughtBox {
  public:
   /// @param suspension_height_m, cable_m  of the rig file; cable_m: a cable that is not measured, 0: measured

@@ -20,7 +20,8 @@ struct TerminalSize {
 [[nodiscard]] std::size_t width_of(std::string_view text);
 /// The first `columns` characters.
 [[nodiscard]] std::string_view cut(std::string_view text, std::size_t columns);
-/// Lines of `text` that fit: each cut to the columns; the last line says how many lines are left out.
+/// The lines of `text` that fit the terminal. Each line is cut to the columns; the last line states the
+/// number of omitted lines.
 [[nodiscard]] std::string fitted(std::string_view text, const TerminalSize& size);
 
 /// The alternate screen of the terminal, without cursor and echo. The destructor restores the terminal.
@@ -31,9 +32,9 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Replaces the picture by the lines of `text` that fit.
+  /// Replaces the shown text by the lines of `text` that fit.
   void show(std::string_view text);
-  /// True after the key q, at any time before. Does not wait.
+  /// True when the key q has been pressed since the start. Does not wait.
   [[nodiscard]] bool quit_requested();
 
  private:

@@ -22,7 +22,7 @@ namespace crane::cli {
 
 /// End of an error message: " for crane 'crane' in domain 0 on 127.0.0.1 …: remedy".
 [[nodiscard]] std::string where_and_remedy(const bus::Options& options);
-/// The same, or the program of this crane whose messages have another version.
+/// As above; if a program of this crane has another message version, the text names this program instead.
 [[nodiscard]] std::string where_and_remedy(bus::Bus& bus);
 
 /// Calls `poll` after each arrival of a sample, and at least every 20 ms, until it returns true.

@@ -1,5 +1,5 @@
 #pragma once
-/// What `crane top` shows: traffic, state of the supervisor, faults, largest swing. Pure.
+/// Content of `crane top`: traffic, state of the supervisor, faults, largest swing. Pure.
 #include <deque>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -18,7 +18,7 @@ using observation::Spread, observation::Traffic;
 
 constexpr std::size_t kUnlimited = 100'000;
 
-/// A table whose columns have an importance: 0 is left out first.
+/// A table whose columns have an importance. Columns with the importance 0 are omitted first.
 class RankedTable {
  public:
   struct Column {

@@ -10,11 +10,11 @@ namespace crane::cli {
 
 struct TopView {
   std::string title;                 ///< first line: crane and domain
-  std::optional<TerminalSize> size;  ///< nothing: as wide and long as necessary
+  std::optional<TerminalSize> size;  ///< nothing: width and height are unlimited
   bool trends = false;               ///< shows the last windows as a curve of blocks
 };
-/// State, largest swing, last fault, processes, topics. Columns that do not fit are left out, the least
-/// important first; topics without samples are left out when the rows do not suffice.
+/// State, largest swing, last fault, processes, topics. If the columns do not fit, the least important
+/// columns are omitted first. If the rows do not fit, topics without samples are omitted.
 [[nodiscard]] std::string top_text(const TopModel& model, const TopView& view, std::int64_t now_ns,
                                    std::int64_t log_now_ns);
 

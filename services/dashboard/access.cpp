@@ -32,7 +32,8 @@ bool same_origin(const Visitor& visitor) {
          visitor.origin == "https://" + std::string{visitor.host};
 }
 
-/// What a browser says that no page of another origin can say.
+/// True when the headers prove that the request comes from a page of this server: no page of another origin
+/// can send these headers.
 bool is_own_page(const Visitor& visitor) {
   return visitor.fetched.empty() || visitor.fetched == "same-origin" || visitor.fetched == "none";
 }
@@ -79,7 +80,7 @@ bool guesses(const AccessRules& rules, const Visitor& visitor) {
 
 bool equal_in_constant_time(std::string_view a, std::string_view b) {
   std::array<std::array<unsigned char, SHA256_DIGEST_LENGTH>, 2>
-      digest{};  // equal length, whatever the texts
+      digest{};  // digests have the same length for all texts
   SHA256(reinterpret_cast<const unsigned char*>(a.data()), a.size(), digest[0].data());
   SHA256(reinterpret_cast<const unsigned char*>(b.data()), b.size(), digest[1].data());
   return CRYPTO_memcmp(digest[0].data(), digest[1].data(), SHA256_DIGEST_LENGTH) == 0;

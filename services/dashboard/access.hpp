@@ -32,9 +32,9 @@ struct AccessRules {
 [[nodiscard]] bool host_allowed(const AccessRules& rules, const Visitor& visitor);
 /// A page of another origin may not look, unless `other_origins` names its origin. It may link to the page.
 [[nodiscard]] bool may_look(const AccessRules& rules, const Visitor& visitor);
-/// Reason why this visitor may not operate; empty: permitted.
+/// @return the reason why this visitor may not operate; empty: permitted
 [[nodiscard]] std::string why_not_operate(const AccessRules& rules, const Visitor& visitor);
-/// The same for a stop, which this computer may request without the token.
+/// The same for a stop. This computer may request a stop without the token.
 [[nodiscard]] std::string why_not_stop(const AccessRules& rules, const Visitor& visitor);
 /// True when the visitor sends a wrong token.
 [[nodiscard]] bool guesses(const AccessRules& rules, const Visitor& visitor);

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// "topic=crane/state&from=1" as pairs; later ones win.
+/// Parses "topic=crane/state&from=1" to pairs. Of equal keys, the last one counts.
 std::map<std::string, std::string, std::less<>> parameters_of(std::string_view query) {
   std::map<std::string, std::string, std::less<>> parameters;
   while (!query.empty()) {
@@ -66,7 +66,7 @@ void Api::handle(const ApiRequest& request, Answer answer) {
     if (!may_look(rules_, request.visitor))
       answer(problem_answer(403, "this dashboard answers its own pages only: open it by its address"));
     else if (request.method == "POST")
-      post(request, answer);  // a copy: what is thrown from there is answered below
+      post(request, answer);  // a copy of `answer`: an exception of post() is answered below
     else if (request.method == "GET" || request.method == "HEAD")
       answer(get(request));
     else
@@ -130,7 +130,7 @@ ApiAnswer Api::history(std::string_view query) const {
 }
 
 void Api::post(const ApiRequest& request, Answer answer) {
-  // A form of a foreign page can send text/plain; it cannot send these types without asking first.
+  // A form of a foreign page can send text/plain, but cannot send these types without a preflight request.
   const std::string wanted =
       request.target.starts_with(kUploadPath) ? "application/octet-stream" : "application/json";
   if (!request.content_type.starts_with(wanted))

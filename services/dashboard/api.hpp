@@ -21,7 +21,7 @@ class Api {
       std::function<void(const stack::OperatorRequest&, Answered)> send, std::function<ServerCounts()> counts,
       const RunsOptions& runs);
 
-  /// Calls `answer` once: at once, or when the supervisor has answered.
+  /// Calls `answer` exactly once: at once, or when the supervisor has answered.
   void handle(const ApiRequest& request, Answer answer);
   /// Starts waiting jobs and collects finished ones.
   void poll() { runs_.poll(); }

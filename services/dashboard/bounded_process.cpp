@@ -42,7 +42,7 @@ void limit(decltype(RLIMIT_AS) what, std::uint64_t value) {
   ::dup2(errors, STDERR_FILENO);
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
-  ::close_range(STDERR_FILENO + 1, ~0U, 0);  // the sockets of the dashboard are not the child's
+  ::close_range(STDERR_FILENO + 1, ~0U, 0);  // the child must not inherit the sockets of the dashboard
   ::execv(program, arguments);
   ::_exit(127);
 }
@@ -87,7 +87,7 @@ BoundedProcess::~BoundedProcess() {
 }
 
 void BoundedProcess::kill() {
-  ::kill(-pid_, SIGKILL);  // its process group; it may not have one yet
+  ::kill(-pid_, SIGKILL);  // kills the process group of the child, which may not exist yet
   ::kill(pid_, SIGKILL);
 }
 

@@ -8,11 +8,14 @@
 namespace crane::dashboard {
 
 inline constexpr std::size_t kMostConnections = 64;
-/// Connections from other computers: a flood from there leaves room for the operator at the rig.
+/// Largest number of connections from other computers. A flood from other computers therefore leaves
+/// connections for the operator at the rig.
 inline constexpr std::size_t kMostForeignConnections = 48;
-/// Connections from one address: one computer cannot shut out the others. A browser opens seven.
+/// Largest number of connections from one address, so that one computer cannot block the others. A browser
+/// opens seven.
 inline constexpr std::size_t kMostOfOneAddress = 16;
-/// Bytes of answers that clients have not read yet: four times the longest history of a topic.
+/// Largest number of bytes of answers that clients have not read yet: four times the longest history of a
+/// topic.
 inline constexpr std::size_t kMostAnswers_bytes = 32U << 20U;
 
 class ConnectionLimits {
@@ -22,7 +25,7 @@ class ConnectionLimits {
   void release(const std::string& address, bool foreign);
   [[nodiscard]] std::size_t open() const { return open_; }
 
-  /// @return false when too many bytes wait; the new ones are then not counted
+  /// @return false when too many bytes wait; the new bytes are then not counted
   [[nodiscard]] bool reserve(std::size_t bytes);
   void free(std::size_t bytes) { answers_bytes_ -= bytes; }
 

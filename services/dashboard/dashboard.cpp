@@ -20,7 +20,8 @@
 namespace crane::dashboard {
 namespace {
 
-/// However many clients keep it busy, a loop without real-time priority has the processor before it.
+/// With this niceness, a control loop without real-time priority precedes a dashboard that many clients keep
+/// busy.
 constexpr int kNiceness = 10;
 
 void check_address(const std::string& listen) {
@@ -48,7 +49,7 @@ std::unique_ptr<Server> open_server(const Options& options, About about, AccessR
 
 Options default_options() {
   Options options;
-  options.bus.vendor = "fastdds";  // as all tools: ordinary use exercises both vendors together
+  options.bus.vendor = "fastdds";  // as for all tools, so that ordinary use tests both vendors together
   return options;
 }
 

@@ -102,7 +102,7 @@ std::string status_message(const std::string& what) {
 
 ClientMessage parse_client_message(std::string_view text) {
   if (text.size() > kLongestMessage_bytes) throw ProtocolError("the message is longer than 65536 bytes");
-  // Deeply nested lists would fill the stack of a recursive reader: nothing here nests deeper than four
+  // Deeply nested lists would overflow the stack of a recursive reader. Valid messages have at most four
   // levels.
   constexpr int kDeepest = 6;
   const auto message = json::parse(

@@ -14,8 +14,9 @@
 
 namespace crane::dashboard {
 
-/// Sub-protocols of the WebSocket. That of the page has many messages in one frame, because a separate frame
-/// for each of a thousand samples per second costs browser and dashboard more than the samples.
+/// Sub-protocols of the WebSocket. The sub-protocol of the page puts many messages into one frame: a separate
+/// frame for each of a thousand samples per second would cost browser and dashboard more time than the
+/// samples.
 inline constexpr std::string_view kViewerProtocol = "foxglove.websocket.v1";
 inline constexpr std::string_view kPageProtocol = "crane.batch.v1";
 
@@ -49,7 +50,7 @@ struct GetParameters {
   std::vector<std::string> names;  ///< empty: all
   std::string id;
 };
-struct Ignored {};  ///< permitted, without effect here: subscribeParameterUpdates and the like
+struct Ignored {};  ///< a permitted message without effect, for example subscribeParameterUpdates
 using ClientMessage = std::variant<Subscribe, Unsubscribe, GetParameters, Ignored>;
 
 /// what() is sent to the client.

@@ -22,13 +22,14 @@ std::string_view bearer_of(std::string_view authorization) {
   return authorization.starts_with(kBearer) ? authorization.substr(kBearer.size()) : std::string_view{};
 }
 
-/// The page loads from this server only, cannot be put into a frame of another page, and its scripts are
-/// files.
+/// The page loads data only from this server, cannot be embedded in another page, and contains no inline
+/// scripts.
 constexpr const char* kContentRules =
     "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// A report has its scripts inside. It gets an origin of its own: it cannot read or ask for anything here.
+/// A report contains inline scripts. Its origin differs from that of the dashboard, so that the report cannot
+/// read from or send to the dashboard.
 constexpr const char* kReportRules =
     "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src "
     "'unsafe-inline'; img-src data: blob:; font-src data:; base-uri 'none'; form-action 'none'; "
@@ -78,7 +79,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   void was_read(error_code error) {
     if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
-    // Before every other answer: an immediate refusal of its body would tell that the token is wrong.
+    // A wrong token is answered before any other error: an immediate refusal of the body would reveal that
+    // the token is wrong.
     if (parser_->is_header_done() && guesses(server_.rules(), visitor())) return answer_guess();
     if (error == http::error::header_limit) return refuse(431, "the header is longer than 8192 bytes");
     if (error == http::error::body_limit)
@@ -118,7 +120,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
                          .body = request.body(),
                          .seat_key = text_of(request["X-Crane-Seat"]),
                          .visitor = visitor()};
-    stream_.expires_never();  // the supervisor answers within 2 s, and RequestSender if it does not
+    stream_.expires_never();  // the supervisor answers within 2 s; otherwise RequestSender answers
     server_.api().handle(api, [self = shared_from_this(), head = request.method() == http::verb::head,
                                keep = request.keep_alive()](ApiAnswer answer) {
       if (answer.status == 403) self->server_.refuse();
@@ -126,7 +128,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     });
   }
 
-  /// A guess costs time, whatever its request, and tells nothing before that.
+  /// Answers a wrong token after kGuessDelay, for every request, so that the attacker learns nothing before.
   void answer_guess() {
     stream_.expires_never();
     server_.refuse();
@@ -159,7 +161,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     response_->set("Content-Security-Policy", answer_.report ? kReportRules : kContentRules);
     if (!head_only) response_->body() = {bytes.data(), bytes.size()};
     response_->content_length(bytes.size());
-    stream_.expires_after(kRequestPatience * 3);  // a slow client may load the page for so long
+    stream_.expires_after(kRequestPatience * 3);  // longest time in which a slow client may load the page
     http::async_write(stream_, *response_, [self = shared_from_this(), keep](error_code error, std::size_t) {
       if (error || !keep) return self->close();
       self->read();
@@ -171,7 +173,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
   }
 
-  /// While it exists, no other upload begins.
+  /// While this object exists, no other upload can begin.
   struct Upload {
     explicit Upload(Server& of) : server{of} {}
     ~Upload() { server.end_upload(); }

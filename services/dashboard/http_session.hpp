@@ -7,7 +7,7 @@
 
 namespace crane::dashboard {
 
-/// Keeps itself alive until the connection ends.
+/// The session keeps itself alive until the connection ends.
 void start_http_session(boost::asio::ip::tcp::socket socket, Server& server,
                         std::unique_ptr<Admission> admission);
 

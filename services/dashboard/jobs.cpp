@@ -22,7 +22,7 @@ const char* name_of(Jobs::State state) {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-/// The last lines of what a program has said.
+/// The last lines of a program's output.
 std::string tail_of(const fs::path& file) {
   constexpr std::streamoff kTail_bytes = 2000;
   std::ifstream in{file, std::ios::binary | std::ios::ate};
@@ -36,7 +36,7 @@ struct Progress {
   double share = 0;
   std::string doing;
 };
-/// Of the last complete line "progress 0.25 TEXT" (crane diagnose --progress).
+/// Progress in the last complete line "progress 0.25 TEXT" (crane diagnose --progress).
 Progress progress_in(const std::string& said) {
   constexpr std::string_view kBegin = "progress ";
   const auto end = said.rfind('\n');
@@ -112,7 +112,7 @@ Jobs::Answer Jobs::add(Job job) {
     const auto oldest = std::ranges::find_if(jobs_, [](const Job& kept) { return kept.ended_ns != 0; });
     std::error_code ignored;
     fs::remove_all(directory_of(oldest->id), ignored);
-    jobs_.erase(oldest);  // kMostWaiting and the running one are fewer than kMostKept
+    jobs_.erase(oldest);  // always found: kMostWaiting + 1 running job < kMostKept
   }
   job.id = next_id_++;
   jobs_.push_back(std::move(job));
@@ -172,7 +172,7 @@ void Jobs::finish(Job& job, const BoundedProcess::End& end) {
   job.problem = end.how + (said.empty() ? "" : ": " + said);
 }
 
-/// What it has said, without progress.
+/// The output of the program without lines of progress.
 std::string Jobs::errors_of(std::uint64_t id) const {
   std::string errors;
   const auto said = tail_of(directory_of(id) / "errors.txt");

@@ -1,5 +1,6 @@
 #pragma once
-/// Reviews and diagnoses requested by the page. Each is a bounded child process; one runs, the others wait.
+/// Reviews and diagnoses that the page has requested. Each job is a bounded child process; one job runs, the
+/// others wait.
 #include <deque>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>

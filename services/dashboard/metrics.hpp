@@ -6,10 +6,10 @@
 
 namespace crane::dashboard {
 
-/// The server's counts about itself.
+/// Counts of the server.
 struct ServerCounts {
   std::size_t viewers = 0, connections = 0;
-  std::uint64_t dropped_messages = 0;  ///< samples that slow clients did not get
+  std::uint64_t dropped_messages = 0;  ///< samples that were not sent to slow clients
   std::uint64_t slow_clients = 0;
   std::uint64_t lost_samples = 0;  ///< samples dropped because this process was too busy
   std::uint64_t refused_requests = 0;

@@ -26,9 +26,9 @@ class Model {
   explicit Model(About about) : about_{std::move(about)} {}
 
   void add(const observation::SamplePtr& sample);
-  /// Programs of this crane whose samples are dropped.
+  /// Stores the programs of this crane whose messages have another version; their samples are dropped.
   void set_other_versions(std::vector<bus::OtherVersion> others) { other_versions_ = std::move(others); }
-  /// Updates the documents. @return those that have changed
+  /// Updates the documents. @return the documents that have changed
   [[nodiscard]] std::vector<Document> poll(std::int64_t now_ns, std::int64_t log_now_ns);
   /// JSON text of a document.
   [[nodiscard]] const std::string& text(Document document) const {

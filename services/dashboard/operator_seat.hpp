@@ -1,6 +1,6 @@
 #pragma once
-/// One operator at a time: the client that takes the seat gets a key; the others watch. Pure; time is an
-/// argument.
+/// The permission to operate, for one client at a time: the client that takes the seat gets a key; all other
+/// clients may only watch. Pure; time is an argument.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,8 +10,8 @@ namespace crane::dashboard {
 
 class OperatorSeat {
  public:
-  /// A holder that is silent for this time loses the seat. Its browser renews every 3 s: two messages may be
-  /// lost.
+  /// A holder that is silent for this time loses the seat. The browser of the holder renews the seat every 3
+  /// s, so that two messages may be lost.
   static constexpr std::int64_t kHeldFor_ns = 10'000'000'000;
   static constexpr std::size_t kLongestName = 32;
 

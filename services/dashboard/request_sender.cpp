@@ -13,7 +13,7 @@ namespace crane::dashboard {
 namespace {
 
 constexpr std::int64_t kPatience_ns =
-    2'000'000'000;                                ///< longest wait for an answer, as of the `crane` commands
+    2'000'000'000;                                ///< longest wait for an answer, as in the `crane` commands
 constexpr std::int64_t kRepeat_ns = 100'000'000;  ///< a stop is repeated until it is answered
 
 }  // namespace
@@ -44,7 +44,7 @@ RequestSender::Pending* RequestSender::same_stop(crane_RequestKind kind) {
 void RequestSender::poll(std::int64_t now_ns) {
   client_.receive();
   for (auto& pending : pending_) advance(pending, now_ns);
-  // An answered stop stays for as long as answers to its repetitions may come.
+  // An answered stop remains in the list while answers to its repetitions may arrive.
   std::erase_if(pending_, [&](const Pending& pending) {
     return (pending.done && pending.ids.empty()) || now_ns - pending.sent_ns > kPatience_ns;
   });
@@ -65,7 +65,7 @@ void RequestSender::advance(Pending& pending, std::int64_t now_ns) {
   if (due && (!pending.ids.empty() || client_.listeners() > 0)) publish(pending, now_ns);
 }
 
-/// What the middleware refuses is tried again with the next poll, until the time for an answer is over.
+/// If the middleware refuses the request, the next poll tries again, until kPatience_ns is over.
 void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
   try {
     pending.ids.push_back(client_.send(pending.wanted));

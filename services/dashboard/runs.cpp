@@ -16,7 +16,7 @@ std::int64_t seconds_of(fs::file_time_type time) {
   return duration_cast<seconds>(file_clock::to_sys(time).time_since_epoch()).count();
 }
 
-/// Files that end like a run, below `directory`; `prefix` stands before their names.
+/// Files below `directory` whose extension is that of a run; `prefix` precedes their names.
 void add_runs(std::vector<Run>& runs, const fs::path& directory, std::string_view prefix) {
   if (directory.empty()) return;
   std::error_code error;
@@ -32,7 +32,7 @@ void add_runs(std::vector<Run>& runs, const fs::path& directory, std::string_vie
     if (entries->is_symlink(ignored) || !entries->is_regular_file(ignored)) continue;
     const auto bytes = entries->file_size(ignored);
     const auto changed = entries->last_write_time(ignored);
-    if (ignored) continue;  // it has just been deleted
+    if (ignored) continue;  // the file has just been deleted
     runs.push_back(
         {.name = std::string{prefix} + entries->path().lexically_relative(directory).generic_string(),
          .file = entries->path(),
@@ -70,7 +70,8 @@ std::string Runs::keep(std::string_view name, std::string_view bytes) const {
   if (bytes.empty()) return "the file is empty";
   std::vector<Run> uploads;
   add_runs(uploads, uploads_, "");
-  std::erase_if(uploads, [&](const Run& run) { return run.name == name; });  // it is replaced
+  std::erase_if(uploads,
+                [&](const Run& run) { return run.name == name; });  // the new upload replaces this entry
   std::uintmax_t sum = bytes.size();
   for (const auto& run : uploads) sum += run.bytes;
   if (sum > kMostUploads_bytes || uploads.size() >= kMostUploads)

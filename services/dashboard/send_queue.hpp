@@ -30,7 +30,8 @@ class SendQueue {
  public:
   /// Waiting bytes above which samples are dropped: about 3 s of all topics at 100 Hz.
   static constexpr std::size_t kDropAbove_bytes = 1U << 20U;
-  /// Waiting bytes at which the client is disconnected: it reconnects and gets every document again.
+  /// Waiting bytes at which the client is disconnected. The client then reconnects and receives every
+  /// document again.
   static constexpr std::size_t kGiveUpAbove_bytes = 4U << 20U;
 
   /// @return false when the client must be disconnected

@@ -40,7 +40,7 @@ void Server::run() {
   while (!context_.stopped()) {
     try {
       context_.run();
-    } catch (const std::exception& error) {  // costs the connection whose handler threw, not the dashboard
+    } catch (const std::exception& error) {  // ends only the connection whose handler threw
       if (++failures_ <= kMostReportedFailures)
         std::cerr << "crane dashboard: a connection failed: " << error.what() << '\n';
     }
@@ -70,10 +70,11 @@ void Server::take_samples() {
 void Server::accept() {
   acceptor_.async_accept([this](error_code error, tcp::socket socket) {
     if (!error) {
-      accept();  // before anything that may throw: the next one is welcome whatever becomes of this one
+      accept();  // called first, because the code below may throw: the next connection must be accepted in
+                 // any case
       return welcome(std::move(socket));
     }
-    // No descriptor is free, for example: try again later, do not spin.
+    // An error, for example when no descriptor is free: the wait before the next attempt avoids a busy loop.
     retry_.expires_after(std::chrono::milliseconds{200});
     retry_.async_wait([this](error_code) { accept(); });
   });
@@ -88,7 +89,7 @@ void Server::welcome(tcp::socket socket) {
 }
 
 void Server::beat() {
-  timer_.expires_after(kFramePeriod);  // before anything that may throw
+  timer_.expires_after(kFramePeriod);  // started first, because the code below may throw
   timer_.async_wait([this](error_code error) {
     if (!error) beat();
   });

@@ -79,8 +79,8 @@ class Server {
   ServerCounts counts_;
   bool uploads_ = false;
   std::string session_id_ = random_token();
-  static constexpr std::uint64_t kMostReportedFailures =
-      20;  ///< an attacker must not fill a disk with messages
+  /// largest number of reported failures, so that an attacker cannot fill a disk
+  static constexpr std::uint64_t kMostReportedFailures = 20;
   std::uint64_t failures_ = 0;
 };
 

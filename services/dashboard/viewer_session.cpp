@@ -13,9 +13,9 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using beast::error_code;
 
-/// Messages of a client per second; a page sends a handful when a view opens.
+/// Largest number of messages of a client per second. A page sends about five messages when a view opens.
 constexpr int kMostMessages_ps = 100;
-/// Of the kernel, for one client: what is sent too late helps nobody.
+/// Send buffer of the kernel for one client. A larger buffer would only delay the samples of a slow client.
 constexpr int kSendBuffer_bytes = 256 << 10;
 
 bool offers(std::string_view list, std::string_view protocol) {
@@ -34,7 +34,7 @@ Bytes bytes_of(std::string_view text) {
   return std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end());
 }
 
-/// Events, replies and the health of processes are rare and tell what happened.
+/// Events, replies and statuses of processes are rare and important: they are never dropped.
 Keep keep_of(const topics::Description& topic) { return topic.every_tick ? Keep::may_drop : Keep::always; }
 
 }  // namespace
@@ -135,7 +135,7 @@ void ViewerSession::obey(const ClientMessage& message) {
 void ViewerSession::subscribe(const Subscribe& wanted) {
   for (const auto& [id, channel] : wanted.entries) {
     subscriptions_[channel] = id;
-    // What was published before: the newest document, and the kept samples of a topic that is written rarely.
+    // Sends earlier data: the newest document, or the stored samples of a topic that is rarely written.
     if (channel > topics::kAll.size()) {
       const auto document = static_cast<Document>(channel - topics::kAll.size() - 1);
       if (const auto& text = server_.model().text(document); !text.empty())
@@ -212,7 +212,7 @@ void ViewerSession::write() {
   socket_.async_write(parts, written);
 }
 
-/// Ends the connection without a closing handshake: a client that does not read would not take part in it.
+/// Ends the connection without a closing handshake, because a client that does not read would not answer it.
 void ViewerSession::end() {
   if (!std::exchange(open_, false)) return;
   beast::get_lowest_layer(socket_).cancel();

@@ -25,7 +25,8 @@ std::vector<std::string> arguments_of(const fs::path& process) {
   return arguments;
 }
 
-/// The letter after the name, which stands in brackets and may have any letters.
+/// State of the process: the letter after the name. The name is in parentheses and may contain any
+/// characters.
 char state_of(const fs::path& process) {
   std::ifstream file{process / "stat"};
   std::string text;

@@ -16,10 +16,12 @@
 namespace crane::doctor {
 namespace {
 
-/// What Cyclone DDS asks the kernel for (Internal/SocketReceiveBufferSize, default 1 MiB).
+/// Receive buffer that Cyclone DDS requests from the kernel (Internal/SocketReceiveBufferSize, default 1
+/// MiB).
 constexpr std::int64_t kWantedBuffer_bytes = 1 << 20;
 
-/// Runs `work` in a thread of its own, so that its scheduling ends with it. @return whether it had FIFO
+/// Runs `work` in a separate thread, so that its scheduling ends with the thread. @return true when the
+/// thread had SCHED_FIFO
 template <class Work>
 bool with_fifo(int priority, Work work) {
   bool granted = false;
@@ -31,7 +33,7 @@ bool with_fifo(int priority, Work work) {
   return granted;
 }
 
-/// Pairs of lines "Udp: names" and "Udp: numbers".
+/// Parses pairs of lines "Udp: names" and "Udp: numbers".
 std::int64_t udp_count(const std::filesystem::path& proc, const std::string& name) {
   std::ifstream file{proc / "net/snmp"};
   std::string names, numbers;
@@ -140,8 +142,8 @@ Findings judge_lateness(const Lateness& lateness, double period_s) {
                   ? "look for programs with a higher priority (`ps -eLo rtprio,comm --sort -rtprio`), for a "
                     "virtual machine and for power saving of the processor"
                   : "permit SCHED_FIFO, and take load from this computer")}};
-  constexpr double kMargin =
-      0.2;  // of what the loop tolerates: one process of the loop is not the whole loop
+  constexpr double kMargin = 0.2;  // share of the lateness that the loop tolerates, because several processes
+                                   // of the loop can be late in one tick
   if (lateness.max_us > kMargin * tolerable_us)
     return {{Grade::advice, "rt", "timer_hardly_late", what,
              "take load from this computer while the crane runs"}};

@@ -17,7 +17,8 @@ struct Permissions {
 
 struct Buffers {
   std::int64_t largest_bytes = 0;  ///< net.core.rmem_max
-  std::int64_t lost = 0;  ///< datagrams lost because of a full buffer since the start of the computer
+  /// number of datagrams lost because of a full buffer since the start of the computer
+  std::int64_t lost = 0;
   std::int64_t received = 0;
 };
 /// @param proc  "/proc"

@@ -31,7 +31,8 @@ RunOutcome run_in_processes(const ExperimentOptions& options, const fs::path& ri
                                       .controller = std::string{controller.name},
                                       .clock = "lockstep",
                                       .epoch = 1};
-  launch_options.bus.crane += "_run_" + std::to_string(::getpid());  // differs from the name of a real crane
+  launch_options.bus.crane +=
+      "_run_" + std::to_string(::getpid());  // the name differs from that of a real crane
   stack::ChildProcesses children;
   if (options.plant == stack::Plant::hardware) stack::launch_rig(children, rig, launch_options);
   stack::launch(children, specs, launch_options);
@@ -98,7 +99,7 @@ RunOutcome run_in_process(std::span<const runtime::ComponentSpec> components, co
   if (twin != nullptr) all.push_back(twin::twin_spec());
   if (twin != nullptr) stack.add(all.back(), *twin, controller);
   bus::Bus bus{runtime::memory_options(stack.network(), "crane_run", crane_SOURCE_OPERATOR)};
-  // When an answer never arrives, the timeout of the run ends the wait.
+  // If an answer does not arrive, the timeout of the run ends the wait.
   return run_scenario(
       bus, [&stack] { stack.pump(); }, rig, scenario, log, all);
 }

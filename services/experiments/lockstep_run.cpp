@@ -15,7 +15,8 @@ using experiment::Scenario;
 using Collected = runtime::TickJoin<msg::State, msg::Reference, msg::Contribution, msg::Contribution,
                                     msg::Demand, msg::Command, msg::SupervisorStatus>;
 
-constexpr std::uint64_t kChunk_ticks = 50;  // less than half the history of the loop topics (128)
+// number of ticks per advance request: less than half the history of the loop topics (128)
+constexpr std::uint64_t kChunk_ticks = 50;
 constexpr runtime::JoinPolicy kEveryTick{.in_order = true, .depth = 256};
 constexpr std::int64_t kPatience_ns = 10'000'000'000;
 constexpr double kLongestPreparation_s = 20;
@@ -185,7 +186,8 @@ class LockstepRun {
     advance_by(ticks(kCausesClear_s));
     wait_for_state({crane_STATE_READY});
     request({.kind = crane_REQUEST_ARM}, {crane_SOURCE_SUPERVISOR});
-    // With wind or a tilted jib the anti-swing law acts at once; the state can then be RUN without a move.
+    // With wind or a tilted jib, the anti-swing law moves the axes at once. The state can then be RUN without
+    // a move.
     wait_for_state({crane_STATE_HOLD, crane_STATE_RUN});
     check_verdicts();
   }

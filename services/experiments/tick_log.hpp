@@ -36,8 +36,8 @@ class TickLog {
   /// Stores the origin of the run (metadata record "crane") and its rig file (attachment "rig.toml"), from
   /// which `crane replay` builds the stack again. @throws recording::WriteError
   void describe(const recording::Metadata& run, std::string_view rig_text);
-  /// Keeps a sample of an operator that the stack receives before its next tick. add() of this tick stores
-  /// it before the samples of the tick, with the time of the tick.
+  /// Takes a sample of an operator that the stack receives before its next tick. add() of this tick writes
+  /// the sample before the samples of the tick, with the time of the tick.
   template <class T>
   void receive(const topics::Topic<T>& topic, const T& sample) {
     if (writer_) inputs_.push_back({&topic.description, encoded(topic.description, &sample)});

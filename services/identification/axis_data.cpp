@@ -18,12 +18,13 @@ const std::vector<double>& column(const recording::Table& table, const char* nam
   return *found;
 }
 
-/// 0 when the rig does not measure the column.
+/// Value of the column; 0 when the rig does not measure it.
 double value_of(const std::vector<double>* values, std::size_t row) {
   return values == nullptr || !std::isfinite((*values)[row]) ? 0 : (*values)[row];
 }
 
-/// The next tick, also when it was latched late; without a column tick the row one period later.
+/// True for the row of the next tick, even if this tick was latched late; without a column tick, for a row
+/// one period later.
 bool follows(const recording::Table& table, std::size_t last, std::size_t row, double period_s) {
   if (const auto* tick = table.find("tick")) return (*tick)[row] == (*tick)[last] + 1;
   constexpr double kUneven = 0.1;  // largest deviation from one period / period

@@ -40,7 +40,7 @@ void Acquisition::drop_old(std::int64_t now_ns) {
   while (ring_.front().time_ns < oldest_ns || ring_.size() > kMostRows) ring_.pop_front();
 }
 
-/// The rows stay in the ring: the next capture may begin before the end of this one.
+/// The rows remain in the ring, because the next capture may begin before the end of this capture.
 Capture Acquisition::take(bool complete) {
   Capture capture{.rows = {ring_.begin(), ring_.end()}, .trigger = std::nullopt, .complete = complete};
   if (trigger_tick_) {

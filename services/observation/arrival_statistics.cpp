@@ -63,7 +63,8 @@ void ArrivalStatistics::count(const Arrival& arrival) {
 }
 
 void ArrivalStatistics::skip(std::uint64_t from, std::uint64_t to) {
-  constexpr std::uint64_t kRemembered = 10'000;  // a tick that is further behind counts as lost
+  // a sample of an older tick is not recognised as late; its tick counts as lost
+  constexpr std::uint64_t kRemembered = 10'000;
   const auto remembered_from = to - from > kRemembered ? to - kRemembered : from;
   counts_.lost += remembered_from - from;
   for (auto tick = remembered_from; tick < to; ++tick) missing_.insert(missing_.end(), tick);

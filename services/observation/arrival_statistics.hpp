@@ -59,9 +59,9 @@ class ArrivalStatistics {
   std::optional<Arrival> newest_;
   std::set<std::uint64_t> missing_;
   std::optional<Arrival> window_first_, window_last_;
-  /// A reliable reader holds the first samples back until a heartbeat of the writer tells it that none before
-  /// them is missing, and gives them together. Jitter counts from the first interval on that is at least half
-  /// as long as at the source, and from kLongestJoin_ns on in any case.
+  /// A reliable reader delays the first samples until a heartbeat of the writer confirms that no earlier
+  /// sample is missing, and then delivers them together. Therefore jitter is computed from the first interval
+  /// on that is at least half as long as at the source, at the latest from kLongestJoin_ns on.
   bool joined_ = false;
   std::int64_t first_source_time_ns_ = 0;
   static constexpr std::int64_t kLongestJoin_ns = 200'000'000;  ///< ten heartbeats (libs/bus, 20 ms)

@@ -33,7 +33,7 @@ const char* name_of(Note::Kind kind) {
 }
 
 ordered_json json_of(const Note& note) {
-  return {{"at_ns", std::to_string(note.at_ns)},  // more digits than a number of JavaScript has
+  return {{"at_ns", std::to_string(note.at_ns)},  // as text, because a number of JavaScript has fewer digits
           {"tick", note.tick},
           {"kind", name_of(note.kind)},
           {"from", note.from},
@@ -78,8 +78,7 @@ void FaultTimeline::add_state(const Sample& sample, const msg::State& state) {
   latch_ = state.latch_reason;
   if (latch_ == crane_LATCH_NONE) return;
   const auto reason = static_cast<bridge::Reason>(latch_);
-  // The supervisor withdraws the watchdog permission after every stop; silence of the commands is then no
-  // fault.
+  // The supervisor withdraws the watchdog permission after every stop. Missing commands are then not a fault.
   put({sample.log_time_ns, sample.header.tick, Note::Kind::fault, source_name(sample.header.source),
        "LATCH_" + std::string{bridge::name_of(reason)}, std::string{bridge::explanation_of(reason)},
        std::string{bridge::remedy_for(reason)},
@@ -89,12 +88,12 @@ void FaultTimeline::add_state(const Sample& sample, const msg::State& state) {
 void FaultTimeline::add_event(const Sample& sample, const msg::Event& event) {
   if (event.severity == crane_SEVERITY_INFO) return;
   const auto kind = event.severity == crane_SEVERITY_ERROR ? Note::Kind::fault : Note::Kind::warning;
-  // An event may be older than the dashboard: its writer keeps the last 64 for late joiners. That of a live
-  // one counts by its arrival, as the samples of all other topics: the clock of another host may differ a
-  // little.
+  // An event may be older than the dashboard, because its writer stores the last 64 events for readers that
+  // join later. The time of a new event is its time of arrival, as for the samples of all other topics,
+  // because the clock of another host may differ slightly.
   constexpr std::int64_t kLive_ns = 2'000'000'000;
-  // `crane up` looks every 50 ms whether its processes run: the end comes before the stop that follows from
-  // it.
+  // `crane up` checks every 50 ms whether its processes run. The correction places the end of a process
+  // before the stop that follows from it.
   constexpr std::int64_t kNoticed_ns = 60'000'000;
   const std::int64_t earlier_ns = std::string_view{event.code} == "process_ended" ? kNoticed_ns : 0;
   const bool live = std::abs(sample.log_time_ns - sample.source_time_ns) < kLive_ns;
@@ -136,7 +135,8 @@ bool FaultTimeline::merge(Fault& fault, const Note& note) {
   });
   if (found == fault.notes.end()) return false;
   const auto at_ns = std::min(found->at_ns, note.at_ns);
-  if (found->event) *found = note;  // the topic says what it is, the event when it was said first
+  if (found->event)
+    *found = note;  // the note of the topic has the content, the event may have the earlier time
   found->at_ns = at_ns;
   found->announced = true;
   std::ranges::stable_sort(fault.notes, {}, &Note::at_ns);

@@ -2,9 +2,10 @@
 /// Faults in the order of time: the first cause of each stop, and its consequences. Pure.
 ///
 /// Notes are: a new cause of the supervisor, a new latch of the bridge, a warning or an error on crane/event,
-/// and a process that has become silent. Notes less than kQuiet_ns apart belong to one fault. The earliest is
-/// its first cause. An event that announces a cause or a latch is the same note. A process that became silent
-/// before the stop precedes it, even when its silence is detected later.
+/// and a process that has become silent. Notes less than kQuiet_ns apart belong to one fault. The earliest
+/// note is the first cause of the fault. An event that announces a cause or a latch is merged with the note
+/// of this cause or latch. A process that became silent before a stop precedes the stop, even if the silence
+/// is detected later.
 #include <deque>
 #include <functional>
 #include <map>
@@ -35,7 +36,7 @@ struct Note {
 
 struct Fault {
   std::uint64_t number = 0;                  ///< 1, 2, ...
-  std::vector<Note> notes;                   ///< the first cause, then its consequences
+  std::vector<Note> notes;                   ///< first cause, then consequences
   std::uint64_t left_out = 0;                ///< number of discarded consequences
   std::int64_t last_ns = 0, cleared_ns = 0;  ///< cleared_ns: READY, HOLD or RUN again; 0: not yet
   /// Samples from 10 s before to 5 s after the first cause, by topic; empty until then, and for old faults.

@@ -5,7 +5,7 @@
 namespace crane::observation {
 namespace {
 
-/// What a sample costs beside its CDR bytes: the struct, its reference count, the place in the queue.
+/// Memory of a sample in addition to its CDR bytes: struct, reference count, entry of the queue.
 constexpr std::size_t kOverhead_bytes = sizeof(Sample) + 48;
 
 std::size_t cost_of(const Sample& sample) { return sample.cdr.size() + kOverhead_bytes; }

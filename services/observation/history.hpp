@@ -10,7 +10,7 @@ namespace crane::observation {
 class History {
  public:
   static constexpr std::int64_t kLongest_ns = 120'000'000'000;
-  /// Bytes per topic: 120 s at 100 Hz need 6 MB for crane/state, 40 MB for all topics.
+  /// Largest number of bytes per topic. 120 s at 100 Hz need 6 MB for crane/state and 40 MB for all topics.
   static constexpr std::size_t kLargestTopic_bytes = 8U << 20U;
 
   explicit History(std::int64_t longest_ns = kLongest_ns) : longest_ns_{longest_ns} {}

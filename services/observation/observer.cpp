@@ -10,8 +10,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// The samples of one tick arrive within a millisecond or two: taking them together costs a fifth of waking
-/// for each.
+/// The samples of one tick arrive within one or two milliseconds. Taking them together costs a fifth of the
+/// time of a wake-up for each sample.
 constexpr milliseconds kGather{4};
 
 }  // namespace

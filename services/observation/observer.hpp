@@ -1,5 +1,5 @@
 #pragma once
-/// Receives the samples of every topic, as the tools do, without effect on the control loop.
+/// Receives the samples of every topic, without effect on the control loop.
 #include <functional>
 #include <vector>
 

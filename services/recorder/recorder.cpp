@@ -44,7 +44,8 @@ Recorder::Recorder(bus::Bus& bus, const Options& options)
     const auto& wanted = options.topics;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), &topic) == wanted.end()) continue;
     bus::EndpointOptions endpoint;
-    endpoint.history = topic.qos == topics::Qos::log;  // receives earlier events; loop topics have no history
+    // the recorder receives earlier events; loop topics have no history
+    endpoint.history = topic.qos == topics::Qos::log;
     sources_.push_back(
         {bus.cdr_subscriber(topic, endpoint), channels[i], topic.name == topics::event.description.name});
   }

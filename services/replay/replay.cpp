@@ -56,7 +56,8 @@ class Comparison {
     return true;
   }
 
-  /// A changed measurement is no difference of the components: its checksum shows the change.
+  /// A changed measurement is not a difference of the components. The checksum of the sample shows the
+  /// change.
   bool is_intact(const msg::State& state) {
     if (bus::intact(topics::state.description, &state)) return true;
     auto sealed = state;
@@ -79,8 +80,8 @@ class Comparison {
     return false;
   }
 
-  /// A damaged recording ends before its first tick without all samples. In an intact one, the missing sample
-  /// is a difference.
+  /// A damaged recording ends before its first tick without all samples. In an intact recording, a missing
+  /// sample is a difference.
   bool misses(const topics::Description& topic) {
     if (run_.problems().empty()) return differs(topic, {"", "no sample", "a sample"});
     return false;

@@ -63,7 +63,8 @@ bool ReplayedStack::publish(std::unique_ptr<Outside<T>>& outside, const topics::
                             const Cdr& cdr) {
   auto sample = decoded(topic, cdr);
   if (!sample) return false;
-  // Another controller must not find that the recorded state has another configuration.
+  // The recorded state gets the configuration of the replayed components; otherwise the components would
+  // detect a difference when another controller runs.
   if constexpr (requires { sample->configuration; })
     if (!has_supervisor_) sample->configuration = configuration_;
   if (!outside) {

@@ -59,7 +59,7 @@ class ReplayedStack {
   std::map<std::string_view, Output> outputs_;
   std::unique_ptr<Outside<msg::State>> clock_master_;
   std::unique_ptr<Outside<msg::SupervisorStatus>> supervisor_;
-  bool has_supervisor_;  ///< a component of the stack
+  bool has_supervisor_;  ///< true: the supervisor is a component of the stack
   std::map<std::string, Operator> operators_;
 };
 

@@ -22,8 +22,8 @@ std::optional<msg::Demand> demand_of(const Cdr* cdr) {
   return demand;
 }
 
-/// The components that compute the demand. The supervisor is not among them: it would judge the motion by
-/// the commands of the other controller, which did not cause the motion.
+/// The components that compute the demand. The supervisor is not one of them, because it would compare the
+/// motion with the commands of the other controller, which did not cause this motion.
 std::vector<runtime::ComponentSpec> demanding_components() {
   auto components = loop_components();
   std::erase_if(components, [](const auto& component) {

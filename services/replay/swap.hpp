@@ -1,8 +1,8 @@
 #pragma once
-/// What another controller would have demanded: planner, tracking, anti-swing and friction compensation with
-/// another controller receive the recorded states and supervisor statuses. The recorded states follow from
-/// the recorded commands: the difference shows what the other controller demands at the same states, and is
-/// no simulation of a crane with the other controller.
+/// Computes the demand of another controller: planner, tracking, anti-swing and friction compensation run
+/// with the other controller and receive the recorded states and supervisor statuses. The recorded states
+/// follow from the recorded commands. The difference therefore shows the demand of the other controller at
+/// the same states; it does not simulate a crane with the other controller.
 #include <array>
 #include <cstdint>
 #include <filesystem>

@@ -102,7 +102,8 @@ class Reader {
       axis.largest_volts = std::max(axis.largest_volts, std::abs(state.applied_v[i]));
       if (armed && !std::isnan(wanted))
         axis.largest_error = std::max(axis.largest_error, std::abs(wanted - position[i]) * scale[i]);
-      constexpr double kAtLimit = 0.999;  // one count of a 12-bit converter below the limit
+      // share of the voltage limit: one count of a 12-bit converter below the limit
+      constexpr double kAtLimit = 0.999;
       if (status_.volt_limit_v[i] > 0 && std::abs(state.applied_v[i]) >= kAtLimit * status_.volt_limit_v[i])
         axis.saturated_s += period_s;
     }
@@ -115,7 +116,7 @@ class Reader {
 
   Review& review_;
   observation::Traffic traffic_;
-  observation::History history_;  ///< empty: the file itself is the history
+  observation::History history_;  ///< remains empty, because the file itself is the history
   observation::FaultTimeline timeline_;
   msg::Reference reference_{};
   msg::SupervisorStatus status_{};

@@ -67,7 +67,7 @@ void ChildProcesses::stop(std::chrono::milliseconds patience) noexcept {
   for (const auto& child : children_)
     if (child.running) {
       ::kill(child.pid, SIGTERM);
-      ::kill(child.pid, SIGCONT);  // a stopped process must continue to handle SIGTERM
+      ::kill(child.pid, SIGCONT);  // a stopped process handles SIGTERM only after SIGCONT
     }
   const auto deadline = std::chrono::steady_clock::now() + patience;
   for (auto& child : children_) {

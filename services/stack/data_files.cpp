@@ -13,8 +13,8 @@
 namespace crane::stack {
 namespace {
 
-/// Beside the programs when they are installed (/usr/share/crane), else in the tree that they were built
-/// from.
+/// Directory of the data files: /usr/share/crane for installed programs, otherwise the source tree of the
+/// build.
 std::filesystem::path data_directory() {
   const auto installed = program_directory().parent_path() / "share/crane";
   return std::filesystem::is_directory(installed) ? installed : std::filesystem::path{CRANE_DATA_DIRECTORY};

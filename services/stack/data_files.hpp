@@ -7,7 +7,7 @@
 
 namespace crane::stack {
 
-/// Rig of every command that gets no other.
+/// Default rig of every command.
 inline constexpr const char* kDefaultRig = "virginia_tech_tower";
 /// Scenarios of `crane demo` and `crane run --compare`.
 inline constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};

@@ -46,7 +46,7 @@ void OperatorClient::probe() {
   msg::Request request{};
   request.id = kProbe;
   runtime::assign(request.client, client_);
-  request.kind = crane_REQUEST_MOVE;  // of no axis: it would be refused with any id
+  request.kind = crane_REQUEST_MOVE;  // a move without an axis, which the supervisor refuses with any id
   (void)requests_.publish(request);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The components of a stack. Each ComponentSpec declares the topics that it reads and writes. `crane graph`
-/// and docs/architecture.md show all of them.
+/// and docs/wiring.md show all declarations.
 #include <vector>
 
 #include "crane/runtime/process.hpp"

@@ -27,7 +27,7 @@ struct Choices {
   Names scenarios, rigs;
 };
 
-/// A list whose names are all different.
+/// Checks that all names of a list are different.
 Names list(TomlTable& root, const std::string& key) {
   Names names = root.texts(key);
   if (root.has(key) && names.empty()) root.problem(key, "must not be empty");
@@ -72,7 +72,7 @@ void read_seeds(TomlTable& root, Sweep& sweep) {
     root.problem("seeds", "must be 1 without a [[draw]]: every seed would give the same run");
 }
 
-/// Problems of several files.
+/// Collects the problems of several files.
 class Problems {
  public:
   /// @return false when `read` has thrown its problems
@@ -116,7 +116,7 @@ void load_cases(const Choices& choices, const Finder& finder, Problems& problems
   }
 }
 
-/// Both ends of every draw must be possible on every rig.
+/// Checks that both bounds of every draw are valid on every rig.
 void check_draws(const Sweep& sweep, const std::string& file, Problems& problems) {
   std::set<std::string> reported;
   const auto report = [&](const std::string& line) {

@@ -16,7 +16,8 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   if (!out.flush()) throw LogError(file.string() + ": cannot be written");
 }
 
-/// A run ends with its process: the parent notes a process that has ended without a result.
+/// The result of a run is sent by the process of the run. The parent records a process that has ended without
+/// a result.
 class Crew {
  public:
   Crew(const Sweep& sweep, const RunOptions& options, Log& log)

@@ -14,7 +14,7 @@ namespace {
 control::Shaping shaping_of(control::ReferenceShape shape, control::Shaping of_rig_file) {
   switch (shape) {
     case control::ReferenceShape::zv:
-    case control::ReferenceShape::time_optimal:  // used for moves without a plan
+    case control::ReferenceShape::time_optimal:  // this profile is used for moves without a plan
       return control::Shaping::zv;
     case control::ReferenceShape::zvd:
       return control::Shaping::zvd;
@@ -103,7 +103,8 @@ void Motion::start(const MoveTarget& move, std::uint64_t tick) {
 std::optional<control::PlanProblem> Motion::plan_for(const MoveTarget& move,
                                                      std::uint64_t tick) const noexcept {
   if (shape_ != control::ReferenceShape::time_optimal) return std::nullopt;
-  constexpr double kRoom = 1e-3;       // m, rad: room of a start or target at a limit
+  // m, rad: distance by which the limits are extended for a start or target at a limit
+  constexpr double kRoom = 1e-3;
   constexpr double kSpeedShare = 0.9;  // of max_speed, at which the supervisor stops the crane
   const auto now = at(tick);
   control::PlanProblem problem;
@@ -226,7 +227,8 @@ void Motion::drive(const std::array<double, kAxes>& deflection, std::uint64_t ti
     stick_.reference = control::step(stick_.limits, wanted, stick_.memory);
     stick_.reference.feed_forward_v = control::feed_forward(rig_.design, stick_.limits, stick_.memory);
   }
-  if (!control::at_rest(stick_.memory)) begin_at(tick);  // arrived() waits from the end of the motion
+  if (!control::at_rest(stick_.memory))
+    begin_at(tick);  // the wait of arrived() begins at the end of the motion
 }
 
 control::Reference Motion::on_path(std::uint64_t tick) const noexcept {

@@ -97,7 +97,7 @@ class Motion {
   std::optional<control::Excitation> excitation_;  ///< replaces the profile of its axis
   std::optional<Creeping> creeping_;
   std::optional<control::Route> route_;  ///< replaces the profiles of all axes
-  /// The time on the path passes more slowly from begin_s on, and not any more after duration_s.
+  /// Slows the time on the path from begin_s on; after duration_s this time stands still.
   struct Slowing {
     double begin_s = 0, duration_s = 1;
   };

@@ -18,8 +18,8 @@ void Motion::start(const MoveTarget& move, const control::Way& way, const contro
     const double target = move.selected[i] ? move.target[i] : start[i];
     trajectory_[i] = control::step_profile(target, target);
   }
-  // The legs follow each other before a controller has damped the swing of the leg before. ZV does not cancel
-  // the swing by the Coriolis force of a trolley on a turning jib.
+  // A leg begins before a controller has damped the swing of the previous leg. ZV does not cancel the swing
+  // by the Coriolis force of a trolley on a turning jib.
   const bool shapes = shape_ != control::ReferenceShape::step;
   const auto shaping = shaping_ == control::Shaping::ei ? shaping_ : control::Shaping::zvd;
   shaper_ = shapes ? shaper(shaping, way.points.front().position[control::kHoist]) : control::Shaper{};
@@ -32,8 +32,8 @@ void Motion::start(const MoveTarget& move, const control::Way& way, const contro
 }
 
 control::RouteStyle Motion::route_style() const noexcept {
-  // A law for steps ignores the speed of the reference: it lags, differently on each axis, and would cut
-  // corners.
+  // A law for step references ignores the speed of the reference. The axes therefore lag by different amounts
+  // and would leave the legs at a corner.
   constexpr double kLag_s = 3, kSlowerForLag = 0.5;
   if (shape_ == control::ReferenceShape::step) return {.delay_s = kLag_s, .speed_factor = kSlowerForLag};
   return {.blends = true, .overlaps = !(shaper_.delay_s() > 0), .delay_s = shaper_.delay_s()};
@@ -68,7 +68,7 @@ std::uint64_t Motion::slow_down(std::uint64_t tick) noexcept {
     if (now[i].speed != 0)
       longest_s = std::max(longest_s, std::abs(now[i].speed) / rig_.drives[i].reference_acceleration);
   if (!(longest_s > 0) || stick_.follows || slowing_) return tick;
-  // A load that is braked evenly for one period hangs at rest afterwards.
+  // After a constant deceleration for one swing period, the load hangs at rest.
   const double period_s =
       plant::swing_period_s(rig_.design.crane.gravity_mps2, std::max(now[control::kHoist].position, 0.05));
   slowing_ = Slowing{time_s(tick), std::max(longest_s, period_s)};

@@ -18,8 +18,8 @@ class PlanWorker {
   PlanWorker(const PlanWorker&) = delete;
   PlanWorker& operator=(const PlanWorker&) = delete;
 
-  /// Begins to solve a problem; drops the result of the problem before. @return false when the thread holds
-  /// the lock: call again at the next tick
+  /// Begins to solve a problem and discards the result of the previous problem. @return false when the thread
+  /// holds the lock; call again at the next tick
   bool ask(const control::PlanProblem& problem);
   /// The result of the last ask(), once; nothing while it is being solved.
   [[nodiscard]] std::optional<control::PlanResult> take();

@@ -86,7 +86,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     }
     const auto measured = runtime::measurement(*state);
     const auto next = tick + 1;
-    // A planner that starts beside an armed crane has no reference yet: its reference begins at the position.
+    // A planner that starts while the crane is armed has no reference yet. Its reference begins at the
+    // measured position.
     if (!published_) motion_.follow(measured, next);
     if (supervisor_ != crane_STATE_HOLD && supervisor_ != crane_STATE_RUN) drop_waiting_moves();
     if (supervisor_ == crane_STATE_STOP_C1) {
@@ -111,8 +112,9 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
 
  private:
   /// The supervisor accepts a move in RUN, and leaves RUN when the crane stops or the planner does not begin.
-  /// A planner that was paused meanwhile must not execute the move after the next arming. Moves of an unknown
-  /// time are obsolete, too: those of the first status, also of another supervisor or after a gap.
+  /// A planner that was paused during this time must not execute the move after the next arming. Moves of
+  /// unknown age are also obsolete: those of the first status of a supervisor, and of the first status after
+  /// a gap.
   void leave_obsolete_moves(const msg::AcceptedMove& move) {
     if (known_moves_ && (supervisor_ == crane_STATE_RUN || move.number <= *known_moves_)) return;
     const bool dropped = known_moves_ && move.number > *known_moves_;
@@ -149,7 +151,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   /// has found a way from this place, too, because both places are connected.
   void wait_for_rest(const msg::AcceptedMove& move, const control::Measurement& measured,
                      std::uint64_t tick) {
-    constexpr double kLongest_s = 20;  // friction may hold an axis away from its reference
+    // longest wait for rest; friction may hold an axis away from its reference
+    constexpr double kLongest_s = 20;
     (void)motion_.slow_down(tick);
     waiting_ = Waiting{move.number, target_of(move),
                        tick + static_cast<std::uint64_t>(std::llround(kLongest_s / period_s_))};
@@ -181,7 +184,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
                    "move the load away from the zones, then to the target");
   }
 
-  /// A law for steps may move the axes with any speed up to max_speed.
+  /// A law for step references may move the axes with any speed up to max_speed.
   [[nodiscard]] bool is_free_for_step(const plant::PerAxis& from, const plant::PerAxis& to) const {
     const auto begin = control::completed(way_space_, from), end = control::completed(way_space_, to);
     const double clearance_m = control::straight_clearance_m(way_space_, begin, end);
@@ -197,7 +200,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     waiting_.reset();
   }
 
-  /// Begins the awaited move: by its plan, or shaped when there is no plan in time.
+  /// Begins the move that waits for its plan: with the plan, or with the input shaper if the plan is not
+  /// ready in time.
   void begin_pending(std::uint64_t tick) {
     if (!pending_) return;
     if (!pending_->submitted) pending_->submitted = worker_->ask(pending_->problem);

@@ -1,5 +1,5 @@
-/// crane_emulated_rig: an emulated Servo-to-Go card with its crane, in a separate process. It continues when
-/// the bridge ends or hangs; its watchdog relay then closes the brakes.
+/// crane_emulated_rig: an emulated Servo-to-Go card with its crane, in a separate process. The process
+/// continues when the bridge ends or hangs; the watchdog relay of the emulated rig then closes the brakes.
 #include <sched.h>
 #include <sys/mman.h>
 

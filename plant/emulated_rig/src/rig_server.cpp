@@ -20,7 +20,7 @@ RigServer::RigServer(const configuration::Rig& rig, const std::string& name, boo
     if (file_->size() == 0)
       lines_ = new (file_->map(sizeof(bridge::SharedLines))) bridge::SharedLines{};
     else
-      file_->unlink();  // a file of a rig that has ended
+      file_->unlink();  // the file of a rig that has ended
   }
   if (lines_ == nullptr) throw bridge::BoardError("shared memory " + name + ": in use by something else");
   lines_->lockstep = lockstep;
@@ -53,7 +53,8 @@ bool RigServer::serve_realtime(std::int64_t begin_ns, std::int64_t wake_ns) {
 }
 
 void RigServer::run_to(std::int64_t time_ns, std::int64_t at_ns) {
-  constexpr std::int64_t kStep_ns = 1'000'000;  // a late process then still times events to the millisecond
+  // if the process is late, events are still timed to a millisecond
+  constexpr std::int64_t kStep_ns = 1'000'000;
   const auto offset_ns = at_ns - time_ns;
   const bridge::OutputChange* change = next_output_change();
   while (rig_.now_ns() < time_ns || (change != nullptr && change->at_ns <= time_ns + offset_ns)) {
@@ -71,14 +72,14 @@ void RigServer::run_to(std::int64_t time_ns, std::int64_t at_ns) {
   put_lines(at_ns);
 }
 
-/// Oldest change of the outputs that is not yet applied. All changes are applied at their times: a toggle
-/// keeps the relay closed.
+/// Oldest change of the outputs that is not yet applied. Every change must be applied at its time, because
+/// each toggle keeps the relay closed.
 const bridge::OutputChange* RigServer::next_output_change() {
   const std::uint64_t count = lines_->output_change_count;
   if (seen_output_changes_ == count) return nullptr;
   if (count - seen_output_changes_ >= bridge::SharedLines::kOutputChanges)
-    seen_output_changes_ =
-        count - bridge::SharedLines::kOutputChanges + 1;  // the oldest entry may be overwritten now
+    seen_output_changes_ = count - bridge::SharedLines::kOutputChanges +
+                           1;  // the oldest entry may be overwritten during this call
   return &lines_->output_changes[seen_output_changes_ % bridge::SharedLines::kOutputChanges];
 }
 
@@ -106,7 +107,7 @@ void RigServer::take_lines() {
 void RigServer::put_lines(std::int64_t at_ns) {
   for (std::size_t i = 0; i < bridge::kCardChannels; ++i) lines_->pulses[i] = rig_.pulses(i);
   lines_->inputs = rig_.inputs();
-  // Last: a process that waits for one of these times then reads the lines of this time.
+  // Written last: a process that waits for one of these times then reads the lines of this time.
   lines_->lines_at_ns = std::max(at_ns, lines_->lines_at_ns.load());
   lines_->rig_time_ns = rig_.now_ns();
 }

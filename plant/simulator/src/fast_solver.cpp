@@ -30,16 +30,16 @@ constexpr double kMostExplicit = 2;
 /// Difference for the slope of the friction [m/s, rad/s]; small compared with every smoothing speed of the
 /// terms.
 constexpr double kDifference = 1.5e-8;
-/// Permitted local error / tolerance of CVODE: with it, whole motions are as exact as with CVODE
-/// (fast_integrator_test.cpp), which adds up the errors of many more steps.
+/// Permitted local error / tolerance of CVODE: with this ratio, whole motions are as accurate as with CVODE
+/// (fast_integrator_test.cpp), which accumulates the errors of many more steps.
 constexpr double kPermitted = 10;
-/// A shorter step than this [s] means that the equations have no solution any more.
+/// A step shorter than this [s] indicates that the equations have no solution.
 constexpr double kShortest_s = 1e-11;
-/// The time of an event is found to this [s].
+/// Error of the time of an event [s].
 constexpr double kEventTime_s = 1e-13;
 constexpr int kMostEventTrials = 60;
 
-/// @tparam kInner  0, or the most inner coordinates that a model can have; those that it has not stay 0
+/// @tparam kInner  0, or the largest number of inner coordinates of a model; unused coordinates remain 0
 template <std::size_t kInner>
 class FastSolver final : public Solver {
  public:
@@ -59,7 +59,7 @@ class FastSolver final : public Solver {
       h = std::min(h, left_s);
       if (h < left_s && left_s < 2 * h) h = left_s / 2;
       implicit_ = h * steepest_1ps_ > kMostExplicit;
-      // A drive that comes to rest within an explicit step would pass the rise of its friction unseen.
+      // An explicit step would not detect the steep friction of a drive that comes to rest within the step.
       if (!implicit_) h = std::min(h, standstill_s());
       if (implicit_ && !response_known_) find_response();
       const Trial trial = step(h);
@@ -90,7 +90,7 @@ class FastSolver final : public Solver {
 
   struct Slope {
     Vector y{};                   ///< y'
-    plant::PerAxis friction_v{};  ///< the friction in it
+    plant::PerAxis friction_v{};  ///< friction of the drives that y' contains
   };
   struct Trial {
     Vector end{};
@@ -130,7 +130,7 @@ class FastSolver final : public Solver {
     slope_ = slope;
     find_steepness();
   }
-  /// Time until the first free drive comes to rest with its present acceleration.
+  /// Time until the first free drive would come to rest with its present acceleration.
   [[nodiscard]] double standstill_s() const {
     double first_s = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
@@ -163,8 +163,8 @@ class FastSolver final : public Solver {
     }
   }
 
-  /// d q'' / d friction of each drive. The friction enters linearly. The response depends on the position,
-  /// and is kept until the end of the span: the W-method permits it.
+  /// d q'' / d friction of each drive. The friction enters linearly. The response depends on the position and
+  /// is not updated within the span; the W-method permits this.
   void find_response() {
     const Motion motion = motion_of(y_.data(), kInner);
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
@@ -250,12 +250,12 @@ class FastSolver final : public Solver {
     for (std::size_t i = 0; i < error.size(); ++i) {
       const double ratio =
           std::abs(error[i]) / (tolerances_.absolute + tolerances_.relative * std::abs(end[i]));
-      if (!(ratio <= most)) most = ratio;  // also when it is no number
+      if (!(ratio <= most)) most = ratio;  // also true for NaN
     }
     return most / kPermitted;
   }
 
-  /// Factor of the next step's length.
+  /// Ratio of the next step's length to the present length.
   [[nodiscard]] static double growth(const Trial& trial) {
     constexpr double kSafety = 0.9, kLeast = 0.2, kMost = 5;
     if (!std::isfinite(trial.error)) return kLeast;
@@ -263,7 +263,7 @@ class FastSolver final : public Solver {
     return std::clamp(kSafety * std::pow(trial.error, -1 / trial.order), kLeast, kMost);
   }
 
-  /// End of a step that begins at y_: whole, or at the first event in it.
+  /// End of a step that begins at y_: the end of the whole step, or the first event in the step.
   [[nodiscard]] Reached first_event(double h, const Trial& trial) {
     Reached first{h, trial.end, std::nullopt};
     if (watch_ == nullptr) return first;
@@ -320,7 +320,7 @@ class FastSolver final : public Solver {
   Slope slope_{};
   plant::PerAxis steepness_{};  ///< d friction / d speed [V s/m, V s/rad]
   double steepest_1ps_ = 0;
-  /// d q'' / d friction [per V] of each drive, of some step of the span
+  /// d q'' / d friction [per V] of each drive, computed at one step of the span
   std::array<Half, kAxes> response_{};
   bool response_known_ = false;
   bool implicit_ = false;  ///< formula of the last step

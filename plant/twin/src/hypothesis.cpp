@@ -144,7 +144,7 @@ void add_dry_friction(std::vector<Hypothesis>& list, const Rig& rig, const std::
   }
 }
 
-/// The effect of the gain is not proportional either: a weaker drive is held longer by friction.
+/// The effect of the gain is also not proportional, because friction holds a weaker drive longer.
 void add_gain(std::vector<Hypothesis>& list, const std::string& axis) {
   const CauseKind& kind = cause_kind("motor_gain");
   for (const double sign : {1.0, -1.0})

@@ -51,8 +51,8 @@ void Judge::learn_variance(const PerColumn& floor, std::size_t hypothesis, doubl
   }
 }
 
-/// When one cause explains most of the learnt residual, it is a deviation from the start and is excluded from
-/// the scatter.
+/// If one cause explains most of the learnt residual, this cause is a deviation from the start and is
+/// excluded from the scatter.
 void Judge::learn() {
   const PerColumn floor = variance_;
   learn_variance(floor, 0, 0);

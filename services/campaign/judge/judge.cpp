@@ -71,7 +71,7 @@ class Judgement {
     }
   }
 
-  /// True when the operator's stop has reached its longest duration, which is no effect of the fault.
+  /// True when the operator's stop has reached its longest duration. This is not an effect of the fault.
   [[nodiscard]] bool ends_the_stop(const Row& before, const Row& row) const {
     const Reason timeout{crane_CAUSE_STOP_TIMEOUT, crane_LATCH_NONE};
     return before.status.state == crane_STATE_STOP_C1 && row.status.cause == crane_CAUSE_STOP_TIMEOUT &&
@@ -147,7 +147,7 @@ class Judgement {
                  "a voltage outwards although the axis would not stop before its limit");
   }
 
-  /// Without the bridge, only the relay of the rig acts.
+  /// Without the bridge, only the relay of the rig acts on the brakes.
   void relay_acts() {
     for (std::size_t k = onset_; k < run_.rows.size(); ++k)
       if (run_.rows[k].truth.brake_closed == present_brakes(run_.rows[k])) {

@@ -48,10 +48,10 @@ struct Reason {
 
 /// Expected reaction to a fault.
 struct Expectation {
-  /// Correct reasons. The limit that the true state has crossed is correct as well. Empty: the crane must not
-  /// stop.
+  /// Correct reasons. A limit that the true state has crossed is also a correct reason. Empty: the crane must
+  /// not stop.
   std::vector<Reason> reasons{};
-  bool may_ride_through = false;  ///< true: no stop is correct as well
+  bool may_ride_through = false;  ///< true: it is also correct that the crane does not stop
   double detection_ms = 0;        ///< longest time from onset to the first reason
   bool communication = false;     ///< I2: 0 V within 70 ms of the onset
   bool volts_by_rig =

@@ -147,7 +147,8 @@ void draw(const std::filesystem::path& file, const DampingOptions& options, cons
                     {"least damped of all pairs", values(Measure::least)}});
 }
 
-/// Largest difference of the gain points at which both are stable, and its gains.
+/// Largest difference of the damping over all points at which both loops are stable, and the gains of this
+/// point.
 std::string pade_difference(const DampingStudy& study) {
   double worst = 0;
   std::string where;

@@ -68,7 +68,7 @@ std::vector<CpuShare> measure(const BenchCpuOptions& options) {
   {
     bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
     stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
-  }  // ends the observer, which would use processor time
+  }  // ends the observer here, because the observer would use processor time during the measurement
   const auto now_of = [&](const runtime::ComponentSpec& spec) {
     return cpu_time_of(children.pid_of(std::string{spec.name}).value());
   };

@@ -1,4 +1,4 @@
-/// crane completion, crane man: what --help knows, for the shell and for man.
+/// crane completion, crane man: the commands and options of --help, for the shell and as a manual page.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>

@@ -11,7 +11,7 @@ namespace crane::cli {
 
 namespace {
 
-/// Without --runs the page shows what the black box of this user has recorded.
+/// Without --runs the page lists the recordings of this user's black box.
 int serve(dashboard::Options options) {
   const auto recorded = black_box::default_directory();
   if (options.runs.empty() && std::filesystem::is_directory(recorded)) options.runs = recorded.string();

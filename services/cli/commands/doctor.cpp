@@ -1,4 +1,5 @@
-/// crane doctor: why a crane is not heard, and what of this computer hinders its loop.
+/// crane doctor: finds why no samples of a crane arrive, and which settings of this computer disturb the
+/// control loop.
 #include "doctor/doctor.hpp"
 #include "cli/number_range.hpp"
 

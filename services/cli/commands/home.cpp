@@ -84,8 +84,8 @@ void follow(Watch& watch, std::size_t axis, double timeout_s) {
         "home: not complete before the timeout; the crane continues to move (stop it with `crane stop`)");
 }
 
-/// Acknowledges the stop after the homing of the previous axis, when its cause has been inactive for a
-/// second.
+/// Resets the stop after the homing of the previous axis, as soon as the cause of the stop has been inactive
+/// for a second.
 void acknowledge(bus::Bus& bus, Watch& watch) {
   constexpr double kStops_s = 5;
   constexpr int kTries = 20;

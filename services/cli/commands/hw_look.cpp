@@ -1,4 +1,4 @@
-/// crane hw list, crane hw probe: wiring and inputs of a board, without motion.
+/// crane hw list, crane hw probe: show wiring and inputs of a board, without motion.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <nlohmann/json.hpp>

@@ -98,7 +98,7 @@ std::string answered(std::istream& in, const std::string& question, bool echo) {
   return answer;
 }
 
-/// Called before any motion.
+/// Call this function before any motion.
 void require_writable(const std::filesystem::path& file) {
   const auto target = std::filesystem::exists(file) ? file : std::filesystem::absolute(file).parent_path();
   if (::access(target.c_str(), W_OK) != 0)

@@ -69,7 +69,7 @@ void print_result(const identification::FrictionExperimentResult& result) {
             << "\nnew values: " << result.fragment.string() << '\n';
 }
 
-/// Estimates from a recorded run of a rig or a simulation; makes no experiment.
+/// Estimates the friction from a recorded run of a rig or a simulation, without an experiment.
 int estimate_from(const IdentifyOptions& options, const configuration::Rig& rig) {
   const auto& experiment = options.experiment;
   const auto table = recording::read_csv(options.from);

@@ -16,7 +16,7 @@ struct ReviewOptions {
   bool json = false;
 };
 
-/// Rows of the curves of --json: more than a screen has columns.
+/// Number of rows of the curves of --json: more than the columns of a screen.
 constexpr std::size_t kMostPoints = 2000;
 
 int run(const ReviewOptions& options) {

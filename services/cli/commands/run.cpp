@@ -77,7 +77,7 @@ std::vector<experiments::PlannedRun> plans_of(const RunOptions& options) {
   return plans;
 }
 
-/// Names of the choices of user or scenario; empty for defaults.
+/// Names that the user or the scenario has chosen; empty for defaults.
 std::string directory_name(const RunOptions& options, const experiments::PlannedRun& plan) {
   const bool chosen = !options.controllers.empty() || !plan.scenario.controllers.empty();
   return plan.scenario.name + (chosen ? "_" + std::string{plan.controller->name} : "") +
@@ -152,7 +152,7 @@ int run_each_in_realtime(const RunOptions& options, const std::vector<experiment
   for (const auto& plan : plans) {
     std::filesystem::path directory{options.out};
     if (plans.size() > 1) directory /= directory_name(options, plan);
-    std::filesystem::create_directories(directory);  // fails before any motion
+    std::filesystem::create_directories(directory);  // an error is reported before any motion
     const auto table = experiments::run_in_realtime({.rig = plan.rig.path,
                                                      .controller = std::string{plan.controller->name},
                                                      .plant = plant,

@@ -25,7 +25,8 @@ int status(const StatusOptions& options) {
   auto bus = open_bus(options.bus);
   const auto snapshot = listen(bus, options.timeout_s);
   if (snapshot.empty()) throw std::runtime_error("no sample received" + where_and_remedy(bus));
-  const bool insecure = runtime::is_insecure(bus.options());  // this bus would not receive a secured stack
+  // a bus without keys would not receive the samples of a secured stack
+  const bool insecure = runtime::is_insecure(bus.options());
   if (options.json) {
     auto json = to_json(snapshot);
     json["insecure"] = insecure;

@@ -35,7 +35,7 @@ sweep::Sweep checked_sweep(const SweepOptions& options) {
   return std::move(*sweep);
 }
 
-/// About ten times a second, and at the end.
+/// Prints the progress about ten times a second, and at the end.
 class Terminal {
  public:
   void operator()(const sweep::Progress& progress) {

@@ -44,7 +44,7 @@ std::vector<Line> observe(bus::Bus& bus, double window_s) {
   });
   for (auto& line : lines) {
     line.window = line.statistics.take_window();
-    // the other topics have several writers, and samples from before the start of this process
+    // all other topics have several writers, and samples that were published before the start of this process
     if (!line.subscriber.topic().every_tick) line.window.rate_hz.reset();
   }
   return lines;

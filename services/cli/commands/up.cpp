@@ -33,10 +33,10 @@ struct UpOptions {
   std::string twin_rig;
   bool dashboard = false;
   unsigned short dashboard_port = dashboard::default_options().port;
-  std::filesystem::path dashboard_runs;  ///< empty: those of the black box
+  std::filesystem::path dashboard_runs;  ///< empty: the directory of the black box
 };
 
-/// The recorder runs on Fast DDS, so that ordinary use exercises both vendors together.
+/// The recorder runs on Fast DDS, so that ordinary use tests both vendors together.
 void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
   auto bus = options.launch.bus;
   bus.vendor = "fastdds";
@@ -54,8 +54,8 @@ void start_black_box(stack::ChildProcesses& children, const UpOptions& options) 
   children.start("black_box", "crane", arguments);
 }
 
-/// What the crane does without when a process outside the control loop has ended; empty: the process is part
-/// of the loop.
+/// @return the function that is missing after the end of a process outside the control loop; empty: the
+/// process is part of the loop
 std::string goes_without(const std::string& process) {
   if (process == "recorder") return "a recording";
   if (process == "black_box") return "its black box";
@@ -63,8 +63,8 @@ std::string goes_without(const std::string& process) {
   return process == "dashboard" ? "its dashboard" : "";
 }
 
-/// Starts the dashboard, and starts it anew when it has ended, unless it ended as soon as it had begun: it
-/// would do so again.
+/// Starts the dashboard and restarts it after its end. A dashboard that ends immediately after its start is
+/// not restarted, because it would end again.
 class DashboardKeeper {
  public:
   DashboardKeeper(stack::ChildProcesses& children, const UpOptions& options)
@@ -74,7 +74,7 @@ class DashboardKeeper {
                       options_.dashboard_port);
     started_ns_ = runtime::monotonic_ns();
   }
-  /// @return whether it runs again
+  /// @return true when the dashboard runs again
   bool start_again() {
     constexpr std::int64_t kShortest_ns = 1'000'000'000;
     if (runtime::monotonic_ns() - started_ns_ < kShortest_ns) return false;
@@ -124,7 +124,7 @@ int up(UpOptions options) {
   if (options.twin || !options.twin_rig.empty()) specs.push_back(twin::twin_spec());
   const auto twin_rig =
       options.twin_rig.empty() ? options.launch.rig : stack::find_rig(options.twin_rig).string();
-  (void)configuration::load_rig(twin_rig);  // reports its problems before anything is started
+  (void)configuration::load_rig(twin_rig);  // reports problems of the rig file before any process is started
   options.launch.vendors = stack::vendors_from(options.vendors, specs);
 
   bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_up", crane_SOURCE_OPERATOR, 0)};

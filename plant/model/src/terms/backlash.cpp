@@ -32,7 +32,8 @@ class Backlash final : public Term {
         far_(slew_, gap_ > 0 ? s.parameters.at("driven_share") : 0) {}
 
   void change_parameters(Parameters& crane) const noexcept override { far_.split(crane); }
-  /// The friction of the rig file was measured on the whole axis: the guide's part of it leaves the motor.
+  /// The friction of the rig file was measured on the whole axis. The part of the guide is subtracted from
+  /// the friction of the motor.
   void relieve_friction(const Parameters& crane, const State& state,
                         PerAxis& friction_v) const noexcept override {
     if (!far_.carries() || known_share_ == 0) return;
@@ -57,12 +58,12 @@ class Backlash final : public Term {
     const double motor = slew_ ? drives.slew_radps2 : drives.trolley_mps2;
     const double guide = guide_deceleration_ * smooth_sign(speed, kGuideSmoothing);
     acceleration[0] = far_.acceleration(crane, state, contact(inner[0]) - guide) - motor;
-    // Centrifugal acceleration of the trolley; the motor takes up its force only when a flank touches.
+    // Centrifugal acceleration of the trolley. The force acts on the motor only while a flank touches.
     if (!slew_) acceleration[0] += state.trolley_m * state.slew_radps * state.slew_radps;
   }
   /// An unexplained change of the motor's speed is an impact of the flanks. The load side has lost the
-  /// momentum that the motor has gained, and is at the flank of that side. When the model predicted an impact
-  /// that was not measured, the flanks remain in contact.
+  /// momentum that the motor has gained, and is at the flank that transmitted it. When the model predicted an
+  /// impact that was not measured, the flanks remain in contact.
   void correct(const Parameters& crane, const State& state, const PerAxis& unexplained, const Inner* before,
                Inner* inner) const noexcept override {
     const double change = unexplained[slew_ ? kSlew : kTrolley];
@@ -70,7 +71,8 @@ class Backlash final : public Term {
     const double side = std::copysign(1.0, change), flank = 0.5 * gap_;
     const bool met = std::max(-side * before[0].position, -side * inner[0].position) > flank;
     inner[0].position = side * (met ? -flank : std::max(side * inner[0].position, flank));
-    const double fastest = gap_ * contact_radps_;  // limits the effect of measurement noise on a light side
+    // limits the effect of measurement noise on a light load side
+    const double fastest = gap_ * contact_radps_;
     inner[0].rate = std::clamp(inner[0].rate - far_.speed_loss(crane, state, change), -fastest, fastest);
   }
 

@@ -15,15 +15,16 @@ struct FreeParameter {
   std::string name, unit;
   double null = 0;           ///< no effect
   double low = 0, high = 0;  ///< physical bounds, with sign
-  double step = 0;           ///< finite difference: visible and small
-  bool at_a_bound = false;   ///< the value is usually one of its bounds: a rough fit first holds it at each
+  double step = 0;  ///< step of the finite difference: large enough to be visible, small enough for a slope
+  bool at_a_bound = false;  ///< the value is usually one of its bounds: a rough fit first holds it at each
 };
 
 /// One form of an effect: probes of a small amount each. The score test uses the probes of one shape jointly.
 struct Shape {
   std::vector<plant::TermSetting> probes;
   std::vector<double> amounts;
-  bool large_probe = false;  ///< one large probe: judged by its own gain, and a start of the fit
+  bool large_probe = false;  ///< true: one large probe, which is judged by its own gain and is also an
+                             ///< initial value of the fit
 };
 
 /// Variable that a force on an axis depends on.
@@ -32,34 +33,35 @@ enum class GoesWith { position, speed, reversals, time, other_command, frequency
 struct Candidate {
   std::string cause;                 ///< name of the term
   std::string axis;                  ///< "trolley", "slew", "radial", "tangential" or empty
-  bool drive = false, load = false;  ///< replays that it changes
+  bool drive = false, load = false;  ///< replays that the candidate changes
   std::vector<FreeParameter> parameters;
-  /// Number of leading parameters that are amounts: with all of them at `null` there is no effect, whatever
-  /// the other parameters are.
+  /// Number of leading parameters that are amounts. If all amounts are at `null`, there is no effect for any
+  /// values of the other parameters.
   std::size_t amount_count = 1;
   std::vector<Shape> shapes;
   bool one_sided = false;  ///< the amount is >= 0 or <= 0
   /// A wave over position. Its loss has many minima in the phase: its shapes are the strongest waves of the
   /// unexplained force.
   bool waves = false;
-  /// Values from which a fit may begin, beside the shapes. Inner coordinates that ring freely in each window
-  /// show what they gain only after a fit of the starts. All are within the bounds of `parameters`.
+  /// Values from which a fit may begin, beside the shapes. For inner coordinates that oscillate freely in
+  /// each window, the gain is visible only after a fit of the starts. All values are within the bounds of
+  /// `parameters`.
   std::vector<std::vector<double>> ringing_starts;
-  bool rough = false;  ///< the loss has steps: slopes do not describe it
+  bool rough = false;  ///< true: the loss has steps that slopes do not describe
   /// Of a rough candidate: values of which the fit compares the whole loss before it begins.
   std::vector<std::vector<double>> rough_starts;
-  std::optional<GoesWith> law;           ///< the only variable of its force on its axis
-  bool changes_known_parameter = false;  ///< the base model has this quantity with another value
+  std::optional<GoesWith> law;           ///< the only variable on which the force of the candidate depends
+  bool changes_known_parameter = false;  ///< true: the base model contains this quantity, with another value
   /// Parameter values for amounts of a shape's small probes.
   std::function<std::vector<double>(const Shape&, const std::vector<double>&)> of_amounts;
 
-  /// Whether all values lie within the bounds of their parameters.
+  /// True when all values are within the bounds of their parameters.
   [[nodiscard]] bool permits(const std::vector<double>& values) const;
 
-  /// Start values of a fit from the amounts of the probes of a shape.
+  /// Initial values of a fit, from the amounts of the probes of a shape.
   [[nodiscard]] std::vector<double> begin(const Shape& shape, const std::vector<double>& amounts) const;
 
-  /// Whether the cause changes the replay of the output directly. The replay of the swing prescribes the
+  /// True when the cause changes the replay of the output directly. The replay of the swing prescribes the
   /// motion of the support, so that a sensor or a backlash of the support changes the replay of the swing as
   /// well.
   [[nodiscard]] bool acts_on(Output output) const {

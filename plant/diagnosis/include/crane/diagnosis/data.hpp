@@ -39,13 +39,13 @@ struct TimedCommand {
   plant::PerAxis drive_v{};
 };
 
-/// A run on an equidistant grid. Row k has the measurement nearest to start + k periods, at its own time, and
-/// the command from there on. NaN: not measured; such a row is simulated and not compared.
+/// A run on an equidistant grid. Row k has the measurement nearest to start + k periods, with its own time,
+/// and the command from this time on. A row with NaN was not measured; the row is simulated but not compared.
 struct Run {
-  std::string name;                       ///< "train_1.csv", with ", part 2" where the state was lost
-  double period_s = 0;                    ///< of the grid, > 0
-  double start_s = 0;                     ///< time of row 0
-  std::vector<plant::PerAxis> command_v;  ///< mean of the period; 0 for a drive without a column
+  std::string name;     ///< "train_1.csv", or "train_1.csv, part 2" after the state was lost
+  double period_s = 0;  ///< of the grid, > 0
+  double start_s = 0;   ///< time of row 0
+  std::vector<plant::PerAxis> command_v;               ///< mean of the period; 0 for a drive without a column
   std::array<std::vector<double>, kOutputs> measured;  ///< m or rad; empty without a column
   std::vector<double> cable_m;                         ///< measured, or that of the rig file
   std::vector<double> offset_s;        ///< time of the row relative to the grid, within a period; empty: none
@@ -71,11 +71,11 @@ struct Run {
   [[nodiscard]] bool may_have_lost_edge(Output drive, std::size_t row) const {
     return !edge_lost[drive].empty() && edge_lost[drive][row];
   }
-  /// Whether every row was measured at the time of the grid.
+  /// True when every row was measured at the time of its grid row.
   [[nodiscard]] bool regular(Output output) const;
 };
 
-/// Runs of one file; the notes name everything that was left out or changed.
+/// Runs of one file. The notes state everything that was omitted or changed.
 struct Loaded {
   std::vector<Run> runs;
   std::vector<std::string> notes;
@@ -91,10 +91,11 @@ class DataError : public std::runtime_error {
   std::vector<std::string> problems_;
 };
 
-/// Checks a table of canonical columns against the rig. Rows keep their own times: jitter, dropped rows and
-/// two sample times lose no measured value. A run is cut where its state is lost: after a gap of one period
-/// of the load (2 s without a load), and where a position is reset. Wrong units, constant or missing columns,
-/// times that do not increase and short pieces are problems or notes.
+/// Checks a table of canonical columns against the rig. Rows keep their own times, so that jitter, dropped
+/// rows and two sample times cause no loss of measured values. A run is cut where its state is lost: after a
+/// gap of one period of the load (2 s without a load), and where a position is reset. The function reports
+/// wrong units, constant or missing columns, times that do not increase, and short pieces as problems or
+/// notes.
 /// @param name of the file, for messages
 /// @throws DataError with all problems of the table
 [[nodiscard]] Loaded load_run(const recording::Table& table, const configuration::Rig& rig,

@@ -15,9 +15,9 @@ namespace crane::diagnosis {
 enum class Verdict {
   none,       ///< these data show no error
   named,      ///< the model lacks the causes
-  ambiguous,  ///< several causes explain the data alike; next_experiment separates them
+  ambiguous,  ///< several causes explain the data equally well; next_experiment separates them
   parameter,  ///< a quantity of the model has another value than in the rig file
-  unknown,    ///< an error that no candidate explains
+  unknown,    ///< no candidate explains the error
 };
 [[nodiscard]] const char* name_of(Verdict verdict);
 
@@ -29,15 +29,16 @@ struct Estimate {
 struct Cause {
   std::string name, axis;
   std::vector<Estimate> parameters;
-  double p_value = 1;               ///< of its own score test
-  double resampling_frequency = 0;  ///< share of votes of the block bootstrap
+  double p_value = 1;               ///< p value of the score test of this cause
+  double resampling_frequency = 0;  ///< share of the votes in the block bootstrap
 };
 
 /// A fitted hypothesis, for the table of the report.
 struct Ranked {
   std::string label;
   std::vector<Estimate> parameters;
-  /// Decrease of the deviance: minus twice the log likelihood of the training data, each block left out.
+  /// Decrease of the deviance: minus twice the log likelihood of the training data plus the penalty of the
+  /// parameters.
   double train_gain = 0;
   double p_value = 1, resampling_frequency = 0;
 };
@@ -48,14 +49,14 @@ struct HeldOut {
   /// Of sensor and disturbance: training error of the extended model, m or rad.
   std::map<std::string, double> noise;
   std::map<std::string, double> whole_baseline_rms, whole_extended_rms;  ///< whole runs, open loop
-  /// Error of a model that holds the first measured value, m or rad: a simulation has to be better.
+  /// Error of a model that holds the first measured value, m or rad; a useful simulation has a smaller error.
   std::map<std::string, double> held_value_rms, whole_held_value_rms;
   /// Simulated over measured motion in whole runs, standard deviations; 0: the extended model stands still.
   std::map<std::string, double> whole_extended_motion;
   double gain = 0;  ///< 1 - extended / baseline, noise-weighted, over the columns that the causes act on
   std::array<double, 2> gain_ci95{0, 0};
-  /// Log likelihood ratio of the held-out data, extended over base model, each in its own noise [nats]; share
-  /// of resamples of the blocks in which it is positive.
+  /// Log likelihood ratio of the held-out data between extended model and base model, each with its own noise
+  /// model [nats]; share of the resamples of the blocks in which the ratio is positive.
   double nats = 0, likelier = 0;
 };
 
@@ -68,19 +69,20 @@ struct Remainder {
 /// Visibility of one candidate in the training data.
 struct Visibility {
   std::string label, cause, axis;
-  bool visible = false;         ///< an effect inside its bounds would be found
-  std::vector<Estimate> least;  ///< found in 9 of 10 such data sets; empty: invisible
+  bool visible = false;  ///< true: an effect within the bounds of its parameters would be found
+  std::vector<Estimate>
+      least;  ///< smallest size that is found in 9 of 10 such data sets; empty: no size is found
   struct Alike {
     std::string label;
-    double cosine = 0;  ///< of their whitened slopes; 1: the same
+    double cosine = 0;  ///< cosine of their whitened slopes; 1: equal
   };
-  std::vector<Alike> alike;  ///< hardly separable in these data, most alike first
+  std::vector<Alike> alike;  ///< candidates that these data hardly separate, the most similar first
 };
 
 struct NextExperiment {
   std::string name;         ///< of the menu
   std::string description;  ///< one sentence
-  double separation = 0;    ///< of the predictions, in standard deviations of the noise
+  double separation = 0;    ///< difference of the predictions, in standard deviations of the noise
   std::string scenario;     ///< file for `crane run`
 };
 
@@ -92,7 +94,7 @@ struct Trace {
 
 struct Diagnosis {
   Verdict verdict = Verdict::none;
-  std::string sentence;       ///< the verdict in words
+  std::string sentence;       ///< the verdict as a sentence
   std::vector<Cause> causes;  ///< confirmed, or ambiguous
   /// Effects that are likely and no larger than the stated accuracy of the rig file. They do not decide the
   /// verdict.
@@ -112,11 +114,11 @@ struct Diagnosis {
   double runtime_s = 0;
 };
 
-/// Visibility of all candidates before any fit, and experiments for those that are not visible.
+/// Visibility of all candidates before any fit, and experiments for the candidates that are not visible.
 struct Check {
   std::vector<Visibility> excitation;
   struct Proposal {
-    std::string of, from;  ///< shows one candidate, or separates two
+    std::string of, from;  ///< the experiment shows one candidate, or separates two
     NextExperiment motion;
   };
   std::vector<Proposal> next;
@@ -125,7 +127,7 @@ struct Check {
 struct Request {
   std::uint64_t seed = 1;  ///< of the resampling
   std::size_t most_effects = 3;
-  std::vector<std::string> excluded{};  ///< causes that are no candidates
+  std::vector<std::string> excluded{};  ///< causes that are excluded from the candidates
   Accuracy accuracy = kUsualAccuracy;   ///< of the rig file
   /// Called with the share done, 0..1, and the current step.
   std::function<void(double, const std::string&)> progress = [](double, const std::string&) {};

@@ -37,7 +37,7 @@ struct MappedColumn {
   std::string unit;                ///< of a command other than V, for messages
 };
 
-/// Closed interval of times whose rows count.
+/// Closed interval of times; rows within the interval are selected.
 struct Stretch {
   double from_s = -std::numeric_limits<double>::infinity(), to_s = std::numeric_limits<double>::infinity();
 };
@@ -56,8 +56,8 @@ struct Mapping {
   std::map<std::string, RunValues> runs;  ///< likewise
 };
 
-/// Column of `canonical` with the number of the stretch, if there are several: the state is lost between
-/// stretches.
+/// Column of `canonical` with the number of the stretch, if there are several stretches. The state is lost
+/// between two stretches.
 inline constexpr const char* kStretchColumn = "stretch";
 /// Column of the load mass [kg], constant, if the mapping gives it.
 inline constexpr const char* kLoadMassColumn = "load_mass_kg";
@@ -66,10 +66,10 @@ inline constexpr const char* kLoadMassColumn = "load_mass_kg";
 [[nodiscard]] Mapping load_mapping(const std::filesystem::path& file);
 [[nodiscard]] Mapping parse_mapping(const std::string& text, const std::string& file);
 
-/// Canonical columns in canonical order, in the rows that count. Columns that already have a canonical name
+/// Canonical columns in canonical order, with the selected rows. Columns that already have a canonical name
 /// and are not mapped are kept.
 /// @param name of the file, for messages and for the mapping's stretches and runs
-/// @throws DataError naming every column that the mapping needs and the table lacks
+/// @throws DataError that names every column of the mapping that the table does not contain
 [[nodiscard]] recording::Table canonical(const recording::Table& table, const Mapping& mapping,
                                          const std::string& name);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Structured replays: the model driven by measured signals.
+/// Structured replays: simulations in which some signals are prescribed as measured.
 ///   whole  command -> positions and swing
 ///   drive  command and measured swing -> positions: fails when drives or friction are wrong
 ///   load   measured motion -> swing: fails when the load or its sensors are wrong
@@ -33,8 +33,8 @@ struct PreparedRun {
   Run run;
   configuration::RigKind kind = configuration::RigKind::tower;
   std::array<Motion, kOutputs> motion;  ///< smoothed, by row of the grid; empty without a measurement
-  /// Measured positions interpolated to the grid, for starts and prescribed motion. `run.measured`, at its
-  /// own times, is what predictions are compared with.
+  /// Measured positions interpolated to the grid, for starts and prescribed motion. The predictions are
+  /// compared with `run.measured`, at its own times.
   std::array<std::vector<double>, kOutputs> on_grid;
   Motion cable;
   /// `motion` in the middle of each step: [0] without, [1] with inner coordinates.
@@ -73,7 +73,7 @@ class Replay {
   [[nodiscard]] std::size_t start_size(Part part) const;
   /// Rms of ringing inner coordinates along the measured motion: position and rate of each.
   [[nodiscard]] std::vector<double> inner_start_scale() const;
-  /// Measured start at row `first`, of start_size(part).
+  /// Measured start at row `first`; its size is start_size(part).
   [[nodiscard]] std::vector<double> measured_start(Part part, std::size_t first) const;
   /// Simulates rows first ... first + rows - 1 from `start` at the grid's row `first`.
   /// @param out outputs one after the other, each row at its own time

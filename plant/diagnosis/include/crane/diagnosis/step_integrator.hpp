@@ -8,7 +8,8 @@
 
 namespace crane::diagnosis {
 
-/// Number of steps in a period: of at most 5 ms, 2.5 ms with inner coordinates, which may ring at 25 Hz.
+/// Number of steps in a period. A step is at most 5 ms long, or 2.5 ms with inner coordinates, which may
+/// oscillate at 25 Hz.
 [[nodiscard]] int steps_in(double period_s, bool inner_coordinates);
 
 class StepIntegrator {

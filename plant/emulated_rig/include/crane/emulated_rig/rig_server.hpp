@@ -1,6 +1,6 @@
 #pragma once
-/// The rig's end of the shared lines, in the process crane_emulated_rig. The card's end is
-/// crane/boards/linked_rig.hpp.
+/// The shared lines as seen by the rig, in the process crane_emulated_rig. crane/boards/linked_rig.hpp
+/// accesses the same lines for the card.
 #include <cstdint>
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-/// Matrices of the equations of motion (equations.hpp), for terms, linear designs and tests.
+/// Matrices of the equations of motion (equations.hpp). Terms, linear designs and tests use them.
 #include <Eigen/Core>
 
 #include "crane/plant/equations.hpp"

@@ -3,10 +3,10 @@
 ///   cvode  SUNDIALS CVODE (BDF, variable order and step): the reference and the default
 ///   fast   one-step methods (fast_solver.cpp): 15 to 27 times faster (docs/benchmarks.md)
 ///
-/// Every span starts anew: CVODE with order 1, because the command changes in steps and the history of the
-/// previous span belongs to another right-hand side. The result depends on the arguments only, not on earlier
-/// calls; equal arguments give equal bits. The friction is a smooth function of the speed (tanh), so that the
-/// equations are stiff near standstill and continuous within a span.
+/// Each span is a new initial value problem. CVODE begins with order 1, because the command changes in steps
+/// and the history of the previous span belongs to another right-hand side. The result depends on the
+/// arguments only, not on earlier calls; equal arguments give equal bits. The friction is a smooth function
+/// of the speed (tanh), so that the equations are stiff near standstill and continuous within a span.
 #include <array>
 #include <limits>
 #include <memory>
@@ -55,8 +55,8 @@ struct Event {
 struct Advance {
   double elapsed_s = 0;        ///< integrated time: the whole span, or the time of the event
   std::optional<Event> event;  ///< the first event; nothing: no event
-  /// A first step that suits a next span like this one. Motions of successive spans are alike, and a step
-  /// that is too long is computed in vain.
+  /// Suitable first step of the next span. Motions of successive spans are similar, and a step that is too
+  /// long must be repeated.
   double next_first_step_s = 0;
 };
 

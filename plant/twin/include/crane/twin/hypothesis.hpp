@@ -13,12 +13,12 @@ namespace crane::twin {
 
 /// One row of the table of the causes. docs/twin.md shows the table.
 struct CauseKind {
-  const char* name;           ///< of the term; of the step of the residual; or "unknown"
+  const char* name;           ///< name of the term or of the step of the residual, or "unknown"
   const char* parameter;      ///< of the term that has the size; nullptr: the cause is no term of the model
   std::vector<double> sizes;  ///< reference sizes; empty: no hypothesis
-  bool either_sign;           ///< a hypothesis for each sign
+  bool either_sign;           ///< true: one hypothesis for each sign
   double shown_per_size;      ///< factor from `sizes` to the unit in `sizes_text`
-  const char* sizes_text;     ///< what the document prints behind `sizes`, or instead of them
+  const char* sizes_text;     ///< text that the document prints after `sizes`, or instead of `sizes`
   const char* meaning;
   const char* remedy;  ///< AXIS stands for the name of the axis
 };

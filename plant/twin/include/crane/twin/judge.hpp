@@ -1,6 +1,6 @@
 #pragma once
-/// Tests whether the residual is still in control, and finds the cause that explains a deviation best.
-/// docs/twin.md states the equations.
+/// Tests whether the residual is in control, and finds the cause that explains a deviation best. docs/twin.md
+/// states the equations.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -54,8 +54,8 @@ class Judge {
   Judge(std::vector<Hypothesis> hypotheses, const Design& design, const PerColumn& floor, int block_ticks);
 
   void add(const Block& block);
-  /// Reports a step that no hypothesis describes: encoder slipped, load pushed. The step is the deviation
-  /// until the residual has been in control for kQuiet_blocks blocks.
+  /// Reports a step that no hypothesis describes: encoder slipped, load pushed. The step counts as the
+  /// deviation until the residual has been in control for kQuiet_blocks blocks.
   void found(const Finding& step);
 
   [[nodiscard]] Phase phase() const { return phase_; }
