@@ -1,5 +1,5 @@
 #pragma once
-/// An emulated rig with the wiring of one rig file, which the bring-up uses with another rig file.
+/// An emulated rig wired according to one rig file. The bring-up uses another rig file.
 #include <gtest/gtest.h>
 
 #include <memory>

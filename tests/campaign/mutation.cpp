@@ -1,6 +1,6 @@
-/// The campaign with one protection switched off. Without arguments, every protection is tested in turn. A
-/// protection is needed when a run violates an invariant without it and the run of the same hazard, moment
-/// and seed violates none with it.
+/// The campaign with one protection switched off. Without arguments, the program tests every protection in
+/// turn. A protection is necessary when a run violates an invariant without the protection, and the run of
+/// the same hazard, moment and seed violates no invariant with the protection.
 ///   campaign_mutants [--without NAME] [--seeds N] [--hazard N ...]
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -119,14 +119,14 @@ std::vector<Need> needs() {
           {bus_one_writer, {9}}};
 }
 
-/// For a protection that no run can need, because another protection detects the same fault or because the
-/// rigs of the campaign have no zones: the test that needs it.
+/// Tests of the protections that no run can prove necessary, because another protection detects the same
+/// fault or because the rigs of the campaign have no zones.
 struct Elsewhere {
   std::string_view protection;
   const char* test;
 };
-/// No two loop topics of one type have the same writer, so that a sample on the wrong topic has a wrong
-/// source, too.
+/// Two loop topics of one type never have the same writer. A sample on the wrong topic therefore also has a
+/// wrong source.
 constexpr std::array kElsewhere{
     Elsewhere{"bus_checksum_of_topic", "Intact.IsFalseOnAnotherTopicOfTheSameType"},
     Elsewhere{"supervisor_configuration_differs",

@@ -1,4 +1,4 @@
-/// Targets of inching and of the return to the stop point.
+/// Targets of inching, and of the return to the stop point.
 #include "cli/inching.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// crane log and crane replay as a user starts them: exit codes, refusals, and no overwritten file.
+// crane log and crane replay, started as by a user: exit codes, refusals, and protection of existing files.
 #include <gmock/gmock.h>
 
 #include "../replay/recorded_crane.hpp"
@@ -33,7 +33,7 @@ class RecordingCommands : public testing::Test {
   std::string run_ = path("run.mcap"), ticks_;
 };
 
-/// Every command with a file that it writes: the words before and after the name of the file.
+/// Every command that writes a file: the words before and after the name of the file.
 TEST_F(RecordingCommands, RefuseToOverwriteAFileWithoutForce) {
   ASSERT_EQ(crane({"log", "cut", run_, path("part.mcap"), "--to", "1"}).exit_code, 0);
   const auto out = path("precious");

@@ -41,8 +41,8 @@ const Loop kLoops[] = {
      0.061,
      0.061,
      {-0.517, 8.458}},
-    // The optima of the first two are double roots, which gains of four digits split: 0.3963 and 0.3808
-    // exactly.
+    // The optima of the first two laws are double roots; gains rounded to four digits split them. The exact
+    // values are 0.3963 and 0.3808.
     {"anti_swing_pd_optimised", [](Complex s) { return -25.66 + 7.434 * s; }, 0.393, 0.393, {-3.119, 7.302}},
     {"delayed_1_optimised",
      [](Complex s) { return -49.38 * std::exp(-0.1193 * s); },
@@ -56,7 +56,7 @@ const Loop kLoops[] = {
      {-1.033, 5.189}},
 };
 
-/// Newton with a central difference.
+/// Newton's method with a central difference.
 std::optional<Complex> root_near(const Loop& loop, Complex s) {
   for (int k = 0; k < 60; ++k) {
     const double h = 1e-5 * (1 + std::abs(s));

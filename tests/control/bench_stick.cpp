@@ -1,5 +1,5 @@
-/// Swing, time and way of a stop after the release of the stick, for each shaper side by side: random
-/// histories that end at full speed. The load is the pendulum of space_pendulum.hpp.
+/// Residual swing, stop time and stopping distance after the release of the stick for each shaper, over
+/// random histories that end at full speed. The load is the pendulum of space_pendulum.hpp.
 ///   bench_stick [HISTORIES]    default 1000
 #include <algorithm>
 #include <cmath>

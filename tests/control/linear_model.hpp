@@ -1,5 +1,5 @@
 #pragma once
-/// The linear models (2.28)-(2.31) in closed loop with a law: the oracle of the tests of poles.
+/// The linear models (2.28)-(2.31) in closed loop with a law. Tests of poles use these models as oracle.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <complex>
@@ -72,8 +72,8 @@ inline Eigen::Matrix4d closed_loop(const Controller& controller, const Design& d
   return a;
 }
 
-/// Largest distance between expected and computed roots, when each expected root takes its nearest one in
-/// turn.
+/// Largest distance between expected and computed roots; each expected root is paired in turn with the
+/// nearest remaining root.
 inline double worst_mismatch(const Eigen::Matrix4d& a, const std::vector<std::complex<double>>& expected) {
   const Eigen::Vector4cd poles = a.eigenvalues();
   std::vector<std::complex<double>> left(poles.data(), poles.data() + poles.size());

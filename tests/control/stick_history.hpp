@@ -20,7 +20,8 @@ inline StickLimits tower_stick(Shaping shaping = Shaping::zv,
   return limits;
 }
 
-/// Holds a deflection of each axis for a random time, then chooses another one: full, centred or in between.
+/// Holds a deflection of each axis for a random time, then chooses another deflection: full, zero, or in
+/// between.
 class RandomStick {
  public:
   RandomStick(unsigned seed, std::array<bool, kAxes> used, double longest_hold_s)

@@ -9,7 +9,7 @@
 
 namespace crane::dashboard {
 
-/// Waits until a process ends, at most `longest`. A zombie has ended. @return whether it has
+/// Waits until a process ends, at most `longest`. A zombie has ended. @return true when the process has ended
 inline bool ends_within(pid_t pid, std::chrono::milliseconds longest) {
   const auto descriptor = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));
   if (descriptor < 0) return true;  // no such process
@@ -19,7 +19,7 @@ inline bool ends_within(pid_t pid, std::chrono::milliseconds longest) {
   return ended;
 }
 
-/// Waits until a child of this process ends, and leaves it to be waited for.
+/// Waits until a child of this process ends, without removing its exit status.
 inline void await_end_of_a_child() {
   siginfo_t info{};
   ::waitid(P_ALL, 0, &info, WEXITED | WNOWAIT);

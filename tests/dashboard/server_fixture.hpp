@@ -40,7 +40,7 @@ class ServerTest : public testing::Test {
   tcp::socket connect() {
     tcp::socket socket{context_};
     socket.connect({asio::ip::make_address("127.0.0.1"), server_.port()});
-    // A test that waits for an answer which does not come fails; it does not hang.
+    // With this timeout, a test fails instead of hanging when an answer does not arrive.
     const timeval patience{.tv_sec = 10, .tv_usec = 0};
     ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     return socket;
@@ -74,7 +74,7 @@ class ServerTest : public testing::Test {
                : text.substr(at + name.size() + 2, text.find('\n', at + 1) - at - name.size() - 2);
   }
 
-  /// Sends bytes as they are, and reads until the server ends the connection.
+  /// Sends the bytes without change, and reads until the server ends the connection.
   std::string raw(const std::string& bytes) {
     auto socket = connect();
     boost::system::error_code error;

@@ -1,4 +1,4 @@
-/// Completion and manual page are made from the commands that --help shows.
+/// Completion and manual page are generated from the commands of --help.
 #include "cli/command_tree.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ std::string printed(const std::vector<std::string>& arguments) {
   return ended.output;
 }
 
-/// What a shell offers after `words`, the last of which is being typed.
+/// Completions that a shell offers after `words`; the last word is incomplete.
 std::string completed_by_bash(const std::string& words, int last) {
   const recording::TemporaryDirectory directory;
   recording::put_contents(directory / "crane", printed({"completion", "bash"}));

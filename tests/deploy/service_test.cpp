@@ -63,7 +63,7 @@ TEST(Service, IsReadyWhenEveryProcessIsAndFeedsTheWatchdog) {
 }
 
 TEST(Units, AreRightForSystemd) {
-  const recording::TemporaryDirectory root;  // with the program that the units start
+  const recording::TemporaryDirectory root;  // root directory with the program that the units start
   std::filesystem::create_directories(root / "usr/bin");
   std::filesystem::create_directories(root / "etc/systemd/system");
   std::filesystem::create_directories(root / "usr/lib/systemd/system");

@@ -16,7 +16,7 @@ namespace {
 
 using namespace crane::diagnosis::score;
 
-/// A set that takes longer has failed, s of processor.
+/// Longest processor time of a set in s; a set that takes longer has failed.
 constexpr rlim_t kMostCpu_s = 600;
 
 struct Options {
@@ -29,7 +29,7 @@ struct Options {
   bool quiet = false;
 };
 
-/// Sets of the truth have a seed each, counted from the first; those of MuJoCo have the deck's.
+/// Each set of the truth has a seed, counted from the first one; sets of MuJoCo have the seed of the deck.
 std::uint64_t seed_of(const Options& options, std::size_t number) {
   return options.deck == "truth" ? options.first_seed + number : options.first_seed;
 }
@@ -71,7 +71,7 @@ Record failed(const Options& options, std::size_t number, const std::string& fai
   return record;
 }
 
-/// In the process of one set: a crash or an endless search costs that set and no other.
+/// Runs in the process of one set: a crash or an endless search affects only this set.
 void score_one(const Options& options, std::size_t number) {
   const rlimit most{kMostCpu_s, kMostCpu_s};
   ::setrlimit(RLIMIT_CPU, &most);

@@ -33,7 +33,8 @@ void fit_of_pivot_friction(benchmark::State& state) {
   const double inertia = rig.plant.load_mass_kg * std::pow(rig.start.position[crane::plant::kHoist], 2);
   const Effects start{{&*found, {0.02 * inertia, 0.005 * inertia}}};
   Fitted fitted = study.fit(start);
-  study.learn_disturbance(fitted.effects);  // before, friction counts as disturbance
+  // before this call, the noise model describes the friction as a disturbance
+  study.learn_disturbance(fitted.effects);
   for (auto _ : state) fitted = study.fit(start);
   state.counters["b_nmsprad"] = fitted.effects[0].values[0];
   state.counters["c_nm"] = fitted.effects[0].values[1];

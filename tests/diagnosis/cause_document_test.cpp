@@ -1,5 +1,5 @@
-/// The causes of docs/diagnosis.md are those of the code: terms of the model (plant/model), candidates of the
-/// diagnosis, causes of the twin, and the groups by which the score judges.
+/// docs/diagnosis.md shows the causes of the code: terms of the model (plant/model), candidates of the
+/// diagnosis, causes of the twin, and the confounded groups of the score.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Backlash in the data of a laboratory that knows the friction of the whole healthy axis.
+/// Backlash in the data of a laboratory whose rig file contains the friction of the whole healthy axis.
 #include <gtest/gtest.h>
 
 #include <cmath>

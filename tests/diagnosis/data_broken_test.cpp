@@ -119,7 +119,7 @@ TEST(BrokenData, ASwingOfTheWrongSignIsRefused) {
   EXPECT_THAT(refusal_of(table), AllOf(HasSubstr("swing_radial_rad"), HasSubstr("sign?")));
 }
 
-/// A tower whose jib turns to and fro: L tangential'' + g tangential = -(x slew'' + 2 x' slew').
+/// A tower whose jib slews in both directions: L tangential'' + g tangential = -(x slew'' + 2 x' slew').
 recording::Table turning_tower(double sign) {
   const configuration::Rig rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
   const double length_m = rig.start.position[plant::kHoist], gravity_mps2 = rig.plant.gravity_mps2;

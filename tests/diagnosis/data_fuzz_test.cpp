@@ -95,7 +95,7 @@ class Fuzz {
  private:
   std::string cell(const std::string& name, double time_s, double wild) {
     if (below(60) == 0) return below(2) == 0 ? "" : "nan";
-    if (below(5000) == 0) return "1e300";  // rare: one makes most files refused
+    if (below(5000) == 0) return "1e300";  // rare, because most files with such a value are refused
     const double wave = std::sin(2 * time_s + static_cast<double>(name.size()));
     const double value = name == "cable_length_m"                    ? 0.8 + 0.1 * wave
                          : name == "trolley_position_m"              ? 0.6 + 0.2 * wave
@@ -114,7 +114,7 @@ class Fuzz {
   std::mt19937_64 random_;
 };
 
-/// As far as the engine goes before it searches.
+/// The steps of the engine before its search.
 void through_the_engine(const diagnosis::Run& run, const configuration::Rig& rig) {
   const Runs runs{prepare(run, rig)};
   const Replays replays = replays_of(runs, {rig.plant, rig.terms});

@@ -14,9 +14,9 @@ constexpr std::array kPattern{Kind::single, Kind::clean, Kind::single, Kind::pai
                               Kind::single, Kind::clean, Kind::single, Kind::confounded};
 constexpr std::array kMultiples{4.0, 2.0, 1.0};
 constexpr double kClear = 4, kSeconds = 30;
-/// Poor data, which do not separate confounded causes: one run of this length.
+/// Length of the only run of poor data, which do not separate confounded causes.
 constexpr double kPoor = 3, kPoorSeconds = 12;
-/// Largest multiple of the nominal amplitude of a credible crane.
+/// Largest amplitude of a credible crane / nominal amplitude.
 constexpr double kMostAmplitude = 3;
 
 /// An effect in data that do not separate it from its rival.
@@ -44,8 +44,8 @@ truth::Case case_on(const std::string& rig, std::uint64_t seed) {
   return request;
 }
 
-/// Effects that a free pendulum cannot show: a late sensor is a later release, a tilted support an offset, a
-/// turned sensor another direction of release.
+/// Effects that data of a free pendulum cannot show: a late sensor is equivalent to a later release, a tilted
+/// support to an offset, a rotated sensor to another direction of release.
 bool shows_nowhere(const std::string& rig, const truth::Hidden& effect) {
   return rig == "pendulum" && (effect.name == "swing_delay" || effect.name == "swing_moving_average" ||
                                effect.name == "jib_tilt" || effect.name == "swing_misalignment");
@@ -83,7 +83,7 @@ double set_amplitudes(truth::Case& request, double multiple) {
   return reached;
 }
 
-/// Largest multiple of the deck that an effect reaches; 0: none.
+/// Largest multiple of the deck that the effect can have; 0: none.
 double nearest_multiple(double reached) {
   constexpr double kNear = 0.75;
   for (const double multiple : kMultiples)
@@ -91,7 +91,7 @@ double nearest_multiple(double reached) {
   return 0;
 }
 
-/// Every other set is of the tower, the rest of the rigs that can have the effects, in turn.
+/// Every second set is of the tower; the other sets are of the other rigs that can have the effects, in turn.
 std::string rig_for(const std::vector<truth::Hidden>& effects, std::size_t turn) {
   constexpr std::array kRigs{"gantry", "drive_axis", "pendulum"};
   if (turn % 2 == 0) return "tower";
@@ -131,7 +131,7 @@ Set set_of(std::size_t number, std::uint64_t first_seed) {
   const auto before = static_cast<std::size_t>(
       std::count(kPattern.begin(), kPattern.begin() + static_cast<std::ptrdiff_t>(place), set.kind));
   const auto each = static_cast<std::size_t>(std::count(kPattern.begin(), kPattern.end(), set.kind));
-  const std::size_t count = round * each + before;  // earlier sets of this kind
+  const std::size_t count = round * each + before;  // number of earlier sets of this kind
   const std::uint64_t seed = first_seed + number;
   std::vector<truth::Hidden> effects;
   std::string rig;

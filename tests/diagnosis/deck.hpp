@@ -1,5 +1,5 @@
 #pragma once
-/// The deck: hidden effects of each numbered data set. A longer score takes more of it.
+/// The deck: hidden effects of each numbered data set. A longer score uses more sets.
 #include <cstdint>
 #include <string>
 
@@ -17,13 +17,13 @@ struct Set {
   truth::Case request;
 };
 
-/// Of twelve sets three are clean, six have one effect (at 4, 2 and 1 detection limits in turn), one each an
-/// effect outside the library, two effects, and one of two confounded effects in data that hardly separate
-/// them. Half the sets are of the tower. The detection limit is the amplitude at which, over windows of 2 s,
-/// the effect changes the simulation as much as the disturbance does.
+/// Of twelve sets, three are clean and six have one effect (at 4, 2 and 1 detection limits in turn). One set
+/// has an effect outside the library, one set has two effects, and one set has one of two confounded effects
+/// in data that hardly separate them. Half the sets are of the tower. The detection limit is the amplitude at
+/// which, over windows of 2 s, the effect changes the simulation as much as the disturbance does.
 [[nodiscard]] Set set_of(std::size_t number, std::uint64_t first_seed);
 
-/// Motion of the truth that resembles one of the diagnosis' menu; empty: none.
+/// Motion of the truth that resembles a motion of the menu of the diagnosis; empty: none.
 [[nodiscard]] std::string run_like(const std::string& experiment);
 
 }  // namespace crane::diagnosis::score

@@ -18,7 +18,7 @@ double file_command(double begin_s, double time_s) {
   return strange::rich_command(begin_s + kFileRow_s * std::floor(time_s / kFileRow_s + 1e-6));
 }
 
-/// @param delay_s of the command on its way to the motor
+/// @param delay_s delay of the command between controller and motor
 std::vector<Run> runs_of_gantry(const strange::Gantry& gantry, double delay_s, double begin_s) {
   const auto delayed = [&](double t) { return file_command(begin_s, std::max(0.0, t - delay_s)); };
   auto table = strange::recorded(strange::moved(gantry, 24, delayed),

@@ -31,7 +31,8 @@ Run counted(const std::function<double(double)>& angle_rad) {
 
 double swinging_rad(double t) { return 0.8 * std::sin(1.1 * t) + 0.05 * std::sin(7 * t); }
 
-/// About two jumps per second of 2 to 6 mrad, one in the first row, two in neighbouring rows.
+/// About two jumps of 2 to 6 mrad per second; one jump is in the first row, two jumps are in neighbouring
+/// rows.
 Run losing(std::uint64_t seed, double& lost_rad) {
   Run run = counted(swinging_rad);
   std::mt19937_64 random(seed);

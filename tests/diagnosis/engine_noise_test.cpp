@@ -7,7 +7,7 @@
 namespace crane::diagnosis {
 namespace {
 
-/// 1 of white noise.
+/// The mean loss of white noise is 1.
 double mean_loss(const Fits& fits) {
   double sum = 0, count = 0;
   for (const WindowFit& fit : fits)
@@ -17,7 +17,7 @@ double mean_loss(const Fits& fits) {
 
 class NoiseOfARig : public testing::TestWithParam<const char*> {};
 
-/// A start that is not solved for, above all the speed of a drive, gives four to eight times the loss.
+/// If a start is not estimated, in particular the speed of a drive, the loss is four to eight times as large.
 TEST_P(NoiseOfARig, IsThatOfTheResidualOfTheRightModel) {
   truth::Case request;
   request.rig = GetParam();

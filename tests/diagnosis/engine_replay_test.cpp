@@ -57,7 +57,7 @@ void visit_errors(const Run& run, const configuration::Rig& rig, Part part, Visi
   for (std::size_t first = 5; first + rows < run.rows(); first += rows) {
     std::vector<double> out(rows * outputs.size());
     auto start = replay.measured_start(part, first);
-    // A more exact rate than the measured one: the test is of the equations.
+    // More accurate than the measured rate, because this test checks the equations.
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       const auto& y = run.measured[outputs[i]];
       start[2 * i] = y[first];
@@ -85,9 +85,11 @@ double rms(const Run& run, const configuration::Rig& rig, Part part) {
 TEST(FixedStepReplay, AgreesWithCvodeWithoutFriction) {
   configuration::Rig rig = tower_with({});
   rig.terms.clear();
-  const auto run = integrated(rig, 8, 0.15);        // small: without friction the crane would leave its track
-  EXPECT_LT(worst(run, rig, Part::drive), 1.5e-4);  // 2 s of double integration from a difference quotient
-  EXPECT_LT(worst(run, rig, Part::load), 7e-5);     // a quarter of a count
+  // small amplitude, because without friction the crane would leave its track
+  const auto run = integrated(rig, 8, 0.15);
+  EXPECT_LT(worst(run, rig, Part::drive),
+            1.5e-4);                             // error of a difference quotient, integrated twice over 2 s
+  EXPECT_LT(worst(run, rig, Part::load), 7e-5);  // a quarter of a count
   EXPECT_LT(worst(run, rig, Part::whole), 1.5e-4);
 }
 
@@ -107,14 +109,14 @@ TEST(FixedStepReplay, OfTheLoadDependsOnADragOfTheLoad) {
 }
 
 /// The position behind a gap is not measured, and the times of impacts are chaotic: without the correction by
-/// the motor's speed the true gap would fit no better than none.
+/// the motor's speed, the true gap would not fit better than no gap.
 TEST(FixedStepReplay, OfTheLoadFitsBestWithTheTrueGapOfTheDrive) {
   constexpr double kGap_rad = 0.01, kClearly = 0.4;
   const auto with_gap = [](double gap_rad, double guide) {
     return tower_with(
         {{"backlash", "slew", {{"gap", gap_rad}, {"guide_deceleration", guide}, {"driven_share", 0.65}}}});
   };
-  std::map<double, double> rms_of_gap;  // summed over the guides
+  std::map<double, double> rms_of_gap;  // rms of the residual by gap, summed over the guides
   for (const double guide : {0.1, 0.15, 0.2}) {
     const auto run = integrated(with_gap(kGap_rad, guide), 30, 0.5);
     for (const double gap_rad : {kGap_rad, 0.0, 0.5 * kGap_rad, 2 * kGap_rad})
@@ -205,7 +207,7 @@ TEST(PlainStarts, LeaveNoLargerErrorThanTheTrueMotion) {
     double of_truth = 0;
     for (std::size_t k = window.first; k < window.first + window.rows; ++k)
       of_truth += std::pow(run.measured[kTrolleyPosition][k] - true_m[k], 2);
-    // Beside a standstill the squares have several minima that differ by a percent.
+    // Near a standstill the sum of squares has several minima that differ by one percent.
     EXPECT_LE(left[w], 1.05 * of_truth) << "window " << w;
   }
 }
@@ -214,7 +216,7 @@ TEST(FrictionStep, HoldsAnAxisBelowItsFriction) {
   const auto friction = [](double v) { return 1.0 * std::tanh(v / 0.0005); };
   FrictionStep step;
   for (int k = 0; k < 20; ++k) step = friction_step(step.speed, 0.9, 1.0, 0.005, friction);
-  EXPECT_NEAR(step.speed, 0.0005 * std::atanh(0.9), 1e-6);  // creep of the smoothed step of friction
+  EXPECT_NEAR(step.speed, 0.0005 * std::atanh(0.9), 1e-6);  // creep speed of the smoothed step of friction
   EXPECT_NEAR(step.friction, 0.9, 1e-3);
 }
 

@@ -13,7 +13,7 @@
 namespace crane::diagnosis {
 namespace {
 
-/// A small delay has its own local minimum: a fit from there ends at 1 ms.
+/// The loss has a local minimum at a small delay: a fit from a small delay ends at 1 ms.
 TEST(Search, FindsALongDelayOfTheCommand) {
   truth::Case request;
   request.rig = "drive_axis";
@@ -28,9 +28,9 @@ TEST(Search, FindsALongDelayOfTheCommand) {
   EXPECT_NEAR(best.effects[0].values[0], 0.105, 0.05 * 0.105);
 }
 
-/// With amount 0 of its further effect a hypothesis is as likely as its part.
+/// If the amount of its further effect is 0, a hypothesis is as likely as its part.
 TEST(Search, FindsNoHypothesisLessLikelyThanOneOfItsParts) {
-  constexpr double kTolerance_nats = 3;  // a fit ends when a round gains less
+  constexpr double kTolerance_nats = 3;  // a fit ends when a round decreases the loss by less
   for (const unsigned seed : {5U, 6U}) {
     truth::Case request;
     request.rig = "drive_axis";
@@ -55,8 +55,8 @@ TEST(Search, FindsNoHypothesisLessLikelyThanOneOfItsParts) {
   }
 }
 
-/// The loss is rough, because the axis breaks loose earlier or later: by more than neighbouring amplitudes
-/// differ.
+/// The loss is rough, because the axis breaks loose earlier or later. This roughness exceeds the differences
+/// between neighbouring amplitudes.
 TEST(Intervals, OfARippleContainTheTruthDespiteARoughLoss) {
   constexpr double kAmplitude_v = 0.6, kWavelength_m = 0.0127;
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {

@@ -19,7 +19,7 @@ constexpr double kTick_s = 0.01;
 constexpr double kViscous_vspm = 0.4;
 
 struct Setup {
-  unsigned latest_step = 0;     ///< of the 20 of a tick: rows come up to so much after their tick
+  unsigned latest_step = 0;     ///< largest delay of a row after its tick, in steps of 1/20 tick
   double disturbance_v = 0.02;  ///< rms, correlation time 1 s
 };
 
@@ -79,7 +79,7 @@ Left left_of(Extra&& extra_v) {
 
 double nothing(double, double, double) { return 0; }
 
-/// The speed at the start of a piece counts to the rows' own instants.
+/// The speed at the start of a piece acts until the measured times of the rows.
 TEST(EquationError, OfLateRowsIsAsSmallAsOfRegularRows) {
   const configuration::Rig rig = axis_with_viscous_friction();
   const Runs regular{moved(rig, 30, 1, nothing, {.disturbance_v = 0})},
@@ -91,7 +91,7 @@ TEST(EquationError, OfLateRowsIsAsSmallAsOfRegularRows) {
   EXPECT_FALSE(find_jumps(of_late));
 }
 
-/// An inversion to first order only would leave 2 mm of 40 cm at a scale of 7 %.
+/// With an inversion of first order, an error of 2 mm of 40 cm would remain at a scale of 7 %.
 TEST(EquationError, InvertsAScaleOfTheEncoderAndKeepsTheResidualInSensorUnits) {
   constexpr double kScale = 0.93;
   const configuration::Rig rig = axis_with_viscous_friction();
@@ -182,7 +182,8 @@ TEST(Unexplained, EncoderThatLosesCountsIsAJumpOfThePosition) {
   EXPECT_THAT(left.jumps->variable, testing::StartsWith("trolley: jumps of the position"));
 }
 
-/// Forty data sets from fixed seeds: 35 true values inside two standard deviations of 1.5 % at most.
+/// Forty data sets from fixed seeds: at least 35 true values are within two standard deviations, which are at
+/// most 1.5 %.
 TEST(Intervals, ContainTheTruthAndAreNarrow) {
   configuration::Rig rig = axis_with_viscous_friction();
   rig.terms.clear();

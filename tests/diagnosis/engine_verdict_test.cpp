@@ -1,4 +1,4 @@
-/// Verdicts in words.
+/// Verdicts as sentences.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -18,7 +18,7 @@ Diagnosis of(Verdict verdict, std::vector<Cause> causes, std::vector<std::string
   return diagnosis;
 }
 
-/// @param picked share of resamples that pick it
+/// @param picked share of the resamples that select the cause
 Cause cause(const std::string& name, const std::string& axis, double picked) {
   return {name, axis, {}, 0, picked};
 }
@@ -50,7 +50,7 @@ TEST(Sentence, OfADoubtGivesTheReasonAndNoCause) {
             "The model has an error that no known cause explains (trolley: friction by position).");
 }
 
-/// Beside the verdict on the rest of the model.
+/// An encoder that loses counts is named in addition to the verdict on the rest of the model.
 class EncoderThatLosesCounts : public testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -1,6 +1,6 @@
-/// Hidden effects: code that shares nothing with the diagnosis writes CSV with a sealed answer. Each cause
-/// once at a clear amplitude, on the smallest rig and the shortest data that show it. `crane bench diagnosis`
-/// scores weak effects and long data.
+/// Hidden effects: code that shares nothing with the diagnosis writes CSV files and a sealed answer. Each
+/// cause is tested once at a clearly visible amplitude, on the smallest rig and with the shortest data that
+/// show it. `crane bench diagnosis` scores weak effects and long data.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -112,8 +112,8 @@ TEST_P(Alike, AreAmbiguousOrRightAndResolvedByTheProposedRun) {
 }
 INSTANTIATE_TEST_SUITE_P(Hidden, Alike, testing::ValuesIn(kAlike), name_of_test);
 
-/// Fresh, printed seeds. A correct build, right in a share kRightOnFreshSeeds of sets, fails once in 10,000
-/// runs.
+/// New, printed seeds. A correct build, whose share of right verdicts is kRightOnFreshSeeds, fails this test
+/// once in 10,000 runs.
 TEST(FreshSeeds, AreJudgedRightAsABatch) {
   const char* given = std::getenv("CRANE_DIAGNOSIS_SEED");
   const std::uint64_t seed = given != nullptr ? std::stoull(given) : std::random_device{}();

@@ -29,7 +29,7 @@ const std::vector<HiddenSet> kFoundAlone{{"command_delay", "trolley", "drive_axi
                                          {"torque_ripple", "trolley", "drive_axis"},
                                          {"swing_moving_average", "", "tower"}};
 
-// An elastic cable is found as a longer one: its bounce is never measured.
+// An elastic cable is named as a longer cable, because no sensor measures its vertical oscillation.
 const std::vector<HiddenSet> kNotFoundYet{{"cable_elasticity", "", "tower"}};
 
 // Confounded: gain and scale of the encoder without a load; delay and lag beside Coulomb friction.
@@ -43,7 +43,7 @@ const std::vector<HiddenSet> kSwitchedOff{{"command_delay", "trolley", "drive_ax
                                           {"swing_delay", "", "tower", 0},
                                           {"payload_mass", "", "gantry", 0, 9}};
 
-// A drifting gain is visible without friction.
+// A drifting gain is visible on a rig without friction.
 const std::vector<HiddenSet> kOutside{
     {"magnetic_detent", "trolley", "drive_axis"},  {"gain_drift", "trolley", "gantry"},
     {"hysteretic_force", "trolley", "drive_axis"}, {"periodic_force", "trolley", "drive_axis"},

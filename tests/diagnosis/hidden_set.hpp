@@ -12,7 +12,7 @@ namespace crane::diagnosis::score {
 
 struct HiddenSet {
   const char *name, *axis, *rig;
-  double amplitude = 1;  ///< of the truth: 1 is clearly visible
+  double amplitude = 1;  ///< amplitude of the truth; 1 is clearly visible
   std::uint64_t seed = 7;
 };
 inline void PrintTo(const HiddenSet& set, std::ostream* out) {

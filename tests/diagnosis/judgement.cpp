@@ -32,8 +32,8 @@ Judged judge_named(const Diagnosis& found, const std::vector<HiddenEffect>& hidd
   return there > 0 || (alike > 0 && !too_many) ? Judged::partly : Judged::wrong;
 }
 
-// Conventions of the truth: asymmetry is the whole difference of the directions, the jib tilts down, swing
-// sensors turn the other way.
+// Conventions of the truth: an asymmetry is the whole difference between the directions; a positive tilt
+// lowers the tip of the jib; swing sensors are rotated in the opposite direction.
 constexpr std::array kShared{
     SharedParameter{"coulomb_friction", "coulomb_v", "level_v"},
     SharedParameter{"viscous_friction", "viscous_vspm", "vspm"},

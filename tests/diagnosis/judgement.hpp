@@ -12,28 +12,29 @@ namespace crane::diagnosis::score {
 
 enum class Judged {
   right,       ///< exactly the hidden causes; "none" without any; "unknown" outside the library
-  among,       ///< ambiguous, hidden cause among the rivals
+  among,       ///< ambiguous, and the hidden cause is one of the rivals
   group,       ///< another cause of the same confounded group
-  beside,      ///< hidden cause and another one
-  partly,      ///< some of several causes, or confounded ones
+  beside,      ///< the hidden cause and another cause
+  partly,      ///< some of several hidden causes, or confounded causes
   unsure,      ///< "unknown" for a cause of the library
   missed,      ///< "none" for a hidden cause
-  wrong,       ///< another cause, with confidence
-  wrong_among  ///< ambiguous, hidden cause not among the rivals
+  wrong,       ///< another cause is named
+  wrong_among  ///< ambiguous, and the hidden cause is not one of the rivals
 };
 [[nodiscard]] const char* name_of(Judged judged);
-/// For messages of tests.
+/// Text for messages of tests.
 inline void PrintTo(Judged judged, std::ostream* out) { *out << name_of(judged); }
 
 [[nodiscard]] Judged judge(const Diagnosis& found, const std::vector<HiddenEffect>& answer);
 
-/// Causes whose effects are alike until the experiment changes. docs/diagnosis.md shows the groups.
+/// Group of causes that cannot be distinguished unless the experiment changes. docs/diagnosis.md shows the
+/// groups.
 struct ConfoundedGroup {
   std::vector<std::string> causes;
   std::string separated_by;  ///< change of the experiment
 };
 [[nodiscard]] const std::vector<ConfoundedGroup>& confounded_groups();
-/// Whether two causes are in one group.
+/// True when two causes are in one group.
 [[nodiscard]] bool confounded(const std::string& a, const std::string& b);
 
 /// Parameter of truth and library: library = factor * truth.

@@ -1,4 +1,4 @@
-/// Free decay of a real pendulum (data/SOURCE.md), one of the last two pieces held out.
+/// Free decay of a real pendulum (data/SOURCE.md). Each of the last two pieces is held out in turn.
 #include <gmock/gmock.h>
 
 #include "cli/diagnosis_data.hpp"
@@ -17,8 +17,8 @@ Diagnosis diagnosed(const std::string& held_out) {
   return diagnose(rig, data.train, data.test);
 }
 
-/// The rig file has no friction. The viscous friction of the authors errs by 6.5 mrad in vad1 and 16.2 mrad
-/// in vad2, from its best start.
+/// The rig file has no friction. With the viscous friction of the authors, the error from the best start is
+/// 6.5 mrad in vad1 and 16.2 mrad in vad2.
 class MeasuredPendulum : public testing::TestWithParam<std::pair<const char*, double>> {};
 
 TEST_P(MeasuredPendulum, HasDryFrictionAndNoNegativeDamping) {

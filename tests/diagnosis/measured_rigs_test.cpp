@@ -1,5 +1,5 @@
-/// Rigs of other laboratories (data/SOURCE.md) whose rig files lack what their authors or a careful fit
-/// found.
+/// Rigs of other laboratories (data/SOURCE.md). The rig files do not contain the effects that their authors
+/// or a careful fit found.
 #include <gmock/gmock.h>
 
 #include "cli/diagnosis_data.hpp"
@@ -57,8 +57,8 @@ TEST(MeasuredDoublePendulum, HasASecondArmInSmallSwings) {
             found.held_out.baseline_rms.at("swing_radial_rad"));
 }
 
-/// A careful fit: a newton metre of the driver is worth 0.83 N m, dry friction 0.15 N m, viscous friction
-/// almost 0 where the rig file has 0.047 N m s/rad.
+/// A careful fit: gain of the driver 0.83, dry friction 0.15 N m, viscous friction almost 0 instead of the
+/// 0.047 N m s/rad of the rig file.
 TEST(MeasuredDrivenPendulum, HasAWeakMotorAndDryFriction) {
   const Diagnosis found =
       diagnosed("dfki_pendulum", {"energy_shaping", "constant_torque", "ddp"}, {"sac", "direct_collocation"});

@@ -63,7 +63,7 @@ TEST_P(MotionMenu, TheNominalRigStaysInsideItsLimits) {
       std::vector<double> reference;
       for (std::size_t k = 0; k < run->run.rows(); ++k)
         reference.push_back(motion.reference(axis, static_cast<double>(k) * rig_.period_s).position);
-      // The loop is slow, and friction holds the end of a creep.
+      // The loop is slow, and friction stops the axis before the end of a creeping motion.
       if (rig_.drives[axis].present) {
         EXPECT_GE(span(run->run.measured[axis]), 0.6 * span(reference)) << motion.name;
       }

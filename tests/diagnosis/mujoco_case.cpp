@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Owns a temporary directory.
+/// Owner of a temporary directory.
 class Folder {
  public:
   Folder() : path_((fs::temp_directory_path() / "crane_mujoco_XXXXXX").string()) {
@@ -60,7 +60,7 @@ std::vector<HiddenEffect> answer_in(const Json& truth) {
   return hidden;
 }
 
-/// The answer has the library's names. Periodic phases and places are not compared.
+/// The answer has the library's names. Phases and positions of periodic effects are not compared.
 std::vector<Compared> compared_by_name(const Diagnosis& found, const std::vector<HiddenEffect>& answer) {
   std::vector<Compared> all;
   for (const HiddenEffect& hidden : answer)

@@ -1,5 +1,5 @@
 #pragma once
-/// Sets of tests/truth_mujoco, diagnosed from their files alone and scored.
+/// Diagnoses sets of tests/truth_mujoco from their files only, and scores the results.
 #include "score_record.hpp"
 
 namespace crane::diagnosis::score {

@@ -8,7 +8,7 @@
 namespace crane::diagnosis {
 namespace {
 
-/// As learnt from such rigs: noise of an encoder, a force with a correlation time of 0.5 s.
+/// Typical noise model: noise of an encoder, and a force with a correlation time of 0.5 s.
 const Disturbances kDisturbances{{{.noise = 1e-5, .acceleration = 0.04, .correlation_s = 0.5},
                                   {.noise = 1e-5, .acceleration = 0.04, .correlation_s = 0.5},
                                   {.noise = 1e-4, .acceleration = 0.05, .correlation_s = 0.5},
@@ -47,13 +47,13 @@ TEST(NextExperiment, SeparatesADelayFromALag) {
   const auto proposed = tower.propose({tower.effect("command_delay", "trolley", 0.03)},
                                       {tower.effect("actuator_lag", "trolley", 0.03)});
   ASSERT_TRUE(proposed);
-  // Two frequencies separate them, on the trolley.
+  // Two frequencies on the trolley separate the causes.
   EXPECT_EQ(proposed->name, "shaking_trolley");
   EXPECT_GT(proposed->separation, 20);
   EXPECT_NO_THROW((void)experiment::parse_scenario(proposed->scenario, "next.toml", &tower.rig));
 }
 
-/// The base model has no effect, thus no value to fit.
+/// The base model has no effect and therefore no value to fit.
 TEST(NextExperiment, SeparatesACauseFromTheBaseModel) {
   const Suspects tower("virginia_tech_tower");
   const auto proposed = tower.propose({tower.effect("command_delay", "trolley", 0.03)}, {});

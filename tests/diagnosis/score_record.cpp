@@ -28,7 +28,7 @@ std::string labels(const std::vector<Named>& all) {
   return text;
 }
 
-/// Oracle: the library has only the hidden causes.
+/// Oracle: the library contains only the hidden causes.
 Diagnosis oracle(const SealedCase& sealed, const std::vector<HiddenEffect>& answer) {
   std::set<std::string> names;
   for (const plant::TermKind& kind : plant::term_kinds()) names.emplace(kind.name);
@@ -61,7 +61,7 @@ std::vector<Compared> estimates_in(const Json& all) {
 /// Usual length of a motion of the menu.
 constexpr double kProposedSeconds = 24;
 
-/// Whether the proposed run, added to the training data, decides.
+/// True when the training data with the proposed run give a clear verdict.
 void try_experiment(const Set& set, Record& record) {
   truth::Case more = set.request;
   const std::string run = run_like(record.experiment);

@@ -19,7 +19,7 @@ Records only(const Records& all, const Is& is) {
   return some;
 }
 
-/// Sets whose effects reach the detection limit.
+/// Selects the sets whose effects reach the detection limit.
 Records of_kind(const Records& all, Kind kind) {
   return only(all, [&](const Record& r) {
     return r.kind == name_of(kind) && r.judged != "no data" && (kind == Kind::clean || r.multiple > 0);

@@ -1,5 +1,5 @@
 #pragma once
-/// Files of data with hidden effects, diagnosed from the files alone; the answer is read afterwards.
+/// Files of data with hidden effects. The diagnosis uses only the data files; the answer is read afterwards.
 #include <filesystem>
 #include <map>
 #include <string>
@@ -16,7 +16,7 @@ struct HiddenEffect {
   std::map<std::string, double> parameters;  ///< names and units of the truth
 };
 
-/// Owns a temporary directory.
+/// Owner of a temporary directory.
 class SealedCase {
  public:
   /// Writes train_N.csv, test_N.csv and answer.json.
@@ -27,7 +27,7 @@ class SealedCase {
   SealedCase(const SealedCase&) = delete;
   SealedCase& operator=(const SealedCase&) = delete;
 
-  /// Diagnosis of the CSV files.
+  /// Diagnoses the CSV files.
   [[nodiscard]] Diagnosis diagnosed(const Request& request = {}) const;
   /// Opens answer.json.
   [[nodiscard]] std::vector<HiddenEffect> answer() const;

@@ -19,7 +19,7 @@ using plant::kTrolley;
 constexpr double kRelative = 1e-9, kAbsolute = 1e-10;
 /// Central difference of df/dy s + df/dp, as a share of the parameter's step.
 constexpr double kShare = 1e-3;
-/// State of the crane, then voltages of trolley and slew after one pole and after two.
+/// State of the crane, then the voltages of trolley and slew after the first pole and after the second pole.
 constexpr std::size_t kFirst = plant::kStateSize, kSecond = kFirst + 2, kSize = kSecond + 2;
 using Values = std::array<double, kSize>;
 
@@ -197,7 +197,7 @@ class Solver {
     return 0;
   }
 
-  /// Prescribed coordinates have no sensitivity.
+  /// The sensitivity of a prescribed coordinate is 0.
   void keep_free(Values& slope) const {
     for (const std::size_t i : {0U, 1U, 2U, 3U}) {
       const bool drive = i % 2 == 0;  // trolley, radial, slew, tangential

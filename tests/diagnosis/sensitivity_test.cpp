@@ -1,5 +1,5 @@
-/// Slopes of fixed-step replays against forward sensitivities of CVODES, and these against finite
-/// differences.
+/// Compares slopes of fixed-step replays with forward sensitivities of CVODES, and these sensitivities with
+/// finite differences.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ configuration::Rig smooth_tower() {
   return rig;
 }
 
-/// No drive reverses: friction at standstill has its own tests (engine_replay_test.cpp).
+/// No drive reverses; engine_replay_test.cpp tests friction at standstill.
 std::vector<plant::PerAxis> onward_command() {
   std::vector<plant::PerAxis> command;
   for (std::size_t k = 0; k < kRows; ++k) {
@@ -107,7 +107,7 @@ class SlopesOfTheFit : public testing::TestWithParam<Tested> {
     return *found;
   }
 
-  /// As the fit does it: from two replays.
+  /// Slope as in the fit: from two replays.
   [[nodiscard]] std::vector<Reported> of_replays(const Varied& one, Part part) const {
     const double step = kShareOfStep * one.step;
     const std::vector<double> before = replayed(one.crane(one.value), part),
@@ -138,8 +138,8 @@ class SlopesOfTheFit : public testing::TestWithParam<Tested> {
 };
 
 /// Tolerance as a share of the slope. The curvature over 0.3 step is 0.5 * 7.7 rad/s * 1.5 ms = 0.6 % for the
-/// delay, the largest; steps of 5 ms err less. Measured: at most 1 %. A slope with 2 % error costs a round of
-/// the fit 2 %.
+/// delay, the largest; steps of 5 ms err less. Measured: at most 1 %. A slope with 2 % error changes the step
+/// of a round of the fit by 2 %.
 constexpr double kShareWrong = 0.02;
 /// m or rad, 1/1000 count of a swing encoder: a smaller change per step of the parameter is invisible.
 constexpr double kUnseen = 3e-7;

@@ -1,6 +1,6 @@
 #pragma once
-/// A laboratory with its own way of recording. The gantry of deploy/rigs/gantry.toml by Lagrange's equations
-/// and Runge-Kutta; no code shared with the diagnosis:
+/// A laboratory with unusual recordings. The gantry of deploy/rigs/gantry.toml, computed from Lagrange's
+/// equations with a Runge-Kutta method, without code of the diagnosis:
 ///   x'' (M + m sin^2 r) = F - m sin r (g cos r + l r'^2),   l r'' = x'' cos r - g sin r,   F = M k u - c x'
 #include <array>
 #include <cmath>

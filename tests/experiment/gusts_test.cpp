@@ -1,4 +1,4 @@
-/// The crane holds its position in gusts; whole stack in lockstep.
+/// The crane holds its position in gusts, with the whole stack in lockstep.
 #include <gtest/gtest.h>
 
 #include <cmath>

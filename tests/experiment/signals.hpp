@@ -9,7 +9,7 @@ namespace crane::experiment {
 
 inline constexpr double kPeriod_s = 0.01;
 
-/// `at(t)` sampled at 0, 0.01, ... up to and with `end_s`.
+/// `at(t)` sampled at 0, 0.01, ..., `end_s`.
 template <class Signal>
 std::vector<Sample> sampled(double end_s, Signal at) {
   std::vector<Sample> run;

@@ -61,7 +61,8 @@ TEST(Expression, ConditionsAreOneOrZero) {
       {"open and phase == BUSY", 1},
       {"phase == IDLE", 0},
       {"phase != IDLE", 1},
-      {"x_m > 1m and x_m > 1m or open", 1},  // `and` binds stronger: the other reading gives 0
+      {"x_m > 1m and x_m > 1m or open",
+       1},  // `and` binds more strongly than `or`; otherwise the value would be 0
       {"open or x_m > 1m and x_m > 1m", 1},
       {"x_m / 2s < 0.3 m/s", 1},
       {"angle_rad / 1s > 5 deg/s", 1},
@@ -106,7 +107,7 @@ TEST(Expression, RisingIsUnknownUntilTheConditionHasBeenFalse) {
   EXPECT_EQ(at(1), 1);
 }
 
-/// A random sum of products as text, and its value computed beside it.
+/// A random sum of products as text, with its independently computed value.
 struct Generated {
   std::string text;
   double value = 0;

@@ -31,9 +31,9 @@ class ComediStandIn {
 
   // Faults that a test sets.
   bool there = true;
-  unsigned locked_by_another = kSubdevices;  ///< a subdevice; kSubdevices: none
+  unsigned locked_by_another = kSubdevices;  ///< subdevice that another program has locked; kSubdevices: none
   unsigned largest_count = 0xFFFFFF;
-  double range_v = 10;  ///< of the good range
+  double range_v = 10;  ///< limit of the suitable range
   unsigned stuck_counter = kChannels;
   bool answers = true;
   bool fixed_lines = false;  ///< true: the subdevices are inputs or outputs only

@@ -1,5 +1,5 @@
-/// RTPS packets with the GUID of the supervisor's writer, which no check above the middleware can distinguish
-/// from its own packets. With keys none of them moves anything.
+/// RTPS packets with the GUID of the supervisor's writer. No check above the middleware can distinguish these
+/// packets from those of the supervisor. With keys, no such packet moves the crane.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -163,8 +163,8 @@ class Impostor {
   Mouth mouth_;
 };
 
-/// No check above the middleware can keep such packets from the bridge. The supervisor detects their effect
-/// and ends. `crane up` would then end the bridge; this test does not.
+/// No check above the middleware can prevent that the bridge receives such packets. The supervisor detects
+/// their effect and ends. `crane up` would then end the bridge; this test does not end it.
 TEST_F(Spoof, WithoutKeysForgedPacketsEndTheSupervisorBeforeTheCraneMoves) {
   RunningStack stack{kDomain, "virginia_tech_tower"};
   wait_until_locked(stack);

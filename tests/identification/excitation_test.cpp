@@ -78,7 +78,7 @@ TEST(MultiSine, KeepsTheSwing) {
 TEST(PredictedSwing, OfASlowTrolleyIsQuasiStatic) {
   Excitation slow{.axis = control::kTrolley, .about = 0.5, .sines = {}, .duration_s = 120};
   slow.sines[0] = {0.3, 0.02, 0};
-  // a/g at the largest acceleration of the sine between its fades; those are gentler than a period of the
+  // a/g at the largest acceleration of the sine between its fades. The fades last longer than a period of the
   // load.
   double largest = 0;
   for (double t = 0; t < 120; t += 0.01) largest = std::max(largest, std::abs(slow.at(t).acceleration));

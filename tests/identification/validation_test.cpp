@@ -9,7 +9,8 @@ namespace crane::identification {
 namespace {
 
 TEST(LinearResponse, TendsToTheCriticallyDampedStep) {
-  // K_m (s, d) = (25, 10): poles -5 twice, x = r (1 - (1 + 5 t) e^(-5 t)); ticks and filters tend to nothing.
+  // K_m (s, d) = (25, 10): poles -5 twice, x = r (1 - (1 + 5 t) e^(-5 t)); the effect of ticks and filters
+  // tends to zero.
   const LinearLoop loop{.gain = 2, .stiffness_vpu = 12.5, .damping_vspu = 5, .period_s = 1e-4};
   const std::vector<double> reference(20'000, 0.7);
   const auto response = linear_response(loop, reference, 0.2);

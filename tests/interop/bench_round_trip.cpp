@@ -59,7 +59,7 @@ void bus_round_trip(bus::Vendor vendor) {
     auto in = bus.subscriber(topics::anti_swing);
     const auto end = Clock::now() + 10s;
     while ((out.matched() == 0 || in.matched() == 0) && Clock::now() < end) bus.wait(5ms);
-    std::this_thread::sleep_for(1s);  // the echoing side has matched too
+    std::this_thread::sleep_for(1s);  // the echoing side has also matched
     msg::Contribution sample{};
     report(std::string{to_string(vendor)}.c_str(), [&] {
       ++sample.header.tick;

@@ -36,7 +36,7 @@ std::vector<std::uint8_t> forged(std::vector<std::uint8_t> payload, Random& rand
     case 2:
       payload[4] = static_cast<std::uint8_t>(payload[4] ^ 0x80U);
       break;
-    case 3:  // Cyclone DDS ignores bytes after the last field: changes the sample, too
+    case 3:  // Cyclone DDS ignores bytes after the last field; therefore this case also changes the sample
       payload[5] = static_cast<std::uint8_t>(payload[5] ^ 1U);
       payload.resize(payload.size() + 4 + random() % 1500, 0x41);
       break;

@@ -19,7 +19,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 namespace {
 constexpr std::uint32_t kMostBytes = 4096;
 
-/// The "sample" is the payload itself.
+/// The "sample" of this type is the payload itself.
 class RawType final : public dds::TopicDataType {
  public:
   explicit RawType(const dds_topic_descriptor_t& descriptor) {

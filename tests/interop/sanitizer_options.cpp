@@ -1,5 +1,5 @@
-// Fast DDS 2.9 deletes some of its own objects through a base of another size. That is no fault of the code
-// under test, and everything else the address sanitizer finds still counts.
+// Fast DDS 2.9 deletes some of its own objects through a base class of another size. This is not a defect of
+// the code under test. All other findings of the address sanitizer remain errors.
 extern "C" const char*
 __asan_default_options();  // NOLINT(bugprone-reserved-identifier): the sanitizer's name
 

@@ -93,8 +93,8 @@ struct Attacker {
 
 class Intruder : public Secure, public ::testing::WithParamInterface<VendorPair> {
  protected:
-  /// While a monitor with keys receives the bridge for 1 s, this attacker receives nothing and nobody
-  /// receives its samples.
+  /// While a monitor with keys receives samples of the bridge for 1 s, this attacker receives nothing, and no
+  /// program receives the samples of the attacker.
   void expect_shut_out(const Options& attacker_options) {
     const BridgeProcess bridge{keys(), GetParam().reader, crane_};
     Attacker attacker{attacker_options};

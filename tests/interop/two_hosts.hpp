@@ -35,7 +35,7 @@ inline Answer run(const std::string& command) {
   return answer;
 }
 
-/// Two hosts of our own, gone with the object.
+/// Two private hosts, which exist while this object exists.
 class TwoHosts {
  public:
   TwoHosts()
@@ -77,8 +77,8 @@ class TwoHosts {
   static constexpr const char* kFar = "10.77.0.2";
 
  private:
-  /// Waits for the carrier: the kernel reports it up to seconds after both ends are up. Between two looks it
-  /// waits for a message of the kernel, because each look delays the report.
+  /// Waits for the carrier: the kernel reports it up to seconds after both ends are up. Between two checks
+  /// the function waits for a message of the kernel, because each check delays the report.
   static bool has_carrier(const std::string& host, const std::string& device) {
     for (int i = 0; i < 30; ++i) {
       const std::string on_host = "ip -n " + host + " ";
@@ -92,7 +92,7 @@ class TwoHosts {
   bool ok_ = false;
 };
 
-/// A `crane` command that goes on on one of the hosts; ended by Ctrl-C, as its user does.
+/// A running `crane` command on one of the hosts. Ctrl-C ends it.
 class Running {
  public:
   Running(const std::string& host, const std::vector<std::string>& command) {

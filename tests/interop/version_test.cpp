@@ -39,7 +39,7 @@ TEST_P(OtherVersions, OfAnotherCraneOrOfTheSameVersionAreNotNamed) {
   Bus same{of_version(GetParam().writer, kOwn, "same")};
   Bus elsewhere{of_version(GetParam().writer, kOwn + 1, "elsewhere", "other_crane")};
   Bus witness{of_version(GetParam().writer, kOwn + 1, "witness")};
-  // The witness joined last: what came before it has been discovered, too.
+  // The witness joined last. When it is discovered, all earlier participants have also been discovered.
   ASSERT_TRUE(eventually(ours, [&] { return !ours.other_versions().empty(); }));
   const auto reader = ours.subscriber(topics::state);
   const auto writer = same.publisher(topics::state);

@@ -41,7 +41,7 @@ class Jogged {
     engaged_ = false;
     return crane_.run_until_hold(20);
   }
-  /// The operator's program ends without a word.
+  /// The operator's program ends without a release.
   void die() { stick_.reset(); }
   [[nodiscard]] msg::Jog sample(const Deflection& deflection) const {
     msg::Jog jog{};

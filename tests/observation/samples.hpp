@@ -1,5 +1,5 @@
 #pragma once
-/// Samples as the bus hands them over.
+/// Samples in the form in which the bus delivers them.
 #include <algorithm>
 
 #include "crane/runtime/node.hpp"

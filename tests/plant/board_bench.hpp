@@ -12,7 +12,7 @@ using bridge::Outputs;
 
 inline constexpr std::int64_t kTick_ns = 10'000'000;
 
-/// A board and the caller's side of its loop.
+/// A board and the loop that calls it.
 class Bench {
  public:
   explicit Bench(const SimulatedRig& rig = {}) : board(rig) {}

@@ -20,7 +20,7 @@ constexpr int kTicks = 400;  // 4 s
 SimulatedRig tower() {
   SimulatedRig rig;
   rig.drives[plant::kTrolley].low_stop = 0.1;
-  rig.drives[plant::kTrolley].high_stop = 0.6;  // is hit
+  rig.drives[plant::kTrolley].high_stop = 0.6;  // the trolley reaches this stop
   rig.drives[plant::kHoist].low_stop = 0.3;
   rig.start.radial_rad = 0.05;
   return rig;
@@ -70,8 +70,8 @@ double largest_difference(const std::vector<plant::State>& a, const std::vector<
 }
 
 constexpr Tolerances kTight{.relative = 1e-10, .absolute = 1e-11};
-/// CVODE of every rig is off by up to 5e-4 m, rad, m/s or rad/s in these motions, since an impact repeats the
-/// error of its time times the jump of the speed.
+/// In these motions CVODE has errors of up to 5e-4 m, rad, m/s or rad/s, because an error of the time of an
+/// impact causes a position error: the time error times the jump of the speed.
 constexpr double kErrorOfCvode = 5e-4;
 
 bool fits(const TermSetting& term, const SimulatedRig& rig) {
@@ -84,7 +84,7 @@ void expect_agreement(const SimulatedRig& rig, const std::vector<TermSetting>& t
   EXPECT_LT(largest_difference(motion_of(rig, terms, Method::fast), exact), kErrorOfCvode);
 }
 
-/// With the friction of the rig, which makes every motion stiff at its standstill.
+/// With the friction of the rig, which makes the equations stiff at standstill.
 void expect_agreement_with_each_term(const SimulatedRig& rig) {
   for (const TermSetting& term : test::every_effect()) {
     if (!fits(term, rig)) continue;
@@ -144,7 +144,7 @@ TEST(FastIntegrator, AgreesWithCvodeWhileDrivesStickAndSlip) {
   EXPECT_GT(closer, 0.9 * kRuns) << "runs in which the fast method is closer to the exact motion than CVODE";
 }
 
-/// The time of an impact on the way of a body that CVODE and the fast method have in common.
+/// Time of an impact in a motion that has a closed form.
 TEST(FastIntegrator, FindsTheImpactAndTheStandstillOfABrakedAxis) {
   for (const Method method : {Method::cvode, Method::fast}) {
     plant::Parameters bare;

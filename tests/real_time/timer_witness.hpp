@@ -1,7 +1,7 @@
 #pragma once
-/// A bare timer on every processor beside a real-time test. It detects pauses of the computer itself. When
-/// the host of a virtual machine takes a processor away, a real-time test can fail although the code has no
-/// defect.
+/// A timer on every processor that runs beside a real-time test and detects pauses of the computer itself.
+/// When the host of a virtual machine takes a processor away, a real-time test can fail although the code has
+/// no defect.
 #include <atomic>
 #include <cstdint>
 #include <latch>
@@ -17,14 +17,14 @@ inline constexpr std::int64_t kPause_ns = 5'000'000;
 
 class TimerWitness {
  public:
-  /// Starts one thread per processor: pinned, above every priority of a stack where the system permits it.
-  /// Returns when all of them watch.
+  /// Starts one thread per processor: Each thread is pinned and, if the system permits it, has a priority
+  /// above all priorities of a stack. Returns when all threads watch.
   TimerWitness();
   ~TimerWitness();
   TimerWitness(const TimerWitness&) = delete;
   TimerWitness& operator=(const TimerWitness&) = delete;
 
-  /// Wake-ups later than kPause_ns since the last call, and the latest wake-up of all.
+  /// Number of wake-ups since the last call that were later than kPause_ns, and the largest lateness.
   struct Report {
     int pauses = 0;
     std::int64_t latest_ns = 0;

@@ -1,4 +1,5 @@
-/// Samples read as numbers, compared with their JSON form, which another decoder makes; units of the fields.
+/// Compares samples read as numbers with their JSON form, which another decoder produces. Checks the units of
+/// the fields.
 #include "crane/recording/numbers.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 #pragma once
-/// A directory of its own for a test, removed afterwards; reading and writing whole files.
+/// A private directory of a test, which is removed afterwards, and functions that read and write whole files.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

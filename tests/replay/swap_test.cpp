@@ -1,4 +1,4 @@
-// What another controller would have demanded.
+// The demand of another controller at recorded states.
 #include "replay/swap.hpp"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST_F(Swap, AnotherControllerDiffersAndTheTableShowsTheLargestDifference) {
   EXPECT_EQ(result.largest[1].other_v, other[largest]);
 }
 
-/// All controllers run: a second writer or a stopped supervisor would end the demands.
+/// All controllers run to the end; a second writer or a stopped supervisor would end the demands.
 TEST_F(Swap, EveryControllerComputesADemandInEveryTick) {
   for (const auto& controller : control::controllers()) {
     SCOPED_TRACE(controller.name);

@@ -1,6 +1,6 @@
 #pragma once
-/// One component on a memory bus, in lockstep or with a clock that the test sets: a test publishes its
-/// inputs, lets it step, and reads its outputs.
+/// One component on a memory bus, in lockstep or with a clock that the test sets. A test publishes the inputs
+/// of the component, executes a step, and reads its outputs.
 #include <map>
 #include <memory>
 #include <string>

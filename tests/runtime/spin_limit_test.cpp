@@ -1,4 +1,4 @@
-/// A real-time process that spins ends; one that waits goes on.
+/// A real-time process that spins is ended; a process that waits continues.
 #include "crane/runtime/spin_limit.hpp"
 
 #include <gtest/gtest.h>

@@ -16,7 +16,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// The links of the build, as tests/structure/links.cmake writes them.
+/// The links between the targets of the build, from the file that tests/structure/links.cmake writes.
 struct Build {
   std::map<std::string, std::string> folder;  ///< by target
   std::map<std::string, Names> links;         ///< by target: targets and external libraries
@@ -34,7 +34,7 @@ Build read_build() {
   return build;
 }
 
-/// All that `target` links, directly or not.
+/// All targets and libraries that `target` links, directly or indirectly.
 Names linked_by(const Build& build, const std::string& target) {
   Names all;
   std::vector<std::string> open{target};
@@ -88,14 +88,14 @@ class Table {
 
   [[nodiscard]] bool has(const std::string& folder) const { return may_use_.contains(folder); }
 
-  /// The row of a folder: its own, that of the nearest parent, or "process".
+  /// The row of a folder: the row of the folder itself, of its nearest parent, or "process".
   [[nodiscard]] std::string row_of(std::string folder) const {
     while (!may_use_.contains(folder) && folder.find('/') != std::string::npos)
       folder.resize(folder.rfind('/'));
     return folder;
   }
 
-  /// Whether the row permits the use, directly or through the folders that it permits.
+  /// True when the row permits the use, directly or through the folders that it permits.
   [[nodiscard]] bool permits(const std::string& from, const std::string& to) const {
     Names reached;
     std::vector<std::string> open{from};

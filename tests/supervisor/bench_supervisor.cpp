@@ -15,7 +15,7 @@ namespace {
 std::atomic<std::size_t> allocations{0};
 }
 
-// Not inlined: the compiler would pair malloc with the library's own delete.
+// Not inlined; otherwise the compiler would pair malloc with the delete of the library.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   allocations.fetch_add(1, std::memory_order_relaxed);
   if (void* memory = std::malloc(size)) return memory;
@@ -34,7 +34,7 @@ Limits tower() {
   return limits_of(crane::configuration::load_rig(std::string{CRANE_RIGS} + "/virginia_tech_tower.toml"));
 }
 
-/// A crane whose axes and load move; positions are of no consequence for the time.
+/// A crane whose axes and load move. The positions have no influence on the time.
 Sample sample_at(double time_s) {
   const double s = std::sin(time_s);
   return {.time_s = time_s,

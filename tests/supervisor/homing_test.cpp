@@ -124,10 +124,10 @@ TEST(Homing, OfAnAxisWithoutAMarkOrOfAnArmedCraneIsRefused) {
 
 TEST(Homing, FindsTheMarkTwiceAndEndsLockedWithAKnownPosition) {  // S22
   for (const double from_m :
-       {0.3, 0.105, 0.08, 1.4}) {  // the third starts at its mark, the last one at the other switch
+       {0.3, 0.105, 0.08, 1.4}) {  // the third run starts at the mark, the last run at the other switch
     Crane t{from_m};
     t.to_homing();
-    t.demand(9);  // the gate limits the volts to those of creeping
+    t.demand(9);  // the gate limits the voltage to volt_limit_v of homing
     t.live_until_stopped();
     EXPECT_EQ(t.cause(), Cause::homed) << from_m;
     t.live(0.5);

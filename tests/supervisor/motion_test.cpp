@@ -1,4 +1,4 @@
-// Limits of position, speed and swing, and brakes that do not obey.
+// Limits of position, speed and swing; brakes that do not follow their commands.
 #include <gtest/gtest.h>
 
 #include "timeline.hpp"
@@ -159,7 +159,7 @@ TEST(Supervisor, AWatchdogRelayThatDoesNotOpenIsAFault) {  // S54
   }
 }
 
-/// Otherwise resets in quick succession could hide a welded relay.
+/// Without this rule, resets in quick succession could hide a welded relay.
 TEST(Supervisor, AResetWaitsUntilTheWatchdogRelayHasOpened) {  // S54
   Timeline t;
   t.to_ready();

@@ -1,5 +1,5 @@
-/// A gamepad drives a running stack. Its button is released, or it is unplugged, during motion and during a
-/// return.
+/// A gamepad drives a running stack. The button of the gamepad is released, or the gamepad is unplugged,
+/// during motion and during a return.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>

@@ -74,7 +74,7 @@ TEST_P(Interruption, OfHalfASecondStopsTheCraneAndTheContinuationMovesNothing) {
   running_.session().arm();  // the process needs no restart
 }
 
-/// 50 ms: between the age at which a missing sample stops the crane and a pause that is ridden through.
+/// 50 ms lies between a pause without effect and the age at which a missing sample stops the crane.
 TEST_P(Interruption, OfFiveTicksStopsTheCraneOrHasNoEffect) {
   ASSERT_NO_FATAL_FAILURE(move_fast());
   pause(50ms);

@@ -49,7 +49,7 @@ std::int64_t difference_ns(const timespec& later, const timespec& earlier) {
   return (later.tv_sec - earlier.tv_sec) * kSecond_ns + later.tv_nsec - earlier.tv_nsec;
 }
 
-/// Seconds since 1970 are larger than those since the start of any computer.
+/// A time since 1970 is larger than the time since the start of any computer.
 bool is_wall_time(const timespec& time) { return time.tv_sec > 1'000'000'000; }
 
 }  // namespace

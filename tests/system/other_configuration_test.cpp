@@ -34,7 +34,7 @@ class OtherConfiguration : public testing::Test {
                  node->second.pid == static_cast<std::uint32_t>(*running_.children().pid_of(component));
         },
         10s));
-    running_.listen(1500ms);  // until the causes of the restart itself are inactive
+    running_.listen(1500ms);  // waits until the causes of the restart itself are inactive
   }
   /// Requests a reset. @return reason of the refusal; empty when accepted
   std::string refusal() {
@@ -107,7 +107,7 @@ TEST(OtherConfigurationWithKeys, InAForgedStatusLeavesAnArmedCraneInHold) {
   RunningStack running{kDomain, kRig, stack::Plant::simulated, (directory / "keys").string()};
   running.session().arm();
   auto options = running.bus_options();
-  options.vendor = "fastdds";  // Cyclone DDS has one identity per process, which is the operator's here
+  options.vendor = "fastdds";  // Cyclone DDS has only one identity per process: here that of the operator
   ForgedStatuses forged{running, options};
   ASSERT_TRUE(running.until([&] { return forged.connected(); }, 5s));
   running.forget();

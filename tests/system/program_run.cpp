@@ -35,7 +35,7 @@ int milliseconds_until(steady_clock::time_point time) {
   return static_cast<int>(std::max<std::int64_t>(left.count(), 0));
 }
 
-/// Appends what can be read. @return false at the end of the stream
+/// Appends the available output. @return false at the end of the stream
 bool append_from(int descriptor, std::string& text) {
   std::array<char, 4096> part{};
   const auto n = ::read(descriptor, part.data(), part.size());
@@ -144,7 +144,7 @@ bool wait_for_end(const std::vector<pid_t>& pids, std::chrono::milliseconds pati
   bool all = true;
   for (const auto pid : pids) {
     const auto descriptor = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));
-    if (descriptor < 0) continue;  // it has ended
+    if (descriptor < 0) continue;  // the stream has ended
     pollfd wait{descriptor, POLLIN, 0};
     all = ::poll(&wait, 1, milliseconds_until(give_up)) > 0 && all;
     ::close(descriptor);

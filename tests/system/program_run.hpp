@@ -1,5 +1,5 @@
 #pragma once
-/// A program of the project as a user starts it: output, exit code, child processes.
+/// A program of the project, started as by a user: output, exit code, child processes.
 #include <sys/types.h>
 
 #include <chrono>
@@ -21,7 +21,7 @@ class ProgramRun {
   std::optional<int> wait(std::chrono::milliseconds patience);
   /// Waits for `text` on standard output. @return false when the program ended or `patience` passed
   bool wait_for(const std::string& text, std::chrono::milliseconds patience);
-  /// The same on standard error.
+  /// As wait_for(), on standard error.
   bool wait_for_error(const std::string& text, std::chrono::milliseconds patience);
   void send(int signal) const;
 

@@ -32,7 +32,7 @@ class Stranger {
                                         forged_.header.epoch + static_cast<std::uint32_t>(epoch_ahead)));
     writer_.emplace(mouth_->publisher(topic));
   }
-  /// Time at which it began to join as a writer.
+  /// Time at which this program began to join as a writer.
   [[nodiscard]] std::int64_t joined_ns() const { return joined_ns_; }
   /// Publishes the forged sample for the present tick and the next one.
   void speak() {

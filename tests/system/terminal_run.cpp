@@ -25,7 +25,8 @@ TerminalRun::TerminalRun(const std::filesystem::path& program, const std::vector
   std::vector<char*> argv{const_cast<char*>(path.c_str())};
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  // This process keeps the end of the program open: the settings stay readable after the program has ended.
+  // This process keeps the terminal of the program open, so that its settings remain readable after the end
+  // of the program.
   if (::openpty(&terminal_, &other_end_, nullptr, nullptr, nullptr) != 0)
     throw std::runtime_error("cannot open a terminal");
   resize(columns, rows);

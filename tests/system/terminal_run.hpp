@@ -1,5 +1,5 @@
 #pragma once
-/// A program of the project on a terminal of its own, as a user sees it.
+/// A program of the project on a separate terminal, with the output that a user sees.
 #include <sys/types.h>
 #include <termios.h>
 

@@ -1,4 +1,5 @@
-/// Truth against simulated plant: the same crane, derived, coded and integrated twice.
+/// Compares the crane of the truth with the simulated plant: the same crane, with independent derivation,
+/// code and integrator.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,16 +58,17 @@ plant::TermSetting friction(const std::string& axis, double b_plus, double b_min
            {"smoothing_speed", 0.0005}}};
 }
 
-/// With the plant's tolerances a hundredth of the usual both integrators are right to 1e-6; nothing else may
-/// differ.
+/// With a hundredth of the usual tolerances of the plant, both integrators have errors below 1e-6. No other
+/// difference is permitted.
 TEST(TruthAndPlant, MoveAlikeWithoutFriction) {
   truth::Physics physics = truth::rig("tower");
   for (truth::Drive& d : physics.drive) d.coulomb_v = d.viscous_vs = {};
   for (const double d : difference(physics, {})) EXPECT_LT(d, 1e-6);
 }
 
-/// Standstill differs: bristles here, a slope of 0.5 mm/s there. At each of the few reversals that shifts the
-/// start by about the time the smoothed friction needs to rise, a millisecond.
+/// The friction at standstill differs: bristles in the truth, a smoothed step of 0.5 mm/s in the plant. At
+/// each reversal this shifts the start of the motion by about a millisecond, the time in which the smoothed
+/// friction rises.
 TEST(TruthAndPlant, MoveAlikeWithFriction) {
   const auto d = difference(truth::rig("tower"),
                             {friction("trolley", 1.5, 6, 0.9, 1.2), friction("slew", 0.15, 0.05, 0.7, 0.6)});

@@ -1,5 +1,5 @@
-/// Faults of MuJoCo's cranes against the project's terms with the parameters that the answer states: names,
-/// units and signs of an answer are right when the term explains the fault.
+/// Compares the faults of the MuJoCo cranes with the terms of the project, with the parameters of the answer.
+/// If the term explains the fault, names, units and signs of the answer are correct.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -60,7 +60,7 @@ plant::TermSetting friction(const std::string& axis, double b_plus, double b_min
            {"coulomb_negative_v", c_minus}}};
 }
 
-/// The project's model of the same rig, its defaults, with one more term.
+/// The model of the project for the same rig, with default values and one additional term.
 Motion by_plant(const std::vector<plant::TermSetting>& more) {
   std::vector<plant::TermSetting> terms{friction("trolley", 1.5, 6, 0.9, 1.2),
                                         friction("slew", 0.15, 0.05, 0.7, 0.6)};
@@ -87,12 +87,12 @@ double distance(const Motion& a, const Motion& b) {
 }
 
 TEST(MujocoAndPlant, MoveAlikeWithoutAFault) {
-  // Bristles of 10 um here, a slope of 0.5 mm/s there: at each reversal a millisecond's difference.
+  // Bristles of 10 um in MuJoCo, a smoothed step of 0.5 mm/s in the project: each reversal causes a
+  // difference of a millisecond.
   EXPECT_LT(distance(by_mujoco(tower()), by_plant({})), 3e-3);
 }
 
-/// Terms that act on forces and bodies. Those of command and sensor are the project's in the bridge, not in
-/// the model.
+/// Terms that act on forces and bodies. Terms of command and sensor are not part of this model.
 void expect_terms_to_explain(const std::set<std::string>& faults) {
   Chance chance(3, "agreement");
   const Motion without = by_plant({});
@@ -127,8 +127,8 @@ TEST(MujocoAndPlant, TheTermOfTheAnswerExplainsTheFault) {
   expect_terms_to_explain(forces);
 }
 
-/// The terms of what rings leave more than the fault makes (0.0722 of 0.0719, 1.02 of 0.048): their answers
-/// are not to be trusted yet.
+/// For oscillating structures, the residual with the term is larger than the effect of the fault (0.0722 of
+/// 0.0719, 1.02 of 0.048). The answers of these faults are not yet reliable.
 TEST(MujocoAndPlant, DISABLED_TheTermsOfWhatRingsExplainTheFault) {
   expect_terms_to_explain({"double_pendulum", "jib_flexibility"});
 }

@@ -136,7 +136,7 @@ void fast(benchmark::State& run) {
 }
 BENCHMARK(fast);
 
-/// With the argument as number of steps per tick.
+/// The argument is the number of steps per tick.
 void mujoco_runge_kutta(benchmark::State& run) {
   ByMujoco simulation{static_cast<int>(run.range(0))};
   measure(run, simulation);
@@ -145,7 +145,7 @@ BENCHMARK(mujoco_runge_kutta)->RangeMultiplier(2)->Range(1, 16);
 
 /// The fewest steps with which the error is not larger than that of the fast method.
 void mujoco_with_the_error_of_fast(benchmark::State& run) {
-  // Both reach the error of the reference itself, so that the last few percent tell nothing.
+  // Both methods reach the error of the reference; a difference of a few percent is not significant.
   constexpr double kAsExact = 1.1;
   ByPlant own{simulator::Method::fast};
   const double permitted = kAsExact * error_of(own);

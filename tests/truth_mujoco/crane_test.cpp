@@ -1,4 +1,4 @@
-/// The bodies in MuJoCo against what is known without them.
+/// Compares the bodies in MuJoCo with independent results.
 #include "crane.hpp"
 
 #include <gtest/gtest.h>
@@ -130,8 +130,8 @@ TEST(MujocoCrane, SwingsWithThePeriodOfAPendulum) {
 
 class Law : public testing::TestWithParam<StandstillLaw> {};
 
-/// 10 kg with 2 m/s2 per volt and 1 V of dry friction: half a volt left gives 1 m/s2; a lack of half a volt
-/// takes it.
+/// 10 kg with 2 m/s2 per volt and 1 V of dry friction: half a volt above the friction accelerates with 1
+/// m/s2, half a volt below it decelerates with 1 m/s2.
 TEST_P(Law, SlidesAtTheLevelOfTheRigFile) {
   Physics physics;
   physics.rig.kind = Kind::drive_axis;
@@ -144,7 +144,7 @@ TEST_P(Law, SlidesAtTheLevelOfTheRigFile) {
   crane.command({1.5, 0});
   crane.advance(1, {}, {});
   const double slid_m = crane.pose().position[0];
-  EXPECT_NEAR(slid_m, 0.5, 0.01);  // breaks loose a few milliseconds late or early
+  EXPECT_NEAR(slid_m, 0.5, 0.01);  // the break-away is a few milliseconds early or late
   EXPECT_NEAR(crane.pose().speed[0], 1, 0.01);
   crane.command({0.5, 0});
   crane.advance(4, {}, {});
@@ -152,7 +152,8 @@ TEST_P(Law, SlidesAtTheLevelOfTheRigFile) {
   EXPECT_LT(std::abs(crane.pose().speed[0]), 0.01);
 }
 
-/// Below the level it creeps by 0.05 to 0.23 mm in five seconds, where three presliding lengths are 0.03 mm.
+/// Below the level the axis creeps by 0.05 to 0.23 mm in five seconds; three presliding lengths would be 0.03
+/// mm.
 TEST_P(Law, DISABLED_HoldsBelowTheLevelOfTheRigFile) {
   Physics physics;
   physics.rig.kind = Kind::drive_axis;
@@ -197,7 +198,7 @@ TEST(MujocoCrane, SwingsOnTwoCablesWithTheFrequenciesOfADoublePendulum) {
   Pose start;
   start.swing = {0.002, 0};
   crane.start(start);
-  // Projection of a long record on a frequency peaks at the mode.
+  // The projection of a long record on a frequency has its maximum at the frequency of the mode.
   const auto power = [](const std::vector<double>& v, double w) {
     double a = 0, b = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {

@@ -1,4 +1,4 @@
-/// Sets as the files have them.
+/// Data sets in the form of their files.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -50,7 +50,8 @@ TEST(MujocoData, AFaultLeavesDisturbanceNoiseAndRowTimesAsTheyWere) {
   nuisance.jitter = 0.3;
   nuisance.dropped = 0.1;
   Physics worse = gantry();
-  worse.sensor.swing_offset_rad[kRadial] = 0.1;  // seen, and no part of the motion without anti-swing
+  // visible in the data; without anti-swing control, the offset does not change the motion
+  worse.sensor.swing_offset_rad[kRadial] = 0.1;
   const auto a = recorded(gantry(), nuisance, short_plan()), b = recorded(worse, nuisance, short_plan());
   ASSERT_TRUE(a && b);
   ASSERT_EQ(a->rows.size(), b->rows.size());
@@ -58,11 +59,11 @@ TEST(MujocoData, AFaultLeavesDisturbanceNoiseAndRowTimesAsTheyWere) {
   for (std::size_t i = 0; i < a->rows.size(); ++i) {
     EXPECT_EQ(a->rows[i].time_s, b->rows[i].time_s);
     EXPECT_EQ(a->rows[i].position, b->rows[i].position);
-    EXPECT_NEAR(b->rows[i].swing[0] - a->rows[i].swing[0], 0.1, 1.01 / 3000);  // a count
+    EXPECT_NEAR(b->rows[i].swing[0] - a->rows[i].swing[0], 0.1, 1.01 / 3000);  // tolerance of one count
   }
 }
 
-/// Every fault of the list, on a rig that can have it, changes what is measured; at amount 0 it changes
+/// Every fault of the list changes the measurements of a rig that can have it; with the amount 0 it changes
 /// nothing.
 TEST(MujocoData, EveryFaultShowsInAWindowAndIsNothingAtAmountZero) {
   Physics tower = gantry();

@@ -29,7 +29,7 @@ PerAxis at_speed(const GuardedCrane& crane, double speed_mps) {
   return {friction_v + std::clamp(20 * (speed_mps - crane.speed(0)), -8.0, 8.0), 0, 0};
 }
 
-/// Drives until the supervisor stops the crane. @return largest trolley position of the load until rest
+/// Drives until the supervisor stops the crane. @return largest position of the load along the jib until rest
 double drive_until_stopped(GuardedCrane& crane, double speed_mps) {
   double farthest_m = 0;
   for (int i = 0; i < 2500; ++i) {
@@ -61,7 +61,7 @@ TEST(ZoneStop, OfAFastCraneIsControlledFirst) {
   while (crane.cause() == Cause::none) crane.tick(at_speed(crane, 0.6));
   EXPECT_EQ(crane.cause(), Cause::zone);
   EXPECT_FALSE(crane.memory.machine.ramping);
-  // A controlled stop as the planner makes it needs no ramped stop before the crane has slowed down.
+  // During a controlled stop by the planner, no ramped stop is necessary before the crane has slowed down.
   double speed_mps = crane.speed(0);
   const double from_mps = speed_mps;
   while (speed_mps > 0.05 && !crane.memory.machine.ramping) {

@@ -97,7 +97,7 @@ class GuardedCrane {
   std::uint64_t tick_ = 0;
 };
 
-/// Places in coordinates of the ground, computed from (2.11) without the code of the filter.
+/// Positions in coordinates of the ground, computed from (2.11) without the code of the filter.
 using Point = std::array<double, 3>;
 inline Point on_cable(const plant::State& s, double share, double suspension_height_m) {
   const double along = s.trolley_m - share * s.cable_m * std::cos(s.tangential_rad) * std::sin(s.radial_rad);

@@ -258,7 +258,7 @@ TEST_P(HostileRuns, EnterZonesWithoutTheFilter) {
   EXPECT_GT(inside, 10);
 }
 
-/// A crane inside the margin may leave. Twenty armings must not add up to a way into the zone.
+/// A crane inside the margin may leave. Twenty successive armings must not lead into the zone.
 TEST(HostileArming, InsideTheMarginLeadsNoCloserToTheZoneEachTime) {
   auto rig = deployed_rig("virginia_tech_tower");
   rig.clearance = {.load_radius_m = 0.05, .suspension_height_m = 2, .cable_error = 0.1, .wind_mps2 = 0.25};

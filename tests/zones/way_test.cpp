@@ -112,8 +112,9 @@ double closest_on(const WaySpace& space, PerAxis from, const std::vector<PerAxis
   return closest;
 }
 
-/// True when cells of 1 cm connect both places at the shortest cable; the flood passes where a load has
-/// `gap_m`. Any way, with any cable, has a counterpart there.
+/// True when cells of 1 cm connect both positions with the shortest cable; the flood fill passes where the
+/// load has the clearance `gap_m`. Every way, with any cable length, has a counterpart with the shortest
+/// cable.
 bool flood_connects(const WaySpace& space, const PerAxis& from, const PerAxis& to, double gap_m) {
   const double cable = std::min({from[2], to[2], space.axis[2].low});
   const bool slews = space.axis[1].present;

@@ -1,10 +1,10 @@
 #pragma once
 /// LuGre friction (Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE TAC 40 (1995) 419):
 ///   z' = v - |v| z / z_c(v),  f = s0 z + s1 exp(-(v / v_d)^2) z',  z_c = level(v) / s0
-/// with a damping that falls with speed (Olsson, Control Systems with Friction, Lund 1996): a constant one
-/// makes peaks of many times the level after each reversal, which no bearing shows. The deflection z is
-/// advanced with v held (exact for that), apart from the motion: at speed the bristles relax within
-/// microseconds, which no explicit step of the motion could follow.
+/// with a damping that decreases with speed (Olsson, Control Systems with Friction, Lund 1996): a constant
+/// damping causes peaks of many times the level after each reversal, which real bearings do not show. The
+/// deflection z is integrated separately from the motion, exactly for constant v: at speed the bristles relax
+/// within microseconds, which an explicit step of the motion cannot resolve.
 #include <algorithm>
 #include <cmath>
 
@@ -16,12 +16,12 @@ struct Bristles {
   double fading = 1;     ///< v_d, m/s or rad/s
   double z = 0;
 
-  /// @param level force at which they slide @param acceleration_per_force of what they hold
+  /// @param level force at which the bristles slide @param acceleration_per_force of the body that they hold
   static Bristles of(double level, double presliding, double acceleration_per_force) {
     Bristles b;
     b.stiffness = level / presliding;
     const double natural_radps = std::sqrt(b.stiffness * std::max(acceleration_per_force, 1e-9));
-    b.damping = b.stiffness / natural_radps;  // half the critical one
+    b.damping = b.stiffness / natural_radps;  // half the critical damping
     b.fading = presliding * natural_radps;
     return b;
   }

@@ -6,9 +6,10 @@
 namespace truth {
 namespace {
 
-constexpr double kFilter = 0.35;  // of the differentiated measurement, per tick
+constexpr double kFilter = 0.35;  // filter constant of the differentiated measurement, per tick
 constexpr double kDamping = 0.8;
-constexpr double kBelievedCoulomb = 0.85, kBelievedViscous = 0.9;  // share of the friction that it knows of
+// share of the friction that the controller compensates
+constexpr double kBelievedCoulomb = 0.85, kBelievedViscous = 0.9;
 constexpr double kMost_v = 9.5;
 
 }  // namespace
@@ -30,7 +31,8 @@ double Controller::track(std::size_t axis, const Target& target, const Sensed& m
   const double w = nominal_.bandwidth_radps[axis];
   double acceleration = target.acceleration + w * w * (target.position - measured[axis]) +
                         2 * kDamping * w * (target.speed - rate_[axis]);
-  // The loop is faster than the swing: what damps is a shift of the reference, r = k phi' / w_0^2.
+  // The loop is faster than the swing. Therefore a shift of the reference, r = k phi' / w_0^2, damps the
+  // swing.
   const double shift = w * w * plan_.swing_damping * plan_.cable_m / nominal_.gravity_mps2;
   if (axis == 0) acceleration += shift * rate_[2];
   if (axis == 1) acceleration -= shift * rate_[3] / std::max(0.3, measured[0]);
@@ -40,7 +42,7 @@ double Controller::track(std::size_t axis, const Target& target, const Sensed& m
   return acceleration / gain(axis, measured) + friction;
 }
 
-/// A voltage that rises until the axis has moved, then a hold of a second; both directions in turn.
+/// The voltage rises until the axis has moved and is then constant for a second; the directions alternate.
 double Controller::ramp(std::size_t axis, const Sensed& measured, double time_s) {
   constexpr double kRise_vps = 0.9, kMoved = 0.004, kHold_s = 1.2, kRest_s = 0.4;
   Ramp& r = ramps_[axis];

@@ -1,5 +1,6 @@
 #pragma once
-/// Position loop at 100 Hz with feed-forward, friction compensated roughly, light damping of the swing.
+/// Position loop at 100 Hz with feed-forward, approximate friction compensation, and light damping of the
+/// swing.
 #include "motion.hpp"
 
 namespace truth {
@@ -7,7 +8,7 @@ namespace truth {
 class Controller {
  public:
   Controller(const Physics& nominal, const Plan& plan);
-  /// Command of the next tick, from what the sensors show now.
+  /// Command of the next tick, from the present sensor values.
   Volts step(const Sensed& measured, double time_s);
 
  private:

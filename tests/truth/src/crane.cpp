@@ -58,13 +58,13 @@ Volts Crane::converted(const Volts& command_v) const {
   Volts out{};
   for (std::size_t i = 0; i < kDrives; ++i) {
     const double v = std::clamp(command_v[i], -10.0, 10.0 - kConverterStep_v);
-    out[i] =
-        (disturbance_.quantised ? std::round(v / kConverterStep_v) * kConverterStep_v : v) + 0.0;  // no -0
+    out[i] = (disturbance_.quantised ? std::round(v / kConverterStep_v) * kConverterStep_v : v) +
+             0.0;  // avoids -0
   }
   return out;
 }
 
-/// Command of the moment `time_s`, each axis with its delay; 0 before the start.
+/// Command at `time_s` with the delay of each axis; 0 before the start.
 Volts Crane::delayed(double time_s) const {
   Volts v{};
   for (std::size_t i = 0; i < kDrives; ++i) {
@@ -99,7 +99,7 @@ void Crane::advance_bristles(double span_s) {
   }
 }
 
-/// Strang splitting: half a step of the bristles, a whole one of the motion, half a step of the bristles.
+/// Strang splitting: half a step of the bristles, a whole step of the motion, half a step of the bristles.
 void Crane::run(double span_s, const Volts& input_v) {
   const int steps = std::max(1, static_cast<int>(std::lround(std::ceil(span_s / kStep_s - 1e-9))));
   const double h = span_s / steps;
@@ -116,7 +116,7 @@ void Crane::run(double span_s, const Volts& input_v) {
   }
 }
 
-/// Moments inside this tick at which a delayed command changes, and the tick's end.
+/// Times inside this tick at which a delayed command changes, and the end of the tick.
 std::vector<double> Crane::edges(double end_s) const {
   std::vector<double> at;
   for (const Drive& d : physics_.drive) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The crane in motion: drives, friction, elastic and loose connections, disturbances and what its sensors
-/// see. Runge-Kutta of fourth order at 0.4 ms between the edges of the (delayed) command.
+/// The moving crane: drives, friction, elastic connections, gaps, disturbances and sensors. The integrator is
+/// a Runge-Kutta method of fourth order with steps of 0.4 ms between the edges of the (delayed) command.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,9 +15,9 @@ namespace truth {
 inline constexpr double kTick_s = 0.01;
 inline constexpr double kStep_s = 0.0004;
 
-/// Disturbance and noise, drawn from the seed; 0 switches off.
+/// Disturbance and noise, drawn from the seed; 0: none.
 struct Disturbance {
-  double drive_v = 0;  ///< rms of the coloured disturbance at either motor
+  double drive_v = 0;  ///< rms of the coloured disturbance at each motor
   double load_n = 0;   ///< rms of the coloured force on the load, per direction
   double correlation_s = 0.5;
   double noise_counts = 0;  ///< rms of white noise before the encoders round
@@ -42,14 +42,15 @@ class Crane {
 
   /// One tick with the command held.
   void advance(const Volts& command_v);
-  /// What the sensors show now, without noise and rounding.
+  /// Present sensor values without noise and rounding.
   [[nodiscard]] Sensed sense() const;
-  /// The same with noise and rounding; once a tick.
+  /// Present sensor values with noise and rounding; call once per tick.
   [[nodiscard]] Sensed measure();
-  /// The command as the converter puts it out.
+  /// Output of the converter for a command.
   [[nodiscard]] Volts converted(const Volts& command_v) const;
 
-  /// The same crane at this moment with other physics but the cable; with no more disturbance from here on.
+  /// A copy of the crane in its present state with other parameters, except the cable, and without further
+  /// disturbance.
   [[nodiscard]] Crane without_effects(Physics nominal) const;
   [[nodiscard]] Crane undisturbed() const;
 

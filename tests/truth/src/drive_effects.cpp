@@ -16,7 +16,7 @@ std::string length(const Making& m) { return m.axis == 0 ? "m" : "rad"; }
 void coulomb_friction(const Making& m) {
   auto& levels = m.drive().coulomb_v;
   const std::array<double, 2> nominal{0.3, 0.22};
-  const double least = 0.02 - std::min(levels[0], levels[1]);  // some friction is always left
+  const double least = 0.02 - std::min(levels[0], levels[1]);  // smallest remaining friction
   const double more = m.say("coulomb_v", std::max(least, m.size * nominal[m.axis]), "V");
   for (double& level : levels) level += more;
 }

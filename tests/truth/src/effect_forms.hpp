@@ -1,5 +1,5 @@
 #pragma once
-/// How each effect is put into a crane: nominal sizes, and what the answer says about them.
+/// Form of each effect: changes of the crane, nominal sizes, and entries of the answer.
 #include <array>
 #include <string>
 
@@ -9,7 +9,7 @@
 
 namespace truth {
 
-/// One effect being put into a crane. `size` is the amplitude with its sign.
+/// One effect that is added to a crane. `size` is the amplitude with its sign.
 struct Making {
   Physics& crane;
   std::size_t axis;  ///< 0 trolley or radial, 1 slew or tangential
@@ -18,7 +18,7 @@ struct Making {
   Found& found;
 
   [[nodiscard]] Drive& drive() const { return crane.drive[axis]; }
-  /// Size times the nominal of the axis, kept for the answer.
+  /// Size times the nominal amplitude of the axis. Stores the value for the answer.
   double scaled(const std::string& name, std::array<double, 2> nominal, const std::string& unit) const {
     return say(name, size * nominal[axis], unit);
   }
@@ -28,7 +28,7 @@ struct Making {
   }
 };
 
-// On the drives and their encoders.
+// Effects on the drives and their encoders.
 void coulomb_friction(const Making& m);
 void viscous_friction(const Making& m);
 void direction_asymmetry(const Making& m);
@@ -50,7 +50,7 @@ void sticking_brake(const Making& m);
 void periodic_force(const Making& m);
 void crosstalk(const Making& m);
 
-// On the load, the jib and the swing sensors.
+// Effects on the load, the jib and the swing sensors.
 void payload_mass(const Making& m);
 void cable_length(const Making& m);
 void load_linear_drag(const Making& m);

@@ -102,7 +102,7 @@ bool possible(const Kind& kind, const Physics& p) {
   if (kind.name == "jib_flexibility") return p.drive[1].present;
   if (kind.name == "swing_misalignment") return p.tangential;
   if (kind.name == "payload_mass" && p.kind == RigKind::pendulum)
-    return false;  // its period does not show it
+    return false;  // the swing period does not show the effect
   return p.load_kg > 0;
 }
 
@@ -118,7 +118,8 @@ std::string choose_axis(const Kind& kind, const Hidden& hidden, const Physics& p
     if (axis.empty() || has(p, kind.axes, index(axis))) fitting.push_back(axis);
   if (fitting.empty() || !possible(kind, p))
     throw std::invalid_argument("effect = " + hidden.name + ": this rig cannot have it");
-  const double draw = random.uniform();  // always, so that the other numbers do not depend on a given axis
+  // drawn in any case, so that the other random numbers do not depend on a given axis
+  const double draw = random.uniform();
   if (hidden.axis.empty())
     return fitting[static_cast<std::size_t>(draw * static_cast<double>(fitting.size()))];
   if (std::find(fitting.begin(), fitting.end(), hidden.axis) == fitting.end())
@@ -141,7 +142,7 @@ Found apply(const Hidden& hidden, Physics& physics, std::uint64_t seed) {
   const double sign = random.sign();
   if (kind.sign == Sign::positive && hidden.amplitude < 0)
     throw std::invalid_argument("effect = " + hidden.name + ": amplitude has to be >= 0");
-  // A rig without friction cannot have less of it.
+  // A rig without friction cannot have less friction.
   const bool less = kind.sign == Sign::either && !(hidden.amplitude < 0) && sign < 0;
   const bool bare = kind.axes == "d" && physics.drive[index(found.axis)].coulomb_v[0] <= 0;
   const bool needs_friction = hidden.name == "coulomb_friction" || hidden.name == "viscous_friction";

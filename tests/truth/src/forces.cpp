@@ -1,4 +1,4 @@
-/// What acts on the crane: drives, friction, connections, wind.
+/// Forces on the crane: drives, friction, connections, wind.
 #include <algorithm>
 #include <cmath>
 
@@ -8,11 +8,12 @@ namespace truth {
 namespace {
 
 constexpr std::array<double, kDrives> kContactStiffness{1e5, 4e4};  // N/m, N m/rad
-constexpr double kContactDamping = 0.15, kElasticDamping = 0.03;    // share of the critical one
+constexpr double kContactDamping = 0.15, kElasticDamping = 0.03;    // damping ratio
 
 double sign(double value) { return value < 0 ? -1 : 1; }
 
-/// No output below the threshold, the mean of both sides, then the input less the threshold; rounded corners.
+/// The output is 0 below the threshold (the mean of both sides), above it the input minus the threshold; the
+/// corners are rounded.
 double dead_zone(double volts, double threshold_v) {
   const double width = (volts < 0 ? 1.05 : 0.95) * threshold_v;
   if (width <= 0) return volts;
@@ -43,7 +44,7 @@ double Crane::friction_level(std::size_t axis, double position, double speed, do
   return level;
 }
 
-/// What is left of the drive's input after friction and everything else that acts on the motor [V].
+/// Input of the drive minus friction and all other forces on the motor [V].
 double Crane::drive_v(std::size_t axis, const Moving& at, double input_v, double time_s) const {
   const Drive& d = physics_.drive[axis];
   const std::size_t c = axis == 0 ? kMotorX : kMotorSlew;

@@ -5,7 +5,7 @@
 namespace truth {
 namespace {
 
-/// Share of the slew inertia that sits on the motor's side of an elastic or loose connection.
+/// Share of the slew inertia on the motor side of an elastic connection or a gap.
 constexpr double kMotorShare = 0.35;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -61,7 +61,7 @@ Mechanics::Point Mechanics::carriage(const Coordinates& q, const Coordinates& ra
   return point;
 }
 
-/// Moves the point to the lower end of a cable that hangs from it; still in the jib's frame.
+/// Moves the point to the lower end of a cable that hangs from it, in the frame of the jib.
 void Mechanics::hang(Point& point, double length, bool elastic, std::size_t radial, std::size_t tangential,
                      const Coordinates& q, const Coordinates& rate) const {
   const Direction d{q[radial], q[tangential]};
@@ -78,7 +78,8 @@ void Mechanics::hang(Point& point, double length, bool elastic, std::size_t radi
   add(point.bias, 2 * rate[kCable] * t, d.by_theta);
 }
 
-/// From the jib's frame to velocities and accelerations over ground: w x r, 2 w x r', w x (w x r).
+/// Converts from the frame of the jib to velocities and accelerations relative to the ground: w x r, 2 w x
+/// r', w x (w x r).
 void Mechanics::turn(Point& point, const Coordinates& rate) const {
   const double w = rate[of(kJib)];
   Vector relative{};
@@ -150,7 +151,7 @@ Coordinates Mechanics::accelerations(const Coordinates& q, const Coordinates& ra
     }
     b[i] += dot(all.point[all.count - 1].jacobian[row], acting.load_n);
   }
-  for (std::size_t i = 0; i < n; ++i) {  // Cholesky, forward substitution on the way
+  for (std::size_t i = 0; i < n; ++i) {  // Cholesky decomposition with forward substitution
     for (std::size_t j = 0; j < i; ++j) {
       for (std::size_t k = 0; k < j; ++k) a[i][j] -= a[i][k] * a[j][k];
       a[i][j] /= a[j][j];

@@ -10,7 +10,8 @@ namespace truth {
 
 using Vector = std::array<double, 3>;
 
-/// Coordinates. A rig without elasticity has the first four; carriage and jib then move with their motors.
+/// Coordinates. A rig without elasticity has the first four coordinates; carriage and jib then move with
+/// their motors.
 enum Coordinate : std::size_t {
   kMotorX,
   kMotorSlew,
@@ -25,7 +26,7 @@ enum Coordinate : std::size_t {
 inline constexpr std::size_t kCoordinates = 9;
 using Coordinates = std::array<double, kCoordinates>;
 
-/// What acts besides gravity, already known at this instant.
+/// Forces in addition to gravity at this instant.
 struct Acting {
   Coordinates generalised{};  ///< N, N m
   Vector load_n{};            ///< force on the load, in the jib's frame
@@ -39,16 +40,16 @@ class Mechanics {
  public:
   explicit Mechanics(const Physics& physics);
 
-  /// Which coordinates move on their own.
+  /// Selection of the independent coordinates.
   [[nodiscard]] bool moves(Coordinate c) const { return moves_[c]; }
-  /// Index of the coordinate that stands for `c`: of the motor where carriage or jib are stiffly coupled.
+  /// Index of the coordinate that represents `c`: that of the motor if carriage or jib are rigidly coupled.
   [[nodiscard]] std::size_t of(Coordinate c) const { return stands_for_[c]; }
   [[nodiscard]] const std::vector<std::size_t>& moving() const { return moving_; }
 
   [[nodiscard]] LoadMotion load(const Coordinates& q, const Coordinates& rate) const;
   [[nodiscard]] Coordinates accelerations(const Coordinates& q, const Coordinates& rate,
                                           const Acting& acting) const;
-  /// Kinetic energy, and potential energy of gravity; springs are the caller's.
+  /// Kinetic energy plus potential energy of gravity; the caller adds the energy of springs.
   [[nodiscard]] double energy_j(const Coordinates& q, const Coordinates& rate) const;
 
  private:

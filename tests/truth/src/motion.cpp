@@ -14,7 +14,7 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 double middle(const Physics& p, std::size_t axis) { return 0.5 * (p.low[axis] + p.high[axis]); }
 double span(const Physics& p, std::size_t axis) { return p.high[axis] - p.low[axis]; }
 
-/// Sines of about equal speed from 0.08 to 1.5 Hz, none near the swing's own frequency.
+/// Sines of about equal speed from 0.08 to 1.5 Hz, none near the natural frequency of the swing.
 void add_sines(const Physics& p, Plan& plan, double size, Random& random) {
   const double swing_hz = std::sqrt(p.gravity_mps2 / plan.cable_m) / kTwoPi;
   for (std::size_t axis = 0; axis < kDrives; ++axis) {
@@ -34,7 +34,7 @@ void rich(const Physics& p, Plan& plan, double size, Random& random) {
   add_sines(p, plan, size, random);
 }
 
-/// From point to point with pauses.
+/// Moves from point to point with pauses.
 void moves(const Physics& p, Plan& plan, Random& random) {
   for (std::size_t axis = 0; axis < kDrives; ++axis) {
     if (!p.drive[axis].present) continue;
@@ -51,7 +51,7 @@ void moves(const Physics& p, Plan& plan, Random& random) {
   }
 }
 
-/// Sweeps at constant low speeds, to and fro.
+/// Sweeps at constant low speeds in both directions.
 void slow(const Physics& p, Plan& plan, Random& random) {
   for (std::size_t axis = 0; axis < kDrives; ++axis) {
     if (!p.drive[axis].present) continue;
@@ -114,7 +114,7 @@ Target Reference::at(double time_s) const {
       t = {m.to, 0, 0};
       continue;
     }
-    // Speed rises as (1 - cos) / 2, stays, and falls likewise.
+    // The speed rises as (1 - cos) / 2, is constant, and falls in the same form.
     const double into = time_s - m.at_s, left = m.duration_s - into;
     const double speed = (m.to - m.from) / (m.duration_s - m.round_s), omega = std::numbers::pi / m.round_s;
     const double edge = std::min(into, left), within = std::min(edge, m.round_s);
@@ -126,7 +126,8 @@ Target Reference::at(double time_s) const {
         edge < m.round_s ? 0.5 * speed * omega * std::sin(omega * within) * (into < left ? 1 : -1) : 0;
     break;
   }
-  // The sines grow over two seconds and begin at rest: those of time 0 are taken off with the same weight.
+  // The sines grow over two seconds and begin at rest, because their values at time 0 are subtracted with the
+  // same weight.
   constexpr double kGrow_s = 2;
   const double share = std::min(time_s / kGrow_s, 1.0);
   const double w = share * share * (3 - 2 * share), dw = 6 * share * (1 - share) / kGrow_s;

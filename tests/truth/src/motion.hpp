@@ -1,5 +1,5 @@
 #pragma once
-/// What a run asks of the crane: references in closed loop, or voltages that rise until an axis breaks away.
+/// Task of a run: references in closed loop, or voltages that rise until an axis breaks away.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +16,8 @@ struct Target {
 class Reference {
  public:
   explicit Reference(double start) : end_(start), start_(start) {}
-  /// From `at_s` on to `position`, with a mean speed of at most `speed`; rounded for `round_s` at both ends.
+  /// Moves to `position` from `at_s` on with a mean speed of at most `speed`; acceleration and deceleration
+  /// last `round_s`.
   void move(double at_s, double position, double duration_s, double round_s);
   void sine(double amplitude, double frequency_hz, double phase_rad);
   [[nodiscard]] double end() const { return end_; }

@@ -36,8 +36,8 @@ Physics gantry() {
   p.high = {2.5, 0};
   p.second_cable_m = 0.9;
   p.bandwidth_radps = {4, 0};
-  p.pace = 1.6;          // a longer track
-  p.load_effects = 1.5;  // without friction the disturbance moves the trolley more
+  p.pace = 1.6;          // faster motions on a longer track
+  p.load_effects = 1.5;  // without friction, the disturbance moves the trolley farther
   return p;
 }
 

@@ -9,7 +9,7 @@ namespace truth {
 
 class Random {
  public:
-  /// A stream of its own for every purpose, so that one more effect leaves the disturbance as it was.
+  /// A separate stream for every purpose, so that an additional effect does not change the disturbance.
   Random(std::uint64_t seed, std::string_view purpose)
       : state_(seed * 0x9e3779b97f4a7c15ULL + 0x632be59bd9b4e019ULL) {
     for (const char c : purpose) {

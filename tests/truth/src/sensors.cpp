@@ -1,4 +1,4 @@
-/// What the crane's sensors see.
+/// Sensors of the crane.
 #include <algorithm>
 #include <cmath>
 
@@ -72,7 +72,7 @@ Sensed Crane::measure() {
     const double noise = disturbance_.noise_counts * noise_.normal();
     if (counts[i] <= 0) continue;
     const double raw = sensed[i] * counts[i] + noise;
-    sensed[i] = (disturbance_.quantised ? std::round(raw) : raw) / counts[i] + 0.0;  // no -0
+    sensed[i] = (disturbance_.quantised ? std::round(raw) : raw) / counts[i] + 0.0;  // avoids -0
   }
   return sensed;
 }

@@ -10,7 +10,7 @@
 namespace truth {
 namespace {
 
-/// What a rig of this kind and seed suffers, on every run of the case.
+/// Disturbance of a rig of this kind and seed, equal in every run of the case.
 Disturbance disturbance_of(const Case& request) {
   Random random{request.seed, "disturbance"};
   Disturbance d;
@@ -60,13 +60,13 @@ std::vector<double> row_of(const Physics& p, double time_s, const Volts& v, cons
   return row;
 }
 
-/// A crane that swings to the jib or leaves its track would have been stopped: no data.
+/// Such data do not exist: a crane that swings up to the jib or leaves its track would have been stopped.
 void require_inside(const Physics& p, const Sensed& measured, const std::string& kind) {
   constexpr double kMostSwing_rad = 1, kMargin = 0.35;
   const double margin = kMargin * (p.high[0] - p.low[0]);
   const bool inside = measured[0] >= p.low[0] - margin && measured[0] <= p.high[0] + margin;
   const bool hanging = std::abs(measured[2]) < kMostSwing_rad && std::abs(measured[3]) < kMostSwing_rad;
-  if (!inside || !hanging)  // NaN is neither
+  if (!inside || !hanging)  // also true for NaN
     throw std::runtime_error("run = " + kind +
                              ": the crane leaves its range; the effects are too large for it");
 }
@@ -121,7 +121,7 @@ Size effect_size(const Case& request) {
   Sensed effect{}, disturbance{};
   double samples = 0;
   for (std::size_t i = 0; i < request.training_runs.size(); ++i) {
-    std::vector<Crane> others;  // without the effects, without the disturbance
+    std::vector<Crane> others;  // cranes without the effects and without the disturbance
     int tick = 0;
     const auto visit = [&](const Crane& crane, const Volts& applied) {
       if (tick++ % kWindow_ticks == 0) others = {crane.without_effects(bench.nominal), crane.undisturbed()};

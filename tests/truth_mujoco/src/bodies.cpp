@@ -7,9 +7,9 @@
 namespace mujoco_truth {
 namespace {
 
-/// Inertia of a mass point: MuJoCo asks for more than zero.
+/// Inertia of a point mass: MuJoCo requires a value above zero.
 constexpr const char* kPoint = "1e-9 1e-9 1e-9";
-/// Mass of a motor's rotor: its inertia is the joint's armature, which does not ride along with the jib.
+/// Mass of the rotor of a motor: its inertia is the armature of the joint, which does not move with the jib.
 constexpr double kRotor_kg = 1e-4;
 
 class Tree {

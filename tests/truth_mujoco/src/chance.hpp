@@ -1,5 +1,6 @@
 #pragma once
-/// Seeded draws, one stream for each purpose: a fault more leaves disturbance and noise as they were.
+/// Seeded random numbers with one stream for each purpose, so that an additional fault does not change
+/// disturbance and noise.
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -19,7 +20,7 @@ class Chance {
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
-  /// Even on a logarithmic scale.
+  /// Uniform on a logarithmic scale.
   double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
   double normal() { return std::normal_distribution<double>()(engine_); }
   double sign() { return happens(0.5) ? -1 : 1; }
@@ -36,7 +37,7 @@ class Chance {
   std::mt19937_64 engine_;
 };
 
-/// First-order coloured noise of unit variance on a grid, linear between.
+/// First-order coloured noise of unit variance on a grid, interpolated linearly.
 class Coloured {
  public:
   Coloured() = default;

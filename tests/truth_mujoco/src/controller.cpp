@@ -7,7 +7,7 @@ namespace mujoco_truth {
 namespace {
 
 constexpr double kMost_v = 10, kConverter_v = 20.0 / 8192;
-/// The operator's hand turns round when the axis is so far from the middle, as a share of its reach.
+/// The operator reverses the motion at this distance of the axis from the middle, as a share of its reach.
 constexpr double kTurnRound = 0.7;
 
 double smooth(double s) {  // minimum jerk, 0 to 1
@@ -97,7 +97,7 @@ double Driver::follow(std::size_t axis, const Row& row, double speed, double swi
   const auto [wanted, wanted_speed] = reference(plan, row.time_s);
   double volts = 0;
   if (nuisance_.controller == Controller::open_loop) {
-    // The volts that the stated model needs, without a look at the fast motion.
+    // Voltage that the stated model needs for the slow motion.
     volts = (wanted_speed >= 0 ? drive.viscous_pos_vspm : drive.viscous_neg_vspm) * wanted_speed +
             0.3 * w * w * (wanted - position) / drive.gain_mps2pv +
             1.2 * w * wanted_speed / drive.gain_mps2pv - 0.8 * w * speed / drive.gain_mps2pv;

@@ -1,5 +1,5 @@
 #pragma once
-/// What moves the crane: references and four ways to follow them. Everything is seen through the sensors.
+/// References and four controllers. The controllers use only the sensor values.
 #include <array>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace mujoco_truth {
 class Driver {
  public:
   Driver(const Rig& rig, const Nuisance& nuisance, const RunPlan& plan);
-  /// Volts from this row on.
+  /// Voltages from this row on.
   std::array<double, kAxes> command(const Row& row);
 
  private:
@@ -19,9 +19,9 @@ class Driver {
   };
   struct Plan {
     double centre = 0, reach = 0, speed = 0;
-    std::vector<std::array<double, 3>> targets;  ///< from, seconds it takes, to
+    std::vector<std::array<double, 3>> targets;  ///< start time, duration, target
     std::vector<Tone> tones;
-    std::vector<std::array<double, 3>> presses;  ///< from, to, volts
+    std::vector<std::array<double, 3>> presses;  ///< start time, end time, voltage
   };
   void plan_axis(std::size_t axis, Chance& chance);
   [[nodiscard]] std::array<double, 2> reference(const Plan& plan, double time_s) const;

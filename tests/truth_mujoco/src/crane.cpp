@@ -62,7 +62,7 @@ void Crane::start(const Pose& pose, double time_s) {
     if (joints_.motor[i] >= 0) {
       state_[static_cast<std::size_t>(joints_.motor[i])] = pose.position[i];
       state_[nv + static_cast<std::size_t>(joints_.motor[i])] = pose.speed[i];
-      // A moving axis has its friction built up.
+      // The friction of an axis that initially moves is fully developed.
       state_[2 * nv + kInner * i] = sign_of(pose.speed[i]);
     }
   for (std::size_t i = 0; i < kSwings; ++i)
@@ -117,7 +117,8 @@ void Crane::wear_bristles(double h) {
 }
 
 void Crane::step(double h, const Disturbance& disturbance) {
-  // Leapfrog: half a step of the bristles, classical Runge-Kutta of the rest, half a step of the bristles.
+  // Leapfrog: half a step of the bristles, a classical Runge-Kutta step of all other states, half a step of
+  // the bristles.
   wear_bristles(h / 2);
   slope_.resize(state_.size());
   sum_.assign(state_.size(), 0);

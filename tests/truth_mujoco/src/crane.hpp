@@ -1,9 +1,9 @@
 #pragma once
-/// The moving crane: rigid bodies by MuJoCo, forces of our own, both under one Runge-Kutta step.
+/// The moving crane: MuJoCo computes the rigid bodies, this code computes the forces, and one Runge-Kutta
+/// step integrates both.
 ///
-/// MuJoCo has no equations of a crane. It gets a tree of bodies (jib, trolley, load, and a second body where
-/// the fault divides one) with their masses, and forms M(q) and the Coriolis forces by recursion over the
-/// tree.
+/// MuJoCo contains no equations of a crane. From a tree of bodies (jib, trolley, load, and an additional body
+/// if the fault divides a body) with their masses, MuJoCo computes M(q) and the Coriolis forces recursively.
 #include <deque>
 #include <functional>
 #include <memory>
@@ -19,16 +19,16 @@ namespace mujoco_truth {
 /// 2 / 600 s.
 inline constexpr double kStep_s = 1e-3;
 
-/// Inner states of a drive beside MuJoCo's coordinates: friction, hose, lag.
+/// Inner states of a drive in addition to the coordinates of MuJoCo: friction, hose, lag.
 inline constexpr std::size_t kInner = 3;
 
-/// Forces that no model knows: of time only, so that the same ones act with and without a fault.
+/// Disturbing forces. They depend on time only, so that they are equal with and without a fault.
 struct Disturbance {
   std::function<std::array<double, 2>(double)> load_n;  ///< along and across the jib
   std::function<std::array<double, kAxes>(double)> drive_v;
 };
 
-/// Motor positions and swing angles with their rates, as perfect sensors would see them.
+/// Motor positions and swing angles with their rates, without sensor errors.
 struct Pose {
   std::array<double, kAxes> position{}, speed{};
   std::array<double, kSwings> swing{}, rate{};
@@ -41,11 +41,11 @@ class Crane {
   Crane(const Crane&) = delete;
   Crane& operator=(const Crane&) = delete;
 
-  /// All that the pose does not say is at rest.
+  /// All states that the pose does not contain are initially at rest.
   void start(const Pose& pose, double time_s = 0);
-  /// What acts already at the start.
+  /// The command that already acts at the start.
   void holding(const std::array<double, kAxes>& volts);
-  /// The command that acts from now on; delay and lag of the fault come on top of it.
+  /// The command from now on; delay and lag of the fault act in addition.
   void command(const std::array<double, kAxes>& volts);
   /// Integrates to `time_s`; `seen` is called after every step.
   void advance(double time_s, const Disturbance& disturbance,
@@ -57,7 +57,7 @@ class Crane {
 
  private:
   struct Joints {
-    std::array<int, kAxes> motor{-1, -1}, far{-1, -1};  ///< far: beyond a gap or a flexible jib
+    std::array<int, kAxes> motor{-1, -1}, far{-1, -1};  ///< far: load side of a gap or a flexible jib
     std::array<int, kSwings> swing{-1, -1};
     int load_body = -1;
   };

@@ -11,7 +11,7 @@ namespace {
 
 std::size_t axis_number(const std::string& axis) { return axis == "slew" ? kSlew : kTrolley; }
 
-/// The rig's own measure for the amounts of the table.
+/// Scale of the rig for the amounts of the table.
 double scale_of(const std::string& name, const std::string& axis, const Rig& rig) {
   const Drive& drive = rig.drive[axis_number(axis)];
   const double weight = rig.load_mass_kg * rig.gravity_mps2;
@@ -104,7 +104,7 @@ Fault drawn_fault(const FaultKind& kind, const std::string& axis, const Rig& rig
 double most_of(const Fault& fault, const Rig& rig) {
   double most = kind_of(fault).most * scale_of(fault.name, fault.axis, rig);
   const Drive& drive = rig.drive[axis_number(fault.axis)];
-  constexpr double kLeft = 0.8;  // of friction that the rig file has, so much may be missing
+  constexpr double kLeft = 0.8;  // largest share of the friction of the rig file that may be missing
   if (fault.amount < 0 && fault.name == "coulomb_friction")
     most = std::min(most, kLeft * std::min(drive.coulomb_pos_v, drive.coulomb_neg_v));
   if (fault.amount < 0 && fault.name == "viscous_friction")

@@ -1,5 +1,5 @@
 #pragma once
-/// The list of what can be wrong, under the names of `crane diagnose` where it has one.
+/// List of the possible faults, with the names of `crane diagnose` if such a name exists.
 #include <map>
 #include <string>
 #include <vector>
@@ -9,29 +9,30 @@
 
 namespace mujoco_truth {
 
-/// One thing that is wrong, of an amount that can be scaled.
+/// One fault with an amount that can be scaled.
 struct Fault {
   std::string name, axis;
   bool in_library = true;
   double amount = 0;                    ///< in the unit of its first parameter
   std::map<std::string, double> shape;  ///< drawn once: wavelengths, directions, times
-  /// What `crane diagnose` should report: its names, units and signs.
+  /// Correct report of `crane diagnose`, with its names, units and signs.
   [[nodiscard]] std::map<std::string, double> parameters() const;
 };
 
-/// What a rig must have for the fault to be there, and to show in its data.
+/// Requirements of a rig for a fault that is visible in its data.
 enum class Where {
   drive,         ///< any drive
-  tower_drive,   ///< a drive of a tower, which has another one
+  tower_drive,   ///< a drive of a tower, which has a second drive
   loaded_drive,  ///< a drive that moves a load
   load,          ///< any load
-  driven_load,   ///< a load that a drive moves: on a free pendulum it is another start or another zero
-  tower,         ///< a tower
-  swing          ///< either swing sensor
+  driven_load,  ///< a load that a drive moves; on a free pendulum the fault is equivalent to another start or
+                ///< another zero
+  tower,        ///< a tower
+  swing         ///< a swing sensor
 };
 
 struct FaultKind {
-  /// Where the numbers of a fault go.
+  /// Receives the numbers of a fault.
   class Target {
    public:
     Target(Physics& physics, const Fault& fault) : physics_(physics), fault_(fault) {}
@@ -51,27 +52,28 @@ struct FaultKind {
   const char* name;
   Where where;
   bool in_library, both_signs;
-  double trial, most;     ///< amounts, times the rig's own scale: weight, length, friction
-  const char* parameter;  ///< of `crane diagnose`, that the amount changes
-  double without;         ///< its value without the fault
+  /// trial and largest amount, as multiples of the scale of the rig: weight, length, friction
+  double trial, most;
+  const char* parameter;  ///< parameter of `crane diagnose` that the amount changes
+  double without;         ///< value of this parameter without the fault
   void (*apply)(const Target&);
 };
 
-/// How often something comes and goes in a minute.
+/// Number of occurrences per minute of an intermittent fault.
 inline constexpr int kStretches = 8;
 
 [[nodiscard]] const std::vector<FaultKind>& fault_kinds();
 [[nodiscard]] const FaultKind& kind_of(const Fault& fault);
-/// Axes of the rig on which the fault can be and would show in data; {""} for a fault without an axis.
+/// Axes of the rig on which the fault is possible and visible in the data; {""} for a fault without an axis.
 [[nodiscard]] std::vector<std::string> axes_of(const FaultKind& kind, const Rig& rig);
-/// With a shape, at the trial amount and with a sign.
+/// The fault with a shape, the trial amount and a sign.
 [[nodiscard]] Fault drawn_fault(const FaultKind& kind, const std::string& axis, const Rig& rig,
                                 Chance& chance);
-/// The largest amount of it that leaves the crane a crane.
+/// The largest amount with which the crane can still be operated.
 [[nodiscard]] double most_of(const Fault& fault, const Rig& rig);
 [[nodiscard]] Physics with(Physics physics, const std::vector<Fault>& faults);
 
-/// Causes that are one until something else changes (docs/diagnosis.md, Limits).
+/// Groups of causes that one experiment cannot distinguish (docs/diagnosis.md, Causes).
 [[nodiscard]] bool confounded(const std::string& a, const std::string& b);
 
 }  // namespace mujoco_truth

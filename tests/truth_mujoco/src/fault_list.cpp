@@ -5,7 +5,7 @@ namespace {
 
 using To = const FaultKind::Target&;
 
-/// Times and directions of what comes and goes.
+/// Times and directions of intermittent faults.
 std::vector<Stretch> stretches(To t) {
   std::vector<Stretch> all;
   for (int i = 0; i < kStretches; ++i) {

@@ -1,4 +1,4 @@
-/// Forces on the bodies: drives with their friction, what acts on the load, flanks of a gap.
+/// Forces on the bodies: drives with their friction, forces on the load, flanks of a gap.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 namespace mujoco_truth {
 namespace {
 
-/// Natural frequency of the contact of a gap's flanks, the motor held; damping ratio of it.
+/// Natural frequency of the contact of the flanks of a gap, with the motor at rest, and its damping ratio.
 constexpr double kFlank_hz = 25, kFlankDamping = 0.25;
-/// Widths of two smoothed steps: friction of the guide inside a gap, of the pivot.
+/// Widths of two smoothed steps: friction of the guide inside a gap, and friction of the pivot.
 constexpr double kGuide_mps = 1e-3, kPivot_radps = 5e-3;
-constexpr double kLeast_v = 1e-3;  ///< friction below it counts as this much where it divides
+constexpr double kLeast_v = 1e-3;  ///< lower bound of a friction that is used as a divisor
 
 }  // namespace
 
@@ -65,7 +65,8 @@ void Crane::apply_drive_forces(const State& state, double time_s, const Disturba
     d->qfrc_applied[at] += per_volt * drive_force_v(i, inner[0], inner[1], volts, time_s);
     inner_slope[0] = inner_slope[1] = 0;  // wear_bristles
     inner_slope[2] = lag_s > 0 ? (effective - inner[2]) / lag_s : 0;
-    if (physics_.law == StandstillLaw::lugre) {  // micro-damping, near the critical one, of low speeds only
+    if (physics_.law ==
+        StandstillLaw::lugre) {  // damping of the bristles, nearly critical, at low speeds only
       const double top = ceiling(i, inner[0], speed), way = physics_.presliding_m;
       const double z_slope = bristle_slope(physics_.law, inner[0], speed, top, way);
       const double newton =
@@ -90,7 +91,7 @@ void Crane::apply_flanks(std::size_t axis) {
     d->qfrc_applied[far] -= side * std::max(0.0, push);
     return;
   }
-  // A force on the far side acts on both coordinates: its place is their sum.
+  // A force on the far side acts on both coordinates, because the position of the far side is their sum.
   const double guide = mass * fault.guide_deceleration * std::tanh((d->qvel[at] + d->qvel[far]) / kGuide_mps);
   d->qfrc_applied[far] -= guide;
   d->qfrc_applied[at] -= guide;
@@ -99,7 +100,7 @@ void Crane::apply_flanks(std::size_t axis) {
 void Crane::apply_load_forces(double time_s, const Disturbance& disturbance) {
   mjData* d = data_.get();
   const LoadFault& fault = physics_.load;
-  mjtNum velocity[6];  // of rotation, then of translation
+  mjtNum velocity[6];  // rotation, then translation
   mj_objectVelocity(model_.get(), d, mjOBJ_BODY, joints_.load_body, velocity, 0);
   const double* v = velocity + 3;
   const double speed = std::hypot(v[0], v[1], v[2]);

@@ -1,5 +1,5 @@
 #pragma once
-/// Dry friction as a bristle: z in units of the sliding level, z' = its slope.
+/// Dry friction as a bristle with the deflection z, in units of the deflection at the sliding level.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,8 +10,8 @@ namespace mujoco_truth {
 
 inline double sign_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
-/// Share of the speed that wears the bristle off: all of it with Dahl and LuGre, none below 70 % of the
-/// ceiling with the elasto-plastic law, whose axis does not creep there.
+/// Share of the speed that relaxes the bristle: 1 for Dahl and LuGre, 0 below 70 % of the ceiling for the
+/// elasto-plastic law, with which the axis does not creep there.
 inline double plastic_share(StandstillLaw law, double z, double speed, double ceiling) {
   if (law != StandstillLaw::elasto_plastic) return 1;
   constexpr double kElastic = 0.7;
@@ -21,15 +21,15 @@ inline double plastic_share(StandstillLaw law, double z, double speed, double ce
   return 0.5 - 0.5 * std::cos(std::numbers::pi * (loaded - kElastic) / (1 - kElastic));
 }
 
-/// @param ceiling what z tends to while the axis slides at this speed: 1, more at low speed with Stribeck's
-/// excess Dahl (1968) and LuGre (Canudas de Wit 1995): z' = (v - |v| z / ceiling) / way. Elasto-plastic:
+/// @param ceiling limit of z while the axis slides at this speed: 1, larger at low speed with a Stribeck
+/// excess. Dahl (1968) and LuGre (Canudas de Wit 1995): z' = (v - |v| z / ceiling) / way. Elasto-plastic:
 /// Dupont (2002).
 inline double bristle_slope(StandstillLaw law, double z, double speed, double ceiling, double way) {
   return (speed - plastic_share(law, z, speed, ceiling) * std::abs(speed) * z / ceiling) / way;
 }
 
-/// z after h seconds at constant speed. The slope is linear in z and as stiff as |v| / way, so it is solved,
-/// not stepped.
+/// z after h seconds at constant speed, in closed form. The slope is linear in z with the stiff rate |v| /
+/// way.
 inline double bristle_after(StandstillLaw law, double z, double speed, double ceiling, double way, double h) {
   const double share = plastic_share(law, z, speed, ceiling),
                rate = share * std::abs(speed) / (ceiling * way);
@@ -38,7 +38,8 @@ inline double bristle_after(StandstillLaw law, double z, double speed, double ce
   return std::clamp(after, -std::max(std::abs(z), ceiling), std::max(std::abs(z), ceiling));
 }
 
-/// LuGre's sigma_1 z', in units of the level: about critical damping of the bristle, fading with speed.
+/// LuGre's sigma_1 z', in units of the level: about the critical damping of the bristle, decreasing with
+/// speed.
 inline double lugre_damping(double z_slope, double speed, double way, double level_n, double mass_kg) {
   const double frequency = std::sqrt(level_n / (way * mass_kg));
   constexpr double kFades = 0.01;

@@ -9,7 +9,7 @@
 namespace mujoco_truth {
 namespace {
 
-constexpr double kCoarsest_rad = 0.02;  ///< no sensor of a swing is worse: a potentiometer on 8 bit
+constexpr double kCoarsest_rad = 0.02;  ///< coarsest swing sensor: a potentiometer with 8 bits
 
 double rounded(double value) {
   std::array<char, 32> text;
@@ -17,7 +17,7 @@ double rounded(double value) {
   return std::strtod(text.data(), nullptr);
 }
 
-/// Draws numbers near their base and keeps account of how far away.
+/// Draws numbers near their base values and stores their relative deviations.
 class Near {
  public:
   explicit Near(Chance& chance) : chance_(chance) {}

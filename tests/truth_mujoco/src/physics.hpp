@@ -1,5 +1,5 @@
 #pragma once
-/// The numbers of one simulated crane: what its rig file says, and what is wrong with that.
+/// Parameters of one simulated crane: those of the rig file, and their errors.
 #include <array>
 #include <cstddef>
 #include <numbers>
@@ -18,7 +18,7 @@ enum Swing : std::size_t { kRadial = 0, kTangential = 1, kSwings = 2 };
 inline constexpr std::array kSwingNames{"radial", "tangential"};
 inline constexpr double kTau = 2 * std::numbers::pi;
 
-/// One motor with what it moves. Units of the trolley; the slew drive has rad for m and kg m2 for kg.
+/// One motor and the mass that it moves. Units of the trolley; the slew drive has rad for m and kg m2 for kg.
 struct Drive {
   bool there = false;
   double inertia_kg = 0;   ///< M, or J_o of the jib
@@ -29,7 +29,7 @@ struct Drive {
   double counts_per_m = 0;
 };
 
-/// Everything that the rig file of a set states, to the digit.
+/// All values of the rig file of a set, exactly as in the file.
 struct Rig {
   Kind kind = Kind::tower;
   std::array<Drive, kAxes> drive;
@@ -40,16 +40,17 @@ struct Rig {
   [[nodiscard]] bool has_swing(std::size_t i) const { return has_load() && (i == kRadial || tangential); }
 };
 
-/// What friction does before an axis slides. All three slide at the levels of the rig file.
+/// Law of the friction before the axis slides. With all three laws, the axis slides at the levels of the rig
+/// file.
 enum class StandstillLaw { dahl, lugre, elasto_plastic };
 [[nodiscard]] const char* name_of(StandstillLaw law);
 
-/// Of time, in which something acts.
+/// Interval of time in which an intermittent fault acts.
 struct Stretch {
   double from_s = 0, to_s = 0, direction_rad = 0;
 };
 
-/// What is wrong with a drive; all zero: nothing. Volts are those of the amplifier.
+/// Faults of a drive; all zero: no fault. The volts are those of the amplifier.
 struct DriveFault {
   double gain_change = 0, offset_v = 0, dead_zone_v = 0, delay_s = 0, lag_s = 0;
   double coulomb_v = 0, viscous_vspm = 0, asymmetry_v = 0;
@@ -57,9 +58,9 @@ struct DriveFault {
   double tight_v = 0, tight_wavelength = 1, tight_at = 0;
   double ripple_v = 0, ripple_period = 0.1, ripple_phase = 0;
   double gap = 0, guide_deceleration = 0.5, far_share = 0.3;
-  // Outside the library of `crane diagnose`.
+  // Faults outside the library of `crane diagnose`.
   double gain_loss_per_minute = 0;
-  double brake_v = 0;  ///< drags in `brake_stretches`
+  double brake_v = 0;  ///< friction of a brake that drags in `brake_stretches`
   std::vector<Stretch> brake_stretches;
   double vibration_v = 0, vibration_hz = 1, vibration_phase = 0;
   double crosstalk = 0;  ///< share of the other drive's command
@@ -89,7 +90,7 @@ struct SensorFault {
 struct Physics {
   Rig rig;
   StandstillLaw law = StandstillLaw::dahl;
-  double presliding_m = 2e-5;  ///< way over which dry friction builds up
+  double presliding_m = 2e-5;  ///< distance over which dry friction develops
   std::array<DriveFault, kAxes> drive;
   LoadFault load;
   SensorFault sensor;

@@ -8,7 +8,7 @@
 namespace mujoco_truth {
 namespace {
 
-/// A load beyond it is thrown, not swung.
+/// Largest swing of a valid run; beyond it the load is thrown.
 constexpr double kMostSwing_rad = 0.9;
 constexpr double kGrid_s = 0.002;
 

@@ -14,7 +14,7 @@ struct RunPlan {
   Experiment experiment = Experiment::moves;
   double duration_s = 30;
   double cable_m = 1;      ///< stated length of this run
-  double amplitude = 1;    ///< of the motion, times what the travel suggests
+  double amplitude = 1;    ///< amplitude of the motion / amplitude that the travel suggests
   double swing_rad = 0;    ///< at the start
   std::uint64_t seed = 1;  ///< of references, disturbance, noise and rows
 };
@@ -27,11 +27,11 @@ struct Row {
 
 struct Run {
   RunPlan plan;
-  std::vector<Row> rows;    ///< as the file has them
-  std::vector<Pose> poses;  ///< of the same instants, without sensors: for checks only
+  std::vector<Row> rows;    ///< rows of the file
+  std::vector<Pose> poses;  ///< true poses at the times of the rows, only for checks
 };
 
-/// @return nothing when the crane left its travel or its load flew
+/// @return nothing when the crane left its travel or the load was thrown
 [[nodiscard]] std::optional<Run> recorded(const Physics& physics, const Nuisance& nuisance,
                                           const RunPlan& plan);
 

@@ -28,7 +28,7 @@ void Sensors::see(double time_s, const Pose& pose) {
 Sensors::Past Sensors::past(double time_s) const {
   const auto after = std::lower_bound(history_.begin(), history_.end(), time_s,
                                       [](const Past& past, double t) { return past.time_s < t; });
-  if (after == history_.begin()) {  // before the start it hung as it did at the start
+  if (after == history_.begin()) {  // before the start, the load has the position of the start
     Past first = history_.front();
     for (std::size_t i = 0; i < kSwings; ++i) first.integral[i] -= (first.time_s - time_s) * first.swing[i];
     return first;

@@ -1,5 +1,5 @@
 #pragma once
-/// What is measured: the fault of a sensor, then noise, then counts.
+/// Sensors: the fault of the sensor, then noise, then quantisation.
 #include <array>
 #include <deque>
 
@@ -11,13 +11,13 @@ namespace mujoco_truth {
 class Sensors {
  public:
   Sensors(const Physics& physics, double noise_counts, Chance& chance);
-  /// After every step of the integration, and once at the start.
+  /// Call after every step of the integration, and once at the start.
   void see(double time_s, const Pose& pose);
   struct Values {
     std::array<double, kAxes> position{};
     std::array<double, kSwings> swing{};
   };
-  /// Now.
+  /// Present sensor values.
   Values measured();
 
  private:

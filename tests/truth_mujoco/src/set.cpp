@@ -8,8 +8,8 @@
 namespace mujoco_truth {
 namespace {
 
-/// Of twenty sets five are clean, nine have one fault, two have two, two one in data that hardly tell what it
-/// is, two one that no library has.
+/// Of twenty sets, five are clean, nine have one fault, two have two faults, two have one fault in data that
+/// hardly distinguish it from others, and two have one fault outside the library.
 constexpr std::array kPattern{SetKind::clean, SetKind::single, SetKind::single,  SetKind::outside,
                               SetKind::clean, SetKind::single, SetKind::pair,    SetKind::single,
                               SetKind::clean, SetKind::single, SetKind::single,  SetKind::confounded,
@@ -17,7 +17,8 @@ constexpr std::array kPattern{SetKind::clean, SetKind::single, SetKind::single, 
                               SetKind::pair,  SetKind::clean,  SetKind::single,  SetKind::confounded};
 constexpr std::array kWanted{1.0, 2.0, 4.0, 8.0};
 constexpr double kOfPair = 4, kOfOutside = 6, kOfConfounded = 3;
-/// A fault that cannot come near what is wanted is drawn anew; in vain so often, what comes is taken.
+/// A fault whose possible size is too far from the desired size is drawn again. After this number of draws,
+/// the last fault is used.
 constexpr double kNear = 0.7, kLeastSize = 0.7;
 constexpr int kAttempts = 40, kPatient = 12;
 constexpr double kAlike = 0.95;
@@ -44,7 +45,7 @@ std::vector<FaultKind> of_library(bool in_library) {
   return some;
 }
 
-/// Of which kind the number's set is, and how many of that kind came before.
+/// Kind of the set with this number, and number of earlier sets of this kind.
 std::pair<SetKind, std::size_t> place_of(std::size_t number) {
   const SetKind kind = kind_of_set(number);
   std::size_t before = 0;
@@ -104,7 +105,7 @@ Plans drawn_plans(SetKind kind, const Rig& rig, const Nuisance& nuisance, Chance
         : rich ? chance.one_of<Experiment>({Experiment::moves, Experiment::sines})
                : chance.one_of<Experiment>({Experiment::moves, Experiment::sines, Experiment::steps,
                                             Experiment::sweep, Experiment::moves});
-    // With the drives at rest a load swings by itself: one of the training runs at most.
+    // In at most one of the training runs, the drives are at rest and the load swings freely.
     if (rig.kind == Kind::pendulum || (i == 1 && rig.has_load() && i < train && chance.happens(0.3)))
       plan.experiment = Experiment::free_swing;
     plan.duration_s = poor                   ? chance.uniform(20, 25)
@@ -135,7 +136,7 @@ std::vector<Run> all_recorded(const Physics& physics, const Nuisance& nuisance,
   return runs;
 }
 
-/// Scales the motion until the load swings as wanted; the clean training runs of it.
+/// Scales the motion until the load has the desired swing. @return the clean training runs with this motion
 std::vector<Run> clean_runs(const Physics& physics, const Nuisance& nuisance, Plans& plans, Chance& chance) {
   constexpr double kLeast = 0.12, kMost = 2.5;
   const bool driven = physics.rig.kind == Kind::tower || physics.rig.kind == Kind::gantry;
@@ -195,7 +196,7 @@ Set attempt(const Deck& deck, std::size_t number, int round, bool want_alike) {
   set.number = number;
   set.kind = kind;
   set.nuisance = drawn_nuisance(chance);
-  // The kinds of fault go by the number of the set alone, so that every attempt has the same.
+  // The kinds of the faults depend only on the number of the set, so that they are equal in every attempt.
   Chance which(deck.seed, deck.name + " faults " + std::to_string(number));
   const auto kinds = wanted_faults(kind, count, deck, which);
   set.rig = drawn_rig(drawn_kind(chance), set.nuisance, chance, set.nuisance.geometry);
@@ -211,7 +212,7 @@ Set attempt(const Deck& deck, std::size_t number, int round, bool want_alike) {
   if (clean.empty()) return set;
   set.swing_reached_rad = percentile_95(clean, set.rig);
   const bool driven = set.rig.kind == Kind::tower || set.rig.kind == Kind::gantry;
-  // A swing of less than three counts shows nothing.
+  // A swing of less than three counts gives no information.
   if (driven && set.swing_reached_rad * set.rig.swing_counts_per_rad < 3) return set;
   if (!faults.empty()) {
     const Visibility visibility(physics, clean);

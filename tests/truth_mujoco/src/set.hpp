@@ -1,5 +1,5 @@
 #pragma once
-/// One set of a deck: a rig, its nuisance, its faults, and the runs that a laboratory would hand over.
+/// One set of a deck: a rig, its nuisances, its faults, and the recorded runs.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,7 +20,7 @@ struct Deck {
 
 struct Scored {
   Fault fault;
-  double wanted = 0, size = 0;  ///< in units of what the data hide (visible.hpp)
+  double wanted = 0, size = 0;  ///< desired and reached size, in units of the nuisance (visible.hpp)
   std::vector<Column> columns;
 };
 
@@ -31,14 +31,14 @@ struct Set {
   Nuisance nuisance;
   double swing_reached_rad = 0;
   std::vector<Scored> faults;
-  std::vector<std::string>
-      alike;  ///< faults of the library whose change these data hardly tell from the first one's
+  std::vector<std::string> alike;  ///< faults of the library whose effect these data hardly distinguish from
+                                   ///< that of the first fault
   std::vector<Run> train, test;
 };
 
 [[nodiscard]] SetKind kind_of_set(std::size_t number);
-/// The set of that number; the same for everybody. @param alike also look for what is alike, which takes
-/// longer
+/// The set with this number; equal on every computer. @param alike true: also searches for similar faults,
+/// which takes longer
 [[nodiscard]] Set made(const Deck& deck, std::size_t number, bool alike);
 
 }  // namespace mujoco_truth

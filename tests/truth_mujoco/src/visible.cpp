@@ -8,7 +8,7 @@
 namespace mujoco_truth {
 namespace {
 
-/// In which delays and means of sensors fill.
+/// Time before a window in which delays and moving averages of sensors are filled.
 constexpr double kLeadIn_s = 0.4;
 constexpr std::size_t kMostWindows = 6, kMostRows = 120;
 
@@ -31,15 +31,15 @@ std::vector<Channel> channels_of(const Rig& rig) {
 struct Visibility::Window {
   double from_s = 0, cable_m = 1;
   Pose start;
-  std::vector<Row> rows;  ///< the one before the window and those in it
+  std::vector<Row> rows;  ///< the row before the window and the rows of the window
   std::vector<double> at_s;
   std::vector<double> base;  ///< rows times channels
-  Eigen::MatrixXd starts;    ///< an orthonormal base of what the start can change, per window
+  Eigen::MatrixXd starts;    ///< orthonormal basis of the effects of the start, per window
 };
 
 namespace {
 
-/// The rows of the window by a simulation without noise and counts.
+/// Rows of the window, simulated without noise and quantisation.
 std::vector<double> simulated(const Physics& physics, const Pose& start, double from_s,
                               const std::vector<Row>& rows, const std::vector<double>& at_s,
                               const std::vector<Channel>& channels) {
@@ -93,7 +93,7 @@ Visibility::Visibility(const Physics& nominal, const std::vector<Run>& clean) : 
       window.start = run.poses[first];
       std::size_t last = first;
       while (last + 1 < run.rows.size() && run.rows[last].time_s < window.from_s + kWindow_s) ++last;
-      // The command of the row before acts at the start, whatever the delay.
+      // The command of the previous row acts at the start, for any delay.
       for (std::size_t i = first > 0 ? first - 1 : 0; i <= last; ++i) window.rows.push_back(run.rows[i]);
       const std::size_t stride = std::max<std::size_t>(1, (last - first) / kMostRows);
       std::vector<double> seen;

@@ -1,14 +1,13 @@
 #pragma once
-/// How far a fault leads a simulation astray, in units of what these data hide: the independent check that a
-/// set is fair.
+/// Effect of a fault on a simulation, in units of the nuisance of these data: an independent check that the
+/// diagnosis of a set is possible.
 ///
 /// In windows of 3 s of the recorded run, the model is started from the true state and driven by the commands
 /// of the rows. For every column, as root mean square over all windows, with the free start of each window
 /// projected out by least squares:
 ///   effect:   model with the fault minus model without it
 ///   nuisance: the recorded values of the run minus model without a fault: disturbance, friction at
-///   standstill, lost
-///             commands, noise and counts, everything that is nobody's fault
+///   standstill, lost commands, noise and quantisation
 /// size = the largest ratio of effect to nuisance of a column.
 #include <map>
 #include <string>
@@ -25,7 +24,7 @@ struct Column {
   double nuisance = 0, effect = 0;
 };
 
-/// Windows of clean runs, prepared once, against which faults of any amount are held.
+/// Windows of clean runs, prepared once for the comparison with faults of any amount.
 class Visibility {
  public:
   /// @param clean runs without a fault
@@ -37,7 +36,7 @@ class Visibility {
   /// Columns with both levels.
   [[nodiscard]] std::vector<Column> columns(const std::vector<Fault>& faults) const;
   [[nodiscard]] double size(const std::vector<Fault>& faults) const;
-  /// Cosine of what two faults change, each column in units of its nuisance.
+  /// Cosine between the effects of two faults, with each column in units of its nuisance.
   [[nodiscard]] double cosine(const std::vector<Fault>& a, const std::vector<Fault>& b) const;
 
  private:

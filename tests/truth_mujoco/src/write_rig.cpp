@@ -7,10 +7,10 @@
 namespace mujoco_truth {
 namespace {
 
-/// Counts that the rig file states where its author does not know the sensor.
+/// Counts in the rig file when its author does not know the sensor.
 constexpr double kAssumedCounts = 3000;
 
-/// A float of TOML: a whole number gets its point.
+/// A floating-point number in TOML: a whole number gets a decimal point.
 std::string line(const std::string& key, double value) {
   std::array<char, 40> text;
   std::snprintf(text.data(), text.size(), "%.17g", value);
@@ -23,7 +23,7 @@ std::string line(const std::string& key, std::size_t value) {
 }
 std::string line(const std::string& key, const std::string& value) { return key + " = \"" + value + "\"\n"; }
 
-/// Limits lie so far away that the data alone say where the axis was.
+/// The limits are so far away that they contain no information about the position of the axis.
 std::string drive_toml(const Rig& rig, std::size_t axis) {
   const Drive& d = rig.drive[axis];
   const std::string m = axis == kSlew ? "_rad" : "_m", name = kAxisNames[axis];

@@ -1,7 +1,7 @@
 #pragma once
 /// Measured data of a crane with hidden effects, and the sealed answer. For tests and benchmarks of the
-/// diagnosis: own equations of motion, integrator, friction, controller and sensors, nothing shared with the
-/// project's libraries, and effects whose form differs from the library's.
+/// diagnosis. The equations of motion, integrator, friction, controller and sensors share no code with the
+/// libraries of the project. The form of the effects differs from that of the library.
 ///
 /// Row k of a run holds the measurement at t_k and the command applied from t_k on. The controller of tick k
 /// acts at t_{k+1}.
@@ -13,9 +13,9 @@
 
 namespace truth {
 
-/// One hidden effect. Empty axis: one that fits, drawn from the seed. `amplitude` in multiples of what is
-/// clearly visible above the disturbance (effect_kinds()); 0 switches it off. The sign of an effect that can
-/// have either is drawn from the seed, unless the amplitude is negative: then it is the negative one.
+/// One hidden effect. Empty axis: the seed selects a suitable axis. `amplitude` is a multiple of the size
+/// that is clearly visible above the disturbance (effect_kinds()); 0 switches the effect off. If both signs
+/// are possible, the seed selects the sign; a negative amplitude selects the negative sign.
 struct Hidden {
   std::string name;
   double amplitude = 1;
@@ -29,7 +29,7 @@ struct Case {
   std::vector<std::string> training_runs{"rich", "moves"};
   std::vector<std::string> test_runs{"rich"};
   double seconds = 0;        ///< of every run; 0: the run's usual length, 30 to 50 s
-  double disturbance = 1;    ///< multiple of the usual one; its size varies with the seed
+  double disturbance = 1;    ///< multiple of the usual disturbance, whose size depends on the seed
   bool sensor_noise = true;  ///< noise and rounding of encoders and converter
 };
 
@@ -46,12 +46,12 @@ struct Value {
   std::string unit;
 };
 
-/// What was hidden.
+/// A hidden effect of the answer.
 struct Found {
   std::string name, axis;
   double amplitude = 0;
-  bool in_library = true;  ///< false: must come out as "unknown"
-  std::string form;        ///< what was simulated
+  bool in_library = true;  ///< false: the correct verdict is "unknown"
+  std::string form;        ///< description of the simulated effect
   std::vector<Value> parameters;
 };
 
@@ -61,12 +61,12 @@ struct Data {
   std::vector<Found> answer;
 };
 
-/// @throws std::invalid_argument naming an unknown rig, effect, axis or run, or one that the rig cannot have
+/// @throws std::invalid_argument that names an unknown rig, effect, axis or run, or one that the rig cannot
+/// have
 [[nodiscard]] Data generate(const Case& request);
 
-/// The base data and one replay with every effect: how far, over windows of two seconds begun in the true
-/// state, a crane without the effects goes astray, in the encoders' units, and how far one without the
-/// disturbance does.
+/// Visibility of the effects: over windows of two seconds that begin in the true state, the deviation of a
+/// crane without the effects, and the deviation of a crane without the disturbance.
 struct Size {
   std::array<double, 4> effect{}, disturbance{};  ///< rms: trolley m, slew rad, radial rad, tangential rad
   double ratio = 0;                               ///< largest effect / disturbance of the columns
@@ -75,12 +75,12 @@ struct Size {
 
 [[nodiscard]] std::string csv(const Run& run);
 [[nodiscard]] std::string answer_json(const Data& data);
-/// Writes train_N.csv, test_N.csv and answer.json; makes the directory. @throws std::runtime_error
+/// Writes train_N.csv, test_N.csv and answer.json; creates the directory. @throws std::runtime_error
 void write(const Data& data, const std::filesystem::path& directory);
 
 struct EffectKind {
   std::string name;
-  std::vector<std::string> axes;  ///< {""} when it has none
+  std::vector<std::string> axes;  ///< {""} for an effect without an axis
   bool in_library = true;
   std::string form;
 };
