@@ -29,7 +29,7 @@ TEST(PrintedGains, HaveLessDampingInASecondPairThanInTheRightMostOne) {
   EXPECT_NEAR(std::abs(first.least_root - Complex(-2.48, 10.33)), 0, 0.01);
 }
 
-TEST(PrintedGains, OfDelayed2HaveTheirDampingOnlyWithPerfectTracking) {
+TEST(PrintedGains, OfDelayed2HaveTheStatedDampingOnlyWithIdealTracking) {
   const auto real = damping_of(characteristic(AntiSwing::delayed_2, {-0.33, 0.31}));
   EXPECT_NEAR(real.dominant, 0.061, 5e-4);
   EXPECT_NEAR(real.least, 0.061, 5e-4);
@@ -37,7 +37,7 @@ TEST(PrintedGains, OfDelayed2HaveTheirDampingOnlyWithPerfectTracking) {
   EXPECT_NEAR(damping_of(perfectly_tracked_delayed_2({-0.33, 0.31})).dominant, 0.290, 5e-4);
 }
 
-TEST(PrintedGains, AreUnstableWithTheSignsOfThePrint) {
+TEST(PrintedGains, AreUnstableWithThePrintedSigns) {
   // (3.39) and (3.48) with +s^2 G_s, (3.50) with K_del = +0.33: docs/equations.md, errata.
   const auto right_most = [](AntiSwing law, GainPoint gains) {
     return roots_right_of(characteristic(law, gains), 0).front();
@@ -59,10 +59,11 @@ TEST(Optimum, OfLeastDampingIsADoublePairForPdAndDelayed1) {
   EXPECT_NEAR(delayed.gains.second, 0.1193, 5e-5);
 }
 
-TEST(Optimum, OfLeastDampingForDelayed2DependsOnHowFarUpRootsCount) {
+TEST(Optimum, OfLeastDampingForDelayed2DependsOnTheFrequencyRange) {
   const auto at = damping_of(characteristic(AntiSwing::delayed_2, {-0.423, 0.179}));
   EXPECT_NEAR(at.least, 0.1953, 5e-5);
-  // Below eight load frequencies there is a better one; its next root of the chain lies just above.
+  // Below eight load frequencies another optimum has more damping; the next root of its chain is slightly
+  // above this limit.
   const auto found = best(AntiSwing::delayed_2, {-1.2, 0.4, 33}, {0.02, 0.62, 31}, Measure::least);
   EXPECT_NEAR(found.damping.least, 0.2219, 1e-4);
   EXPECT_NEAR(found.gains.first, -0.2255, 5e-4);
@@ -97,13 +98,13 @@ TEST(PadeApproximation, ConvergesToTheExactRootsWithTheSquareOfItsOrder) {
   EXPECT_LT(twenty, 1e-3);
 }
 
-TEST(PadeApproximation, RefusesWhatItCannotApproximate) {
+TEST(PadeApproximation, RefusesEquationsThatItCannotApproximate) {
   const auto f = characteristic(AntiSwing::delayed_1, {-90, 0.1});
   EXPECT_THROW((void)pade_roots(f, 0), std::invalid_argument);
   EXPECT_THROW((void)pade_roots(perfectly_tracked_delayed_2({-0.33, 0.31}), 5), std::invalid_argument);
 }
 
-TEST(SwingFilter, CostsDampingThatAShorterDelayGivesBack) {
+TEST(SwingFilter, ReducesTheDampingAndAShorterDelayRestoresIt) {
   // Section 4.3: cut-off 0.05 of 100 Hz, load period 2.006 s. Its delay is sqrt(2) / cut_off.
   const double cut_off = 2 * M_PI * 5 * 2.006;
   const auto law = AntiSwing::delayed_1;
@@ -115,7 +116,7 @@ TEST(SwingFilter, CostsDampingThatAShorterDelayGivesBack) {
   EXPECT_NEAR(shortened, bare, 0.02);
 }
 
-TEST(DampingMap, HasTheDampingOfItsGainsInTheirPlace) {
+TEST(DampingMap, HasTheDampingOfEachGainAtItsPoint) {
   const auto damping = exact(AntiSwing::pd);
   const auto map = damping_map(damping, {-40, 0, 5}, {0, 12, 4});
   ASSERT_EQ(map.values.size(), 20u);

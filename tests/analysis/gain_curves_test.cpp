@@ -67,7 +67,7 @@ double worst_pole(const GainSample& point, double gravity_mps2, double length_m)
   return worst;
 }
 
-TEST(GainCurves, PlaceThePolesWhereTheDesignWantsThem) {
+TEST(GainCurves, PlaceThePolesOfTheDesign) {
   // -a is a double pole: rounding of 1e-15 splits it by about 1e-7.
   const auto crane = figure_parameters(0.5);
   for (const auto& point : gains_over_cable_length(crane, 10))
@@ -88,7 +88,7 @@ TEST(ClosedLoopPoles, OfFullFeedbackAreThoseOf320) {
   EXPECT_NEAR(inverse.real(), a * a * w * w, 1e-9);
 }
 
-TEST(RuleAgreement, OfThePrintedRulesWithThoseGeneratedAnew) {
+TEST(RuleAgreement, OfThePrintedRulesWithTheGeneratedRules) {
   const auto generated = control::rules_from(control::delayed_1_response({})).rules;
   const auto found = agreement(generated, control::kPrintedRules);
   EXPECT_EQ(found.rules, 49);

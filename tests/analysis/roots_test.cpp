@@ -18,7 +18,7 @@ namespace {
 using std::numbers::pi;
 constexpr unsigned kSeed = 20260101;
 
-/// Largest distance of a root of `few` to its nearest in `many`.
+/// Largest distance of a root of `few` to the nearest root of `many`.
 double farthest(const std::vector<Complex>& few, const std::vector<Complex>& many) {
   double worst = 0;
   for (const Complex& a : few) {
@@ -106,7 +106,7 @@ TEST(Roots, AreThoseOfAChebyshevDiscretisationOfTheDelayedState) {
   }
 }
 
-TEST(Roots, AreAsManyAsTheIntegralOfTheLogarithmicDerivativeCounts) {
+TEST(Roots, AreAsManyAsTheIntegralOfTheLogarithmicDerivativeStates) {
   std::mt19937 random{kSeed};
   std::uniform_real_distribution<double> share{0, 1};
   int told = 0;
@@ -118,7 +118,8 @@ TEST(Roots, AreAsManyAsTheIntegralOfTheLogarithmicDerivativeCounts) {
     const auto f = characteristic(law, gains, {}, {k % 2 == 0 ? 0.0 : 60.0});
     const Box box{-14.3, 21.7, 0.21, 61.3};  // above the real axis
     const double integral = integral_count(f, box, 4000);
-    if (std::abs(integral - std::round(integral)) > 0.01) continue;  // a root too near the edge for this rule
+    if (std::abs(integral - std::round(integral)) > 0.01)
+      continue;  // a root is too near the edge for this quadrature rule
     ++told;
     int found = 0;
     for (const Complex& s : roots_in(f, box.left, box.right, box.top)) found += s.imag() >= box.bottom;
@@ -132,7 +133,7 @@ TEST(Roots, AreAsManyAsTheIntegralOfTheLogarithmicDerivativeCounts) {
 TEST(Roots, AreRootsToRoundingAndComeRightMostFirst) {
   const auto f = characteristic(AntiSwing::delayed_2, {-0.33, 0.31});
   const auto roots = roots_right_of(f, -14);
-  ASSERT_GT(roots.size(), 20u);  // the chain of the delay, up to |Im s| of some hundreds
+  ASSERT_GT(roots.size(), 20u);  // roots of the chain of the delay, up to |Im s| of some hundreds
   for (std::size_t i = 0; i < roots.size(); ++i) {
     const auto [value, slope] = evaluate(f, roots[i]);
     EXPECT_LT(std::abs(value / slope), 1e-10 * (1 + std::abs(roots[i]))) << roots[i];
@@ -152,10 +153,10 @@ TEST(Roots, OnTheEdgeOfABoxAreNotCounted) {
   const QuasiPolynomial f{{4, 0, 1}, {}, 0};  // +-2i
   EXPECT_EQ(count_roots(f, {-1, 1, 1, 3}), 1);
   EXPECT_THROW((void)count_roots(f, {0, 1, 1, 3}), std::domain_error);
-  EXPECT_EQ(roots_in(f, -1, 0, 2).size(), 1u);  // but looked for with a margin
+  EXPECT_EQ(roots_in(f, -1, 0, 2).size(), 1u);  // the search uses a margin
 }
 
-TEST(Roots, RefuseEquationsAndRegionsThatHaveNoAnswer) {
+TEST(Roots, RefuseInvalidEquationsAndRegions) {
   const QuasiPolynomial good{{1, 1}, {0.5}, 1};
   EXPECT_THROW((void)roots_in(good, 1, 1, 5), std::invalid_argument);
   EXPECT_THROW((void)roots_in(good, -1, 1, 0), std::invalid_argument);
@@ -163,7 +164,7 @@ TEST(Roots, RefuseEquationsAndRegionsThatHaveNoAnswer) {
   EXPECT_THROW((void)roots_in({{1, 1}, {1, 1, 1}, 1}, -1, 1, 1), std::invalid_argument);  // advanced
   EXPECT_THROW((void)roots_in({{1, 1}, {NAN}, 1}, -1, 1, 1), std::invalid_argument);
   EXPECT_THROW((void)roots_in({{1, 1}, {1}, -1}, -1, 1, 1), std::invalid_argument);
-  // Neutral: the chain of s + 1 + 0.5 s exp(-s) lies at Re s = ln 0.5.
+  // Neutral equation: the chain of s + 1 + 0.5 s exp(-s) tends to Re s = ln 0.5.
   EXPECT_THROW((void)roots_right_of({{1, 1}, {0, 0.5}, 1}, -1), std::invalid_argument);
   EXPECT_TRUE(roots_right_of({{1, 1}, {0, 0.5}, 1}, -0.1).empty());
 }

@@ -19,7 +19,7 @@ class AntiSwingComponent : public testing::TestWithParam<std::string> {
   bus::Subscriber<msg::Contribution> output_ = bench_.listen(topics::anti_swing);
 };
 
-TEST_P(AntiSwingComponent, PublishesWhatItsLawGivesTickByTick) {
+TEST_P(AntiSwingComponent, PublishesTheOutputOfItsLawInEveryTick) {
   const auto law = bench_.controller().make_anti_swing(bench_.rig().design);
   for (std::uint64_t k = 1; k <= 40; ++k) {
     const auto state = state_at(k, 0.01 * static_cast<double>(k % 7));

@@ -39,7 +39,7 @@ TEST(IncidentFile, HasSamplesTriggerProcessesAndTheRigFile) {
   EXPECT_EQ(metadata[2].entries.at("supervisor"), "1, cyclone");
 }
 
-TEST(IncidentFile, OnlyTheNewestOfItsOwnFilesStay) {
+TEST(IncidentFile, KeepsOnlyTheNewestOfItsOwnFiles) {
   const recording::TemporaryDirectory directory;
   for (const auto* name : {"20260101T000000Z_A.mcap", "20260102T000000Z_B.mcap", "20260103T000000Z_C.mcap",
                            "20250101T000000Z_C.html", "run.mcap"})

@@ -71,7 +71,7 @@ TEST(Incidents, TripsThatAreFarApartAreTwo) {
   EXPECT_EQ(crane.kept[1].first.what, "OVERSPEED");
 }
 
-TEST(Incidents, TheEndOfAWorkAsPlannedIsNoStop) {
+TEST(Incidents, APlannedEndIsNotAnIncident) {
   Crane crane;
   crane.work(5);
   for (const auto cause : {crane_CAUSE_OPERATOR_DISARM, crane_CAUSE_IDLE, crane_CAUSE_HOMED}) {
@@ -83,7 +83,7 @@ TEST(Incidents, TheEndOfAWorkAsPlannedIsNoStop) {
   EXPECT_EQ(crane.kept.size(), 1U);
 }
 
-TEST(Incidents, ACraneThatTripsWithoutAnEndGivesAFileAMinuteAndBoundedMemory) {
+TEST(Incidents, AContinuouslyTrippingCraneCausesAFilePerMinuteAndBoundedMemory) {
   Crane crane;
   for (int i = 0; i < 600; ++i) {
     crane.trip(1, i % 2 == 0 ? crane_CAUSE_SWING_LIMIT : crane_CAUSE_OVERSPEED);
@@ -98,7 +98,7 @@ TEST(Incidents, ACraneThatTripsWithoutAnEndGivesAFileAMinuteAndBoundedMemory) {
   EXPECT_LE(crane.most_bytes, quiet.most_bytes + 1000);
 }
 
-TEST(Incidents, PendingIncidentsAreReturnedAtTheEndWhichIsNoFault) {
+TEST(Incidents, PendingIncidentsAreReturnedAtTheEndOfTheStack) {
   Crane crane;
   crane.work(20);
   crane.trip(1);
@@ -112,14 +112,15 @@ TEST(Incidents, PendingIncidentsAreReturnedAtTheEndWhichIsNoFault) {
   EXPECT_FALSE(ended.incidents.poll(21 * kSecond_ns, 21 * kSecond_ns, true).has_value());
 }
 
-TEST(Incidents, WhatHappenedBeforeTheStartIsNotKept) {
+TEST(Incidents, SamplesFromBeforeTheStartAreNotKept) {
   Crane crane{100 * kSecond_ns};
   msg::Event event{};
   event.severity = crane_SEVERITY_ERROR;
   runtime::assign(event.code, "latched");
   auto old =
       std::make_shared<observation::Sample>(*observation::sample_of(topics::event, event, 101 * kSecond_ns));
-  old->source_time_ns = 50 * kSecond_ns;  // an old sample that its writer kept for late joiners
+  // an old sample that its writer has stored for readers that join later
+  old->source_time_ns = 50 * kSecond_ns;
   crane.incidents.add(old);
   crane.work(20);
   EXPECT_TRUE(crane.kept.empty());

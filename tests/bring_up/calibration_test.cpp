@@ -67,7 +67,7 @@ TEST(Calibration, FindsEverySign) {
     }
 }
 
-TEST(Calibration, FindsScalesAndTheCranesPlaceFromATape) {
+TEST(Calibration, FindsScalesAndPositionsFromATape) {
   auto wired = tower();
   for (std::size_t i = 0; i < kDrives; ++i)
     wired.encoders[i].counts_per_unit *= 0.9 + 0.1 * static_cast<double>(i);
@@ -78,7 +78,7 @@ TEST(Calibration, FindsScalesAndTheCranesPlaceFromATape) {
   const auto& truth = bench.rig().crane().truth();
   const std::array<double, kDrives> place{truth.trolley_m, truth.slew_rad, truth.cable_m};
   for (std::size_t i = 0; i < kDrives; ++i) {
-    // The tape is read to a micrometre of some centimetres.
+    // The observer reads some centimetres on the tape to a micrometre.
     EXPECT_NEAR(found.counts_per_unit[i] / wired.encoders[i].counts_per_unit, 1, 1e-4);
     EXPECT_NEAR(found.position[i], place[i], 1e-6);
   }
@@ -98,8 +98,8 @@ TEST(Calibration, WaitsForALoadThatHangsStill) {
   bench.expect_safe();
 }
 
-/// Zeroed with a swinging load, the encoder has an offset.
-TEST(Calibration, DoesNotTakeAZeroFromALoadThatSwungWhenTheBoardWasOpened) {
+/// An encoder that was zeroed with a swinging load has an offset.
+TEST(Calibration, RefusesAZeroFromALoadThatSwungWhenTheBoardWasOpened) {
   auto wired = tower();
   wired.start.swing_radial_rad = 0.02;
   wired.terms.push_back({.name = "load_linear_drag", .axis = "", .parameters = {{"coefficient_nspm", 8.0}}});
@@ -113,7 +113,7 @@ TEST(Calibration, DoesNotTakeAZeroFromALoadThatSwungWhenTheBoardWasOpened) {
   }
 }
 
-TEST(Calibration, AsksAgainUntilAnAnswerIsOne) {
+TEST(Calibration, RepeatsAQuestionUntilTheAnswerIsValid) {
   Bench bench{tower(), tower()};
   Onlooker onlooker{bench, true};
   int nonsense = 0;
@@ -126,7 +126,7 @@ TEST(Calibration, AsksAgainUntilAnAnswerIsOne) {
   EXPECT_EQ(found.drive_sign, (std::array<int, kDrives>{1, 1, 1}));
 }
 
-TEST(Calibration, StopsAtABrakeThatDoesNotHoldAndAnEncoderThatDoesNotFollow) {
+TEST(Calibration, EndsWhenABrakeDoesNotHoldOrAnEncoderDoesNotFollow) {
   const auto lines = tower().wiring.drives[1];
   Bench loose{
       tower(), tower(), {.outputs_on = static_cast<std::uint16_t>(1U << (lines.brake_release_output - 16))}};
@@ -178,7 +178,7 @@ TEST_F(CalibrationFile, IsARigFileWithTheCalibratedValues) {
   EXPECT_NO_THROW(require_own_file(tower(), file_)) << "a rig may be calibrated again";
 }
 
-TEST_F(CalibrationFile, IsNotWrittenOverThatOfAnotherRig) {
+TEST_F(CalibrationFile, DoesNotOverwriteTheFileOfAnotherRig) {
   write(calibration_file(tower(), some(), file_));
   auto other = tower();
   other.name = "the_other_crane";
@@ -193,7 +193,7 @@ TEST_F(CalibrationFile, IsNotWrittenOverThatOfAnotherRig) {
   EXPECT_THROW(require_own_file(tower(), file_), configuration::ConfigurationError);
 }
 
-TEST_F(CalibrationFile, RefusesAPlaceOutsideTheLimits) {
+TEST_F(CalibrationFile, RefusesAPositionOutsideTheLimits) {
   auto calibration = some();
   calibration.position[0] = 3;
   EXPECT_THROW(std::ignore = calibration_file(tower(), calibration, file_),

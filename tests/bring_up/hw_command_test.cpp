@@ -48,7 +48,7 @@ TEST_F(Hw, ListsAndProbesAsJson) {
   EXPECT_EQ(found["relay_dropped"], true);
 }
 
-TEST_F(Hw, SelftestEndsWithOneLineAFaultAndExitCodeOne) {
+TEST_F(Hw, SelftestPrintsOneLinePerFaultAndEndsWithExitCodeOne) {
   EXPECT_EQ(hw({"selftest", "--rig", tower_}).exit_code, 0);
   const auto wired = rig("swapped", "[drive.trolley]\ndac_channel = 1\n[drive.slew]\ndac_channel = 0\n");
   const auto wrong = hw({"selftest", "--rig", tower_, "--wired-as", wired});
@@ -83,7 +83,7 @@ TEST_F(Hw, CalibratesAWronglyWiredRigSoThatItPasses) {
   EXPECT_EQ(hw({"selftest", "--rig", out, "--wired-as", wired}).exit_code, 0);
 }
 
-TEST_F(Hw, RefusesWhatCannotBe) {
+TEST_F(Hw, RefusesInvalidArguments) {
   const auto other = rig("other", "name = \"other\"\n");
   const auto refused = hw({"calibrate", "--rig", tower_, "--out", other});
   EXPECT_EQ(refused.exit_code, 2);
@@ -102,8 +102,8 @@ TEST_F(Hw, RefusesWhatCannotBe) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "x.toml"));
 }
 
-/// A rig in a separate process: real time, one user at a time, Ctrl-C.
-TEST_F(Hw, SharesABoardWithNobodyAndEndsOnCtrlC) {
+/// A rig in a separate process: real time, only one user at a time, Ctrl-C.
+TEST_F(Hw, UsesABoardExclusivelyAndEndsOnCtrlC) {
   const auto crane = "hw_" + std::to_string(::getpid());
   ProgramRun emulated{program("crane_emulated_rig"),
                       {"--rig", stack::find_rig(tower_).string(), "--crane", crane, "--priority", "0"}};
@@ -126,7 +126,7 @@ TEST_F(Hw, SharesABoardWithNobodyAndEndsOnCtrlC) {
   EXPECT_EQ(monitor.lines().outputs, 0);
 }
 
-/// A drive with reversed wiring and a rig file that states it behave like the original crane.
+/// A drive with reversed wiring, and a rig file that states this wiring, behave like the original crane.
 TEST_F(Hw, ADriveWithANegativeSignRunsTheSameManeuver) {
   for (const std::string plant : {"sim", "hardware"}) {
     const auto run = [&](const std::string& file) {

@@ -31,7 +31,7 @@ struct Miswiring {
 
 class Wrong : public testing::TestWithParam<Miswiring> {};
 
-TEST_P(Wrong, IsNamedAndNothingElseIs) {
+TEST_P(Wrong, IsReportedAsTheOnlyFault) {
   auto wired = tower();
   GetParam().wire(wired);
   Bench bench{tower(), wired, GetParam().stuck};
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Wirings, Wrong, testing::ValuesIn(all()), [](const auto
   return name;
 });
 
-TEST(Selftest, KeepsEachAxisWithinTheRoomItAsksFor) {
+TEST(Selftest, KeepsEachAxisWithinTheRequiredTravel) {
   Bench bench{tower(), tower()};
   const auto evidence = gather(bench.session(), {});
   const auto& truth = bench.rig().crane().truth();
@@ -141,7 +141,7 @@ TEST(Selftest, KeepsEachAxisWithinTheRoomItAsksFor) {
   for (const auto& axis : evidence.axis) EXPECT_TRUE(axis.pushed);
 }
 
-TEST(Selftest, IsNotConfusedByALoadThatSwingsAlready) {
+TEST(Selftest, FindsTheFaultsAlsoWithASwingingLoad) {
   auto wired = tower();
   wired.start.swing_radial_rad = 0.03;
   wired.start.swing_tangential_rad = -0.02;
@@ -160,8 +160,8 @@ TEST(Selftest, TestsARigOfASingleAxis) {
   EXPECT_EQ(found_on(wrong).size(), 1U);
 }
 
-/// After an interruption at any tick the rig is safe.
-TEST(Selftest, LeavesTheBoardSafeWhereverItIsInterrupted) {
+/// The rig is safe after an interruption at any tick.
+TEST(Selftest, LeavesTheBoardSafeAfterAnInterruptionAtAnyTick) {
   for (int last = 1; last < 900; last += 37) {
     int ticks = 0;
     Bench bench{tower(), tower(), {}, {.interrupted = [&] { return ++ticks > last; }}};
@@ -170,7 +170,7 @@ TEST(Selftest, LeavesTheBoardSafeWhereverItIsInterrupted) {
   }
 }
 
-TEST(Selftest, EndsWhenTheEmergencyStopIsPressedOnTheWay) {
+TEST(Selftest, EndsWhenTheEmergencyStopIsPressed) {
   int ticks = 0;
   Bench* pressed = nullptr;
   Bench bench{tower(), tower(), {}, {.interrupted = [&] {
@@ -182,7 +182,7 @@ TEST(Selftest, EndsWhenTheEmergencyStopIsPressedOnTheWay) {
   bench.expect_safe();
 }
 
-TEST(Jog, MovesAboutAsFarAsAskedAndEndsSafe) {
+TEST(Jog, MovesByTheRequestedDistanceAndEndsSafe) {
   for (const double drive_v : {2.0, -2.0}) {
     Bench bench{tower(), tower()};
     JogPlan plan{.axis = 0, .drive_v = drive_v, .distance = 0.05};
@@ -207,7 +207,7 @@ TEST(Jog, EndsAtALimitSwitch) {
   EXPECT_LT(bench.rig().crane().truth().trolley_m, rig.drives[0].high_limit + 0.02);
 }
 
-TEST(Jog, RefusesWhatIsNotSmall) {
+TEST(Jog, RefusesLargeMotions) {
   const double nan = std::nan("");
   EXPECT_TRUE(problems({.axis = 0, .drive_v = 2}, tower()).empty());
   for (const double drive_v : {0.0, 5.1, -6.0, nan})

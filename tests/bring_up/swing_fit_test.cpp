@@ -52,7 +52,7 @@ TEST(SwingFit, ExpectsTheSwingThatThePendulumEquationGives) {
   EXPECT_GT(expected.amplitude_rad(), 0.01);
 }
 
-TEST(SwingFit, SharesAreOfTheExpectedSwingOnly) {
+TEST(SwingFit, SharesMeasureOnlyTheExpectedSwing) {
   const SwingFit before{0.01, 0.02, -0.01}, expected{0, 0.03, 0.04};
   EXPECT_NEAR(share_of(expected, before, {0.01, 0.05, 0.03}), 1, 1e-12);
   EXPECT_NEAR(share_of(expected, before, {0.01, -0.01, -0.05}), -1, 1e-12);

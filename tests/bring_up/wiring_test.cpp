@@ -22,7 +22,7 @@ Evidence good() {
 }
 
 /// Drive, encoder or swing encoder with wrong sign, for every combination of the observed signs.
-TEST(Judgement, BlamesTheOneThatDisagreesWithTheOtherTwo) {
+TEST(Judgement, ReportsTheSignThatContradictsTheOtherTwo) {
   const auto blamed = [](double moved, double share) {
     auto evidence = good();
     evidence.axis[0].moved[0] = moved;
@@ -36,7 +36,7 @@ TEST(Judgement, BlamesTheOneThatDisagreesWithTheOtherTwo) {
   EXPECT_EQ(blamed(0.03, -1), "swing_sign");
 }
 
-TEST(Judgement, DoesNotGuessWhereTheLoadCannotTell) {
+TEST(Judgement, ReportsAnUndecidedSignWhenNoLoadShowsTheDirection) {
   auto evidence = good();
   evidence.axis[1].moved[1] = -0.1;
   evidence.axis[1].expected_rad = 0.002;  // the trolley stands at the tower
@@ -45,7 +45,7 @@ TEST(Judgement, DoesNotGuessWhereTheLoadCannotTell) {
   EXPECT_EQ(findings[0].fault, Fault::drive_or_encoder_sign);
 }
 
-TEST(Judgement, NamesAnAmplifierThatPushesAtZeroVolts) {
+TEST(Judgement, ReportsAnAmplifierThatDrivesAtZeroVolts) {
   auto evidence = good();
   evidence.axis[2].drift = -0.004;
   const auto findings = judge(tower(), evidence);
@@ -66,7 +66,7 @@ TEST(Judgement, ReportsSeveralFaultsInTheOrderOfTheChecks) {
   EXPECT_EQ(findings[2].fault, Fault::drive_or_encoder_dead);
 }
 
-TEST(Judgement, LeavesOutDrivesThatTheRigDoesNotHave) {
+TEST(Judgement, IgnoresDrivesThatTheRigDoesNotHave) {
   auto rig = tower();
   rig.drives[2].present = false;
   auto evidence = good();

@@ -45,7 +45,7 @@ TEST(CdrCodec, WritesTheBytesTheStandardPrescribes) {
   EXPECT_EQ(encoded(CdrCodec::of(crane_Reply_desc), &reply), expected);
 }
 
-TEST(CdrCodec, BringsEveryTypeBackUnchanged) {
+TEST(CdrCodec, DecodesEveryTypeUnchanged) {
   Random random{kSeed};
   for (const auto* type : types()) {
     const CdrCodec& codec = CdrCodec::of(*type);

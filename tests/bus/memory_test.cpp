@@ -94,7 +94,7 @@ TEST_F(Memory, GivesEveryReaderItsOwnCopy) {
   EXPECT_EQ(ticks(second), Ticks{5});
 }
 
-TEST_F(Memory, WaitSeesASampleThatCameBeforeTheCallAndTimesOutWithoutOne) {
+TEST_F(Memory, WaitReturnsForAnEarlierSampleAndTimesOutWithoutASample) {
   Bus a = bus();
   auto reader = a.subscriber(topics::state);
   auto writer = a.publisher(topics::state);
@@ -166,7 +166,7 @@ TEST_F(Memory, TextsArePrintableAndHaveTheirOwnChecksum) {
   EXPECT_TRUE(intact(topics::event.description, &*taken));
 }
 
-TEST_F(Memory, ADisposedInstanceIsToldToReadersThatAsk) {
+TEST_F(Memory, ADisposedInstanceIsReportedOnRequest) {
   Bus a = bus();
   auto asks = a.subscriber(topics::node);
   auto does_not = a.subscriber(topics::node);
@@ -201,7 +201,7 @@ TEST_F(Memory, TwoCranesDoNotSeeEachOtherAndAStarSeesBoth) {
   EXPECT_EQ(ticks(all_reader), (Ticks{1, 2}));
 }
 
-TEST_F(Memory, TellsWhoCameAndWentAndCounts) {
+TEST_F(Memory, ReportsMatchedAndUnmatchedEndpointsWithTheirNumber) {
   Bus a = bus();
   std::vector<std::string> events;
   const auto note = [&events](const Event& event) {
@@ -220,7 +220,7 @@ TEST_F(Memory, TellsWhoCameAndWentAndCounts) {
   EXPECT_EQ(events, (std::vector<std::string>{"matched 1", "unmatched 0"}));
 }
 
-TEST_F(Memory, AHandlerMayAskTheBusBack) {
+TEST_F(Memory, AHandlerMayCallTheBus) {
   Bus a = bus();
   auto writer = a.publisher(topics::state);
   int seen = -1;
@@ -247,7 +247,7 @@ TEST_F(Memory, RefusesAStringWithoutItsEnd) {
   EXPECT_FALSE(writer.publish(event));
 }
 
-TEST_F(Memory, HandsOutTheBytesThatRecordingsStore) {
+TEST_F(Memory, ReturnsTheBytesThatRecordingsStore) {
   Bus a = bus();
   auto reader = a.cdr_subscriber(topics::state.description);
   auto writer = a.publisher(topics::state);

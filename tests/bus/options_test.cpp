@@ -24,7 +24,7 @@ TEST(Options, DomainAboveAHundredIsRefusedByBothVendors) {
                 AllOf(HasSubstr("domain = 101"), HasSubstr("0..100")));
 }
 
-TEST(Options, AnInterfaceThatThisHostHasNotIsRefusedWithTheOnesItHas) {
+TEST(Options, AnUnknownInterfaceIsRefusedWithTheInterfacesOfThisHost) {
   EXPECT_THAT(refusal({.domain = 40, .interfaces = {"203.0.113.9"}}),
               AllOf(HasSubstr("203.0.113.9 is not an address of this host"), HasSubstr("127.0.0.1")));
 }
@@ -33,7 +33,7 @@ TEST(Options, APeerWithoutAnAddressIsRefused) {
   EXPECT_THAT(refusal({.domain = 40, .peers = {"256.1.1.1"}}), HasSubstr("256.1.1.1"));
 }
 
-TEST(Options, AllProblemsAreToldAtOnce) {
+TEST(Options, AllProblemsAreReportedAtOnce) {
   EXPECT_THAT(
       refusal({.domain = 200, .crane = "", .interfaces = {}}),
       AllOf(HasSubstr("domain = 200"), HasSubstr("crane is empty"), HasSubstr("interfaces is empty")));

@@ -43,7 +43,7 @@ TEST(Seal, WritesSourceEpochAndTheCrcOfAllBytesBeforeItOfTheTopicsNameAndOfTheVe
   }
 }
 
-TEST(Seal, IsTheSameWhateverThePaddingHolds) {
+TEST(Seal, DoesNotDependOnThePadding) {
   msg::Command a;
   msg::Command b;
   std::memset(&a, 0x00, sizeof a);
@@ -99,7 +99,7 @@ bool handed_out(const topics::Description& topic, std::span<const std::uint8_t> 
          intact(topic, sample.data());
 }
 
-TEST(Intact, NoTruncatedPayloadIsHandedOut) {
+TEST(Intact, RefusesEveryTruncatedPayload) {
   Random random{kSealSeed};
   for (const auto& topic : topics::kAll) {
     const auto original = sealed_sample(topic, random);
@@ -139,7 +139,7 @@ std::vector<std::uint8_t> mutated(std::vector<std::uint8_t> bytes, Random& rando
   return bytes;
 }
 
-TEST(Intact, NoMutatedPayloadIsHandedOutAsAnotherSample) {
+TEST(Intact, RefusesEveryMutatedPayload) {
   constexpr int kMutationsPerTopic = 20'000;
   Random random{kSealSeed};
   for (const auto& topic : topics::kAll) {
@@ -159,7 +159,7 @@ TEST(Intact, NoMutatedPayloadIsHandedOutAsAnotherSample) {
   }
 }
 
-TEST(Intact, NoRandomBytesAreHandedOut) {
+TEST(Intact, RefusesRandomBytes) {
   Random random{kSealSeed};
   for (const auto& topic : topics::kAll) {
     for (int i = 0; i < 5'000; ++i) {

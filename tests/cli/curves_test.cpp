@@ -49,7 +49,7 @@ TEST(Curve, MissingValuesInterruptIt) {
   EXPECT_FALSE(extent_of(none));
 }
 
-TEST(Curve, MarkIsALineWhereTheCurveLeavesRoom) {
+TEST(Curve, MarkIsAVerticalLineBehindTheCurve) {
   const std::vector<double> time_s{-1, 1}, values{0, 0};
   const auto text =
       draw_curve(time_s, values, {.columns = 5, .rows = 3, .from_s = -1, .to_s = 1, .mark_s = 0});

@@ -30,7 +30,7 @@ TEST(GamepadDevice, ThatIsMissingIsNamedWithTheRemedy) {
               ThrowsMessage<GamepadError>(AllOf(HasSubstr("/dev/input/no_such_event"), HasSubstr("plug"))));
 }
 
-TEST(GamepadDevice, ThatIsNoInputDeviceIsNamed) {
+TEST(GamepadDevice, ThatIsNotAnInputDeviceIsNamed) {
   EXPECT_THAT([] { open_device("/dev/null"); },
               ThrowsMessage<GamepadError>(AllOf(HasSubstr("/dev/null"), HasSubstr("not an input device"))));
 }

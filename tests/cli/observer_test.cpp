@@ -127,12 +127,12 @@ TEST_F(Observers, SnapshotNamesTheCauseAndItsRemedy) {
   EXPECT_EQ(json.at("state").at("brake_closed").at(0), true);
 }
 
-TEST_F(Observers, SnapshotOfNobodyIsEmpty) { EXPECT_TRUE(listen(tool_, 0.01).empty()); }
+TEST_F(Observers, SnapshotWithoutACraneIsEmpty) { EXPECT_TRUE(listen(tool_, 0.01).empty()); }
 
 enum class Planner : std::uint8_t { absent, deaf, listening };
 
-/// Gives the same answer to every request, then stays in HOLD, and publishes the status of a supervisor and
-/// the reference of a planner.
+/// A process that gives the same answer to every request, remains in HOLD, and publishes the status of a
+/// supervisor and the reference of a planner.
 class FakeSupervisor {
  public:
   FakeSupervisor(bus::Bus& bus, bool accepts, Planner planner = Planner::absent)
@@ -192,7 +192,7 @@ TEST_F(Observers, RefusalCarriesItsReason) {
   EXPECT_EQ(answer.reason, "the crane is LOCKED");
 }
 
-TEST_F(Observers, RequestToNobodySaysWhereItLooked) {
+TEST_F(Observers, RequestWithoutASupervisorNamesTheSearchedCrane) {
   EXPECT_THAT([&] { (void)ask(tool_, {.kind = crane_REQUEST_ARM}, {.find_s = 0.01, .reply_s = 0.01}); },
               testing::ThrowsMessage<NoAnswer>(
                   testing::AllOf(HasSubstr("'crane'"), HasSubstr("domain 0"), HasSubstr("--interface"))));
@@ -201,13 +201,13 @@ TEST_F(Observers, RequestToNobodySaysWhereItLooked) {
 constexpr Patience kPatience{.find_s = 10, .reply_s = 10};
 const stack::OperatorRequest kMove{.kind = crane_REQUEST_MOVE, .selected = {true}, .target = {1.0}};
 
-TEST_F(Observers, MoveIsOverWhenThePlannerHasTakenItUpAndTheCraneIsHeld) {
+TEST_F(Observers, MoveEndsWhenThePlannerHasExecutedItAndTheCraneIsInHold) {
   const FakeSupervisor supervisor{crane_, true, Planner::listening};
   MoveFollower follower{tool_};
   EXPECT_NO_THROW(follower.follow(ask(tool_, kMove, kPatience).id, 10));
 }
 
-TEST_F(Observers, MoveThatThePlannerNeverHeardOfIsNotDone) {
+TEST_F(Observers, MoveThatThePlannerDoesNotReceiveFails) {
   const FakeSupervisor supervisor{crane_, true, Planner::deaf};
   MoveFollower follower{tool_};
   const auto id = ask(tool_, kMove, kPatience).id;
@@ -221,7 +221,7 @@ TEST_F(Observers, MoveIsNotSentBeforeThePlannerIsFound) {
               testing::ThrowsMessage<NoAnswer>(HasSubstr("no trajectory planner")));
 }
 
-TEST(SampleJson, FieldNamesALeafOrWhatIsBelowIt) {
+TEST(SampleJson, FieldSelectsALeafOrAllLeavesBelowIt) {
   const msg::Reference reference{};
   const auto sample = to_json(topics::reference, reference);
   EXPECT_EQ(leaves_below(sample, "axis[1]").size(), 3U);

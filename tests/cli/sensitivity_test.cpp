@@ -29,7 +29,7 @@ experiments::PlannedRun departed(const std::string& controller, const std::strin
   return plan;
 }
 
-TEST(Departures, ChangeTheTrueCraneAndNotWhatTheControllersBelieve) {
+TEST(Departures, ChangeTheTrueCraneAndNotTheDesignOfTheControllers) {
   const auto as_designed = plan_with("delayed_1");
   const auto cable = departed("delayed_1", "cable_length", -50);
   EXPECT_DOUBLE_EQ(experiment::started_by(cable.rig, cable.scenario).start.cable_length_offset_m, -0.5);
@@ -39,7 +39,7 @@ TEST(Departures, ChangeTheTrueCraneAndNotWhatTheControllersBelieve) {
   EXPECT_EQ(load.rig.design.crane.load_mass_kg, 2);
 }
 
-TEST(Departures, ChangeWhatTheyAreNamedAfter) {
+TEST(Departures, ChangeTheNamedQuantity) {
   EXPECT_DOUBLE_EQ(departed("delayed_1", "friction_compensation", -20).rig.design.friction[0].factor, 0.8);
   const auto delayed = departed("delayed_1", "command_delay", 2);
   ASSERT_GE(delayed.rig.terms.size(), 2u);
@@ -52,14 +52,14 @@ TEST(Departures, ChangeWhatTheyAreNamedAfter) {
   EXPECT_DOUBLE_EQ(departed("gain_scheduling_full", "gain", -50).rig.design.full_feedback_gain_pm, 2);
 }
 
-TEST(Departures, LetTheFilterTakeOverItsShareOfTheDelay) {
+TEST(Departures, ReduceTheDelayByThatOfTheFilter) {
   const auto plan = departed("delayed_1", "swing_filter_for_delay", 0.05);
   EXPECT_TRUE(plan.rig.sensing.filter_swing_angle);
   const double load_period_s = 2 * M_PI / std::sqrt(9.81);
   EXPECT_NEAR(plan.rig.design.delayed_1_delay, 0.1 - 0.0450158 / load_period_s, 1e-6);
 }
 
-TEST(Departures, BeginWithNoneAndLeaveTheGainOutWhereTheCraneFixesIt) {
+TEST(Departures, BeginWithTheNominalRunAndOmitGainsThatTheCraneDetermines) {
   const auto all = departures(plan_with("gain_scheduling_partial"));
   EXPECT_TRUE(all.front().quantity.empty());
   std::set<std::pair<std::string, double>> different;
@@ -69,7 +69,7 @@ TEST(Departures, BeginWithNoneAndLeaveTheGainOutWhereTheCraneFixesIt) {
   }
 }
 
-TEST(SensitivityTable, SaysWhatSettledWhatDidNotAndWhatWasStopped) {
+TEST(SensitivityTable, DistinguishesSettledUnsettledAndStoppedRuns) {
   experiment::ComparedRun settled;
   settled.scenario = "maneuver_1";
   settled.controller = "none";

@@ -11,7 +11,7 @@ namespace {
 using Deflection = std::array<double, 3>;
 constexpr Deflection kReleased{};
 
-/// Deflection right after these bytes.
+/// Deflection immediately after these bytes.
 Deflection after(std::string_view bytes) {
   StickKeys keys;
   keys.take(bytes, 1);
@@ -54,7 +54,7 @@ TEST(StickKeys, ActShortlyAfterTheLastRepetition) {
   EXPECT_EQ(keys.deflection(1.531 + StickKeys::kRepeat_s), kReleased);
 }
 
-TEST(StickKeys, OfTheOtherDirectionAreNoRepetition) {
+TEST(StickKeys, OfTheOtherDirectionAreNotRepetitions) {
   StickKeys keys;
   keys.take("\x1b[A", 1);
   keys.take("\x1b[B", 1.1);

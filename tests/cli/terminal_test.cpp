@@ -17,7 +17,7 @@ TEST(FittedText, CutsLinesToTheColumns) {
   EXPECT_EQ(fitted("abcdef\n▁▂▃▄▅▆\nxy\n", {.columns = 4, .rows = 10}), "abcd\n▁▂▃▄\nxy\n");
 }
 
-TEST(FittedText, SaysHowManyLinesAreLeftOut) {
+TEST(FittedText, StatesTheNumberOfOmittedLines) {
   EXPECT_EQ(fitted("1\n2\n3\n", {.columns = 50, .rows = 3}), "1\n2\n3\n");
   EXPECT_EQ(fitted("1\n2\n3\n4\n", {.columns = 50, .rows = 3}),
             "1\n2\n2 more lines: the terminal is too small\n");

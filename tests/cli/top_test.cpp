@@ -121,7 +121,7 @@ std::size_t widest(const std::string& text) {
   return most;
 }
 
-TEST_F(TopTest, LeavesOutTheLeastImportantColumnsOfANarrowTerminal) {
+TEST_F(TopTest, OmitsTheLeastImportantColumnsOnANarrowTerminal) {
   run(3200);
   for (const int columns : {140, 100, 80, 60, 40}) {
     const auto table = text(TerminalSize{columns, 60}, true);
@@ -133,7 +133,7 @@ TEST_F(TopTest, LeavesOutTheLeastImportantColumnsOfANarrowTerminal) {
   EXPECT_THAT(text(TerminalSize{60, 60}), Not(HasSubstr("rejected")));
 }
 
-TEST_F(TopTest, LeavesOutSilentTopicsWhenTheRowsDoNotSuffice) {
+TEST_F(TopTest, OmitsSilentTopicsWhenTheRowsDoNotFit) {
   run(405);
   EXPECT_THAT(text(TerminalSize{140, 60}), HasSubstr("crane/twin"));
   const auto small = text(TerminalSize{140, 12});

@@ -25,7 +25,7 @@ TEST(Units, ConvertTheUnitsOfLengthAndAngle) {
   EXPECT_EQ(parse_quantity(" 0.5 rad ", Dimension::angle), 0.5);
 }
 
-TEST(Units, RefuseTheUnitOfAnotherDimensionAndNameThoseThatFit) {
+TEST(Units, RefuseUnitsOfAnotherDimensionAndListTheValidUnits) {
   EXPECT_THAT([] { (void)parse_quantity("90deg", Dimension::length); },
               ThrowsMessage<UnitError>(HasSubstr("m (default), cm, mm")));
   EXPECT_THAT([] { (void)parse_quantity("1m", Dimension::angle); },
@@ -34,7 +34,7 @@ TEST(Units, RefuseTheUnitOfAnotherDimensionAndNameThoseThatFit) {
               ThrowsMessage<UnitError>(HasSubstr("'ft'")));
 }
 
-TEST(Units, RefuseWhatIsNoFiniteNumber) {
+TEST(Units, RefuseValuesThatAreNotFiniteNumbers) {
   for (const char* text : {"", " ", "m", "deg", "nan", "inf", "1e999", "--1", "+-1", "0x10", "1,05"})
     EXPECT_THROW((void)parse_quantity(text, Dimension::length), UnitError) << text;
 }

@@ -26,7 +26,7 @@ std::vector<std::string> problems_with(const std::string& lines) {
 
 constexpr const char* kHomes = "[encoder.trolley]\nzero = 'homing'\n";
 
-TEST(RigHoming, IsToStandAtTheStartUnlessTheFileSaysOtherwise) {
+TEST(RigHoming, AssumesThePositionOfTheStartUnlessTheFileSaysOtherwise) {
   for (const auto& drive : parse_rig(rig_with(""), "rig.toml").drives) {
     EXPECT_EQ(drive.zero, control::Zero::start);
     EXPECT_FALSE(drive.homes());
@@ -54,7 +54,7 @@ TEST(RigHoming, OfTheExampleIsAsWritten) {
   EXPECT_EQ(rig.drives[plant::kHoist].homing.position, rig.drives[plant::kHoist].low_limit);
 }
 
-TEST(RigHoming, RefusesWhatContradictsItself) {
+TEST(RigHoming, RefusesContradictions) {
   EXPECT_THAT(problems_with(kHomes), ElementsAre(HasSubstr("homing: ")));
   EXPECT_THAT(problems_with("[homing.trolley]\nmark = 'limit_low'\n"),
               ElementsAre(HasSubstr("zero = \"homing\"")));
@@ -75,7 +75,7 @@ TEST(RigHoming, RefusesWhatContradictsItself) {
               ElementsAre(HasSubstr("volt_limit_v"), HasSubstr("back_off_m")));
 }
 
-TEST(RigHoming, WantsALineOfItsOwnForAMark) {
+TEST(RigHoming, RequiresASeparateLineForAMark) {
   EXPECT_THAT(problems_with("[wiring.slew]\nmark_input = 10\n"), ElementsAre(HasSubstr("must be used once")));
 }
 

@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(RigFile, DoesNotExtendItselfOrWhatIsNotThere) {
+TEST(RigFile, RefusesToExtendItselfOrAMissingFile) {
   const auto directory = std::filesystem::path(testing::TempDir()) / "extends";
   std::filesystem::create_directories(directory);
   std::ofstream(directory / "a.toml") << "extends = 'b.toml'\n";
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "viscous_positive_vspm", "unit must be vsprad"}),
     [](const auto& entry) { return std::string(entry.param.name); });
 
-TEST(RigFile, MissesSectionsOnce) {
+TEST(RigFile, ReportsAMissingSectionOnce) {
   EXPECT_THAT(problems_of("name = 'x'\nkind = 'tower'\n"),
               ElementsAre("rig.toml:1: drive: missing", "rig.toml:1: encoder: missing",
                           "rig.toml:1: plant: missing"));
@@ -185,7 +185,7 @@ std::string spoiled(std::mt19937& random, std::vector<std::string> lines) {
   return text;
 }
 
-TEST(RigFile, EitherLoadsOrNamesALineWhateverHappensToOneLine) {
+TEST(RigFile, EitherLoadsOrNamesTheLineAfterAnyChangeOfOneLine) {
   constexpr unsigned kSeed = 20240611;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   std::mt19937 random(kSeed);
@@ -207,8 +207,8 @@ TEST(RigFile, EitherLoadsOrNamesALineWhateverHappensToOneLine) {
       }
     }
   }
-  EXPECT_GT(loaded, 0);     // comments and defaults
-  EXPECT_LT(loaded, 1800);  // most lines matter
+  EXPECT_GT(loaded, 0);     // lines with comments and default values may be wrong
+  EXPECT_LT(loaded, 1800);  // a change of most lines is detected
 }
 
 }  // namespace

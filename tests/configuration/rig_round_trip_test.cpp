@@ -84,7 +84,8 @@ void change_zones(std::mt19937& random, Rig& rig) {
   zone.name += std::to_string(random());
   (zone.shape == control::ZoneShape::box ? zone.radius_m : zone.size_x_m) = 0;
   if (zone.shape == control::ZoneShape::cylinder) zone.size_y_m = 0;
-  // A random place is nearly always contradictory: this one is beside the start of each rig.
+  // A random position of a zone would nearly always contradict the rig. This position is beside the start of
+  // each rig.
   zone.position_x_m = rig.start.position[0] + rig.clearance.load_radius_m + 0.3;
   zone.position_y_m = 0;
   zone.size_x_m = zone.size_y_m = zone.shape == control::ZoneShape::box ? 0.01 : 0;
@@ -158,7 +159,7 @@ TEST_P(RoundTrip, GivesTheSameRigForAnyRig) {
     changed = with_what_follows(std::move(changed), read);
     ASSERT_TRUE(read == changed) << path << " after " << i << " changes\n"
                                  << to_toml(changed) << to_toml(read);
-    ASSERT_EQ(to_toml(read), to_toml(changed)) << path;  // compares the sign of 0, too
+    ASSERT_EQ(to_toml(read), to_toml(changed)) << path;  // also compares the sign of 0
     rig = std::move(changed);
     ++accepted;
   }
@@ -182,7 +183,7 @@ TEST(RoundTripOfDeployedRigs, ChangesNothing) {
   }
 }
 
-TEST(RigEquality, SeesEveryFieldOfTheFile) {
+TEST(RigEquality, ComparesEveryFieldOfTheFile) {
   const Rig rig = load_rig(std::filesystem::path{CRANE_RIGS} / "homing_servo_to_go.toml");
   std::mt19937 random{1};
   Rig copy = rig;

@@ -29,7 +29,7 @@ TEST(RigFile, HasTheDissertationsTower) {
   EXPECT_EQ(rig.start.position, (std::array<double, 3>{0.3, 0, 1}));
 }
 
-TEST(RigFile, CountsAsTheTowersEncodersDo) {
+TEST(RigFile, HasTheCountsOfTheTowersEncoders) {
   const Rig rig = load_rig(kTower);
   // Lines, quadrature and gear of chapter 4 of the dissertation, with the rounding of the file.
   EXPECT_DOUBLE_EQ(rig.encoders[0].counts_per_unit, 2000 * 4 / 0.0127);
@@ -51,7 +51,7 @@ TEST(RigFile, CompensatesExactlyTheFrictionOfTheTower) {
   }
 }
 
-TEST(RigFile, LetsTheDesignKnowThePlantUnlessTheFileSaysOtherwise) {
+TEST(RigFile, GivesTheDesignThePlantParametersUnlessTheFileSaysOtherwise) {
   EXPECT_EQ(load_rig(kTower).design.crane.load_mass_kg, 2.0);
   const Rig rig = parse_rig(tower_text() + "\n[controller.believes]\nload_mass_kg = 1.0\n", "rig.toml");
   EXPECT_EQ(rig.design.crane.load_mass_kg, 1.0);
@@ -59,7 +59,7 @@ TEST(RigFile, LetsTheDesignKnowThePlantUnlessTheFileSaysOtherwise) {
   EXPECT_EQ(rig.plant.load_mass_kg, 2.0);
 }
 
-TEST(RigFile, TakesTheRestFromTheFileItExtends) {
+TEST(RigFile, TakesMissingValuesFromTheExtendedFile) {
   const Rig ideal = load_rig(kRigs / "virginia_tech_tower_ideal.toml");
   EXPECT_THAT(ideal.terms, IsEmpty());
   EXPECT_EQ(ideal.design.friction[plant::kTrolley].factor, 0);
@@ -67,7 +67,7 @@ TEST(RigFile, TakesTheRestFromTheFileItExtends) {
   EXPECT_EQ(ideal.name, "virginia_tech_tower_ideal");
 }
 
-TEST(RigFile, SaysHowMovesArePlanned) {
+TEST(RigFile, ContainsThePlanningOfMoves) {
   const Rig tower = load_rig(kTower);
   EXPECT_FALSE(tower.planning.limits_jerk);
   EXPECT_EQ(tower.planning.shaping, control::Shaping::none);
@@ -107,7 +107,7 @@ TEST(RigFile, GivesTheDesignItsAntiSwingGains) {
   EXPECT_EQ(design.fuzzy_point_b, 0.75);
 }
 
-TEST(RigFile, HasTheDefaultsOfTheDesignWritten) {
+TEST(RigFile, StatesTheDefaultsOfTheDesign) {
   // The annotated example contains every gain; a file without gains gives the same rig.
   const auto written = load_rig(kTower).design;
   const control::Design defaults;

@@ -41,7 +41,7 @@ TEST(TomlReader, GivesTheValuesOfTheFile) {
   EXPECT_THAT(problems_of(root), IsEmpty());
 }
 
-TEST(TomlReader, GivesDefaultsForWhatTheFileDoesNotSay) {
+TEST(TomlReader, GivesDefaultsForMissingKeys) {
   TomlTable root("", "f.toml");
   EXPECT_EQ(root.number("a", Range::any(), 4.0), 4.0);
   EXPECT_EQ(root.integer("b", 0, 9, 5), 5);
@@ -92,13 +92,13 @@ TEST(TomlReader, SuggestsTheNearestKeyForAnUnknownOne) {
                           "f:4: plant.something_else_entirely = 1: unknown key"));
 }
 
-TEST(TomlReader, SaysWhichUnitAKeyMustHave) {
+TEST(TomlReader, NamesTheUnitThatAKeyMustHave) {
   TomlTable root("slew_angle_deg = 90\n", "f");
   (void)root.number("slew_angle_rad", Range::any());  // required; only the wrong unit is reported
   EXPECT_THAT(problems_of(root), ElementsAre("f:1: slew_angle_deg = 90: unit must be rad: slew_angle_rad"));
 }
 
-TEST(TomlReader, AcceptsBothUnitsWhereBothAreAskedFor) {
+TEST(TomlReader, AcceptsBothUnitsOfAKeyWithTwoUnits) {
   TomlTable root("slew_angle_deg = 90\n", "f");
   EXPECT_FALSE(root.has("slew_angle_rad"));
   EXPECT_EQ(root.number("slew_angle_deg", Range::any(), 0), 90);
@@ -148,7 +148,7 @@ TEST(TomlReader, ShowsAllProblemsOneALine) {
   }
 }
 
-TEST(TomlReader, TakesLackingKeysFromTheBaseAndNamesItsLines) {
+TEST(TomlReader, TakesMissingKeysFromTheBaseAndNamesItsLines) {
   TomlTable root("[t]\na = 1\nrows = []\n", "own");
   root.inherit(TomlTable("b = -2\n[t]\na = 3\nc = 4\n[[t.rows]]\nd = 1\n", "base"));
   EXPECT_EQ(root.table("t").number("a", Range::any()), 1);
@@ -173,7 +173,8 @@ std::string key_of(int parts) {
   return key;
 }
 
-/// toml++ puts each part into a table of its own and frees them recursively: 100,000 parts end the program.
+/// toml++ puts each part into a separate table and frees the tables recursively. 100,000 parts would crash
+/// the program.
 TEST(TomlReader, RefusesAKeyWithMoreThan32Parts) {
   const std::string many = key_of(33), rule = "a key must have at most 32 parts";
   EXPECT_EQ(refusal_of("\n" + key_of(100'000) + " = 1\n"), "f:2: " + rule);

@@ -1,4 +1,4 @@
-// Zones are added to and removed from the text of a rig file; everything else stays.
+// Zones are added to and removed from the text of a rig file; all other text does not change.
 #include "crane/configuration/zone_editor.hpp"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ TEST(ZoneEditor, AddsATableAndChangesNoOtherText) {
   EXPECT_EQ(parse_rig(text, "rig.toml").zones, std::vector{mast("mast")});
 }
 
-TEST(ZoneEditor, RemovesWhatItAdded) {
+TEST(ZoneEditor, RemovesTheTableThatItAdded) {
   EXPECT_EQ(without_zone(with_zone(kTowerText, "rig.toml", mast("mast")), "rig.toml", "mast"), kTowerText);
 }
 
@@ -42,7 +42,7 @@ TEST(ZoneEditor, KeepsCommentsAndOtherZones) {
   const auto one = with_zone(kTowerText, "rig.toml", mast("one")) + "# behind the first\n";
   const auto two =
       with_zone(one, "rig.toml", mast("two")) + "\n# last line\n[sensing]\nfilter_swing_angle = false\n";
-  // The deployed file has its own [sensing]: a second one is a syntax error of the edited file.
+  // The deployed file has a table [sensing]; a second one is a syntax error of the edited file.
   EXPECT_THAT(refusal([&] { return without_zone(two, "rig.toml", "one"); }), HasSubstr("rig.toml"));
   const auto both = with_zone(one, "rig.toml", mast("two")) + "# last line\n";
   const auto second = without_zone(both, "rig.toml", "one");

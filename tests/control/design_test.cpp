@@ -11,7 +11,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(Design, IsUsableAsItComes) { EXPECT_THAT(problems(Design{}), IsEmpty()); }
+TEST(Design, IsValidByDefault) { EXPECT_THAT(problems(Design{}), IsEmpty()); }
 
 TEST(Design, ReportsEveryProblemByNameValueAndRule) {
   Design design;
@@ -27,7 +27,7 @@ TEST(Design, ReportsEveryProblemByNameValueAndRule) {
                           "friction.hoist.factor = 1.6: must be in [0, 1.5]"));
 }
 
-TEST(Design, WantsItsCableBetweenShortestAndLongest) {
+TEST(Design, RequiresACableLengthBetweenShortestAndLongest) {
   Design design;
   design.cable_length_m = 0.05;
   EXPECT_THAT(problems(design), ElementsAre("cable_length_m = 0.05: must be in [0.1, 100]"));
@@ -37,7 +37,7 @@ TEST(Design, WantsItsCableBetweenShortestAndLongest) {
                                          "[shortest_cable_length_m, 1000]"));
 }
 
-TEST(Design, WantsItsMembershipPointsApart) {
+TEST(Design, RequiresDistinctMembershipPoints) {
   Design design;
   design.fuzzy_point_a = 0.7;
   EXPECT_THAT(problems(design),
@@ -55,7 +55,7 @@ TEST(Design, RefusesFrictionThatHoldsADriveAtFullVoltage) {
   EXPECT_THAT(problems(design), IsEmpty());
 }
 
-TEST(Design, RefusesLengthsPeriodsAndLoadsThatAreNone) {
+TEST(Design, RefusesInvalidLengthsPeriodsAndLoads) {
   const auto only = [](auto&& change) {
     Design design;
     change(design);

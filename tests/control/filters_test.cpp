@@ -14,7 +14,7 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 constexpr double kRate_hz = 100;
 
-/// Response measured by driving the filter with cos and sin until the transient has died.
+/// Frequency response, measured with cos and sin after the transient has decayed.
 Complex response(const FilterSection& section, double frequency_hz) {
   FilterMemory real, imaginary;
   Complex output;
@@ -25,10 +25,10 @@ Complex response(const FilterSection& section, double frequency_hz) {
   return output / std::polar(1.0, w * (k - 1));
 }
 
-TEST(Differentiators, ComeCloseToTheIdealOneAtLowFrequency) {
+TEST(Differentiators, ApproachTheIdealDifferentiatorAtLowFrequency) {
   const std::array sections{backward_difference(kRate_hz), al_alaoui_first_order(kRate_hz),
                             al_alaoui_second_order(kRate_hz)};
-  // Delay of each at low frequency in ticks, from the phase of its transfer function.
+  // Delay of each differentiator at low frequency in ticks, from the phase of its transfer function.
   const std::array delay_ticks{0.5, 0.375, 0.5774};
   for (std::size_t i = 0; i < sections.size(); ++i)
     for (const double f : {0.2, 0.5, 1.0, 2.0}) {
@@ -38,8 +38,9 @@ TEST(Differentiators, ComeCloseToTheIdealOneAtLowFrequency) {
     }
 }
 
-/// Gain of each in closed form, from the integrator it inverts: rectangular; three quarters rectangular and
-/// one trapezoidal; Simpson, its zero outside the unit circle reflected, which keeps the gain.
+/// Gain of each differentiator in closed form, from the integrator that it inverts: rectangular rule; three
+/// quarters rectangular and one quarter trapezoidal rule; Simpson's rule with the zero outside the unit
+/// circle reflected, which preserves the gain.
 double backward_gain(double w) { return 2 * std::sin(w / 2); }
 double first_order_gain(double w) {
   return 2 * std::sin(w / 2) / std::sqrt(1 - 7.0 / 32 * (1 - std::cos(w)));
@@ -49,7 +50,7 @@ double second_order_gain(double w) { return 3 * std::sin(w) / (2 + std::cos(w));
 struct Differentiator {
   FilterSection section;
   double (*gain)(double);  ///< per sample, at w rad per sample
-  double good_up_to_hz;    ///< within 1 % of the ideal one, w, up to here and not beyond
+  double good_up_to_hz;    ///< largest frequency up to which the gain is within 1 % of the ideal gain w
 };
 
 const Differentiator kDifferentiators[] = {{backward_difference(kRate_hz), backward_gain, 7.81},
@@ -62,7 +63,7 @@ TEST(Differentiators, HaveTheGainOfTheIntegratorTheyInvertAtEveryFrequency) {
       EXPECT_NEAR(std::abs(response(section, f)) / kRate_hz, gain(2 * pi * f / kRate_hz), 1e-9) << f;
 }
 
-TEST(Differentiators, AreWithinOnePercentOfTheIdealOneTheBetterTheFarther) {
+TEST(Differentiators, AreWithinOnePercentUpToTheirStatedFrequencies) {
   for (const auto& [section, gain, good_up_to_hz] : kDifferentiators) {
     const auto error = [&section = section](double f) {
       return std::abs(std::abs(response(section, f)) / (2 * pi * f) - 1);
@@ -105,7 +106,7 @@ TEST(Butterworth, HasTheAnalogMagnitudeAtTheWarpedFrequency) {
   }
 }
 
-TEST(Butterworth, PassesEverythingWhenItIsOff) {
+TEST(Butterworth, PassesTheInputUnchangedWhenItIsOff) {
   FilterMemory memory;
   const auto section = butterworth_low_pass(0);
   for (const double sample : {1.0, -3.0, 7.5}) EXPECT_EQ(step(section, memory, sample), sample);

@@ -31,7 +31,7 @@ TEST(FrictionCompensation, CancelsTheModelFrictionOutsideTheZeroBand) {
   }
 }
 
-TEST(FrictionCompensation, HelpsTheDemandAtRestUpToTheStictionOfItsDirection) {
+TEST(FrictionCompensation, AddsUpToTheStictionOfTheDirectionAtRest) {
   const auto f = trolley_friction();
   EXPECT_NEAR(friction_compensation_v(f, 5, 0), 1.0, 1e-12);
   EXPECT_NEAR(friction_compensation_v(f, -5, 0.004), -1.4, 1e-12);

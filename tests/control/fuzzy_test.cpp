@@ -12,7 +12,7 @@ namespace {
 // Index of a label in the tables.
 constexpr std::size_t kNM = 1, kNS = 2, kZO = 3, kPS = 4, kPB = 6;
 
-TEST(FuzzyRules, AnswerWithTheirOwnLabelAtEveryCentre) {
+TEST(FuzzyRules, HaveTheOutputOfTheirLabelAtEveryCentre) {
   for (int i = -3; i <= 3; ++i)
     for (int j = -3; j <= 3; ++j)
       EXPECT_NEAR(fuzzy_output(kPrintedRules, i / 3.0, j / 3.0),
@@ -88,7 +88,7 @@ TEST(GeneratedRules, NameTheRulesWithoutASample) {
   EXPECT_EQ(std::count(missing.begin(), missing.end(), "(ZO, ZO)"), 0);
 }
 
-TEST(GeneratedRules, ThatCannotBeCompletedAreAProblemOfTheControllerAndOfNoOther) {
+TEST(GeneratedRules, WithMissingRulesAreAProblemOfFuzzyGeneratedOnly) {
   Design design;
   design.fuzzy_swing_rate = 100;  // a rate that no load reaches
   ASSERT_TRUE(problems(design).empty());

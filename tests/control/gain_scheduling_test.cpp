@@ -81,7 +81,7 @@ TEST(GainSchedule, HasTheFullSlewGainsOfTheRederivedTable43) {
   }
 }
 
-TEST(GainSchedule, PutsTheClosedLoopPolesWhereTheDesignWantsThem) {
+TEST(GainSchedule, PlacesTheClosedLoopPolesOfTheDesign) {
   const unsigned seed = 20250301;
   RecordProperty("seed", static_cast<int>(seed));
   std::mt19937 random(seed);
@@ -93,7 +93,7 @@ TEST(GainSchedule, PutsTheClosedLoopPolesWhereTheDesignWantsThem) {
     design.cable_length_m = uniform(0.3, 10);
     design.crane.load_mass_kg = uniform(0, 40);
     design.full_feedback_gain_pm = uniform(0.5, 20);
-    design.volt_limit_v.fill(1000);  // K as it is chosen, for probes of 1 m and 1 rad
+    design.volt_limit_v.fill(1000);  // no voltage limit lowers K for probes of 1 m and 1 rad
     const double x = uniform(0.1, 3);
     for (const char* name : {"gain_scheduling_partial", "gain_scheduling_full"}) {
       for (const Motion motion : {Motion::trolley, Motion::slew}) {
@@ -115,7 +115,7 @@ TEST(GainSchedule, PutsTheClosedLoopPolesWhereTheDesignWantsThem) {
   }
 }
 
-TEST(GainSchedule, SplitsTheUnsplitLawExactly) {
+TEST(GainSchedule, SplitsTheLawExactly) {
   const Design design = printed_rig();
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -162,7 +162,7 @@ TEST(GainSchedule, StaysBoundedAndContinuousNearTheTower) {
   }
 }
 
-TEST(GainSchedule, IsStableOnTheSlewAxisBelowTheGuardToo) {
+TEST(GainSchedule, IsStableOnTheSlewAxisNearTheTower) {
   for (const char* name : {"gain_scheduling_partial", "gain_scheduling_full"})
     for (const double x : {0.001, 0.01, 0.05, 0.09, -0.05}) {
       const auto a = closed_loop(*find_controller(name), printed_rig(), Motion::slew, x);
@@ -170,7 +170,7 @@ TEST(GainSchedule, IsStableOnTheSlewAxisBelowTheGuardToo) {
     }
 }
 
-TEST(GainSchedule, FollowsTheMeasuredCableNotTheNominalOne) {
+TEST(GainSchedule, FollowsTheMeasuredCableLength) {
   Design design = printed_rig();
   design.cable_length_m = 3;
   Measurement m;
@@ -193,21 +193,21 @@ Design design_with_friction() {
   return design;
 }
 
-TEST(ForwardGain, LeavesTheFrictionCompensationItsVolts) {
+TEST(ForwardGain, ReservesTheVoltsOfTheFrictionCompensation) {
   const Design design = design_with_friction();
   EXPECT_DOUBLE_EQ(available_control_v(design, kTrolley, true), 9.0);  // stiction 1.0 above Coulomb 0.9
   EXPECT_DOUBLE_EQ(available_control_v(design, kTrolley, false), 8.8);
   EXPECT_DOUBLE_EQ(available_control_v(design, kSlew, true), 9.3);
 }
 
-/// Gain that a reference from rest at `from` to `to` gets.
+/// Forward gain for a reference from rest at `from` to `to`.
 double gain_for(const Design& design, double from, double to) {
   Reference r;
   r[kTrolley] = {.position = to, .start = from};
   return forward_gains(design, r).trolley;
 }
 
-TEST(ForwardGain, IsTheConfiguredOneForShortMovesAndLessForLongOnes) {
+TEST(ForwardGain, IsTheConfiguredGainForShortMovesAndLowerForLongMoves) {
   const Design design = design_with_friction();
   EXPECT_EQ(gain_for(design, 0.3, 1.05), 8);
   EXPECT_DOUBLE_EQ(gain_for(design, 0, 5), 9.0 / 5);
@@ -215,7 +215,7 @@ TEST(ForwardGain, IsTheConfiguredOneForShortMovesAndLessForLongOnes) {
   EXPECT_EQ(gain_for(design, 1, 1), 8);
 }
 
-TEST(ForwardGain, StaysWhileTheReferenceRestsAndIsChosenAnewWithTheNext) {
+TEST(ForwardGain, IsConstantWhileTheReferenceRestsAndChangesWithTheNextReference) {
   const Design design = design_with_friction();
   ReferenceStart start;
   Measurement m;
@@ -263,7 +263,8 @@ TEST(ForwardGain, KeepsTheFirstDemandOfAnyMoveWithinTheDrive) {
 }
 
 TEST(ForwardGain, IsTheSameInTrackingAndAntiSwingThroughWholeMoves) {
-  // Both laws against the law that is not split. A law that starts in the middle of a move gets the same K.
+  // Compares the sum of both laws with the unsplit law. A law that starts in the middle of a move gets the
+  // same K.
   const Design design = design_with_friction();
   const auto tracking = make_full_tracking(design);
   auto anti_swing = make_full_anti_swing(design);

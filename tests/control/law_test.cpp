@@ -80,7 +80,7 @@ TEST(Registry, FindsEveryControllerByItsOwnNameAndNoOther) {
   EXPECT_EQ(find_controller(""), nullptr);
 }
 
-TEST(EveryController, SaysSoWhenItsAntiSwingLawCorrectsTheReference) {
+TEST(EveryController, DeclaresWhetherItsAntiSwingLawCorrectsTheReference) {
   const unsigned seed = 12;
   std::mt19937 random(seed);
   const auto moderate = [](std::mt19937& draw) {

@@ -57,7 +57,7 @@ TEST(PendulumObserver, PredictsSwingRateAndSpeedOfTheNextTickWithoutFriction) {
   EXPECT_LT(worst.speed, 0.001);
 }
 
-TEST(PendulumObserver, PredictsWithFrictionThatItKnowsAndWithACableThatItDoesNotKnow) {
+TEST(PendulumObserver, PredictsWithKnownFrictionAndWithAWrongCableLength) {
   EXPECT_LT(follow(tower_with_friction(), 0, 1).swing_rad, 0.1 * kDegree);
   TestCrane crane = tower_with_friction();
   crane.cable_ratio = 1.2;
@@ -71,7 +71,7 @@ TEST(PendulumObserver, FindsTheOffsetOfAnEncoder) {
   EXPECT_NEAR(last.tangential.offset_rad + last.tangential.force_rad, 0, 0.1 * kDegree);
 }
 
-TEST(PendulumObserver, KeepsItsEstimateWhenAMeasurementIsNoNumber) {
+TEST(PendulumObserver, KeepsItsEstimateWhenAMeasurementIsNotANumber) {
   PendulumObserver observer{Design{}};
   Measurement m;
   m.position = {0.5, 0, 1};
@@ -80,7 +80,7 @@ TEST(PendulumObserver, KeepsItsEstimateWhenAMeasurementIsNoNumber) {
   EXPECT_EQ(observer.step(m).state, before);
 }
 
-TEST(ObservedLaw, AsksForNothingAtRestOnItsReferenceAndPassesOnWhatIsNoNumber) {
+TEST(ObservedLaw, GivesZeroVoltsAtRestOnItsReferenceAndPassesOnNaN) {
   Measurement m;
   m.position = {0.7, 0.3, 1.2};
   Reference r;

@@ -11,11 +11,12 @@
 namespace crane::control {
 namespace {
 
-/// Limits kept, position, speed and acceleration continuous, each the derivative of the one before.
+/// Checks that the profile keeps its limits, that position, speed and acceleration are continuous, and that
+/// speed and acceleration are derivatives of position and speed.
 void expect_smooth(const AxisProfile& profile, const AxisLimits& limits) {
   const double duration_s = profile.duration_s(), tick_s = duration_s / 1009;
   const double size = 1 + std::abs(profile.start) + std::abs(profile.target);
-  const double slack = 1e-11;  // of the rounding of positions of that size
+  const double slack = 1e-11;  // rounding error of positions of this size
   for (double t = 0; t < duration_s - tick_s; t += tick_s) {
     const auto now = profile.at(t), next = profile.at(t + tick_s);
     EXPECT_LE(std::abs(now.speed), limits.speed * (1 + slack));
@@ -46,8 +47,8 @@ TEST(SCurve, ArrivesWithoutEverLeavingItsLimitsAndUsesItsJerk) {
                             std::pow(10, exponent(random))};
     const auto profile = limited_profile(place(random), place(random), limits);
     expect_smooth(profile, limits);
-    // Nothing faster exists: jerk always at its limit, then acceleration or speed unless the move is too
-    // short.
+    // No faster profile exists: the jerk is always at its limit; acceleration and speed reach their limits
+    // unless the move is too short.
     EXPECT_NEAR(std::abs(profile.acceleration) / profile.jerk_s, limits.jerk, 1e-9 * limits.jerk);
     if (profile.coast_s > 0) {
       EXPECT_NEAR(std::abs(profile.speed), limits.speed, 1e-9 * limits.speed);
@@ -59,11 +60,12 @@ TEST(SCurve, ArrivesWithoutEverLeavingItsLimitsAndUsesItsJerk) {
 }
 
 TEST(SCurve, TakesTheTimesOfItsThreeCases) {
-  // Speed reached: Z/V + V/a + a/j. Acceleration reached, speed not. Neither: 4 cbrt(Z/(2 j)).
+  // Three cases: V_max is reached, Z/V + V/a + a/j; only a_max is reached; neither is reached, 4 cbrt(Z/(2
+  // j)).
   EXPECT_NEAR(limited_profile(0, 3, {1, 2, 8}).duration_s(), 3.0 + 0.5 + 0.25, 1e-12);
   EXPECT_NEAR(limited_profile(0, 0.5, {1, 2, 8}).duration_s(), 0.25 + std::sqrt(0.0625 + 1), 1e-12);
   EXPECT_NEAR(limited_profile(0, -0.01, {1, 2, 8}).duration_s(), 4 * std::cbrt(0.01 / 16), 1e-12);
-  // Speed reached before full acceleration is.
+  // The profile reaches V_max before a_max.
   EXPECT_NEAR(limited_profile(0, 3, {0.1, 2, 8}).duration_s(), 30 + 2 * std::sqrt(0.1 / 8), 1e-12);
 }
 
@@ -74,7 +76,8 @@ TEST(SCurve, BecomesBangCoastBangWithoutJerkLimit) {
 }
 
 TEST(SCurve, IsTheRunningMeanOfBangCoastBangOverItsJerkTime) {
-  // The other derivation: an S-curve is its bang-coast-bang, without the jerk time, averaged over that time.
+  // Independent derivation: an S-curve is the bang-coast-bang profile without jerk phases, averaged over the
+  // jerk time.
   const auto curve = limited_profile(0, 3, {1, 2, 8});
   const auto bang = limited_profile(0, 3, {1, 2});
   const int points = 2000;
@@ -98,7 +101,7 @@ TEST(SCurve, KeepsAGivenFinalTime) {
   expect_smooth(later, limits);
 }
 
-TEST(SCurve, RefusesLimitsAndTimesThatAreNoneByName) {
+TEST(SCurve, RefusesInvalidLimitsAndTimesByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double jerk : {0.0, -1.0, nan, -std::numeric_limits<double>::infinity()})
     EXPECT_THROW((void)limited_profile(0, 1, {1, 1, jerk}), std::invalid_argument) << jerk;

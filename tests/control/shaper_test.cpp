@@ -23,7 +23,7 @@ double swing_left(const Shaper& shaper, const AxisProfile& profile, double ratio
   const int steps = 20000;
   const double h = end_s / steps;
   double swing = 0, rate = 0;
-  for (int k = 0; k < steps; ++k) {  // leap-frog, the acceleration taken in the middle of the step
+  for (int k = 0; k < steps; ++k) {  // leapfrog, with the acceleration in the middle of the step
     swing += h / 2 * rate;
     rate += h * (shaper.at(profile, (k + 0.5) * h).acceleration - w * w * swing);
     swing += h / 2 * rate;
@@ -45,14 +45,14 @@ double expected_share(Shaping shaping, double ratio) {
 
 constexpr double kIntegration = 1e-3;  // of 20000 steps over jumps of the acceleration
 
-TEST(Shapers, LeaveTheSwingOfTheoryAtAndOffTheFrequencyTheyAreMadeFor) {
+TEST(Shapers, LeaveTheTheoreticalSwingAtAndBesideTheirDesignFrequency) {
   for (const Shaping shaping : {Shaping::zv, Shaping::zvd, Shaping::ei})
     for (const double ratio : {0.5, 0.7, 0.8, 0.9, 0.97, 1.0, 1.03, 1.1, 1.2, 1.3, 1.5})
       EXPECT_NEAR(share_left(shaping, ratio), expected_share(shaping, ratio), kIntegration)
           << static_cast<int>(shaping) << " at " << ratio;
 }
 
-TEST(Shapers, LeaveNothingAtTheirFrequencyButEiFivePercent) {
+TEST(Shapers, LeaveNoSwingAtTheirDesignFrequencyExceptEiWithFivePercent) {
   EXPECT_NEAR(share_left(Shaping::zv, 1), 0, kIntegration);
   EXPECT_NEAR(share_left(Shaping::zvd, 1), 0, kIntegration);
   EXPECT_NEAR(share_left(Shaping::ei, 1), 0.05, kIntegration);
@@ -73,13 +73,13 @@ double insensitivity(Shaping shaping) {
   return edge(2 - zero, 1.5) - edge(zero, 0.5);
 }
 
-TEST(Shapers, AreAsInsensitiveAsTheLiteratureSays) {
-  EXPECT_NEAR(insensitivity(Shaping::zv), 0.06, 0.005);  // printed with two digits
+TEST(Shapers, HaveTheInsensitivityOfTheLiterature) {
+  EXPECT_NEAR(insensitivity(Shaping::zv), 0.06, 0.005);  // the source prints two digits
   EXPECT_NEAR(insensitivity(Shaping::zvd), 0.29, 0.005);
   EXPECT_NEAR(insensitivity(Shaping::ei), 0.40, 0.005);
 }
 
-TEST(Shapers, BeginAndEndExactlyWhereTheirProfileDoes) {
+TEST(Shapers, BeginAndEndExactlyAtTheEndsOfTheirProfile) {
   const AxisProfile profile = limited_profile(0.3, 1.05, {0.5, 1, 10});
   for (const Shaping shaping : {Shaping::none, Shaping::zv, Shaping::zvd, Shaping::ei}) {
     const Shaper shaper(shaping, kPeriod_s);
@@ -104,7 +104,7 @@ TEST(Shapers, KeepTheLimitsOfTheirProfile) {
   }
 }
 
-TEST(Shapers, MakeAStaircaseOfAStep) {
+TEST(Shapers, ConvertAStepIntoAStaircase) {
   const AxisProfile step = step_profile(0, 1);
   const Shaper shaper(Shaping::zvd, kPeriod_s);
   EXPECT_EQ(shaper.at(step, 0.5).position, 0.25);
@@ -112,14 +112,14 @@ TEST(Shapers, MakeAStaircaseOfAStep) {
   EXPECT_EQ(shaper.at(step, 2).position, 1);
 }
 
-TEST(Shapers, LastHalfAPeriodOrAWholeOneLonger) {
+TEST(Shapers, LengthenTheMoveByHalfAPeriodOrAPeriod) {
   EXPECT_EQ(Shaper().delay_s(), 0);
   EXPECT_EQ(Shaper(Shaping::zv, kPeriod_s).delay_s(), kPeriod_s / 2);
   EXPECT_EQ(Shaper(Shaping::zvd, kPeriod_s).delay_s(), kPeriod_s);
   EXPECT_EQ(Shaper(Shaping::ei, kPeriod_s).delay_s(), kPeriod_s);
 }
 
-TEST(Shapers, RefuseAPeriodThatIsNone) {
+TEST(Shapers, RefuseAnInvalidPeriod) {
   for (const double period_s : {0.0, -1.0, 1e300, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW((void)Shaper(Shaping::zv, period_s), std::invalid_argument) << period_s;
   try {

@@ -1,5 +1,5 @@
-/// The stick law: limits and ways under hostile histories, and the swing that a release leaves. The load is
-/// the pendulum of space_pendulum.hpp.
+/// The stick law: limits under hostile histories, and the residual swing after a release. The load is the
+/// pendulum of space_pendulum.hpp.
 #include "crane/control/stick.hpp"
 
 #include <gtest/gtest.h>
@@ -66,13 +66,13 @@ TEST(Stick, ReachesTheWantedSpeedInHalfAPeriodAndARamp) {
 
 struct Motions {
   std::array<bool, kAxes> used;
-  double most_rad;  ///< swing that may remain
+  double most_rad;  ///< largest permitted residual swing
 };
 
 class EveryMotion : public testing::TestWithParam<Motions> {};
 
-/// Nothing remains of a load with small swing angles and a cable without acceleration. Swings of 20 degrees
-/// during wild histories have a longer period; L'' is not part of the path.
+/// The residual swing is zero for small swing angles and a cable without acceleration. Large swings of 20
+/// degrees have a longer period, and the equation of the path neglects L''.
 TEST_P(EveryMotion, LeavesTheLoadAtRestAfterEveryHistory) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     Crane crane{tower_stick(Shaping::zv, GetParam().used)};
@@ -136,7 +136,7 @@ TEST(Stick, StopsAtTheLimitWhenTheStickStaysDeflected) {
   EXPECT_NEAR(crane.at[kHoist].position, 1.5, 0.01);
 }
 
-TEST(Stick, LeavesAPlaceOutsideTheLimitsInwardsOnly) {
+TEST(Stick, LeavesAPositionOutsideTheLimitsInwardsOnly) {
   Crane crane{tower_stick(), rest_at(1.95, 0, 1)};
   for (int k = 0; k < 300; ++k) crane.tick({0.4, 0, 0});
   EXPECT_EQ(crane.at[kTrolley].position, 1.95);
@@ -144,7 +144,7 @@ TEST(Stick, LeavesAPlaceOutsideTheLimitsInwardsOnly) {
   EXPECT_LT(crane.at[kTrolley].position, 1.8);
 }
 
-TEST(Stick, BrakesFromTheSpeedThatItTakesOver) {
+TEST(Stick, DeceleratesFromTheInitialSpeed) {
   Reference moving = rest_at(1, 0, 1);
   moving[kTrolley].speed = 0.4;
   Crane crane{tower_stick(Shaping::zv, {true, false, false}), moving};
@@ -154,7 +154,7 @@ TEST(Stick, BrakesFromTheSpeedThatItTakesOver) {
   EXPECT_EQ(crane.at[kTrolley].speed, 0);
 }
 
-TEST(Stick, TakesANumberThatIsNoneAsRelease) {
+TEST(Stick, TakesNaNAsRelease) {
   for (const double none :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Crane crane{tower_stick()};
@@ -176,7 +176,7 @@ TEST(Stick, NeedsLessThanTenMicrosecondsPerTick) {
   Crane crane{tower_stick(Shaping::zvd)};
   RandomStick stick{1, {true, true, true}, 0.5};
   constexpr int kBatches = 10, kTicks = 500;
-  double best_ns = 1e9;  // of the batches: another process may interrupt some of them
+  double best_ns = 1e9;  // smallest time of all batches, because other processes may interrupt some batches
   for (int batch = 0; batch < kBatches; ++batch) {
     std::chrono::nanoseconds spent{0};
     for (int k = 0; k < kTicks; ++k) {

@@ -74,7 +74,7 @@ TEST(TimeOptimalTower, AcceleratesAsThePlantDoes) {
     PlanState rate;
     rate << s.tail<4>(), wanted.trolley_mps2, wanted.radial_radps2, wanted.slew_radps2,
         wanted.tangential_radps2;
-    // The plant eliminates the swing, the planner inverts M: the results differ by rounding.
+    // The plant eliminates the swing, the planner inverts M. The results therefore differ by rounding errors.
     constexpr double kRounding = 1e-10;
     EXPECT_LT((rate_of(at) - rate).norm(), kRounding * (1 + rate.norm())) << "case " << i;
   }
@@ -101,7 +101,7 @@ TEST(TimeOptimalTower, HasTheDerivativesOfItsAccelerations) {
   }
 }
 
-TEST(TimeOptimalPlan, TakesHardlyLongerThanTheBoundWithoutFriction) {
+TEST(TimeOptimalPlan, TakesNearlyTheLeastTimeWithoutFriction) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto result =
         std::make_unique<PlanResult>(time_optimal_plan(Design{}, problem_of(kTestMoves[i], 10)));
@@ -143,7 +143,7 @@ TEST(TimeOptimalPlan, IsTheSameForTheSameMove) {
   for (std::size_t k = 0; k < kPlanIntervals; ++k) EXPECT_EQ(first->plan.volts[k], second->plan.volts[k]);
 }
 
-TEST(TimeOptimalPlan, NamesWhatMakesAMoveImpossible) {
+TEST(TimeOptimalPlan, NamesTheReasonOfAnImpossibleMove) {
   PlanProblem problem = problem_of(kTestMoves[0], 10);
   problem.to[kTrolley] = 5;
   problem.limits.swing_rad = 0;
@@ -167,14 +167,14 @@ TestResult planned_move(const TestCrane& crane, std::size_t i) {
 TEST(TimeOptimalController, SettlesNearTheBoundWithFrictionEncodersAndDelay) {
   for (std::size_t i = 0; i < 3; ++i) {
     const TestResult at = planned_move(tower_with_friction(), i);
-    // Maneuver 2 leaves 0.6 deg at the end of the plan, which decay below 0.5 deg within 0.5 s.
+    // In maneuver 2 the swing at the end of the plan is 0.6 deg; it decays below 0.5 deg within 0.5 s.
     constexpr std::array kRatio{1.05, 1.4, 1.05};
     EXPECT_LT(at.settled_s, kRatio[i] * kBounds_s[i]) << "maneuver " << i + 1;
     EXPECT_LT(at.residual_rad, 0.3 * std::numbers::pi / 180) << "maneuver " << i + 1;  // stick and slip
   }
 }
 
-TEST(TimeOptimalController, EndsAtRestWithAWrongCableOrLoad) {
+TEST(TimeOptimalController, EndsAtRestWithAWrongCableLengthOrLoad) {
   for (int wrong = 0; wrong < 4; ++wrong)
     for (std::size_t i = 0; i < 3; ++i) {
       TestCrane crane = tower_with_friction();

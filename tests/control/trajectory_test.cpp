@@ -90,13 +90,13 @@ TEST(StepProfile, IsAtItsTargetFromTimeZeroOn) {
   EXPECT_EQ(profile.at(0).speed, 0);
 }
 
-TEST(LimitedProfile, StandsStillWhenItIsThereAlready) {
+TEST(LimitedProfile, StandsStillWhenTheStartIsTheTarget) {
   const auto profile = limited_profile(0.4, 0.4, {1, 1});
   EXPECT_EQ(profile.duration_s(), 0);
   EXPECT_EQ(profile.at(0).position, 0.4);
 }
 
-TEST(LimitedProfile, RefusesLimitsThatAreNone) {
+TEST(LimitedProfile, RefusesInvalidLimits) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW((void)limited_profile(0, 1, {0, 1}), std::invalid_argument);
   EXPECT_THROW((void)limited_profile(0, 1, {1, -1}), std::invalid_argument);

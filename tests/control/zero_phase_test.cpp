@@ -37,13 +37,13 @@ TEST(ZeroPhase, HasTheSquaredButterworthGainAndNoPhase) {
         const double warped = std::tan(pi * ratio) / std::tan(pi * cutoff_ratio);
         const double gain = 1 / (1 + std::pow(warped, 2 * order));
         const auto measured = middle_response(ratio, cutoff_ratio, order);
-        // Rounding only: the ends are far away.
+        // Only rounding errors, because the ends are far away.
         EXPECT_NEAR(measured.real(), gain, 1e-9) << order << " " << cutoff_ratio << " " << ratio;
         EXPECT_NEAR(measured.imag(), 0, 1e-9) << order << " " << cutoff_ratio << " " << ratio;
       }
 }
 
-TEST(ZeroPhase, HalvesTheCutOffAndKeepsWhatIsSlow) {
+TEST(ZeroPhase, HalvesTheCutOffFrequencyAndPassesLowFrequencies) {
   EXPECT_NEAR(middle_response(0.05, 0.05, 5).real(), 0.5, 1e-9);
   EXPECT_NEAR(middle_response(0.0125, 0.05, 5).real(), 1, 1e-5);
   EXPECT_NEAR(middle_response(0.2, 0.05, 5).real(), 0, 1e-6);
@@ -55,7 +55,7 @@ TEST(ZeroPhase, PassesConstantsAndStraightLinesUpToTheEnds) {
   const auto smooth_line = zero_phase_butterworth(line, 0.05);
   const auto smooth_constant = zero_phase_butterworth(constant, 0.05);
   for (std::size_t k = 0; k < line.size(); ++k) {
-    EXPECT_NEAR(smooth_line[k], line[k], 1e-5) << k;  // what is left of the start exp(-12) away from the end
+    EXPECT_NEAR(smooth_line[k], line[k], 1e-5) << k;  // the transient of the start has decayed to exp(-12)
     EXPECT_NEAR(smooth_constant[k], -4.2, 1e-12) << k;
   }
 }
@@ -71,7 +71,7 @@ TEST(ZeroPhase, IsTheSameBackwardsInTime) {
   const auto one = zero_phase_butterworth(series, 0.05);
   auto other = zero_phase_butterworth(reversed, 0.05);
   std::reverse(other.begin(), other.end());
-  // Away from the ends, where the order of the passes does not matter.
+  // Far from the ends, where the order of the passes has no effect.
   for (std::size_t k = 500; k < 1500; ++k) EXPECT_NEAR(one[k], other[k], 1e-9) << "seed " << seed << " " << k;
 }
 
@@ -87,7 +87,7 @@ TEST(ZeroPhase, TakesSeriesOfAnyLength) {
   EXPECT_EQ(zero_phase_butterworth(std::vector{2.5}, 0.05), std::vector{2.5});
 }
 
-TEST(ZeroPhase, RefusesWhatIsNoFilterByName) {
+TEST(ZeroPhase, RefusesInvalidParametersByName) {
   const std::vector<double> samples(10);
   for (const double ratio : {0.0, -0.1, 0.5, 1e-5, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW((void)zero_phase_butterworth(samples, ratio), std::invalid_argument) << ratio;

@@ -21,7 +21,7 @@ TEST(Access, TheComputerOfTheRigReadsAndOperatesWithoutAToken) {
   EXPECT_EQ(why_not_operate(rules, visitor), "");
 }
 
-TEST(Access, AChosenTokenIsNeededAtTheRigTooButNotForAStop) {
+TEST(Access, ATokenIsAlsoRequiredAtTheRigExceptForAStop) {
   auto visitor = kAtTheRig;
   EXPECT_EQ(why_not_operate(kRules, visitor), "");
   for (const auto* token : {"", "0123456789abcdeg"}) {
@@ -34,13 +34,13 @@ TEST(Access, AChosenTokenIsNeededAtTheRigTooButNotForAStop) {
   EXPECT_NE(why_not_stop(kRules, visitor), "");
 }
 
-TEST(Access, APageElsewhereStopsNothing) {
+TEST(Access, APageOfAnotherOriginCannotStopTheCrane) {
   auto visitor = kAtTheRig;
   visitor.origin = "http://evil.example";
   EXPECT_NE(why_not_stop(kRules, visitor), "");
 }
 
-TEST(Access, AForeignNameForThisComputerIsRefusedAlsoWithAFittingOrigin) {
+TEST(Access, AForeignNameForThisComputerIsRefusedAlsoWithAMatchingOrigin) {
   auto visitor = kAtTheRig;
   visitor.host = "evil.example:8765";
   visitor.origin = "http://evil.example:8765";

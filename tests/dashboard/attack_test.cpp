@@ -1,5 +1,5 @@
-// What an attacker tries against the dashboard: guessed tokens, two operators at once, pages of other
-// origins, other names for this computer, floods, clients that do not read.
+// Attacks on the dashboard: guessed tokens, two operators at once, pages of other origins, foreign names for
+// this computer, floods, clients that do not read.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -31,7 +31,7 @@ class WithToken : public ServerTest {
   }
 };
 
-TEST_F(WithToken, NobodyOperatesWithoutItAlsoNotThroughAProxyThatDoesNotNameItself) {
+TEST_F(WithToken, NobodyOperatesWithoutItEvenThroughAnUnidentifiedProxy) {
   EXPECT_EQ(ask("/api/operator/take", json::object(), "").result_int(), 403U);
   EXPECT_EQ(ask("/api/request", {{"kind", "arm"}}, "").result_int(), 403U);
   EXPECT_EQ(ask("/api/operator/take", json::object(), kToken).result_int(), 200U);
@@ -47,7 +47,7 @@ TEST_F(WithToken, TheRigsOwnComputerMayStopWithoutIt) {
   EXPECT_EQ(requests_, 1);
 }
 
-TEST_F(WithToken, AGuessIsAnsweredLateAndDelaysNobodyElse) {
+TEST_F(WithToken, AWrongTokenIsAnsweredLateAndDelaysNoOtherClient) {
   constexpr int kGuesses = 30;
   const auto begin = Clock::now();
   std::vector<std::future<std::pair<unsigned, Clock::duration>>> guesses;
@@ -63,8 +63,8 @@ TEST_F(WithToken, AGuessIsAnsweredLateAndDelaysNobodyElse) {
   for (auto& guess : guesses) EXPECT_GE(guess.get().second, kGuessDelay);
 }
 
-/// The limit of a body depends on the token. An answer before the delay would tell that the guess is wrong.
-TEST_F(WithToken, AGuessWithALongBodyIsAnsweredAsLate) {
+/// The limit of a body depends on the token. An answer before the delay would reveal that the guess is wrong.
+TEST_F(WithToken, AWrongTokenWithALongBodyIsAnsweredEquallyLate) {
   for (const char* body : {"Content-Length: 100000\r\n\r\n", "Transfer-Encoding: chunked\r\n\r\nFFFFF\r\n"}) {
     const auto begin = Clock::now();
     const auto answer =
@@ -76,7 +76,7 @@ TEST_F(WithToken, AGuessWithALongBodyIsAnsweredAsLate) {
   }
 }
 
-TEST_F(WithToken, AGuessThatHangsUpKeepsItsConnectionForAsLong) {
+TEST_F(WithToken, AWrongTokenOccupiesItsConnectionAfterADisconnect) {
   const auto begin = Clock::now();
   for (std::size_t i = 0; i < kMostConnections; ++i) {
     auto socket = connect();
@@ -88,7 +88,7 @@ TEST_F(WithToken, AGuessThatHangsUpKeepsItsConnectionForAsLong) {
   EXPECT_TRUE(answer.empty() || Clock::now() - begin >= kGuessDelay) << answer.substr(0, 80);
 }
 
-TEST_F(ServerTest, OfManyWhoTakeTheControlsAtOnceOneGetsThem) {
+TEST_F(ServerTest, OfManySimultaneousOperatorsOneGetsTheControls) {
   std::vector<std::future<unsigned>> operators;
   for (int i = 0; i < 16; ++i)
     operators.push_back(std::async(std::launch::async, [&, i] {
@@ -99,7 +99,7 @@ TEST_F(ServerTest, OfManyWhoTakeTheControlsAtOnceOneGetsThem) {
   EXPECT_EQ(taken, 1);
 }
 
-TEST_F(ServerTest, WhatIsNoRequestIsAnsweredWithAReason) {
+TEST_F(ServerTest, AnInvalidRequestIsAnsweredWithAReason) {
   for (const auto& body : {json::array(), json(nullptr), json{{"kind", 1e300}},
                            json{{"kind", "arm"}, {"tick", 1}}, json{{"kind", "move"}, {"trolley_m", "far"}},
                            json::parse(std::string(500, '[') + std::string(500, ']'))}) {
@@ -125,7 +125,7 @@ TEST_F(ServerTest, AReleasedSeatDoesNotOperateAnyMore) {
   EXPECT_EQ(requests_, 0);
 }
 
-TEST_F(ServerTest, APageElsewhereLoadsNothingButMayLinkToThePage) {
+TEST_F(ServerTest, APageOfAnotherOriginLoadsNothingButMayLinkToThePage) {
   http::request<http::string_body> request{http::verb::get, "/api/history?topic=crane/state", 11};
   request.set("Sec-Fetch-Dest", "image");
   for (const auto* site : {"cross-site", "same-site"}) {
@@ -154,7 +154,7 @@ long resident_kb() {
   return resident * (::sysconf(_SC_PAGESIZE) / 1024);
 }
 
-TEST_F(ServerTest, ClientsThatAskForTheHistoryAndDoNotReadDoNotFillTheMemory) {
+TEST_F(ServerTest, ClientsThatDoNotReadTheirAnswersUseBoundedMemory) {
   auto viewer = view(kViewerProtocol);
   subscribe(viewer, channel_of(Document::situation));
   const auto sample = sample_of(topics::state, msg::State{}, observation::log_now_ns());
@@ -172,8 +172,8 @@ TEST_F(ServerTest, ClientsThatAskForTheHistoryAndDoNotReadDoNotFillTheMemory) {
     asio::write(
         idle.back(),
         asio::buffer(std::string{"GET /api/history?topic=crane/state HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"}));
-    busy = raw(
-        "GET /api/about HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n");  // it has been answered
+    busy = raw("GET /api/about HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n");  // the request has
+                                                                                            // been answered
   }
   EXPECT_NE(busy.find("200 OK"), std::string::npos);
   EXPECT_LT(resident_kb() - before_kb, static_cast<long>(2 * kMostAnswers_bytes / 1024));
@@ -182,7 +182,7 @@ TEST_F(ServerTest, ClientsThatAskForTheHistoryAndDoNotReadDoNotFillTheMemory) {
   EXPECT_EQ(refused, "HTTP/1.1 503");
 }
 
-TEST_F(ServerTest, AViewerThatFloodsPingsIsEnded) {
+TEST_F(ServerTest, AViewerThatFloodsPingsIsDisconnected) {
   auto viewer = view(kViewerProtocol);
   boost::system::error_code error;
   for (int i = 0; i < 100'000 && !error; ++i) viewer.ping({}, error);
@@ -190,7 +190,7 @@ TEST_F(ServerTest, AViewerThatFloodsPingsIsEnded) {
   EXPECT_EQ(get("/api/about").result_int(), 200U);
 }
 
-TEST(ConnectionLimits, OneAddressDoesNotTakeThePlacesOfTheOthers) {
+TEST(ConnectionLimits, OneAddressCannotOccupyAllConnections) {
   ConnectionLimits limits;
   std::size_t admitted = 0;
   for (std::size_t i = 0; i < kMostConnections; ++i) admitted += limits.admit("192.0.2.7", true) ? 1 : 0;

@@ -24,7 +24,7 @@ class BoundedProcessTest : public testing::Test {
     return std::make_unique<BoundedProcess>("/bin/bash", std::vector<std::string>{"-c", script},
                                             directory_ / "output", directory_ / "errors", bounds);
   }
-  /// Waits until it has ended, or until its time is over.
+  /// Waits until the process has ended, or until its time is over.
   static BoundedProcess::End end_of(BoundedProcess& process, const Bounds& bounds = kWide) {
     ends_within(process.pid(), bounds.time);
     for (;;)
@@ -34,7 +34,7 @@ class BoundedProcessTest : public testing::Test {
   recording::TemporaryDirectory directory_;
 };
 
-TEST_F(BoundedProcessTest, LeavesItsOutputItsErrorsAndItsExitCode) {
+TEST_F(BoundedProcessTest, GivesItsOutputItsErrorsAndItsExitCode) {
   const auto process = shell("echo out; echo err >&2; exit 3");
   EXPECT_EQ(end_of(*process).exit_code, 3);
   EXPECT_EQ(output(), "out\n");
@@ -70,7 +70,7 @@ TEST_F(BoundedProcessTest, HasNoDescriptorsOfItsParentAndTheLowestPriority) {
   ::close(kept);
 }
 
-TEST_F(BoundedProcessTest, TakesWhatItHasStartedWithIt) {
+TEST_F(BoundedProcessTest, EndsWithAllProcessesThatItHasStarted) {
   const auto pipe = directory_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   auto process = shell("sleep 60 & echo $! > " + pipe.string() + "; wait");

@@ -26,7 +26,7 @@ TEST(Foxglove, SubscriptionsNameChannelsThatExist) {
         << channel;
 }
 
-TEST(Foxglove, WhatIsNoMessageOfAClientIsRefusedWithAReason) {
+TEST(Foxglove, AnInvalidMessageOfAClientIsRefusedWithAReason) {
   for (const auto* text :
        {"", "{", "[]", "null", "{}", R"({"op":7})", R"({"op":"launch"})", R"({"op":"subscribe"})",
         R"({"op":"subscribe","subscriptions":{}})", R"({"op":"subscribe","subscriptions":[1]})",
@@ -70,7 +70,7 @@ TEST(Foxglove, EveryTopicIsAChannelWithTheIdlAsItsSchema) {
   EXPECT_EQ(advertised["channels"].size(), channels().size());
 }
 
-TEST(Foxglove, AFrameOfThePageHoldsManyMessagesAndKeepsTheirOrder) {
+TEST(Foxglove, AFrameOfThePageContainsManyMessagesInTheirOrder) {
   SendQueue queue;
   ASSERT_TRUE(
       queue.put({.channel = 0, .keep = Keep::always, .binary = false, .head = "text", .payload = {}}));

@@ -1,4 +1,4 @@
-/// Jobs with a stand-in for `crane`: a script that says progress and leaves a result.
+/// Jobs with a script instead of `crane`: the script prints progress and writes a result.
 #include "dashboard/jobs.hpp"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST_F(JobsTest, ReviewARunOnceAndKeepItsResult) {
   EXPECT_NE(jobs_.review(run("run.mcap")).id, first.id);
 }
 
-TEST_F(JobsTest, RefuseWhatCannotBeReviewedOrDiagnosed) {
+TEST_F(JobsTest, RefuseFilesThatCannotBeReviewedOrDiagnosed) {
   EXPECT_NE(jobs_.review(run("run.csv")).problem, "");
   EXPECT_NE(jobs_.diagnose({}, {run("run.csv")}).problem, "");
   EXPECT_NE(jobs_.diagnose({run("run.csv")}, {}).problem, "");
@@ -73,7 +73,7 @@ TEST_F(JobsTest, RefuseWhatCannotBeReviewedOrDiagnosed) {
             std::string::npos);
 }
 
-TEST_F(JobsTest, TellTheProgressOfADiagnosis) {
+TEST_F(JobsTest, ReportTheProgressOfADiagnosis) {
   stand_in("echo 'progress 0.25 fits friction' >&2; exec < " + (directory_ / "pipe").string() + "; read");
   ASSERT_EQ(::mkfifo((directory_ / "pipe").c_str(), 0600), 0);
   const auto started = jobs_.diagnose({run("run.csv")}, {run("run.csv")});
@@ -89,7 +89,7 @@ TEST_F(JobsTest, TellTheProgressOfADiagnosis) {
   EXPECT_FALSE(jobs_.cancel(started.id));
 }
 
-TEST_F(JobsTest, SayWhatTheProgramSaidWhenItFails) {
+TEST_F(JobsTest, ReportTheOutputOfAProgramThatFails) {
   stand_in("echo 'progress 0.5 x' >&2; echo 'run.csv:3: time_s: must rise' >&2; exit 2");
   const auto end = ended(jobs_.review(run("run.mcap")).id);
   EXPECT_EQ(end["state"], "failed");
@@ -97,7 +97,7 @@ TEST_F(JobsTest, SayWhatTheProgramSaidWhenItFails) {
   EXPECT_FALSE(jobs_.file_of(end["id"], "result.json"));
 }
 
-TEST_F(JobsTest, RunOneAfterTheOtherAndWaitInABoundedLine) {
+TEST_F(JobsTest, RunOneAfterTheOtherAndWaitInABoundedQueue) {
   ASSERT_EQ(::mkfifo((directory_ / "pipe").c_str(), 0600), 0);
   stand_in("read < " + (directory_ / "pipe").string());
   const auto first = jobs_.diagnose({run("run.csv")}, {run("run.csv")});

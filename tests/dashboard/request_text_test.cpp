@@ -29,7 +29,7 @@ TEST(RequestText, OnlyStopsNeedNoSeat) {
   }
 }
 
-TEST(RequestText, WhatIsNoRequestOfAnOperatorIsRefused) {
+TEST(RequestText, AnInvalidRequestOfAnOperatorIsRefused) {
   for (const auto* text :
        {"", "[]", "{}", R"({"kind":"advance"})", R"({"kind":"kick"})", R"({"kind":"follow"})",
         R"({"kind":1})", R"({"kind":"move"})", R"({"kind":"move","trolley_m":"1"})",

@@ -1,4 +1,4 @@
-// The paths of the views Runs and Diagnose over HTTP, and what an attacker tries there.
+// The HTTP paths of the views Runs and Diagnose, and attacks on them.
 #include <sys/stat.h>
 
 #include "../recording/temporary_directory.hpp"
@@ -11,7 +11,7 @@ using recording::put_contents;
 
 constexpr const char* kOperatorToken = "0123456789abcdef0123456789abcdef";
 
-/// Made before the server that uses it.
+/// Created before the server that uses this directory.
 struct Files {
   Files() {
     std::filesystem::create_directories(directory / "runs");
@@ -37,7 +37,8 @@ class RunsApiTest : protected Files, public ServerTest {
     if (!origin.empty()) request.set(http::field::origin, origin);
     return exchange(std::move(request));
   }
-  /// Status for the head of an upload of so many bytes; refused before its body is sent.
+  /// Status of the answer to the header of an upload of `bytes` bytes, which is refused before its body is
+  /// sent.
   std::string announced(std::uint64_t bytes) {
     const auto answer = raw(
         "POST /api/uploads/lab.csv HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/octet-stream\r\n"
@@ -45,7 +46,7 @@ class RunsApiTest : protected Files, public ServerTest {
         std::to_string(bytes) + "\r\n\r\n");
     return answer.size() < 12 ? "" : answer.substr(9, 3);
   }
-  /// The job after its end. The server looks after its jobs at every beat, in which each viewer gets a
+  /// The job after its end. The server polls its jobs in every frame period, in which each viewer gets a
   /// message.
   json ended(std::uint64_t id) {
     constexpr std::chrono::seconds kPatience{30};
@@ -92,7 +93,7 @@ TEST_F(RunsApiTest, OpensNoFileOutsideItsDirectory) {
     EXPECT_EQ(get(path).result_int(), 404U) << path;
 }
 
-TEST_F(RunsApiTest, AnswersNonsenseWithItsReason) {
+TEST_F(RunsApiTest, AnswersInvalidRequestsWithAReason) {
   for (const auto& body :
        {json{{"run", 1}}, json{{"run", nullptr}}, json{{"run", json::array({json::array()})}}, json::array(),
         json{}, json{{"run", std::vector<std::string>(9, "stop.mcap")}}})

@@ -30,7 +30,7 @@ TEST(SendQueue, KeepsEventsWhileSamplesAreDropped) {
   EXPECT_TRUE(found);
 }
 
-TEST(SendQueue, HoldsOfADocumentTheNewestOnly) {
+TEST(SendQueue, HoldsOnlyTheNewestVersionOfADocument) {
   SendQueue queue;
   for (std::size_t i = 1; i <= 1000; ++i) {
     ASSERT_TRUE(queue.put(message(Keep::newest, i, 1)));
@@ -42,7 +42,7 @@ TEST(SendQueue, HoldsOfADocumentTheNewestOnly) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(SendQueue, GivesUpAClientThatDoesNotEvenTakeEvents) {
+TEST(SendQueue, DisconnectsAClientThatDoesNotReadEvents) {
   SendQueue queue;
   std::size_t put = 0;
   while (queue.put(message(Keep::always, 1000))) ASSERT_LT(++put, 10'000U);

@@ -1,4 +1,4 @@
-// The server on a real socket of the loop-back, without a bus: what good, bad, slow and many clients get.
+// The server on a real socket of the loop-back, without a bus: answers to good, bad, slow and many clients.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -28,7 +28,7 @@ TEST_F(ServerTest, NoPathLeadsOutOfThePage) {
     EXPECT_EQ(get(path).result_int(), 404U) << path;
 }
 
-TEST_F(ServerTest, OneOperatesAndEverybodyMayStop) {
+TEST_F(ServerTest, OneClientOperatesAndEveryClientMayStop) {
   EXPECT_EQ(post("/api/request", {{"kind", "reset"}}).result_int(), 409U);
   const auto seat =
       json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();
@@ -48,13 +48,15 @@ TEST_F(ServerTest, AForeignPageCannotOperate) {
   request.set(http::field::origin, "http://evil.example");
   EXPECT_EQ(exchange(request).result_int(), 403U);
   request.erase(http::field::origin);
-  request.set(http::field::content_type, "text/plain");  // what a form can send without asking
+  request.set(http::field::content_type,
+              "text/plain");  // a form can send this type without a preflight request
   EXPECT_EQ(exchange(request).result_int(), 415U);
   request.set(http::field::content_type, "application/json");
   request.set(http::field::host, "evil.example");
   EXPECT_EQ(exchange(request).result_int(), 403U);
   request.set(http::field::host, "127.0.0.1");
-  request.set("X-Forwarded-For", "192.0.2.1");  // a proxy on this computer passes on a foreign request
+  // a proxy on this computer forwards a request of another computer
+  request.set("X-Forwarded-For", "192.0.2.1");
   EXPECT_EQ(exchange(request).result_int(), 403U);
   EXPECT_EQ(requests_, 0);
   EXPECT_THROW((void)view(kViewerProtocol, "http://evil.example"), boost::system::system_error);
@@ -76,7 +78,7 @@ TEST_F(ServerTest, StaysUpUnderMutatedHttpAndWebSocketBytes) {
       "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: "
       "Upgrade\r\nSec-WebSocket-Version: 13\r\n"
       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nContent-Length: 0\r\n\r\n";
-  // A masked text frame, a ping, a frame that says it is 2^63 bytes long.
+  // A masked text frame, a ping, and a frame with a stated length of 2^63 bytes.
   const std::string frames = std::string("\x81\x82\1\2\3\4zx", 8) + std::string("\x89\x80\1\2\3\4", 6) +
                              std::string("\x82\xff\xff\xff\xff\xff\xff\xff\xff\xff", 10);
   std::mt19937 random{3};
@@ -112,7 +114,8 @@ TEST_F(ServerTest, AViewerGetsChannelsSamplesAndDocuments) {
   EXPECT_EQ(json::parse(read(viewer))["op"], "serverInfo");
   EXPECT_EQ(json::parse(read(viewer))["channels"].size(), channels().size());
   subscribe(viewer, channel_of_topic(0));
-  subscribe(viewer, channel_of(Document::seat));  // its document tells that both have arrived
+  // the arrival of this document shows that both subscriptions are active
+  subscribe(viewer, channel_of(Document::seat));
   std::string message;
   while (message.empty() || message[0] != 1) message = read(viewer);
   EXPECT_EQ(json::parse(message.substr(13))["operator"], nullptr);
@@ -123,14 +126,15 @@ TEST_F(ServerTest, AViewerGetsChannelsSamplesAndDocuments) {
   EXPECT_EQ(message.substr(13), std::string(sample->cdr.begin(), sample->cdr.end()));
 }
 
-TEST_F(ServerTest, ASlowViewerLosesSamplesKeepsEventsAndDelaysNobody) {
+TEST_F(ServerTest, ASlowViewerLosesSamplesKeepsEventsAndDelaysNoOtherViewer) {
   auto slow = view(kViewerProtocol), quick = view(kPageProtocol);
   subscribe(slow, channel_of_topic(0));
   const auto event = static_cast<std::uint32_t>(channels().size() - kDocuments - 1);  // crane/event
   ASSERT_EQ(channels()[event - 1].topic, "/crane/event");
   subscribe(slow, event);
   subscribe(quick, channel_of_topic(0));
-  for (auto* client : {&slow, &quick}) {  // a document tells that what was subscribed before it has arrived
+  for (auto* client :
+       {&slow, &quick}) {  // the arrival of a document shows that earlier subscriptions are active
     subscribe(*client, channel_of(Document::seat));
     for (std::string message; message.empty() || message[0] != 1;) message = read(*client);
   }
@@ -152,7 +156,7 @@ TEST_F(ServerTest, ASlowViewerLosesSamplesKeepsEventsAndDelaysNobody) {
   EXPECT_TRUE(heard);
 }
 
-TEST_F(ServerTest, AClientThatFloodsMessagesIsEnded) {
+TEST_F(ServerTest, AClientThatFloodsMessagesIsDisconnected) {
   auto viewer = view(kViewerProtocol);
   boost::system::error_code error;
   for (int i = 0; i < 10'000 && !error; ++i) viewer.write(asio::buffer(std::string_view{"{}"}), error);

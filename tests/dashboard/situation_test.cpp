@@ -19,7 +19,7 @@ nlohmann::ordered_json answer_of(const nlohmann::ordered_json& situation, const 
   return nullptr;
 }
 
-TEST(Situation, SaysWhatALockedCraneRefusesAndWhy) {
+TEST(Situation, StatesTheRefusalsOfALockedCraneWithReasons) {
   Situation situation;
   situation.add(*status_at(kSecond_ns, crane_STATE_LOCKED, crane_CAUSE_SWING_LIMIT));
   situation.add(*sample_of(topics::state, msg::State{}, kSecond_ns));
@@ -60,12 +60,12 @@ TEST(Situation, OfACraneWhoseBrakeClosedByItselfRefusesAMove) {
   EXPECT_FALSE(answer_of(situation_in(crane_STATE_HOLD, true, false), "move")["accepted"].get<bool>());
 }
 
-TEST(Situation, WhileAnAxisIsHomedSaysThatItIs) {
+TEST(Situation, StatesThatAnAxisIsBeingHomed) {
   const auto told = situation_in(crane_STATE_RUN, false, true);
   EXPECT_EQ(answer_of(told, "move")["reason"], "an axis is being homed: wait for LOCKED, then reset and arm");
 }
 
-TEST(Situation, OfASilentSupervisorIsNotTheLastOneHeard) {
+TEST(Situation, OfASilentSupervisorDoesNotKeepTheLastStatus) {
   Situation situation;
   EXPECT_FALSE(situation.json(0)["heard"].get<bool>());
   situation.add(*status_at(kSecond_ns, crane_STATE_HOLD, crane_CAUSE_NONE));
@@ -88,7 +88,7 @@ TEST(Situation, NamesTheLatchOfTheBridgeWithItsRemedy) {
   EXPECT_FALSE(latch["remedy"].get<std::string>().empty());
 }
 
-TEST(Situation, TextOfTheBusThatIsNoUtf8GivesValidJson) {
+TEST(Situation, TextOfTheBusWithInvalidUtf8GivesValidJson) {
   Situation situation;
   msg::SupervisorStatus status{};
   status.state = crane_STATE_RUN;

@@ -19,7 +19,7 @@ class TokenFile : public testing::Test {
       std::filesystem::temp_directory_path() / ("crane_token_" + std::to_string(::getpid()));
 };
 
-TEST_F(TokenFile, IsMadeOnceAndReadByItsOwnerAlone) {
+TEST_F(TokenFile, IsCreatedOnceAndReadableByItsOwnerOnly) {
   const auto token = read_or_make_token(file_);
   EXPECT_EQ(token.size(), 32U);
   EXPECT_EQ(read_or_make_token(file_), token);

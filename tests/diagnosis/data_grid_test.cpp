@@ -73,8 +73,8 @@ TEST(DataAtTheirOwnTimes, JitterAndDroppedFramesLoseNoOtherRow) {
   }
 }
 
-/// A grid that is a thousandth too fine slips by a row in ten seconds.
-TEST(DataAtTheirOwnTimes, JitteredTimesTellTheirPeriod) {
+/// A grid whose period is too short by a thousandth is wrong by one row after ten seconds.
+TEST(DataAtTheirOwnTimes, JitteredTimesDetermineTheirPeriod) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const Recording lab{.row_s = 0.01, .jitter = 0.4, .seed = seed};
     const auto table = strange::recorded(strange::moved({}, 30, strange::rich_command), lab);
@@ -105,7 +105,7 @@ TEST(DataAtTheirOwnTimes, TwoSampleTimesInOneFileAreOneRun) {
   expect_rows_as_they_are(table, loaded.runs[0]);
 }
 
-/// Without interpolation the command would be wrong by its slope times a row, 0.1 V.
+/// Without interpolation the error of the command would be its slope times one row, 0.1 V.
 TEST(DataAtTheirOwnTimes, TheCommandOfADroppedRowIsInterpolated) {
   constexpr double kRow_s = 0.0275;
   const auto smooth = [](double t) { return 0.9 * std::cos(1.1 * t) + 0.7 * std::cos(2.9 * t + 1); };
@@ -183,7 +183,7 @@ double worst_prediction(const Recording& lab, Part part, Output output,
 
 double smooth_command(double t) { return 0.9 * std::cos(1.1 * t) + 0.7 * std::cos(2.9 * t + 1); }
 
-/// A count of the swing's encoder is 4e-4 rad, of the trolley's 2.5e-5 m.
+/// One count of the swing encoder is 4e-4 rad, one count of the trolley encoder 2.5e-5 m.
 TEST(DataPredictedAtOwnTimes, HaveErrorsBelowTheSensorsNoise) {
   const Recording jittered{.row_s = 0.01, .jitter = 0.6, .dropped = 0.1};
   EXPECT_LT(worst_prediction({.row_s = 0.01}, Part::load, kRadialSwing, smooth_command), 5e-5);
@@ -265,7 +265,7 @@ TEST(DataOfACamera, HaveNoLargerErrorsInWindowsThanOverWholeRuns) {
                         .position_noise_m = 5e-4,
                         .swing_noise_rad = 1e-3,
                         .seed = seed};
-    const auto command = [&](double t) {  // of a loop that runs with the camera
+    const auto command = [&](double t) {  // command of a loop that runs at the rate of the camera
       return strange::rich_command(0.0345 * std::floor(t / 0.0345 + 1e-6) + 5.0 * static_cast<double>(seed));
     };
     return load_run(strange::recorded(strange::moved({.drag_nspm = 3}, 20, command), lab), rig,

@@ -55,8 +55,8 @@ TEST(SubsetOfColumns, ALoadWithTheMeasuredMotionOfItsSupportNeedsNoCommand) {
   EXPECT_FALSE(found.held_out.baseline_rms.contains("trolley_position_m"));
 }
 
-/// No cause of the library explains a friction that comes and goes with time.
-TEST(RubbingDrive, IsNotCalledRight) {
+/// No cause of the library explains an intermittent friction.
+TEST(RubbingDrive, IsNotNamedCorrectByTheVerdict) {
   const auto rubbed = [](std::uint64_t seed) {
     const auto command = [=](double t) { return strange::rich_command(t + 7.0 * static_cast<double>(seed)); };
     strange::Recording lab;

@@ -1,4 +1,4 @@
-/// Which hypothesis is better, from the deviance of its blocks and the errors of its simulation alone.
+/// Comparison of hypotheses by the deviance of their blocks and the errors of their simulation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr double kOfEach = 100;
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kCandidates = 40;
 
-/// A drive of a base model whose error is 1 m, and one effect on it.
+/// A base model with an error of 1 m of one drive, and one effect on this drive.
 struct Compared : testing::Test {
   Compared() {
     effect.drive = true;
@@ -42,14 +42,15 @@ TEST_F(Compared, AnEffectOfAllBlocksIsNotOutvotedByOneSlip) {
   EXPECT_TRUE(is_accepted());
 }
 
-TEST_F(Compared, OneSlipLessIsNoEffect) {
+TEST_F(Compared, OneSlipLessIsNotAnEffect) {
   fitted.deviance[35] -= 2000;
   EXPECT_FALSE(is_possible());
   EXPECT_FALSE(is_accepted());
 }
 
-/// What luck makes of one effect in 200 cases it makes of the best of forty in one of five.
-TEST_F(Compared, TheBestOfManyCandidatesHasToBeClearerThanOneAlone) {
+/// A significance that one candidate reaches by chance in one of 200 cases is reached by the best of forty
+/// candidates in one of five cases.
+TEST_F(Compared, TheBestOfManyCandidatesNeedsMoreEvidenceThanASingleOne) {
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] -= i % 3 == 0 ? -4 : 4;
   EXPECT_LT(block_test_p_value(fitted.deviance, base.deviance), 0.01);
   EXPECT_TRUE(accepted(fitted, base, 1));
@@ -61,8 +62,8 @@ TEST_F(Compared, TheBestOfManyCandidatesHasToBeClearerThanOneAlone) {
   EXPECT_FALSE(is_accepted());
 }
 
-/// Without an effect the chance is uniform: a twentieth of the cases comes below a twentieth.
-TEST_F(Compared, LuckIsAsFrequentAsItSays) {
+/// Without an effect the p value is uniformly distributed: it is below 0.05 in 5 % of the cases.
+TEST_F(Compared, PValuesAreUniformWithoutAnEffect) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> gauss;
   int below = 0;
@@ -74,8 +75,9 @@ TEST_F(Compared, LuckIsAsFrequentAsItSays) {
   EXPECT_NEAR(below, 0.05 * kCases, 4 * std::sqrt(0.05 * 0.95 * kCases));
 }
 
-/// Each block a hair likelier than before is no luck of the blocks. It is luck of the value that was fitted.
-TEST_F(Compared, AValueHasToMakeTheDataLikelierThanLuckMakesOne) {
+/// If each block is slightly likelier than before, the scatter of the blocks cannot explain the gain. The
+/// gain results from the fit of the additional value.
+TEST_F(Compared, AnAdditionalValueMustIncreaseTheLikelihoodMoreThanChanceDoes) {
   fitted.parameters = 1;
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] -= i % 2 == 0 ? 0.01 : 0.03;
   EXPECT_LT(block_test_p_value(fitted.deviance, base.deviance), 1e-6);
@@ -86,8 +88,9 @@ TEST_F(Compared, AValueHasToMakeTheDataLikelierThanLuckMakesOne) {
   EXPECT_TRUE(insignificant(likelihood_ratio_p_value(fitted, base, -5), kCandidates));
 }
 
-/// Two views of the same data, added, promise twice what the data tell: their scores scatter twice as much.
-TEST_F(Compared, AValueOfAddedViewsHasToEarnTwiceAsMuch) {
+/// The sum of two losses of the same data has twice the information of the data: the scores scatter twice as
+/// much.
+TEST_F(Compared, AnAdditionalValueOfTwoAddedLossesNeedsTwiceTheGain) {
   fitted.parameters = 1;
   for (double& block : fitted.deviance) block -= 16.0 / kBlocks;
   const double of_one_view = likelihood_ratio_p_value(fitted, base);
@@ -96,46 +99,48 @@ TEST_F(Compared, AValueOfAddedViewsHasToEarnTwiceAsMuch) {
   EXPECT_NEAR(likelihood_ratio_p_value(fitted, base), std::erfc(std::sqrt(8.0 / 2)), 1e-9);
 }
 
-TEST_F(Compared, AValueThatIsLuckMakesHeldOutDataALittleUnlikelierAtMost) {
+TEST_F(Compared, ASuperfluousValueReducesTheHeldOutLikelihoodOnlySlightly) {
   fitted.parameters = 1;
   EXPECT_TRUE(insignificant(held_out_loss_p_value(fitted, base, 3), kCandidates));
   EXPECT_TRUE(insignificant(held_out_loss_p_value(fitted, base, -3), kCandidates));
   EXPECT_FALSE(insignificant(held_out_loss_p_value(fitted, base, -30), kCandidates));
 }
 
-TEST_F(Compared, AnIntervalOfTheAmountThatContainsNoEffectIsLuck) {
+TEST_F(Compared, AnAmountWhoseIntervalContainsZeroIsNotSignificant) {
   const auto neutral_at = [](double null) {
     FreeParameter parameter;
     parameter.null = null;
     return parameter;
   };
-  effect.parameters = {neutral_at(1), neutral_at(0)};  // a factor and a decay speed, which is no amount
+  effect.parameters = {neutral_at(1),
+                       neutral_at(0)};  // a factor, which is an amount, and a decay speed, which is not
   other.parameters = {neutral_at(0)};
   fitted.effects = {{&effect, {1.5, 0.1}}, {&other, {-0.196}}};
   fitted.std_dev = {0.1, 0.09, 0.1};
   EXPECT_NEAR(wald_p_value(fitted), 0.05, 1e-4);  // 1.96 standard deviations of `other`
   fitted.std_dev = {0.1, 0.09, 0.02};
-  EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 of the factor
+  EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 standard deviations of the factor
   fitted.std_dev = {0.5, 1e-6, 0.02};
-  EXPECT_NEAR(wald_p_value(fitted), 0.3173, 1e-4);  // 1 of the factor, however exact its decay speed is
+  // 1 standard deviation of the factor; the accuracy of the decay speed has no influence
+  EXPECT_NEAR(wald_p_value(fitted), 0.3173, 1e-4);
   effect.amount_count = 2;
   fitted.std_dev = {0.5, 0.02, 0.02};
-  EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 of the second amount
+  EXPECT_NEAR(wald_p_value(fitted), 5.7e-7, 1e-8);  // 5 standard deviations of the second amount
 }
 
-TEST_F(Compared, AnEffectOfATenthOfTheBlocksIsOne) {
+TEST_F(Compared, AnEffectInATenthOfTheBlocksIsSignificant) {
   for (std::size_t i = 0; i < kBlocks; i += 10) fitted.deviance[i] -= 20;
   EXPECT_TRUE(is_accepted());
 }
 
-TEST_F(Compared, WhatMakesTheDataLikelierButNoErrorSmallerIsPossibleAndNotAccepted) {
+TEST_F(Compared, ALargerLikelihoodWithoutASmallerErrorIsNotAccepted) {
   for (double& block : fitted.deviance) block -= 4;
   fitted.error[kTrolleyPosition] = 0.999;
   EXPECT_TRUE(is_possible());
   EXPECT_FALSE(is_accepted());
 }
 
-TEST_F(Compared, ASecondEffectHasToTakeMoreOffTheErrorThanAFirstOne) {
+TEST_F(Compared, ASecondEffectMustReduceTheErrorMoreThanAFirstEffect) {
   for (double& block : fitted.deviance) block -= 4;
   fitted.error[kTrolleyPosition] = 0.98;
   EXPECT_TRUE(is_accepted());
@@ -143,7 +148,7 @@ TEST_F(Compared, ASecondEffectHasToTakeMoreOffTheErrorThanAFirstOne) {
   other.drive = true;
   other.axis = "trolley";
   before.effects = {{&other, {}}};
-  before.error[kTrolleyPosition] = 0.3;  // a fifth of it has to go
+  before.error[kTrolleyPosition] = 0.3;  // a further cause must reduce this error by a fifth
   fitted.effects.push_back({&other, {}});
   fitted.error[kTrolleyPosition] = 0.25;
   EXPECT_FALSE(accepted(fitted, before, kCandidates));
@@ -151,7 +156,7 @@ TEST_F(Compared, ASecondEffectHasToTakeMoreOffTheErrorThanAFirstOne) {
   EXPECT_TRUE(accepted(fitted, before, kCandidates));
 }
 
-TEST_F(Compared, OfASwingItIsEnoughToBeNearerOverWholeRuns) {
+TEST_F(Compared, ForASwingASmallerErrorOverWholeRunsSuffices) {
   effect.drive = false, effect.load = true;
   effect.axis = "radial";
   for (double& block : fitted.deviance) block -= 4;
@@ -167,7 +172,7 @@ TEST_F(Compared, AnEffectIsNotJudgedByColumnsItDoesNotActOn) {
   EXPECT_FALSE(is_accepted());
 }
 
-/// Two causes of one drive; `fitted` is the best.
+/// Two causes of one drive; `fitted` is the best hypothesis.
 struct Rivals : Compared {
   Rivals() {
     other.drive = true;
@@ -179,12 +184,12 @@ struct Rivals : Compared {
   Fitted rival;
 };
 
-TEST_F(Rivals, WhatMakesEveryBlockLikelierWinsTheVotes) {
+TEST_F(Rivals, AHypothesisThatImprovesEveryBlockWinsTheVotes) {
   for (double& block : fitted.deviance) block -= 4;
   EXPECT_EQ(votes_for_rival(), 0);
 }
 
-TEST_F(Rivals, WhatMakesAFewBlocksLikelierAndAsManyUnlikelierLeavesTheVotesOpen) {
+TEST_F(Rivals, AHypothesisThatImprovesAndWorsensEquallyManyBlocksLeavesTheVotesOpen) {
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] += i % 2 == 0 ? -4 : 4;
   fitted.deviance[0] -= 4;
   EXPECT_GT(votes_for_rival(), 0.2);
@@ -192,7 +197,7 @@ TEST_F(Rivals, WhatMakesAFewBlocksLikelierAndAsManyUnlikelierLeavesTheVotesOpen)
 
 TEST_F(Rivals, AreComparedOnlyWhereTheyReplaceEachOther) {
   fitted.train.drive_blocks = rival.train.drive_blocks = kBlocks / 2;
-  for (std::size_t i = kBlocks / 2; i < kBlocks; ++i) fitted.deviance[i] += 40;  // of the load
+  for (std::size_t i = kBlocks / 2; i < kBlocks; ++i) fitted.deviance[i] += 40;  // blocks of the load
   for (std::size_t i = 0; i < kBlocks / 2; ++i) fitted.deviance[i] -= 1;
   EXPECT_EQ(votes_for_rival(), 0);
 }

@@ -26,7 +26,7 @@ PreparedRun swinging(const std::vector<std::pair<double, double>>& hz_and_rad) {
   return run;
 }
 
-TEST(SwingLines, AreThoseOfTheSwingStrongestFirst) {
+TEST(SwingLines, AreThoseOfTheSwingInOrderOfStrength) {
   const auto lines = swing_lines({swinging({{0.9, 0.1}, {2.03, 0.01}, {3.4, 0.03}})}, 3);
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_NEAR(lines[0], 0.9, 0.02);
@@ -72,7 +72,7 @@ TEST(TwoCables, AreOfOneLengthAtTheLargestShare) {
   EXPECT_NEAR(b.lower_m, b.upper_m, 1e-7);
 }
 
-/// Cables for two measured frequencies may need a lower mass or length outside the bounds of the term.
+/// For two measured frequencies, the lower mass or the lower length may be outside the bounds of the term.
 TEST(TwoCables, BeginWithinTheBoundsOfTheirParametersForAnyTwoFrequencies) {
   const auto rig = configuration::load_rig(CRANE_RIGS "/gantry.toml");
   std::size_t starts = 0;

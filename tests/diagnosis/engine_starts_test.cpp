@@ -16,7 +16,7 @@ constexpr double kRow_s = 0.01;
 
 configuration::Rig pendulum() { return configuration::load_rig(CRANE_RIGS "/pendulum.toml"); }
 
-/// Free pendulum of the rig by the mid-point rule, with a sine on the measured angle.
+/// Free pendulum of the rig, integrated with the midpoint rule; a sine is added to the measured angle.
 Run swing(const configuration::Rig& rig, const std::string& name, double start_rad, double line_rad,
           double line_hz, double phase_rad) {
   const double cable_m = rig.start.position[plant::kHoist];
@@ -43,7 +43,7 @@ Run swing(const configuration::Rig& rig, const std::string& name, double start_r
 
 class Starts : public testing::TestWithParam<unsigned> {};
 
-TEST_P(Starts, LeaveNoWindowWorseThanStandingStill) {
+TEST_P(Starts, LeaveNoWindowWithALargerErrorThanALoadAtRest) {
   const auto rig = pendulum();
   std::mt19937 random{GetParam()};
   std::uniform_real_distribution<double> amplitude{0.1, 0.3}, frequency{1.5, 4}, phase{0, 6.28};

@@ -122,7 +122,7 @@ TEST(Whitener, FindsThatAnAxisSticks) {
 }
 
 /// A command that changes once in a window acts at an inaccurate time: from then on, the speed is wrong.
-TEST(Whitener, TakesTheErrorOfAnInaccurateTimeForWhatItIs) {
+TEST(Whitener, DistinguishesTheErrorOfAnInaccurateTime) {
   constexpr double kSpeedError = 2e-3, kNoise = 1e-5;
   constexpr std::size_t kEdge = 90;
   auto residuals = windows(kNoise, 0, 0, 0, 6);

@@ -66,7 +66,7 @@ TEST(Announcements, OfOtherProgramsAreIgnored) {
   EXPECT_FALSE(announcement_in({}));
 }
 
-TEST(Announcements, CutShortOrChangedAtAnyPlaceDoNoHarm) {
+TEST(Announcements, TruncatedOrChangedAtAnyByteCauseNoError) {
   const auto whole = datagram_with(kSaid, true);
   for (std::size_t length = 0; length < whole.size() - 4; ++length) {
     const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));

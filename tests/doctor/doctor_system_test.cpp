@@ -1,5 +1,5 @@
-/// Faults that are made, and what the doctor says of each: two hosts (network namespaces with a veth pair), a
-/// stopped process, another version, another quality of service, a user without rights, a late timer.
+/// Injected faults and the findings of the doctor: two hosts (network namespaces with a veth pair), a stopped
+/// process, another version, another quality of service, a user without rights, a late timer.
 #include <arpa/inet.h>
 #include <dds/dds.h>
 #include <fcntl.h>
@@ -87,7 +87,7 @@ TEST_F(OnTwoHosts, AnAddressOfAnotherComputerAndAnInterfaceThatIsDown) {
   EXPECT_THAT(lines(down), Contains(HasSubstr("interface_down")));
 }
 
-TEST_F(OnTwoHosts, MulticastThatTheInterfaceOrAFirewallDoesNotPass) {
+TEST_F(OnTwoHosts, BlockedMulticastIsFound) {
   const std::string options = "--duration 0.5 --domain 86 --interface " + std::string{TwoHosts::kFar};
   EXPECT_THAT(lines(far(options)), Contains(HasSubstr("multicast passes")));
   const std::string firewall = "ip netns exec " + hosts_.far() + " iptables -A INPUT -d 239.255.0.1 -j DROP";
@@ -104,7 +104,7 @@ bool has(const std::vector<std::string>& all, const std::string& text) {
   return std::ranges::any_of(all, [&](const auto& line) { return line.find(text) != std::string::npos; });
 }
 
-/// Asks until the pair of interfaces has its carrier, and the stack has come up and is heard.
+/// Repeats the doctor until the pair of interfaces has a carrier and the doctor observes the started stack.
 std::vector<std::string> until_heard(const std::function<Answer()>& ask) {
   std::vector<std::string> all;
   for (int i = 0; i < 20; ++i) {
@@ -128,13 +128,13 @@ TEST_F(OnTwoHosts, TheWrongDomainOrCraneIsFoundFromTheOtherHost) {
                                       HasSubstr("add --domain 87"))));
   EXPECT_THAT(lines(far("--domain 87 --crane south" + interface)),
               Contains(testing::AllOf(HasSubstr("wrong_crane"), HasSubstr("add --crane north"))));
-  // On the crane's own host the command lines of its processes tell more.
+  // On the host of the crane, the doctor also reads the command lines of the processes.
   EXPECT_THAT(lines(near("--domain 87 --crane north --interface 127.0.0.1")),
               Contains(testing::AllOf(HasSubstr("wrong_interface"), HasSubstr("add --interface 10.77.0.1"))));
 }
 
-TEST_F(OnTwoHosts, DatagramsThatFoundAFullBufferAreCounted) {
-  std::thread{[&] {  // a thread of its own, because setns() moves the thread
+TEST_F(OnTwoHosts, DatagramsLostInAFullBufferAreCounted) {
+  std::thread{[&] {  // a separate thread, because setns() moves the calling thread
     const int space = ::open(("/run/netns/" + hosts_.far()).c_str(), O_RDONLY | O_CLOEXEC);
     ASSERT_EQ(::setns(space, CLONE_NEWNET), 0);
     ::close(space);
@@ -205,7 +205,7 @@ TEST(OnOneComputer, AProgramOfAnotherVersionIsShownByDoctorAndStatus) {
   EXPECT_THAT(say({"doctor", "--net"}), HasSubstr("problem  net  old_planner has messages of version 2"));
 }
 
-/// A writer of another program, which does not promise delivery.
+/// A best-effort writer of another program.
 class BestEffortWriter {
  public:
   explicit BestEffortWriter(const std::string& partition)
@@ -231,7 +231,8 @@ class BestEffortWriter {
 
 TEST(OnOneComputer, AWriterWithAnotherQualityOfServiceIsNamedWithThePolicy) {
   bus::Bus cyclone{
-      options(bus::Vendor::cyclone, "opens_the_domain")};  // on the loop-back, as all of this project
+      options(bus::Vendor::cyclone,
+              "opens_the_domain")};  // on the loop-back, as all programs of this project by default
   const BestEffortWriter writer{system_test::crane_name()};
   bus::Bus bus{options(bus::Vendor::fastdds, "doctor")};
   const auto found = lines(judge_mismatches(listen_on(bus, 3s)));
@@ -251,7 +252,8 @@ TEST(OnOneComputer, AUserWithoutRightsMayNotScheduleInRealTime) {
   EXPECT_THAT(all, Contains(HasSubstr("memory_not_locked")));
 }
 
-/// Takes the processor for longer than the loop tolerates, several times, with a priority above the loop's.
+/// Occupies the processor several times for longer than the loop tolerates, with a priority above that of the
+/// loop.
 class Hog {
  public:
   [[nodiscard]] bool granted() const { return granted_; }
@@ -274,7 +276,7 @@ class Hog {
   std::jthread thread_{[this](const std::stop_token& stop) { run(stop); }};
 };
 
-TEST(OnOneComputer, ALateTimerIsAProblemOfWhatTheLoopTolerates) {
+TEST(OnOneComputer, ALateTimerIsAProblemAboveTheToleranceOfTheLoop) {
   cpu_set_t before, one;
   ASSERT_EQ(::sched_getaffinity(0, sizeof before, &before), 0);
   CPU_ZERO(&one);
@@ -291,7 +293,7 @@ TEST(OnOneComputer, ALateTimerIsAProblemOfWhatTheLoopTolerates) {
   ::sched_setaffinity(0, sizeof before, &before);
 }
 
-TEST(OnOneComputer, ABoardThatIsNotThereIsNamed) {
+TEST(OnOneComputer, AMissingBoardIsNamed) {
   const recording::TemporaryDirectory directory;
   std::ofstream{directory / "rig.toml"} << "extends = \"" << stack::find_rig("virginia_tech_tower").string()
                                         << "\"\nname = \"bench\"\nboard = \"comedi\"\n[wiring]\ndevice = "

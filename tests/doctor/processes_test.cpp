@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Processes, SayOnTheirCommandLineWhereTheyWork) {
+TEST(Processes, HaveDomainAndCraneOnTheirCommandLine) {
   const auto process =
       process_from({"/usr/bin/crane_tracking", "--domain", "7", "--crane=north", "--interface", "10.0.0.5",
                     "--interface", "10.0.1.5", "--secure", "keys"});
@@ -46,7 +46,7 @@ TEST(Processes, OfOneProgramTwiceAreTwoStacks) {
   EXPECT_TRUE(judge_processes({tracking(11)}, "a", 1).empty());
 }
 
-TEST(Processes, ThatAreStoppedAnswerNobody) {
+TEST(Processes, ThatAreStoppedAreReported) {
   auto stopped = tracking(11);
   stopped.stopped = true;
   const auto found = judge_processes({stopped}, "a", 1);

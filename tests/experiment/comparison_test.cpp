@@ -71,14 +71,14 @@ TEST(Comparison, AStoppedRunIsARowWithItsReason) {
   EXPECT_EQ(comparison_json(kRuns)[3].at("settling_time_s"), nullptr);
 }
 
-TEST(Comparison, MarkdownSetsControllersAgainstVariants) {
+TEST(Comparison, MarkdownHasControllersAsRowsAndVariantsAsColumns) {
   EXPECT_THAT(split_lines(markdown()),
               testing::IsSupersetOf({"| controller | ideal |           short_cable |",
                                      "| p          |  3.40 |                  3.50 |",
                                      "| q          |     - | OVERSPEED, at 3 \"m/s\" |"}));
 }
 
-TEST(Comparison, SetsTimesInRelationToTheLeastTimeOfTheScenario) {
+TEST(Comparison, StatesRatiosToTheLeastTimeOfTheScenario) {
   EXPECT_THAT(markdown(), Not(HasSubstr("least time")));
   auto runs = kRuns;
   for (auto& run : runs) run.least_settling_time_s = 1.7;

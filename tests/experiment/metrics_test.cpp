@@ -41,7 +41,8 @@ TEST(Metrics, OvershootOfASecondOrderStepFollowsFromItsDamping) {
       return s;
     });
     const Metrics m = evaluate(run, {0, 0, {1.0, 0, 1}, {1.0, -1.5, 1}});
-    // The peak is missed by half a period at most, where the response is flat: far less than 0.1 %.
+    // The sampling misses the peak by at most half a period. The response is flat there, so that the error is
+    // far below 0.1 %.
     EXPECT_NEAR(*m.overshoot_percent[1], 100 * std::exp(-kPi * z / std::sqrt(1 - z * z)), 0.1) << z;
   }
 }
@@ -208,7 +209,7 @@ TEST(Metrics, ReadsSamplesFromATable) {
   EXPECT_THROW((void)samples_from(recording::Table{{{"tick", {1}}}}), std::invalid_argument);
 }
 
-TEST(Metrics, JsonHasDegreesAndNullForWhatThereIsNot) {
+TEST(Metrics, JsonHasDegreesAndNullForMissingFigures) {
   Metrics m;
   m.overshoot_percent[0] = 4.5;
   m.deviation[1] = kPi / 180;

@@ -90,7 +90,7 @@ TEST_F(Picture, TakesNamesLiterally) {
               testing::AllOf(HasSubstr("O'Brien's; system 'false'"), HasSubstr("a_b^{c}")));
 }
 
-TEST_F(Picture, SaysWhatIsWrong) {
+TEST_F(Picture, NamesTheProblem) {
   EXPECT_THAT(error_of("a.jpg"), HasSubstr("must end in .svg or .png"));
   EXPECT_THAT(error_of("no/such/a.svg"), HasSubstr("no/such"));
   EXPECT_TRUE(std::filesystem::is_empty(directory_));

@@ -136,7 +136,7 @@ TEST(Scenario, AllowsATargetExactlyOnTheMarginInDegrees) {
               testing::IsEmpty());
 }
 
-TEST(Scenario, SaysThatARigHasNoSuchDrive) {
+TEST(Scenario, RefusesATargetOfADriveThatTheRigDoesNotHave) {
   configuration::Rig rig = tower();
   rig.name = "gantry";
   rig.drives[1].present = false;
@@ -144,7 +144,7 @@ TEST(Scenario, SaysThatARigHasNoSuchDrive) {
               ElementsAre(HasSubstr("slew_angle_deg = 5: gantry has no slew drive")));
 }
 
-TEST(Scenario, SaysWhatItIsUsuallyRunWith) {
+TEST(Scenario, StatesItsDefaultRigControllersAndVariants) {
   const Scenario s = parse_scenario(
       "description = \"d\"\nrig = \"gantry\"\ncontrollers = [\"delayed_1\", \"none\"]\n"
       "variants = [\"slow_reference+no_compensation\"]\ncable_length_offset_m = 0.25\n",
@@ -158,7 +158,7 @@ TEST(Scenario, SaysWhatItIsUsuallyRunWith) {
               ElementsAre(HasSubstr("s.toml:2: controllers"), HasSubstr("s.toml:3: variants")));
 }
 
-TEST(Scenario, TakesFromTheFileItExtendsWhatItDoesNotSay) {
+TEST(Scenario, TakesMissingKeysFromTheExtendedFile) {
   const auto directory = std::filesystem::path{testing::TempDir()} / "scenario_test";
   std::filesystem::create_directories(directory);
   std::ofstream{directory / "base.toml"}
@@ -186,7 +186,7 @@ TEST(Scenario, NamesTheFileThatCannotBeRead) {
   }
 }
 
-TEST(Scenario, StartsTheRigWhereItSaysAndWithItsLoad) {
+TEST(Scenario, StartsTheRigAtItsPositionsWithItsLoad) {
   configuration::Rig rig = tower();
   rig.start.position = {0.25, 0.1, 1};
   Scenario scenario;

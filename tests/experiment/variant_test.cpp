@@ -39,7 +39,7 @@ TEST(Variant, IdealHasNoEffectsAndNothingToCompensate) {
   for (const auto& friction : rig.design.friction) EXPECT_EQ(friction.factor, 0);
 }
 
-TEST(Variant, ChangesTheTrueCableAndLoadAndNotWhatControllersBelieve) {
+TEST(Variant, ChangesTheTrueCableAndLoadAndNotTheDesignOfTheControllers) {
   const auto original = tower_with_friction();
   const auto longer = changed_by(original, "long_cable");
   EXPECT_DOUBLE_EQ(longer.start.cable_length_offset_m, 0.5);
@@ -85,7 +85,7 @@ TEST(Variant, PartsAreAppliedFromLeftToRight) {
   EXPECT_EQ(changed_by(tower_with_friction(), "known_cable+long_cable").start.cable_length_offset_m, 0.5);
 }
 
-TEST(Variant, RefusesNamesThereAreNotAndListsThoseThereAre) {
+TEST(Variant, RefusesUnknownNamesAndListsTheKnownNames) {
   EXPECT_THAT(variant_problems("ideal+windy+stormy"),
               ElementsAre(HasSubstr("variant \"windy\": must be one of ideal, "), HasSubstr("stormy")));
   EXPECT_EQ(variant_problems("ideal+").size(), 1U);

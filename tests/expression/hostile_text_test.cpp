@@ -1,4 +1,4 @@
-/// Texts that a generator of triggers, or an attacker, could write: each of them is either an expression or
+/// Texts that a generator of triggers or an attacker could write. Each text is either an expression or is
 /// refused with a short message.
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(HostileText, OfTheLargestLengthHasABoundedMessage) {
   }
 }
 
-TEST(HostileText, OfTheLargestLengthIsAnExpressionWhenItIsOne) {
+TEST(HostileText, OfTheLargestLengthCanBeAnExpression) {
   EXPECT_EQ(refusal_of(repeated("1 + ", kLongestText - 20) + "1"), 0U);
 }
 

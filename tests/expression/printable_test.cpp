@@ -1,4 +1,4 @@
-/// Texts of other programs cannot steer a terminal.
+/// Texts of other programs cannot control a terminal.
 #include "crane/fields/printable.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ TEST(Printable, KeepsVisibleText) {
     EXPECT_EQ(shown(text), text);
 }
 
-TEST(Printable, ReplacesWhatSteersATerminal) {
+TEST(Printable, ReplacesCharactersThatControlATerminal) {
   EXPECT_EQ(shown("\x1b[2J\x1b]0;title\x07"), "?[2J?]0;title?");
   EXPECT_EQ(shown("\x7f\b\x0e"), "???");
   EXPECT_EQ(shown("a\xC2\x9B"
@@ -35,7 +35,7 @@ TEST(Printable, HasOneDirection) {
   EXPECT_EQ(shown("\xE2\x81\xA6x\xEF\xBB\xBF\xD8\x9C"), "???x?????");
 }
 
-TEST(Printable, ReplacesBytesThatAreNoUtf8) {
+TEST(Printable, ReplacesInvalidUtf8) {
   EXPECT_EQ(shown("a\x80"
                   "b\xC3"),
             "a?b?");

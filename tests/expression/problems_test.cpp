@@ -82,7 +82,7 @@ TEST(ExpressionProblems, AreMarkedBelowTheText) {
       << "a character beyond ASCII is one column";
 }
 
-TEST(ExpressionProblems, DeepNestingIsRefusedAndNoMeansToEndTheProgram) {
+TEST(ExpressionProblems, DeepNestingIsRefused) {
   for (const char* part : {"(", "not ", "-", "abs("}) {
     std::string text;
     while (text.size() < kLongestText - 4) text += part;

@@ -54,7 +54,7 @@ TEST_F(FrictionComponent, SumsTheContributionsAndAddsTheFrictionOfTheDirection) 
   EXPECT_EQ(sample.total_v[0], sample.control_v[0] + sample.friction_v[0]);
 }
 
-TEST_F(FrictionComponent, PassesOnThatAProcessBeforeItHeardASecondWriter) {
+TEST_F(FrictionComponent, PassesOnASecondWriterThatAnEarlierProcessDetected) {
   auto tracking = contribution(1, 1);
   tracking.second_writer = true;
   EXPECT_TRUE(demand(state_at(1), tracking, contribution(0, 0)).second_writer);

@@ -28,7 +28,7 @@ msg::Command command_of(std::uint64_t tick, double trolley_v) {
 /// Clock of the computer.
 std::int64_t now_ns = 0;
 
-/// The computer pauses while this board latches its inputs.
+/// A board during whose latch of the inputs the computer pauses.
 class PausingBoard final : public EmulatedBoard {
  public:
   using EmulatedBoard::EmulatedBoard;
@@ -85,7 +85,7 @@ class BridgeLoop : public testing::Test {
       std::unique_ptr<Board>{board_}};
 };
 
-TEST_F(BridgeLoop, ACommandThatAnswersABridgeBeforeItIsNotListenedTo) {
+TEST_F(BridgeLoop, ACommandForAnEarlierBridgeIsIgnored) {
   for (std::uint64_t number = 0; number < 20; ++number) {
     publish(command_of(500, 5));
     const auto state = tick(number);
@@ -96,7 +96,7 @@ TEST_F(BridgeLoop, ACommandThatAnswersABridgeBeforeItIsNotListenedTo) {
   }
 }
 
-TEST_F(BridgeLoop, ANewWriterThatCommandsAtOnceMovesNothingHoweverLongItGoesOn) {
+TEST_F(BridgeLoop, ANewWriterThatCommandsAtOnceMovesNothingForAnyDuration) {
   for (std::uint64_t number = 0; number < 3 * kQuiet_ticks; ++number) {
     const auto state = tick(number);
     ASSERT_EQ(state.applied_v[0], 0) << number;
@@ -111,7 +111,7 @@ TEST_F(BridgeLoop, ASampleHasTheTimeOfItsLatchWhenTheComputerPausesBeforeIt) {
   EXPECT_EQ(tick(1).header.sample_time_ns, kPeriod_ns + 5'000'000);
 }
 
-TEST_F(BridgeLoop, ARelayThatDropsBecauseATickWasLateIsReportedWithHowLate) {
+TEST_F(BridgeLoop, ARelayThatDropsAfterALateTickIsReportedWithTheDelay) {
   run_with_closed_relay();
   EXPECT_TRUE(tick(kClosed + 3).watchdog_dropped);
   EXPECT_EQ(

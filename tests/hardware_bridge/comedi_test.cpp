@@ -61,7 +61,7 @@ TEST(ComediBoard, EndsWithZeroVoltsAndOutputsOff) {
   EXPECT_EQ(calls[calls.size() - 4], "volts 0 4095");
 }
 
-TEST(ComediBoard, LinesOfAFixedDirectionAreTakenAsTheyAre) {
+TEST(ComediBoard, LinesOfAFixedDirectionKeepTheirDirection) {
   ComediStandIn device{comedi_rig()};
   device.fixed_lines = true;
   Comedi board{comedi_rig()};
@@ -74,7 +74,7 @@ TEST(ComediBoard, ReportsTheVoltsOfTheFirstAndTheLastCode) {
   ComediStandIn device{comedi_rig()};
   Comedi board{comedi_rig()};
   const auto given_v = board.write({{99, -99, 0}, {}, false});
-  EXPECT_NEAR(given_v[0], 10, 20.0 / 8191);  // one end of the range is a step short of 10 V
+  EXPECT_NEAR(given_v[0], 10, 20.0 / 8191);  // one end of the range is one step below 10 V
   EXPECT_NEAR(given_v[1], -10, 20.0 / 8191);
 }
 
@@ -108,7 +108,7 @@ TEST(ComediBoard, RefusesWithOneLineAndTheRemedy) {
   expect("6 channels, the rig file uses channel 7", [](auto&, auto& rig) { rig.encoders[2].channel = 7; });
 }
 
-TEST(ComediBoard, SaysWhenTheDeviceDoesNotAnswerAnyMore) {
+TEST(ComediBoard, ReportsADeviceThatNoLongerAnswers) {
   ComediStandIn device{comedi_rig()};
   Comedi board{comedi_rig()};
   device.answers = false;

@@ -71,7 +71,7 @@ TEST_P(Conformance, IsSafeAfterItsProgramHasEnded) {
   expect_safe();
 }
 
-/// Passes a board to a bridge. The crane must outlive both.
+/// Passes a board to a bridge. The crane must outlive board and bridge.
 class Lent final : public Board {
  public:
   explicit Lent(Board& board) : board_{board} {}
@@ -143,7 +143,7 @@ TEST_P(Conformance, ClampsInsteadOfWrapping) {
   }
 }
 
-TEST_P(Conformance, GivesEachDriveItsOwnVoltageWithinHalfAStepAndSaysWhich) {
+TEST_P(Conformance, OutputsTheVoltageOfEachDriveWithinHalfAStepAndReportsIt) {
   for (double v = -9.9; v < 9.9; v += 0.37) {
     const std::array<double, kDrives> wanted{v, -v, v / 3};
     const auto given = subject_->tick(wanted, false);
@@ -152,7 +152,7 @@ TEST_P(Conformance, GivesEachDriveItsOwnVoltageWithinHalfAStepAndSaysWhich) {
   }
 }
 
-TEST_P(Conformance, CountsWhereTheRigFileSaysTheCraneStands) {
+TEST_P(Conformance, CountsFromTheStartOfTheRigFile) {
   const auto inputs = subject_->board().read();
   for (std::size_t i = 0; i < kDrives; ++i)
     EXPECT_EQ(inputs.raw_counts[i], std::llround(rig_.encoders[i].sign * rig_.start.position[i] *
@@ -215,7 +215,7 @@ TEST_P(Conformance, SeesSwitchesBrakesAndTheEmergencyStop) {
   EXPECT_TRUE(subject_->braked()) << "the emergency stop cuts the supply by itself";
 }
 
-TEST_P(Conformance, ShowsAMarkBelowItsPlaceAndCountsAnAxisWithoutAZeroFromTheFarEnd) {
+TEST_P(Conformance, ShowsAMarkBelowItsPositionAndCountsAnUnhomedAxisFromTheFarEnd) {
   auto rig = configuration::load_rig(CRANE_RIGS "/homing_servo_to_go.toml");
   for (const double slew_rad : {0.05, 0.15}) {
     rig.start.position[1] = slew_rad;

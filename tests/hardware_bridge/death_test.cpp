@@ -1,5 +1,5 @@
-// The process of a driver ends in every possible way, with a rig in another process. The time of the rig
-// advances by requests, so that the test does not depend on the speed of the computer.
+// The process of a driver ends in every possible way; the rig is another process. The time of the rig
+// advances only by requests, so that the test does not depend on the speed of the computer.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -118,7 +118,7 @@ TEST_P(Death, BySigkillLeavesACardThatTheNextBridgeTakesOverSafely) {
   EXPECT_TRUE(braked());
 }
 
-TEST_P(Death, ByNothingASecondBridgeIsRefusedWhileTheFirstLivesOrHangs) {
+TEST_P(Death, OfTheFirstBridgeOnlyPermitsASecondBridge) {
   ::kill(child_, SIGSTOP);
   try {
     const LinkedRig second{name_};
@@ -133,14 +133,15 @@ INSTANTIATE_TEST_SUITE_P(Models, Death, testing::Values(1, 2),
 
 constexpr std::int64_t kToggle_ns = 5'000'000;  // half a period of the watchdog output
 
-/// The card stamps every change of its lines with CLOCK_MONOTONIC: its bridge must write in real time.
+/// The card stamps every change of its lines with CLOCK_MONOTONIC. Therefore the bridge must write in real
+/// time.
 void wait_until(std::int64_t time_ns) {
   const timespec time{.tv_sec = time_ns / 1'000'000'000, .tv_nsec = time_ns % 1'000'000'000};
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
   }
 }
 
-TEST(RigServer, MissesNoToggleThatCameWhileItWasKeptFromItsStep) {
+TEST(RigServer, MissesNoToggleDuringADelayOfItsStep) {
   auto rig = emulated_rig();
   rig.wiring.relay_timeout_s = 1;  // the computer may be busy
   const auto name = unique_name("late");
@@ -160,7 +161,7 @@ TEST(RigServer, MissesNoToggleThatCameWhileItWasKeptFromItsStep) {
   EXPECT_FALSE(server.rig().crane().read().watchdog_dropped);
 }
 
-/// Volts that ended before the rig came to its step have moved the crane all the same.
+/// Volts that ended before the next step of the rig have nevertheless moved the crane.
 TEST(RigServer, AppliesTheVoltsOfAPauseAtTheirTimes) {
   auto rig = emulated_rig();
   rig.wiring.relay_timeout_s = 1;  // the computer may be busy
@@ -206,7 +207,7 @@ TEST(RigServer, RefusesASecondRigOfTheSameName) {
   EXPECT_THROW((RigServer{rig, name, true, 1}), BoardError);
 }
 
-TEST(RigServer, TakesOverWhatARigThatDiedHasLeftBehind) {
+TEST(RigServer, TakesOverTheSharedMemoryOfADeadRig) {
   const auto rig = emulated_rig();
   const auto name = unique_name("left");
   const auto child = ::fork();

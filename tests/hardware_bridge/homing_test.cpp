@@ -41,7 +41,7 @@ class Hand {
         0, {.counts = counts(), .active = active(), .requested = requested, .free = free, .rests = !free});
     if (found) change = found;
   }
-  /// Search, back-off, approach, back-off; starts 0.05 m from the mark, on any side.
+  /// Search, back-off, approach, back-off. Starts 0.05 m from the mark, on either side.
   void run_course(double approach_mps = 0.01) {
     const double way = drive_.homing.direction();
     const double to_mark_m = std::abs(true_m - drive_.homing.position);
@@ -108,7 +108,7 @@ TEST(Homing, DoesNotCountABouncingContactAsTheSecondDetection) {
   EXPECT_FALSE(hand.homing.found(0));
 }
 
-TEST(Homing, TakesNoSwitchThatSomebodyPressesWhileTheBrakeIsClosedOrNothingIsHomed) {
+TEST(Homing, IgnoresASwitchWhileTheBrakeIsClosedOrNoAxisIsHomed) {
   for (const bool requested : {false, true}) {
     Hand hand{homing_tower()};
     hand.requested = requested;
@@ -140,12 +140,12 @@ TEST(Homing, OfAnAxisThatIsKnownForgetsItsZeroFirst) {
   EXPECT_FALSE(hand.homing.known(0));
 }
 
-TEST(Homing, AxesThatStandWhereTheFileSaysAreKnownFromTheFirst) {
+TEST(Homing, AxesWithAssumedStartPositionsAreKnownFromTheStart) {
   const Homing homing{tower()};
   for (std::size_t i = 0; i < kDrives; ++i) EXPECT_TRUE(homing.known(i));
 }
 
-TEST(Coordinate, IsElsewhereAfterAShiftWithoutHavingMoved) {
+TEST(Coordinate, ChangesItsPositionByAShiftWithoutASpeed) {
   MeasurementPipeline measurement{homing_tower()};
   measurement.step({1000, 0, 0, 0, 0});
   measurement.shift(0, -400);
@@ -165,7 +165,7 @@ class WithoutAZero : public testing::Test {
   Timeline timeline{last_line_checks(), homing_tower()};
 };
 
-TEST_F(WithoutAZero, AnAxisMayCreepBeyondItsLimitsBecauseNobodyKnowsWhereTheyAre) {
+TEST_F(WithoutAZero, AnAxisMayCreepBeyondItsLimitsBecauseItsPositionIsUnknown) {
   timeline.speed_mps = 0.05;
   EXPECT_TRUE(timeline.tick(2000)) << name_of(timeline.line.reason());
   EXPECT_GT(timeline.trolley_m, homing_tower().drives[0].high_limit);
@@ -190,7 +190,7 @@ TEST_F(WithoutAZero, ABrakeIsReleasedForNothingButHoming) {
   EXPECT_EQ(timeline.line.reason(), Reason::not_homed);
 }
 
-TEST_F(WithoutAZero, ADeadEncoderIsNoticedAtVoltsThatOnlyJustMoveTheAxis) {
+TEST_F(WithoutAZero, ADeadEncoderIsDetectedAtVoltsThatBarelyMoveTheAxis) {
   timeline.encoder_dead = true;
   timeline.drive_v[0] = 2.5;
   EXPECT_LE(timeline.ticks_until_stopped(), 11);
@@ -212,14 +212,14 @@ TEST(MarkOfAHomedAxis, DetectedElsewhereMakesThePositionUnknownUntilHoming) {  /
   EXPECT_TRUE(timeline.tick()) << "a counter that can be homed again needs no new start";
 }
 
-TEST(MarkOfAHomedAxis, SeenWhereItIsChangesNothing) {
+TEST(MarkOfAHomedAxis, DetectedAtItsPositionHasNoEffect) {
   Timeline timeline{last_line_checks(), homing_tower()};
   timeline.start_at(0.06);
   timeline.mark = true;
   EXPECT_TRUE(timeline.tick(5)) << name_of(timeline.line.reason());
 }
 
-TEST(MarkOfAHomedAxis, NewPlacesOfTheSamePlaceAreNoMotion) {
+TEST(MarkOfAHomedAxis, ANewOriginIsNotAMotion) {
   Timeline timeline{last_line_checks(), homing_tower()};
   timeline.release = false;
   timeline.start_at(0.3);

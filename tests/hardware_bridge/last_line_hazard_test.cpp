@@ -1,5 +1,5 @@
-// LastLine, fault by fault: detection time and reason. Each timeline also runs without its check and
-// must then not be stopped: every check is needed, and no check replaces another one.
+// LastLine, fault by fault: detection time and reason. Each timeline also runs without its check and must
+// then not be stopped. This proves that every check is necessary and that no check replaces another check.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -90,7 +90,7 @@ class LastLineFault : public testing::TestWithParam<Fault> {
   }
 };
 
-TEST_P(LastLineFault, IsStoppedInTimeForItsReasonAndForGood) {
+TEST_P(LastLineFault, IsStoppedInTimeForItsReasonAndRemainsStopped) {
   const auto& fault = GetParam();
   Timeline timeline;
   const int taken = run(timeline, fault);

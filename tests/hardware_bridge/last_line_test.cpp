@@ -29,7 +29,7 @@ TEST(LastLine, PassesAFreshCommandAndTogglesTheWatchdog) {
   EXPECT_NE(timeline.outputs.watchdog_level, level);
 }
 
-TEST(LastLine, HoldsTheLastCommandForFiveTicksThenStopsForGood) {
+TEST(LastLine, HoldsTheLastCommandForFiveTicksThenLatches) {
   Timeline timeline;
   timeline.drive_v = {3, 0, 0};
   timeline.tick(5);
@@ -43,7 +43,7 @@ TEST(LastLine, HoldsTheLastCommandForFiveTicksThenStopsForGood) {
   EXPECT_FALSE(timeline.tick(10)) << "commands that come back do not restart motion";
 }
 
-TEST(LastLine, IsReleasedByAResetThatCameWhileASecondWriterWasStillHeardOnceItIsGone) {
+TEST(LastLine, IsReleasedByAnEarlierResetOnceTheSecondWriterHasGone) {
   Timeline timeline;
   timeline.tick(5);
   timeline.second_writer = true;
@@ -56,7 +56,7 @@ TEST(LastLine, IsReleasedByAResetThatCameWhileASecondWriterWasStillHeardOnceItIs
   EXPECT_TRUE(timeline.tick());
 }
 
-TEST(LastLine, IsReleasedByPermissionWithheldAndThenGrantedWithNothingElseAsked) {
+TEST(LastLine, IsReleasedByPermissionThatIsWithheldAndThenGranted) {
   Timeline timeline;
   timeline.tick(5);
   timeline.commands_come = false;
@@ -75,7 +75,7 @@ TEST(LastLine, IsReleasedByPermissionWithheldAndThenGrantedWithNothingElseAsked)
   EXPECT_TRUE(timeline.outputs.brake_release[0]);
 }
 
-TEST(LastLine, IsNotReleasedByAnythingWhenThePositionIsUnknown) {
+TEST(LastLine, IsNeverReleasedWhenThePositionIsUnknown) {
   Timeline timeline;
   timeline.tick(5);
   timeline.encoder_offset_m = 0.1;
@@ -115,7 +115,7 @@ TEST(LastLine, StopsADriveAtFullSpeedByTheBrakeBeforeItsLimit) {
   }
 }
 
-TEST(LastLine, LetsAnEncoderStandStillWhileTheDrivePushesLessThanFrictionMayHold) {
+TEST(LastLine, PermitsAConstantEncoderWhileFrictionMayHoldTheDrive) {
   Timeline timeline;
   timeline.encoder_dead = true;
   // Friction of the rig file: 1.2 V. With 0.5 V, half of the friction and 0.3 V of the load: 2.6 V.

@@ -44,7 +44,7 @@ TEST(Coordinate, GivesTheSlopeOfARampWithTheSignOfItsWiring) {
   }
 }
 
-TEST(Coordinate, GivesTheSlopeOfARampWhateverIsLatchedLateOrSkipped) {
+TEST(Coordinate, GivesTheSlopeOfARampWithLateAndSkippedTicks) {
   constexpr double kPeriod_s = 0.01, kSpeed = 1, kCounts = 1e5;
   Coordinate coordinate{{.channel = 0, .counts_per_unit = kCounts, .sign = 1}, kPeriod_s, 0.05};
   int before = -1;

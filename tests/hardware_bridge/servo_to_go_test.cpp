@@ -146,7 +146,7 @@ TEST_F(Card, CountersStartWithTheSequenceOfTheChipAndThePresetOfTheRigFile) {
                           Access{'w', 0x205, 0}, Access{'w', 0x207, 0x09}));
 }
 
-TEST_F(Card, ReadsEveryCounterLatchedByAPairOfThemAtATime) {
+TEST_F(Card, ReadsEveryCounterAfterLatchingItsPair) {
   const auto board = open();
   log_.clear();
   const auto inputs = board->read();
@@ -158,7 +158,7 @@ TEST_F(Card, ReadsEveryCounterLatchedByAPairOfThemAtATime) {
 }
 
 /// Encoders with one edge per port access, much faster than any drive.
-TEST_F(Card, ReadingIsNeverTornAndAllCountersBelongToThreePortAccesses) {
+TEST_F(Card, ReadsConsistentCountersThatAreLatchedWithinThreePortAccesses) {
   constexpr unsigned kSeed = 7;
   std::mt19937 random{kSeed};
   std::uniform_int_distribution<std::int32_t> anywhere{-8'000'000, 8'000'000};
@@ -184,7 +184,7 @@ TEST_F(Card, ReadingIsNeverTornAndAllCountersBelongToThreePortAccesses) {
   for (std::size_t i = 0; i < kCounters; ++i) EXPECT_EQ(high[i] - low[i], 0x00FFFF) << i;
 }
 
-TEST_F(Card, TimerLeftRunningBySomebodyElseIsStopped) {
+TEST_F(Card, ATimerThatAnotherProgramStartedIsStopped) {
   card_.out_8(0x60E, 0x56);
   card_.out_8(0x60A, 0xB4);
   card_.out_8(0x60E, 0x34);
@@ -214,7 +214,7 @@ TEST_F(Card, TimerLatchesAllCountersAtTheEndOfItsPeriod) {
   EXPECT_EQ(card_.in_16(0x204) >> 8, 0);  // the next byte of channel 3
 }
 
-TEST_F(Card, OutputsLandOnTheLinesOfTheRigFile) {
+TEST_F(Card, OutputsUseTheLinesOfTheRigFile) {
   const auto board = open();
   EXPECT_EQ(plug_.out, 0);
   board->write({{0, 0, 0}, {true, false, true}, true});
@@ -224,7 +224,7 @@ TEST_F(Card, OutputsLandOnTheLinesOfTheRigFile) {
   EXPECT_EQ(plug_.out, 0);
 }
 
-TEST_F(Card, PortDOfModel2IsElsewhere) {
+TEST_F(Card, PortDOfModel2HasAnotherAddress) {
   rig_.wiring.watchdog_output = 24;
   state_.model = 2;
   const auto board = open();
@@ -265,7 +265,7 @@ std::string refusal(const std::function<void()>& action) {
   return "accepted";
 }
 
-TEST(ServoToGo, ABoardThatIsNotThereIsNamedAndNothingIsWritten) {
+TEST(ServoToGo, AMissingBoardIsNamedAndNothingIsWritten) {
   EmptySlot slot;
   std::vector<Access> log;
   EXPECT_THAT(
@@ -282,7 +282,8 @@ TEST_F(Card, ACounterThatDoesNotKeepItsValueIsNamedAndTheCardIsSafe) {
                 open([this](const Access& access) {
                   if (access.port == 0x209)
                     state_.counters[4].preset = {};  // channel 5 does not keep its value
-                  if (access.port == 0x208) state_.counters[4].preset = {};  // channel 4 does not either
+                  if (access.port == 0x208)
+                    state_.counters[4].preset = {};  // channel 4 does not keep its value either
                 });
               }),
               AllOf(HasSubstr("counter 4"), HasSubstr("does not hold"), HasSubstr("0x2a5a5a")));

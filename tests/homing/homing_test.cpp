@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 class HomingOn : public testing::TestWithParam<const char*> {};
 
-TEST_P(HomingOn, FindsEveryZeroCreepingAndMovesOnlyThen) {
+TEST_P(HomingOn, FindsEveryZeroAndPermitsMovesOnlyAfterwards) {
   const auto rig = homing_rig();
   LockstepCrane crane{GetParam()};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -65,7 +65,7 @@ TEST_P(HomingOn, FindsEveryZeroCreepingAndMovesOnlyThen) {
   EXPECT_NEAR(crane.truth(2), 0.8, 0.01);
 }
 
-TEST_P(HomingOn, BeginsOnTheMarkToo) {
+TEST_P(HomingOn, BeginsAlsoAtTheMark) {
   auto rig = homing_rig();
   rig.start.position = {0.055, 0.09, 0.45};  // starts near the switch, or below the mark
   LockstepCrane crane{GetParam(), rig, rig};

@@ -1,5 +1,5 @@
-/// A program with the bus of this project, or with a plain DDS writer, joins before, during and after the run
-/// of a stack. A LOCKED crane must not move, and only the planner may steer an armed crane.
+/// A foreign program with the bus of this project, or with a plain DDS writer, joins before, during and after
+/// the run of a stack. A LOCKED crane must not move, and only the planner may steer an armed crane.
 #include <dds/dds.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -176,7 +176,7 @@ TEST_F(AttackOnAStack, WithCommandsThatWereRecordedMovesNothingOfALockedCrane) {
   expect_nothing_moved(stack_.observer().states());
 }
 
-TEST_F(AttackOnAStack, WithTheLastTickAndStartUpNumberThereAreCapturesNothing) {
+TEST_F(AttackOnAStack, WithTheLargestTickAndStartUpNumberHasNoLastingEffect) {
   wait_for(crane_STATE_LOCKED);
   {
     FalseSupervisor stranger{std::numeric_limits<std::uint32_t>::max()};

@@ -1,5 +1,5 @@
-/// Another program wants to drive the crane in the session of an operator's stick. It knows everything that
-/// an open bus shows: client, request id, start-up number, tick.
+/// Another program tries to drive the crane in the session of an operator's stick. The program knows all data
+/// on an open bus: client, request id, start-up number, tick.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -152,7 +152,7 @@ TEST_P(JogAttack, OfAFloodMovesNothing) {
   EXPECT_TRUE(state == crane_STATE_RUN || state == crane_STATE_HOLD) << state;
 }
 
-TEST_P(JogAttack, OfAFloodDoesNotHoldUpTheRelease) {
+TEST_P(JogAttack, OfAFloodDoesNotDelayTheRelease) {
   begin_session(7);
   attack_for(500ms, [&] { operator_->deflect(7, tick(), 0.5); });
   ASSERT_EQ(stack_.observer().statuses().back().jog_deflection[0], 0.5);

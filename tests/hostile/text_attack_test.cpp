@@ -1,5 +1,5 @@
-/// Another program writes texts that steer a terminal: names of processes, events, remedies, replies, its own
-/// name on the bus. Each tool of the operator must show one line per line, of visible characters.
+/// Another program writes texts that control a terminal: names of processes, events, remedies, replies, its
+/// own name on the bus. Each tool of the operator must show only visible characters and no additional lines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -106,7 +106,7 @@ TEST_P(TextAttack, ShowsVisibleTextInEachTool) {
   }
 }
 
-TEST_P(TextAttack, LeavesTheJsonOfEachToolWhole) {
+TEST_P(TextAttack, LeavesTheJsonOfEachToolValid) {
   Writer stranger{GetParam()};
   const std::vector<std::vector<std::string>> tools{{"status", "--json"},
                                                     {"top", "--json"},

@@ -37,13 +37,13 @@ TEST(BreakAway, IsFoundInEitherDirectionWithItsSpread) {
   EXPECT_NEAR(found.positive.spread_v, 0.01 * std::sqrt(4.0 / 3), 0.004);
 }
 
-TEST(BreakAway, IsNotAMotionThatTheVoltageDoesNotPull) {
+TEST(BreakAway, IsNotAMotionAgainstTheVoltage) {
   AxisRun run = ramped_run(0.9, 1.2, 8);
   for (double& volts : run.drive_v) volts = -volts;
   EXPECT_TRUE(break_aways(run, {}).empty());
 }
 
-TEST(BreakAway, OnceIsNotEnough) {
+TEST(BreakAway, NeedsSeveralRepetitions) {
   EXPECT_THROW((void)estimate_stiction(ramped_run(0.9, 1.2, 2), {}), IdentificationError);
 }
 

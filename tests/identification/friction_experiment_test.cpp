@@ -89,7 +89,7 @@ TEST(FrictionExperiment, RefusesADriveThatTheRigDoesNotHave) {
   EXPECT_THROW((void)identify_friction(options), configuration::ConfigurationError);
 }
 
-TEST(FrictionExperiment, GivesNoAnswerWhereThereIsNoFriction) {
+TEST(FrictionExperiment, GivesNoResultWithoutFriction) {
   const recording::TemporaryDirectory directory;
   FrictionExperimentOptions options;
   options.rig = stack::find_rig("virginia_tech_tower_ideal");
@@ -111,7 +111,8 @@ TEST(AxisData, RefusesARunWithGaps) {
   EXPECT_THROW((void)axis_run_from(table, rig, plant::kTrolley, 0, 10), identification::IdentificationError);
   auto ticks = table;
   ticks.columns.push_back({"tick", {}});
-  for (int k = 0; k < 300; ++k) ticks.columns.back().values.push_back(k);  // late, but none is missing
+  for (int k = 0; k < 300; ++k)
+    ticks.columns.back().values.push_back(k);  // ticks are late, but no tick is missing
   EXPECT_EQ(axis_run_from(ticks, rig, plant::kTrolley, 0, 10).position.size(), 300U);
   EXPECT_THROW((void)axis_run_from({}, rig, plant::kTrolley, 0, 10), identification::IdentificationError);
 }

@@ -44,7 +44,8 @@ AxisRun constructed_run(double viscous_positive, double viscous_negative, double
     const double x0 = run.position[static_cast<std::size_t>(k - 2)];
     const double x1 = run.position[static_cast<std::size_t>(k - 1)];
     const double u = 6 * std::sin(0.01 * k) + 3 * std::sin(0.017 * k);
-    // a = K (u - f(v)) with v = (x2 - x0)/2T solved for x2, in the direction that agrees with itself.
+    // Solves a = K (u - f(v)) with v = (x2 - x0)/2T for x2. The assumed direction of motion must agree with
+    // the sign of the resulting v.
     double x2 = 0;
     for (const double sign : {1.0, -1.0}) {
       const double b = sign > 0 ? viscous_positive : viscous_negative;
@@ -92,7 +93,7 @@ TEST(Friction, LosesItsBiasOnlyWithTheMidpointForm) {
   EXPECT_GT(e.viscous_negative.value, 5.5 * 1.001);
 }
 
-TEST(Friction, AndTheGainAreFoundTogetherWhereTheReferenceAccelerates) {
+TEST(Friction, AndTheGainAreFoundTogetherWithAnAcceleratingReference) {
   const auto e = estimate_friction(held_run(), unfiltered(0.05, std::nullopt));
   EXPECT_NEAR(e.gain.value, kTestGain, 1e-3 * kTestGain);
   EXPECT_NEAR(e.viscous_positive.value, 2.8, 0.005);
@@ -134,7 +135,8 @@ TEST(Friction, HasStandardErrorsThatHoldUnderColouredNoise) {
   }
   for (const double mean_square : squares) {
     std::cout << "rms distance in standard errors: " << std::sqrt(mean_square) << '\n';
-    // 1 for exact standard errors; 60 runs and twenty blocks scatter it by 0.09 each.
+    // The expected value is 1 for exact standard errors; the finite numbers of runs (60) and blocks (20)
+    // scatter it by 0.09 each.
     EXPECT_GT(std::sqrt(mean_square), 0.7);
     EXPECT_LT(std::sqrt(mean_square), 1.4);
   }
@@ -190,8 +192,8 @@ INSTANTIATE_TEST_SUITE_P(
                "one speed only"}),
     [](const auto& test) { return test.param.name; });
 
-TEST(Friction, DoesNotTellAGainWithoutAcceleration) {
-  AxisRun run;  // so slow that a/K_m is lost in the noise of the encoder
+TEST(Friction, DoesNotEstimateTheGainWithoutAcceleration) {
+  AxisRun run;  // the motion is so slow that a/K_m is below the noise of the encoder
   std::mt19937_64 random{7};
   std::uniform_real_distribution<double> rounding{-1e-6, 1e-6};
   for (int k = 0; k < 6000; ++k) {

@@ -11,8 +11,8 @@ namespace {
 
 using Key = std::pair<std::string, double>;
 
-/// The second computation, as far as it has the digits; rows that depend on the chatter of its integrator
-/// left out.
+/// Results of the second computation, with its digits, without the rows that depend on the chattering of its
+/// integrator.
 const std::map<Key, Coefficients> kSecond{
     {{"3.1", 0.01}, {2.844, 5.538, 0.999, 1.200}},    {{"3.1", 0.05}, {2.8310, 5.5211, 1.0012, 1.2016}},
     {{"3.1", 0.1}, {2.8220, 5.5137, 1.0027, 1.2028}}, {{"3.2", 0.5}, {5.099, 6.460, 0.746, 1.111}},
@@ -41,8 +41,8 @@ TEST(Study, AgreesWithTheSecondComputation) {
       continue;
     }
     ++compared;
-    // 0.15 % and half a last digit. A cut-off of 0.5 or 1 Hz sees over the ends of the 60 s, where the
-    // filters of the two programs begin differently.
+    // Tolerance: 0.15 % and half a unit of the last digit. With a cut-off of 0.5 or 1 Hz the ends of the 60 s
+    // have an effect, where the filters of both programs begin differently.
     const bool over_the_ends = row.variable == "omega_c" && row.value <= 1;
     for (std::size_t i = 0; i < 4; ++i)
       EXPECT_NEAR(row.recomputed[i], found->second[i],
@@ -52,7 +52,7 @@ TEST(Study, AgreesWithTheSecondComputation) {
   EXPECT_EQ(compared, kSecond.size());
 }
 
-TEST(Study, AgreesWithThePrintWhereItDoesNotChatter) {
+TEST(Study, AgreesWithThePrintedRowsThatDoNotChatter) {
   for (const StudyRow& row : rows()) {
     if (row.printed_chatters || (row.variable == "omega_c" && row.value < 5)) continue;
     for (std::size_t i = 0; i < 4; ++i)
@@ -69,7 +69,7 @@ TEST(Study, MidpointFormIsExactWithoutAFilter) {
   }
 }
 
-TEST(Study, KnowsItsTruth) {
+TEST(Study, ContainsTheTrueCoefficients) {
   EXPECT_EQ(exact(rows().front()), (Coefficients{2.8, 5.5, 1, 1.2}));
   for (const StudyRow& row : rows()) EXPECT_EQ(exact(row)[2], row.table == "3.3" ? 0 : 1);
 }

@@ -34,7 +34,7 @@ TEST_P(Events, BothSidesLearnThatTheyMatchedAndThatTheOtherLeft) {
   EXPECT_TRUE(reader_log.wait_for(EventKind::unmatched));
 }
 
-TEST_P(Events, AMissedDeadlineIsToldToBothSides) {
+TEST_P(Events, AMissedDeadlineIsReportedToBothSides) {
   const auto deadline = 50ms;
   auto writer = from.publisher(topics::state, {.deadline = deadline, .on_event = writer_log.handler()});
   auto reader = to.subscriber(topics::state, {.deadline = deadline, .on_event = reader_log.handler()});
@@ -60,7 +60,7 @@ TEST_P(Events, LivelinessIsLostInSilenceAndGainedByPublishing) {
   EXPECT_TRUE(reader_log.wait_for(EventKind::liveliness_gained, 2));
 }
 
-TEST_P(Events, AReaderThatAsksForMoreThanIsOfferedIsToldWhichPolicy) {
+TEST_P(Events, AnIncompatibleReaderIsToldThePolicy) {
   auto writer = from.publisher(topics::state, {.on_event = writer_log.handler()});
   auto reader = to.subscriber(topics::state, {.deadline = 20ms, .on_event = reader_log.handler()});
   EXPECT_TRUE(reader_log.wait_for_refusal("deadline"));
@@ -81,7 +81,7 @@ TEST_P(Events, WaitReturnsOnDataAndOnTimeOut) {
   EXPECT_FALSE(to.wait(5ms));
 }
 
-TEST_P(Events, WhatAWriterSentBeforeItClosedIsStillHandedOut) {
+TEST_P(Events, SamplesOfAClosedWriterAreStillDelivered) {
   auto reader = to.subscriber(topics::state, {.on_event = reader_log.handler()});
   {
     Bus closing{options(GetParam().writer, kDomain)};

@@ -37,7 +37,7 @@ std::vector<std::string> joined(std::vector<std::string> first, const std::vecto
 std::string ask(const std::string& host, const char* address, std::uint16_t port,
                 const std::string& request) {
   std::string answer;
-  std::thread{[&] {  // a thread of its own, because setns() moves the thread
+  std::thread{[&] {  // a separate thread, because setns() moves the calling thread
     const int space = ::open(("/run/netns/" + host).c_str(), O_RDONLY | O_CLOEXEC);
     if (space < 0 || ::setns(space, CLONE_NEWNET) != 0) return;
     ::close(space);
@@ -104,7 +104,7 @@ class FromAnotherHost : public testing::TestWithParam<Discovery> {
     for (const auto& option : GetParam().tool_options) text += " " + option;
     return text + (GetParam().secured ? " --secure " + keys() : "");
   }
-  /// Options of a command that writes, too.
+  /// Options of a command that also writes.
   [[nodiscard]] std::vector<std::string> writing(const std::vector<std::string>& options) const {
     return joined(options, GetParam().secured ? std::vector<std::string>{"--secure", keys()}
                                               : std::vector<std::string>{"--insecure"});
@@ -196,7 +196,7 @@ TEST(AnotherHost, WithoutCarrierIsNamedAndRefused) {
 
 using WithKeys = FromAnotherHost;
 
-TEST_P(WithKeys, AnOperatorIsObeyedAndAHostWithoutKeysHearsNothing) {
+TEST_P(WithKeys, AnOperatorIsObeyedAndAHostWithoutKeysReceivesNothing) {
   const Running stack{hosts.near(), up()};
   const auto status = patiently("status --json", {"LOCKED"});
   ASSERT_EQ(status.exit_code, 0) << status.errors;

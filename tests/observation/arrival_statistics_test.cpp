@@ -16,7 +16,7 @@ Arrival on_time(std::uint64_t tick, std::int64_t delay_ns = 0) {
   return {.tick = tick, .epoch = 1, .source_time_ns = sampled_ns, .arrival_time_ns = sampled_ns + delay_ns};
 }
 
-TEST(ArrivalStatistics, GiveTheRateOfTheSourceAlsoWhenEverythingComesInOneBurst) {
+TEST(ArrivalStatistics, GiveTheRateOfTheSourceAlsoInABurst) {
   ArrivalStatistics statistics{true};
   for (std::uint64_t tick = 5; tick <= 105; ++tick) {
     auto arrival = on_time(tick);
@@ -29,7 +29,7 @@ TEST(ArrivalStatistics, GiveTheRateOfTheSourceAlsoWhenEverythingComesInOneBurst)
   EXPECT_EQ(statistics.counts().lost, 0U);
 }
 
-TEST(ArrivalStatistics, DoNotTakeTheJoiningOfTheReaderForJitter) {
+TEST(ArrivalStatistics, DoNotCountTheJoiningOfTheReaderAsJitter) {
   constexpr std::int64_t kDelay_ns = 300'000;
   for (const std::uint64_t held : {1U, 3U}) {  // samples that come together with the next one
     ArrivalStatistics statistics{true};
@@ -53,7 +53,7 @@ TEST(ArrivalStatistics, DistinguishLostLateAndDuplicateSamples) {
   EXPECT_EQ(counts.duplicate, 2U);  // 6 and 2
 }
 
-TEST(ArrivalStatistics, ForgetNoLossHoweverLargeTheGap) {
+TEST(ArrivalStatistics, CountTheLossesOfAnyGap) {
   ArrivalStatistics statistics{true};
   statistics.add(on_time(0));
   statistics.add(on_time(1'000'000));
@@ -61,7 +61,7 @@ TEST(ArrivalStatistics, ForgetNoLossHoweverLargeTheGap) {
   EXPECT_EQ(statistics.counts().lost, 1'999'998U);
 }
 
-TEST(ArrivalStatistics, StartAnewWhenAYoungerWriterTakesOver) {
+TEST(ArrivalStatistics, RestartWhenAnotherWriterTakesOver) {
   ArrivalStatistics statistics{true};
   statistics.add(on_time(5'000));
   auto restarted = on_time(1);

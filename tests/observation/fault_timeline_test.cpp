@@ -49,7 +49,7 @@ TEST(FaultTimeline, ALatchIsTheFirstCauseAndTheStopOfTheSupervisorItsConsequence
   EXPECT_FALSE(notes[0].remedy.empty());
 }
 
-TEST(FaultTimeline, AnEventThatAnnouncesACauseOrALatchIsNoConsequenceOfIt) {
+TEST(FaultTimeline, AnEventThatAnnouncesACauseOrALatchIsMergedWithIt) {
   FaultTimeline timeline;
   timeline.add(*event_at(10 * kSecond_ns, crane_SEVERITY_ERROR, "speed"));
   timeline.add(*latched_at(10 * kSecond_ns + 3, crane_LATCH_SPEED));
@@ -63,7 +63,7 @@ TEST(FaultTimeline, AnEventThatAnnouncesACauseOrALatchIsNoConsequenceOfIt) {
   EXPECT_EQ(notes[2].what, "another");
 }
 
-TEST(FaultTimeline, AProcessThatFellSilentComesBeforeTheStopThatItCaused) {
+TEST(FaultTimeline, AProcessThatBecameSilentPrecedesTheStopThatItCaused) {
   FaultTimeline timeline;
   Traffic traffic;
   const History history;
@@ -79,7 +79,7 @@ TEST(FaultTimeline, AProcessThatFellSilentComesBeforeTheStopThatItCaused) {
   EXPECT_EQ(notes[1].what, "DEMAND_STALE");
 }
 
-TEST(FaultTimeline, ThingsFarApartAreDifferentFaults) {
+TEST(FaultTimeline, DistantNotesAreDifferentFaults) {
   FaultTimeline timeline;
   timeline.add(*status_at(10 * kSecond_ns, crane_STATE_ESTOP, crane_CAUSE_OPERATOR_ESTOP));
   timeline.add(*status_at(20 * kSecond_ns, crane_STATE_HOLD, crane_CAUSE_NONE));
@@ -91,7 +91,7 @@ TEST(FaultTimeline, ThingsFarApartAreDifferentFaults) {
   EXPECT_EQ(timeline.faults()[1].cleared_ns, 0);
 }
 
-TEST(FaultTimeline, StartAndInformationAreNoFaults) {
+TEST(FaultTimeline, StartAndInformationAreNotFaults) {
   FaultTimeline timeline;
   timeline.add(*status_at(kSecond_ns, crane_STATE_LOCKED, crane_CAUSE_START));
   timeline.add(*event_at(kSecond_ns, crane_SEVERITY_INFO, "ready"));

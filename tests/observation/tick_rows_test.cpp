@@ -137,10 +137,10 @@ TEST_F(TickRowsTest, FieldsOfTopicsWithoutATickKeepTheirNewestValue) {
   EXPECT_EQ(seen_[2].values[2], 9);
 }
 
-TEST_F(TickRowsTest, ClockMasterThatCountsAnewBeginsANewSeries) {
+TEST_F(TickRowsTest, ARestartedClockMasterBeginsANewSeries) {
   state(1000);
   demand(1000);
-  demand(1);  // of the new clock; it cannot be told from a late one
+  demand(1);  // a sample of the new clock master, which cannot be distinguished from a late sample
   state(1);
   demand(1);
   state(2);

@@ -49,7 +49,8 @@ TEST(Brakes, StopAMovingAxisWithTheirDecelerationAndThenHoldItWithoutCreep) {
   const double v = bench.board.truth().trolley_mps, x = bench.board.truth().trolley_m;
   ASSERT_NEAR(v, 1, 0.01);
   bench.tick({0, 0, 0}, false, 100);
-  // 20 ms of rolling on, then 5 m/s2 (the trolley's own 22.46 kg, no load)
+  // the trolley moves at constant speed for 20 ms, then decelerates with 5 m/s2 (inertia of the trolley of
+  // 22.46 kg, no load)
   EXPECT_NEAR(bench.board.truth().trolley_m - x, v * 0.02 + v * v / (2 * 5), 1e-3);
   EXPECT_EQ(bench.board.truth().trolley_mps, 0);
   const double rest = bench.board.truth().trolley_m;
@@ -92,14 +93,14 @@ TEST(Watchdog, StaysDroppedUntilItHasToggledForAWhileAgain) {
   bench.pass(20);
   bench.tick({}, true, 5);
   EXPECT_TRUE(bench.board.read().watchdog_dropped);
-  bench.pass(10);  // a gap: the count starts anew
+  bench.pass(10);  // after a gap the count begins again
   bench.tick({}, true, 5);
   EXPECT_TRUE(bench.board.read().watchdog_dropped);
   bench.tick({}, true);
   EXPECT_FALSE(bench.board.read().watchdog_dropped);
 }
 
-TEST(Watchdog, IsNotFooledByWritesThatDoNotToggle) {
+TEST(Watchdog, IgnoresWritesThatDoNotToggle) {
   Bench bench;
   bench.open_brakes();
   for (int i = 0; i < 10; ++i) {
@@ -121,7 +122,7 @@ TEST(EmergencyStop, CutsTheBrakeSupplyByWire) {
   EXPECT_FALSE(bench.board.read().brake_closed[1]);
 }
 
-TEST(MakeSafe, TakesVoltagesAwayAndClosesTheBrakes) {
+TEST(MakeSafe, OutputsZeroVoltsAndClosesTheBrakes) {
   Bench bench;
   bench.open_brakes();
   bench.tick({2, 2, 2}, true, 20);

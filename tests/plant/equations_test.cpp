@@ -92,7 +92,7 @@ TEST(Equations, MassMatrixIsTheDerivativeOfTheMomenta) {
   }
 }
 
-TEST(Equations, AnAxisStoppedDeadLeavesTheOtherMomentaAsTheyWere) {
+TEST(Equations, AnImpactOfAnAxisConservesTheOtherMomenta) {
   std::mt19937 random{kSeed};
   for (int i = 0; i < kCases; ++i) {
     const Parameters p = test::random_crane(random);
@@ -111,12 +111,12 @@ TEST(Equations, AnAxisStoppedDeadLeavesTheOtherMomentaAsTheyWere) {
   }
 }
 
-TEST(Equations, AnAxisStoppedDeadTakesEnergyAway) {
+TEST(Equations, AnImpactOfAnAxisDissipatesEnergy) {
   std::mt19937 random{kSeed};
   for (int i = 0; i < kCases; ++i) {
     const Parameters p = test::random_crane(random);
     State s = test::random_state(random);
-    s.cable_mps = 0;  // a moving winch may feed energy into the shock
+    s.cable_mps = 0;  // a moving winch could add energy to the impact
     for (const Axis axis : {kTrolley, kSlew}) EXPECT_LT(energy_j(p, stop_dead(p, s, axis)), energy_j(p, s));
   }
 }
@@ -237,7 +237,7 @@ TEST(Equations, EnergyChangesByTheWorkOfDrivesAndHoistOnly) {
     const double coarse = std::abs(energy_gap_j(0.008, c.hoisting_mps2, c.forces));
     const double fine = std::abs(energy_gap_j(0.004, c.hoisting_mps2, c.forces));
     EXPECT_LT(fine, 1e-6);         // of about 20 J
-    EXPECT_GT(coarse / fine, 12);  // what is left is the integrator's, of order h^4 or better
+    EXPECT_GT(coarse / fine, 12);  // the remaining error is that of the integrator, of order h^4 or higher
     EXPECT_GT(coarse, 1e-12);
   }
 }

@@ -25,24 +25,24 @@ TEST(Backlash, KeepsTheTrolleyAtRestWhileTheMotorCrossesTheGap) {
     for (long left = std::lround(seconds / kFine_s); left > 0; --left)
       motion = test::step(model, motion, held({acceleration, 0, 0}), kFine_s);
   };
-  run(0, 1);  // the motor pushes from behind: b = -h/2 and what friction presses the flank in
+  run(0, 1);  // the motor pushes from behind: b = -h/2 minus the deflection of the contact by friction
   EXPECT_NEAR(motion.inner[0].position, -kGap_m / 2 - 1 / std::pow(kContact_radps, 2), 1e-6);
   EXPECT_NEAR(motion.inner[0].rate, 0, 1e-6);
-  run(-0.5, 0.2);  // braked more gently than by friction: the flank stays
+  run(-0.5, 0.2);  // the deceleration is smaller than that by friction: the flanks remain in contact
   EXPECT_LT(motion.inner[0].position, -kGap_m / 2);
-  run(-0.1, 0.15);  // turned round and 1.1 mm back
+  run(-0.1, 0.15);  // the motor reverses and moves back by 1.1 mm
   const double moved = motion.state.trolley_mps + motion.inner[0].rate;
   EXPECT_LT(motion.state.trolley_mps, -0.01);
   EXPECT_NEAR(moved, 0, 1e-4);
-  run(0, 1);  // taken along by the other flank
+  run(0, 1);  // the other flank drives the load side
   EXPECT_NEAR(motion.inner[0].position, kGap_m / 2 + 1 / std::pow(kContact_radps, 2), 1e-6);
 }
 
-TEST(Backlash, LetsTheLoadFeelNothingOfTheMotorInsideTheGap) {
+TEST(Backlash, DoesNotTransmitTheMotorToTheLoadInsideTheGap) {
   InnerAccelerations own{};
   const Accelerations a = with_backlash().accelerations({.trolley_m = 0.5}, held({2, 0, 0}), {}, own);
   EXPECT_EQ(own[0], -2);
-  EXPECT_NEAR(a.radial_radps2, 0, 1e-12);  // without the gap x'' / L = 2
+  EXPECT_NEAR(a.radial_radps2, 0, 1e-12);  // without the gap, x'' / L would be 2
 }
 
 TEST(Backlash, TurningJibThrowsTheTrolleyOutwardThroughTheGap) {
@@ -72,7 +72,8 @@ TEST(Backlash, LosesEnergyWhileTheMotorRestsAndStaysInItsGap) {
     double last = start;
     for (int i = 0; i < 2000; ++i) {
       motion = test::step(model, motion, held(), kFine_s);
-      EXPECT_LE(energy(motion.inner[0]), last * (1 + 1e-3));  // what one step of 1 ms is wrong at a contact
+      // integration error of one step of 1 ms at a contact
+      EXPECT_LE(energy(motion.inner[0]), last * (1 + 1e-3));
       last = energy(motion.inner[0]);
       EXPECT_LT(std::abs(motion.inner[0].position), kGap_m / 2 + 0.2 / kContact_radps);
     }
@@ -121,7 +122,7 @@ TEST(FarSide, KeepsTheMomentumOfMotorAndJibWithItsTrolley) {
     }
 }
 
-TEST(FarSide, LeavesTheMotorAloneInsideTheGap) {
+TEST(FarSide, ExertsNoForceOnTheMotorInsideTheGap) {
   const Model model{{},
                     {{"backlash", "slew", {{"gap", 0.01}, {"driven_share", 0.65}}},
                      {"backlash", "trolley", {{"gap", 0.01}, {"driven_share", 0.1}}}}};
@@ -131,12 +132,12 @@ TEST(FarSide, LeavesTheMotorAloneInsideTheGap) {
   const State hanging{.trolley_m = 0.9, .slew_radps = 0.5};
   const Accelerations a = model.accelerations(hanging, actuation, {}, own);
   EXPECT_NEAR(a.slew_radps2, 2 * Parameters{}.slew_gain_radps2pv / 0.35, 1e-9);
-  // The load's own centrifugal force pulls at the trolley with a cable that hangs straight down: at nothing.
+  // With a vertical cable, the centrifugal force of the load causes no force on the trolley.
   EXPECT_NEAR(a.trolley_mps2, Parameters{}.trolley_gain_mps2pv / 0.9, 0.01);
 }
 
-/// A motor that an unexpected contact stops, and one that continues where a contact was expected.
-TEST(Backlash, IsCorrectedByWhatTheMotorShows) {
+/// An unexpected contact stops the motor; then the motor continues where the model expects a contact.
+TEST(Backlash, IsCorrectedByTheMeasuredMotorSpeed) {
   constexpr double kHalf = 0.005, kShare = 0.65, kMotor = 0.35 / 0.65;
   Parameters crane;
   crane.trolley_mass_kg = 0;

@@ -52,7 +52,7 @@ double largest_difference(const std::vector<State>& a, const std::vector<State>&
 /// 2e-5 m, rad, m/s or rad/s: an encoder count is 1.6e-6 m, 1.7e-5 rad (slew), 2.6e-4 rad (swing).
 constexpr double kAccuracy = 2e-5;
 
-/// What holds for both methods.
+/// Properties of both methods.
 class EachIntegrator : public testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(Methods, EachIntegrator, testing::Values(Method::cvode, Method::fast),
                          [](const auto& method) { return method.param == Method::cvode ? "Cvode" : "Fast"; });
@@ -83,8 +83,8 @@ int settling_tick(const std::vector<State>& states, const Maneuver& maneuver) {
 }
 
 /// Half the smoothing speed moves trolley, slew and load by less than a thousandth of the 0.75 m move
-/// (measured: 0.52 mm, 0.28 mrad, 0.26 mrad) and settling by no more than a tick. What stays is where the
-/// compensated axis comes to rest inside the zero-speed band of its compensation.
+/// (measured: 0.52 mm, 0.28 mrad, 0.26 mrad) and settling by no more than a tick. The remaining effect is the
+/// position at which the compensated axis comes to rest inside the zero-speed band of its compensation.
 TEST(Integrator, HasConvergedInTheSmoothingOfFriction) {
   constexpr double kThousandth = 0.75e-3;
   for (const Maneuver& maneuver : kManeuvers) {
@@ -99,7 +99,7 @@ TEST(Integrator, HasConvergedInTheSmoothingOfFriction) {
   }
 }
 
-TEST_P(EachIntegrator, GivesTheSameBitsWhateverItDidBefore) {
+TEST_P(EachIntegrator, GivesTheSameBitsAfterAnyHistory) {
   const Model model{{}, test::rig_friction()};
   Integrator used{model, {}, GetParam()}, fresh{model, {}, GetParam()};
   State warm{.trolley_m = 0.5, .radial_rad = 0.3, .tangential_radps = 1};
@@ -114,7 +114,7 @@ TEST_P(EachIntegrator, GivesTheSameBitsWhateverItDidBefore) {
   EXPECT_EQ(a, b);
 }
 
-TEST_P(EachIntegrator, StopsWhereAnAxisReachesAPosition) {
+TEST_P(EachIntegrator, StopsWhenAnAxisReachesAPosition) {
   Parameters bare;
   bare.load_mass_kg = 0;
   const Model model{bare};
@@ -138,7 +138,7 @@ TEST_P(EachIntegrator, FollowsTheHoistDrivesLag) {
   EXPECT_NEAR(s.cable_mps, 0.05 * 4 * (1 - std::exp(-1.0)), 1e-6);
 }
 
-TEST_P(EachIntegrator, ReportsACollapsedStepInsteadOfReturningNonsense) {
+TEST_P(EachIntegrator, ReportsAStepThatBecomesTooSmall) {
   const Model model{Parameters{}};
   Integrator integrator{model, {}, GetParam()};
   State s{.trolley_m = 1, .radial_rad = 0.1, .cable_m = 0.05, .cable_mps = -10};

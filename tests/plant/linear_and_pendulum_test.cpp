@@ -64,7 +64,7 @@ TEST(Equations, TheDrivesRespondToForcesAsTheInverseOfTheMassMatrixSays) {
   }
 }
 
-TEST(Equations, AVoltOfFrictionTakesWhatTheModelsFrictionResponseSays) {
+TEST(Equations, AVoltOfFrictionHasTheEffectOfTheFrictionResponse) {
   std::mt19937 random{test::kSeed};
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE("seed " + std::to_string(test::kSeed) + " case " + std::to_string(i));

@@ -14,7 +14,7 @@ constexpr State kSomewhere{
 
 Model sensing(const TermSetting& term) { return Model{{}, {term}, kPeriod_s}; }
 
-/// Reports of the radial swing for radial swings, one tick each.
+/// Sensor values of the radial swing for given true swings, one per tick.
 template <class Signal>
 std::vector<double> radial_reports(const TermSetting& term, Signal signal, int ticks) {
   Model model = sensing(term);
@@ -64,7 +64,7 @@ TEST(PositionDrift, ComesInJumpsWhereCountsAreLost) {
   EXPECT_NEAR(lost(0), -0.004, 1e-15);
 }
 
-TEST(SwingDelay, ReportsWhatWasSoManyTicksAgoAndTheFirstSampleBefore) {
+TEST(SwingDelay, ReportsTheDelayedSampleOrTheFirstSample) {
   const auto ramp = [](int i) { return 0.001 * (i + 5); };
   const auto whole = radial_reports({"swing_delay", "radial", {{"delay_s", 0.03}}}, ramp, 40);
   EXPECT_EQ(whole[2], ramp(0));
@@ -73,8 +73,8 @@ TEST(SwingDelay, ReportsWhatWasSoManyTicksAgoAndTheFirstSampleBefore) {
   EXPECT_NEAR(part[20], 0.5 * (ramp(17) + ramp(18)), 1e-15);
 }
 
-/// Mean of a sine over w: amplitude sin(omega w/2) / (omega w/2), late by w/2. The straight lines between
-/// samples cost (omega T)^2 / 12 = 3e-4 of the amplitude.
+/// Mean of a sine over w: the amplitude is multiplied by sin(omega w/2) / (omega w/2), the delay is w/2. The
+/// linear interpolation between samples has an error of (omega T)^2 / 12 = 3e-4 of the amplitude.
 TEST(SwingMovingAverage, OfASineIsSmallerAndHalfAWindowLate) {
   constexpr double kOmega = 6;
   for (const double window_s : {0.05, 0.123, 0.4}) {

@@ -25,7 +25,7 @@ TEST(Converter, CodesAreInvertedOffsetBinaryClampedToThirteenBits) {
   EXPECT_EQ(converter_code(-5), 0x1800);
 }
 
-TEST(Converter, GivesVoltagesWithinHalfAStepOfWhatWasAsked) {
+TEST(Converter, OutputsVoltagesWithinHalfAStepOfTheCommand) {
   constexpr double kStep_v = 20.0 / 8192;
   for (double v = -9.99; v < 10; v += 0.0137) {
     EXPECT_LE(std::abs(converter_voltage_v(converter_code(v)) - v), kStep_v / 2 + 1e-12) << v;
@@ -79,7 +79,8 @@ TEST(Travel, SwitchesReportTheirEndAndStopsHoldTheAxisThere) {
   EXPECT_FALSE(bench.board.read().limit_high[0]);
   bench.tick({2, 0, 0}, true, 100);
   EXPECT_TRUE(bench.board.read().limit_high[0]);
-  EXPECT_NEAR(bench.board.truth().trolley_m, 0.45, 0.02);  // the swinging load may lift it off for a moment
+  // the swinging load may briefly move the trolley away from the stop
+  EXPECT_NEAR(bench.board.truth().trolley_m, 0.45, 0.02);
   EXPECT_LE(bench.board.truth().trolley_m, 0.45);
   bench.tick({-2, 0, 0}, true, 100);
   EXPECT_TRUE(bench.board.read().limit_low[0]);
@@ -87,7 +88,7 @@ TEST(Travel, SwitchesReportTheirEndAndStopsHoldTheAxisThere) {
   EXPECT_GE(bench.board.truth().trolley_m, 0.15);
 }
 
-TEST(Travel, AStopTakesMotionAndNeverGivesIt) {
+TEST(Travel, AStopRemovesMotionAndNeverAddsIt) {
   SimulatedRig rig;
   rig.parameters.load_mass_kg = 0;
   rig.drives[plant::kTrolley].high_stop = 0.5;

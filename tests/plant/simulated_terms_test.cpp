@@ -88,7 +88,7 @@ TEST(SimulatedTerms, ActOnceATickHoweverOftenTheBoardIsWrittenAndRead) {
   EXPECT_EQ(driven_for_5_s(every_effect(), true), driven_for_5_s(every_effect()));
 }
 
-TEST(SimulatedTerms, OfTheCommandGoOnWhenNobodyWrites) {
+TEST(SimulatedTerms, OfTheCommandContinueWithoutWrites) {
   SimulatedRig rig;
   rig.terms = {{"command_delay", "trolley", {{"delay_s", 0.02}}}};
   rig.watchdog_timeout_s = 1;
@@ -115,7 +115,7 @@ std::vector<TermSetting> structures() {
           {"backlash", "slew", {{"gap", 0.01}}}};
 }
 
-/// The tolerance is that of the integrator's other comparisons, closed_loop.hpp's maneuvers.
+/// The tolerance is that of the other comparisons of the integrator with the maneuvers of closed_loop.hpp.
 TEST(SimulatedTerms, OfTheStructureMoveAsWithRungeKuttaOf100Microseconds) {
   const plant::Model model{{}, structures()};
   Integrator integrator{model};

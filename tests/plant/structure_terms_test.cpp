@@ -15,7 +15,7 @@ using test::StructureMotion;
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kStep_s = 0.001;
 
-/// Time between the first and the last upward crossing of zero over their number.
+/// Mean time between two upward crossings of zero.
 template <class Signal>
 double period_s(const Model& model, StructureMotion motion, double seconds, Signal signal) {
   double first = -1, last = 0, before = signal(motion);
@@ -68,10 +68,11 @@ TEST(JibFlexibility, RingsWithTheFrequencyAndDampingOfItsParameters) {
   const int period = static_cast<int>(std::lround(1 / damped_hz / kStep_s));
   for (int i = 0; i < period; ++i) motion = test::step(model, motion, held(), kStep_s);
   const double decrement = kTurn * kDamping / std::sqrt(1 - kDamping * kDamping);
-  EXPECT_NEAR(motion.inner[0].position, 0.01 * std::exp(-decrement), 1e-5);  // the period is a whole step off
+  // the period has an error of up to one step
+  EXPECT_NEAR(motion.inner[0].position, 0.01 * std::exp(-decrement), 1e-5);
 }
 
-TEST(JibFlexibility, LetsTheLoadFeelTheRootOnlyAfterTheJibHasBent) {
+TEST(JibFlexibility, TransmitsTheMotionOfTheRootAfterTheJibHasBent) {
   const Model flexible{{}, {{"jib_flexibility", "", {{"compliance_s2", 0.01}}}}}, rigid{Parameters{}};
   const State rest{.trolley_m = 1};
   EXPECT_NEAR(rigid.accelerations(rest, held({0, 2, 0})).tangential_radps2, -2, 1e-12);  // -x gamma'' / L
@@ -108,7 +109,8 @@ TEST(CableElasticity, KeepsTheEnergyOfASpringPendulum) {
   StructureMotion motion{{.trolley_m = 1, .radial_rad = 0.6, .tangential_rad = 0.4, .tangential_radps = 1}};
   const double start = energy(motion);
   for (int i = 0; i < 5000; ++i) motion = test::step(model, motion, held(), kStep_s);
-  EXPECT_NEAR(energy(motion), start, 1e-5);  // of 20 J; the fourth power of the step says 1e-6
+  // of 20 J; the expected error, of fourth order in the step, is 1e-6
+  EXPECT_NEAR(energy(motion), start, 1e-5);
   EXPECT_GT(std::abs(motion.inner[0].position) + std::abs(motion.inner[0].rate), 1e-3);
 }
 
@@ -166,7 +168,7 @@ TEST(DoublePendulum, KeepsTheMomentumAlongTheJib) {
   const double load = hook - kLower_m * (a.radial_radps2 + own[0]);
   const double force =
       p.trolley_inertia_kg * a.trolley_mps2 + p.load_mass_kg * ((1 - kShare) * hook + kShare * load);
-  EXPECT_NEAR(force, 0, 1e-4);  // the third power of the angles is left
+  EXPECT_NEAR(force, 0, 1e-4);  // error of third order in the angles
   EXPECT_GT(std::abs(a.trolley_mps2), 1e-3);
 }
 
@@ -210,7 +212,7 @@ TEST(DoublePendulum, KeepsItsEnergyInWideSwings) {
 TEST(DoublePendulum, SwingsTheSameOverGroundWhenTheCraneTurnsAboutIt) {
   const Model model{{}, {{"double_pendulum", "", {{"lower_share", 0.4}, {"lower_length_m", 0.3}}}}};
   constexpr double kTurning = 0.7;
-  // hanging on the tower's axis; the turning crane sees the load move backwards at first
+  // the load hangs on the tower axis; relative to the turning crane, it initially moves backwards
   StructureMotion still{{.trolley_m = 0, .radial_rad = 0.01}}, turning = still;
   turning.state.slew_radps = kTurning;
   turning.state.tangential_radps = kTurning * 0.01;
@@ -232,7 +234,7 @@ TEST(DoublePendulum, FollowsTheSwingThatAFlexibleJibLeaves) {
                                        {"double_pendulum", "", {{"lower_share", 0.4}}}};
   InnerAccelerations own{};
   const Accelerations a = Model{{}, terms}.accelerations({.trolley_m = 1}, held({0, 2, 0}), {}, own);
-  EXPECT_NEAR(a.tangential_radps2, 0, 1e-12);  // the root accelerates and the tip does not yet
+  EXPECT_NEAR(a.tangential_radps2, 0, 1e-12);  // the root accelerates before the tip
   EXPECT_NEAR(own[2], 0, 1e-12);
 }
 

@@ -28,7 +28,7 @@ bool occupy_processor(std::chrono::milliseconds duration) {
   return granted;
 }
 
-TEST(TimerWitness, SeesAProcessorThatIsTakenAway) {
+TEST(TimerWitness, DetectsAnOccupiedProcessor) {
   TimerWitness witness;
   (void)witness.take();
   if (!occupy_processor(20ms)) GTEST_SKIP() << "real-time priority was denied";

@@ -52,7 +52,7 @@ TEST(Csv, WritesAndReadsMissingValuesAsNan) {
   EXPECT_TRUE(std::isnan((*table.find("slew_angle_rad"))[1]));
 }
 
-TEST(Csv, ReadsWhatLaboratoriesWrite) {
+TEST(Csv, ReadsFilesOfLaboratories) {
   const Table table = parse_csv(
       "\xEF\xBB\xBF# rig 3\r\n\r\n time_s , swing_radial_rad\r\n0, +1.5e-3\r\n# pause\r\n.5,-2", "a.csv");
   EXPECT_THAT(*table.find("time_s"), ElementsAre(0, 0.5));

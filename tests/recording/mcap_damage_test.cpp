@@ -79,7 +79,7 @@ TEST(CutRecording, GivesEveryChunkBeforeRandomCuts) {
   for (int i = 0; i < 300; ++i) expect_readable(directory / "cut.mcap", recording, anywhere(random));
 }
 
-TEST(CutRecording, SaysHowManyBytesAreLost) {
+TEST(CutRecording, StatesTheNumberOfLostBytes) {
   const TemporaryDirectory directory;
   const Chunked recording = chunked_recording(directory);
   put_contents(directory / "cut.mcap", recording.bytes.substr(0, recording.ends[3] + 100));
@@ -106,7 +106,7 @@ void expect_honest(const std::filesystem::path& file, std::string bytes, std::si
 TEST(CorruptedRecording, NeverGivesAWrongMessageAndReportsEachLoss) {
   const TemporaryDirectory directory;
   const Chunked recording = chunked_recording(directory);
-  // From the second chunk on; the first one declares the channels (next test).
+  // Begins at the second chunk, because the first chunk declares the channels (next test).
   for (std::size_t at = recording.ends[0]; at < recording.bytes.size(); at += 41)
     expect_honest(directory / "bad.mcap", recording.bytes, at, 200);
 }
@@ -125,7 +125,7 @@ TEST(CorruptedRecording, ReportsTheCrcOfTheDamagedChunkAndReadsTheOthers) {
                                              ": chunk is damaged and skipped: CRC is wrong")));
 }
 
-TEST(CorruptedRecording, IsPassedOverToTheNextChunkWhenTheIndexIsGoneToo) {
+TEST(CorruptedRecording, IsSkippedToTheNextChunkAlsoWithoutAnIndex) {
   const TemporaryDirectory directory;
   const Chunked recording = chunked_recording(directory);
   std::string bytes = recording.bytes.substr(0, recording.ends[8]);

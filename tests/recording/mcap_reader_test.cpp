@@ -34,7 +34,7 @@ TEST(McapReader, ReadsBackEverythingThatWasWritten) {
   EXPECT_THAT(reader.problems(), IsEmpty());
 }
 
-TEST(McapReader, HandsOutOnlyTheSelectedTopicsAndTimes) {
+TEST(McapReader, ReturnsOnlyTheSelectedTopicsAndTimes) {
   const TemporaryDirectory directory;
   write_sample(directory / "a.mcap", 1000);
   McapReader reader{directory / "a.mcap"};
@@ -43,7 +43,7 @@ TEST(McapReader, HandsOutOnlyTheSelectedTopicsAndTimes) {
   EXPECT_THAT(sequences_in(reader, &genuine, selection), ElementsAre(400, 402, 404));
 }
 
-TEST(McapReader, StopsWhenToldTo) {
+TEST(McapReader, StopsWhenTheVisitorReturnsFalse) {
   const TemporaryDirectory directory;
   write_sample(directory / "a.mcap", 300);
   McapReader reader{directory / "a.mcap"};
@@ -104,7 +104,7 @@ std::string error_of(const std::filesystem::path& file) {
   return "no ReadError";
 }
 
-TEST(McapReader, SaysWhyAFileIsNoRecording) {
+TEST(McapReader, NamesTheReasonWhenAFileIsNotARecording) {
   const TemporaryDirectory directory;
   put_contents(directory / "empty.mcap", "");
   put_contents(directory / "text.mcap", "time_s,trolley_position_m\n0,0.25\n");

@@ -28,7 +28,7 @@ TEST(McapWriter, BeginsAndEndsWithTheMagicBytes) {
   EXPECT_EQ(bytes.substr(bytes.size() - 8), std::string("\x89MCAP0\r\n", 8));
 }
 
-TEST(McapWriter, HasEverySecondOfLogTimeInTheFileWithoutBeingAsked) {
+TEST(McapWriter, WritesEverySecondOfLogTimeToTheFile) {
   const TemporaryDirectory directory;
   McapWriter writer{directory / "a.mcap"};
   const std::uint16_t channel = writer.channel(0, "crane/note", "json");

@@ -18,7 +18,7 @@ namespace {
 using recording::TemporaryDirectory;
 
 Entry entry(std::uint32_t number, std::size_t bytes = 16) {
-  std::mt19937 random{number};  // does not compress, so that its size is what the file grows by
+  std::mt19937 random{number};  // random bytes do not compress, so that the file grows by their size
   Entry result;
   result.sequence = number;
   result.log_time_ns = number;
@@ -48,7 +48,7 @@ TEST(RecordingThread, WritesEverythingItTookInOrder) {
   EXPECT_EQ(expected, 500U);
 }
 
-TEST(RecordingThread, AccountsForEveryEntryWhenTheQueueOverflows) {
+TEST(RecordingThread, CountsEveryEntryWhenTheQueueOverflows) {
   const TemporaryDirectory directory;
   RecordingThread thread{writer_for(directory / "run.mcap"), 1};
   constexpr std::uint64_t kEntries = 2000;
@@ -65,7 +65,7 @@ TEST(RecordingThread, HasAnUrgentEntryInTheFileWithoutBeingClosed) {
   auto urgent = entry(7);
   urgent.urgent = true;
   thread.put(std::move(urgent));
-  while (thread.bytes() == 0) std::this_thread::yield();  // the test's own time limit bounds this
+  while (thread.bytes() == 0) std::this_thread::yield();  // the time limit of the test bounds this loop
   EXPECT_EQ(recording::check(file).messages, 1U);
 }
 

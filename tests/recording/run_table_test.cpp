@@ -125,7 +125,7 @@ TEST(RunTable, IsRefusedForMessagesOfAnotherVersionWithBothVersions) {
   }
 }
 
-TEST(RunTable, SaysThatAPayloadDoesNotFitItsSchema) {
+TEST(RunTable, ReportsAPayloadThatDoesNotFitItsSchema) {
   const TemporaryDirectory directory;
   McapWriter writer{directory / "a.mcap"};
   const TopicChannels channels = add_topic_channels(writer);

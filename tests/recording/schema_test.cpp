@@ -75,7 +75,7 @@ TEST(Schema, NamesTheLeavesAsFlattenDoes) {
   EXPECT_EQ(leaves[7].second, "GREEN");
 }
 
-TEST(Schema, ReplacesWhatIsNoVisibleText) {
+TEST(Schema, ReplacesInvisibleText) {
   const Schema schema{"@final struct Note { string text; };"};
   const auto sample = schema.decode("Note", Payload{0, 1, 0, 0, 4, 0, 0, 0, 'a', 0xC3, 0x1B, 0});
   EXPECT_EQ(sample.dump(), "{\"text\":\"a??\"}");
@@ -120,7 +120,7 @@ TEST(Schema, RefusesEveryPayloadThatIsCutOrTooLong) {
   EXPECT_THAT(decode_error(schema, "outer::Shape", longer), HasSubstr("bytes remain after the last field"));
 }
 
-TEST(Schema, SaysWhichTypeItDoesNotHave) {
+TEST(Schema, NamesAnUnknownType) {
   EXPECT_THROW((void)Schema{kIdl}.decode("outer::Circle", Payload{0, 1, 0, 0}), std::out_of_range);
   EXPECT_THROW((void)Schema{kIdl}.columns("Shape"), std::out_of_range);
 }
@@ -134,7 +134,7 @@ std::string schema_error(const std::string& idl) {
   return "no SchemaError";
 }
 
-TEST(Schema, NamesTheLineOfWhatItDoesNotUnderstand) {
+TEST(Schema, NamesTheLineOfAnUnsupportedConstruct) {
   EXPECT_EQ(schema_error("@final struct A {\n  uint8 a\n};"), "line 3: expected ';', found '}'");
   EXPECT_EQ(schema_error("\nstruct A { uint8 a; };"),
             "line 2: the struct must be @final: other layouts are not supported");
@@ -170,7 +170,7 @@ TEST(Schema, SurvivesEveryPrefixOfTheTopicsText) {
     try {
       const Schema schema{idl.substr(0, size)};
     } catch (const SchemaError&) {
-      continue;  // refused; a prefix that ends between definitions is legal
+      continue;  // refused, as expected; only a prefix that ends between definitions is valid
     }
   }
 }

@@ -48,7 +48,7 @@ TEST(Difference, NamesTheFirstFieldAndElementWithAllDigits) {
   EXPECT_EQ(found->replayed, "0.10000000000000002");
 }
 
-TEST(Difference, SeesTheBitsOfNaNAndTheSignOfZero) {
+TEST(Difference, ComparesTheBitsOfNaNAndTheSignOfZero) {
   msg::Demand recorded{}, replayed{};
   recorded.control_v[0] = std::bit_cast<double>(0x7ff8000000000001ULL);
   replayed.control_v[0] = std::bit_cast<double>(0x7ff8000000000002ULL);
@@ -88,7 +88,7 @@ TEST(Difference, NamesHeaderBooleanEnumerationAndText) {
   EXPECT_EQ(found->replayed, "other");
 }
 
-TEST(Difference, OfBytesThatAreNoSample) {
+TEST(Difference, OfInvalidBytes) {
   const auto cdr = cdr_of(topics::demand, msg::Demand{});
   const auto found = first_difference(topics::demand.description, std::span{cdr}.first(20), cdr);
   ASSERT_TRUE(found);

@@ -85,7 +85,7 @@ TEST_F(RefusedRecording, WithTwoSamplesOfATick) {
   EXPECT_NE(reason_of(copy).find("two samples of crane/state"), std::string::npos);
 }
 
-TEST_F(RefusedRecording, ThatIsNoRecording) {
+TEST_F(RefusedRecording, ThatIsNotARecording) {
   recording::put_contents(directory_ / "text.mcap", "no recording");
   EXPECT_THROW((void)replay::replay(directory_ / "text.mcap", replay::loop_components()),
                recording::ReadError);

@@ -91,7 +91,7 @@ TEST_F(Replay, EqualsAStick) {
   crane.deflect({0.6, -0.3, 0}, 2);
   EXPECT_EQ(crane.status().jog_deflection[0], 0.6);
   crane.deflect({-0.2, 0, 0}, 1);
-  crane.run(1.5);  // a silent stick
+  crane.run(1.5);  // the stick is silent
   EXPECT_EQ(crane.status().jog_deflection[0], 0);
   expect_equal(file_, crane.finish());
 }
@@ -194,7 +194,7 @@ std::uint64_t first_friction_tick(const std::filesystem::path& file) {
   return tick;
 }
 
-/// The same component with a slightly different law: its friction is larger by a millionth.
+/// The same component with a slightly different law: its friction is larger by the factor 1 + 1e-6.
 runtime::ComponentSpec other_friction_law() {
   auto spec = services::friction_compensation_spec();
   spec.make = [](const runtime::Context& context) {
@@ -219,7 +219,7 @@ TEST_F(Changed, AnotherVersionOfALawIsFoundAtTheFirstTickInWhichItActs) {
   EXPECT_EQ(result.first->what.field, "friction_v[0]");
 }
 
-TEST_F(Changed, ATruncatedRecordingIsReplayedAsFarAsItGoes) {
+TEST_F(Changed, ATruncatedRecordingIsReplayedUpToItsEnd) {
   const auto copy = directory_ / "small_chunks.mcap";
   copy_changed(file_, copy, [](const recording::Message&, std::vector<std::uint8_t>&) { return true; });
   expect_equal(copy, ticks_);
@@ -236,7 +236,7 @@ TEST_F(Changed, ATruncatedRecordingIsReplayedAsFarAsItGoes) {
       last = result.equal_ticks;
       if (last < ticks_) ++partial;
     } catch (const replay::Refusal& refusal) {
-      EXPECT_EQ(last, 0U) << refusal.what();  // nothing of the first tick is left
+      EXPECT_EQ(last, 0U) << refusal.what();  // the recording contains no sample of the first tick
     }
   }
   EXPECT_GT(partial, 1U);

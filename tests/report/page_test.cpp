@@ -53,7 +53,7 @@ TEST(Page, LoadsNothingFromAnywhere) {
 
 TEST(Page, SamePageSameBytes) { EXPECT_EQ(to_html(full_of("text")), to_html(full_of("text"))); }
 
-TEST(Page, SetsNumbersFlushRightAndTextsLeft) {
+TEST(Page, AlignsNumbersRightAndTextsLeft) {
   const auto cell = [](const std::string& text) {
     const std::string html = to_html(page_of(Table{.title = "", .header = {"h"}, .rows = {{Cell{text}}}}));
     const auto at = html.find("<td class=\"") + 11;
@@ -71,11 +71,11 @@ TEST(Page, WritesNumbersWithTheirInterval) {
   EXPECT_EQ(number(1e300, 0).text.size(), 301U);
 }
 
-TEST(Page, RefusesAPictureThatIsNoSvg) {
+TEST(Page, RefusesAPictureThatIsNotSvg) {
   EXPECT_THROW((void)to_html(page_of(Picture{.title = "p", .svg = "<?xml?>"})), std::invalid_argument);
 }
 
-TEST(Page, IsWrittenAsItIs) {
+TEST(Page, IsWrittenUnchanged) {
   const auto file = std::filesystem::path{testing::TempDir()} / "page_test.html";
   write_html(file, full_of("text"));
   std::ostringstream read;

@@ -54,7 +54,7 @@ TEST(PlotData, KeepsValuesToFiveDigitsOfTheirRange) {
       y.push_back(offset + scale * unit(random));
     }
     const auto [low, high] = std::minmax_element(y.begin(), y.end());
-    // Half a step of 1e-5 of the range, and what a double of that size can hold to 15 digits.
+    // Tolerance: half a step of 1e-5 of the range, plus the error of 15 digits of a double.
     const double tolerance = 0.5e-5 * (*high - *low) + 1e-14 * std::max(std::abs(*low), std::abs(*high));
     EXPECT_THAT(decoded(shown(plot_of(x, {series_of(y)})).at("series")[0].at("y")),
                 testing::Pointwise(testing::DoubleNear(tolerance), y));
@@ -69,7 +69,7 @@ TEST(PlotData, LeavesGapsWhereValuesAreNotFinite) {
   EXPECT_THAT(y, ElementsAre(1, testing::IsNan(), testing::IsNan(), 2));
 }
 
-TEST(PlotData, TakesConstantsAndNothing) {
+TEST(PlotData, EncodesConstantsAndEmptyData) {
   EXPECT_THAT(decoded(shown(plot_of({0, 1}, {series_of({0, 0})})).at("series")[0].at("y")),
               ElementsAre(0, 0));
   EXPECT_THAT(decoded(shown(plot_of({0, 1}, {series_of({-7.5, -7.5})})).at("series")[0].at("y")),
@@ -84,7 +84,7 @@ TEST(PlotData, PutsPointsInOrder) {
               testing::Pointwise(testing::DoubleNear(2e-4), {10, 11, 20, 30}));
 }
 
-TEST(PlotData, HoldsEveryDistinctXOnce) {
+TEST(PlotData, ContainsEveryDistinctXOnce) {
   Series own = series_of({1, 2, 3});
   own.x = {0, 5, 10};
   const auto plot = shown(plot_of({0, 1}, {series_of({1, 2}), own, series_of({3, 4})}));
@@ -94,7 +94,7 @@ TEST(PlotData, HoldsEveryDistinctXOnce) {
   EXPECT_EQ(plot.at("series")[2].at("x"), 0);
 }
 
-TEST(PlotData, RefusesWhatDoesNotFitNamingPlotAndSeries) {
+TEST(PlotData, RefusesInvalidDataWithPlotAndSeries) {
   EXPECT_EQ(refusal_of(plot_of({0, 1}, {series_of({1})})), "plot \"p\", series \"s\": 1 y for 2 x");
   EXPECT_THAT(refusal_of(plot_of({1, 0}, {series_of({1, 2})})), HasSubstr("x decreases"));
   EXPECT_THAT(refusal_of(plot_of({0, kNaN}, {series_of({1, 2}, Style::points)})),

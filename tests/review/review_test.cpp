@@ -60,7 +60,7 @@ TEST_F(Recorded, TheFirstSentenceNamesTheFirstCauseAndTheThirdItsConsequence) {
   EXPECT_THAT(lines[2], StartsWith("Then: BRIDGE_LATCHED"));
 }
 
-TEST_F(Recorded, ThePageStandsAloneAndHasStatesFiguresAndCurves) {
+TEST_F(Recorded, ThePageIsSelfContainedAndHasStatesFiguresAndCurves) {
   write_a_latch();
   const auto html = report::to_html(page_of(review(file)));
   for (const auto* text :
@@ -70,22 +70,22 @@ TEST_F(Recorded, ThePageStandsAloneAndHasStatesFiguresAndCurves) {
   EXPECT_EQ(html, report::to_html(page_of(review(file))));
 }
 
-TEST_F(Recorded, WithoutAStopNothingIsBlamed) {
+TEST_F(Recorded, WithoutAStopNoCauseIsNamed) {
   write({state_at(kZero_ns, 1), observation::status_at(kZero_ns + 1, crane_STATE_HOLD, crane_CAUSE_NONE)});
   EXPECT_EQ(sentences(review(file)).front(), "Nothing stopped the crane in this recording.");
 }
 
-TEST_F(Recorded, ADamagedFileIsReviewedAsFarAsItGoes) {
+TEST_F(Recorded, TheIntactPartsOfADamagedFileAreReviewed) {
   write_a_latch();
   const auto bytes = recording::contents_of(file);
-  recording::put_contents(file, bytes.substr(0, bytes.size() - 40));  // index and end are gone
+  recording::put_contents(file, bytes.substr(0, bytes.size() - 40));  // index and end of the file are missing
   const auto found = review(file);
   EXPECT_FALSE(found.problems.empty());
   EXPECT_THAT(sentences(found).front(), HasSubstr("LATCH_speed"));
   EXPECT_THAT(sentences(found).back(), StartsWith("The file is damaged: "));
 }
 
-TEST_F(Recorded, AFileThatIsNoRecordingIsRefused) {
+TEST_F(Recorded, AFileThatIsNotARecordingIsRefused) {
   recording::put_contents(file, "trolley,slew\n1,2\n");
   EXPECT_THROW((void)review(file), recording::ReadError);
 }

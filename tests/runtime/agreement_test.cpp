@@ -1,5 +1,5 @@
-// Which process has another rig file or controller, and how the supervisor learns of a difference anywhere in
-// the loop.
+// Detection of the process that has another rig file or controller, and propagation of a difference to the
+// supervisor.
 #include "crane/runtime/agreement.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST_F(AgreementOfTwoInputs, StatesZeroAndNamesTheProcessWithAnotherOne) {
   EXPECT_EQ(agreement_.other(), crane_SOURCE_TRACKING);
 }
 
-TEST_F(AgreementOfTwoInputs, PassesOnADifferenceThatAnInputHasFound) {
+TEST_F(AgreementOfTwoInputs, PassesOnADifferenceThatAnInputStates) {
   note(state_with(kOwn), contribution_with(0));
   EXPECT_EQ(agreement_.configuration(), 0U);
   EXPECT_FALSE(agreement_.other()) << "the process that found the difference names the other process";

@@ -49,7 +49,7 @@ class Inbox : public testing::Test {
                       {crane_REQUEST_STOP, crane_REQUEST_ARM}};
 };
 
-TEST_F(Inbox, HandsOutARequestOnItsTickAndNotBefore) {
+TEST_F(Inbox, ReturnsARequestAtItsTickAndNotBefore) {
   send(1, 20);
   send(2, 0);
   inbox_.receive();
@@ -77,7 +77,7 @@ TEST_F(Inbox, AFloodFillsNeitherItsMemoryNorATick) {
   EXPECT_EQ(refusals(), 1000 - RequestInbox::kMostWaiting);
 }
 
-TEST_F(Inbox, AFloodOfRequestsForLaterDoesNotKeepAStopOut) {
+TEST_F(Inbox, AFloodOfScheduledRequestsDoesNotBlockAStop) {
   for (std::uint64_t id = 1; id <= 1000; ++id) send(id, 500'000);
   while (inbox_.receive()) {
   }

@@ -45,7 +45,7 @@ TEST_F(TickJoining, CompletesWithTheSamplesOfTheSameTickOnly) {
   ASSERT_EQ(join.poll(1), JoinResult::complete);
   EXPECT_EQ(join.tick(), 7U);
   EXPECT_EQ(join.get<1>()->header.tick, 7U);
-  state(8);  // the reference that came early is still there
+  state(8);  // the join still has the reference that arrived early
   EXPECT_EQ(join.poll(2), JoinResult::complete);
 }
 
@@ -59,14 +59,14 @@ TEST_F(TickJoining, GivesUpAfterTheBoundAndCountsTheTickLost) {
   EXPECT_EQ(join.counts().lost, 1U);
 }
 
-TEST_F(TickJoining, WaitsHalfTheBoundOnceMoreWhenItWasNotWokenInTime) {
+TEST_F(TickJoining, ExtendsTheWaitOnceByHalfTheBoundAfterALateWakeUp) {
   auto join = this->join(false);
   state(1);
   EXPECT_EQ(join.poll(0), JoinResult::waiting);
-  EXPECT_EQ(join.poll(20'000'000),
-            JoinResult::waiting);  // a pause: what has come may not have been handed over
+  // after a pause, arrived samples may not have been delivered yet
+  EXPECT_EQ(join.poll(20'000'000), JoinResult::waiting);
   EXPECT_EQ(join.due_ns(), 22'000'000);
-  EXPECT_EQ(join.poll(40'000'000), JoinResult::incomplete);  // paused again: no second respite
+  EXPECT_EQ(join.poll(40'000'000), JoinResult::incomplete);  // a second pause does not extend the wait again
   state(2);
   EXPECT_EQ(join.poll(40'000'000), JoinResult::waiting);
   EXPECT_EQ(join.poll(60'000'000), JoinResult::waiting);
@@ -81,7 +81,7 @@ TEST_F(TickJoining, CountsGapsLateAndDuplicateSamples) {
     reference(tick);
     ASSERT_EQ(join.poll(0), JoinResult::complete);
   }
-  EXPECT_EQ(join.counts().lost, 3U);  // 2, 3, 4 never came
+  EXPECT_EQ(join.counts().lost, 3U);  // ticks 2, 3 and 4 never arrived
   reference(4);
   state(6);
   state(6);
@@ -90,7 +90,7 @@ TEST_F(TickJoining, CountsGapsLateAndDuplicateSamples) {
   EXPECT_EQ(join.counts().duplicate, 1U);
 }
 
-TEST_F(TickJoining, LeavesAnOldTickForTheNewestInRealTime) {
+TEST_F(TickJoining, AbandonsAnOldTickForTheNewestInRealTime) {
   auto join = this->join(false);
   state(1);
   EXPECT_EQ(join.poll(0), JoinResult::waiting);
@@ -101,7 +101,7 @@ TEST_F(TickJoining, LeavesAnOldTickForTheNewestInRealTime) {
   EXPECT_EQ(join.counts().lost, 1U);
 }
 
-TEST_F(TickJoining, TakesEveryTickInOrderInLockstepHoweverLongItTakes) {
+TEST_F(TickJoining, TakesEveryTickInOrderInLockstepWithoutATimeLimit) {
   auto join = this->join(true);
   for (std::uint64_t tick = 0; tick < 4; ++tick) state(tick);
   EXPECT_EQ(join.poll(1'000'000'000'000), JoinResult::waiting);
@@ -113,7 +113,7 @@ TEST_F(TickJoining, TakesEveryTickInOrderInLockstepHoweverLongItTakes) {
   EXPECT_EQ(join.counts().lost, 0U);
 }
 
-TEST_F(TickJoining, ATickThatTimeCannotHaveReachedBlocksNothing) {
+TEST_F(TickJoining, ATickFarAheadIsDropped) {
   auto join = this->join(false);
   state(1);
   reference(1);
@@ -127,7 +127,7 @@ TEST_F(TickJoining, ATickThatTimeCannotHaveReachedBlocksNothing) {
   EXPECT_EQ(join.tick(), 2U);
 }
 
-TEST_F(TickJoining, ATickAfterAPauseOfTheBridgeIsBelieved) {
+TEST_F(TickJoining, ATickAfterAPauseOfTheBridgeIsAccepted) {
   auto join = this->join(false);
   state(1);
   reference(1);

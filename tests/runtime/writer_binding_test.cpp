@@ -34,14 +34,14 @@ class Binding : public testing::Test {
   WriterBinding binding_{topics::command.description};
 };
 
-TEST_F(Binding, BelongsToTheFirstWriterThatMayWriteTheTopic) {
+TEST_F(Binding, IsThatOfTheFirstPermittedWriter) {
   EXPECT_EQ(binding_.judge(writer(9, 7, crane_SOURCE_OPERATOR), ms(0), 1), Verdict::foreign);
   EXPECT_FALSE(binding_.bound());
   supervisor_speaks_until(100);
   EXPECT_EQ(binding_.foreign(), 1U);
 }
 
-TEST_F(Binding, RefusesEveryOtherWriterWhateverItsHeaderSays) {
+TEST_F(Binding, RefusesEveryOtherWriterWithAnyHeader) {
   supervisor_speaks_until(100);
   const std::vector<Writer> strangers{
       writer(2),                             // the supervisor's own header, from another DDS writer
@@ -58,7 +58,7 @@ TEST_F(Binding, RefusesEveryOtherWriterWhateverItsHeaderSays) {
   EXPECT_EQ(binding_.judge(writer(1), ms(110), 2), Verdict::own);
 }
 
-TEST_F(Binding, OfNobodyWhileTwoWritersAreThere) {
+TEST_F(Binding, DoesNotBeginWhileTwoWritersExist) {
   EXPECT_EQ(binding_.judge(writer(1), ms(0), 2), Verdict::foreign);
   EXPECT_EQ(binding_.judge(writer(2), ms(0), 2), Verdict::foreign);
   EXPECT_TRUE(binding_.disputed(ms(10)));
@@ -71,7 +71,7 @@ TEST_F(Binding, IsDisputedByAWriterThatIsMatchedAndSilent) {
   EXPECT_TRUE(binding_.disputed(ms(100)));
 }
 
-TEST_F(Binding, StaysDisputedForASecondAfterTheLastSign) {
+TEST_F(Binding, StaysDisputedForASecondAfterTheLastDetection) {
   supervisor_speaks_until(100);
   (void)binding_.judge(writer(2), ms(100), 2);
   EXPECT_TRUE(binding_.disputed(ms(1099)));
@@ -86,7 +86,7 @@ TEST_F(Binding, PassesToANewStartOnlyAfterTheOldOneHasBeenSilent) {
   EXPECT_EQ(binding_.judge(writer(1), ms(320), 2), Verdict::foreign);  // the old writer continues
 }
 
-TEST_F(Binding, IsNotDisputedByADeadWriterThatDdsHasNotGivenUpYet) {
+TEST_F(Binding, IsNotDisputedByADeadWriterThatDdsStillMatches) {
   supervisor_speaks_until(100);
   ASSERT_EQ(binding_.judge(writer(2, 8), ms(700), 2), Verdict::taken_over);
   binding_.watch(ms(700), 2);

@@ -27,7 +27,7 @@ BusOptions reachable() {
   return options;
 }
 
-TEST(OpenNetwork, IsRefusedToWhatWritesWithWhatToDo) {
+TEST(OpenNetwork, IsRefusedToWritingProgramsWithTheRemedy) {
   for (const auto source :
        {crane_SOURCE_SUPERVISOR, crane_SOURCE_BRIDGE, crane_SOURCE_OPERATOR, crane_SOURCE_RECORDER})
     EXPECT_THAT(refusal(reachable(), source),
@@ -35,11 +35,11 @@ TEST(OpenNetwork, IsRefusedToWhatWritesWithWhatToDo) {
                       HasSubstr("--insecure")));
 }
 
-TEST(OpenNetwork, IsOpenToWhatOnlyReads) {
+TEST(OpenNetwork, IsPermittedToProgramsThatOnlyRead) {
   EXPECT_EQ(refusal(reachable(), crane_SOURCE_MONITOR), "accepted");
 }
 
-TEST(OpenNetwork, IsOpenToWhoeverSaysInsecureAndIsCalledSo) {
+TEST(OpenNetwork, IsPermittedWithInsecureAndReportedAsInsecure) {
   auto options = reachable();
   options.insecure = true;
   EXPECT_TRUE(is_insecure(bus_options(options, "test", crane_SOURCE_SUPERVISOR, 1)));

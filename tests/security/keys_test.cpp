@@ -69,7 +69,7 @@ TEST(Roles, OnlyTheSupervisorMayWriteCommands) {
   }
 }
 
-TEST(Roles, OnlyTheOperatorMayAskAndAMonitorMayWriteNothing) {
+TEST(Roles, OnlyTheOperatorMayWriteRequestsAndAMonitorMayWriteNothing) {
   for (const auto& role : roles()) {
     const bool may = testing::Value(writes(role), Contains("crane/request"));
     EXPECT_EQ(may, role.name == "operator") << role.name;
@@ -94,7 +94,7 @@ TEST_F(Keys, OfAnotherAuthorityAreRefused) {
                                 HasSubstr("copy the file"))));
 }
 
-TEST_F(Keys, ThatExpiredAreNamedWithTheirDay) {
+TEST_F(Keys, ThatExpiredAreNamedWithTheirDate) {
   const auto now_s = static_cast<std::int64_t>(std::time(nullptr));
   make(temporary_ / "old", {now_s - 3 * kDay_s, now_s - kDay_s});
   EXPECT_THAT(problems(identity(temporary_ / "old", "operator", "fastdds"), "fastdds"),
@@ -102,7 +102,7 @@ TEST_F(Keys, ThatExpiredAreNamedWithTheirDay) {
                              HasSubstr("must be valid now"), HasSubstr("crane keys make"))));
 }
 
-TEST_F(Keys, ThatAreNotYetValidBlameTheClock) {
+TEST_F(Keys, ThatAreNotYetValidNameTheClockAsReason) {
   const auto now_s = static_cast<std::int64_t>(std::time(nullptr));
   make(temporary_ / "new", {now_s + kDay_s, now_s + 2 * kDay_s});
   EXPECT_THAT(problems(identity(temporary_ / "new", "operator", "fastdds"), "fastdds"),
@@ -131,14 +131,14 @@ TEST_F(Keys, PermissionsOfAnotherIdentityAreRefused) {
   EXPECT_THAT(problems_of("monitor"), ElementsAre(HasSubstr("does not name CN=monitor.cyclone")));
 }
 
-TEST_F(Keys, AKeyThatOthersMayReadIsRefusedWithTheCommandThatHelps) {
+TEST_F(Keys, AKeyThatOthersMayReadIsRefusedWithTheRemedy) {
   const auto key = identity(directory(), "operator", "cyclone").key;
   ::chmod(key.c_str(), 0640);
   EXPECT_THAT(problems_of("operator"),
               ElementsAre(AllOf(HasSubstr("mode 640"), HasSubstr("chmod 600 " + key.string()))));
 }
 
-TEST_F(Keys, AnIdentityOfTheOtherVendorIsRefusedBecauseTheyWouldNotShakeHands) {
+TEST_F(Keys, AnIdentityOfTheOtherVendorIsRefused) {
   EXPECT_THAT(problems(identity(directory(), "tracking", "fastdds"), "cyclone"),
               ElementsAre(AllOf(HasSubstr("CN=tracking.fastdds"), HasSubstr("0x80"))));
 }

@@ -38,14 +38,14 @@ class Echo : public testing::Test {
   bool released_ = false;
 };
 
-TEST_F(Echo, IsQuietWhileTheBridgeObeys) {
+TEST_F(Echo, AcceptsABridgeThatObeys) {
   for (int i = 0; i < 500; ++i) {
     command(i < 250 ? 0.04 * i : 0, i < 250);
     ASSERT_FALSE(echo_.contradicts(report())) << i;
   }
 }
 
-TEST_F(Echo, IsQuietWhenTheBridgeHoldsAnOldCommandOrGivesNothing) {
+TEST_F(Echo, AcceptsAnOldCommandAndZeroVolts) {
   command(5, true);
   const auto old = report();
   command(0, true);
@@ -55,7 +55,7 @@ TEST_F(Echo, IsQuietWhenTheBridgeHoldsAnOldCommandOrGivesNothing) {
   EXPECT_EQ(noticed_after(latched, 5), 0);
 }
 
-TEST_F(Echo, IsQuietAboutTheCommandsOfASupervisorBeforeThisOne) {
+TEST_F(Echo, AcceptsTheCommandsOfAnEarlierSupervisor) {
   auto state = report();
   state.applied_v[0] = 5;
   EXPECT_EQ(noticed_after(state), 0) << "nothing commanded yet";
@@ -64,21 +64,21 @@ TEST_F(Echo, IsQuietAboutTheCommandsOfASupervisorBeforeThisOne) {
   EXPECT_EQ(noticed_after(state, 5), 0);
 }
 
-TEST_F(Echo, NoticesVoltsThatWereNotCommandedAtTheSecondState) {
+TEST_F(Echo, DetectsUncommandedVoltsAtTheSecondState) {
   command(0, false);
   auto state = report();
   state.applied_v[1] = -0.2;
   EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
 }
 
-TEST_F(Echo, NoticesVoltsOfACommandThatWasNeverSent) {
+TEST_F(Echo, DetectsVoltsOfACommandThatWasNeverSent) {
   command(5, true);
   auto state = report();
   state.applied_command_tick += 3;
   EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
 }
 
-TEST_F(Echo, NoticesABrakeThatIsOpenThoughNobodyHereReleasedIt) {
+TEST_F(Echo, DetectsABrakeThatIsOpenWithoutARelease) {
   command(0, false);
   auto state = report();
   state.brake_closed[2] = false;
@@ -89,7 +89,7 @@ TEST_F(Echo, NoticesABrakeThatIsOpenThoughNobodyHereReleasedIt) {
   EXPECT_EQ(noticed_after(state), CommandEcho::kStates);
 }
 
-TEST_F(Echo, DoesNotAskForABrakeWhereThereIsNoDrive) {
+TEST_F(Echo, IgnoresTheBrakesOfAbsentDrives) {
   CommandEcho echo{{true, true, false}};
   msg::Command command{};
   echo.commanded(command);

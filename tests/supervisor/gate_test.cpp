@@ -73,7 +73,7 @@ TEST(Gate, RejectsAWholeDemandWithOneValueThatIsNotFinite) {
   }
 }
 
-TEST(Gate, MissingAndInvalidDemandsTogetherDoNotHoldTheOutputForLong) {
+TEST(Gate, MissingAndInvalidDemandsTogetherEndTheHeldOutput) {
   GateMemory memory;
   EXPECT_EQ(pass(test_limits(), memory, 5).cause, Cause::none);
   EXPECT_EQ(pass(test_limits(), memory, kNaN).cause, Cause::none);
@@ -91,7 +91,7 @@ TEST(Gate, AFullStepFromRestIsNotClampedAndAReversalTakesTwoTicks) {
   EXPECT_EQ(pass(test_limits(), memory, -10).drive_v[0], -10);
 }
 
-TEST(Gate, RateClampingWithoutPauseStopsTheCrane) {
+TEST(Gate, UninterruptedRateLimitingStopsTheCrane) {
   for (const double rate_vps : {1000.0, 100.0}) {
     Limits limits = test_limits();
     limits.axis[0].volt_rate_limit_vps = rate_vps;

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-TEST(SupervisorLimits, AreFineAsTheTestsUseThem) { EXPECT_THAT(problems(test_limits()), IsEmpty()); }
+TEST(SupervisorLimits, AreValidInTheTests) { EXPECT_THAT(problems(test_limits()), IsEmpty()); }
 
 TEST(SupervisorLimits, RequireAMarginOfTheStoppingDistanceAtFullSpeed) {  // S19
   Limits limits = test_limits();
@@ -64,7 +64,7 @@ TEST(SupervisorLimits, AllowTargetsInsideTheSoftLimitsOnly) {
   EXPECT_FALSE(target_allowed(trolley, std::numeric_limits<double>::quiet_NaN()));
 }
 
-TEST(Envelope, TakesNaNAsAViolation) {
+TEST(Envelope, TreatsNaNAsAViolation) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(check_envelope(test_limits(), {.position = {nan, 0, 0}}).position);
   EXPECT_TRUE(check_envelope(test_limits(), {.position = {0.7, 0, 0}, .speed = {nan, 0, 0}}).overspeed);

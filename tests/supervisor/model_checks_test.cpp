@@ -90,7 +90,7 @@ TEST_F(Trolley, ThatObeysIsNoFollowingErrorWithinTheToleranceOfItsGain) {
   }
 }
 
-/// After each pause of 25 ms the computer makes up for it with a tick of 3 ms.
+/// After each pause of 25 ms, the next tick follows after 3 ms.
 TEST_F(Trolley, ThatObeysIsNoFollowingErrorWhileTheComputerPauses) {
   struct Tick {
     double duration_s, volts_v;
@@ -105,7 +105,7 @@ TEST_F(Trolley, ThatObeysIsNoFollowingErrorWhileTheComputerPauses) {
     }
 }
 
-TEST_F(Trolley, WhoseConverterIsStuckIsFoundBeforeItIsFast) {
+TEST_F(Trolley, WithAStuckConverterIsDetectedBeforeItIsFast) {
   ASSERT_EQ(drive(0, 0, 20), 0);
   const int ticks = drive(0, 10, 50);
   ASSERT_GT(ticks, 0);
@@ -113,14 +113,14 @@ TEST_F(Trolley, WhoseConverterIsStuckIsFoundBeforeItIsFast) {
   EXPECT_LT(std::abs(speed_), 0.75);
 }
 
-TEST_F(Trolley, WhoseDriveHasTheWrongSignIsFoundWithinFiveTicks) {
+TEST_F(Trolley, WithAWrongSignOfItsDriveIsDetectedWithinFiveTicks) {
   ASSERT_EQ(drive(0, 0, 20), 0);
   const int ticks = drive(5, -5, 50);
   EXPECT_GT(ticks, 0);
   EXPECT_LE(ticks, 5);
 }
 
-TEST_F(Trolley, WhoseEncoderStopsWhileItMovesIsFoundInTheNextTicks) {
+TEST_F(Trolley, WithAFrozenEncoderIsDetectedInTheNextTicks) {
   ASSERT_EQ(drive(0, 0, 20), 0);
   ASSERT_EQ(drive(5, 5, 20), 0);
   const int ticks = drive(5, 5, 50, 1, true);
@@ -158,7 +158,7 @@ class Load : public testing::Test {
   double time_s_ = 1, angle_ = 0.3, rate_ = 0, cable_m_ = 1, measured_m_ = 1, wind_mps2_ = 0;
 };
 
-TEST_F(Load, ThatSwingsIsNoFailureHoweverItBegan) { EXPECT_EQ(swing(6000, as_it_is), 0); }
+TEST_F(Load, ThatSwingsIsNotAFailure) { EXPECT_EQ(swing(6000, as_it_is), 0); }
 
 TEST_F(Load, OnACableThatIsHalfOrOneAndAHalfTimesAsLongIsNoFailure) {
   for (const double ratio : {0.5, 1.5}) {
@@ -177,12 +177,12 @@ TEST_F(Load, InTheWindOfTheRigFileIsNoFailureAndInAStrongerWindIsOne) {
   wind_mps2_ = 0.8;
   EXPECT_EQ(swing(6000, as_it_is), 0);
   memory_ = {};
-  wind_mps2_ = 1.2;  // beyond wind and zero error together, 0.8 + 0.2
+  wind_mps2_ = 1.2;  // larger than the tolerances of wind and zero error together, 0.8 + 0.2
   angle_ = std::asin(wind_mps2_ / 9.81), rate_ = 0;
   EXPECT_GT(swing(6000, as_it_is), 0);
 }
 
-TEST_F(Load, ThatSomebodyPushesIsNoFailure) {
+TEST_F(Load, ThatIsPushedIsNotAFailure) {
   ASSERT_EQ(swing(100, as_it_is), 0);
   rate_ += 0.5;
   EXPECT_EQ(swing(1000, as_it_is), 0);
@@ -190,7 +190,7 @@ TEST_F(Load, ThatSomebodyPushesIsNoFailure) {
   EXPECT_EQ(swing(1000, as_it_is), 0);
 }
 
-TEST_F(Load, WhoseEncoderStandsIsFoundWhateverItShows) {
+TEST_F(Load, WithAFrozenEncoderIsDetectedAtAnyAngle) {
   for (int begin = 60; begin < 160; begin += 7) {
     memory_ = {};
     angle_ = 0.3, rate_ = 0;
@@ -202,7 +202,7 @@ TEST_F(Load, WhoseEncoderStandsIsFoundWhateverItShows) {
   }
 }
 
-TEST_F(Load, WhoseEncoderShakesIsFound) {
+TEST_F(Load, WithANoisyEncoderIsDetected) {
   std::mt19937_64 random{1};
   std::uniform_real_distribution<double> noise{-0.08, 0.08};
   ASSERT_EQ(swing(100, as_it_is), 0);

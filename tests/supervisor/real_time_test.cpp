@@ -100,7 +100,7 @@ class RealTimeOnTwoHosts : public SupervisorInRealTime, public testing::WithPara
   RealTimeOnTwoHosts() : SupervisorInRealTime{GetParam()} {}
 };
 
-TEST_P(RealTimeOnTwoHosts, SilenceIsJudgedByTheOwnClock) {
+TEST_P(RealTimeOnTwoHosts, SilenceIsMeasuredWithTheClockOfTheSupervisor) {
   state_comes(11);
   wake_at(110);
   demand_comes(11);
@@ -118,7 +118,7 @@ TEST_P(RealTimeOnTwoHosts, SilenceIsJudgedByTheOwnClock) {
 INSTANTIATE_TEST_SUITE_P(ClocksAnHourApart, RealTimeOnTwoHosts,
                          testing::Values(0, 3'600'000'000'000, -3'600'000'000'000));
 
-TEST_F(RealTime, CountsATickWhoseDemandDoesNotComeOnce) {
+TEST_F(RealTime, CountsATickWithAMissingDemandOnce) {
   state_comes(11);
   wake_at(110);
   sleep_until(119);
@@ -126,10 +126,11 @@ TEST_F(RealTime, CountsATickWhoseDemandDoesNotComeOnce) {
   EXPECT_EQ(steps(), 11);
 }
 
-TEST_F(RealTime, WaitsForTheDemandOfAStateThatCameLate) {
+TEST_F(RealTime, WaitsForTheDemandOfALateState) {
   state_comes(11);
   wake_at(114.5);
-  sleep_until(118);  // 115 ms, a period and a half after state 10: the state is here, its demand is due
+  // 115 ms, one and a half periods after state 10: the state has arrived, its demand is due
+  sleep_until(118);
   EXPECT_EQ(steps(), 10);
   demand_comes(11);
   wake_at(118);
@@ -137,12 +138,12 @@ TEST_F(RealTime, WaitsForTheDemandOfAStateThatCameLate) {
 }
 
 TEST_F(RealTime, APauseOfTheComputerIsNotThreeMissingTicks) {
-  wake_at(127);  // 12 ms late: state 11 has come, and has not been handed over
+  wake_at(127);  // 12 ms late: state 11 has arrived, but has not been delivered
   EXPECT_EQ(steps(), 10);
   state_comes(11);
   wake_at(127.1);
   state_comes(12);
-  wake_at(141);  // paused again, 14 ms
+  wake_at(141);  // a second pause of 14 ms
   sleep_until(142);
   EXPECT_EQ(missing(), 0U);
   demand_comes(12);
@@ -151,7 +152,7 @@ TEST_F(RealTime, APauseOfTheComputerIsNotThreeMissingTicks) {
   EXPECT_FALSE(demand_is_stale());
 }
 
-TEST_F(RealTime, AStepThatCameLateIsNotFollowedByASecondOneAtOnce) {
+TEST_F(RealTime, ALateStepIsNotFollowedByASecondStepAtOnce) {
   state_comes(11);
   wake_at(127);
   demand_comes(11);
@@ -172,13 +173,14 @@ TEST_F(RealTime, SilenceIsStateStaleAtTheThirdStepWithoutState) {
   EXPECT_TRUE(state_is_stale());
 }
 
-TEST_F(RealTime, ThePausesOfItsOwnDelayTheJudgementByHalfAPeriodAStepAndNoMore) {
+TEST_F(RealTime, ItsOwnPausesDelayAStepByAtMostHalfAPeriod) {
   for (double at_ms = 120; at_ms < 170; at_ms += 5.01) wake_at(at_ms);
   EXPECT_TRUE(state_is_stale());
 }
 
-TEST_F(RealTime, StatesThatComeAsOftenAsItIsWokenDoNotPutOffTheJudgementForEver) {
-  for (std::uint64_t tick = 11; tick <= 25; ++tick) {  // never awake when the bound of a tick ends
+TEST_F(RealTime, FrequentStatesDoNotDelayTheStepForEver) {
+  for (std::uint64_t tick = 11; tick <= 25;
+       ++tick) {  // the process is never awake at the end of the wait of a tick
     state_comes(tick);
     wake_at(10.0 * static_cast<double>(tick));
   }

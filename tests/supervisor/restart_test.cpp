@@ -26,7 +26,7 @@ void pass_self_test(Timeline& t) {
   t.run(1.1);
 }
 
-TEST(Restart, ABridgeStartedAgainAtRestIsTestedAndCanBeResetAndArmed) {  // S25
+TEST(Restart, ARestartedBridgeAtRestIsTestedAndCanBeResetAndArmed) {  // S25
   Timeline t;
   t.to_hold();
   exchange_bridge(t);
@@ -76,7 +76,7 @@ TEST(Restart, TheNewBridgesPositionsAreJudgedFromItsFirstTickOn) {  // S25
   t.to_hold();
   exchange_bridge(t);
   pass_self_test(t);
-  t.world.sample.position[0] = 1.45;  // long before its ticks have reached those of the old bridge
+  t.world.sample.position[0] = 1.45;  // long before the ticks of the new bridge reach those of the old bridge
   t.tick();
   EXPECT_EQ(t.state(), State::fault);
   EXPECT_EQ(t.cause(), Cause::brake_did_not_close);
@@ -162,7 +162,7 @@ TEST(Restart, ALoadThatSwungAtTheStartOfTheBridgeRefusesResetUntilTheNextRestart
   EXPECT_TRUE(t.reset().accepted);
 }
 
-TEST(Restart, AnEmergencyStopAndAFaultOutliveIt) {  // S25
+TEST(Restart, DoesNotEndAnEmergencyStopOrAFault) {  // S25
   Timeline t;
   t.to_run();
   t.speed = {0.3, 0, 0};

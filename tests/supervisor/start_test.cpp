@@ -169,7 +169,7 @@ TEST(Supervisor, ArmingWaitsForTheRelay) {  // S12
   EXPECT_EQ(t.state(), State::hold);
 }
 
-TEST(Supervisor, AMoveThatNeverBeginsEndsInHold) {
+TEST(Supervisor, AMoveThatDoesNotBeginEndsInHold) {
   Timeline t;
   t.to_hold();
   t.ask(Request::move);

@@ -19,7 +19,7 @@ TEST(Supervisor, StopsFourTicksAfterTheLastDemand) {  // S5
   t.world.demand_arrived = false;
   t.ticks(2);
   EXPECT_EQ(t.state(), State::run);
-  EXPECT_EQ(t.out.drive_v[0], 6);  // rides through two missing demands
+  EXPECT_EQ(t.out.drive_v[0], 6);  // the gate holds the voltage during two missing demands
   t.tick();
   EXPECT_EQ(t.state(), State::stop_c1);
   EXPECT_EQ(t.cause(), Cause::demand_stale);
@@ -51,7 +51,7 @@ TEST(Supervisor, RampsEvenlyWhenTheRampTakesMoreTicks) {  // S5
   }
 }
 
-TEST(Supervisor, RidesThroughTwoOfThreeDemandsMissing) {
+TEST(Supervisor, ToleratesTwoMissingDemandsOfThree) {
   Timeline t;
   t.to_run();
   for (int i = 0; i < 500; ++i) {

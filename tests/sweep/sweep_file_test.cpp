@@ -66,7 +66,7 @@ TEST(SweepFile, TakesTheRigsControllerAndRigWithoutLists) {
             simulator::Method::fast);
 }
 
-TEST(SweepFile, AllControllersByOneWord) {
+TEST(SweepFile, AcceptsTheWordAllForAllControllers) {
   EXPECT_EQ(parsed("scenarios = [\"maneuver_1\"]\ncontrollers = [\"all\"]").controllers.size(),
             control::controllers().size());
 }

@@ -67,7 +67,7 @@ TEST_F(SweepRun, GivesTheSameBytesForAnyNumberOfProcessesAndAfterInterruptions) 
   }
 }
 
-TEST_F(SweepRun, LeavesARowPerRunWithWhatWasDrawnAndTheFigures) {
+TEST_F(SweepRun, WritesARowPerRunWithDrawnValuesAndFigures) {
   const auto sweep = small();
   (void)run_sweep(sweep, {.directory = directory_ / "out", .processes = 2});
   std::istringstream csv{content_of(directory_ / "out" / "runs.csv")};
@@ -112,7 +112,7 @@ TEST_F(SweepRun, RefusesADamagedLog) {
   EXPECT_THROW((Log{directory_ / "sweep.jsonl", small()}), LogError);
 }
 
-TEST_F(SweepRun, ARunThatCannotBeDoneIsARowWithItsReason) {
+TEST_F(SweepRun, AnImpossibleRunIsARowWithItsReason) {
   const auto sweep = small();
   std::map<std::size_t, Result> results;
   for (std::size_t i = 0; i < sweep.size(); ++i) results[i] = failed(run_of(sweep, i), "signal 11");
@@ -124,7 +124,7 @@ TEST_F(SweepRun, ARunThatCannotBeDoneIsARowWithItsReason) {
   EXPECT_THAT(report::to_html(page_of(sweep, groups)), HasSubstr("signal 11"));
 }
 
-TEST(SweepProgress, SaysRateAndRemainingTime) {
+TEST(SweepProgress, StatesRateAndRemainingTime) {
   EXPECT_EQ(to_string(Progress{.done = 0, .all = 100}), "0 of 100 runs");
   EXPECT_EQ(to_string(Progress{.done = 60, .all = 100, .new_runs = 10, .elapsed_s = 5}),
             "60 of 100 runs, 2.0 runs/s, 0:20 left");

@@ -79,11 +79,12 @@ TEST_F(BridgeRestart, OfACraneAtRestNeedsResetAndArmAndThenItMoves) {
   exchange_bridge();
   running_.session().arm();
   running_.session().move_to({true, false, false}, {0.6, 0, 0}, 10s);
-  constexpr double kArrived_m = 0.02;  // the planner's band of 1 cm, and where the load draws the axis then
+  // the band of the planner of 1 cm, plus the motion that the load causes afterwards
+  constexpr double kArrived_m = 0.02;
   EXPECT_NEAR(running_.session().state()->trolley_position_m, 0.6, kArrived_m);
 }
 
-TEST_F(BridgeRestart, OfACraneThatStandsElsewhereNeedsItsPositionsConfirmed) {
+TEST_F(BridgeRestart, OfACraneAtAnotherPositionNeedsAConfirmation) {
   running_.session().arm();
   running_.session().move_to({true, false, false}, {0.6, 0, 0}, 10s);
   ASSERT_TRUE(until_load_is_still());

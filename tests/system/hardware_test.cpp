@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Dissertation, HardwareManeuver,
                          testing::Values("maneuver_1", "maneuver_2", "maneuver_3", "disturbance_kick"),
                          [](const auto& test) { return std::string{test.param}; });
 
-TEST(HardwareLockstep, ARigInAProcessOfItsOwnGivesTheSameBytesAsOneInTheBridge) {
+TEST(HardwareLockstep, ARigInASeparateProcessGivesTheSameBytesAsARigInTheBridge) {
   const TemporaryDirectory directory;
   auto options = options_for("maneuver_1", directory / "processes");
   options.plant = stack::Plant::hardware;
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(By, BridgeDeath,
                                          SIGSEGV),
                          [](const auto& test) { return "SIG" + std::string{::sigabbrev_np(test.param)}; });
 
-TEST(BridgeProcess, GoesOnWhenItsTerminalIsClosed) {
+TEST(BridgeProcess, ContinuesWhenItsTerminalIsClosed) {
   RunningStack running{kDomain, kRig, stack::Plant::hardware};
   running.session().arm();
   running.send("hardware_bridge", SIGPIPE);
@@ -158,7 +158,7 @@ TEST(BridgeProcess, LeavesZeroVoltsAndClosedBrakesWhenCraneUpIsKilled) {
             closed);  // the emulated rig ends, too: its lines keep the levels of the bridge
 }
 
-TEST(BridgeProcess, EndsWithTheProgramThatStartedItWhateverItsFileMayDo) {
+TEST(BridgeProcess, EndsWithItsParentDespiteFileCapabilities) {
   const int not_the_parent = 1;
   const auto ended =
       run_program(stack::program_directory() / "crane_hardware_bridge",
@@ -177,7 +177,7 @@ class HardwareStart : public testing::Test {
   recording::TemporaryDirectory directory_;
 };
 
-TEST_F(HardwareStart, WithoutAHardwareBoardInTheRigFileIsRefusedWithThoseThereAre) {
+TEST_F(HardwareStart, WithoutAHardwareBoardIsRefusedWithTheListOfBoards) {
   recording::put_contents(directory_ / "rig.toml",
                           "extends = \"" + stack::find_rig(kRig).string() + "\"\nboard = \"simulated\"\n");
   const auto ended = crane({"up", "--plant", "hardware", "--rig", (directory_ / "rig.toml").string()});
@@ -220,7 +220,7 @@ TEST(BridgeInLockstep, IsRefusedOnABoardThatDoesNotSimulateTime) {
   }
 }
 
-TEST_F(HardwareStart, ABridgeWithoutItsRigSaysWhatToStart) {
+TEST_F(HardwareStart, ABridgeWithoutItsRigNamesTheProgramToStart) {
   const auto ended = run_program(stack::program_directory() / "crane_hardware_bridge",
                                  {"--rig", stack::find_rig(kRig).string(), "--domain",
                                   std::to_string(kDomain), "--crane", crane_name()});

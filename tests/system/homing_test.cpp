@@ -20,7 +20,7 @@ Ended crane(std::vector<std::string> arguments) {
   return run_program(stack::program_directory() / "crane", arguments);
 }
 
-TEST(CraneHome, LetsTheTrolleyCreepToItsMarkAndSaysWhatIsNotHomed) {
+TEST(CraneHome, HomesTheTrolleyAndNamesTheAxesThatAreNotHomed) {
   const recording::TemporaryDirectory directory;
   const auto rig = directory / "near_its_mark.toml";
   recording::put_contents(rig, "extends = \"" + stack::find_rig("homing_servo_to_go").string() +
@@ -32,7 +32,7 @@ TEST(CraneHome, LetsTheTrolleyCreepToItsMarkAndSaysWhatIsNotHomed) {
   running.session().request_with_patience({.kind = crane_REQUEST_RESET}, "reset");
   EXPECT_THAT(crane({"move", "--trolley", "1.0"}).errors, HasSubstr("crane home"));
   auto ended = crane({"home", "--axis", "trolley", "--timeout", "60"});
-  for (int i = 0; i < 2 && ended.exit_code != 0; ++i) {  // lost ticks on a busy computer stop the crane
+  for (int i = 0; i < 2 && ended.exit_code != 0; ++i) {  // on a busy computer, lost ticks can stop the crane
     std::cout << ended.errors;
     EXPECT_FALSE(running.observer().states().back().position_known[0]);
     running.session().request_with_patience({.kind = crane_REQUEST_RESET}, "reset");

@@ -72,7 +72,9 @@ class Lockstep : public testing::Test {
 
 TEST_F(Lockstep, ProcessesGiveTheSameBytesTwice) { expect_same_bytes(run("first"), run("second")); }
 
-TEST_F(Lockstep, OneProcessGivesTheSameBytesAsMany) { expect_same_bytes(run_in_process(), run("processes")); }
+TEST_F(Lockstep, OneProcessGivesTheSameBytesAsSeparateProcesses) {
+  expect_same_bytes(run_in_process(), run("processes"));
+}
 
 TEST_F(Lockstep, FastDdsGivesTheSameBytes) {
   options_.bus.vendor = "fastdds";
@@ -99,7 +101,7 @@ struct Law {
 
 class LawInLockstep : public Lockstep, public testing::WithParamInterface<Law> {};
 
-TEST_P(LawInLockstep, GivesTheSameBytesInOneProcessAsInMany) {
+TEST_P(LawInLockstep, GivesTheSameBytesInOneProcessAsInSeparateProcesses) {
   options_.controller = GetParam().controller;
   options_.variant = GetParam().variant;
   expect_same_bytes(run_in_process(), run("processes"));

@@ -1,5 +1,5 @@
-// crane play on both vendors: viewers receive the recorded samples in their time; the readers of the loop
-// accept none; a crane is never disturbed.
+// crane play on both vendors: viewers receive the recorded samples at their times; the readers of the loop
+// accept no sample; a crane is never disturbed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -138,7 +138,7 @@ TEST_P(Play, DeliversTheRecordedSamplesInTheirTimeToBothVendors) {
   }
 }
 
-TEST_P(Play, PlaysOnlyTheGivenTopicAgainAndAgain) {
+TEST_P(Play, RepeatsOnlyTheGivenTopic) {
   Audience audience{bus(crane_SOURCE_MONITOR)};
   ProgramRun program{kCrane, arguments({"--topic", "crane/state", "--to", "0.2", "--rate", "4", "--loop"})};
   ASSERT_TRUE(program.wait_for_error("playing", 20s)) << program.errors();

@@ -99,7 +99,7 @@ struct Struck {
   std::string name{};
   Expectation expectation{};
   std::int64_t onset_ns = 0, end_ns = 0;
-  std::int64_t lead_ns = 0;  ///< time before the onset that is judged, too: since the crane was LOCKED
+  std::int64_t lead_ns = 0;  ///< judged time before the onset: since the crane was LOCKED
   bool forged = false, lossy = false;
 };
 
@@ -270,7 +270,7 @@ class Link {
 };
 
 /// Lost packets may stop the crane with a reason that names the loss; they must not cause forbidden motion.
-TEST_F(ProcessCampaign, ALinkThatLosesPacketsIsRiddenThroughOrStopsTheCrane) {
+TEST_F(ProcessCampaign, ALossyLinkHasNoEffectOrStopsTheCrane) {
   ASSERT_TRUE(std::filesystem::exists(stack::program_directory() / "liblossy_sockets.so"));
   ::setenv("CRANE_LOST_SEED", std::to_string(number_from("CRANE_PROCESS_SEED", 1)).c_str(), 1);
   const Link link{directory_ / "share"};

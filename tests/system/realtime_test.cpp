@@ -65,8 +65,8 @@ TEST(Realtime, AMoveSettlesAsInLockstep) {
   EXPECT_LE(static_cast<double>(metrics.lost_ticks), 0.01 * static_cast<double>(samples.size()));
 }
 
-/// The last stop that the session has seen has ended when the session looks again.
-TEST(Realtime, ASessionArmsACraneThatWasLockedWhileNobodyLooked) {
+/// The last status that the session has seen reports a stop, which has ended since.
+TEST(Realtime, ASessionArmsACraneThatWasLockedWhileItDidNotLook) {
   RunningStack stack{kDomain, "virginia_tech_tower"};
   auto& session = stack.session();
   session.arm();
@@ -91,7 +91,7 @@ TEST(Realtime, ASessionArmsACraneThatWasLockedWhileNobodyLooked) {
   EXPECT_NO_THROW(session.arm());
 }
 
-TEST(Realtime, AScenarioByCommandLeavesWhatWasMeasured) {
+TEST(Realtime, AScenarioByCommandWritesTheMeasurements) {
   const recording::TemporaryDirectory directory;
   recording::put_contents(directory / "move.toml", kScenario);
   const auto ended = run_program(stack::program_directory() / "crane",

@@ -1,5 +1,5 @@
-/// The `crane` command for a user: bad input, an existing crane, missing programs and disk space, the end of
-/// a stack. Each case has one clear message and the right exit code, and leaves no process.
+/// The `crane` command as a user starts it: bad input, an existing crane, missing programs and disk space,
+/// the end of a stack. Each case has one clear message and the right exit code, and leaves no process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -89,7 +89,7 @@ TEST_F(Start, AScenarioThatLeavesTheJibIsRefusedBeforeAnythingStarts) {
   EXPECT_EQ(lines_in(ended.errors), 1U) << ended.errors;
 }
 
-TEST_F(Start, ARunInRealTimeRefusesWhatOnlyASimulationCanDo) {
+TEST_F(Start, ARunInRealTimeRefusesOptionsThatNeedASimulation) {
   const auto ended = crane({"run", "maneuver_1", "--clock", "realtime", "--variants", "heavy_load", "--json",
                             "--in-process", "--out", out()});
   EXPECT_EQ(ended.exit_code, kBadInput);
@@ -99,7 +99,7 @@ TEST_F(Start, ARunInRealTimeRefusesWhatOnlyASimulationCanDo) {
   EXPECT_FALSE(std::filesystem::exists(out())) << "nothing has begun";
 }
 
-TEST_F(Start, AControllerThatDoesNotExistIsAnsweredWithThoseThatDo) {
+TEST_F(Start, AnUnknownControllerIsRefusedWithTheKnownControllers) {
   for (const auto& arguments :
        {std::vector<std::string>{"up"}, std::vector<std::string>{"run", "maneuver_1", "--out", out()}}) {
     auto with_controller = arguments;
@@ -112,7 +112,7 @@ TEST_F(Start, AControllerThatDoesNotExistIsAnsweredWithThoseThatDo) {
   }
 }
 
-TEST_F(Start, AScenarioThatDoesNotExistIsAnsweredWithThoseThatDo) {
+TEST_F(Start, AnUnknownScenarioIsRefusedWithTheKnownScenarios) {
   const auto ended = crane({"run", "nothing", "--out", out()});
   EXPECT_EQ(ended.exit_code, kBadInput);
   EXPECT_THAT(ended.errors, AllOf(HasSubstr("nothing"), HasSubstr("maneuver_1")));
@@ -217,7 +217,7 @@ TEST_F(StartOfASecond, StackOnTheSameCraneIsRefused) {
   expect_only_the_first(before);
 }
 
-TEST_F(StartOfASecond, RecordingOnAFullDiskEndsAndLeavesTheCraneAlone) {
+TEST_F(StartOfASecond, RecordingOnAFullDiskEndsWithoutAnEffectOnTheCrane) {
   const auto before = processes_with(crane_name());
   const auto ended = crane({"record", "/dev/full", "--force", "--duration", "20"});
   EXPECT_EQ(ended.exit_code, kFailed);

@@ -148,7 +148,7 @@ TEST_F(Views, ScopeFindsTheSameTickLiveAndInTheRecording) {
     EXPECT_EQ(table.find("time_s")->at(i) == 0, table.find("tick")->at(i) == static_cast<double>(tick));
 }
 
-TEST_F(Views, ScopeThatWaitsInVainSaysWhatItSaw) {
+TEST_F(Views, ScopeWithoutATriggerStatesTheRangesOfItsFields) {
   const auto ended = run_program(
       kCrane, on_this_crane({"scope", "--trigger", "state.trolley_position_m > 100m", "--timeout", "2"}));
   EXPECT_EQ(ended.exit_code, 1);
@@ -169,7 +169,7 @@ TEST_F(Views, ScopeInPlaceEndsWithTheKeyAndRestoresTheTerminal) {
   EXPECT_EQ(scope.settings().c_lflag, before.c_lflag);
 }
 
-TEST(ViewsOfNoCrane, SayWhereTheyLookedAndEnd) {
+TEST(ViewsOfNoCrane, NameTheSearchedCraneAndEnd) {
   const auto top = run_program(kCrane, on_this_crane({"top", "--once", "--timeout", "1"}));
   EXPECT_EQ(top.exit_code, 1);
   EXPECT_THAT(top.errors, HasSubstr("in domain 75 on 127.0.0.1: either no stack runs"));

@@ -54,7 +54,7 @@ double largest_jerk(const Motion& motion, const configuration::Rig& rig) {
   return largest;
 }
 
-TEST(Motion, LimitsTheJerkWhenTheRigAsksForIt) {
+TEST(Motion, LimitsTheJerkWhenTheRigFileRequiresIt) {
   auto rig = tower();
   const auto shape = control::ReferenceShape::bang_coast_bang;
   EXPECT_GT(largest_jerk(started(rig, shape, kTrolleyAndSlew), rig), 2 * rig.drives[kTrolley].reference_jerk);
@@ -109,7 +109,7 @@ TEST(Motion, HasNotArrivedBeforeItsLastImpulse) {
   EXPECT_TRUE(motion.arrived(measured, there + 1));
 }
 
-TEST(Motion, ForgetsItsShaperWhenTheCraneIsFollowed) {
+TEST(Motion, ResetsItsShaperWhenTheReferenceFollowsTheCrane) {
   auto rig = tower();
   rig.planning.shaping = Shaping::ei;
   auto motion = started(rig, control::ReferenceShape::bang_coast_bang, kTrolleyAndSlew);

@@ -1,4 +1,4 @@
-/// The truth itself, against closed forms.
+/// Compares the crane of the truth with closed forms.
 #include "crane.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ double drift_j(Crane crane) {
   return largest;
 }
 
-/// Of 15 J; measured 1e-13 J with one pendulum and 7e-13 J with two.
+/// Tolerance, of 15 J; measured: 1e-13 J with one pendulum and 7e-13 J with two.
 constexpr double kEnergy_j = 1e-10;
 
 TEST(Truth, KeepsItsEnergyWithoutFriction) {
@@ -53,7 +53,7 @@ TEST(Truth, SwingsWithThePeriodOfAPendulumOfLargeAmplitude) {
   constexpr double kAmplitude_rad = 0.8;
   Crane crane = quiet(rig("pendulum"), {.radial_rad = kAmplitude_rad});
   const double period_s =
-      4 * std::sqrt(1 / 9.81) * std::comp_ellint_1(std::sin(kAmplitude_rad / 2));  // of L = 1 m
+      4 * std::sqrt(1 / 9.81) * std::comp_ellint_1(std::sin(kAmplitude_rad / 2));  // period with L = 1 m
   double before = 0, crossing_s = 0;
   for (int k = 1; crossing_s == 0; ++k) {
     before = crane.sense()[2];
@@ -61,7 +61,8 @@ TEST(Truth, SwingsWithThePeriodOfAPendulumOfLargeAmplitude) {
     if (before < 0 && crane.sense()[2] >= 0)
       crossing_s = (k - 1 + before / (before - crane.sense()[2])) * kTick_s;
   }
-  EXPECT_NEAR(crossing_s, 0.75 * period_s, 1e-5);  // interpolated between ticks of 0.01 s near no curvature
+  // error of the linear interpolation between ticks of 0.01 s at a zero crossing
+  EXPECT_NEAR(crossing_s, 0.75 * period_s, 1e-5);
 }
 
 /// Small swings of two masses on one line: w^4 m1 L1 L2 - w^2 (m1 + m2) g (L1 + L2) + (m1 + m2) g^2 = 0.
@@ -90,8 +91,8 @@ TEST(Truth, SticksBelowItsFrictionAndSlidesAboveIt) {
     below.advance({std::min(0.95, 0.01 * i), 0});
     above.advance({1.2, 0});
   }
-  // On the way z' = x' (1 - z / z_c), so x = -z_c ln(1 - V/c); every step of the voltage adds a little
-  // overshoot.
+  // While the bristles deflect, z' = x' (1 - z / z_c), hence x = -z_c ln(1 - V/c). Every step of the voltage
+  // adds a small overshoot.
   const double slid = p.drive[0].presliding * 1.0 / 1.1, expected = -slid * std::log(1 - 0.95 / 1.0);
   EXPECT_NEAR(below.sense()[0], expected, 0.1 * expected);
   EXPECT_LT(std::abs(below.rate()[kMotorX]), 1e-9);
@@ -99,7 +100,7 @@ TEST(Truth, SticksBelowItsFrictionAndSlidesAboveIt) {
   EXPECT_NEAR(above.rate()[kMotorX], (1.2 - 1.0) / 2.8, 1e-4);
 }
 
-TEST(Truth, HoldsTheCommandBackToTheMicrosecond) {
+TEST(Truth, DelaysTheCommandToTheMicrosecond) {
   constexpr double kDelay_s = 0.0123, kEnd_s = 0.5;
   Physics p = rig("gantry");
   p.load_kg = 0, p.radial = false;
@@ -121,7 +122,7 @@ TEST(Truth, CrossesAGapBeforeTheCarriageFollows) {
     if (crane.position()[kMotorX] < 0.505) {
       EXPECT_EQ(crane.position()[kCarriage], 0.5);
     }
-    EXPECT_LT(std::abs(apart), 0.005 + 0.001);  // half the gap and the give of the contact
+    EXPECT_LT(std::abs(apart), 0.005 + 0.001);  // half the gap plus the deflection of the contact
   }
   EXPECT_GT(crane.position()[kCarriage], 0.6);
 }
@@ -130,7 +131,7 @@ TEST(Truth, TwistsAtTheFrequencyOfTwoInertias) {
   Physics p = frictionless_tower();
   p.load_kg = 0, p.radial = p.tangential = false;
   p.drive[1].stiffness = 800;
-  Crane crane = quiet(p);  // trolley at the tower's axis
+  Crane crane = quiet(p);  // the trolley is at the tower axis
   crane.set_rate(kMotorSlew, 0.1);
   const double motor = 0.35 * 7.2, jib = 0.65 * 7.2;
   const double omega = std::sqrt(800 * (1 / motor + 1 / jib));
@@ -141,7 +142,8 @@ TEST(Truth, TwistsAtTheFrequencyOfTwoInertias) {
     if (before > 0 && twist <= 0) crossing_s = (k - 1 + before / (before - twist)) * kTick_s;
     before = twist;
   }
-  EXPECT_NEAR(crossing_s, std::numbers::pi / omega, 2e-3 * std::numbers::pi / omega);  // 3 to 6 % damping
+  EXPECT_NEAR(crossing_s, std::numbers::pi / omega,
+              2e-3 * std::numbers::pi / omega);  // tolerance for a damping ratio of 3 to 6 %
 }
 
 TEST(Truth, StretchesTheCableByTheLoadsWeight) {

@@ -1,4 +1,4 @@
-/// What the tests and benchmarks of the diagnosis get to see.
+/// Data that the tests and benchmarks of the diagnosis receive.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(TruthData, IsTheBaseDataWhenAnEffectIsSwitchedOff) {
       try {
         EXPECT_TRUE(bytes(off) == text) << rig << " " << kind.name;
         ++possible;
-      } catch (const std::invalid_argument&) {  // not on this rig
+      } catch (const std::invalid_argument&) {  // this rig cannot have the effect
       }
     }
     EXPECT_GE(possible, 12) << rig;
@@ -60,7 +60,7 @@ TEST(TruthData, DiffersFromTheBaseDataWithAnyEffect) {
     EXPECT_TRUE(bytes(short_case("tower", {{kind.name, 1, ""}})) != base) << kind.name;
 }
 
-TEST(TruthData, HoldsTheColumnsOfTheRig) {
+TEST(TruthData, ContainsTheColumnsOfTheRig) {
   using testing::ElementsAre;
   EXPECT_THAT(generate(short_case("tower", {})).training[0].columns,
               ElementsAre("time_s", "trolley_voltage_v", "slew_voltage_v", "trolley_position_m",
@@ -119,8 +119,8 @@ TEST(TruthData, WritesItsFiles) {
   std::filesystem::remove_all(directory);
 }
 
-/// A hundred times what is needed to see it would prove nothing about the rest: one column, one run, twice
-/// the disturbance.
+/// An effect must exceed the disturbance by the factor two, in at least one column of one run. A much larger
+/// amplitude would prove nothing about the nominal amplitude.
 TEST(TruthData, ShowsAnEffectAboveTheDisturbance) {
   Case c = short_case("tower", {{"coulomb_friction", 1, "trolley"}});
   c.seconds = 20;
@@ -138,7 +138,7 @@ std::string refusal(const Case& c) {
   return "";
 }
 
-TEST(TruthData, NamesWhatItCannotDo) {
+TEST(TruthData, NamesInvalidInput) {
   EXPECT_THAT(refusal(short_case("ship", {})), HasSubstr("rig = ship"));
   EXPECT_THAT(refusal(short_case("tower", {{"rust", 1, ""}})), HasSubstr("effect = rust"));
   EXPECT_THAT(refusal(short_case("gantry", {{"backlash", 1, "slew"}})), HasSubstr("axis = slew"));

@@ -32,12 +32,12 @@ std::string named_cause(const plant::TermSetting& change, std::uint64_t seed) {
 
 class Likeness : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(Likeness, LessFrictionIsNoGain) {
+TEST_P(Likeness, LessFrictionIsNotNamedAsGain) {
   EXPECT_EQ(named_cause({"coulomb_friction", "trolley", {{"level_v", -0.1}}}, GetParam()),
             "coulomb_friction");
 }
 
-TEST_P(Likeness, LessGainIsNoFriction) {
+TEST_P(Likeness, LessGainIsNotNamedAsFriction) {
   EXPECT_EQ(named_cause({"motor_gain", "trolley", {{"factor", 0.9}}}, GetParam()), "motor_gain");
 }
 

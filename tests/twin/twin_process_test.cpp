@@ -84,7 +84,7 @@ class TwinProcess : public testing::Test {
   std::vector<msg::Twin> twins_;
 };
 
-TEST_F(TwinProcess, SaysThatThePayloadIsNotTheOneOfItsRigFile) {
+TEST_F(TwinProcess, ReportsAPayloadThatDiffersFromItsRigFile) {
   run("heavy_load", 8);
   EXPECT_EQ(codes(), std::vector<std::string>{"twin_deviates"});
   ASSERT_FALSE(twins_.empty());
@@ -93,7 +93,7 @@ TEST_F(TwinProcess, SaysThatThePayloadIsNotTheOneOfItsRigFile) {
   EXPECT_NEAR(twins_.back().size, 1.0, 0.33);
 }
 
-TEST_F(TwinProcess, SaysNothingAboutTheCraneOfItsRigFile) {
+TEST_F(TwinProcess, ReportsNothingForTheCraneOfItsRigFile) {
   run("", 6);
   EXPECT_TRUE(codes().empty());
   ASSERT_FALSE(twins_.empty());
@@ -102,7 +102,7 @@ TEST_F(TwinProcess, SaysNothingAboutTheCraneOfItsRigFile) {
     ASSERT_EQ(twins_[k].header.tick, twins_[k - 1].header.tick + 1) << "every tick once";
 }
 
-TEST_F(TwinProcess, GivesTheSameRecordingInOneProcessAsInMany) {
+TEST_F(TwinProcess, GivesTheSameRecordingInOneProcessAsInSeparateProcesses) {
   recording::put_contents(directory_ / "moves.toml", scenario_text(1));
   experiments::ExperimentOptions options;
   options.scenario = directory_ / "moves.toml";

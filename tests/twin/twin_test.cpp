@@ -1,5 +1,5 @@
-// The twin with a simulated crane: it agrees with its own plant, detects and names changes, and tolerates bad
-// input.
+// The twin with a simulated crane: the twin agrees with its own plant, detects and names changes, and
+// tolerates bad input.
 #include "crane/twin/twin.hpp"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ TEST_F(TwinTest, PredictsItsOwnPlantWithinItsBand) {
   EXPECT_FALSE(twin_.take_notice());
 }
 
-TEST_F(TwinTest, DisturbancesThatWereThereWhileLearningRaiseNoAlarm) {
+TEST_F(TwinTest, DisturbancesOfTheLearningPhaseRaiseNoAlarm) {
   constexpr std::uint64_t kNoisySeed = 11;
   SimulatedMotion motion{rig(), kNoisySeed, {.drive_v = 0.05, .swing_radps2 = 0.02}};
   Twin twin{rig(), design()};
@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
                            [](SimulatedMotion& motion) { motion.push(0.2, 0); }}),
     [](const auto& test) { return std::string{test.param.name}; });
 
-TEST_F(TwinTest, FindsASwingZeroThatWasTakenWhileNobodyLooked) {
+TEST_F(TwinTest, FindsASwingZeroThatChangedDuringMissingTicks) {
   learn();
   motion_.become_with({"swing_offset", "tangential", {{"offset_rad", 0.02}}});
   motion_.next();
@@ -168,14 +168,14 @@ TEST_F(TwinTest, FindsASwingZeroThatWasTakenWhileNobodyLooked) {
   EXPECT_EQ(twin_.judgement().axis, "tangential") << notice->what;
 }
 
-TEST_F(TwinTest, FindsWhatWasWrongFromTheStart) {
+TEST_F(TwinTest, FindsADeviationFromTheStart) {
   motion_.become_with({"payload_mass", "", {{"delta_kg", 1}}});
   const auto notice = watch(40);
   ASSERT_TRUE(notice);
   EXPECT_EQ(twin_.judgement().cause, "payload_mass") << notice->what;
 }
 
-TEST_F(TwinTest, AgreesAgainWhenTheCauseIsGone) {
+TEST_F(TwinTest, AgreesAgainAfterTheEndOfTheCause) {
   learn();
   motion_.become_with({"coulomb_friction", "slew", {{"level_v", 0.2}}});
   ASSERT_TRUE(watch(30));
@@ -187,7 +187,7 @@ TEST_F(TwinTest, AgreesAgainWhenTheCauseIsGone) {
   EXPECT_FALSE(watch(20));
 }
 
-TEST_F(TwinTest, SaysUnknownToWhatItHasNoNameFor) {
+TEST_F(TwinTest, ReportsUnknownForACauseOutsideTheList) {
   learn();
   motion_.become_with({"torque_ripple", "slew", {{"amplitude_v", 0.5}, {"period", 0.3}}});
   const auto notice = watch(40);
@@ -205,7 +205,7 @@ TEST_F(TwinTest, WaitsAndCountsAfterMissingTicks) {
   EXPECT_EQ(twin_.judgement().state, State::watching);
 }
 
-TEST_F(TwinTest, WaitsAndCountsWhatIsNotFinite) {
+TEST_F(TwinTest, WaitsAndCountsAfterValuesThatAreNotFinite) {
   learn();
   auto sample = motion_.next();
   sample.applied_v[1] = std::numeric_limits<double>::quiet_NaN();
@@ -217,7 +217,7 @@ TEST_F(TwinTest, WaitsAndCountsWhatIsNotFinite) {
   EXPECT_EQ(twin_.judgement().state, State::watching);
 }
 
-TEST_F(TwinTest, BeginsAnewWithANewWriter) {
+TEST_F(TwinTest, RestartsWithANewWriter) {
   learn();
   auto sample = motion_.next();
   sample.epoch = 2;

@@ -14,10 +14,10 @@
 namespace crane::workers {
 namespace {
 
-/// What came back of each task.
+/// Results that arrived from each task.
 struct Returned {
   std::map<std::size_t, std::vector<std::string>> records;
-  std::map<std::size_t, std::string> failures;  ///< of every task that has ended
+  std::map<std::size_t, std::string> failures;  ///< failure of every task that has ended
 };
 
 Returned returned_by(std::size_t count, std::size_t at_a_time,
@@ -61,7 +61,7 @@ TEST(ProcessPool, CarriesEmptyRecordsAndNoRecords) {
   EXPECT_EQ(all.failures.size(), 2U);
 }
 
-TEST(ProcessPool, ACrashCostsItsTaskAndNoOther) {
+TEST(ProcessPool, ACrashAffectsOnlyItsTask) {
   const auto all = returned_by(6, 2, [](std::size_t task, const Outbox& outbox) {
     outbox.send("begun");
     if (task == 2) ::raise(SIGKILL);
@@ -130,7 +130,7 @@ TEST(ProcessPool, RunsNoMoreThanPermittedAtATime) {
   EXPECT_LE(shared->most, 3);
 }
 
-TEST(ProcessPool, CancellationKillsWhatRunsAndStartsNothingMore) {
+TEST(ProcessPool, CancellationKillsRunningTasksAndStartsNoFurtherTask) {
   const SharedMemory shared;
   std::size_t taken = 0;
   run({.count = 1000,
@@ -138,7 +138,7 @@ TEST(ProcessPool, CancellationKillsWhatRunsAndStartsNothingMore) {
        .work =
            [&](std::size_t task, const Outbox& outbox) {
              ++shared->begun;
-             if (task == 1) ::pause();  // until it is killed
+             if (task == 1) ::pause();  // the task waits until it is killed
              outbox.send("x");
            },
        .take = [&](std::size_t /*task*/, const std::string& /*record*/) { ++taken; },
@@ -165,7 +165,7 @@ TEST(ProcessPool, RunsNothingWithoutTasks) {
   EXPECT_TRUE(returned_by(0, 4, [](std::size_t, const Outbox&) { ::_exit(1); }).failures.empty());
 }
 
-TEST(ProcessPool, SeesAtLeastOneProcessor) { EXPECT_GE(processors(), 1U); }
+TEST(ProcessPool, FindsAtLeastOneProcessor) { EXPECT_GE(processors(), 1U); }
 
 }  // namespace
 }  // namespace crane::workers

@@ -110,7 +110,7 @@ class Voltmeter {
 
 constexpr double kStep_v = 20.0 / 65535;  // 16 bit over +-10 V
 
-TEST(ComediKernel, RefusesADeviceThatIsNotThere) {
+TEST(ComediKernel, RefusesAMissingDevice) {
   EXPECT_THAT(refusal(lent_rig("/dev/comedi9")), HasSubstr("cannot be opened: No such file or directory"));
 }
 
@@ -132,7 +132,7 @@ TEST(ComediKernel, RefusesEverySubdeviceThatIsNotOfItsKindByItsKey) {
   }
 }
 
-TEST(ComediKernel, RefusesASecondUserAndAChannelThatIsNotThere) {
+TEST(ComediKernel, RefusesASecondUserAndAMissingChannel) {
   auto rig = analog_rig();
   {
     const Comedi board{rig};
