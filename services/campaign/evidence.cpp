@@ -47,8 +47,8 @@ bool Evidence::of_drive() {
   const double error_v = std::abs(bench_->rig().output_error_v(axis_));
   const double excess_v = error_v - tolerance_v(truth.written_v[axis_], v);
   const double dt_s = bench_->setting().configured.period_s;
-  fast_ = truth.brake_closed[axis_] ? 0 : std::max(0.0, fast_ + gain() * excess_v * dt_s);
-  visible_ = visible_ || fast_ > visible_speed(v);
+  sum_above_ = truth.brake_closed[axis_] ? 0 : std::max(0.0, sum_above_ + gain() * excess_v * dt_s);
+  visible_ = visible_ || sum_above_ > visible_speed(v);
   return visible_;
 }
 
@@ -56,16 +56,16 @@ bool Evidence::of_standing_encoder() {
   const auto& truth = bench_->now().truth;
   const double dt_s = bench_->setting().configured.period_s;
   if (!started_) {
-    fast_ = std::max(truth.speed[axis_], 0.0);
-    slow_ = std::max(-truth.speed[axis_], 0.0);
+    sum_above_ = std::max(truth.speed[axis_], 0.0);
+    sum_below_ = std::max(-truth.speed[axis_], 0.0);
     started_ = true;
   } else {
     const double u = truth.written_v[axis_], unknown_v = tolerance_v(u, 0);
-    fast_ = std::max(0.0, fast_ + gain() * (u - unknown_v) * dt_s);
-    slow_ = std::max(0.0, slow_ + gain() * (-u - unknown_v) * dt_s);
+    sum_above_ = std::max(0.0, sum_above_ + gain() * (u - unknown_v) * dt_s);
+    sum_below_ = std::max(0.0, sum_below_ + gain() * (-u - unknown_v) * dt_s);
   }
-  if (truth.brake_closed[axis_]) fast_ = slow_ = 0;
-  visible_ = visible_ || std::max(fast_, slow_) > visible_speed(0);
+  if (truth.brake_closed[axis_]) sum_above_ = sum_below_ = 0;
+  visible_ = visible_ || std::max(sum_above_, sum_below_) > visible_speed(0);
   return visible_;
 }
 

@@ -2,9 +2,9 @@
 /// Time from which the true motion distinguishes a faulty drive or encoder from a rig within its tolerances
 /// (docs/safety.md): gain 25 %, offset 0.3 V, friction 0 to 1.5 times that of the rig file plus 0.3 V, load 0
 /// to 1.5 times. Motion beyond the tolerances is an unexplained speed. The fault is visible when the
-/// unexplained speed reaches 10 % of max_speed and of the speed plus four counts per tick: a check with half
-/// of this limit has then had its evidence for at least one sample. The detection time starts there (30 ms,
-/// hazard 20).
+/// unexplained speed reaches 10 % of max_speed plus 10 % of the speed plus four counts per tick. A check with
+/// half of this limit then had sufficient evidence for at least one sample. The detection time (30 ms, hazard
+/// 20) starts when the fault is visible.
 #include <complex>
 #include <cstddef>
 #include <optional>
@@ -20,9 +20,11 @@ inline constexpr double kEncoderDetection_ms = 100;  ///< hazard 16 and 19
 class Evidence {
  public:
   Evidence(Bench& bench, std::size_t axis) : bench_{&bench}, axis_{axis} {}
-  /// For a drive that gets other volts than the bridge has written. @return true from the visible instant on
+  /// Call for a drive that gets other volts than the bridge has written. @return true from the time at which
+  /// the fault is visible
   bool of_drive();
-  /// For an encoder that has been frozen since the first call. @return true from the visible instant on
+  /// Call for an encoder that has been frozen since the first call. @return true from the time at which the
+  /// fault is visible
   bool of_standing_encoder();
 
  private:
@@ -32,7 +34,7 @@ class Evidence {
   Bench* bench_;
   std::size_t axis_;
   bool started_ = false, visible_ = false;
-  double fast_ = 0, slow_ = 0;
+  double sum_above_ = 0, sum_below_ = 0;
 };
 
 /// Same for a frozen swing encoder: relative to the ground, (2.11) and (2.18), the acceleration of trolley

@@ -130,7 +130,7 @@ std::string man_page(const std::vector<Command>& commands, const std::string& ve
     }
     if (!command.footer.empty()) page += ".PP\n.nf\n" + troff(command.footer) + "\n.fi\n";
   }
-  return page + ".SH EXIT STATUS\n0: done. 1: it did not work. 2: bad arguments or files.\n";
+  return page + ".SH EXIT STATUS\n0: done. 1: failed. 2: bad arguments or files.\n";
 }
 
 }  // namespace crane::cli

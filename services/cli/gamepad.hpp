@@ -22,7 +22,7 @@ class Gamepad : public OperatorStick {
   std::optional<InchingStep> take_step() override { return std::nullopt; }
   bool take_return() override { return law_.take_return(); }
   /// True while the dead-man's button is released: the operator then stops a move.
-  bool take_release() override { return !law_.held(); }
+  bool take_stop() override { return !law_.dead_man_pressed(); }
   [[nodiscard]] bool quits() const override { return false; }
   [[nodiscard]] const std::string& problem() const override { return problem_; }
 

@@ -61,32 +61,34 @@ void GamepadLaw::take_button(std::uint16_t code, int value) {
   if (value != kReleased && value != kPressed) return;
   const bool pressed = value == kPressed;
   if (code == BTN_TL) {
-    held_ = pressed;
+    dead_man_pressed_ = pressed;
     centred_ = false;
-    returns_ = returns_ && held_;
+    returns_ = returns_ && dead_man_pressed_;
   } else if (code == BTN_TR) {
-    slow_ = pressed;
-  } else if (code == BTN_SOUTH && pressed && held_) {
+    micro_pressed_ = pressed;
+  } else if (code == BTN_SOUTH && pressed && dead_man_pressed_) {
     returns_ = true;
   }
 }
 
 void GamepadLaw::take(const GamepadEvent& event, double now_s) {
-  if (silent(now_s)) held_ = centred_ = returns_ = false;
-  heard_s_ = now_s;
+  if (silent(now_s)) dead_man_pressed_ = centred_ = returns_ = false;
+  last_event_s_ = now_s;
   if (event.type == EV_KEY) take_button(event.code, event.value);
   if (event.type == EV_ABS)
     for (std::size_t i = 0; i < ranges_.size(); ++i)
       if (kCodes[i] == event.code) ranges_[i].value = event.value;
   const auto now = deflection();
-  if (held_ && std::ranges::all_of(now, [](double share) { return share == 0; })) centred_ = true;
+  if (dead_man_pressed_ && std::ranges::all_of(now, [](double share) { return share == 0; })) centred_ = true;
 }
 
-bool GamepadLaw::engaged(double now_s) const { return held_ && centred_ && !returns_ && !silent(now_s); }
+bool GamepadLaw::engaged(double now_s) const {
+  return dead_man_pressed_ && centred_ && !returns_ && !silent(now_s);
+}
 
 std::array<double, 3> GamepadLaw::deflection() const {
   std::array<double, 3> result{};
-  const double scale = micro_ || slow_ ? kMicroSpeed : 1;
+  const double scale = micro_ || micro_pressed_ ? kMicroSpeed : 1;
   for (std::size_t i = 0; i < result.size(); ++i) {
     const double share = selected_[i] ? share_of(ranges_[i]) : 0;
     result[i] = share == 0 ? 0 : kSigns[i] * scale * share;

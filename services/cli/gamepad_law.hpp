@@ -44,8 +44,8 @@ class GamepadLaw {
   /// the controller 0e6f:f501).
   static constexpr double kDeadZone = 0.125;
   /// Longest time without an event. A gamepad reports only changes: silence with a deflected stick means a
-  /// still hand or a broken radio link. Equal to the time without a key that ends a session of the keyboard;
-  /// judgement.
+  /// still hand or a broken radio link. Equal to the time without a key that ends a session of the keyboard.
+  /// The value is chosen, not derived.
   static constexpr double kSilence_s = 10;
 
   /// @pre problem_of(ranges, selected) is empty
@@ -63,24 +63,24 @@ class GamepadLaw {
   [[nodiscard]] std::array<double, 3> deflection() const;
   /// True when the dead-man's button is held, but the sticks have not been in their dead zones since it was
   /// pressed.
-  [[nodiscard]] bool waits_for_centre() const { return held_ && !centred_; }
+  [[nodiscard]] bool waits_for_centre() const { return dead_man_pressed_ && !centred_; }
   /// True while the dead-man's button is held.
-  [[nodiscard]] bool held() const { return held_; }
+  [[nodiscard]] bool dead_man_pressed() const { return dead_man_pressed_; }
   /// True once after each press of BTN_SOUTH while the dead-man's button is held.
   bool take_return();
   /// True from this press until take_return(), or until the dead-man's button is released.
   [[nodiscard]] bool returns() const { return returns_; }
 
  private:
-  [[nodiscard]] bool silent(double now_s) const { return now_s - heard_s_ > kSilence_s; }
+  [[nodiscard]] bool silent(double now_s) const { return now_s - last_event_s_ > kSilence_s; }
   void take_button(std::uint16_t code, int value);
 
   StickRanges ranges_;
   std::array<bool, 3> selected_;
-  bool micro_;         ///< micro-speed also without BTN_TR
-  bool slow_ = false;  ///< BTN_TR is held
-  bool held_ = false, centred_ = false, returns_ = false;
-  double heard_s_ = 0;  ///< time of the last event
+  bool micro_;                  ///< micro-speed also without BTN_TR
+  bool micro_pressed_ = false;  ///< true: BTN_TR is pressed
+  bool dead_man_pressed_ = false, centred_ = false, returns_ = false;
+  double last_event_s_ = 0;  ///< time of the last event
 };
 
 }  // namespace crane::cli

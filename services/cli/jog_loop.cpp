@@ -61,7 +61,7 @@ bool JogLoop::drive() {
     note_release(now);
     return now;
   };
-  const auto over = [this] { return stick_.quits() || !stick_.problem().empty() || session_.held(); };
+  const auto over = [this] { return stick_.quits() || !stick_.problem().empty() || session_.in_hold(); };
   session_.drive(1e6, true, stick, over);
   note_release(std::nullopt);
   session_.release(options_.timeout_s);
@@ -78,13 +78,13 @@ void JogLoop::note_release(const std::optional<Deflection>& stick) {
 }
 
 bool JogLoop::execute(const char* what, const AxisTargets& targets) {
-  (void)stick_.take_release();
+  (void)stick_.take_stop();
   return moves_.execute(what, targets, options_.timeout_s, [this]() -> std::string {
     read();
     (void)stick_.take_step();  // a step or return requested during a move is discarded
     (void)stick_.take_return();
     if (!stick_.problem().empty()) return stick_.problem();
-    return stick_.take_release() || stick_.quits() ? "stopped by the operator" : "";
+    return stick_.take_stop() || stick_.quits() ? "stopped by the operator" : "";
   });
 }
 

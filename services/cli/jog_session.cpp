@@ -17,7 +17,7 @@ JogSession::JogSession(bus::Bus& bus)
 
 Answer JogSession::begin(const std::array<bool, 3>& selected) {
   accepted_ = false;
-  held_ticks_ = 0;
+  hold_ticks_ = 0;
   const auto answer = ask(bus_, {.kind = crane_REQUEST_JOG, .selected = selected});
   id_ = answer.id;
   return answer;
@@ -44,7 +44,7 @@ void JogSession::receive() {
       throw std::runtime_error(std::string{"jog: stopped because of "} + supervisor::name_of(cause) + ": " +
                                supervisor::remedy_for(cause));
     }
-    held_ticks_ = status->state == crane_STATE_HOLD ? held_ticks_ + 1 : 0;
+    hold_ticks_ = status->state == crane_STATE_HOLD ? hold_ticks_ + 1 : 0;
   }
 }
 
@@ -77,7 +77,7 @@ bool JogSession::drive(double timeout_s, bool stops, const std::function<std::op
 
 void JogSession::release(double timeout_s) {
   const bool rests = drive(
-      timeout_s, false, [] { return std::nullopt; }, [this] { return held(); });
+      timeout_s, false, [] { return std::nullopt; }, [this] { return in_hold(); });
   if (!rests)
     throw std::runtime_error("jog: the crane was not at rest before the timeout: look at `crane status`");
 }

@@ -11,7 +11,7 @@ namespace crane::cli {
 
 using Deflection = std::array<double, 3>;
 
-/// From a moment on: travel of each axis, and the largest swing.
+/// Travel of each axis and largest swing since the start of the measurement.
 struct Measured {
   std::array<double, 3> from{}, to{};  ///< m, rad, m of cable
   double largest_swing_rad = 0;
@@ -35,13 +35,13 @@ class JogSession {
   void release(double timeout_s);
 
   /// True when the supervisor has been in HOLD for some ticks.
-  [[nodiscard]] bool held() const { return held_ticks_ >= kHeldTicks; }
+  [[nodiscard]] bool in_hold() const { return hold_ticks_ >= kHoldTicks; }
   /// Begins a new measurement.
   void measure() { begins_ = true; }
   [[nodiscard]] const Measured& measured() const { return measured_; }
 
  private:
-  static constexpr int kHeldTicks = 50;  // single ticks of HOLD occur between ticks of RUN
+  static constexpr int kHoldTicks = 50;  // single ticks of HOLD occur between ticks of RUN
   void receive();
   void send(const std::optional<Deflection>& stick);
 
@@ -51,7 +51,7 @@ class JogSession {
   bus::Subscriber<msg::State> states_;
   std::uint64_t id_ = 0, tick_ = 0;
   bool accepted_ = false, begins_ = true;
-  int held_ticks_ = 0;
+  int hold_ticks_ = 0;
   std::int64_t send_at_ns_ = 0;
   Measured measured_;
 };

@@ -23,9 +23,9 @@ class OperatorStick {
   virtual std::optional<InchingStep> take_step() = 0;
   /// True once after each request for the return to the stop point.
   virtual bool take_return() = 0;
-  /// True when the operator stops a move: once after the space bar, or while the dead-man's button is
-  /// released.
-  virtual bool take_release() = 0;
+  /// True when the operator stops a move: once after each press of the space bar, or while the dead-man's
+  /// button is released.
+  virtual bool take_stop() = 0;
   /// True when the operator ends the program.
   [[nodiscard]] virtual bool quits() const = 0;
   /// Reason for which the stick cannot be used any more, with the remedy; empty while it can be used.

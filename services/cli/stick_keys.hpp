@@ -13,8 +13,8 @@ namespace crane::cli {
 
 class StickKeys {
  public:
-  static constexpr double kFirst_s =
-      0.6;  ///< after the first press: longer than the delay of a key's repetition
+  /// after the first press: longer than the time until the keyboard repeats the key
+  static constexpr double kFirst_s = 0.6;
   static constexpr double kRepeat_s = 0.15;  ///< after a repetition
 
   /// Modes at the start; the keys m and i change them.
@@ -24,7 +24,8 @@ class StickKeys {
   void take(std::string_view bytes, double now_s);
   /// Deflection of trolley, slew and hoist; 0 while inching is on.
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
-  /// Time of the last key that deflects the stick; negative: none yet, or released by the space bar.
+  /// Time of the last key that deflects the stick; negative: no such key yet, or the space bar has released
+  /// the stick.
   [[nodiscard]] double last_s() const { return last_s_; }
   [[nodiscard]] bool quits() const { return quits_; }
   [[nodiscard]] bool micro() const { return micro_; }
@@ -35,8 +36,8 @@ class StickKeys {
   [[nodiscard]] std::optional<InchingStep> take_step() { return std::exchange(step_, std::nullopt); }
   /// True once after the key r. The key also releases the stick.
   [[nodiscard]] bool take_return() { return std::exchange(returns_, false); }
-  /// True once after the space bar.
-  [[nodiscard]] bool take_release() { return std::exchange(released_, false); }
+  /// True once after each press of the space bar.
+  [[nodiscard]] bool take_stop() { return std::exchange(released_, false); }
 
  private:
   struct Key {

@@ -19,7 +19,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::uint32_t kDomains = 101;  // 0..100, as --domain permits
 
-/// Little or big endian, as the sender chose.
+/// Reader of numbers in the byte order of the sender, little or big endian.
 class Reader {
  public:
   Reader(Bytes bytes, bool little) : bytes_{bytes}, little_{little} {}
@@ -39,7 +39,8 @@ class Reader {
   bool little_;
 };
 
-/// PID_USER_DATA of a parameter list, or empty. Ends at the first parameter that does not fit.
+/// @return PID_USER_DATA of a parameter list; empty: none. The search ends at the first parameter that does
+/// not fit.
 Bytes user_data_in(Reader list) {
   constexpr std::uint32_t kSentinel = 1, kUserData = 0x2C;
   while (list.left() >= 4) {
@@ -54,7 +55,7 @@ Bytes user_data_in(Reader list) {
   return {};
 }
 
-/// What follows a parameter list; empty when the list does not end.
+/// @return the bytes after a parameter list; empty when the list has no end
 Bytes after(Reader list) {
   constexpr std::uint32_t kSentinel = 1;
   while (list.left() >= 4) {
@@ -66,8 +67,8 @@ Bytes after(Reader list) {
   return {};
 }
 
-/// Of the serialised payload of a DATA submessage (9.4.5.4). Cyclone DDS puts a key hash before it, as inline
-/// QoS.
+/// User data in the serialised payload of a DATA submessage (9.4.5.4). Cyclone DDS puts a key hash before the
+/// payload, as inline QoS.
 std::optional<bus::Announcement> announcement_of(Bytes content, std::uint8_t flags) {
   constexpr std::size_t kFixed = 20, kEncapsulation = 4;  // flags, entities, sequence number
   constexpr std::uint8_t kLittleEndian = 0x01, kInlineQos = 0x02, kData = 0x04;
@@ -89,11 +90,12 @@ class Socket {
       : descriptor_{::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)} {
     const int on = 1;
     ::setsockopt(descriptor_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    ::setsockopt(descriptor_, SOL_SOCKET, SO_REUSEPORT, &on, sizeof on);  // as the vendors do
+    // the DDS vendors set the same option
+    ::setsockopt(descriptor_, SOL_SOCKET, SO_REUSEPORT, &on, sizeof on);
     sockaddr_in own{};
     own.sin_family = AF_INET;
     own.sin_port = htons(static_cast<std::uint16_t>(bus::first_port(domain)));
-    ::inet_pton(AF_INET, kDiscoveryGroup, &own.sin_addr);  // only what was sent to the group
+    ::inet_pton(AF_INET, kDiscoveryGroup, &own.sin_addr);  // receives only datagrams to the group
     open_ = ::bind(descriptor_, reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0;
     for (const auto& address : addresses) {
       ip_mreq group{};
@@ -141,10 +143,10 @@ std::vector<Announced> listen_for_announcements(const std::vector<std::string>& 
   std::vector<pollfd> polled;
   for (std::uint32_t domain = 0; domain < kDomains; ++domain)
     polled.push_back(sockets.emplace_back(domain, addresses).to_poll());
-  std::vector<Announced> heard;
+  std::vector<Announced> observed;
   std::array<std::uint8_t, 65536> datagram{};
   const auto end_ns = runtime::monotonic_ns() + std::chrono::nanoseconds{duration}.count();
-  constexpr std::size_t kMost = 1000;  // strangers cannot fill the memory
+  constexpr std::size_t kMost = 1000;  // bounds the memory that unknown senders can use
   for (std::int64_t left_ns = 1; left_ns > 0 && !runtime::stop_requested();) {
     left_ns = end_ns - runtime::monotonic_ns();
     ::poll(polled.data(), polled.size(),
@@ -161,10 +163,11 @@ std::vector<Announced> listen_for_announcements(const std::vector<std::string>& 
       std::array<char, INET_ADDRSTRLEN> text{};
       ::inet_ntop(AF_INET, &from.sin_addr, text.data(), text.size());
       const Announced one{text.data(), domain, *said};
-      if (heard.size() < kMost && std::ranges::find(heard, one) == heard.end()) heard.push_back(one);
+      if (observed.size() < kMost && std::ranges::find(observed, one) == observed.end())
+        observed.push_back(one);
     }
   }
-  return heard;
+  return observed;
 }
 
 }  // namespace crane::doctor

@@ -22,7 +22,7 @@ milliseconds duration_of(const Options& options) {
   return milliseconds{static_cast<std::int64_t>(options.duration_s * 1e3)};
 }
 
-/// Who waits for announcements without --interface wants to know of every network.
+/// Without --interface, the doctor listens for announcements on every network.
 std::vector<std::string> addresses_of(const std::vector<Interface>& own) {
   std::vector<std::string> addresses;
   for (const auto& interface : own)
@@ -47,18 +47,18 @@ Findings examine_network(const Options& options) {
       runtime::bus_options(options.bus, "crane_doctor", crane_SOURCE_MONITOR, runtime::random_epoch())};
   auto announcements = std::async(
       std::launch::async, [&] { return listen_for_announcements(addresses_of(own), duration_of(options)); });
-  const auto heard = listen_on(bus, duration_of(options));
+  const auto observed = listen_on(bus, duration_of(options));
   auto announced = announcements.get();
   const ExpectedCrane expected{options.bus.crane, options.bus.domain, options.bus.interfaces,
                                !options.bus.secure.empty()};
-  auto silence = judge_silence(expected, heard, local, announced);
+  auto silence = judge_silence(expected, observed, local, announced);
   if (silence.size() == 1 && silence.front().code == "nobody_publishes" && !addresses_of(own).empty()) {
     announced = listen_for_announcements(addresses_of(own), kLongestAnnouncement);
-    silence = judge_silence(expected, heard, local, announced);
+    silence = judge_silence(expected, observed, local, announced);
   }
   add(findings, std::move(silence));
-  add(findings, judge_processes_heard(heard));
-  add(findings, judge_mismatches(heard));
+  add(findings, judge_processes_on_bus(observed));
+  add(findings, judge_mismatches(observed));
   return findings;
 }
 

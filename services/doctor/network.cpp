@@ -29,7 +29,7 @@ class Refusals {
   }
 
  private:
-  /// Of every reader of this project (libs/bus, endpoint quality).
+  /// Quality of service of every reader of this project (libs/bus, endpoint quality).
   static std::string wanted(std::string_view policy) {
     if (policy == "reliability") return "reliable";
     if (policy == "data_representation") return "XCDR1";
@@ -55,7 +55,7 @@ Finding nobody(const ExpectedCrane& expected, const std::string& code, const std
   return {Grade::problem, "net", code, "nobody publishes for " + where(expected) + instead, remedy};
 }
 
-/// The option that makes the difference between the expected crane and another one; empty: none.
+/// @return the option in which the expected crane differs from another crane; empty: none
 std::string options_for(const ExpectedCrane& expected, const std::string& crane, std::uint32_t domain) {
   std::string options;
   if (crane != expected.crane) options += " --crane " + crane;
@@ -67,7 +67,7 @@ std::string code_for(const ExpectedCrane& expected, std::uint32_t domain) {
   return domain != expected.domain ? "wrong_domain" : "wrong_crane";
 }
 
-/// Each other crane on this computer once.
+/// Each other crane on this computer, once.
 Findings cranes_on_this_computer(const ExpectedCrane& expected, const std::vector<LocalProcess>& local) {
   Findings findings;
   std::set<std::string> reported;
@@ -108,8 +108,8 @@ Findings cranes_announced(const ExpectedCrane& expected, const std::vector<Annou
 
 }  // namespace
 
-Heard listen_on(bus::Bus& bus, milliseconds duration) {
-  Heard heard;
+Observed listen_on(bus::Bus& bus, milliseconds duration) {
+  Observed observed;
   Refusals refusals;
   std::vector<bus::CdrSubscriber> readers;
   for (const auto& topic : topics::kAll) {
@@ -125,30 +125,30 @@ Heard listen_on(bus::Bus& bus, milliseconds duration) {
     bus.wait(milliseconds{20});
     for (auto& reader : readers)
       while (reader.take(cdr, &info))
-        if (info.valid && reader.topic().name == topics::state.description.name) ++heard.states;
+        if (info.valid && reader.topic().name == topics::state.description.name) ++observed.states;
     while (const auto node = nodes.take(&info)) {
       if (!info.valid) continue;
-      // A status that was kept for late joiners is old; the newest one counts.
+      // A stored status that a new reader receives is old; only the newest status counts.
       const auto now_ns =
           std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count();
-      heard.clock_offset_s[node->name] = static_cast<double>(info.source_time_ns - now_ns) * 1e-9;
-      heard.nodes[node->node] = *node;
+      observed.clock_offset_s[node->name] = static_cast<double>(info.source_time_ns - now_ns) * 1e-9;
+      observed.nodes[node->node] = *node;
     }
   }
   for (const auto& reader : readers)
     if (reader.counts().rejected > 0)
-      heard.rejected[std::string{reader.topic().name}] = reader.counts().rejected;
-  heard.refused = refusals.all();
-  heard.other_versions = bus.other_versions();
-  return heard;
+      observed.rejected[std::string{reader.topic().name}] = reader.counts().rejected;
+  observed.refused = refusals.all();
+  observed.other_versions = bus.other_versions();
+  return observed;
 }
 
-Findings judge_silence(const ExpectedCrane& expected, const Heard& heard,
+Findings judge_silence(const ExpectedCrane& expected, const Observed& observed,
                        const std::vector<LocalProcess>& local, const std::vector<Announced>& announced) {
-  if (!heard.nodes.empty() || heard.states > 0) return {};
+  if (!observed.nodes.empty() || observed.states > 0) return {};
   auto findings = cranes_on_this_computer(expected, local);
   std::ranges::move(cranes_announced(expected, announced), std::back_inserter(findings));
-  if (findings.empty() && heard.other_versions.empty())
+  if (findings.empty() && observed.other_versions.empty())
     findings.push_back(
         nobody(expected, "nobody_publishes", ", and no other crane is found",
                "start one with `crane up`; on another computer both sides need --interface, and "
@@ -156,12 +156,12 @@ Findings judge_silence(const ExpectedCrane& expected, const Heard& heard,
   return findings;
 }
 
-Findings judge_processes_heard(const Heard& heard) {
-  if (heard.nodes.empty() && heard.states == 0) return {};
+Findings judge_processes_on_bus(const Observed& observed) {
+  if (observed.nodes.empty() && observed.states == 0) return {};
   Findings findings;
   constexpr std::array kLoop{crane_SOURCE_PLANNER, crane_SOURCE_TRACKING, crane_SOURCE_ANTI_SWING,
                              crane_SOURCE_FRICTION, crane_SOURCE_SUPERVISOR};
-  const auto missing = [&](crane_Source source) { return !heard.nodes.contains(source); };
+  const auto missing = [&](crane_Source source) { return !observed.nodes.contains(source); };
   const auto absent = [&](const std::string& name) {
     findings.push_back({Grade::problem, "net", "process_missing",
                         name + " is not heard: the crane cannot move",
@@ -170,7 +170,7 @@ Findings judge_processes_heard(const Heard& heard) {
   if (missing(crane_SOURCE_PLANT) && missing(crane_SOURCE_BRIDGE)) absent("plant or hardware_bridge");
   for (const auto source : kLoop)
     if (missing(source)) absent(observation::source_name(source));
-  for (const auto& [number, node] : heard.nodes) {
+  for (const auto& [number, node] : observed.nodes) {
     const std::string name = node.name;
     if (node.phase == crane_PHASE_STARTING)
       findings.push_back({Grade::problem, "net", "process_starting",
@@ -181,16 +181,17 @@ Findings judge_processes_heard(const Heard& heard) {
                           name + " has lost " + std::to_string(node.lost_ticks) + " of " +
                               std::to_string(node.ticks) + " ticks",
                           "look with `crane doctor --rt` whether this computer is late"});
-    constexpr double kClocks_s = 2.5;  // a status is up to 1 s old, and twin and recorder have no priority
-    if (const auto offset = heard.clock_offset_s.find(name);
-        offset != heard.clock_offset_s.end() && std::abs(offset->second) > kClocks_s)
+    // a status is up to 1 s old, and twin and recorder have no real-time priority
+    constexpr double kClocks_s = 2.5;
+    if (const auto offset = observed.clock_offset_s.find(name);
+        offset != observed.clock_offset_s.end() && std::abs(offset->second) > kClocks_s)
       findings.push_back(
           {Grade::advice, "net", "clock_skew",
            "the clock of " + name + " is " + std::to_string(std::llround(std::abs(offset->second))) + " s " +
                (offset->second > 0 ? "ahead of" : "behind") + " this computer's, or the process hangs",
            "run chrony on both computers; recordings and faults have these times"});
   }
-  if (heard.states == 0)
+  if (observed.states == 0)
     findings.push_back({Grade::problem, "net", "no_ticks",
                         "crane/state has no sample: the clock master makes no ticks",
                         "in lockstep `crane run` advances the ticks; in real time restart the stack"});
@@ -198,27 +199,27 @@ Findings judge_processes_heard(const Heard& heard) {
       std::ranges::none_of(findings, [](const Finding& finding) { return finding.grade == Grade::problem; });
   if (complete)
     findings.push_back({Grade::good, "net", "processes",
-                        std::to_string(heard.nodes.size()) + " processes are heard" +
+                        std::to_string(observed.nodes.size()) + " processes are heard" +
                             (findings.empty() ? ", none has lost a tick" : ""),
                         ""});
   return findings;
 }
 
-Findings judge_mismatches(const Heard& heard) {
+Findings judge_mismatches(const Observed& observed) {
   Findings findings;
-  for (const auto& other : heard.other_versions)
+  for (const auto& other : observed.other_versions)
     findings.push_back({Grade::problem, "net", "other_version",
                         other.participant + " has messages of version " + std::to_string(other.version) +
                             ", this program has version " + std::to_string(crane_MESSAGES_VERSION) +
                             "; its samples are dropped",
                         "run programs of one release, or give each crane its own --crane or --domain"});
-  for (const auto& refused : heard.refused)
+  for (const auto& refused : observed.refused)
     findings.push_back({Grade::problem, "net", "quality_of_service",
                         "a writer of " + refused.topic + " offers another " + refused.policy +
                             " than the wanted: " + refused.wanted + "; its samples do not arrive",
                         "write with the quality of service of crane.idl, or end that program"});
-  if (heard.other_versions.empty())
-    for (const auto& [topic, count] : heard.rejected)
+  if (observed.other_versions.empty())
+    for (const auto& [topic, count] : observed.rejected)
       findings.push_back({Grade::problem, "net", "samples_rejected",
                           std::to_string(count) + " samples of " + topic + " had a wrong CRC",
                           "end the program that is not of this release, or look at the network"});
@@ -226,7 +227,8 @@ Findings judge_mismatches(const Heard& heard) {
 }
 
 Findings judge_number_of_participants(const std::vector<LocalProcess>& local, std::uint32_t domain) {
-  constexpr std::ptrdiff_t kMost = 20;  // libs/bus: ports that Fast DDS asks of each host by unicast
+  // number of ports that Fast DDS probes on each host by unicast (libs/bus)
+  constexpr std::ptrdiff_t kMost = 20;
   const auto count = std::ranges::count(local, domain, &LocalProcess::domain);
   if (count < kMost) return {};
   return {{Grade::problem, "net", "too_many_participants",

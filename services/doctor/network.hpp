@@ -20,7 +20,7 @@ struct Refused {
 };
 
 /// Observations of a participant of the requested crane.
-struct Heard {
+struct Observed {
   std::map<std::uint32_t, msg::NodeStatus> nodes;  ///< by node number
   std::map<std::string, double> clock_offset_s;    ///< by process: its clock minus the clock of this computer
   std::uint64_t states = 0;                        ///< samples of crane/state
@@ -28,9 +28,9 @@ struct Heard {
   std::vector<Refused> refused;
   std::vector<bus::OtherVersion> other_versions;
 };
-[[nodiscard]] Heard listen_on(bus::Bus& bus, std::chrono::milliseconds duration);
+[[nodiscard]] Observed listen_on(bus::Bus& bus, std::chrono::milliseconds duration);
 
-/// Requested crane and domain, and further facts about this computer.
+/// Requested crane and domain, and properties of this computer.
 struct ExpectedCrane {
   std::string crane;
   std::uint32_t domain = 0;
@@ -38,15 +38,15 @@ struct ExpectedCrane {
   bool secure = false;
 };
 
-/// Not empty when no process was found: where the crane runs instead.
-[[nodiscard]] Findings judge_silence(const ExpectedCrane& expected, const Heard& heard,
+/// Findings when no process was found: where the crane runs instead.
+[[nodiscard]] Findings judge_silence(const ExpectedCrane& expected, const Observed& observed,
                                      const std::vector<LocalProcess>& local,
                                      const std::vector<Announced>& announced);
-/// Processes of the loop that are missing, starting, or far behind; clocks.
-[[nodiscard]] Findings judge_processes_heard(const Heard& heard);
-/// Writers and programs that are not compatible.
-[[nodiscard]] Findings judge_mismatches(const Heard& heard);
-/// Unicast discovery probes a limited number of ports of each computer.
+/// Checks for processes of the loop that are missing, starting or late, and for clocks that differ.
+[[nodiscard]] Findings judge_processes_on_bus(const Observed& observed);
+/// Checks for incompatible writers and programs.
+[[nodiscard]] Findings judge_mismatches(const Observed& observed);
+/// Checks the number of participants: unicast discovery probes a limited number of ports of each computer.
 [[nodiscard]] Findings judge_number_of_participants(const std::vector<LocalProcess>& local,
                                                     std::uint32_t domain);
 

@@ -30,7 +30,7 @@ TickRows::TickRows(const FieldTable& table, std::vector<Field> columns, Visit vi
     most_values = std::max(most_values, topic.reader.size());
   }
   decoded_.resize(most_values);
-  held_.assign(columns_.size(), kMissing);
+  newest_values_.assign(columns_.size(), kMissing);
 }
 
 TickRows::Waiting& TickRows::waiting(std::uint64_t tick) {
@@ -51,7 +51,7 @@ void TickRows::add(std::size_t topic, std::span<const std::uint8_t> payload) {
     for (std::size_t i = 0; i < columns_.size(); ++i)
       if (columns_[i].topic == topic) values[i] = decoded_[columns_[i].leaf];
   };
-  if (!fields.every_tick) return fill(held_);
+  if (!fields.every_tick) return fill(newest_values_);
 
   const auto tick = static_cast<std::uint64_t>(decoded_[fields.tick_leaf]);
   if (begun_ && tick <= newest_) {
@@ -59,7 +59,7 @@ void TickRows::add(std::size_t topic, std::span<const std::uint8_t> payload) {
       ++late_;
       return;
     }
-    waiting_.clear();  // the clock master has restarted and counts anew
+    waiting_.clear();  // the clock master has restarted, and its ticks begin at 0 again
     begun_ = false;
   }
   Waiting& at = waiting(tick);
@@ -85,7 +85,7 @@ void TickRows::emit_first() {
   constexpr std::uint64_t kState = 1;  // crane/state is the first of topics_
   if ((first.arrived & kState) == 0) return;
   for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (!table_.topics()[columns_[i].topic].every_tick) first.row.values[i] = held_[i];
+    if (!table_.topics()[columns_[i].topic].every_tick) first.row.values[i] = newest_values_[i];
   visit_(first.row);
 }
 

@@ -59,7 +59,8 @@ class TickRows {
   std::size_t state_ = 0;        ///< index of crane/state
   std::uint64_t required_ = 0;   ///< bits of the topics that a complete row has
   std::vector<double> decoded_;  ///< values of one sample
-  std::vector<double> held_;     ///< newest values of the topics that are not written every tick, by column
+  /// newest values of the topics that are not written every tick, by column
+  std::vector<double> newest_values_;
   std::map<std::uint64_t, Waiting> waiting_;
   std::uint64_t newest_ = 0;  ///< tick of the last row
   bool begun_ = false;

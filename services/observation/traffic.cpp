@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A median beyond these is that of two clocks which have nothing to do with each other.
+/// A larger median delay indicates the clocks of two hosts.
 constexpr double kLongestDelay_us = 60e6;
 
 std::size_t bin_of(double delay_us) {
@@ -40,15 +40,15 @@ ordered_json json_of(const topics::Description& topic, const TopicTraffic& traff
   return line;
 }
 
-ordered_json json_of(const Traffic::Heard& heard, std::int64_t now_ns) {
-  const auto& node = heard.status;
-  const auto rate_hz = heard.tick_rate_hz ? ordered_json(*heard.tick_rate_hz) : ordered_json(nullptr);
+ordered_json json_of(const Traffic::NodeReport& report, std::int64_t now_ns) {
+  const auto& node = report.status;
+  const auto rate_hz = report.tick_rate_hz ? ordered_json(*report.tick_rate_hz) : ordered_json(nullptr);
   return {{"name", node.name},
           {"vendor", node.vendor},
           {"pid", node.pid},
           {"phase", phase_name(node.phase)},
           {"controller", node.controller},
-          {"silent", heard.silent(now_ns)},
+          {"silent", report.silent(now_ns)},
           {"ticks", node.ticks},
           {"tick_rate_hz", rate_hz},
           {"lost", node.lost_ticks},
@@ -71,7 +71,7 @@ const char* phase_name(crane_NodePhase phase) {
   return index < kNames.size() ? kNames[index] : "unknown";
 }
 
-bool Traffic::Heard::silent(std::int64_t now_ns) const {
+bool Traffic::NodeReport::silent(std::int64_t now_ns) const {
   const bool in_loop = status.node < crane_SOURCE_OPERATOR && status.node != crane_SOURCE_NONE;
   return now_ns - arrival_ns > (in_loop ? kSilent_ns : kSilentWithoutPriority_ns);
 }
@@ -91,7 +91,7 @@ void Traffic::add(const Sample& sample) {
                        topic.every_tick ? header.sample_time_ns : sample.source_time_ns,
                        sample.written_time_ns});
   if (topic.every_tick) {
-    constexpr std::size_t kMostDelays = 10'000;  // one window of a loop at 10 kHz
+    constexpr std::size_t kMostDelays = 10'000;  // number of samples in one window of a loop at 10 kHz
     const auto delay_us = static_cast<double>(sample.written_time_ns - header.sample_time_ns) * 1e-3;
     if (line.delays_us.size() < kMostDelays) line.delays_us.push_back(delay_us);
     if (delay_us >= 0 && delay_us < kLongestDelay_us) ++line.figures.delay_histogram[bin_of(delay_us)];
@@ -101,22 +101,23 @@ void Traffic::add(const Sample& sample) {
 
 void Traffic::add_status(const Sample& sample, const msg::NodeStatus& status) {
   constexpr std::size_t kMostNodes = 64;
-  constexpr std::int64_t kShortest_ns = 500'000'000;  // a change of phase is reported between two reports
+  // shorter intervals are ignored: a change of phase causes an additional report
+  constexpr std::int64_t kShortest_ns = 500'000'000;
   const auto found = nodes_.find(status.node);
   if (found == nodes_.end() && nodes_.size() >= kMostNodes) return;
-  Heard heard{status, sample.arrival_time_ns, sample.log_time_ns, sample.source_time_ns};
+  NodeReport report{status, sample.arrival_time_ns, sample.log_time_ns, sample.source_time_ns};
   if (found != nodes_.end()) {
     const auto& before = found->second;
-    const auto interval_ns = heard.source_time_ns - before.source_time_ns;
+    const auto interval_ns = report.source_time_ns - before.source_time_ns;
     const bool same_start =
         before.status.header.epoch == status.header.epoch && status.ticks >= before.status.ticks;
     if (same_start && interval_ns >= kShortest_ns)
-      heard.tick_rate_hz =
+      report.tick_rate_hz =
           static_cast<double>(status.ticks - before.status.ticks) * 1e9 / static_cast<double>(interval_ns);
     else if (same_start)
-      heard.tick_rate_hz = before.tick_rate_hz;
+      report.tick_rate_hz = before.tick_rate_hz;
   }
-  nodes_[status.node] = heard;
+  nodes_[status.node] = report;
 }
 
 bool Traffic::poll(std::int64_t now_ns) {
@@ -140,7 +141,7 @@ ordered_json Traffic::json(std::int64_t now_ns) const {
                       {"processes", ordered_json::array()}};
   for (std::size_t i = 0; i < topics_.size(); ++i)
     result["topics"].push_back(json_of(topics::kAll[i], topics_[i].figures));
-  for (const auto& [number, heard] : nodes_) result["processes"].push_back(json_of(heard, now_ns));
+  for (const auto& [number, report] : nodes_) result["processes"].push_back(json_of(report, now_ns));
   return result;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 /// Traffic of the bus: rates, losses and delays of every topic, and the status of every process. Delay and
 /// jitter are those of the writer: from the latching of the encoders until the writer has sent the sample.
-/// They do not depend on when this process, which has no real-time priority, receives the sample.
+/// The time at which this process receives the sample has no influence, because this process has no real-time
+/// priority.
 #include <array>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -18,8 +19,8 @@ inline constexpr std::array<double, 9> kDelayBounds_us{100, 200, 500, 1000, 2000
 struct TopicTraffic {
   ArrivalStatistics::Counts counts;
   ArrivalStatistics::Window window;
-  /// From the latching of the encoders to the sending of the sample; nothing when the clocks are those of two
-  /// hosts.
+  /// From the latching of the encoders to the sending of the sample; nothing when writer and bridge are on
+  /// different hosts.
   std::optional<Spread> delay_us;
   std::array<std::uint64_t, kDelayBounds_us.size() + 1> delay_histogram{};  ///< since the start
   crane_Source writer = crane_SOURCE_NONE;  ///< kind of process that wrote the newest sample
@@ -37,7 +38,7 @@ class Traffic {
   /// Closes the window at its end. @return true when new figures are available
   bool poll(std::int64_t now_ns);
 
-  struct Heard {
+  struct NodeReport {
     msg::NodeStatus status{};
     std::int64_t arrival_ns = 0, log_time_ns = 0;
     std::int64_t source_time_ns = 0;  ///< clock of the writer
@@ -45,7 +46,7 @@ class Traffic {
     std::optional<double> tick_rate_hz{};
     [[nodiscard]] bool silent(std::int64_t now_ns) const;
   };
-  [[nodiscard]] const std::map<std::uint32_t, Heard>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::map<std::uint32_t, NodeReport>& nodes() const { return nodes_; }
   [[nodiscard]] const TopicTraffic& topic(std::size_t index) const { return topics_[index].figures; }
   [[nodiscard]] nlohmann::ordered_json json(std::int64_t now_ns) const;
 
@@ -59,7 +60,7 @@ class Traffic {
   std::vector<Line> topics_ = lines();
   static std::vector<Line> lines();
   void add_status(const Sample& sample, const msg::NodeStatus& status);
-  std::map<std::uint32_t, Heard> nodes_;
+  std::map<std::uint32_t, NodeReport> nodes_;
   std::int64_t window_ends_ns_ = 0;
 };
 

@@ -14,16 +14,16 @@ ServiceManager::ServiceManager() : socket_{std::getenv("NOTIFY_SOCKET")} {
     watchdog_ns_ = std::strtoll(period_us, nullptr, 10) * 1000;
 }
 
-void ServiceManager::ready() { tell("READY=1"); }
-void ServiceManager::stopping() { tell("STOPPING=1"); }
+void ServiceManager::ready() { notify("READY=1"); }
+void ServiceManager::stopping() { notify("STOPPING=1"); }
 
 void ServiceManager::alive(std::int64_t now_ns) {
   if (watchdog_ns_ <= 0 || now_ns < due_ns_) return;
   due_ns_ = now_ns + watchdog_ns_ / 3;
-  tell("WATCHDOG=1");
+  notify("WATCHDOG=1");
 }
 
-void ServiceManager::tell(std::string_view message) const {
+void ServiceManager::notify(std::string_view message) const {
   sockaddr_un to{};
   to.sun_family = AF_UNIX;
   if (socket_ == nullptr || std::strlen(socket_) >= sizeof to.sun_path) return;

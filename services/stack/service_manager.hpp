@@ -17,7 +17,7 @@ class ServiceManager {
   void stopping();
 
  private:
-  void tell(std::string_view message) const;
+  void notify(std::string_view message) const;
   const char* socket_;
   std::int64_t watchdog_ns_ = 0;  ///< 0: no watchdog
   std::int64_t due_ns_ = 0;

@@ -24,7 +24,7 @@ void JogSession::begin(const msg::Request& request, const bus::ParticipantId& se
 
 void JogSession::release(double now_s) {
   neutral_s_ = now_s;
-  heard_s_.reset();
+  last_sample_s_.reset();
   engaged_ = faulty_ = false;
   deflection_ = {};
 }
@@ -35,7 +35,7 @@ bool JogSession::of_session(const msg::Jog& sample, const JogWriter& from) const
          sample.header.epoch == request_.header.epoch && std::string_view{sample.client} == request_.client;
 }
 
-/// A delayed or repeated sample tells nothing about the present deflection.
+/// A delayed or repeated sample does not contain the present deflection.
 bool JogSession::late(const msg::Jog& sample, std::uint64_t tick) const {
   const auto oldest = static_cast<std::uint64_t>(std::lround(kSilence_s / period_s_));
   return sample.header.tick < tick && tick - sample.header.tick > oldest;
@@ -64,7 +64,7 @@ JogSession::Verdict JogSession::take(const msg::Jog& sample, const JogWriter& fr
     release(now_s);
   else if (silent(now_s) || now_s - neutral_s_ > kLongest_s)
     faulty_ = true;
-  heard_s_ = now_s;
+  last_sample_s_ = now_s;
   engaged_ = !faulty_ && sample.header.tick <= tick;
   deflection_ = engaged_ ? deflection : Deflection{};
   if (deflection_ != Deflection{}) deflected_s_ = now_s;
@@ -75,7 +75,7 @@ std::array<double, 3> JogSession::deflection(double now_s) const {
   return open_ && acts(now_s) ? deflection_ : Deflection{};
 }
 
-bool JogSession::held(double now_s) const {
+bool JogSession::active(double now_s) const {
   if (!open_) return false;
   if (!writer_) return now_s - begun_s_ <= kFirst_s;
   return acts(now_s) && now_s - deflected_s_ <= kLongest_s;

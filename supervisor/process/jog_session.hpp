@@ -1,15 +1,16 @@
 #pragma once
 /// Session of an operator's stick: decides which samples of crane/jog act. Time and tick are arguments.
 ///
-/// An accepted REQUEST_JOG begins a session of the DDS participant that sent it. The first sample of this
-/// participant with the client, the request id and the start-up number (header.epoch) of the request binds
-/// the session to its DDS writer. All other samples have no effect: a program that copies the identity cannot
-/// win the session by sending first.
+/// An accepted REQUEST_JOG begins a session of the DDS participant that sent the request. The first sample of
+/// this participant with the client, the request id and the start-up number (header.epoch) of the request
+/// binds the session to the DDS writer of the sample. All other samples have no effect: a program that copies
+/// client, request id and start-up number cannot take over the session by sending first.
 ///
 /// The stick is released when `engaged` is false, when the newest sample is ahead of `tick`, and when this
-/// sample arrived more than kSilence_s ago. It is faulty after a silence of kSilence_s, with a tick older
-/// than kSilence_s, with a deflection that is not in [-1, 1], and when it has been deflected for kLongest_s.
-/// A faulty stick counts as released until the operator releases it: motion does not begin again by itself.
+/// sample arrived more than kSilence_s ago. The stick is faulty after a silence of kSilence_s, with a tick
+/// older than kSilence_s, with a deflection that is not in [-1, 1], and when it has been deflected for
+/// kLongest_s. A faulty stick counts as released until the operator releases the stick: the motion does not
+/// resume by itself.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -29,11 +30,11 @@ class JogSession {
  public:
   /// Largest age of the newest sample.
   static constexpr double kSilence_s = 0.1;
-  /// Longest time from the acceptance to the first sample.
+  /// Longest time from the acceptance of the request to the first sample.
   static constexpr double kFirst_s = 0.5;
-  /// Longest time of a deflection that never returns to zero: a stick that is stuck, or that nobody holds.
-  /// Also the longest time without a deflection: an engaged stick that nobody moves must not keep the brakes
-  /// open.
+  /// Longest uninterrupted deflection: a stick that does not return to zero for longer is stuck, or nobody
+  /// holds it. Also the longest time without a deflection: an engaged stick that is not moved must not keep
+  /// the brakes open.
   static constexpr double kLongest_s = 60;
 
   enum class Verdict : std::uint8_t {
@@ -44,7 +45,7 @@ class JogSession {
   };
 
   explicit JogSession(double period_s) : period_s_{period_s} {}
-  /// @param sender  participant that sent the request; kUnknownParticipant: no sample acts
+  /// @param sender  participant that sent the request; kUnknownParticipant: no sample has an effect
   void begin(const msg::Request& request, const bus::ParticipantId& sender, double now_s);
   void end() { open_ = false; }
   Verdict take(const msg::Jog& sample, const JogWriter& from, std::uint64_t tick, double now_s);
@@ -53,7 +54,7 @@ class JogSession {
   [[nodiscard]] std::array<double, 3> deflection(double now_s) const;
   /// True while the stick is engaged and has been deflected within kLongest_s, and for kFirst_s while no
   /// sample has arrived.
-  [[nodiscard]] bool held(double now_s) const;
+  [[nodiscard]] bool active(double now_s) const;
   [[nodiscard]] bool open() const { return open_; }
 
  private:
@@ -61,7 +62,9 @@ class JogSession {
 
   [[nodiscard]] bool of_session(const msg::Jog& sample, const JogWriter& from) const;
   [[nodiscard]] bool late(const msg::Jog& sample, std::uint64_t tick) const;
-  [[nodiscard]] bool silent(double now_s) const { return heard_s_ && now_s - *heard_s_ > kSilence_s; }
+  [[nodiscard]] bool silent(double now_s) const {
+    return last_sample_s_ && now_s - *last_sample_s_ > kSilence_s;
+  }
   [[nodiscard]] bool acts(double now_s) const { return engaged_ && !silent(now_s); }
   [[nodiscard]] Deflection selected_of(const msg::Jog& sample) const;
   void release(double now_s);
@@ -72,11 +75,12 @@ class JogSession {
   bus::ParticipantId sender_ = bus::kUnknownParticipant;
   std::optional<bus::WriterId> writer_;  ///< nothing: no sample has arrived
   double begun_s_ = 0;
-  double deflected_s_ = 0;         ///< last time at which a deflection acted; before the first one: begun_s_
-  double neutral_s_ = 0;           ///< last time at which the stick was released or not deflected
-  std::optional<double> heard_s_;  ///< last sample; nothing: none since the stick was released
+  double deflected_s_ = 0;  ///< last time at which a deflection acted; before the first deflection: begun_s_
+  double neutral_s_ = 0;    ///< last time at which the stick was released or not deflected
+  std::optional<double> last_sample_s_;  ///< time of the last sample; nothing: no sample has arrived since
+                                         ///< the stick was released
   bool engaged_ = false;
-  bool faulty_ = false;  ///< until the operator releases the stick
+  bool faulty_ = false;  ///< true: the stick is faulty; ends when the operator releases the stick
   Deflection deflection_{};
 };
 

@@ -69,7 +69,7 @@ Limits limits_of(const configuration::Rig& rig) {
     const auto& drive = rig.drives[i];
     if (!drive.present) continue;
     limits.reference_acceleration[i] = drive.reference_acceleration;
-    limits.follow_begin[i] =
+    limits.largest_follow_jump[i] =
         drive.reference_speed * drive.reference_speed / (2 * drive.reference_acceleration);
   }
   return limits;

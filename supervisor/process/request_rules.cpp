@@ -61,9 +61,9 @@ std::string begin_problem(const msg::Request& request, const Limits& limits, con
   if (excursion_of(request).distance == 0) return "";
   for (std::size_t i = 0; i < kAxes; ++i) {
     const double distance = std::abs(request.target[i] - position[i]);
-    if (!request.selected[i] || distance <= limits.follow_begin[i]) continue;
+    if (!request.selected[i] || distance <= limits.largest_follow_jump[i]) continue;
     return "follow: the reference begins " + std::to_string(distance) + " from the " +
-           plant::kCoordinates[i].name + ", at most " + std::to_string(limits.follow_begin[i]) +
+           plant::kCoordinates[i].name + ", at most " + std::to_string(limits.largest_follow_jump[i]) +
            " is permitted: move there first";
   }
   return "";
@@ -71,7 +71,7 @@ std::string begin_problem(const msg::Request& request, const Limits& limits, con
 
 constexpr const char* kHint = " (the radius of the load counts; crane zone list)";
 
-/// Sines are followed on the straight path only.
+/// The planner follows sines only on the straight path, not around zones.
 std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxis& to) {
   const auto* zone = control::zone_in_path(limits.zones, limits.clearance, limits.machine.crane.gravity_mps2,
                                            from, to, control::kRestGap_m);

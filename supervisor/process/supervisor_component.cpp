@@ -13,7 +13,7 @@
 #include "crane/supervisor/supervisor.hpp"
 #include "process/clock_offset.hpp"
 #include "process/command_echo.hpp"
-#include "process/jog_desk.hpp"
+#include "process/jog_reader.hpp"
 #include "process/request_rules.hpp"
 #include "process/samples.hpp"
 #include "process/start_up_test.hpp"
@@ -25,8 +25,8 @@ using runtime::Context;
 
 constexpr double kWaitShare = 0.6;  // share of a period: longest wait for the demand; the command must reach
                                     // the bridge in the same period
-constexpr double kSilentPeriods = 1.5;   // without a state: the step is made after this time
-constexpr double kOpenPeriods = 2;       // additional time while a state waits for its demand
+constexpr double kSilentPeriods = 1.5;   // without a state: the step is executed after this time
+constexpr double kOpenPeriods = 2;       // additional time when a state has arrived without its demand
 constexpr double kRespitePeriods = 0.5;  // extension after a late step or a late wake-up
 constexpr int kTicksToTakeUp = 20;       // from the acceptance of a move until the planner must execute it
 
@@ -73,7 +73,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.demand_v = runtime::values(demand->total_v);
     }
     jogs_.take(tick, input.now_s);
-    input.reference_moving = is_moving(reference) || jogs_.session().held(input.now_s);
+    input.reference_moving = is_moving(reference) || jogs_.session().active(input.now_s);
     input.bridge_restarted = restarts() > bridge_restarts_;
     bridge_restarts_ = restarts();
     input.second_writer =
@@ -91,7 +91,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
 
   /// No state arrives: the bridge has ended, hangs or is disconnected. Steps the state machine without a
-  /// sample. The command repeats the last tick, and the bridge discards it. A late state does not end a move.
+  /// sample. The command carries the number of the last tick, and the bridge discards the command. A late
+  /// state does not end a move.
   bool on_idle(std::int64_t now_ns) override {
     if (const auto* state = open_leader()) (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
     if (now_ns < silence_ends_ns() || woke_late(now_ns)) return false;
@@ -99,7 +100,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     TickInput input;
     input.now_s = seconds(now_ns);
     input.tick = last_header_.tick;
-    input.reference_moving = is_moving(nullptr) || jogs_.session().held(input.now_s);
+    input.reference_moving = is_moving(nullptr) || jogs_.session().active(input.now_s);
     input.self_test = self_test_.step(nullptr);
     step(input);
     return true;
@@ -129,8 +130,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   [[nodiscard]] std::int64_t periods_ns(double periods) const {
     return static_cast<std::int64_t>(periods * limits_.period_s * 1e9);
   }
-  /// While a state waits for its demand, the tick join determines the time of the step. The additional
-  /// periods ensure a step even when states continue to arrive without demands.
+  /// While a state waits for its demand, the tick join determines the time of the step. With the additional
+  /// periods a step is executed even if states continue to arrive without demands.
   [[nodiscard]] std::int64_t silence_ends_ns() const {
     if (!realtime_ || state_due_ns_ == runtime::kNever) return runtime::kNever;
     return state_due_ns_ + (open_leader() == nullptr ? 0 : periods_ns(kOpenPeriods));
@@ -139,8 +140,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     state_due_ns_ = time_ns;
     has_respite_ = false;
   }
-  /// When this process was scheduled late, samples that have arrived may not be delivered yet. One pause of
-  /// the computer must not count as several missing ticks: extends the wait, once per step.
+  /// When this process was scheduled late, samples may have arrived at the host without being delivered yet.
+  /// One pause of the computer must not count as several missing ticks. Therefore the function extends the
+  /// wait, once per step.
   bool woke_late(std::int64_t now_ns) {
     if (has_respite_ || open_leader() != nullptr ||
         now_ns < silence_ends_ns() + periods_ns(kRespitePeriods) / 2)
@@ -160,9 +162,9 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       input.brake_open_without_command = true;
   }
 
-  /// The bridge executes forged commands, which no command of this process can prevent. When this process
-  /// ends, its writer disappears: the bridge then drops its samples, and `crane up` ends the bridge with a
-  /// signal.
+  /// The bridge executes forged commands; no command of this process can prevent this. When this process
+  /// ends, its writer disappears: the bridge then drops all samples of this writer, forged samples included,
+  /// and `crane up` ends the bridge with a signal.
   [[noreturn]] void give_up() {
     constexpr const char* kWhat =
         "the bridge gives voltages, or a brake is open, that this supervisor has not commanded";
@@ -192,7 +194,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   std::vector<DueRequest> collect(TickInput& input) {
     std::vector<DueRequest> due;
     bus::ParticipantId sender{};
-    // The planner searches the way of an accepted move from the sample of the same tick.
+    // The planner starts its search for the way of an accepted move from the sample of the same tick.
     const PerAxis& position = input.state_arrived ? input.sample.position : memory_.motion.position;
     OncePerTick once;
     while (const auto request = requests_.take_due(input.tick, &sender)) {
@@ -254,7 +256,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   CommandEcho echo_;
   ClockOffset bridge_clock_;
   runtime::RequestInbox requests_;
-  JogDesk jogs_;
+  JogReader jogs_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;
   StartUpTest self_test_;

@@ -100,11 +100,11 @@ Interval allowed(const Limits& limits, std::size_t i, const FollowingMemory& mem
   const double unknown = gain * (kGainTolerance * volts_v + kOffset_v) + kGainTolerance * drag +
                          unmeasured_load_acceleration(limits, i, state);
   Interval found{std::min(heaviest, lightest) - unknown, std::max(heaviest, lightest) + unknown};
-  const double slow =
-      kSpeedShare * limits.axis[i].max_speed;  // below this speed friction can have both signs
-  if (std::max(v, before) > -slow)
+  // below this speed friction can have both signs
+  const double zero_speed = kSpeedShare * limits.axis[i].max_speed;
+  if (std::max(v, before) > -zero_speed)
     found.low -= gain * friction_v(limits.machine.friction_positive[i], before);
-  if (std::min(v, before) < slow)
+  if (std::min(v, before) < zero_speed)
     found.high += gain * friction_v(limits.machine.friction_negative[i], before);
   return found;
 }
@@ -117,9 +117,9 @@ bool judge_axis(const Limits& limits, std::size_t i, const plant::State& state, 
   const double before = (middle.position[i] - oldest.position[i]) / older_s;
   const double dt_s = (newer_s + older_s) / 2, dv = v - before;
   const Interval mps2 = allowed(limits, i, memory, state, heaviest, lightest, v, before);
-  memory.fast[i] = std::max(0.0, memory.fast[i] + dv - mps2.high * dt_s);
-  memory.slow[i] = std::max(0.0, memory.slow[i] + mps2.low * dt_s - dv);
-  const double ratio = std::max(memory.fast[i], memory.slow[i]) / following_limit(limits, i, before, dt_s);
+  memory.above[i] = std::max(0.0, memory.above[i] + dv - mps2.high * dt_s);
+  memory.below[i] = std::max(0.0, memory.below[i] + mps2.low * dt_s - dv);
+  const double ratio = std::max(memory.above[i], memory.below[i]) / following_limit(limits, i, before, dt_s);
   memory.largest[i] = std::max(memory.largest[i], ratio);
   return !(ratio <= 1);
 }
@@ -137,7 +137,7 @@ bool following_error(const Limits& limits, const FollowingInput& input, Followin
   const bool any_free =
       std::ranges::any_of(memory.free_ticks, [](int ticks) { return ticks == kSettled_ticks; });
   if (!any_free) {
-    memory.fast = memory.slow = {};
+    memory.above = memory.below = {};
     return false;
   }
   const auto state = state_of(limits, memory);
@@ -149,7 +149,7 @@ bool following_error(const Limits& limits, const FollowingInput& input, Followin
     if (limits.axis[i].present && memory.free_ticks[i] == kSettled_ticks)
       found = judge_axis(limits, i, state, heaviest[i], lightest[i], memory) || found;
     else
-      memory.fast[i] = memory.slow[i] = 0;
+      memory.above[i] = memory.below[i] = 0;
   }
   return found;
 }

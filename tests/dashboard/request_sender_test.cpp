@@ -8,7 +8,7 @@
 namespace crane::dashboard {
 namespace {
 
-class Desk : public testing::Test {
+class RequestSenderTest : public testing::Test {
  protected:
   static bus::Options on(const std::shared_ptr<bus::MemoryNetwork>& network, const char* name,
                          crane_Source source) {
@@ -40,7 +40,7 @@ class Desk : public testing::Test {
   RequestSender sender_{bus_};
 };
 
-TEST_F(Desk, AThousandStopsAtOnceAreOneRequestAndAllAreAnswered) {
+TEST_F(RequestSenderTest, AThousandStopsAtOnceAreOneRequestAndAllAreAnswered) {
   int answered = 0;
   for (int i = 0; i < 1000; ++i)
     sender_.send({.kind = crane_REQUEST_ESTOP},
@@ -52,7 +52,7 @@ TEST_F(Desk, AThousandStopsAtOnceAreOneRequestAndAllAreAnswered) {
   EXPECT_EQ(answered, 1000);
 }
 
-TEST_F(Desk, AStopIsSentWhileManyOtherRequestsWait) {
+TEST_F(RequestSenderTest, AStopIsSentWhileManyOtherRequestsWait) {
   int refused = 0;
   for (int i = 0; i < 1000; ++i)
     sender_.send({.kind = crane_REQUEST_RESET},
@@ -65,7 +65,7 @@ TEST_F(Desk, AStopIsSentWhileManyOtherRequestsWait) {
   EXPECT_EQ(sent.front().kind, crane_REQUEST_ESTOP);
 }
 
-TEST_F(Desk, WhatWasAnsweredMakesRoomAtOnce) {
+TEST_F(RequestSenderTest, AnAnsweredRequestFreesItsPlaceAtOnce) {
   int accepted = 0;
   for (int i = 0; i < 1000; ++i) {
     sender_.send({.kind = crane_REQUEST_RESET},

@@ -1,4 +1,4 @@
-/// What the doctor concludes from what was heard. The faults themselves are made by doctor_system_test.
+/// Findings of the doctor for given observations. doctor_system_test injects the faults themselves.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@ namespace {
 
 using testing::HasSubstr;
 
-Heard whole_loop() {
-  Heard heard;
-  heard.states = 100;
+Observed whole_loop() {
+  Observed observed;
+  observed.states = 100;
   for (const auto source : {crane_SOURCE_PLANT, crane_SOURCE_PLANNER, crane_SOURCE_TRACKING,
                             crane_SOURCE_ANTI_SWING, crane_SOURCE_FRICTION, crane_SOURCE_SUPERVISOR}) {
     msg::NodeStatus node{};
@@ -24,9 +24,9 @@ Heard whole_loop() {
     node.phase = crane_PHASE_READY;
     node.ticks = 1000;
     runtime::assign(node.name, "process " + std::to_string(source));
-    heard.nodes[source] = node;
+    observed.nodes[source] = node;
   }
-  return heard;
+  return observed;
 }
 
 const ExpectedCrane kExpected{"crane", 0, {"127.0.0.1"}, false};
@@ -38,35 +38,35 @@ LocalProcess running(const std::vector<std::string>& options) {
 }
 
 TEST(Doctor, FindsNothingInAWholeLoop) {
-  const auto heard = whole_loop();
-  EXPECT_TRUE(judge_silence(kExpected, heard, {running({"--crane", "other"})}, {}).empty());
-  const auto found = judge_processes_heard(heard);
+  const auto observed = whole_loop();
+  EXPECT_TRUE(judge_silence(kExpected, observed, {running({"--crane", "other"})}, {}).empty());
+  const auto found = judge_processes_on_bus(observed);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].grade, Grade::good);
-  EXPECT_TRUE(judge_mismatches(heard).empty());
+  EXPECT_TRUE(judge_mismatches(observed).empty());
 }
 
 TEST(Doctor, NamesTheMissingAndTheStartingProcess) {
-  auto heard = whole_loop();
-  heard.nodes.erase(crane_SOURCE_ANTI_SWING);
-  heard.nodes[crane_SOURCE_TRACKING].phase = crane_PHASE_STARTING;
-  const auto found = judge_processes_heard(heard);
+  auto observed = whole_loop();
+  observed.nodes.erase(crane_SOURCE_ANTI_SWING);
+  observed.nodes[crane_SOURCE_TRACKING].phase = crane_PHASE_STARTING;
+  const auto found = judge_processes_on_bus(observed);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_THAT(found[0].what, HasSubstr("anti_swing is not heard"));
   EXPECT_EQ(found[1].code, "process_starting");
 }
 
 TEST(Doctor, NamesAClockThatDiffers) {
-  auto heard = whole_loop();
-  heard.clock_offset_s["process " + std::to_string(crane_SOURCE_PLANT)] = -40;
-  const auto found = judge_processes_heard(heard);
+  auto observed = whole_loop();
+  observed.clock_offset_s["process " + std::to_string(crane_SOURCE_PLANT)] = -40;
+  const auto found = judge_processes_on_bus(observed);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].grade, Grade::advice);
   EXPECT_THAT(found[0].what, HasSubstr("40 s behind"));
   EXPECT_EQ(found[1].grade, Grade::good);
 }
 
-TEST(Doctor, OfSilenceSaysTheOptionThatWouldHelp) {
+TEST(Doctor, NamesTheOptionThatWouldFindTheCrane) {
   const auto remedy = [](const std::vector<std::string>& options) {
     const auto found = judge_silence(kExpected, {}, {running(options)}, {});
     return found.size() == 1 ? found[0].code + ": " + found[0].remedy : "";
@@ -118,7 +118,7 @@ TEST(Doctor, ComparesTheTimerWithHalfAPeriod) {
   EXPECT_THAT(late[0].remedy, HasSubstr("SCHED_FIFO"));
 }
 
-TEST(Doctor, SaysOneLineForEachFinding) {
+TEST(Doctor, PrintsOneLineForEachFinding) {
   EXPECT_EQ(line_of({Grade::problem, "net", "x", "what", "remedy"}), "problem  net  what: remedy");
   EXPECT_EQ(line_of({Grade::good, "rt", "x", "what", ""}), "good     rt  what");
 }

@@ -16,17 +16,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 double power_w(const Parameters& p, const State& s, const Model& with, const Model& without) {
-  // forces of the terms through the accelerations they add: P = q' M dq''
+  // power of the terms from the accelerations that they add: P = q' M dq''
   const Accelerations a = with.accelerations(s, {}), b = without.accelerations(s, {});
   const Eigen::Vector4d added{a.trolley_mps2 - b.trolley_mps2, a.radial_radps2 - b.radial_radps2,
                               a.slew_radps2 - b.slew_radps2, a.tangential_radps2 - b.tangential_radps2};
   const Eigen::Vector4d rates{s.trolley_mps, s.radial_radps, s.slew_radps, s.tangential_radps};
   return rates.dot(mass_matrix(p, s) * added);
-}
-
-double friction_v(const std::vector<TermSetting>& terms, double speed_mps, double position_m = 0.5,
-                  double drive_v = 0) {
-  return Model{{}, terms}.friction_v({.trolley_m = position_m, .trolley_mps = speed_mps}, drive_v, kTrolley);
 }
 
 std::array<double, 5> numbers(const Measurement& m) {
@@ -61,7 +56,7 @@ TEST(Terms, StayFiniteWithAnyParametersInTheirRanges) {
     return std::uniform_real_distribution{low, high}(random);
   };
   const auto drawn = [&](const TermParameter& p) {
-    const double share = std::array{0.0, 1.0, in(0, 1)}[random() % 3];  // the ends too
+    const double share = std::array{0.0, 1.0, in(0, 1)}[random() % 3];  // includes the ends of the range
     return p.low + share * (p.high - p.low);
   };
   const auto finite = [](const auto& values) {
@@ -89,7 +84,7 @@ TEST(Terms, StayFiniteWithAnyParametersInTheirRanges) {
   }
 }
 
-TEST(Terms, SayWhatTheyAreAndHaveUniqueNames) {
+TEST(Terms, HaveDescriptionsAndUniqueNames) {
   std::set<std::string_view> names;
   for (const TermKind& kind : term_kinds()) {
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
@@ -126,93 +121,13 @@ TEST(Terms, ThatDissipateNeverAddEnergy) {
     double most_w = 0;
     for (int i = 0; i < 200; ++i) {
       State s = test::random_state(random);
-      s.cable_mps = 0;  // drag along the cable is the hoist's, whose motion is prescribed
+      s.cable_mps = 0;  // the hoist absorbs drag along the cable, because its motion is prescribed
       const double power = power_w(p, s, with, without);
       EXPECT_LT(power, 1e-9);
       most_w = std::min(most_w, power);
     }
-    EXPECT_LT(most_w, -1e-3);  // and they do something
+    EXPECT_LT(most_w, -1e-3);  // the terms have an effect
   }
-}
-
-TEST(Terms, DriveFrictionOpposesMotionWithTheNumbersOfItsDirection) {
-  const std::vector<TermSetting> terms{{"drive_friction",
-                                        "trolley",
-                                        {{"viscous_positive_vspm", 1.5},
-                                         {"viscous_negative_vspm", 6},
-                                         {"coulomb_positive_v", 0.9},
-                                         {"coulomb_negative_v", 1.2}}}};
-  EXPECT_NEAR(friction_v(terms, 0.2), 0.9 + 1.5 * 0.2, 1e-12);
-  EXPECT_NEAR(friction_v(terms, -0.2), -1.2 - 6 * 0.2, 1e-12);
-  EXPECT_EQ(friction_v(terms, 0), 0);
-  EXPECT_NEAR(friction_v(terms, 0.0005), 0.9 * std::tanh(1.0) + 1.5 * 0.0005, 1e-12);
-}
-
-TEST(Terms, StictionIsAnExcessOverCoulombFrictionThatDecaysWithSpeed) {
-  const std::vector<TermSetting> terms{
-      {"drive_friction", "trolley", {{"coulomb_positive_v", 1}, {"stiction_positive_v", 1.5}}}};
-  double highest = 0;
-  for (double v = 0; v < 0.02; v += 1e-5) highest = std::max(highest, friction_v(terms, v));
-  EXPECT_NEAR(highest, 1.5, 0.05);  // the smoothed step costs a few per cent of the excess
-  EXPECT_NEAR(friction_v(terms, 0.05), 1, 1e-9);
-}
-
-TEST(Terms, StribeckExcessFallsToAboutAThirdAtItsDecaySpeed) {
-  const std::vector<TermSetting> terms{
-      {"stribeck_friction", "trolley", {{"excess_v", 2}, {"decay_speed", 0.1}}}};
-  EXPECT_NEAR(friction_v(terms, 0.1), 2 * std::exp(-1.0), 1e-9);
-  EXPECT_NEAR(friction_v(terms, -0.1), -2 * std::exp(-1.0), 1e-9);
-}
-
-TEST(Terms, PositionDependentFrictionPeaksAtTheTightSpotsAndVanishesBetween) {
-  const std::vector<TermSetting> terms{{"position_dependent_friction",
-                                        "trolley",
-                                        {{"amplitude_v", 2}, {"wavelength", 0.4}, {"tight_at", 0.1}}}};
-  EXPECT_NEAR(friction_v(terms, 0.1, 0.5), 2, 1e-9);
-  EXPECT_NEAR(friction_v(terms, -0.1, 0.5), -2, 1e-9);
-  EXPECT_NEAR(friction_v(terms, 0.1, 0.3), 0, 1e-9);
-}
-
-TEST(Terms, CoulombAndViscousAndAsymmetryTogetherAreADriveFrictionOfTwoDirections) {
-  const std::vector<TermSetting> parts{
-      {"coulomb_friction", "trolley", {{"level_v", 1.0}}},
-      {"viscous_friction", "trolley", {{"vspm", 4.0}}},
-      {"direction_asymmetry", "trolley", {{"coulomb_v", -0.2}, {"viscous_vspm", 1.5}}}};
-  const std::vector<TermSetting> whole{{"drive_friction",
-                                        "trolley",
-                                        {{"viscous_positive_vspm", 5.5},
-                                         {"viscous_negative_vspm", 2.5},
-                                         {"coulomb_positive_v", 0.8},
-                                         {"coulomb_negative_v", 1.2}}}};
-  for (const double v : {-1.0, -0.01, -0.0003, 0.0, 0.0004, 0.02, 0.7})
-    EXPECT_NEAR(friction_v(parts, v), friction_v(whole, v), 1e-12) << v;
-}
-
-TEST(Terms, TorqueRippleAddsToTheVoltsByPosition) {
-  const std::vector<TermSetting> terms{
-      {"torque_ripple", "trolley", {{"amplitude_v", 0.5}, {"phase_rad", 0.3}, {"period", 0.2}}}};
-  EXPECT_NEAR(friction_v(terms, 0.1, 0), -0.5 * std::sin(0.3), 1e-12);
-  EXPECT_NEAR(friction_v(terms, -0.1, 0.05), -0.5 * std::cos(0.3), 1e-12);
-  EXPECT_NEAR(friction_v(terms, 0, 0.25), friction_v(terms, 0, 0.05), 1e-12);
-}
-
-TEST(Terms, APositionForceIsASpringWithARestPosition) {
-  const std::vector<TermSetting> terms{
-      {"position_force", "trolley", {{"stiffness_vpm", 2}, {"offset_v", 1}}}};
-  EXPECT_NEAR(friction_v(terms, 0.1, 0.5), 0, 1e-12) << "at rest where k p = o";
-  EXPECT_NEAR(friction_v(terms, 0.1, 0.7), 0.4, 1e-12);
-  EXPECT_NEAR(friction_v(terms, -0.1, 0.7), 0.4, 1e-12) << "it does not depend on the direction";
-}
-
-/// Motor and weight work against each other in the gear, which carries both when the motor holds the weight.
-TEST(Terms, GearFrictionGrowsWithWhatMotorAndWeightLoadTheGearWith) {
-  const std::vector<TermSetting> gear{{"gear_friction", "trolley", {{"share", 0.3}}}};
-  EXPECT_NEAR(friction_v(gear, 0.1, 0, 4), 1.2, 1e-12);
-  EXPECT_NEAR(friction_v(gear, -0.1, 0, 4), -1.2, 1e-12);
-  EXPECT_NEAR(friction_v(gear, 0.1, 0, -4), 1.2, 1e-12) << "the sign of the volts does not count";
-  std::vector<TermSetting> with_weight = gear;
-  with_weight.push_back({"position_force", "trolley", {{"offset_v", -2}}});
-  EXPECT_NEAR(friction_v(with_weight, 0.1, 0, 2), 0.3 * 4 + 2, 1e-12) << "held against a weight of 2 V";
 }
 
 TEST(Terms, ADeadZoneTakesItsWidthFromEitherSide) {
@@ -258,7 +173,7 @@ TEST(Terms, ARaisedJibPullsTowardsTheTowerAndTheLoadHangsInLineWithGravity) {
               1e-12);
   const Accelerations rolling = tilted.accelerations({.trolley_m = 1, .radial_rad = kAngle}, {});
   const double weight_n = (p.trolley_mass_kg + p.load_mass_kg) * p.gravity_mps2 * std::sin(kAngle);
-  // both masses pull, the load through the cable, which swings by as much as the trolley gives way
+  // gravity acts on both masses; the load pulls through its cable, which swings as the trolley moves
   const double inertia = p.trolley_inertia_kg + p.load_mass_kg * std::pow(std::sin(kAngle), 2);
   EXPECT_NEAR(rolling.trolley_mps2, -weight_n / inertia, 1e-12);
 }
@@ -278,7 +193,7 @@ TEST(Terms, CommandTermsActInTheOrderOfTheRigFile) {
   EXPECT_EQ(gain_first.drive_voltage({1, 2, 3})[kTrolley], 1);
 }
 
-TEST(Terms, WindLeansTheLoadTowardsWhereItBlowsWhateverTheSlewAngle) {
+TEST(Terms, WindDeflectsTheLoadInItsDirectionForAnySlewAngle) {
   constexpr double kRight = std::numbers::pi / 2;
   const Model wind{{}, {{"steady_wind", "", {{"force_n", 2}, {"direction_rad", kRight}}}}};
   Actuation held;

@@ -48,24 +48,24 @@ TEST_F(Jog, ActsOnTheSelectedAxes) {
   begin(1);
   EXPECT_EQ(take(sample(100), kOperator, 101), Verdict::acts);
   EXPECT_EQ(session_.deflection(1.01), (Deflection{0.5, -0.25, 0}));
-  EXPECT_TRUE(session_.held(1.01));
+  EXPECT_TRUE(session_.active(1.01));
 }
 
-TEST_F(Jog, IsNotHeldByAStickThatNobodyMovesForAMinute) {
+TEST_F(Jog, EndsWhenTheStickIsNotMovedForAMinute) {
   begin(1);
   std::uint64_t tick = 100;
   take(sample(tick), kOperator, tick);
-  const auto held = [&] { return session_.held(static_cast<double>(tick) / 100); };
-  for (; held() && tick < 10'000; ++tick) take(sample(tick, kReleased), kOperator, tick);
+  const auto active = [&] { return session_.active(static_cast<double>(tick) / 100); };
+  for (; active() && tick < 10'000; ++tick) take(sample(tick, kReleased), kOperator, tick);
   EXPECT_NEAR(static_cast<double>(tick) / 100, 1 + JogSession::kLongest_s, 0.02);
   take(sample(tick), kOperator, tick);
-  EXPECT_TRUE(held()) << "the operator is there again";
+  EXPECT_TRUE(active()) << "the operator is there again";
 }
 
 TEST_F(Jog, IgnoresAStrangerWithoutARequest) {
   EXPECT_EQ(take(sample(100), kStranger, 100), Verdict::stranger);
   EXPECT_EQ(session_.deflection(1), kReleased);
-  EXPECT_FALSE(session_.held(1));
+  EXPECT_FALSE(session_.active(1));
 }
 
 TEST_F(Jog, IgnoresEachOtherIdentity) {
@@ -90,7 +90,7 @@ TEST_F(Jog, IgnoresASecondWriterThatCopiesTheWholeIdentity) {
   auto release = sample(100);
   release.engaged = false;
   EXPECT_EQ(take(release, kStranger, 100), Verdict::stranger) << "a stranger cannot stop the session either";
-  EXPECT_TRUE(session_.held(1));
+  EXPECT_TRUE(session_.active(1));
 }
 
 TEST_F(Jog, ReleasesAfterAHundredMillisecondsOfSilence) {
@@ -98,7 +98,7 @@ TEST_F(Jog, ReleasesAfterAHundredMillisecondsOfSilence) {
   take(sample(100), kOperator, 100);
   EXPECT_NE(session_.deflection(1.099), kReleased);
   EXPECT_EQ(session_.deflection(1.101), kReleased);
-  EXPECT_FALSE(session_.held(1.101));
+  EXPECT_FALSE(session_.active(1.101));
 }
 
 TEST_F(Jog, ReleasesWithTheDeadMansSwitch) {
@@ -108,7 +108,7 @@ TEST_F(Jog, ReleasesWithTheDeadMansSwitch) {
   release.engaged = false;
   EXPECT_EQ(take(release, kOperator, 101), Verdict::released);
   EXPECT_EQ(session_.deflection(1.01), kReleased);
-  EXPECT_FALSE(session_.held(1.01));
+  EXPECT_FALSE(session_.active(1.01));
 }
 
 TEST_F(Jog, ReleasesForADeflectionOutsideItsRange) {
@@ -131,8 +131,8 @@ TEST_F(Jog, ReleasesForASampleThatIsLateOrAheadOfTheClock) {
 
 TEST_F(Jog, WaitsHalfASecondForTheFirstSample) {
   begin(1);
-  EXPECT_TRUE(session_.held(1.5));
-  EXPECT_FALSE(session_.held(1.501));
+  EXPECT_TRUE(session_.active(1.5));
+  EXPECT_FALSE(session_.active(1.501));
 }
 
 TEST_F(Jog, EndsQuietlyForItsOperatorAndNotForOthers) {
@@ -189,7 +189,7 @@ class FaultyStick : public Jog {
   }
   void expect_released_until_the_operator_releases(std::uint64_t tick) {
     EXPECT_EQ(take(sample(tick), kOperator, tick), Verdict::released) << "motion does not begin by itself";
-    EXPECT_FALSE(session_.held(static_cast<double>(tick) / 100));
+    EXPECT_FALSE(session_.active(static_cast<double>(tick) / 100));
     EXPECT_EQ(take(sample(tick + 1), kOperator, tick + 1), Verdict::released);
     auto release = sample(tick + 2);
     release.engaged = false;

@@ -137,7 +137,7 @@ void Twin::restart(const Sample& sample, const Known& now) {
   for (StepWatch& watch : steps_) watch.restart();
   to_settle_ = settle_ticks_;
   block_ = Block(changed_.size());
-  held_.reset();
+  complete_block_.reset();
   judgement_.predicted = now.reported;
   judgement_.residual = {};
 }
@@ -163,8 +163,8 @@ void Twin::predict(const Known& now) {
   for (Predictor& predictor : changed_) predictor.correct(now.reported);
   if (to_settle_ == 0) watch_steps();
   if (block_.ticks < block_ticks_) return;
-  if (held_) judge_.add(*held_);
-  held_ = std::move(block_);
+  if (complete_block_) judge_.add(*complete_block_);
+  complete_block_ = std::move(block_);
   block_ = Block(changed_.size());
 }
 
@@ -210,7 +210,7 @@ void Twin::watch_steps() {
     judge_.found(finding);
     // The residual of a step must not count as evidence for another cause.
     block_ = Block(changed_.size());
-    held_.reset();
+    complete_block_.reset();
     to_settle_ = settle_ticks_ / 2;
     for (StepWatch& watch : steps_) watch.restart();
     return;

@@ -77,7 +77,7 @@ class UdpFloor {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     if (socket < 0 || ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
       throw std::runtime_error("cannot open a UDP socket on the loop-back");
-    constexpr timeval kPatience{.tv_sec = 0, .tv_usec = 100'000};  // limits the wait for a lost datagram
+    constexpr timeval kPatience{.tv_sec = 0, .tv_usec = 100'000};  // longest wait for a lost datagram
     ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
     return socket;
   }
@@ -181,6 +181,7 @@ void add_bench(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<BenchOptions>();
   auto* command = app.add_subcommand(
       "bench", "Measure times of the stack on this computer, and the score of crane diagnose");
+  command->footer("Example: crane bench loop --seconds 60\ndocs/benchmarks.md states the results.");
   command->require_subcommand(1);
   auto* loop =
       command->add_subcommand("loop", "Measure lost ticks and latency in real time, compared with raw UDP");

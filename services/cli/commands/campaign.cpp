@@ -118,6 +118,9 @@ int run(const CampaignOptions& options) {
 void add_campaign(CLI::App& app, Action& chosen) {
   auto* command = app.add_subcommand(
       "campaign", "Inject faults into simulated cranes and check the safety invariants (docs/campaign.md)");
+  command->footer(
+      "Examples: crane campaign --list\n"
+      "          crane campaign --hazard 9 --seeds 10");
   auto options = std::make_shared<CampaignOptions>();
   command->add_option("--hazard", options->hazards, "numbers of the hazards (default: all); see --list");
   command->add_option("--moment", options->moments,

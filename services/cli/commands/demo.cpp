@@ -39,18 +39,19 @@ struct DemoOptions {
 void go_to_start(experiments::RealtimeSession& session, const experiment::Scenario& scenario) {
   const auto& state = *session.state();
   const auto here = runtime::positions(state);
-  constexpr double kThere = 0.005;  // largest distance from the start that needs no move, m, rad
+  // m, rad: an axis that is nearer to the start of the scenario is not moved
+  constexpr double kAtStart = 0.005;
   std::array<bool, 3> selected{};
   std::array<double, 3> target{};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!scenario.start[i] || std::abs(*scenario.start[i] - here[i]) < kThere) continue;
+    if (!scenario.start[i] || std::abs(*scenario.start[i] - here[i]) < kAtStart) continue;
     selected[i] = true;
     target[i] = *scenario.start[i];
   }
   if (selected[0] || selected[1] || selected[2]) session.move_to(selected, target, 12s);
 }
 
-/// Waits for Ctrl-C: the stack stays up for whoever looks at the dashboard.
+/// Waits for Ctrl-C, so that the stack keeps running for the viewers of the dashboard.
 void keep_up(stack::ChildProcesses& children) {
   std::cout << "the crane stays up for the dashboard; Ctrl-C ends it" << std::endl;
   while (!runtime::stop_requested() && !children.ended()) ::usleep(50'000);

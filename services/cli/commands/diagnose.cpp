@@ -41,12 +41,12 @@ void show_share(double share, const std::string& what) {
             << static_cast<int>(100 * share) << " % " << text << (share >= 1 ? "\n" : "") << std::flush;
 }
 
-/// Progress for a program that has started this one: "progress 0.25 TEXT".
+/// Progress for a parent program: "progress 0.25 TEXT".
 void tell_share(double share, const std::string& what) {
   std::cerr << "progress " << std::clamp(share, 0.0, 1.0) << ' ' << what << std::endl;
 }
 
-/// Where progress goes.
+/// Output of the progress.
 std::function<void(double, const std::string&)> progress_of(const DiagnoseOptions& options) {
   if (options.progress) return tell_share;
   if (::isatty(STDERR_FILENO) == 1) return show_share;
@@ -142,7 +142,7 @@ int diagnose_data(const DiagnoseOptions& options) {
   if (options.to_s) mapping.whole.to_s = *options.to_s;
   DiagnosisData data = read_diagnosis_data(options.train, options.test, mapping, rig);
   if (options.check) return check_data(options, rig, std::move(data));
-  fs::create_directories(options.out);  // fails before the long computation
+  fs::create_directories(options.out);  // an error is reported before the long computation
   const diagnosis::Request request = request_of(options);
   Diagnosis result = diagnosis::diagnose(rig, data.train, data.test, request);
   result.notes.insert(result.notes.begin(), data.notes.begin(), data.notes.end());
@@ -215,7 +215,7 @@ void add_diagnose(CLI::App& app, Action& chosen) {
   command->add_option("--seed", options->seed, "seed of the random resampling")->capture_default_str();
   command->add_flag(
       "--check", options->check,
-      "without a verdict: report the smallest detectable size of each cause, and what to record next");
+      "give no verdict; report the smallest detectable size of each cause, and the motion to record next");
   command->add_flag("--json", options->json, "print report.json");
   command->add_flag("--progress", options->progress, "print lines \"progress SHARE TEXT\" on standard error");
   command->add_flag("--no-picture", options->no_picture, "do not draw SVG files");

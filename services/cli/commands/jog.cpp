@@ -40,7 +40,7 @@ int scripted(const JogOptions& options) {
   if (const auto answer = session.begin(options.selected); !answer.accepted) return report("jog", answer);
   session.measure();
   const bool stopped_early = session.drive(
-      options.for_s, true, [&deflection] { return deflection; }, [&session] { return session.held(); });
+      options.for_s, true, [&deflection] { return deflection; }, [&session] { return session.in_hold(); });
   const bool interrupted = runtime::stop_requested();
   const Measured driven = session.measured();
   session.measure();
@@ -90,18 +90,19 @@ void add_axis(CLI::App& command, JogOptions& options, std::size_t axis, const st
 
 void add_jog(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<JogOptions>();
-  auto* command = app.add_subcommand("jog", "Drive the axes by speed; the load follows without swing");
+  auto* command =
+      app.add_subcommand("jog", "Drive the axes by speed; input shaping reduces the swing of the load");
   add_axis(*command, *options, 0, "--trolley", "share of the largest speed, -1 to 1; positive: outwards");
   add_axis(*command, *options, 1, "--slew", "share of the largest speed, -1 to 1");
   add_axis(*command, *options, 2, "--hoist", "share of the largest speed, -1 to 1; positive: down");
   command
-      ->add_option("--for", options->for_s,
-                   "time of the deflection in s, shorter than the minute of a stuck stick")
+      ->add_option(
+          "--for", options->for_s,
+          "duration of the deflection in s; the supervisor releases a stick that is deflected for 60 s")
       ->check(number_in(0.02, 50.0))
       ->capture_default_str();
-  command->add_flag("--micro", options->stick.micro,
-                    "micro-speed: a tenth of the speed; with the keyboard until m is pressed");
-  command->add_flag("--inch", options->stick.inching, "keyboard: inching, until i is pressed");
+  command->add_flag("--micro", options->stick.micro, "micro-speed: a tenth of the speed; the key m ends it");
+  command->add_flag("--inch", options->stick.inching, "keyboard: inching; the key i ends it");
   command
       ->add_option_function<std::string>(
           "--step", [options](const std::string& text) { options->stick.step_m = step_of(text); },
@@ -115,7 +116,7 @@ void add_jog(CLI::App& app, Action& chosen) {
   command
       ->add_option_function<std::string>(
           "--gamepad", [options](const std::string& device) { options->gamepad = device; },
-          "a gamepad as the stick; without DEVICE the only one in /dev/input")
+          "use a gamepad as the stick; without DEVICE: the only gamepad in /dev/input")
       ->expected(0, 1)
       ->default_str("")
       ->type_name("DEVICE");
@@ -130,23 +131,18 @@ void add_jog(CLI::App& app, Action& chosen) {
       "swing\n"
       "          crane jog --gamepad /dev/input/event5            # the sticks act while the left shoulder "
       "button is held\n"
-      "The crane must be in HOLD. Keys: up/down trolley, left/right slew, PgUp/PgDn hoist; with shift, or "
-      "after\n"
-      "m, micro-speed; space releases; q ends. A terminal reports no release of a key: a key acts for\n"
-      "0.6 s, and for 0.15 s after each repetition by the keyboard. Ten seconds without a key end the "
-      "session.\n"
-      "The key i turns inching on and off: each key press moves one axis by a step; a key held down is one "
-      "press.\n"
-      "The key r releases the stick and moves the axes back to the stop point, where the stick was last "
-      "released.\n"
-      "Steps and returns are moves: the supervisor checks them like `crane move`. During a move, space, q, "
-      "Ctrl-C\n"
-      "and a closed terminal stop the crane, which then locks.\n"
-      "The crane stops when this program ends, sends nothing for 0.1 s, or deflects for a minute without a "
-      "break;\n"
-      "a deflection acts again after the keys have been released. Only SIGKILL during a step or a return "
-      "lets the\n"
-      "crane reach the target of the move.");
+      "The crane must be in HOLD. Keys: up/down trolley, left/right slew, PgUp/PgDn hoist; with shift, or\n"
+      "after m, at micro-speed; space releases the stick; q ends the program. A terminal reports no release\n"
+      "of a key: a key acts for 0.6 s, and for 0.15 s after each repetition by the keyboard. After ten\n"
+      "seconds without a key the session ends.\n"
+      "The key i turns inching on and off: each key press moves one axis by a step; a key that is held down\n"
+      "causes one step. The key r releases the stick and moves the axes back to the stop point, where the\n"
+      "stick was last released.\n"
+      "Steps and returns are moves: the supervisor checks them like `crane move`. During a move, space, q,\n"
+      "Ctrl-C and a closed terminal stop the crane, which then locks.\n"
+      "The crane stops when this program ends, sends nothing for 0.1 s, or deflects for a minute without a\n"
+      "break; a deflection acts again after the keys have been released. Only SIGKILL during a step or a\n"
+      "return lets the crane reach the target of the move.");
   command->callback([options, &chosen] {
     const bool any = options->selected != std::array<bool, 3>{};
     for (std::size_t i = 0; i < options->stick.selected.size(); ++i)

@@ -12,8 +12,8 @@
 namespace crane::cli {
 namespace {
 
-/// The terminal without echo and line editing. Ctrl-C still ends the program; suspending is off, because a
-/// suspended program leaves the terminal as it is.
+/// Switches off echo and line editing of the terminal. Ctrl-C still ends the program. Suspending is switched
+/// off, because a suspended program would leave these settings to the shell.
 class RawTerminal {
  public:
   RawTerminal() {
@@ -30,7 +30,7 @@ class RawTerminal {
   RawTerminal(const RawTerminal&) = delete;
   RawTerminal& operator=(const RawTerminal&) = delete;
 
-  /// Bytes that have arrived; "q" when the terminal has closed.
+  /// @return the bytes that have arrived; "q" when the terminal has been closed
   [[nodiscard]] static std::string read_keys() {
     pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
     if (poll(&input, 1, 0) <= 0) return "";
@@ -59,7 +59,7 @@ class Keyboard : public OperatorStick {
   }
   std::optional<InchingStep> take_step() override { return keys_.take_step(); }
   bool take_return() override { return keys_.take_return(); }
-  bool take_release() override { return keys_.take_release(); }
+  bool take_stop() override { return keys_.take_stop(); }
   [[nodiscard]] bool quits() const override { return keys_.quits(); }
   [[nodiscard]] const std::string& problem() const override { return problem_; }
 

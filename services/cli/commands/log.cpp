@@ -25,7 +25,7 @@ struct LogOptions {
 };
 using Shared = std::shared_ptr<LogOptions>;
 
-/// The topics of a recording are decoded by the types that the recording itself carries.
+/// Topics are decoded with the types that the recording contains.
 void note_other_version(const McapReader& recording) {
   const auto version = recording::messages_version(recording);
   if (version.value_or(crane_MESSAGES_VERSION) != crane_MESSAGES_VERSION)
@@ -133,7 +133,8 @@ int export_json(const LogOptions& options) {
   return runtime::kExitDone;
 }
 
-/// A file that is no recording, or does not fit to the others, has the exit code of a wrong argument.
+/// A file that is not a recording, or that must not be merged with the others, gives the exit code of a wrong
+/// argument.
 int run(int (*action)(const LogOptions&), const LogOptions& options) {
   try {
     return action(options);
@@ -176,7 +177,7 @@ void add_cut(CLI::App& log, Action& chosen, const Shared& options) {
 
 void add_merge(CLI::App& log, Action& chosen, const Shared& options) {
   auto* command =
-      log.add_subcommand("merge", "Merge recordings to a new recording, in the order of log time");
+      log.add_subcommand("merge", "Merge recordings into a new recording, in the order of log time");
   constexpr int kFewest = 3, kMost = 1000;
   command->add_option("FILES", options->files, "recordings (.mcap), then the recording to write")
       ->required()
@@ -190,6 +191,7 @@ void add_merge(CLI::App& log, Action& chosen, const Shared& options) {
 
 void add_export(CLI::App& log, Action& chosen, const Shared& options) {
   auto* command = log.add_subcommand("export", "Write a recording in another format");
+  command->footer("Example: crane log export csv run.mcap --out run.csv");
   auto* csv = add(*command, chosen, options, export_csv, "csv",
                   "Write the run as one table, or one topic with all its fields");
   csv->footer(
@@ -211,6 +213,7 @@ void add_export(CLI::App& log, Action& chosen, const Shared& options) {
 void add_log(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<LogOptions>();
   auto* log = app.add_subcommand("log", "Inspect, check, repair, cut, merge and export recordings");
+  log->footer("Example: crane log info run.mcap\ndocs/data.md describes the recordings.");
   auto* described = add(*log, chosen, options, info, "info", "Show topics, counts, times and metadata");
   described->add_flag("--json", options->json, "one JSON object");
   described->footer("Example: crane log info run.mcap");

@@ -67,8 +67,8 @@ Window window_of(const PlayOptions& options, recording::McapReader& recording, c
 }
 
 bus::Options player_bus(const PlayOptions& options) {
-  // OPERATOR: on an open network, the rule for programs that write applies. MONITOR: no process accepts the
-  // samples.
+  // SOURCE_OPERATOR in the options: on an open network, the rule for writing programs applies. SOURCE_MONITOR
+  // in the samples: no process accepts them.
   auto bus = runtime::bus_options(options.bus, "crane_play", crane_SOURCE_OPERATOR, runtime::random_epoch());
   bus.source = crane_SOURCE_MONITOR;
   return bus;
@@ -131,7 +131,7 @@ void add_play(CLI::App& app, Action& chosen) {
           [options](const std::vector<std::string>& names) {
             for (const auto& name : names) options->topics.push_back(&topic_named(name));
           },
-          "topic to play (repeatable); default: all without crane/request and crane/jog")
+          "topic to play (repeatable); default: all except crane/request and crane/jog")
       ->type_name("TOPIC");
   runtime::add_bus_options(*command, options->bus);
   command->footer(

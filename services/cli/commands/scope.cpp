@@ -28,7 +28,7 @@ struct ScopeOptions {
   [[nodiscard]] bool repeats() const { return normal || automatic; }
 };
 
-/// The trigger and the signals are wrong: every problem.
+/// Wrong trigger or signals. what() states every problem.
 class BadInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -228,8 +228,8 @@ void add_scope(CLI::App& app, Action& chosen) {
   add_time(*command, "--post", options->post_s, "time shown after the trigger; default 2s");
   auto* single = command->add_flag("--single", options->single, "end after the first capture (default)");
   auto* normal = command->add_flag("--normal", options->normal, "capture at every trigger");
-  auto* automatic = command->add_flag("--auto", options->automatic,
-                                      "as --normal; without a trigger capture every PRE + POST");
+  auto* automatic = command->add_flag(
+      "--auto", options->automatic, "as --normal; also capture when no trigger has occurred for PRE + POST");
   single->excludes(normal)->excludes(automatic);
   normal->excludes(automatic);
   command->add_option("--out", options->out, "CSV file to write")->type_name("FILE");

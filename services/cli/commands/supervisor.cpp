@@ -74,6 +74,7 @@ int explain(const ExplainOptions& options) {
 
 void add_supervisor(CLI::App& app, Action& chosen) {
   auto* group = app.add_subcommand("supervisor", "Explain the decisions of the supervisor");
+  group->footer("Example: crane supervisor explain --live\ndocs/safety.md describes the rules.");
   group->require_subcommand(1);
   auto* command = group->add_subcommand(
       "explain",

@@ -39,7 +39,7 @@ class Top {
     return runtime::kExitDone;
   }
 
-  /// Refreshes in place until q or a signal.
+  /// Refreshes the view in place until q or a signal.
   int on_terminal() {
     Screen screen;
     TerminalSize shown{};
@@ -53,7 +53,7 @@ class Top {
     return runtime::kExitDone;
   }
 
-  /// One table after the other, for a pipe, until a signal.
+  /// Prints one table after the other into a pipe, until a signal.
   int in_sequence() {
     while (!runtime::stop_requested())
       if (update() && model_.complete()) {
@@ -115,11 +115,10 @@ void add_top(CLI::App& app, Action& chosen) {
       "Examples: crane top\n"
       "          crane top --once\n"
       "          crane top --json | jq '.topics[] | {topic, rate_hz, delay_us}'\n"
-      "q or Ctrl-C ends the view. A narrow terminal shows the most important columns. Delay: from the "
-      "latching of\n"
-      "the encoders to the sending of the sample, over the last second; known when both clocks are of one "
-      "host.\n"
-      "ticks/s: between the last two reports of the process. Counts refer to the time since the start.");
+      "q or Ctrl-C ends the view. A narrow terminal shows the most important columns.\n"
+      "Delay is the time from the latching of the encoders to the sending of the sample, in the last\n"
+      "second. It is shown when bridge and writer run on the same host. ticks/s is the rate between the\n"
+      "last two reports of the process. Counts begin at the start.");
   command->callback([options, &chosen] { chosen = [options] { return top(*options); }; });
 }
 

@@ -7,7 +7,7 @@ namespace crane::cli {
 
 void add_topic(CLI::App& app, Action& chosen) {
   auto* topic = app.add_subcommand("topic", "List topics, print samples, measure rates and delays");
-  topic->footer("Example: crane topic ls\nidl/README.md lists the topics, their writers and readers.");
+  topic->footer("Example: crane topic ls\ndocs/wiring.md lists the topics, their writers and readers.");
   add_topic_ls(*topic, chosen);
   add_topic_echo(*topic, chosen);
   add_topic_hz(*topic, chosen);

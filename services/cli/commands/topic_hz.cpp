@@ -87,11 +87,10 @@ void add_topic_hz(CLI::App& topic, Action& chosen) {
       ->capture_default_str();
   command->footer(
       "Example: crane topic hz command --duration 10\n"
-      "Rate and jitter refer to the window, counts to the time since the start. Jitter is the difference "
-      "between the\n"
-      "interval of two arrivals and their interval at the source. Losses are known only for topics written "
-      "every\n"
-      "tick; the rate of the others is by the writer's time stamps.");
+      "Rate and jitter refer to the window; counts begin at the start of the command. Jitter is the\n"
+      "difference between the interval of two arrivals and their interval at the source. Losses are\n"
+      "known only for topics written every tick; the rate of all other topics is computed from the time\n"
+      "stamps of the writer.");
   command->callback([options, &chosen] { chosen = [options] { return measure(*options); }; });
 }
 

@@ -71,7 +71,7 @@ int list(const ZoneOptions& options) {
   return runtime::kExitDone;
 }
 
-/// Writes the new text beside the old file and replaces the old file by it, or writes the file of --out.
+/// Writes the new text to a temporary file that then replaces the old file, or writes the file of --out.
 void write(const ZoneOptions& options, const std::filesystem::path& rig, const std::string& text) {
   const std::filesystem::path target = options.out.empty() ? rig : std::filesystem::path{options.out};
   auto partial = target;
@@ -155,14 +155,15 @@ CLI::App* add_command(CLI::App& group, const char* name, const char* summary, co
 
 void add_learn(CLI::App& group, const Options& options, Action& chosen) {
   auto* command =
-      add_command(group, "learn", "Add a box around the places of the hook in a recording", options);
+      add_command(group, "learn", "Add a box around all positions of the hook in a recording", options);
   command->add_option("NAME", options->name, "name of the zone")->required();
   command->add_option("RECORDING", options->recording, "recording (MCAP) of a drive around the obstacle")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("--bottom", options->bottom_m,
-                      "height of the lower end in m instead of the lowest hook");
-  command->add_option("--top", options->top_m, "height of the upper end in m instead of the highest hook");
+                      "height of the lower end in m; default: the lowest position of the hook");
+  command->add_option("--top", options->top_m,
+                      "height of the upper end in m; default: the highest position of the hook");
   command->add_option("--from", options->from_s, "use the recording from this time on, in s")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--until", options->until_s, "use the recording up to this time, in s")

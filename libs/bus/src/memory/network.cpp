@@ -25,7 +25,7 @@ bool connects(const Port& a, const Port& b) {
 }  // namespace memory
 
 /// Events are collected under the lock and reported after its release, because a handler may call the bus.
-struct MemoryNetwork::News {
+struct MemoryNetwork::MatchEvents {
   struct Item {
     Announcer announce;
     int change;
@@ -39,13 +39,13 @@ struct MemoryNetwork::News {
     port.matched = peers.size();
     if (port.announce.handler) items.push_back({port.announce, change, static_cast<int>(peers.size())});
   }
-  void tell() const {
+  void report() const {
     for (const Item& item : items) item.announce.matched(item.change, item.current);
   }
 };
 
 void MemoryNetwork::add(WriterPort& writer) {
-  News news;
+  MatchEvents events;
   {
     const std::lock_guard lock{mutex_};
     writer.number = ++writers_so_far_;
@@ -54,15 +54,15 @@ void MemoryNetwork::add(WriterPort& writer) {
       if (!connects(writer, *reader)) continue;
       writer.readers.push_back(reader);
       reader->writers.push_back(&writer);
-      news.add(writer, +1, writer.readers);
-      news.add(*reader, +1, reader->writers);
+      events.add(writer, +1, writer.readers);
+      events.add(*reader, +1, reader->writers);
     }
   }
-  news.tell();
+  events.report();
 }
 
 void MemoryNetwork::add(ReaderPort& reader) {
-  News news;
+  MatchEvents events;
   {
     const std::lock_guard lock{mutex_};
     readers_.push_back(&reader);
@@ -71,8 +71,8 @@ void MemoryNetwork::add(ReaderPort& reader) {
       if (!connects(*writer, reader)) continue;
       writer->readers.push_back(&reader);
       reader.writers.push_back(writer);
-      news.add(*writer, +1, writer->readers);
-      news.add(reader, +1, reader.writers);
+      events.add(*writer, +1, writer->readers);
+      events.add(reader, +1, reader.writers);
       if (reader.wants_history)
         writer->history.each(
             [&](const void* sample, const Stamp& stamp) { past.emplace_back(sample, stamp); });
@@ -83,38 +83,38 @@ void MemoryNetwork::add(ReaderPort& reader) {
     reader.queued = reader.queue.size();
     if (!past.empty()) reader.doorbell->ring();
   }
-  news.tell();
+  events.report();
 }
 
 void MemoryNetwork::remove(WriterPort& writer) {
-  News news;
+  MatchEvents events;
   {
     const std::lock_guard lock{mutex_};
     std::erase(writers_, &writer);
     for (ReaderPort* reader : writer.readers) {
       std::erase(reader->writers, &writer);
-      news.add(*reader, -1, reader->writers);
+      events.add(*reader, -1, reader->writers);
     }
   }
-  news.tell();
+  events.report();
 }
 
 void MemoryNetwork::remove(ReaderPort& reader) {
-  News news;
+  MatchEvents events;
   {
     const std::lock_guard lock{mutex_};
     std::erase(readers_, &reader);
     for (WriterPort* writer : reader.writers) {
       std::erase(writer->readers, &reader);
-      news.add(*writer, -1, writer->readers);
+      events.add(*writer, -1, writer->readers);
     }
   }
-  news.tell();
+  events.report();
 }
 
 void MemoryNetwork::publish(WriterPort& writer, const void* sample, bool dispose) {
-  // The source time is the time of the plant, the only clock of an in-process stack: two runs are then equal
-  // bit for bit.
+  // The source time is the time of the plant, the only clock of an in-process stack. Two runs are therefore
+  // equal bit for bit.
   const auto time_ns = static_cast<const msg::Header*>(sample)->sample_time_ns;
   const std::lock_guard lock{mutex_};
   Stamp stamp{++published_, {.source_time_ns = time_ns, .valid = !dispose, .disposed = dispose}};

@@ -13,11 +13,12 @@
 namespace crane::bus::memory {
 
 /// A number that the network writes under its mutex and that endpoints read without the mutex.
-class Count {
+class AtomicCount {
  public:
-  Count() = default;
-  Count(Count&& other) noexcept : value_{other.value_.load()} {}  ///< only before the endpoint is registered
-  Count& operator=(std::size_t value) {
+  AtomicCount() = default;
+  AtomicCount(AtomicCount&& other) noexcept
+      : value_{other.value_.load()} {}  ///< only before the endpoint is registered
+  AtomicCount& operator=(std::size_t value) {
     value_ = value;
     return *this;
   }
@@ -27,13 +28,14 @@ class Count {
   std::atomic<std::size_t> value_ = 0;
 };
 
-/// Topic and quality of service of an endpoint, which decide about its connections, and its event handler.
+/// Topic and quality of service of an endpoint, which determine its connections, and the event handler of the
+/// endpoint.
 struct Port {
   const topics::Description* topic;
   std::string partition;
   Announcer announce;
   std::uint64_t participant = 0;  ///< number of the bus, unique in the network
-  Count matched{};                ///< number of connected endpoints of the other kind
+  AtomicCount matched{};          ///< number of connected endpoints of the other kind
 };
 [[nodiscard]] bool connects(const Port& a, const Port& b);
 
@@ -48,7 +50,7 @@ struct ReaderPort : Port {
   std::shared_ptr<Doorbell> doorbell;
   SampleQueue queue;
   bool wants_history = false;
-  Count queued{};  ///< number of samples in `queue`
+  AtomicCount queued{};  ///< number of samples in `queue`
   std::vector<WriterPort*> writers{};
 };
 
@@ -72,7 +74,7 @@ class MemoryNetwork {
   [[nodiscard]] std::uint64_t next_participant();
 
  private:
-  struct News;
+  struct MatchEvents;
   std::mutex mutex_;
   Wire wire_;
   std::vector<memory::WriterPort*> writers_;

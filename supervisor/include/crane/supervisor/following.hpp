@@ -2,13 +2,13 @@
 /// Following error: compares the motion of each axis with the equations of motion under its voltage.
 ///
 /// From one sample to the next the speed v of a free axis changes by (2.16) to (2.20) under the voltages of
-/// the last two ticks. Each parameter is known within a tolerance only. The model therefore gives an interval
+/// the last two ticks. Each parameter is known only within a tolerance. The model therefore gives an interval
 /// [low, high] of accelerations:
 ///   gain of the drive  1 +- kGainTolerance, offset +- kOffset_v
 ///   friction           0 to kFrictionRatioMax times the rig file's, plus kFrictionExtra_v, against the
 ///   motion load               0 to kLoadRatioMax times the rig file's
 /// Two sums add the changes of speed outside the interval (run_length.hpp):
-///   fast := max(0, fast + dv - high dt),   slow := max(0, slow + low dt - dv)
+///   above := max(0, above + dv - high dt),   below := max(0, below + low dt - dv)
 /// A sum above limit = kSpeedShare (max_speed + |v|) + noise stops the crane. noise = two counts per sample
 /// interval: the quantisation of the speeds at both ends of the sum. The quantisation of the speeds between
 /// them cancels.
@@ -39,9 +39,9 @@ struct FollowingMemory {
     PerAxis applied_v{};
   };
   std::array<PastSample, 3> recent{};
-  std::array<int, kAxes> free_ticks{};  ///< number of samples in a row with an open brake
-  PerAxis fast{}, slow{};               ///< sums of unexplained speed, unit/s, >= 0
-  PerAxis largest{};                    ///< largest sum / limit so far; above 1 stops the crane
+  std::array<int, kAxes> free_ticks{};  ///< number of consecutive samples with an open brake
+  PerAxis above{}, below{};  ///< sums of the change of speed above and below the interval, unit/s, >= 0
+  PerAxis largest{};         ///< largest sum / limit so far; above 1 stops the crane
 };
 
 inline constexpr double kGainTolerance = 0.25;  ///< relative error of amplifier gain and motor constant

@@ -43,10 +43,11 @@ struct Limits : control::OperatingLimits {
   std::array<AxisLimits, kAxes> axis{};
   double period_s = 0.01;             ///< duration of a tick
   double swing_runaway_ratio = 1.25;  ///< ramped stop above this multiple of swing_limit_rad, >= 1
-  int state_stale_after_ticks = 3;    ///< missing states in a row that stop the crane, >= 1
-  int demand_stale_after_ticks = 3;   ///< ticks in a row without a usable demand that stop the crane, >= 1
-  int demand_invalid_in_row = 3;      ///< rejected demands in a row that stop the crane, >= 1
-  int overruns_in_row = 3;            ///< late ticks in a row that stop the crane; 0: late ticks stop nothing
+  int state_stale_after_ticks = 3;    ///< consecutive missing states that stop the crane, >= 1
+  int demand_stale_after_ticks = 3;   ///< consecutive ticks without a usable demand that stop the crane, >= 1
+  int demand_invalid_in_row = 3;      ///< consecutive rejected demands that stop the crane, >= 1
+  /// consecutive late ticks that stop the crane; 0: late ticks do not stop the crane
+  int overruns_in_row = 3;
   double clear_time_s =
       1;  ///< time without a cause before a reset, and with complete inputs before arming, >= 0
   double standstill_time_s = 0.1;  ///< > 0
@@ -58,19 +59,21 @@ struct Limits : control::OperatingLimits {
       0.2;  ///< longest time until a brake reports open, longer than its opening time, > 0
   double brake_report_time_s =
       0.1;  ///< longest time from the end of the closing time until a brake reports closed, > 0
-  double relay_timeout_s = 0.05;     ///< longest time from the last toggle until the relay opens, > 0
-  double relay_report_time_s = 0.1;  ///< longest time from then until the relay reports open, > 0
-  double load_still_rad = 0.005;     ///< largest swing of a load that is at rest when a bridge starts, > 0
+  double relay_timeout_s = 0.05;  ///< longest time from the last toggle until the relay opens, > 0
+  /// longest time from the end of relay_timeout_s until the relay reports open, > 0
+  double relay_report_time_s = 0.1;
+  double load_still_rad = 0.005;  ///< largest swing of a load that is at rest when a bridge starts, > 0
   double load_watch_s =
       10;  ///< duration of the watch of the load after a restart of the bridge, >= clear_time_s
   MachineModel machine{};
   control::Clearance clearance{};
   std::vector<control::Zone> zones{};  ///< empty: the zone filter has no effect
-  control::WaySpace way_space{};       ///< for moves around zones
-  PerAxis reference_acceleration{};    ///< of the planner's stop, unit/s^2; 0: no stop before the ramped one
+  control::WaySpace way_space{};       ///< input of the search for moves around zones
+  PerAxis reference_acceleration{};  ///< deceleration of the planner's stop, unit/s^2; 0: no controlled stop
+                                     ///< before the ramped stop
   /// Largest distance between an axis and the start of a reference of sines, unit: reference_speed^2 /
   /// (2 reference_acceleration), the distance in which a move reaches its speed.
-  PerAxis follow_begin{};
+  PerAxis largest_follow_jump{};
   double creeping_ratio =
       2.5;  ///< overspeed of an axis without known position: multiple of its homing speed, >= 1
 };
@@ -91,7 +94,7 @@ struct Limits : control::OperatingLimits {
 /// Largest permitted value of demand_loss_to_braked_s.
 inline constexpr double kDemandLossToBrakedMax_s = 0.1;
 
-/// True when a request may name this target: finite, and inside the hard limits by soft_margin.
+/// True when a request may name this target: the target is finite and inside the soft limits.
 [[nodiscard]] bool target_allowed(const AxisLimits& axis, double target) noexcept;
 
 /// @return all problems as "name = value: rule"; empty when the crane may be armed with these limits

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crane/configuration/rig.hpp"
+#include "crane/configuration/wiring_fields.hpp"
 #include "crane/control/design_fields.hpp"
 #include "crane/control/drive_limit_fields.hpp"
 #include "crane/control/operating_limits.hpp"
@@ -24,10 +25,6 @@ using fields::Presence;
 using fields::Quantity;
 using fields::Range;
 
-inline constexpr Range kChannels = Range::closed(0, 7);     ///< boards have 8 counters and 8 analog outputs
-inline constexpr Range kInputs = Range::closed(0, 15);      ///< ports A and B
-inline constexpr Range kOutputs = Range::closed(16, 31);    ///< ports C and D
-inline constexpr Range kSubdevices = Range::closed(0, 63);  ///< of a comedi board
 /// Limits of a trajectory. Within this range all its times are finite and positive.
 inline constexpr Range kPlanned = Range::closed(1e-6, 1e6);
 
@@ -93,25 +90,6 @@ inline constexpr std::array<Field<Drive>, 5> kDriveFields{{
      .derived = [](const Drive& drive) { return 10 * drive.reference_acceleration; }},
 }};
 
-inline constexpr std::array<Field<Encoder>, 3> kEncoderFields{{
-    {.key = "channel",
-     .member = &Encoder::channel,
-     .range = kChannels,
-     .meaning = "counter of the board; each encoder has its own",
-     .presence = Presence::required},
-    {.key = "counts_per",
-     .member = &Encoder::counts_per_unit,
-     .range = Range::above(0, 1e9),
-     .unit = "counts",
-     .meaning = "counts per unit of the axis, including lines, quadrature and gear",
-     .presence = Presence::required,
-     .quantity = Quantity::position},
-    {.key = "sign",
-     .member = &Encoder::sign,
-     .range = Range::closed(-1, 1),
-     .meaning = "1 or -1: direction of counting"},
-}};
-
 /// For encoders of drives only.
 inline constexpr std::array<Field<Drive>, 1> kZeroFields{{
     {.key = "zero",
@@ -138,77 +116,6 @@ inline constexpr std::array<Field<control::Homing>, 1> kMarkFields{{
          "homing mark: a limit switch, or (`input`) the contact `mark_input` of `[wiring.NAME]`, which is "
          "closed while the axis is below `position`",
      .presence = Presence::required},
-}};
-
-inline constexpr std::array<Field<Wiring>, 10> kWiringFields{{
-    {.key = "base_address",
-     .member = &Wiring::base_address,
-     .range = Range::closed(0x200, 0x3E0),
-     .meaning = "I/O address that the jumpers of a Servo-to-Go card set: 0x200 + 0x20 n",
-     .default_text = "0x200"},
-    {.key = "device", .member = &Wiring::device, .meaning = "device file of a comedi board"},
-    {.key = "counter_subdevice",
-     .member = &Wiring::counter_subdevice,
-     .range = kSubdevices,
-     .meaning =
-         "subdevice of the counters of a comedi board; the four subdevices differ, and their defaults are "
-         "those of an s626"},
-    {.key = "analog_output_subdevice",
-     .member = &Wiring::analog_output_subdevice,
-     .range = kSubdevices,
-     .meaning = "subdevice of the analog outputs"},
-    {.key = "input_subdevice",
-     .member = &Wiring::input_subdevice,
-     .range = kSubdevices,
-     .meaning = "subdevice of the digital inputs"},
-    {.key = "output_subdevice",
-     .member = &Wiring::output_subdevice,
-     .range = kSubdevices,
-     .meaning = "subdevice of the digital outputs"},
-    {.key = "estop_input",
-     .member = &Wiring::estop_input,
-     .range = kInputs,
-     .meaning = "contact that is open while the emergency stop is pressed"},
-    {.key = "relay_closed_input",
-     .member = &Wiring::relay_closed_input,
-     .range = kInputs,
-     .meaning = "contact that is closed while the watchdog relay is closed"},
-    {.key = "watchdog_output",
-     .member = &Wiring::watchdog_output,
-     .range = kOutputs,
-     .meaning = "watchdog output of the bridge; in normal operation it changes every tick"},
-    {.key = "relay_timeout_s",
-     .member = &Wiring::relay_timeout_s,
-     .range = Range::above(0, 1),
-     .unit = "s",
-     .meaning = "the watchdog relay opens when the watchdog output is constant for longer than this"},
-}};
-
-inline constexpr std::array<Field<DriveLines>, 5> kDriveLineFields{{
-    {.key = "limit_low_input",
-     .member = &DriveLines::limit_low_input,
-     .range = kInputs,
-     .meaning = "contact that is open while the axis is at its low limit switch",
-     .default_text = "1; 3; 5"},
-    {.key = "limit_high_input",
-     .member = &DriveLines::limit_high_input,
-     .range = kInputs,
-     .meaning = "contact that is open while the axis is at its high limit switch",
-     .default_text = "2; 4; 6"},
-    {.key = "brake_closed_input",
-     .member = &DriveLines::brake_closed_input,
-     .range = kInputs,
-     .meaning = "contact that is closed while the brake is closed",
-     .default_text = "7; 8; 9"},
-    {.key = "brake_release_output",
-     .member = &DriveLines::brake_release_output,
-     .range = kOutputs,
-     .meaning = "output that supplies the brake with 24 V, if the relay is closed; the brake then opens",
-     .default_text = "16; 17; 18"},
-    {.key = "mark_input",
-     .member = &DriveLines::mark_input,
-     .range = Range::closed(-1, kInputs.high),
-     .meaning = "contact that is closed while the axis is below its mark; -1: not wired"},
 }};
 
 inline constexpr std::array<Field<Sensing>, 3> kSensingFields{{

@@ -77,7 +77,8 @@ class Twin {
   int settle_ticks_, block_ticks_;
   int to_settle_ = 0;
   Block block_;
-  std::optional<Block> held_;  ///< complete block; a step in its last ticks may still be detected
+  std::optional<Block> complete_block_;  ///< complete block, which is judged one block later, because a step
+                                         ///< in its last ticks may still be detected
   Judgement judgement_;
   bool announced_ = false;
   std::optional<Notice> notice_;

@@ -6,9 +6,9 @@
 
 namespace crane::supervisor {
 
-class JogDesk {
+class JogReader {
  public:
-  explicit JogDesk(const runtime::Context& context)
+  explicit JogReader(const runtime::Context& context)
       : samples_{context.ports.input(topics::jog)}, session_{context.rig.period_s}, node_{context.node} {}
 
   /// Takes a bounded number of samples: a flood must not delay the step. An event names the first sample of a

@@ -1,8 +1,8 @@
-#include "process/jog_desk.hpp"
+#include "process/jog_reader.hpp"
 
 namespace crane::supervisor {
 
-void JogDesk::take(std::uint64_t tick, double now_s) {
+void JogReader::take(std::uint64_t tick, double now_s) {
   constexpr int kMostPerTick = 64;
   bus::SampleInfo info;
   for (int taken = 0; taken < kMostPerTick; ++taken) {
@@ -26,15 +26,15 @@ void JogDesk::take(std::uint64_t tick, double now_s) {
   }
 }
 
-void JogDesk::accepted(const msg::Request& request, const bus::ParticipantId& sender, double now_s) {
+void JogReader::accepted(const msg::Request& request, const bus::ParticipantId& sender, double now_s) {
   session_.end();
   if (request.kind != crane_REQUEST_JOG) return;
   session_.begin(request, sender, now_s);
   stranger_reported_ = unusable_reported_ = false;
 }
 
-void JogDesk::end_with(State state, double now_s) {
-  const bool rests = state == State::hold && !session_.held(now_s);
+void JogReader::end_with(State state, double now_s) {
+  const bool rests = state == State::hold && !session_.active(now_s);
   if (rests || (state != State::hold && state != State::run)) session_.end();
 }
 
