@@ -124,7 +124,7 @@ void send(const workers::Outbox& outbox, const Result& result) {
   outbox.send({reinterpret_cast<const char*>(&result), sizeof result});
 }
 
-/// One run in a separate process.
+/// Executes one run in a separate process.
 void run_forked(const Tuple& tuple, const workers::Outbox& outbox, const std::function<Result()>& run) {
   workers::run({.count = 1,
                 .work = [&](std::size_t, const workers::Outbox&) { send(outbox, run()); },

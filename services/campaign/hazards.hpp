@@ -87,8 +87,8 @@ void push(Bench& bench, double rad);
 [[nodiscard]] Injection switch_at_wrong_position(Bench& bench, Random& random);
 /// True when the true state is beyond the limit that the reason names.
 [[nodiscard]] std::function<bool()> crosses(Bench& bench, Reason reason);
-inline constexpr double kClear_s =
-    1.2;  ///< longer than the 1 s for which causes must be inactive before a reset
+/// longer than the 1 s for which causes must be inactive before a reset
+inline constexpr double kClear_s = 1.2;
 /// Expects that the newest request is refused.
 [[nodiscard]] Injection refusal();
 /// Sends the operator's emergency stop and waits until the axes are at rest.

@@ -13,8 +13,8 @@ using observation::Capture, observation::Field, observation::FieldTable;
 using recording::LeafType;
 
 constexpr std::size_t kLargestPanel = 10;  // rows of a curve
-constexpr std::size_t kFrame =
-    5;  // rows beside the panels: title, axis, its labels, name of the file, prompt
+// rows beside the panels: title, axis, its labels, name of the file, prompt
+constexpr std::size_t kFrame = 5;
 
 /// Unit on the screen: degrees instead of radians.
 struct Display {

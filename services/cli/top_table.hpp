@@ -18,7 +18,7 @@ struct TopView {
 [[nodiscard]] std::string top_text(const TopModel& model, const TopView& view, std::int64_t now_ns,
                                    std::int64_t log_now_ns);
 
-/// One block for each value, its height relative to the largest value.
+/// Draws one block for each value; its height is the ratio of the value to the largest value.
 [[nodiscard]] std::string sparkline(const std::deque<double>& values);
 
 }  // namespace crane::cli

@@ -26,7 +26,7 @@ class RealtimeSession {
   void request(const stack::OperatorRequest& wanted, const std::string& what);
   /// Repeats the request for some seconds, because a reset needs causes that have been inactive for a second.
   void request_with_patience(const stack::OperatorRequest& wanted, const std::string& what);
-  /// From LOCKED to HOLD: reset, then arm. @throws SessionError
+  /// Leads the crane from LOCKED to HOLD: reset, then arm. @throws SessionError
   void arm();
   /// Waits until the supervisor is in `wanted`. @throws SessionError after `patience` or in a stop state
   void wait_for(crane_SupervisorState wanted, std::chrono::milliseconds patience);

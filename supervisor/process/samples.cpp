@@ -23,8 +23,8 @@ static_assert(same(State::stop_c1, crane_STATE_STOP_C1));
 static_assert(same(State::stop_c0, crane_STATE_STOP_C0));
 static_assert(same(State::estop, crane_STATE_ESTOP));
 static_assert(same(State::fault, crane_STATE_FAULT));
-static_assert(same(Cause::configuration_differs,
-                   crane_CAUSE_CONFIGURATION_DIFFERS));  // the enumerators are generated from crane.idl
+// the enumerators are generated from crane.idl
+static_assert(same(Cause::configuration_differs, crane_CAUSE_CONFIGURATION_DIFFERS));
 static_assert(same(HomingFailure::mark_not_found, crane_HOMING_MARK_NOT_FOUND));
 static_assert(same(HomingFailure::mark_stuck, crane_HOMING_MARK_STUCK));
 static_assert(same(HomingFailure::other_switch, crane_HOMING_OTHER_SWITCH));

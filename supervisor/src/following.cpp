@@ -8,8 +8,8 @@
 namespace crane::supervisor {
 namespace {
 
-constexpr int kSettled_ticks =
-    5;  // after the opening of the brake: three samples and the two voltages before them
+// after the opening of the brake: three samples and the two voltages before them
+constexpr int kSettled_ticks = 5;
 
 struct Interval {
   double low, high;

@@ -97,7 +97,7 @@ bool every_brake_closed(const Limits& limits, const TickMemory& memory) {
   return true;
 }
 
-/// One tick of homing, while an axis is homed. @return speed of the reference, unit/s
+/// Advances homing by one tick while an axis is homed. @return speed of the reference, unit/s
 double creep(const Limits& limits, TickMemory& memory) {
   if (!memory.machine.homing || memory.machine.state != State::run) return 0;
   const std::size_t i = memory.homing_axis;

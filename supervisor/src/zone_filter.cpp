@@ -242,8 +242,8 @@ Closest closest_of(const Limits& limits, const ReachedSpace& reach) noexcept {
 /// stop, unit.
 double deceleration_travel(const Limits& limits, std::size_t axis, double speed,
                            double omega_radps) noexcept {
-  constexpr int kTicksOfStop =
-      4;  // from the decision until the controllers follow the planner's new reference
+  // from the decision until the controllers follow the planner's new reference
+  constexpr int kTicksOfStop = 4;
   const double a = limits.reference_acceleration[axis], v = std::abs(speed);
   if (!limits.axis[axis].present || !(a > 0) || v < limits.axis[axis].standstill_speed) return 0;
   const double travel =

@@ -12,7 +12,7 @@
 
 namespace crane::bring_up::test {
 
-/// deploy/rigs/emulated_servo_to_go.toml
+/// The rig of deploy/rigs/emulated_servo_to_go.toml.
 inline configuration::Rig tower() { return configuration::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml"); }
 
 /// Lines that are stuck at a level; bits as on the connector.

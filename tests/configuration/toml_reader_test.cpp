@@ -109,9 +109,8 @@ TEST(TomlReader, ReportsMissingKeysAtTheirTable) {
   TomlTable root("name = 'x'\n\n[drive]\n", "f");
   (void)root.text("name");
   (void)root.table("drive").number("limit_m", Range::any());
-  (void)root.required_table("plant").number(
-      "mass_kg",
-      Range::any());  // the missing table is reported, not each of its keys
+  // the missing table is reported, not each of its keys
+  (void)root.required_table("plant").number("mass_kg", Range::any());
   EXPECT_THAT(problems_of(root), ElementsAre("f:1: plant: missing", "f:3: drive.limit_m: missing"));
 }
 

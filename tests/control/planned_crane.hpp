@@ -19,7 +19,7 @@ struct TestCrane {
   Design design;                              ///< design of the controllers
 };
 
-/// deploy/rigs/virginia_tech_tower.toml
+/// The rig of deploy/rigs/virginia_tech_tower.toml.
 inline TestCrane tower_with_friction() {
   TestCrane crane;
   crane.design.friction[kTrolley] = {1.5, 6.0, 0.9, 1.2, 0.9, 1.2, 100, 0.005, 1};
@@ -74,7 +74,7 @@ inline double counted(double value, double counts_per_unit) {
   return std::round(value * counts_per_unit) / counts_per_unit;
 }
 
-/// One move. @param reference_at_s  reference at a time after the request
+/// Simulates one move. @param reference_at_s  reference at a time after the request
 inline TestResult run_move(const TestCrane& crane, const Controller& controller, const TestMove& move,
                            const std::function<Reference(double)>& reference_at_s) {
   const double dt = crane.design.period_s;

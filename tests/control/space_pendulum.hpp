@@ -16,7 +16,8 @@ class SpacePendulum {
   /// Hangs at rest. @param cable_ratio  length of this cable / length of the reference
   explicit SpacePendulum(double cable_ratio = 1) : ratio_{cable_ratio} {}
 
-  /// One tick from reference `a` to reference `b`; the acceleration of each axis is constant in between.
+  /// Advances by one tick from reference `a` to reference `b`; the acceleration of each axis is constant in
+  /// between.
   void step(const Reference& a, const Reference& b, double period_s) {
     constexpr int kParts = 4;
     const double h = period_s / kParts;

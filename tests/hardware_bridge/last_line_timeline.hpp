@@ -43,8 +43,8 @@ class Timeline {
   bool limit_high = false;
   bool second_writer = false;
   double late_s = 0;  ///< delay of the sample of this tick
-  bool unknown = false, homing = false,
-       mark = false;  ///< true: position unknown; being homed; below its mark
+  /// true: position unknown; being homed; below its mark
+  bool unknown = false, homing = false, mark = false;
 
   /// Moves the trolley, with a new LastLine without history.
   void start_at(double position_m) {

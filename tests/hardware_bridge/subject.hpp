@@ -16,7 +16,7 @@ using emulated_rig::WiredRig;
 
 inline constexpr std::int64_t kTick_ns = 10'000'000;
 
-/// deploy/rigs/emulated_servo_to_go.toml
+/// The rig of deploy/rigs/emulated_servo_to_go.toml.
 inline configuration::Rig emulated_rig() {
   return configuration::load_rig(CRANE_RIGS "/emulated_servo_to_go.toml");
 }

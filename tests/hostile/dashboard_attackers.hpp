@@ -117,7 +117,7 @@ class Attackers {
     socket.connect({asio::ip::make_address("127.0.0.1"), port_});
     return socket;
   }
-  /// Ten requests whose headers never end.
+  /// Sends ten requests whose headers never end.
   void trickle() {
     std::vector<tcp::socket> slow;
     for (int i = 0; i < 10; ++i) slow.push_back(connected());
@@ -131,7 +131,7 @@ class Attackers {
     viewer.handshake("127.0.0.1", "/");
     while (!stop_) viewer.ping({});
   }
-  /// A text frame of 2^63 bytes, continued by empty frames only.
+  /// Sends a text frame that only empty frames continue, then the header of a frame of 2^63 bytes.
   void garbage() {
     websocket::stream<tcp::socket> viewer{connected()};
     viewer.handshake("127.0.0.1", "/");

@@ -56,8 +56,8 @@ TEST(Wire, CarriesWhatTheCodecEncodes) {
     CycloneSerializer cyclone{topic};
     for (int i = 0; i < 100; ++i) {
       auto expected = encoded(codec, random_sample(codec, random).data());
-      std::vector<std::uint8_t> sample(codec.sample_bytes(),
-                                       0);  // Cyclone copies a struct's padding to the wire
+      // Cyclone copies a struct's padding to the wire
+      std::vector<std::uint8_t> sample(codec.sample_bytes(), 0);
       ASSERT_TRUE(codec.decode(expected, false, sample.data()));
       const auto padding = static_cast<std::uint8_t>((4 - expected.size() % 4) % 4);
       expected.insert(expected.begin(), {0, 1, 0, padding});

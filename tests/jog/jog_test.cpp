@@ -241,8 +241,8 @@ TEST_P(JogOn, MovesTheTrolleyWithTheStickAndEndsInHold) {
   EXPECT_EQ(jogged.begin({true, false, false}), "");
   jogged.deflect({0.5, 0, 0}, 1);
   (void)jogged.release();
-  jogged.crane().run(
-      2);  // friction may hold the trolley of the drive_axis away from its reference: 20 s in RUN
+  // friction may hold the trolley of the drive_axis away from its reference: 20 s in RUN
+  jogged.crane().run(2);
   EXPECT_EQ(jogged.crane().status().state, crane_STATE_HOLD);
   EXPECT_GT(jogged.crane().state().trolley_position_m, from_m + 0.05);
   EXPECT_EQ(jogged.crane().cause(), "NONE");

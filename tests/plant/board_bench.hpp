@@ -29,7 +29,7 @@ class Bench {
   }
   /// Advances the time without writing.
   void pass(int ticks = 1) { board.advance_to(board.now_ns() + ticks * kTick_ns); }
-  /// Relay closed, brakes open.
+  /// Closes the relay and opens the brakes.
   void open_brakes() { tick({}, true, 12); }
 
   SimulatedBoard board;

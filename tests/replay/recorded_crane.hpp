@@ -67,7 +67,7 @@ class RecordedCrane {
     last_id_ = id;
   }
   void ask(crane_RequestKind kind) { ask(stack::OperatorRequest{.kind = kind}); }
-  /// From power-on to HOLD.
+  /// Leads the crane from power-on to HOLD.
   void arm() {
     run(1.3);
     ask(crane_REQUEST_RESET);

@@ -154,8 +154,8 @@ TEST(BridgeProcess, LeavesZeroVoltsAndClosedBrakesWhenCraneUpIsKilled) {
   up.send(SIGKILL);
   EXPECT_TRUE(wait_for_end(children, 5s));
   EXPECT_EQ(codes(monitor), zero_v);
-  EXPECT_EQ(monitor.lines().outputs,
-            closed);  // the emulated rig ends, too: its lines keep the levels of the bridge
+  // the emulated rig ends, too: its lines keep the levels of the bridge
+  EXPECT_EQ(monitor.lines().outputs, closed);
 }
 
 TEST(BridgeProcess, EndsWithItsParentDespiteFileCapabilities) {

@@ -21,7 +21,7 @@ class ProgramRun {
   std::optional<int> wait(std::chrono::milliseconds patience);
   /// Waits for `text` on standard output. @return false when the program ended or `patience` passed
   bool wait_for(const std::string& text, std::chrono::milliseconds patience);
-  /// As wait_for(), on standard error.
+  /// Like wait_for(), but reads standard error.
   bool wait_for_error(const std::string& text, std::chrono::milliseconds patience);
   void send(int signal) const;
 

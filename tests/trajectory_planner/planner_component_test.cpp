@@ -16,7 +16,7 @@ class PlannerComponent : public testing::Test {
                             const configuration::Rig& rig = runtime::test::tower())
       : bench_{trajectory_planner_spec(), rig, "gain_scheduling_partial", clock} {}
 
-  /// One tick in `state_` with `move_` as the last accepted move. @return the reference of the next tick
+  /// Runs one tick in `state_` with `move_` as the last accepted move. @return the reference of the next tick
   [[nodiscard]] msg::Reference tick() {
     ++tick_;
     msg::SupervisorStatus status{};
@@ -140,7 +140,7 @@ class PlannerInRealTime : public PlannerComponent {
  protected:
   PlannerInRealTime() : PlannerComponent{runtime::Clock::realtime} {}
 
-  /// One tick in which no status of the supervisor arrives.
+  /// Runs one tick in which no status of the supervisor arrives.
   [[nodiscard]] msg::Reference tick_without_status() {
     bench_.publish(topics::state, crane_SOURCE_PLANT, state_at(++tick_));
     bench_.step();

@@ -52,7 +52,7 @@ class SimulatedMotion {
     state_.tangential_radps += tangential_radps;
   }
 
-  /// One tick.
+  /// Advances by one tick. @return its measurements
   twin::Sample next() {
     if (--until_move_ <= 0) choose_target();
     const plant::Measurement m = model_->measure(state_);

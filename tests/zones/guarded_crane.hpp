@@ -41,7 +41,7 @@ class GuardedCrane {
   supervisor::TickOutput out;
   bool demand_arrives = true, state_arrives = true;
 
-  /// One tick. The voltage acts from the next tick on.
+  /// Runs one tick. The voltage acts from the next tick on.
   void tick(const PerAxis& demand_v) {
     ++tick_;
     const auto time_ns =

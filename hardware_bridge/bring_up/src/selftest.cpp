@@ -206,8 +206,8 @@ class Gathering {
   double frequency_radps_;
   Evidence evidence_;
   std::array<SwingFit, kDrives> counter_fits_;  ///< of the counters of the drives, with closed brakes
-  bool counters_swing_ =
-      false;  ///< true: a drive's counter shows the swing, so that further pushes give no evidence
+  /// true: a drive's counter shows the swing, so that further pushes give no evidence
+  bool counters_swing_ = false;
 };
 
 }  // namespace

@@ -7,8 +7,8 @@
 namespace crane::configuration {
 
 struct KeyHint {
-  std::string rule =
-      "unknown key";  ///< "unknown key; did you mean load_mass_kg?", "unit must be rad: slew_angle_rad"
+  /// "unknown key; did you mean load_mass_kg?", "unit must be rad: slew_angle_rad"
+  std::string rule = "unknown key";
   std::string meant;  ///< the most similar known key; empty: no known key is similar
 };
 

@@ -42,7 +42,7 @@ double feasible(double wanted, const ShaperImpulses& shares, const RateLimit& pa
   return std::clamp(wanted, std::min(low, 0.0), std::max(high, 0.0));
 }
 
-/// One tick of u and s.
+/// Advances u and s by one tick.
 void advance(const ShaperImpulses& shares, const RateLimit& pace, double wanted, StickAxis& axis) noexcept {
   if (wanted != axis.unshaped) {
     const double change = feasible(wanted - axis.unshaped, shares, pace, axis.pending);

@@ -165,8 +165,8 @@ std::string verified(const std::string& smime, X509& signer) {
   const std::unique_ptr<STACK_OF(X509), void (*)(STACK_OF(X509)*)> signers{
       sk_X509_new_null(), [](STACK_OF(X509) * stack) { sk_X509_free(stack); }};
   sk_X509_push(signers.get(), &signer);
-  constexpr int kFlags =
-      PKCS7_NOINTERN | PKCS7_NOVERIFY | PKCS7_TEXT;  // verifies with the given certificate only
+  // verifies with the given certificate only
+  constexpr int kFlags = PKCS7_NOINTERN | PKCS7_NOVERIFY | PKCS7_TEXT;
   if (PKCS7_verify(signature.get(), signers.get(), nullptr, text.get(), out.get(), kFlags) != 1) return "";
   return text_of(*out);
 }

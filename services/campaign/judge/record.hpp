@@ -25,15 +25,15 @@ struct Truth {
   AxisFlags brake_release{};  ///< brake supplies that the bridge has written
 };
 
-/// One tick, at its end.
+/// Truth, messages and requests at the end of one tick.
 struct Row {
   std::int64_t time_ns = 0;
   Truth truth;
   msg::State state{};              ///< newest published
   msg::Command command{};          ///< newest sample of the supervisor
   msg::SupervisorStatus status{};  ///< newest published
-  msg::Reference reference{};  ///< this and the next two lines: newest published; the recording needs them,
-                               ///< the judge does not
+  /// Newest published samples; only the recording uses them.
+  msg::Reference reference{};
   msg::Contribution tracking{}, anti_swing{};
   msg::Demand demand{};
   bool reset_requested = false, arm_requested = false;  ///< requests of the operator in this tick
@@ -54,15 +54,15 @@ struct Expectation {
   bool may_ride_through = false;  ///< true: it is also correct that the crane does not stop
   double detection_ms = 0;        ///< longest time from onset to the first reason
   bool communication = false;     ///< I2: 0 V within 70 ms of the onset
-  bool volts_by_rig =
-      false;  ///< true: the bridge has ended, and only the relay of the rig acts on the brakes
-  bool position_is_false =
-      false;  ///< true: wrong counters permit motion beyond a hard limit; I1 reports it only
+  /// true: the bridge has ended, and only the relay of the rig acts on the brakes
+  bool volts_by_rig = false;
+  /// true: wrong counters permit motion beyond a hard limit; I1 reports it only
+  bool position_is_false = false;
   bool loses_commands =
       false;             ///< true: a command to stop may be lost; the bridge then stops the crane after 50 ms
   bool refused = false;  ///< true: the newest request of the operator must be refused
-  double braked_by_rig_ms =
-      90;  ///< volts_by_rig: longest time from onset to closed brakes: relay, coil and two ticks
+  /// volts_by_rig: longest time from onset to closed brakes: relay, coil and two ticks
+  double braked_by_rig_ms = 90;
   bool supervisor_gone = false;  ///< true: no supervisor follows a latch of the bridge
   bool supervisor_faulty =
       false;                ///< true: the status of the supervisor is wrong, and only the bridge is judged

@@ -8,7 +8,7 @@ namespace truth {
 class Controller {
  public:
   Controller(const Physics& nominal, const Plan& plan);
-  /// Command of the next tick, from the present sensor values.
+  /// @return the command of the next tick, computed from the present sensor values
   Volts step(const Sensed& measured, double time_s);
 
  private:

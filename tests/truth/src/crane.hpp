@@ -40,7 +40,7 @@ class Crane {
   Crane(const Physics& physics, const Disturbance& disturbance, const Start& start, std::uint64_t seed,
         const std::string& run);
 
-  /// One tick with the command held.
+  /// Advances by one tick with a constant command.
   void advance(const Volts& command_v);
   /// Present sensor values without noise and rounding.
   [[nodiscard]] Sensed sense() const;

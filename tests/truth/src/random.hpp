@@ -18,7 +18,7 @@ class Random {
     }
   }
 
-  /// In [0, 1).
+  /// @return a number in [0, 1)
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   double sign() { return uniform() < 0.5 ? -1 : 1; }

@@ -71,7 +71,7 @@ void require_inside(const Physics& p, const Sensed& measured, const std::string&
                              ": the crane leaves its range; the effects are too large for it");
 }
 
-/// One run in closed loop. `visit(crane, command)` before every tick.
+/// Simulates one run in closed loop. Calls `visit(crane, command)` before every tick.
 template <class Visit>
 Run closed_loop(Bench bench, const Case& request, const std::string& kind, const std::string& file,
                 Visit visit) {

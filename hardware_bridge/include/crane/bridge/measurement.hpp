@@ -63,11 +63,11 @@ class Coordinate {
 class MeasurementPipeline {
  public:
   explicit MeasurementPipeline(const configuration::Rig& rig);
-  /// One tick. @return positions, speeds, swing angles and rates in SI units
+  /// Processes the counts of one tick. @return positions, speeds, swing angles and rates in SI units
   control::Measurement step(const std::array<std::int32_t, kCounters>& raw_counts,
                             const Latched& latched = {}) noexcept;
   [[nodiscard]] const std::array<Coordinate, kCounters>& coordinates() const { return coordinates_; }
-  /// Coordinate::shift(), effective from the next step on.
+  /// Calls Coordinate::shift(); the shift acts from the next step on.
   void shift(std::size_t counter, std::int64_t change) noexcept { coordinates_[counter].shift(change); }
 
  private:

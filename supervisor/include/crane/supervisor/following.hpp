@@ -46,8 +46,8 @@ struct FollowingMemory {
 
 inline constexpr double kGainTolerance = 0.25;  ///< relative error of amplifier gain and motor constant
 inline constexpr double kOffset_v = 0.3;        ///< offset of converter and amplifier
-inline constexpr double kFrictionRatioMax =
-    1.5;  ///< largest friction / friction of the rig file: temperature, dust, wear
+/// largest friction / friction of the rig file: temperature, dust, wear
+inline constexpr double kFrictionRatioMax = 1.5;
 inline constexpr double kFrictionExtra_v = 0.3;  ///< friction of a rig whose file gives none
 inline constexpr double kLoadRatioMax = 1.5;     ///< largest load mass / load mass of the rig file
 /// Permitted speed error as share of max_speed: the axis loses this speed within a quarter of its soft
@@ -58,7 +58,8 @@ inline constexpr double kSpeedShare = 0.05;
 [[nodiscard]] double following_limit(const Limits& limits, std::size_t axis, double speed,
                                      double span_s) noexcept;
 
-/// One sample. @return true when a sum exceeds its limit; never while `limits.machine.known` is false
+/// Processes one sample. @return true when a sum exceeds its limit; never while `limits.machine.known` is
+/// false
 [[nodiscard]] bool following_error(const Limits& limits, const FollowingInput& input,
                                    FollowingMemory& memory) noexcept;
 

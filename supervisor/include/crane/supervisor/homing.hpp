@@ -36,7 +36,7 @@ struct HomingMemory {
   double progress_at = 0;  ///< position at the last progress
 };
 
-/// One tick. @return speed of the reference, unit/s; 0 when done or failed
+/// Advances homing by one tick. @return speed of the reference, unit/s; 0 when done or failed
 double step_homing(const Limits& limits, std::size_t axis, const HomingInput& input,
                    HomingMemory& memory) noexcept;
 

@@ -48,23 +48,23 @@ struct Limits : control::OperatingLimits {
   int demand_invalid_in_row = 3;      ///< consecutive rejected demands that stop the crane, >= 1
   /// consecutive late ticks that stop the crane; 0: late ticks do not stop the crane
   int overruns_in_row = 3;
-  double clear_time_s =
-      1;  ///< time without a cause before a reset, and with complete inputs before arming, >= 0
+  /// time without a cause before a reset, and with complete inputs before arming, >= 0
+  double clear_time_s = 1;
   double standstill_time_s = 0.1;  ///< > 0
   double c1_ramp_time_s = 0.02;    ///< duration of the ramp from full voltage to 0 V, in [0, 0.02]
   double stop_timeout_s = 8;       ///< longest controlled stop; a ramped stop follows, > 0
   double arm_match_time_s = 5;     ///< longest wait of ARMING for a demand near zero and a ready bridge, > 0
   double arm_volt_limit_v = 2.5;   ///< largest demand that counts as near zero, > 0
-  double brake_test_time_s =
-      0.2;  ///< longest time until a brake reports open, longer than its opening time, > 0
-  double brake_report_time_s =
-      0.1;  ///< longest time from the end of the closing time until a brake reports closed, > 0
+  /// longest time until a brake reports open, longer than its opening time, > 0
+  double brake_test_time_s = 0.2;
+  /// longest time from the end of the closing time until a brake reports closed, > 0
+  double brake_report_time_s = 0.1;
   double relay_timeout_s = 0.05;  ///< longest time from the last toggle until the relay opens, > 0
   /// longest time from the end of relay_timeout_s until the relay reports open, > 0
   double relay_report_time_s = 0.1;
   double load_still_rad = 0.005;  ///< largest swing of a load that is at rest when a bridge starts, > 0
-  double load_watch_s =
-      10;  ///< duration of the watch of the load after a restart of the bridge, >= clear_time_s
+  /// duration of the watch of the load after a restart of the bridge, >= clear_time_s
+  double load_watch_s = 10;
   MachineModel machine{};
   control::Clearance clearance{};
   std::vector<control::Zone> zones{};  ///< empty: the zone filter has no effect
@@ -74,8 +74,8 @@ struct Limits : control::OperatingLimits {
   /// Largest distance between an axis and the start of a reference of sines, unit: reference_speed^2 /
   /// (2 reference_acceleration), the distance in which a move reaches its speed.
   PerAxis largest_follow_jump{};
-  double creeping_ratio =
-      2.5;  ///< overspeed of an axis without known position: multiple of its homing speed, >= 1
+  /// overspeed of an axis without known position: multiple of its homing speed, >= 1
+  double creeping_ratio = 2.5;
 };
 
 /// Number of ticks of a ramped stop, at least 1. The command of the last tick is 0 V with closed brakes.

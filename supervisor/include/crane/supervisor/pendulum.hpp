@@ -27,10 +27,10 @@
 
 namespace crane::supervisor {
 
-inline constexpr std::size_t kMeanSamples =
-    4;  ///< samples of the mean; it divides the quantisation of the swing rate by 4
-inline constexpr double kCableTolerance =
-    0.55;  ///< relative error of the cable length: 0.5 (true length 0.5 to 1.5 times the measured one) x 1.1
+/// samples of the mean; it divides the quantisation of the swing rate by 4
+inline constexpr std::size_t kMeanSamples = 4;
+/// relative error of the cable length: 0.5 (true length 0.5 to 1.5 times the measured one) x 1.1
+inline constexpr double kCableTolerance = 0.55;
 inline constexpr double kZeroError_rad = 0.02;     ///< zero error of a swing encoder
 inline constexpr double kDampingRatio = 0.05;      ///< damping ratio of air, bearing and cable
 inline constexpr double kPermittedSum_mps = 0.05;  ///< permitted sum without quantisation
@@ -77,7 +77,8 @@ struct PendulumMemory {
 /// Drift of the sum: change of speed in one sample that the tolerances permit, m/s.
 [[nodiscard]] double pendulum_drift(const Limits& limits, double span_s) noexcept;
 
-/// One sample. @return true when a swing encoder has failed; never while `limits.machine.known` is false
+/// Processes one sample. @return true when a swing encoder has failed; never while `limits.machine.known` is
+/// false
 [[nodiscard]] bool swing_sensor_failed(const Limits& limits, const PendulumInput& input,
                                        PendulumMemory& memory) noexcept;
 

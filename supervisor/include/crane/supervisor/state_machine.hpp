@@ -97,7 +97,8 @@ struct Outputs {
   std::array<Answer, kRequests> answers{};
 };
 
-/// One tick. The function is total: every input in every state has a defined output.
+/// Advances the state machine by one tick. The function is total: every input in every state has a defined
+/// output.
 [[nodiscard]] Outputs step(const Limits& limits, const Inputs& inputs, Memory& memory) noexcept;
 
 /// True when the drives execute the demands: HOLD, RUN, and STOP_C1 before its ramp.

@@ -1,6 +1,6 @@
 #pragma once
-/// One tick of the supervisor. Input: sample and demand; output: command and status. Pure; samples.hpp
-/// converts from and to the topics.
+/// One tick of the supervisor: a pure function of sample and demand that returns command and status.
+/// samples.hpp converts from and to the topics.
 #include "crane/supervisor/gate.hpp"
 #include "crane/supervisor/homing.hpp"
 #include "crane/supervisor/motion.hpp"
@@ -40,8 +40,8 @@ struct TickInput {
   std::uint64_t tick = 0;
   bool state_arrived = false;  ///< false: no state arrived in time; the step is executed without a state
   Sample sample{};  ///< valid when state_arrived; a sample with a value that is not finite counts as missing
-  bool bridge_restarted =
-      false;  ///< true: a new bridge writes crane/state from this tick on; its ticks start at 0
+  /// true: a new bridge writes crane/state from this tick on; its ticks start at 0
+  bool bridge_restarted = false;
   bool demand_arrived = false;
   PerAxis demand_v{};
   bool reference_moving = false;

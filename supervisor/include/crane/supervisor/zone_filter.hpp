@@ -91,7 +91,8 @@ inline constexpr double kLeaveTolerance_m = 0.02;
 /// Stores one sample. Call for every sample, also while the brakes are closed.
 void observe_load(const Limits& limits, const ZoneInput& input, ZoneMemory& memory) noexcept;
 
-/// One tick while the brakes are open. Without zones the verdict is default-constructed.
+/// Filters the voltages of one tick while the brakes are open. Without zones the verdict is
+/// default-constructed.
 /// @pre observe_load() has received the newest sample
 [[nodiscard]] ZoneVerdict filter_zones(const Limits& limits, const ZoneInput& input,
                                        ZoneMemory& memory) noexcept;

@@ -51,9 +51,10 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// One tick at 0 V with closed brakes and without toggling the watchdog output. @throws Ended
+  /// Runs one tick at 0 V with closed brakes, without toggling the watchdog output. @throws Ended
   const Sample& rest();
-  /// One tick that toggles the watchdog output. @param drive_v  V; the sign of the drive in the rig file is
+  /// Runs one tick and toggles the watchdog output. @param drive_v  V; the sign of the drive in the rig file
+  /// is
   ///   applied, so that positive should move outward. @throws Ended
   const Sample& awake(const std::array<double, kDrives>& drive_v, const std::array<bool, kDrives>& release);
 

@@ -14,8 +14,8 @@ struct FilterMemory {
   double x1 = 0, x2 = 0, y1 = 0, y2 = 0;  ///< inputs and outputs of the last two ticks
 };
 
-/// One tick. No allocation. The output is finite while |sample| is below 1e300 divided by the gain of the
-/// section.
+/// Filters one sample; allocates no memory. The output is finite while |sample| is below 1e300 divided by the
+/// gain of the section.
 [[nodiscard]] double step(const FilterSection& section, FilterMemory& memory, double sample) noexcept;
 
 /// Steady-state memory for the constant input `sample`.

@@ -39,7 +39,7 @@ class PendulumObserver {
   explicit PendulumObserver(const Design& design);
   /// Clears the memory. The crane is at rest at `measured`; the load may swing.
   void reset(const Measurement& measured) noexcept;
-  /// One tick. No allocation. A measurement that is not finite changes nothing.
+  /// Updates the estimate by one tick; allocates no memory. A measurement that is not finite changes nothing.
   const CraneEstimate& step(const Measurement& measured) noexcept;
 
  private:

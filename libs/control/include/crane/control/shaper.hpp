@@ -36,8 +36,8 @@ class Shaper {
   /// Time that the shaper adds to the duration of a move.
   [[nodiscard]] double delay_s() const noexcept { return impulses_[count_ - 1].time_s; }
 
-  /// The shaped profile at `time_s`. It ends delay_s() after the profile, at the same position. No
-  /// allocation.
+  /// The shaped profile at `time_s`. It ends delay_s() after the profile, at the same position.
+  /// The function allocates no memory.
   /// @tparam Profile  anything with `AxisReference at(double time_s)`
   template <typename Profile>
   [[nodiscard]] AxisReference at(const Profile& profile, double time_s) const noexcept {

@@ -124,7 +124,7 @@ struct StickMemory {
 /// @pre problems(limits).empty()
 void begin(const StickLimits& limits, const Reference& reference, StickMemory& memory) noexcept;
 
-/// One tick. No allocation.
+/// Advances the reference by one tick; allocates no memory.
 /// @param wanted  commanded speed per axis, unit/s; limited to the largest speed; a value that is not finite
 /// counts as 0
 /// @return reference at path[2]; its swing is that of path[1], because the command of a tick acts one tick

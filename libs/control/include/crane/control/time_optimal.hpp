@@ -60,7 +60,7 @@ struct PlanResult {
 /// @return all problems as "name = value: rule"; empty when the move is possible
 [[nodiscard]] std::vector<std::string> problems(const PlanProblem& problem);
 
-/// No allocation, no clock. @pre problems(design).empty()
+/// Allocates no memory and reads no clock. @pre problems(design).empty()
 /// @param warm  plan of a similar move; nullptr: none
 [[nodiscard]] PlanResult time_optimal_plan(const Design& design, const PlanProblem& problem,
                                            const Plan* warm = nullptr) noexcept;

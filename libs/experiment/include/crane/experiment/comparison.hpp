@@ -13,8 +13,8 @@
 namespace crane::experiment {
 
 struct ComparedRun {
-  std::string scenario, variant,
-      controller;  ///< variant: name of variant.hpp; empty: the rig file as written
+  /// variant: name of variant.hpp; empty: the rig file as written
+  std::string scenario, variant, controller;
   std::string scenario_description;
   /// Cause with which the supervisor stopped the crane or refused to start; empty: the run is complete.
   std::string stopped_because;

@@ -61,7 +61,7 @@ class McapWriter {
   /// @throws WriteError, std::invalid_argument for an unknown channel
   void message(std::uint16_t channel, std::uint32_t sequence, std::int64_t log_time_ns,
                std::int64_t publish_time_ns, Bytes data);
-  /// Append a metadata record or an attachment. Both close the current chunk first. @throws WriteError
+  /// Appends a metadata record or an attachment. Both close the current chunk first. @throws WriteError
   void metadata(std::string_view name, const Metadata& entries);
   void attachment(std::string_view name, std::string_view media_type, std::int64_t time_ns, Bytes data);
 

@@ -50,8 +50,8 @@ enum class Style { line, points, band };
 /// One line, set of points or band of a plot. NaN and infinite values leave a gap.
 struct Series {
   std::string name;
-  std::vector<double>
-      x;  ///< empty: x of the plot. Must not decrease for a line or band; any order for points
+  /// empty: x of the plot. Must not decrease for a line or band; any order for points
+  std::vector<double> x;
   std::vector<double> y;  ///< as many as x; for a band the lower edge
   Style style = Style::line;
   std::vector<double> upper;  ///< band only: the upper edge, as many as y

@@ -30,12 +30,12 @@ class ReportError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// overlay_N.svg, one per held-out run, and residual_COLUMN.svg.
+/// Draws overlay_N.svg, one per held-out run, and residual_COLUMN.svg.
 /// @param directory must exist. @throws plot::PictureError
 void draw_diagnosis(const std::filesystem::path& directory, const Diagnosis& diagnosis,
                     const configuration::Rig& rig, const std::vector<Run>& test);
 
-/// report.json, report.html, extended.toml and next_experiment.toml.
+/// Writes report.json, report.html, extended.toml and next_experiment.toml.
 /// @param directory must exist. @throws ReportError, report::WriteError
 void write_report(const std::filesystem::path& directory, const Diagnosis& diagnosis,
                   const configuration::Rig& rig, const std::vector<Run>& test);

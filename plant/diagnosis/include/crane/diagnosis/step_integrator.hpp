@@ -39,7 +39,7 @@ class StepIntegrator {
   /// Replaces the extrapolated state of prescribed inner coordinates.
   void prescribe_inner(plant::InnerState& inner, plant::InnerAccelerations& accelerations) const;
   void kick_inner(const plant::InnerAccelerations& accelerations);
-  /// Implicit friction, axis by axis, with the last value of the other axis.
+  /// Applies the friction implicitly, axis by axis, with the last value of the other axis.
   plant::PerAxis move_drives(const plant::State& middle, const plant::InnerState& inner_middle);
 
   const plant::Model& model_;

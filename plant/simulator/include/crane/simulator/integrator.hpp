@@ -36,7 +36,7 @@ struct Tolerances {
 /// Events that end the integration early.
 struct Watch {
   std::array<bool, plant::kAxes> standstill{};  ///< true: event when the speed of the axis crosses 0
-  /// Event when the position of the axis falls to `low` or rises to `high`.
+  /// An event occurs when the position of the axis falls to `low` or rises to `high`.
   plant::PerAxis low = filled(-std::numeric_limits<double>::infinity());
   plant::PerAxis high = filled(std::numeric_limits<double>::infinity());
 
