@@ -269,7 +269,7 @@ void Bridge::report_relay(const Inputs& inputs, std::int64_t now_ns) {
     node_.error("relay_dropped",
                 "the watchdog relay dropped while its output toggled, the last time after " +
                     std::to_string(late_ms) + " ms",
-                "look for what keeps the bridge from its ticks (overruns of crane/state), or at relay and "
+                "find the reason for late ticks of the bridge (overruns of crane/state), or check relay and "
                 "relay_timeout_s, then `crane reset`");
   }
   relay_closed_ = !inputs.watchdog_dropped;

@@ -13,7 +13,7 @@ struct Texts {
 constexpr std::array<Texts, kReasons> kTexts{{
     {"none", "", ""},
     {"command_stale", "no valid command arrived within stale_after_s",
-     "look for a dead or hung supervisor, then `crane reset`"},
+     "check whether the supervisor has ended or hangs, then `crane reset`"},
     {"command_not_finite", "a voltage of a command was NaN or infinite",
      "restart the supervisor, then `crane reset`"},
     {"command_range", "a voltage of a command exceeded volt_limit_v",

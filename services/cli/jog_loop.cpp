@@ -109,7 +109,7 @@ void JogLoop::inch(const InchingStep& step) {
 
 void JogLoop::go_back() {
   if (!stop_point_ || !moves_.measured()) {
-    std::cerr << "return: no stop point yet: it is where the stick is released\n";
+    std::cerr << "return: no stop point yet: release the stick first\n";
     return;
   }
   if (!execute("return", back_to(*stop_point_, *moves_.measured(), options_.selected))) return;

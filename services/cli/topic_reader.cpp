@@ -37,7 +37,7 @@ std::string why_silent(bus::Bus& bus, const bus::CdrSubscriber& subscriber, cons
            "); check --clock and the releases of both sides";
   if (subscriber.matched() == 0) return name + ": no writer found" + where_and_remedy(bus);
   return name + ": " + std::to_string(subscriber.matched()) + " writers, but no sample: " +
-         (subscriber.topic().every_tick ? "the clock master makes no ticks (crane status)"
+         (subscriber.topic().every_tick ? "the clock master starts no ticks (crane status)"
                                         : "the topic is written only at events");
 }
 

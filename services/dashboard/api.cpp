@@ -95,7 +95,7 @@ ApiAnswer Api::get(const ApiRequest& request) {
   if (path == "/api/idl") return {.media_type = "text/plain", .body = std::string{topics::idl_text()}};
   if (path == "/api/history") return history(query);
   if (auto answer = runs_.get(path)) return *std::move(answer);
-  return problem_answer(404, "nothing is at this path; docs/dashboard.md lists the paths");
+  return problem_answer(404, "this path does not exist; docs/dashboard.md lists the paths");
 }
 
 ApiAnswer Api::about(const Visitor& visitor) const {
@@ -118,7 +118,7 @@ ApiAnswer Api::history(std::string_view query) const {
   if (parameters.contains("fault")) {
     const auto* fault = model_.faults().find(number_of<std::uint64_t>(parameters["fault"], "fault"));
     if (fault == nullptr || !fault->moment.contains(topic))
-      return problem_answer(404, "no data are kept of this fault");
+      return problem_answer(404, "the dashboard has no data of this fault");
     answer.body = packed(fault->moment.at(topic));
     return answer;
   }
@@ -144,14 +144,14 @@ void Api::post(const ApiRequest& request, Answer answer) {
   if (request.target == "/api/operator/renew")
     return answer(model_.seat().renew(request.seat_key, now_ns)
                       ? json_answer({{"held", true}})
-                      : problem_answer(409, "another one has the controls, or the time ran out"));
+                      : problem_answer(409, "another operator has the controls, or the time has run out"));
   if (request.target == "/api/operator/release") {
     const bool held = model_.seat().release(request.seat_key, now_ns);
     return answer(json_answer({{"held", false}, {"released", held}}));
   }
   if (auto done = runs_.post(request)) return answer(*std::move(done));
   if (request.target == "/api/request") return this->request(request, std::move(answer));
-  answer(problem_answer(404, "nothing takes a POST at this path; docs/dashboard.md lists the paths"));
+  answer(problem_answer(404, "this path accepts no POST; docs/dashboard.md lists the paths"));
 }
 
 ApiAnswer Api::take_seat(const ApiRequest& request) {
@@ -160,8 +160,9 @@ ApiAnswer Api::take_seat(const ApiRequest& request) {
   auto key = random_token();
   if (!model_.seat().take(named ? body["name"].get<std::string>() : "operator", key, runtime::monotonic_ns()))
     return problem_answer(
-        409, *model_.seat().holder(runtime::monotonic_ns()) +
-                 " has the controls; they become free when released, or 10 s after the other page is gone");
+        409,
+        *model_.seat().holder(runtime::monotonic_ns()) +
+            " has the controls; they become free when that page releases them, or 10 s after it was closed");
   return json_answer({{"seat", key}});
 }
 

@@ -74,7 +74,7 @@ Jobs::Jobs(fs::path program, std::string rig, fs::path directory)
 
 Jobs::Answer Jobs::review(const Run& run) {
   if (!run.recording) return {0, run.name + ": only recordings (.mcap) can be reviewed", false};
-  if (run.too_large()) return {0, run.name + ": is larger than a dashboard opens; use `crane review`", false};
+  if (run.too_large()) return {0, run.name + ": is too large for the dashboard; use `crane review`", false};
   const auto key = run.name + '\n' + std::to_string(run.bytes) + '\n' + std::to_string(run.changed_s);
   for (const auto& job : jobs_)
     if (job.key == key && job.state != State::failed && job.state != State::cancelled)
@@ -89,12 +89,12 @@ Jobs::Answer Jobs::review(const Run& run) {
 Jobs::Answer Jobs::diagnose(const std::vector<Run>& train, const std::vector<Run>& test) {
   if (rig_.empty()) return {0, "the rig is unknown: start the dashboard with --rig", false};
   if (train.empty() || test.empty())
-    return {0, "train and test: at least one run of each; the test runs prove the gain and choose nothing",
+    return {0, "train and test: select at least one run of each; the test runs only confirm the result",
             false};
   for (const auto* runs : {&train, &test})
     for (const auto& run : *runs)
       if (run.too_large())
-        return {0, run.name + ": is larger than a dashboard opens; use `crane diagnose`", false};
+        return {0, run.name + ": is too large for the dashboard; use `crane diagnose`", false};
   Job job{.kind = "diagnose", .key = "", .runs = names_of(train), .arguments = {}, .bounds = kDiagnosis};
   for (const auto& name : names_of(test)) job.runs.push_back(name);
   job.arguments = {"diagnose", "--rig", rig_, "--train"};

@@ -69,7 +69,7 @@ void add_topics(Page& page, const Model& model) {
 }
 
 void add_processes(Page& page, const Model& model, std::int64_t now_ns) {
-  page.add("crane_process_up", "1: the process reports itself.", MetricType::Gauge);
+  page.add("crane_process_up", "1: the process reports its status.", MetricType::Gauge);
   for (const auto& [number, heard] : model.traffic().nodes())
     page.value(heard.silent(now_ns) ? 0 : 1, {{"process", heard.status.name}});
   page.add("crane_process_lost_ticks_total", "Ticks with incomplete inputs.", MetricType::Counter);

@@ -32,7 +32,7 @@ std::string read_or_make_token(const std::filesystem::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) refuse(file, "the file cannot be read");
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-    refuse(file, "others can read the file, or change it: chmod 600 it, and give it a new token");
+    refuse(file, "other users can read or change the file: run chmod 600, and write a new token to it");
   std::string token;
   std::getline(std::ifstream{file}, token);
   if (token.size() < kShortestToken)

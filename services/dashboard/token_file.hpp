@@ -9,7 +9,8 @@ namespace crane::dashboard {
 inline constexpr std::size_t kShortestToken = 16;
 
 /// Reads the token; creates the file with a random token when it does not exist.
-/// @throws configuration::ConfigurationError when others can read the file or the token is too short
+/// @throws configuration::ConfigurationError when other users can read or change the file, or the token is
+/// too short
 [[nodiscard]] std::string read_or_make_token(const std::filesystem::path& file);
 
 }  // namespace crane::dashboard

@@ -14,7 +14,7 @@ namespace {
 
 Findings examine_device(const std::string& device) {
   if (::access(device.c_str(), R_OK | W_OK) == 0)
-    return {{Grade::good, "hw", "board", device + " is there and can be opened", ""}};
+    return {{Grade::good, "hw", "board", device + " exists and can be opened", ""}};
   const int error = errno;
   const std::string what = device + ": " + std::strerror(error);
   if (error == ENOENT)

@@ -91,7 +91,7 @@ Finding down(const Interface& interface) {
   return {Grade::problem, "net", "interface_down",
           "the interface " + interface.name + " of " + interface.address +
               (interface.up ? " has no carrier" : " is down"),
-          interface.up ? "connect its cable, or look at the other end"
+          interface.up ? "connect its cable, or check the device at the other end"
                        : "`ip link set " + interface.name + " up`"};
 }
 

@@ -193,7 +193,7 @@ Findings judge_processes_on_bus(const Observed& observed) {
   }
   if (observed.states == 0)
     findings.push_back({Grade::problem, "net", "no_ticks",
-                        "crane/state has no sample: the clock master makes no ticks",
+                        "crane/state has no sample: the clock master starts no ticks",
                         "in lockstep `crane run` advances the ticks; in real time restart the stack"});
   const bool complete =
       std::ranges::none_of(findings, [](const Finding& finding) { return finding.grade == Grade::problem; });
@@ -234,7 +234,7 @@ Findings judge_number_of_participants(const std::vector<LocalProcess>& local, st
   return {{Grade::problem, "net", "too_many_participants",
            std::to_string(count) + " programs of cranes run in domain " + std::to_string(domain) +
                " of this computer; discovery by unicast finds " + std::to_string(kMost),
-           "end what is left over (`pgrep -a crane`), or give each crane its own --domain"}};
+           "end the programs that are left over (`pgrep -a crane`), or give each crane its own --domain"}};
 }
 
 }  // namespace crane::doctor

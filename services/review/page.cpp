@@ -162,7 +162,8 @@ std::vector<std::string> sentences(const Review& review) {
   if (others > 0) lines.push_back(text("The recording contains %zu more faults or warnings.", others));
   if (!review.problems.empty())
     lines.push_back("The file is damaged: " + review.problems.front() +
-                    (review.problems.size() > 1 ? ", and more" : "") + ". What is readable was reviewed.");
+                    (review.problems.size() > 1 ? ", and more" : "") +
+                    ". The review covers the readable part.");
   return lines;
 }
 

@@ -69,7 +69,7 @@ std::string begin_problem(const msg::Request& request, const Limits& limits, con
   return "";
 }
 
-constexpr const char* kHint = " (the radius of the load counts; crane zone list)";
+constexpr const char* kHint = " (including the radius of the load; crane zone list)";
 
 /// The planner follows sines only on the straight path, not around zones.
 std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxis& to) {

@@ -167,7 +167,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   /// and `crane up` ends the bridge with a signal.
   [[noreturn]] void give_up() {
     constexpr const char* kWhat =
-        "the bridge gives voltages, or a brake is open, that this supervisor has not commanded";
+        "the bridge outputs a voltage, or a brake is open, without a command of this supervisor";
     constexpr const char* kRemedy =
         "look at the brakes and their contacts; if they are sound, another program forges packets on this "
         "bus: end it, or use keys (crane up --secure)";

@@ -36,7 +36,7 @@ Answer answer_reset(const Limits& limits, const Inputs& in, const Memory& m) {
     case State::stop_c0:
       return refuse("the crane is still stopping: wait for LOCKED");
     case State::fault:
-      return refuse("a fault outlives a reset: remove its cause, then restart the supervisor");
+      return refuse("a reset does not end FAULT: remove the cause, then restart the supervisor");
     default:
       return refuse("the crane is armed: there is nothing to reset");
   }
@@ -89,7 +89,7 @@ Answer answer_arm(const Limits& limits, const Inputs& in, const Memory& m) {
 
 Answer answer_home(const Limits& limits, const Inputs& in, const Memory& m) {
   if (!in.can_home)
-    return refuse("this axis has no mark: zero = \"homing\" and [homing] in the rig file give it one");
+    return refuse("this axis has no mark: set zero = \"homing\" and add [homing] in the rig file");
   if (m.homing) return refuse("an axis is being homed: wait for LOCKED");
   if (m.state == State::arming || m.state == State::hold || m.state == State::run)
     return refuse("the crane is armed: disarm and reset it first");

@@ -160,7 +160,7 @@ class Calibrating {
     if (distance) found_.counts_per_unit[i] = magnitude / *distance;
   }
 
-  /// Sign of the swing encoder: the load stays behind when the axis moves.
+  /// Sign of the swing encoder: the load lags behind when the axis moves.
   void judge_swing(std::size_t i, const Record& motion, const std::array<SwingFit, kSwings>& before,
                    const std::array<SwingFit, kSwings>& after) {
     const auto swing = swing_of(rig_, i);
@@ -173,9 +173,8 @@ class Calibrating {
         expected_swing(motion, i, lever, rig_.start.position[plant::kHoist], frequency_radps_);
     const double share = share_of(expected, before[swing - kDrives], after[swing - kDrives]);
     if (std::abs(share) < 0.4)
-      throw std::runtime_error(
-          "the encoder of " + std::string{coordinate_name(swing)} +
-          " does not show that the load stays behind: crane hw selftest finds the fault");
+      throw std::runtime_error("the encoder of " + std::string{coordinate_name(swing)} +
+                               " does not show that the load lags behind: crane hw selftest finds the fault");
     if (share < 0) found_.encoder_sign[swing] = -rig_.encoders[swing].sign;
     options_.say(std::string{coordinate_name(swing)} + " shows " + with_unit(std::abs(share), "") +
                  "times the swing that follows from its scale and the cable length");

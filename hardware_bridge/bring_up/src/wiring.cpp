@@ -71,7 +71,7 @@ class Judgement {
               std::to_string(rig_.wiring.relay_closed_input) + ")");
     else if (!evidence_.relay_dropped)
       add(Fault::relay_stuck, "relay",
-          "the watchdog relay does not drop within " + text_of(evidence_.relay_limit_s, "s") +
+          "the watchdog relay does not open within " + text_of(evidence_.relay_limit_s, "s") +
               " after its output has stopped: the brakes would stay open when the computer fails");
   }
 
@@ -158,9 +158,9 @@ class Judgement {
             named(i) + "] or [encoder." + named(i) + "]");
   }
   void add_swing_sign(std::size_t i, std::size_t swing) {
-    add_sign(Fault::swing_sign, swing, "encoder",
-             "counts in the wrong direction: the load stays behind a motion of the " + named(i) +
-                 "; swap A and B");
+    add_sign(
+        Fault::swing_sign, swing, "encoder",
+        "counts in the wrong direction: the load lags behind a motion of the " + named(i) + "; swap A and B");
   }
   void add_drive_sign(std::size_t i) {
     add_sign(Fault::drive_sign, i, "drive",

@@ -121,7 +121,7 @@ class Checker {
     if (text.empty())
       say(file,
           "was changed, or is not signed by " + files_.permissions_ca.string() +
-              ": its signature does not fit",
+              ": its signature does not match its content",
           kCopyAnew);
     return text;
   }

@@ -15,7 +15,7 @@ const std::vector<Role>& roles() {
       {"friction_compensation", "friction compensation", only(crane_SOURCE_FRICTION)},
       {"twin", "live twin", only(crane_SOURCE_TWIN)},
       {"recorder", "recorder: reports its own health", only(crane_SOURCE_RECORDER)},
-      {"operator", "tools that ask: arm, move, stop ...", only(crane_SOURCE_OPERATOR)},
+      {"operator", "tools that send requests: arm, move, stop ...", only(crane_SOURCE_OPERATOR)},
       {"monitor", "tools that only read", only(crane_SOURCE_MONITOR)}};
   return all;
 }

@@ -84,7 +84,7 @@ class Judgement {
     const auto seen_ns = run_.visible_ns.value_or(run_.onset_ns);
     const double detection_ms = ms(seen_ns, run_.rows[first_row_].time_ns);
     if (wanted.reasons.empty()) {
-      violated(Invariant::no_false_trip, first_row_, "nothing was to stop the crane");
+      violated(Invariant::no_false_trip, first_row_, "the crane stopped although it must continue");
     } else if (std::ranges::find(wanted.reasons, *verdict_.first) == wanted.reasons.end() &&
                (wanted.position_is_false || !is_true(*verdict_.first, rig_, run_.rows, first_row_))) {
       violated(Invariant::right_reason, first_row_, "a wrong reason came first");
@@ -110,9 +110,8 @@ class Judgement {
 
   void refusal() {
     if (run_.expectation.refused && run_.accepted != false)
-      violated(
-          Invariant::reset_and_arm, run_.rows.size() - 1,
-          run_.accepted ? "a request was accepted that has to be refused" : "a request was not answered");
+      violated(Invariant::reset_and_arm, run_.rows.size() - 1,
+               run_.accepted ? "a request was accepted that must be refused" : "a request was not answered");
   }
 
   /// Faults that bridge and supervisor must each detect, even when the other one has stopped the crane.
@@ -120,10 +119,12 @@ class Judgement {
     const auto& wanted = run_.expectation;
     if (wanted.bridge_must_latch != crane_LATCH_NONE &&
         !seen_in_time([&](const Row& row) { return row.state.latch_reason == wanted.bridge_must_latch; }))
-      violated(Invariant::right_reason, run_.rows.size() - 1, "the bridge has not found it by itself");
+      violated(Invariant::right_reason, run_.rows.size() - 1,
+               "the bridge has not detected the fault by itself");
     if (wanted.supervisor_must_find != crane_CAUSE_NONE &&
         !seen_in_time([&](const Row& row) { return row.status.cause == wanted.supervisor_must_find; }))
-      violated(Invariant::right_reason, run_.rows.size() - 1, "the supervisor has not found it by itself");
+      violated(Invariant::right_reason, run_.rows.size() - 1,
+               "the supervisor has not detected the fault by itself");
   }
 
   /// @return true when the effect was not visible, or the detection time was not over at the end of the run

@@ -56,7 +56,7 @@ class TickInvariants {
                          run_.rows[k].state.latch_reason != crane_LATCH_NONE;
     const auto state = run_.rows[k].status.state;
     if (latched && (state == crane_STATE_HOLD || state == crane_STATE_RUN))
-      violated(Invariant::right_reason, k, "the supervisor goes on although the bridge has latched");
+      violated(Invariant::right_reason, k, "the supervisor continues although the bridge has latched");
   }
 
   /// A controlled stop cannot damp a swing above 1.25 times its limit: 0 V is required.
@@ -106,7 +106,8 @@ class TickInvariants {
     if (bridge_is_dead || (no_volts(row) && commanded_closed(row))) return;
     for (std::size_t age = 1; age <= std::min(k, kOldestCommand); ++age)
       if (is_of(run_.rows[k - age].command, row.truth)) return;
-    violated(Invariant::only_supervisor, k, "the board was given what the supervisor has not published");
+    violated(Invariant::only_supervisor, k,
+             "the board received values that the supervisor has not published");
   }
 
   [[nodiscard]] bool is_of(const msg::Command& command, const Truth& truth) const {

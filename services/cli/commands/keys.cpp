@@ -40,7 +40,7 @@ int make_keys(const std::string& directory, int days) {
             << "A host that only watches needs identity_ca.pem, permissions_ca.pem, governance.smime and "
                "monitor/.\n"
             << "Keep " << directory
-            << "/private off the rig: whoever has it can make a supervisor of his own.\n";
+            << "/private off the rig: everyone who has this directory can make keys of a supervisor.\n";
   return runtime::kExitDone;
 }
 

@@ -47,7 +47,7 @@ int info(const LogOptions& options) {
   std::cout << options.file.string() << ": " << found["messages"] << " samples, "
             << fixed(found["bytes"].get<double>() / 1e6, 2) << " MB, "
             << fixed(found["duration_s"].get<double>(), 3) << " s, "
-            << (recording.indexed() ? "closed in order" : "not closed in order (crane log repair)") << '\n';
+            << (recording.indexed() ? "closed correctly" : "not closed correctly (crane log repair)") << '\n';
   TextTable table{{"topic", "type", "samples"}};
   for (const auto& topic : found["topics"])
     table.add({topic["topic"], topic["type"], topic["messages"].dump()});

@@ -40,7 +40,7 @@ void add(CLI::App& app, Action& chosen, const Verb& verb) {
 void add_reset(CLI::App& app, Action& chosen) {
   add(app, chosen,
       {"reset", crane_REQUEST_RESET,
-       "Acknowledge a stop, when its cause is removed: from LOCKED or ESTOP to READY",
+       "Acknowledge a stop after its cause has been removed: from LOCKED or ESTOP to READY",
        "Example: crane reset && crane arm"});
 }
 

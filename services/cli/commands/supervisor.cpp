@@ -41,7 +41,7 @@ Snapshot last_of(const std::string& file) {
                     keep_last(topics::supervisor, message, snapshot.supervisor);
                     return true;
                   });
-  if (!snapshot.supervisor) throw std::runtime_error(file + ": no crane/supervisor in it");
+  if (!snapshot.supervisor) throw std::runtime_error(file + ": contains no crane/supervisor");
   return snapshot;
 }
 

@@ -28,7 +28,7 @@ export class FaultsView {
     find("fault-count").textContent = unseen;
     if (!this.#visible) return;
     const open = new Set([...document.querySelectorAll("#fault-list details[open]")].map((details) => details.dataset.number));
-    find("fault-list").replaceChildren(...(this.#faults.length ? this.#faults.map((fault) => this.#entry(fault, open)) : [element("li", { className: "empty" }, "Nothing since the dashboard was started.")]));
+    find("fault-list").replaceChildren(...(this.#faults.length ? this.#faults.map((fault) => this.#entry(fault, open)) : [element("li", { className: "empty" }, "No fault since the dashboard was started.")]));
   }
 
   #entry(fault, open) {

@@ -175,7 +175,7 @@ export class DiagnoseView {
   async #draw() {
     if (!this.visible) return;
     const { model } = this;
-    find("diagnose-hint").textContent = model.runs.length ? "The model is fitted to the training runs; the test runs prove the gain and choose nothing." : emptyText(model);
+    find("diagnose-hint").textContent = model.runs.length ? "The model is fitted to the training runs; the test runs only confirm the result." : emptyText(model);
     find("diagnose-problem").textContent = model.problem ?? "";
     const list = find("diagnose-list");
     const key = JSON.stringify(model.runs);

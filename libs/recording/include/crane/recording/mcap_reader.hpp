@@ -87,7 +87,7 @@ class McapReader {
   [[nodiscard]] std::vector<MetadataRecord> metadata();                   ///< in file order
   [[nodiscard]] std::vector<AttachmentRecord> attachments();
   [[nodiscard]] bool indexed()
-      const;  ///< true: the file was closed in order, with an intact index and footer
+      const;  ///< true: the file was closed correctly, with an intact index and footer
   [[nodiscard]] std::int64_t first_time_ns() const;  ///< first log time of all chunks; 0 without chunks
   [[nodiscard]] std::int64_t last_time_ns() const;   ///< last log time of all chunks; 0 without chunks
 
