@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "crane/bus/path_stamps.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/runtime/convert.hpp"
 
@@ -73,6 +74,7 @@ bool Bridge::poll(std::int64_t now_ns) {
   if (!tick_is_due(now_ns)) return false;
   const auto begin = steady_clock::now();
   const auto inputs = latch(now_ns);
+  if (auto* const stamps = bus::path_stamps()) stamps->joined();
   tick(inputs, now_ns);
   node_.stepped(*tick_, 0, nanoseconds{steady_clock::now() - begin}.count());
   return true;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "crane/bus/path_stamps.hpp"
 #include "endpoint.hpp"
 
 namespace crane::bus {
@@ -18,6 +19,11 @@ namespace crane::bus {
 /// consistency.
 class Doorbell {
  public:
+  /// A sample of `topic` has arrived.
+  void ring(std::string_view topic) {
+    if (auto* const stamps = path_stamps()) stamps->arrived(topic);
+    ring();
+  }
   void ring() {
     if (rung_) return;
     {

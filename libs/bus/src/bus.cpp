@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "back_end.hpp"
+#include "crane/bus/bare.hpp"
 #include "crane/bus/cdr.hpp"
 
 namespace crane::bus {
@@ -88,6 +89,30 @@ CdrPublisher Bus::cdr_publisher(const topics::Description& topic, const Endpoint
 CdrSubscriber Bus::cdr_subscriber(const topics::Description& topic, const EndpointOptions& endpoint) {
   return CdrSubscriber{make_subscriber(topic, endpoint)};
 }
+
+struct BareLink::State {
+  std::shared_ptr<Doorbell> doorbell = std::make_shared<Doorbell>();
+  std::shared_ptr<BackEnd> back_end;
+  std::unique_ptr<detail::Reader> reader;
+  std::unique_ptr<detail::Writer> writer;
+};
+
+BareLink::BareLink(const Options& options, const topics::Description& reads,
+                   const topics::Description& writes)
+    : state_{std::make_unique<State>()} {
+  state_->back_end = make_back_end(checked(options), state_->doorbell);
+  state_->reader = state_->back_end->reader(reads, {});
+  state_->writer = state_->back_end->writer(writes, {});
+}
+BareLink::~BareLink() = default;
+
+bool BareLink::write(const void* sample) { return state_->writer->write(sample); }
+bool BareLink::take(void* sample) {
+  SampleInfo info;
+  return state_->reader->take(sample, info) && info.valid;
+}
+bool BareLink::wait(std::chrono::nanoseconds timeout) { return state_->doorbell->wait(timeout); }
+bool BareLink::matched() const { return state_->reader->matched() > 0 && state_->writer->matched() > 0; }
 
 std::vector<OtherVersion> Bus::other_versions() { return state_->back_end->other_versions(); }
 

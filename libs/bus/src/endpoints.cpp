@@ -2,10 +2,27 @@
 #include <cstring>
 
 #include "crane/bus/cdr.hpp"
+#include "crane/bus/path_stamps.hpp"
 #include "crane/bus/seal.hpp"
 #include "endpoint.hpp"
 
 namespace crane::bus {
+namespace {
+
+/// Takes the next sample and checks its CRC. @return false when there is none
+bool take_next(detail::Reader& reader, const topics::Description& topic, std::uint32_t messages_version,
+               void* sample, SampleInfo& info, bool& is_intact) {
+  auto* const stamps = path_stamps();
+  const auto begin_ns = stamps != nullptr ? PathStamps::now_ns() : 0;
+  const bool taken = reader.take(sample, info);
+  const auto taken_ns = stamps != nullptr ? PathStamps::now_ns() : 0;
+  is_intact = !taken || !info.valid || reader.delivered_as_sealed(messages_version) ||
+              intact(topic, sample, messages_version);
+  if (stamps != nullptr) stamps->took(begin_ns, taken_ns, PathStamps::now_ns());
+  return taken;
+}
+
+}  // namespace
 
 UntypedPublisher::UntypedPublisher(const topics::Description& topic, std::unique_ptr<detail::Writer> writer,
                                    const Options& options)
@@ -19,8 +36,14 @@ UntypedPublisher::UntypedPublisher(UntypedPublisher&&) noexcept = default;
 UntypedPublisher& UntypedPublisher::operator=(UntypedPublisher&&) noexcept = default;
 
 bool UntypedPublisher::send(void* sample) {
+  auto* const stamps = topic_->every_tick ? path_stamps() : nullptr;
+  const auto begin_ns = stamps != nullptr ? PathStamps::now_ns() : 0;
   seal(*topic_, sample, source_, epoch_, messages_version_);
-  return writer_->write(sample);
+  const auto sealed_ns = stamps != nullptr ? PathStamps::now_ns() : 0;
+  const bool sent = writer_->write(sample);
+  if (stamps != nullptr)
+    stamps->published(*topic_, *static_cast<const msg::Header*>(sample), begin_ns, sealed_ns);
+  return sent;
 }
 bool UntypedPublisher::dispose_of(const void* sample) { return writer_->dispose(sample); }
 bool UntypedPublisher::assert_liveliness() { return writer_->assert_liveliness(); }
@@ -59,9 +82,9 @@ void UntypedSubscriber::make_printable(void* sample) const {
 
 bool UntypedSubscriber::receive(void* sample, SampleInfo* info) {
   SampleInfo local;
-  while (reader_->take(sample, local)) {
-    if (local.valid && !reader_->delivered_as_sealed(messages_version_) &&
-        !intact(*topic_, sample, messages_version_)) {
+  bool is_intact = true;
+  while (take_next(*reader_, *topic_, messages_version_, sample, local, is_intact)) {
+    if (!is_intact) {
       ++counts_.rejected;
       continue;
     }

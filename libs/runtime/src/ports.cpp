@@ -1,5 +1,7 @@
 #include "crane/runtime/ports.hpp"
 
+#include "crane/bus/path_stamps.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
@@ -52,6 +54,7 @@ bool Ports::connected() const {
 }
 
 void Ports::watch(std::int64_t now_ns) {
+  if (auto* const stamps = bus::path_stamps()) stamps->joined();
   if (clock_ == Clock::lockstep) return;  // in virtual time, a writer cannot be silent
   for (const auto& input : loop_inputs_) input->watch(now_ns);
 }

@@ -15,6 +15,7 @@
 #include <random>
 #include <system_error>
 
+#include "crane/bus/path_stamps.hpp"
 #include "crane/runtime/hosted_component.hpp"
 #include "crane/runtime/signals.hpp"
 #include "crane/runtime/spin_limit.hpp"
@@ -59,8 +60,10 @@ void log_without_waiting() {
 
 void loop(Component& component, bus::Bus& bus) {
   constexpr std::int64_t kLongest_ns = 100'000'000;  // longest reaction time to a stop signal
+  auto* const stamps = bus::path_stamps();
   while (!stop_requested()) {
     const auto now_ns = monotonic_ns();
+    if (stamps != nullptr) stamps->polled(now_ns);
     if (component.poll(now_ns)) continue;
     const auto wake_ns = std::min(component.wake_at_ns(), now_ns + kLongest_ns);
     if (component.paced())
@@ -81,6 +84,7 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto& controller = chosen_controller(options.controller, rig);
   const auto clock = clock_from(options.clock);
   const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
+  bus::stamp_paths_if_asked();
   bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
   refuse_second_writer(bus, spec.writes);
   HostedComponent hosted{bus, spec, rig, controller, clock, monotonic_ns};

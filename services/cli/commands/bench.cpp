@@ -197,6 +197,7 @@ void add_bench(CLI::App& app, Action& chosen) {
   loop->footer("Example: crane bench loop --seconds 60");
   loop->callback([options, &chosen] { chosen = [options] { return bench_loop(*options); }; });
   add_bench_cpu(*command, chosen);
+  add_bench_tick(*command, chosen);
   add_bench_stop(*command, chosen);
   add_bench_diagnosis(*command, chosen);
 }

@@ -3,14 +3,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/bench.hpp"
 #include "cli/number_range.hpp"
+#include "cli/processor_time.hpp"
 #include "cli/text_table.hpp"
 #include "experiments/realtime_session.hpp"
 #include "stack/data_files.hpp"
@@ -27,28 +26,6 @@ struct BenchCpuOptions {
   bool json = false;
 };
 
-/// Processor time of a thread [ns].
-struct CpuTime {
-  std::int64_t loop_ns = 0, others_ns = 0;
-};
-
-/// The first thread of a process of the stack is its loop.
-CpuTime cpu_time_of(pid_t pid) {
-  CpuTime time;
-  for (const auto& thread : std::filesystem::directory_iterator{"/proc/" + std::to_string(pid) + "/task"}) {
-    std::int64_t spent_ns = 0;
-    std::ifstream{thread.path() / "schedstat"} >> spent_ns;
-    (thread.path().filename() == std::to_string(pid) ? time.loop_ns : time.others_ns) += spent_ns;
-  }
-  return time;
-}
-
-/// Processor time of one process per tick.
-struct CpuShare {
-  std::string process;
-  double loop_us = 0, dds_threads_us = 0;
-};
-
 /// Lets the stack run. @throws std::runtime_error when a process ends
 void pass(stack::ChildProcesses& children, double seconds) {
   const auto end_ns = runtime::monotonic_ns() + static_cast<std::int64_t>(seconds * 1e9);
@@ -58,7 +35,7 @@ void pass(stack::ChildProcesses& children, double seconds) {
   }
 }
 
-std::vector<CpuShare> measure(const BenchCpuOptions& options) {
+std::vector<ProcessShare> measure(const BenchCpuOptions& options) {
   const auto rig = configuration::load_rig(options.launch.rig);
   const bool hardware = options.plant == "hardware";
   const auto specs = hardware ? stack::hardware_stack() : stack::simulated_stack();
@@ -69,22 +46,10 @@ std::vector<CpuShare> measure(const BenchCpuOptions& options) {
     bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
     stack::wait_until_ready(children, specs, bus, std::chrono::seconds{15});
   }  // ends the observer here, because the observer would use processor time during the measurement
-  const auto now_of = [&](const runtime::ComponentSpec& spec) {
-    return cpu_time_of(children.pid_of(std::string{spec.name}).value());
-  };
-  std::vector<CpuTime> begin;
-  for (const auto& spec : specs) begin.push_back(now_of(spec));
+  const ProcessorTimes processor{children, specs};
   const auto begin_ns = runtime::monotonic_ns();
   pass(children, options.seconds);
-  const double ticks = static_cast<double>(runtime::monotonic_ns() - begin_ns) * 1e-9 / rig.period_s;
-  std::vector<CpuShare> shares;
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    const auto now = now_of(specs[i]);
-    shares.push_back({std::string{specs[i].name},
-                      static_cast<double>(now.loop_ns - begin[i].loop_ns) / 1e3 / ticks,
-                      static_cast<double>(now.others_ns - begin[i].others_ns) / 1e3 / ticks});
-  }
-  return shares;
+  return processor.per_tick(static_cast<double>(runtime::monotonic_ns() - begin_ns) * 1e-9 / rig.period_s);
 }
 
 int bench_cpu(BenchCpuOptions options) {
@@ -94,10 +59,10 @@ int bench_cpu(BenchCpuOptions options) {
   auto json = nlohmann::ordered_json::array();
   TextTable table{{"process", "loop us/tick", "DDS threads us/tick", "together"}};
   for (const auto& share : measure(options)) {
-    json.push_back(
-        {{"process", share.process}, {"loop_us", share.loop_us}, {"dds_threads_us", share.dds_threads_us}});
-    table.add({share.process, fixed(share.loop_us, 1), fixed(share.dds_threads_us, 1),
-               fixed(share.loop_us + share.dds_threads_us, 1)});
+    const auto loop_us = share.loop.running_us, dds_threads_us = share.others.running_us;
+    json.push_back({{"process", share.process}, {"loop_us", loop_us}, {"dds_threads_us", dds_threads_us}});
+    table.add(
+        {share.process, fixed(loop_us, 1), fixed(dds_threads_us, 1), fixed(loop_us + dds_threads_us, 1)});
   }
   if (options.json)
     std::cout << json.dump(2) << '\n';

@@ -66,7 +66,8 @@ void set_writer_listeners(dds_listener_t* listener) {
 }
 
 void set_reader_listeners(dds_listener_t* listener) {
-  dds_lset_data_available(listener, [](dds_entity_t, void* c) { context(c).doorbell->ring(); });
+  dds_lset_data_available(
+      listener, [](dds_entity_t, void* c) { context(c).doorbell->ring(context(c).announce.topic); });
   dds_lset_subscription_matched(
       listener, [](dds_entity_t, const dds_subscription_matched_status_t s, void* c) {
         context(c).announce.matched(s.current_count_change, static_cast<int>(s.current_count));

@@ -182,7 +182,7 @@ class FastReader final : public detail::Reader, private dds::DataReaderListener 
     }
   }
 
-  void on_data_available(dds::DataReader*) override { doorbell_->ring(); }
+  void on_data_available(dds::DataReader*) override { doorbell_->ring(announce_.topic); }
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
     announce_.matched(status.current_count_change, status.current_count);
   }

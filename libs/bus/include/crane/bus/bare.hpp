@@ -1,0 +1,30 @@
+#pragma once
+/// One writer and one reader of a DDS implementation without the work of this project: no checksum, no check
+/// of the writer, no counts. Floor of measurements (`crane bench tick`); a crane uses bus.hpp.
+#include <chrono>
+#include <memory>
+
+#include "crane/bus/bus.hpp"
+
+namespace crane::bus {
+
+class BareLink {
+ public:
+  BareLink(const Options& options, const topics::Description& reads, const topics::Description& writes);
+  ~BareLink();
+  BareLink(const BareLink&) = delete;
+  BareLink& operator=(const BareLink&) = delete;
+
+  [[nodiscard]] bool write(const void* sample);
+  [[nodiscard]] bool take(void* sample);
+  /// As Bus::wait().
+  bool wait(std::chrono::nanoseconds timeout);
+  /// True when the reader has a writer and the writer has a reader.
+  [[nodiscard]] bool matched() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace crane::bus

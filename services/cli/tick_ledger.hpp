@@ -1,0 +1,66 @@
+#pragma once
+/// The ledger of one tick: splits the time from the latched state to the arrival of its command into hops and
+/// parts, from the clock stamps of all processes. The parts of a tick add up to its latency exactly.
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "crane/bus/path_stamps.hpp"
+#include "crane/runtime/wiring.hpp"
+
+namespace crane::cli {
+
+/// Parts of a hop, in the order in which a sample passes them.
+enum class Part : std::uint8_t {
+  board,     ///< bridge: from the latch to the end of the reading of the board
+  law,       ///< from the reading or the join to publish()
+  codec,     ///< encoding for the CRC, at both ends
+  crc,       ///< CRC, at both ends
+  write,     ///< the vendor's write, up to its end or to the arrival at the reader, whichever is first
+  kernel,    ///< kernel and wake-up: as long as a hop of the raw UDP chain, at most the rest of the delivery
+  vendor,    ///< rest of the delivery: the vendor's thread works or waits for a processor
+  handover,  ///< from the vendor's thread to the thread of the loop
+  take,      ///< the vendor's take
+  join       ///< rest of the poll until the inputs of the tick are complete
+};
+inline constexpr std::array kPartNames{
+    "board",         "law",       "codec", "CRC", "write", "kernel + wake-up",
+    "vendor thread", "hand-over", "take",  "join"};
+inline constexpr std::size_t kParts = kPartNames.size();
+using PerPart = std::array<std::int64_t, kParts>;  ///< [ns]
+
+/// One hop: a process publishes a sample, and the next process of the path has taken and joined it.
+struct Hop {
+  std::size_t from = 0, to = 0;  ///< processes, by their index in `processes`
+  PerPart parts_ns{};
+};
+
+/// The path of one tick, from the latch of the state to the arrival of the command at the clock master.
+struct TickPath {
+  std::uint64_t tick = 0;
+  std::int64_t latency_ns = 0;
+  std::vector<Hop> hops;
+};
+
+/// Times measured apart from the loop.
+struct Isolated {
+  std::array<double, topics::kAll.size()> codec_share{};  ///< of the sealing of a sample, by topic
+  std::int64_t udp_hop_ns = 0;                            ///< one hop of the raw UDP chain
+};
+
+struct Ledger {
+  std::vector<TickPath> ticks;
+  std::uint64_t left_out = 0;  ///< ticks without a complete path: lost, or overtaken by the next tick
+};
+
+/// @param processes  components of the stack; the first is the clock master
+/// @param records    of each component, in the order of `processes`
+[[nodiscard]] Ledger tick_ledger(const std::vector<runtime::ComponentSpec>& processes,
+                                 const std::vector<std::vector<bus::PathRecord>>& records,
+                                 const Isolated& isolated);
+
+/// Sum of each part over the hops of a tick.
+[[nodiscard]] PerPart sum_of_hops(const TickPath& path);
+
+}  // namespace crane::cli
