@@ -41,7 +41,8 @@ std::array<std::int32_t, kCounters> start_counts(const configuration::Rig& rig) 
   std::array<std::int32_t, kCounters> counts{};
   for (std::size_t i = 0; i < kCounters; ++i)
     counts[i] = static_cast<std::int32_t>(
-        std::llround(rig.encoders[i].sign * start[i] * rig.encoders[i].counts_per_unit));
+        std::llround(rig.encoders[i].sign * (start[i] + rig.encoders[i].rest_angle_rad) *
+                     rig.encoders[i].counts_per_unit));
   return counts;
 }
 

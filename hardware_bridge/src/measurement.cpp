@@ -20,6 +20,7 @@ std::int64_t CountUnwrapper::step(std::int32_t raw_counts) noexcept {
 Coordinate::Coordinate(const configuration::Encoder& encoder, double period_s, double cut_off_ratio,
                        bool filter_position)
     : units_per_count_{encoder.counts_per_unit > 0 ? encoder.sign / encoder.counts_per_unit : 0},
+      rest_{encoder.rest_angle_rad},
       filter_position_{filter_position},
       low_pass_{control::butterworth_low_pass(cut_off_ratio)},
       differentiator_{control::al_alaoui_second_order(1 / period_s)} {}
@@ -31,7 +32,7 @@ void Coordinate::filter(double position) noexcept {
 
 void Coordinate::step(std::int32_t raw_counts, const Latched& latched) noexcept {
   counts_ = unwrapper_.step(raw_counts) + shift_;
-  position_ = static_cast<double>(counts_) * units_per_count_;
+  position_ = static_cast<double>(counts_) * units_per_count_ - rest_;
   if (!started_) {
     started_ = true;
     low_pass_memory_ = control::settled(low_pass_, position_);

@@ -39,6 +39,22 @@ TEST(RigFile, HasTheCountsOfTheTowersEncoders) {
   EXPECT_DOUBLE_EQ(rig.encoders[4].counts_per_unit, 6000 * 4 / (2 * std::numbers::pi));
 }
 
+TEST(RigFile, HasARestAngleForSwingEncodersOnly) {
+  ChangedTower tower;
+  tower.change("[encoder.swing_radial]", "sign = 1", "sign = 1\nrest_angle_rad = -0.01");
+  const Rig rig = parse_rig(tower.text(), "rig.toml");
+  EXPECT_EQ(rig.encoders[plant::kSwingRadial].rest_angle_rad, -0.01);
+  EXPECT_EQ(rig.encoders[plant::kSwingTangential].rest_angle_rad, 0);
+  ChangedTower wrong;
+  wrong.change("[encoder.trolley]", "sign = 1", "rest_angle_rad = 0.01")
+      .change("[encoder.swing_tangential]", "sign = 1", "rest_angle_rad = 0.6");
+  EXPECT_THAT(
+      problems_of(wrong.text()),
+      testing::UnorderedElementsAre(
+          testing::HasSubstr("encoder.trolley.rest_angle_rad = 0.01: unknown key"),
+          testing::HasSubstr("encoder.swing_tangential.rest_angle_rad = 0.6: must be in [-0.5, 0.5]")));
+}
+
 TEST(RigFile, CompensatesExactlyTheFrictionOfTheTower) {
   const Rig rig = load_rig(kTower);
   for (const auto& term : rig.terms) {

@@ -159,6 +159,16 @@ TEST_P(Conformance, CountsFromTheStartOfTheRigFile) {
                                                  rig_.encoders[i].counts_per_unit));
 }
 
+TEST_P(Conformance, CountsTheRestAngleOfASwingEncoderWhileTheLoadIsAtRest) {
+  rig_.encoders[3].rest_angle_rad = 0.02;
+  rig_.encoders[4].rest_angle_rad = -0.03;
+  put_on_bench(rig_);
+  const auto inputs = subject_->board().read();
+  for (std::size_t i = kDrives; i < kCounters; ++i)
+    EXPECT_EQ(inputs.raw_counts[i], std::llround(rig_.encoders[i].sign * rig_.encoders[i].rest_angle_rad *
+                                                 rig_.encoders[i].counts_per_unit));
+}
+
 TEST_P(Conformance, CountsInTheDirectionOfItsSign) {
   for (const int sign : {1, -1}) {
     rig_.encoders[0].sign = rig_.encoders[4].sign = sign;

@@ -36,6 +36,18 @@ TEST(Coordinate, StartsWithoutATransient) {
   }
 }
 
+TEST(Coordinate, ShowsZeroAtTheRestAngleOfItsEncoder) {
+  for (const int sign : {1, -1}) {
+    Coordinate coordinate{
+        {.channel = 0, .counts_per_unit = 1000, .sign = sign, .rest_angle_rad = 0.025}, 0.01, 0.05};
+    coordinate.step(sign * 25);
+    EXPECT_NEAR(coordinate.position(), 0, 1e-12) << sign;
+    EXPECT_NEAR(coordinate.rate(), 0, 1e-9) << "the filters start at rest";
+    coordinate.step(sign * 125);
+    EXPECT_NEAR(coordinate.position(), 0.1, 1e-12) << sign;
+  }
+}
+
 TEST(Coordinate, GivesTheSlopeOfARampWithTheSignOfItsWiring) {
   for (const int sign : {1, -1}) {
     Coordinate coordinate{{.channel = 0, .counts_per_unit = 1e5, .sign = sign}, 0.01, 0.05};

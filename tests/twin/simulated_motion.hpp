@@ -63,7 +63,8 @@ class SimulatedMotion {
                                             m.tangential_rad};
     for (std::size_t i = 0; i < coordinates.size(); ++i)
       sample.counts[i] =
-          std::llround(rig_.encoders[i].sign * coordinates[i] * rig_.encoders[i].counts_per_unit) +
+          std::llround(rig_.encoders[i].sign * (coordinates[i] + rig_.encoders[i].rest_angle_rad) *
+                       rig_.encoders[i].counts_per_unit) +
           slipped_[i];
     sample.rate = {state_.trolley_mps, state_.slew_radps, state_.radial_radps, state_.tangential_radps};
     sample.applied_v = command_v_;

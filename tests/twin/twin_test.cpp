@@ -168,6 +168,19 @@ TEST_F(TwinTest, FindsASwingZeroThatChangedDuringMissingTicks) {
   EXPECT_EQ(twin_.judgement().axis, "tangential") << notice->what;
 }
 
+TEST(TwinOfSwingEncodersWithARestAngle, AgreesWithItsPlant) {
+  auto shifted = rig();
+  shifted.encoders[3].rest_angle_rad = 0.02;
+  shifted.encoders[4].rest_angle_rad = -0.03;
+  SimulatedMotion motion{shifted, 5};
+  Twin twin{shifted, design()};
+  for (long k = 0; k < 40 * kSecond; ++k) {
+    twin.step(motion.next());
+    if (const auto notice = twin.take_notice()) FAIL() << notice->what;
+  }
+  EXPECT_EQ(twin.judgement().state, State::watching);
+}
+
 TEST_F(TwinTest, FindsADeviationFromTheStart) {
   motion_.become_with({"payload_mass", "", {{"delta_kg", 1}}});
   const auto notice = watch(40);

@@ -25,7 +25,8 @@ void Session::take(const bridge::Inputs& inputs) {
     const auto& encoder = rig_.encoders[i];
     sample_.counts[i] = unwrapper_[i].step(inputs.raw_counts[i]);
     sample_.coordinate[i] = encoder.counts_per_unit > 0 ? static_cast<double>(sample_.counts[i]) *
-                                                              encoder.sign / encoder.counts_per_unit
+                                                                  encoder.sign / encoder.counts_per_unit -
+                                                              encoder.rest_angle_rad
                                                         : 0;
   }
 }

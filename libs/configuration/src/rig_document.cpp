@@ -137,7 +137,7 @@ std::vector<SectionTable> section_tables() {
           section_table("rig", kRigFields),
           section_table("plant", plant::kParameterFields),
           section_table("drive", kDriveFields, control::kDriveLimitFields),
-          section_table("encoder", kEncoderFields, kZeroFields),
+          section_table("encoder", kEncoderFields, kRestFields, kZeroFields),
           section_table("homing", kMarkFields, control::kHomingFields),
           section_table("wiring", kWiringFields),
           section_table("wiring of a drive", kDriveLineFields),

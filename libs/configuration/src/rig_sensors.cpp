@@ -29,6 +29,7 @@ void read_encoders(TomlTable& root, Rig& rig) {
     if (!possible) table.problem("this rig has no such coordinate to measure");
     Encoder& encoder = rig.encoders[i];
     read_section(table, kEncoderFields, encoder, &rig, coordinate.unit);
+    if (i >= plant::kAxes) read_section(table, kRestFields, encoder, &rig, "");
     check_sign(table, encoder.sign);
     check_unique(table, "channel", encoder.channel, taken);
   }

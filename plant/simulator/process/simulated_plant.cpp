@@ -56,7 +56,8 @@ SimulatedRig simulated_rig_of(const configuration::Rig& rig) {
   for (std::size_t i = 0; i < bridge::kCounters; ++i)
     if (rig.measures(i))
       simulated.encoders[i] = {.counts_per_unit = rig.encoders[i].counts_per_unit,
-                               .sign = rig.encoders[i].sign};
+                               .sign = rig.encoders[i].sign,
+                               .zero = -rig.encoders[i].rest_angle_rad};
   simulated.watchdog_timeout_s = rig.wiring.relay_timeout_s;
   simulated.tangential_swing = rig.kind == configuration::RigKind::tower;
   simulated.radial_swing = rig.carries_load();

@@ -75,7 +75,8 @@ Known Twin::known(const Sample& sample) const {
   const auto coordinate = [&](std::size_t counter) {
     const auto& encoder = rig_.encoders[counter];
     return encoder.counts_per_unit > 0
-               ? encoder.sign * static_cast<double>(sample.counts[counter]) / encoder.counts_per_unit
+               ? encoder.sign * static_cast<double>(sample.counts[counter]) / encoder.counts_per_unit -
+                     encoder.rest_angle_rad
                : 0.0;
   };
   Known now;

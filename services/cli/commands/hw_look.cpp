@@ -103,7 +103,8 @@ Json probed(const configuration::Rig& rig, bridge::Board& board) {
           {{"name", coordinate_name(i)},
            {"counter", encoder.channel},
            {"raw_counts", inputs.raw_counts[i]},
-           {"coordinate", inputs.raw_counts[i] * encoder.sign / encoder.counts_per_unit},
+           {"coordinate",
+            inputs.raw_counts[i] * encoder.sign / encoder.counts_per_unit - encoder.rest_angle_rad},
            {"unit", coordinate_unit(i)}});
   for (std::size_t i = 0; i < bridge::kDrives; ++i)
     if (rig.drives[i].present)

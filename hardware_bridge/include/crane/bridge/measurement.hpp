@@ -48,6 +48,7 @@ class Coordinate {
 
   CountUnwrapper unwrapper_;
   double units_per_count_;
+  double rest_;  ///< swing encoders: angle of the load at rest, rad
   bool filter_position_;
   control::FilterSection low_pass_;
   control::FilterSection differentiator_;

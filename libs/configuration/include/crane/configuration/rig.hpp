@@ -28,6 +28,8 @@ struct Encoder {
   double counts_per_unit =
       0;         ///< counts per m or rad of the coordinate (quadrature and gear included); 0: no such encoder
   int sign = 1;  ///< +1 or -1: direction of counting
+  /// Swing only: angle that the encoder shows while the load hangs at rest; the bridge subtracts it.
+  double rest_angle_rad = 0;
 
   bool operator==(const Encoder&) const = default;
 };

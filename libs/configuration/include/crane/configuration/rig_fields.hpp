@@ -223,6 +223,7 @@ void for_each_section(AnyRig& rig, Visit&& visit) {
     const plant::Coordinate& coordinate = plant::kCoordinates[i];
     const std::string encoder = std::string{"encoder."} + coordinate.name;
     if (rig.measures(i)) visit(encoder, kEncoderFields, rig.encoders[i], coordinate.unit);
+    if (i >= plant::kAxes && rig.measures(i)) visit(encoder, kRestFields, rig.encoders[i], "");
     if (i >= plant::kAxes || !rig.drives[i].present) continue;
     auto& drive = rig.drives[i];
     const auto of_drive = [&coordinate](const char* section) {

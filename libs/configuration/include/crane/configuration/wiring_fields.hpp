@@ -35,6 +35,16 @@ inline constexpr std::array<Field<Encoder>, 3> kEncoderFields{{
      .meaning = "1 or -1: direction of counting"},
 }};
 
+/// For encoders of swing only.
+inline constexpr std::array<Field<Encoder>, 1> kRestFields{{
+    {.key = "rest_angle_rad",
+     .member = &Encoder::rest_angle_rad,
+     .range = Range::closed(-0.5, 0.5),
+     .unit = "rad",
+     .meaning = "swing encoders only: angle that the encoder shows while the load hangs at rest; "
+                "`crane/state` contains the angle without it"},
+}};
+
 inline constexpr std::array<Field<Wiring>, 10> kWiringFields{{
     {.key = "base_address",
      .member = &Wiring::base_address,
