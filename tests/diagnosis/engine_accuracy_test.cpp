@@ -1,6 +1,10 @@
 /// Effects within the accuracy of a rig file do not decide the verdict.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <string>
+
 #include "crane/diagnosis/diagnosis.hpp"
 #include "strange_lab.hpp"
 #include "study/study.hpp"
@@ -35,12 +39,20 @@ Diagnosis diagnosed(const strange::Gantry& gantry, double delay_s) {
                   request);
 }
 
+double calibrated_value(const Diagnosis& found, const std::string& name) {
+  const auto quantity =
+      std::ranges::find_if(found.calibrated, [&](const Calibrated& one) { return one.name == name; });
+  return quantity == found.calibrated.end() ? std::numeric_limits<double>::quiet_NaN()
+                                            : quantity->parameters.at(0).value;
+}
+
 TEST(StatedAccuracy, MakesNoCauseOfASmallErrorThatAFineSensorShows) {
   const Diagnosis found = diagnosed({.gain_mps2pv = 1.2 * 1.01}, 0.004);
   EXPECT_EQ(found.verdict, Verdict::none) << found.sentence;
-  EXPECT_FALSE(found.within_accuracy.empty());
   EXPECT_EQ(found.sentence, "These data show no error of the model beyond the accuracy of the rig file.");
-  EXPECT_TRUE(found.extension.empty());
+  EXPECT_NEAR(calibrated_value(found, "motor_gain"), 1.01, 0.002);
+  EXPECT_NEAR(calibrated_value(found, "command_delay"), 0.004, 0.0005);
+  EXPECT_EQ(found.extension.size(), found.calibrated.size()) << "only the calibrated values";
 }
 
 TEST(StatedAccuracy, LeavesALargeErrorItsNameBesideASmallOne) {
@@ -49,6 +61,20 @@ TEST(StatedAccuracy, LeavesALargeErrorItsNameBesideASmallOne) {
   ASSERT_EQ(found.causes.size(), 1U);
   EXPECT_EQ(found.causes[0].name, "command_delay");
   EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.03, 0.002);
+  EXPECT_NEAR(calibrated_value(found, "motor_gain"), 1.01, 0.002);
+  EXPECT_TRUE(std::isnan(calibrated_value(found, "command_delay"))) << "the cause has the whole value";
+}
+
+/// An error of the friction within its accuracy hides no other cause and is not added to its value.
+TEST(StatedAccuracy, KeepsTheValueOfACauseApartFromErrorsOfOtherQuantities) {
+  strange::Gantry gantry;
+  gantry.gain_mps2pv *= 0.985;
+  gantry.cable_m *= 1.3;
+  const Diagnosis found = diagnosed(gantry, 0);
+  ASSERT_EQ(found.verdict, Verdict::parameter) << found.sentence;
+  ASSERT_EQ(found.causes.size(), 1U);
+  EXPECT_EQ(found.causes[0].name, "cable_length");
+  EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.3 * strange::Gantry{}.cable_m, 0.02);
 }
 
 TEST(StatedAccuracy, ContainsAPatternThatIsSmallBesideTheFriction) {

@@ -180,7 +180,7 @@ struct Rivals : Compared {
     rival = base;
     rival.effects = {{&other, {}}};
   }
-  [[nodiscard]] double votes_for_rival() const { return frequencies(fitted, {&rival}, kSeed).at(0); }
+  [[nodiscard]] double votes_for_rival() const { return frequencies(fitted, {&rival}, base, kSeed).at(0); }
   Fitted rival;
 };
 
@@ -193,6 +193,16 @@ TEST_F(Rivals, AHypothesisThatImprovesAndWorsensEquallyManyBlocksLeavesTheVotesO
   for (std::size_t i = 0; i < kBlocks; ++i) fitted.deviance[i] += i % 2 == 0 ? -4 : 4;
   fitted.deviance[0] -= 4;
   EXPECT_GT(votes_for_rival(), 0.2);
+}
+
+/// 0.25 % and 2.5 % of the gain.
+TEST_F(Rivals, ShareTheVoteIfTheyDifferByLessThanTheTermsAreExact) {
+  for (double& block : fitted.deviance) block -= 4;
+  rival.deviance = fitted.deviance;
+  for (double& block : rival.deviance) block += 0.01;
+  EXPECT_NEAR(votes_for_rival(), 0.5, 1e-9);
+  for (double& block : rival.deviance) block += 0.09;
+  EXPECT_EQ(votes_for_rival(), 0);
 }
 
 TEST_F(Rivals, AreComparedOnlyWhereTheyReplaceEachOther) {

@@ -28,12 +28,19 @@ inline constexpr Rule kLeastAlone{"least_share_alone", 0.01, "1",
 inline constexpr Rule kLeastBeside{"least_share_beside", 0.2, "1",
                                    "minimum reduction of the remaining error by a further effect",
                                    "read off examples"};
+inline constexpr Rule kLeastKept{
+    "least_share_kept", 0.1, "1",
+    "the same for an effect of an accepted hypothesis; below it, the effect is removed", "read off examples"};
 
 // Choice among hypotheses with the same number of effects (verdict/judgement.cpp).
 inline constexpr Rule kClearWin{"clear_win", 0.8, "1", "minimum share of block resamples for a named cause",
                                 "level of the vote"};
 inline constexpr Rule kRunnerUp{"runner_up", 0.1, "1", "minimum share of block resamples for a rival",
                                 "level of the vote"};
+inline constexpr Rule kIndistinct{
+    "indistinct", 0.008, "1",
+    "maximum difference of two hypotheses / gain of the better one, in deviance, that distinguishes nothing",
+    "as pattern: the equations of the terms leave this share of a misfit"};
 
 // Proof on held-out runs (verdict/diagnose.cpp).
 inline constexpr Rule kHeldOutWin{
@@ -94,8 +101,10 @@ inline constexpr std::array kAll{kFamilywiseLevel,
                                  kSignificant,
                                  kLeastAlone,
                                  kLeastBeside,
+                                 kLeastKept,
                                  kClearWin,
                                  kRunnerUp,
+                                 kIndistinct,
                                  kHeldOutWin,
                                  kGainLevel,
                                  kWorthwhile,

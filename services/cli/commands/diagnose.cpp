@@ -81,6 +81,11 @@ void print_diagnosis(const Diagnosis& diagnosis, const DiagnoseOptions& options)
     std::cout << "within the accuracy of the rig file: " << effect.name
               << (effect.axis.empty() ? "" : " (" + effect.axis + ")") << ", " << values_of(effect.parameters)
               << '\n';
+  for (const auto& quantity : diagnosis.calibrated)
+    for (const auto& p : quantity.parameters)
+      std::cout << "calibrated within the accuracy of the rig file: " << quantity.name
+                << (quantity.axis.empty() ? "" : " (" + quantity.axis + ")") << ", " << p.name << ' '
+                << rounded(p.value) << (p.unit == "1" ? "" : " " + p.unit) << '\n';
   for (const auto& cause : diagnosis.attempted)
     std::cout << "tried: " << cause.name << (cause.axis.empty() ? "" : " (" + cause.axis + ")")
               << " explains most of the error and is not proven as a cause\n";

@@ -74,7 +74,7 @@ class Column {
   [[nodiscard]] std::size_t measured_rows() const { return measured_rows_.size(); }
 
  private:
-  /// Whether the value at `b` differs from that at `a` by more than the credible motion until `until`.
+  /// True when the value at `b` differs from that at `a` by more than the credible motion until `until`.
   [[nodiscard]] bool beyond(std::size_t a, std::size_t b, std::size_t until) const {
     return !(std::abs(values_[b] - values_[a]) <=
              largest_credible_change(rig_, output_, time_s_[until] - time_s_[a]) + kBeyondSensor * error_);
@@ -83,7 +83,7 @@ class Column {
     return std::abs(values_[measured_rows_[j]] - values_[measured_rows_[i]]) > kMovingRatio * error_;
   }
 
-  /// Whether the motion from `k` to the next row is credible if the axis stands at `k`.
+  /// True when the motion from `k` to the next row is credible if the axis stands at `k`.
   [[nodiscard]] bool from_rest(std::size_t k) const {
     const double time_s = time_s_[measured_rows_[k + 1]] - time_s_[measured_rows_[k]];
     return std::abs(values_[measured_rows_[k + 1]] - values_[measured_rows_[k]]) <=

@@ -20,7 +20,7 @@ constexpr double kShortest_s = 1.0;
 constexpr double kLostPeriods = 1.0, kLost_s = 2.0;
 /// Slowest sampling that follows a swing, with 1 % error of the clock, s.
 constexpr double kSlowestRow_s = 0.1 * 1.01;
-/// Faster sampling is a time in another unit, s.
+/// A shorter time step indicates times in another unit, s.
 constexpr double kFastestRow_s = 1e-5;
 /// Largest number of grid rows per measured row: data with more consist mainly of gaps.
 constexpr double kMostGridRowsPerRow = 50;

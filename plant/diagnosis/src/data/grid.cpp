@@ -58,7 +58,7 @@ class GridAssignment {
       auto node = static_cast<std::size_t>(std::max(0.0, std::round(place)));
       const bool taken = i > 0 && !row_at_.empty() && node < row_at_.size();
       if (taken && grid.rows_in_period == 1 && std::abs(static_cast<double>(row_at_.size()) - place) < 1) {
-        node = row_at_.size();  // early row: the next grid row is free
+        node = row_at_.size();  // early: the next grid row has no measurement yet
       } else if (taken) {
         const std::size_t other = row_at_[node];
         const auto distance = [&](std::size_t row) {
@@ -73,7 +73,7 @@ class GridAssignment {
       row_at_[node] = i;
       of_row_[i] = node;
     }
-    // The last row of fast data may be measured before the next grid row, and not near it.
+    // The last row of fast data can be measured before the next grid row without being near it.
     if (grid.rows_in_period > 1 && last_offset(at, grid) * static_cast<double>(grid.rows_in_period) < -0.5) {
       of_row_[row_at_.back()] = kNone;
       row_at_.pop_back();

@@ -12,7 +12,7 @@ namespace crane::diagnosis {
 struct LosingEncoder {
   Output axis = kTrolleyPosition;
   std::size_t jumps = 0;              ///< in `duration_s`
-  double duration_s = 0, lost = 0;    ///< lost: in all, signed, m or rad
+  double duration_s = 0, lost = 0;    ///< lost: total loss with sign, m or rad
   double jump = 0, jump_std_dev = 0;  ///< median size, m or rad, > 0
   double rate = 0, rate_std_dev = 0;  ///< lost per distance, m/m or rad/rad
 };

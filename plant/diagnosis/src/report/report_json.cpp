@@ -25,6 +25,17 @@ ordered_json causes_json(const std::vector<Cause>& causes) {
   return json;
 }
 
+ordered_json calibrated_json(const std::vector<Calibrated>& calibrated) {
+  ordered_json json = ordered_json::array();
+  for (const Calibrated& quantity : calibrated) {
+    ordered_json parameters = ordered_json::object();
+    for (const auto& p : quantity.parameters)
+      parameters[p.name] = {{"value", p.value}, {"rig_file", p.null}, {"limit", p.limit}, {"unit", p.unit}};
+    json.push_back({{"name", quantity.name}, {"axis", quantity.axis}, {"parameters", parameters}});
+  }
+  return json;
+}
+
 ordered_json candidates_json(const std::vector<Ranked>& ranking) {
   ordered_json json = ordered_json::array();
   for (const Ranked& ranked : ranking) {
@@ -100,6 +111,7 @@ ordered_json to_json(const Diagnosis& diagnosis) {
           {"sentence", diagnosis.sentence},
           {"causes", causes_json(diagnosis.causes)},
           {"within_accuracy", causes_json(diagnosis.within_accuracy)},
+          {"calibrated", calibrated_json(diagnosis.calibrated)},
           {"attempted", causes_json(diagnosis.attempted)},
           {"ambiguous_with", diagnosis.ambiguous_with},
           {"next_experiment", next},

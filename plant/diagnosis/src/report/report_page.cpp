@@ -44,6 +44,23 @@ report::Table causes_table(const std::string& title, const std::vector<Cause>& c
   return table;
 }
 
+report::Table calibration_table(const std::vector<Calibrated>& calibrated) {
+  report::Table table{
+      .title = "Values that the data prefer within the accuracy of the rig file",
+      .header = {"term", "axis", "parameter", "value", "as in the rig file", "accuracy +-", "unit"},
+      .rows = {}};
+  for (const Calibrated& quantity : calibrated)
+    for (const auto& p : quantity.parameters)
+      table.rows.push_back({{quantity.name},
+                            {quantity.axis},
+                            {p.name},
+                            {significant(p.value, 4)},
+                            {significant(p.null, 4)},
+                            {significant(p.limit, 2)},
+                            {p.unit}});
+  return table;
+}
+
 /// A gain whose interval contains zero is not proven.
 std::string gain_sentence(const HeldOut& held_out) {
   const auto [low, high] = held_out.gain_ci95;
@@ -65,6 +82,7 @@ report::Section verdict_section(const Diagnosis& diagnosis) {
   if (!diagnosis.within_accuracy.empty())
     section.blocks.emplace_back(
         causes_table("Within the accuracy of the rig file", diagnosis.within_accuracy));
+  if (!diagnosis.calibrated.empty()) section.blocks.emplace_back(calibration_table(diagnosis.calibrated));
   if (!diagnosis.attempted.empty())
     section.blocks.emplace_back(
         causes_table("Explains most of it, and is not proven as a cause", diagnosis.attempted));

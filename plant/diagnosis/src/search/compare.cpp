@@ -161,11 +161,24 @@ bool insignificant(double chance, std::size_t candidates) {
   return chance * static_cast<double>(candidates) >= rules::kFamilywiseLevel;
 }
 
-bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates) {
-  const double least = before.effects.empty() ? rules::kLeastAlone : rules::kLeastBeside;
+namespace {
+
+/// @param least reduction of the error
+bool significant(const Fitted& fitted, const Fitted& before, std::size_t candidates, double least) {
   return share_of_error(fitted, before) > least &&
          !insignificant(block_test_p_value(fitted.deviance, before.deviance), candidates) &&
          !insignificant(likelihood_ratio_p_value(fitted, before), candidates);
+}
+
+}  // namespace
+
+bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates) {
+  return significant(fitted, before, candidates,
+                     before.effects.empty() ? rules::kLeastAlone : rules::kLeastBeside);
+}
+
+bool kept(const Fitted& fitted, const Fitted& part, std::size_t candidates) {
+  return significant(fitted, part, candidates, part.effects.empty() ? rules::kLeastAlone : rules::kLeastKept);
 }
 
 bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed) {
@@ -212,25 +225,39 @@ Blocks deviance_of_needed(const Fitted& fitted) {
 
 /// Decrease of the deviance from `best` to `rival` by block, in the parts in which the effects that only
 /// `best` has are visible. 0 in the other parts.
-std::vector<double> advantage(const Fitted& rival, const Fitted& best) {
-  const ShowsIn parts = only_in(best, rival);
-  const Blocks of_best = deviance_of_needed(best), of_rival = deviance_of_needed(rival);
+std::vector<double> advantage(const Blocks& of_rival, const Blocks& of_best, const ShowsIn& parts,
+                              std::size_t drive_blocks) {
   std::vector<double> margins;
   for (std::size_t i = 0; i < of_best.size(); ++i) {
-    const bool counts = i < best.train.drive_blocks ? parts.drive : parts.load;
+    const bool counts = i < drive_blocks ? parts.drive : parts.load;
     margins.push_back(counts ? of_best[i] - of_rival[i] : 0);
   }
-  limit(margins);
   return margins;
+}
+
+/// A rival of the best hypothesis in one vote.
+struct Rival {
+  std::vector<double> margins;  ///< decrease of the deviance by block; < 0: increase
+  double indistinct = 0;        ///< difference of the deviances that distinguishes nothing
+};
+
+Rival rival_of(const Fitted& best, const Fitted& rival, const Fitted& base) {
+  const ShowsIn parts = only_in(best, rival);
+  const Blocks of_best = deviance_of_needed(best);
+  Rival result{advantage(deviance_of_needed(rival), of_best, parts, best.train.drive_blocks), 0};
+  limit(result.margins);
+  const std::vector<double> gain = advantage(of_best, base.deviance, parts, best.train.drive_blocks);
+  result.indistinct = rules::kIndistinct * std::max(0.0, sum(gain));
+  return result;
 }
 
 }  // namespace
 
 std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
-                                std::uint64_t seed) {
-  std::vector<std::vector<double>> margins;
-  margins.reserve(rivals.size());
-  for (const Fitted* rival : rivals) margins.push_back(advantage(*rival, best));
+                                const Fitted& base, std::uint64_t seed) {
+  std::vector<Rival> all;
+  all.reserve(rivals.size());
+  for (const Fitted* rival : rivals) all.push_back(rival_of(best, *rival, base));
   std::vector<double> picked(rivals.size(), 0.0);
   std::mt19937_64 random(seed + 17);
   const std::size_t count = best.deviance.size();
@@ -238,11 +265,19 @@ std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitt
     std::vector<double> total(rivals.size(), 0.0);
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t at = static_cast<std::size_t>(random() % count);
-      for (std::size_t r = 0; r < rivals.size(); ++r) total[r] += margins[r][at];
+      for (std::size_t r = 0; r < rivals.size(); ++r) total[r] += all[r].margins[at];
     }
     const auto winner = std::max_element(total.begin(), total.end());
-    if (winner != total.end() && *winner > 0)
-      picked[static_cast<std::size_t>(winner - total.begin())] += 1.0 / kVotes;
+    if (winner == total.end()) continue;
+    const auto first = static_cast<std::size_t>(winner - total.begin());
+    if (*winner > all[first].indistinct) {
+      picked[first] += 1.0 / kVotes;
+      continue;
+    }
+    std::vector<std::size_t> equal;
+    for (std::size_t r = 0; r < rivals.size(); ++r)
+      if (total[r] > -all[r].indistinct) equal.push_back(r);
+    for (const std::size_t r : equal) picked[r] += 1.0 / kVotes / static_cast<double>(equal.size() + 1);
   }
   return picked;
 }

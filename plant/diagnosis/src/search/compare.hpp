@@ -32,6 +32,8 @@ namespace crane::diagnosis {
 /// True when the gain of likelihood is significant for the best of `candidates` (Bonferroni), and the error
 /// decreases by kLeastAlone (first effect) or kLeastBeside (further effect).
 [[nodiscard]] bool accepted(const Fitted& fitted, const Fitted& before, std::size_t candidates);
+/// The same with kLeastKept, for an effect of an accepted hypothesis that `part` lacks.
+[[nodiscard]] bool kept(const Fitted& fitted, const Fitted& part, std::size_t candidates);
 /// True when `fitted` is likelier than `base` in a significant share of block resamples.
 [[nodiscard]] bool possible(const Fitted& fitted, const Fitted& base, std::uint64_t seed);
 
@@ -61,10 +63,13 @@ namespace crane::diagnosis {
 /// Share of block resamples in which `now` < `before`. Large differences are clipped as above.
 [[nodiscard]] double block_wins(const Blocks& now, const Blocks& before, std::uint64_t seed);
 
-/// Share of block resamples in which each rival is likelier than `best`, over the blocks on which the effects
-/// act that only `best` has. The remaining resamples are votes for `best`.
+/// Share of the votes for each rival; the remaining votes are for `best`. Each block resample is one vote,
+/// for the likeliest hypothesis over the blocks on which the effects act that only `best` has. Hypotheses
+/// whose deviance exceeds that of `best` by less than kIndistinct of the gain of `best` share the vote with
+/// it.
+/// @param base the model without effects
 [[nodiscard]] std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
-                                              std::uint64_t seed);
+                                              const Fitted& base, std::uint64_t seed);
 
 [[nodiscard]] std::vector<Estimate> estimates(const Fitted& fitted);
 

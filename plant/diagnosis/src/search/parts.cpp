@@ -48,7 +48,7 @@ Fitted no_worse_than_its_parts(Study& study, const std::vector<Fitted>& all, con
     if (part == nullptr || !likelier_without_penalty(*part, whole)) continue;
     Effects start = part->effects;
     start.push_back(with_no_amount(given.effects[i]));
-    study.whiten_training(part->noise);
+    study.whiten_training(part->nuisance);
     const Fitted again = study.refit_with_own_noise(study.first_fit(start, *part));
     if (less(again, whole)) whole = again;
   }

@@ -19,9 +19,9 @@ constexpr double kRoughUnit = 0.03, kRoughUnit_rad = 0.03;
 /// The distance is at least this share of the finite-difference step of the value.
 constexpr double kLeastUnit = 0.1;
 constexpr std::array kRoughDistances{1.0, 2.0, 4.0};
-/// If the standard deviation is below kTold distances, the distance is halved and the loss is evaluated
-/// again, at most kClosest times.
-constexpr double kTold = 0.5;
+/// If the standard deviation is below kResolvedDistances distances, the distance is halved and the loss is
+/// evaluated again, at most kClosest times.
+constexpr double kResolvedDistances = 0.5;
 constexpr int kClosest = 4;
 
 /// True if the loss has steps: impacts of a gap or slips of a drive come one row earlier or later.
@@ -112,7 +112,7 @@ class Surroundings {
   VectorXd std_dev(LossParabola& found) {
     for (int closer = 0;; ++closer, directions_ *= 0.5) {
       const MatrixXd covariance = covariance_of(places_, losses(found));
-      if (covariance.diagonal().maxCoeff() > kTold * kTold || closer == kClosest)
+      if (covariance.diagonal().maxCoeff() > kResolvedDistances * kResolvedDistances || closer == kClosest)
         return (directions_ * covariance * directions_.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
     }
   }

@@ -7,6 +7,7 @@
 #include "search/compare.hpp"
 #include "search/initial_values.hpp"
 #include "search/parts.hpp"
+#include "search/selection.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -20,28 +21,16 @@ constexpr std::size_t kBeam = 2;
 /// Number of best single effects of which all pairs are fitted, because a pair may explain what neither
 /// effect explains.
 constexpr std::size_t kPaired = 3;
-/// Number of candidates that replace an effect in turn.
+/// Number of candidates that replace an effect in turn, beside those with the same effect on the data.
 constexpr std::size_t kExchanged = 2;
 /// Largest number of hypotheses of one size that are refitted with their own noise: the first fits with the
 /// largest likelihood, and of the others those with the smallest error. With fine sensors, small errors of
 /// the times are likelier than the cause of a large error.
 constexpr std::size_t kLikeliest = 2, kSmallestError = 2;
 
-/// Strongest candidates: half of them by predicted share of the loss, half by p value. The score of a large
-/// effect scatters from block to block, which raises its p value; in a rough residual the predicted share is
-/// large by chance.
-std::vector<Score> strongest(const ScoreTable& scores, std::size_t count) {
-  std::vector<Score> left = scores.best, order;
-  const auto take = [&](std::size_t up_to, auto&& before) {
-    std::sort(left.begin(), left.end(), before);
-    const std::size_t taken = std::min(up_to - order.size(), left.size());
-    const auto end = left.begin() + static_cast<std::ptrdiff_t>(taken);
-    order.insert(order.end(), left.begin(), end);
-    left.erase(left.begin(), end);
-  };
-  take((count + 1) / 2, [](const Score& a, const Score& b) { return a.share > b.share; });
-  take(count, [](const Score& a, const Score& b) { return a.p_value < b.p_value; });
-  return order;
+Effects and_one(Effects effects, const Candidate* candidate) {
+  effects.push_back({candidate, {}});
+  return effects;
 }
 
 class Search {
@@ -52,13 +41,16 @@ class Search {
 
   Hypotheses run() {
     request_.progress(0.05, "scores of all candidates");
+    // The inaccuracies of the base model also describe a part of a missing effect, which its own fit then
+    // lacks. Effects are therefore also fitted to the base model with an exact rig file.
+    if (!study_.uncalibrated().inaccuracies.empty()) extend(base_in(study_.uncalibrated()), kFirst);
     extend(found_.base, kFirst);
     Hypotheses& found = found_;
     std::vector<Fitted> level = refit_likeliest();
     if (level.empty()) return finished();
     if (accept_one_of(level)) {
       // With the noise of the best hypothesis, the predictions of the score test are closer.
-      extend(base_in(found.best.noise), kFirst);
+      extend(base_in(found.best.nuisance), kFirst);
       level = with(std::move(level), refit_likeliest());
       accept_one_of(level);
       while (level.front().effects.size() < request_.most_effects) {
@@ -78,20 +70,21 @@ class Search {
     }
     while (found.best.effects.size() > 1 && drop_one()) {
     }
+    try_alike();
     return finished();
   }
 
  private:
   Hypotheses finished() {
     Hypotheses& found = found_;
-    study_.whiten_with(found.best.noise);
+    study_.whiten_with(found.best.nuisance);
     found.base.train = study_.base_train();
     for (const Fitted& fitted : found.all) rank(fitted);
     return std::move(found_);
   }
 
   /// The base model, whitened with another noise.
-  [[nodiscard]] Fitted base_in(const Noise& noise) {
+  [[nodiscard]] Fitted base_in(const Nuisance& noise) {
     study_.whiten_with(noise);
     return study_.base_model();
   }
@@ -113,7 +106,7 @@ class Search {
     const Fitted whole = given;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
       const Effects rest = without(whole.effects, i);
-      study_.whiten_with(whole.noise);
+      study_.whiten_with(whole.nuisance);
       Fitted fitted = study_.refit_with_own_noise(study_.first_fit(rest, study_.base_model()));
       keep(found_.all, fitted);
       if (rest.size() == found_.best.effects.size()) accept(fitted);
@@ -147,6 +140,29 @@ class Search {
     return refit_likeliest();
   }
 
+  /// Fits the hypotheses in which a candidate with the same effect on the data replaces an effect of the best
+  /// one. They are its rivals in the vote.
+  void try_alike() {
+    const Fitted whole = found_.best;
+    for (std::size_t i = 0; i < whole.effects.size(); ++i) {
+      const std::vector<const Candidate*> others =
+          alike(*whole.effects[i].candidate, study_.candidates(), found_.excitation);
+      const Effects rest = without(whole.effects, i);
+      if (std::ranges::all_of(others, [&](const Candidate* other) {
+            return has(rest, other) || known(and_one(rest, other));
+          }))
+        continue;
+      const Fitted* part = rest.empty() ? &found_.base : find(found_.all, rest);
+      if (part != nullptr) {
+        extend(*part, 0, others);
+      } else {
+        study_.whiten_with(whole.nuisance);
+        extend(study_.refit_with_own_noise(study_.first_fit(rest, study_.base_model())), 0, others);
+      }
+    }
+    accept_one_of(refit_likeliest());
+  }
+
   /// With fewer blocks, sign flips do not test the residual of a hypothesis with effects.
   static constexpr std::size_t kFewBlocks = 60;
 
@@ -155,11 +171,11 @@ class Search {
     return 0.2 + 0.6 * level / static_cast<double>(request_.most_effects);
   }
 
-  /// Fits the strongest candidates in addition to the effects of `given`. @return p value of the largest
-  /// score
-  double extend(const Fitted& given, std::size_t count) {
+  /// Fits the strongest candidates, and those in `always`, in addition to the effects of `given`.
+  /// @return p value of the largest score
+  double extend(const Fitted& given, std::size_t count, const std::vector<const Candidate*>& always = {}) {
     const Fitted there = given;  // `all` grows
-    study_.whiten_training(there.noise);
+    study_.whiten_training(there.nuisance);
     const ScoreTable scores = study_.score(there.effects, there.train, request_.seed + there.effects.size());
     if (there.effects.empty()) {
       found_.detection_p_value = scores.p_value;
@@ -167,9 +183,14 @@ class Search {
       for (const Score& score : scores.best) p_value_[score.candidate] = score.p_value;
     }
     if (!there.effects.empty() && scores.p_value > rules::kSignificant) return scores.p_value;
-    for (const Score& score : strongest(scores, count)) {
+    std::vector<Score> left, wanted;
+    for (const Score& score : scores.best) {
+      const Candidate* candidate = &study_.candidates()[score.candidate];
+      if (!there.effects.empty() && known(and_one(there.effects, candidate))) continue;
+      (std::ranges::find(always, candidate) != always.end() ? wanted : left).push_back(score);
+    }
+    for (const Score& score : strongest(std::move(left), count, std::move(wanted))) {
       const Effects start = initial_values_.of(there, score);
-      if (!there.effects.empty() && known(start)) continue;
       if (there.effects.empty())
         request_.progress(0.1, "fit of " + study_.candidates()[score.candidate].label());
       tried_.push_back(study_.first_fit(initial_values_.with_new_wave(start, there), there));
@@ -178,7 +199,7 @@ class Search {
   }
 
   void try_pairs(const std::vector<Fitted>& singles) {
-    study_.whiten_training(found_.base.noise);
+    study_.whiten_training(found_.base.nuisance);
     for (std::size_t i = 0; i < std::min(kPaired, singles.size()); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const Effects pair{singles[i].effects[0], singles[j].effects[0]};
@@ -197,8 +218,11 @@ class Search {
   /// Refits the likeliest of the tried hypotheses, and those with the smallest error, with their own noise.
   /// @return in the order of decreasing likelihood
   std::vector<Fitted> refit_likeliest() {
-    const std::size_t all = tried_.size();
-    keep_tried(0, all, [](const Fitted& a, const Fitted& b) { return a.misfit < b.misfit; });
+    std::ranges::sort(tried_, {}, &Fitted::misfit);
+    std::vector<Fitted> once;
+    for (const Fitted& tried : tried_)
+      if (find(once, tried.effects) == nullptr) once.push_back(tried);
+    tried_ = std::move(once);
     keep_tried(kLikeliest, kSmallestError, [&](const Fitted& a, const Fitted& b) {
       return share_of_error_in_windows(a, found_.base) > share_of_error_in_windows(b, found_.base);
     });
@@ -232,7 +256,7 @@ class Search {
     return std::ranges::any_of(level, [&](const Fitted& fitted) { return accept(fitted); });
   }
 
-  /// Removes one effect that is not accepted beside the others. @return whether there was one
+  /// Removes one effect that is not kept beside the others. @return whether there was one
   bool drop_one() {
     const Fitted whole = found_.best;
     const Fitted* dropped = nullptr;
@@ -240,12 +264,12 @@ class Search {
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {
       const Effects rest = without(whole.effects, i);
       const Fitted* fitted = find(found_.all, rest);
-      if (fitted == nullptr) study_.whiten_training(found_.base.noise);
+      if (fitted == nullptr) study_.whiten_training(found_.base.nuisance);
       fewer.push_back(fitted != nullptr ? *fitted
                                         : study_.refit_with_own_noise(study_.first_fit(rest, found_.base)));
     }
     for (const Fitted& one : fewer)
-      if (!accepted(whole, one, study_.candidates().size()) && (dropped == nullptr || less(one, *dropped)))
+      if (!kept(whole, one, study_.candidates().size()) && (dropped == nullptr || less(one, *dropped)))
         dropped = &one;
     if (dropped == nullptr) return false;
     found_.best = *dropped;

@@ -93,11 +93,13 @@ void Problem::learn_disturbance(const Replays& crane) {
   }
 }
 
-std::vector<Disturbance> Problem::disturbances_of(const Fits& fits) const {
+std::vector<Disturbance> Problem::disturbances_of(const Fits& fits,
+                                                  const std::vector<Disturbance>& near) const {
   const std::vector<std::vector<VectorXd>> plain = residuals(fits);
   std::vector<Disturbance> learned;
   for (std::size_t output = 0; output < outputs_.size(); ++output)
-    learned.push_back(learn(plain[output], motions_[output], runs_[0].least_noise[outputs_[output]]));
+    learned.push_back(learn(plain[output], motions_[output], runs_[0].least_noise[outputs_[output]],
+                            near.empty() ? Disturbance{} : near[output]));
   return learned;
 }
 

@@ -45,8 +45,10 @@ class Problem {
 
   /// Learns the disturbance of each output from the residuals of a crane, and whitens with it.
   void learn_disturbance(const Replays& crane);
-  /// Disturbances of the residuals of `fits`, by output.
-  [[nodiscard]] std::vector<Disturbance> disturbances_of(const Fits& fits) const;
+  /// Disturbances of the residuals of `fits`, by output. @param near disturbances of similar residuals, with
+  /// which the search begins; empty: none are known
+  [[nodiscard]] std::vector<Disturbance> disturbances_of(const Fits& fits,
+                                                         const std::vector<Disturbance>& near = {}) const;
   /// Whitens with these, by output.
   void whiten_with(std::vector<Disturbance> disturbances);
   [[nodiscard]] const Whitener& whitener(std::size_t output, std::size_t window) const {

@@ -96,6 +96,14 @@ BlockScores joined(const BlockScores& a, const BlockScores& b) {
   return both;
 }
 
+BlockScores leading(const BlockScores& scores, Index directions) {
+  BlockScores first{
+      scores.by_block.leftCols(directions), scores.curvature.topLeftCorner(directions, directions), {}};
+  for (const MatrixXd& of_block : scores.curvature_of)
+    first.curvature_of.emplace_back(of_block.topLeftCorner(directions, directions));
+  return first;
+}
+
 Blocks left_out(const BlockScores& at) {
   Blocks cost(static_cast<std::size_t>(at.by_block.rows()), 0.0);
   for (std::size_t block = 0; block < cost.size(); ++block) {

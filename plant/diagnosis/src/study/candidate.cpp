@@ -127,13 +127,14 @@ class Builder {
     const double carriage = rig_.plant.trolley_mass_kg / rig_.plant.trolley_inertia_kg;
     const double share = output == kTrolleyPosition ? std::clamp(carriage, 0.05, 0.85) : 0.6;
     std::vector<std::vector<double>> settings;
-    std::vector<double> gaps{0.001, 0.0014, 0.002, 0.0027, 0.0038, 0.0054, 0.0075, 0.0105, 0.0148};
-    for (double& width : gaps) width *= scale;
+    const FreeParameter gap_width = free_parameter("backlash", "gap", 0.0002, 0.05, 0.001);
+    std::vector<double> gaps;
+    for (double width = 0.001 * scale; width < gap_width.high; width *= std::numbers::sqrt2)
+      gaps.push_back(width);
     for (const double width : gaps)
       for (const double guide : {0.1, 0.6}) settings.push_back({width, guide, share, 1});
     Candidate gap = at_once("backlash", axis,
-                            {free_parameter("backlash", "gap", 0.0002, 0.05, 0.001),
-                             free_parameter("backlash", "guide_deceleration", 0, 2, 0.1),
+                            {gap_width, free_parameter("backlash", "guide_deceleration", 0, 2, 0.1),
                              free_parameter("backlash", "driven_share", 0.02, 0.9, 0.05),
                              free_parameter("backlash", "known_guide_share", 0, 1, 0.1)},
                             settings);

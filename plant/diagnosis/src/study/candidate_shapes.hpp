@@ -42,7 +42,7 @@ namespace crane::diagnosis {
 /// Replays that a candidate changes.
 enum class Changes { drive, load, both };
 
-/// Whether the rig file contains the quantity of a candidate.
+/// States whether the rig file contains the quantity of a candidate.
 enum class InRigFile { no, yes };
 
 /// Candidates in the order of the report.

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <numeric>
 #include <optional>
 
 #include "parallel.hpp"
@@ -95,16 +93,16 @@ VectorXd bounded_step(const MatrixXd& h, const VectorXd& g, const Flat& flat, do
 
 /// Groups of values that are stepped together: all values; then, if there are several effects, the values of
 /// each effect alone, so that an effect with a stepped loss does not block the others.
-std::vector<std::vector<Index>> step_groups(const Effects& effects) {
+/// @param apart number of leading effects that are stepped alone
+std::vector<std::vector<Index>> step_groups(const Effects& effects, std::size_t apart) {
   std::vector<std::vector<Index>> groups(1);
   Index next = 0;
-  for (const Effect& effect : effects) {
-    std::vector<Index> own(effect.values.size());
-    for (Index& i : own) i = next++;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    std::vector<Index> own(effects[i].values.size());
+    for (Index& k : own) k = next++;
     groups[0].insert(groups[0].end(), own.begin(), own.end());
-    groups.push_back(std::move(own));
+    if (i < apart && effects.size() > 1) groups.push_back(std::move(own));
   }
-  if (effects.size() == 1) groups.pop_back();
   return groups;
 }
 
@@ -120,7 +118,8 @@ double total_loss(const Evaluation& at, Loss loss) {
 
 }  // namespace
 
-bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along) const {
+bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along,
+                    std::size_t apart) const {
   double damping = kFirstDamping, least = total_loss(best.train, loss);
   for (int round = 0; round < kMostRounds; ++round) {
     if (!along) along = slopes(best.effects, best.train);
@@ -132,7 +131,7 @@ bool Study::descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<
     const VectorXd gradient = both.gradient();
     const Flat flat = flatten(best.effects);
     double gained = 0;
-    const auto groups = step_groups(best.effects);
+    const auto groups = step_groups(best.effects, apart);
     for (std::size_t group = 0; group < groups.size() && gained == 0; ++group) {
       const int attempts = group == 0 && best.train.loss <= loss_to_beat ? kAttempts : kFewAttempts;
       for (int attempt = 0; attempt < attempts && gained == 0; ++attempt) {
@@ -228,9 +227,9 @@ Fitted Study::first_fit(const Effects& effects, const Fitted& near) const {
   const Effects from = is_rough(effects) ? search_around(effects, near.train) : effects;
   Fitted fitted = fit(from, near.train.loss - kLeastGain, near.train);
   fitted.error = errors_of(fitted.train);
-  fitted.first_noise = noise_of(fitted, near.first_noise);
+  fitted.first_nuisance = nuisance_of(fitted, near.first_nuisance);
   for (const auto* of :
-       {&fitted.first_noise.drive, &fitted.first_noise.equation_error, &fitted.first_noise.load})
+       {&fitted.first_nuisance.drive, &fitted.first_nuisance.equation_error, &fitted.first_nuisance.load})
     for (const Disturbance& disturbance : *of) fitted.misfit += disturbance.misfit;
   return fitted;
 }
@@ -247,25 +246,12 @@ Fitted Study::fit(Effects effects, double loss_to_beat, const Evaluation& near) 
   if (is_rough(best.effects)) step_around(best, &Evaluation::loss, false);
   start = best;
   std::optional<Slopes> along;
-  const bool can_beat = descend(best, Loss::squares, loss_to_beat, along);
+  const bool can_beat = descend(best, Loss::squares, loss_to_beat, along, best.effects.size());
   if (start.train.loss < best.train.loss) best = start, along.reset();
-  if (can_beat) descend(best, Loss::robust, loss_to_beat, along);
+  if (can_beat) descend(best, Loss::robust, loss_to_beat, along, best.effects.size());
   if (!along) along = slopes(best.effects, best.train);
-  const BlockScores both = block_scores(best.train, *along);
-  best.left_out = left_out(both);
-  const MatrixXd inverse = both.curvature.completeOrthogonalDecomposition().pseudoInverse();
-  best.by_noise = inverse.diagonal().cwiseMax(0.0).cwiseSqrt();
-  // The replay and the equation error of a drive contain the same noise: together they have the information
-  // of one of them.
-  Index value = 0;
-  for (const Effect& effect : best.effects)
-    for (std::size_t k = 0; k < effect.values.size(); ++k, ++value)
-      if (effect.candidate->drive) best.by_noise[value] *= std::numbers::sqrt2;
-  best.covariance = inverse * (both.by_block.transpose() * both.by_block) * inverse;
-  for (const double variance : best.covariance.diagonal())
-    best.std_dev.push_back(std::sqrt(std::max(0.0, variance)));
-  best.parameters = best.std_dev.size();
-  best.noise = noise();
+  judge_values(best, *along, {});
+  best.nuisance = nuisance();
   return best;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "study/blocks.hpp"
 
@@ -48,6 +49,16 @@ double schwarz_over_akaike(const Blocks& left_out) {
 
 }  // namespace
 
+Nuisance Study::nuisance_in(const Body& body, const Evaluation& at, const Replays& crane) {
+  Nuisance nuisance;
+  if (!body.drive.empty()) {
+    nuisance.drive = body.drive.disturbances_of(at.drive);
+    nuisance.equation_error = body.equation_error.disturbances_of(crane);
+  }
+  if (!body.load.empty()) nuisance.load = body.load.disturbances_of(at.load);
+  return nuisance;
+}
+
 Blocks Study::deviance_of(const Body& body, const Evaluation& at) {
   Blocks deviance = at.blocks;
   const auto add = [&deviance](std::size_t first, const Blocks& more) {
@@ -62,7 +73,7 @@ Blocks Study::deviance_of(const Body& body, const Evaluation& at) {
 }
 
 void Study::judge_by_likelihood(Fitted& fitted) const {
-  fitted.noise = noise();
+  fitted.nuisance = nuisance();
   fitted.deviance = deviance_of(train_, fitted.train);
   const double schwarz = schwarz_over_akaike(fitted.left_out);
   for (std::size_t i = 0; i < fitted.left_out.size(); ++i) fitted.deviance[i] += schwarz * fitted.left_out[i];
@@ -78,48 +89,53 @@ std::array<double, kOutputs> Study::errors_of(const Evaluation& at) const {
 }
 
 Blocks Study::held_out_deviance(const Fitted& fitted) {
-  whiten_test(fitted.noise);
-  return deviance_of(test_, evaluated(test_, replays_of(test_.runs, with(fitted.effects))));
+  const Effects present = std::exchange(inaccuracies_, fitted.nuisance.inaccuracies);
+  const Replays crane = replays_of(test_.runs, with(fitted.effects));
+  inaccuracies_ = present;
+  whiten_test(fitted.nuisance);
+  whiten_test(nuisance_in(test_, evaluated(test_, crane), crane));
+  return deviance_of(test_, evaluated(test_, crane));
 }
 
 Fitted Study::base_model() const {
   Fitted base;
   base.train = base_train_;
-  base.first_noise = noise_of(base);
+  base.first_nuisance = nuisance_of(base);
   judge_by_likelihood(base);
   return base;
 }
 
-Noise Study::noise_of(const Fitted& fitted, const Noise& unchanged) const {
+Nuisance Study::nuisance_of(const Fitted& fitted, const Nuisance& unchanged, const Nuisance& near) const {
   const ShowsIn parts = shown_in(fitted.effects);
-  Noise noise = unchanged;
+  Nuisance found = unchanged;
   if (!train_.drive.empty() && (parts.drive || unchanged.drive.empty())) {
-    noise.drive = train_.drive.disturbances_of(fitted.train.drive);
-    noise.equation_error =
+    found.drive = train_.drive.disturbances_of(fitted.train.drive, near.drive);
+    found.equation_error =
         train_.equation_error.disturbances_of(replays_of(train_.runs, with(fitted.effects)));
   }
   if (!train_.load.empty() && (parts.load || unchanged.load.empty()))
-    noise.load = train_.load.disturbances_of(fitted.train.load);
-  return noise;
+    found.load = train_.load.disturbances_of(fitted.train.load, near.load);
+  found.inaccuracies = inaccuracies_;
+  return found;
 }
 
 Fitted Study::refit_with_own_noise(const Fitted& first_fit) {
   Fitted best = first_fit, last = first_fit;
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostNoiseRounds; ++round) {
-    const Noise noise = round == 0 ? first_fit.first_noise : noise_of(last);
-    whiten_training(noise);
+    whiten_training(round == 0 ? first_fit.first_nuisance : nuisance_of(last, {}, last.nuisance));
     last = fit(last.effects, std::numeric_limits<double>::infinity(), evaluated_again(last));
+    fit_inaccuracies(last);
     judge_by_likelihood(last);
     last.misfit = first_fit.misfit;
-    last.first_noise = first_fit.first_noise;
+    last.first_nuisance = first_fit.first_nuisance;
     const double gained = least - sum(last.deviance);
     if (!(gained > 0)) break;
     best = last;
     least -= gained;
     if (gained < kWorthARound) break;
   }
-  whiten_training(best.noise);
+  whiten_training(best.nuisance);
   return best;
 }
 

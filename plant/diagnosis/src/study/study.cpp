@@ -7,6 +7,7 @@
 #include "replay/standstill.hpp"
 
 #include "study/blocks.hpp"
+#include "study/inaccuracies.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -17,6 +18,8 @@ using Eigen::VectorXd;
 /// Window lengths. The swing needs about one period. In a longer window of a drive that sticks and slips,
 /// late or missing slips dominate the residual and hide the error of the friction.
 constexpr double kSwingWindow_s = 2, kDriveWindow_s = 1;
+/// Number of alternations of the fit of the inaccuracies and the noise model of the base model.
+constexpr int kCalibrations = 2;
 
 Evaluation summed(const Study::Body& body, Fits of_drive, Fits of_load,
                   std::vector<VectorXd> equation_error) {
@@ -40,6 +43,12 @@ double natural_radps(const configuration::Rig& rig) {
   return plant::swing_radps(rig.plant.gravity_mps2, rig.start.position[plant::kHoist]);
 }
 
+bool is_null(const Effect& effect) {
+  for (std::size_t i = 0; i < effect.values.size(); ++i)
+    if (effect.values[i] != effect.candidate->parameters[i].null) return false;
+  return true;
+}
+
 Fits fit_of(const Problem& problem, const Replays& crane) {
   return problem.empty() ? Fits{} : problem.fit(crane);
 }
@@ -57,7 +66,7 @@ Effects moved(Effects effects, const VectorXd& step) {
 }
 
 Study::Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
-             const std::vector<std::string>& excluded)
+             const std::vector<std::string>& excluded, const Accuracy& accuracy)
     : natural_radps_{diagnosis::natural_radps(rig)},
       base_(holding({rig.plant, rig.terms})),
       candidates_(candidates_for(rig, train)),
@@ -67,6 +76,11 @@ Study::Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
   std::erase_if(candidates_, [&](const Candidate& candidate) {
     return std::find(excluded.begin(), excluded.end(), candidate.cause) != excluded.end();
   });
+  inaccurate_ = inaccuracies_of(candidates_, rig, accuracy);
+  for (const Candidate& candidate : inaccurate_) {
+    Effect& none = inaccuracies_.emplace_back(Effect{&candidate, {}});
+    for (const FreeParameter& p : candidate.parameters) none.values.push_back(p.null);
+  }
 }
 
 Study::Body::Body(const Runs& all, double natural_radps)
@@ -74,8 +88,27 @@ Study::Body::Body(const Runs& all, double natural_radps)
       drive(all, Part::drive, kDriveWindow_s, natural_radps),
       load(all, Part::load, kSwingWindow_s, natural_radps) {}
 
+Effects Study::inaccuracies_beside(const Effects& effects) const {
+  Effects others;
+  for (const Effect& inaccuracy : inaccuracies_)
+    if (std::ranges::none_of(effects, [&](const Effect& effect) {
+          return effect.candidate->cause == inaccuracy.candidate->cause &&
+                 effect.candidate->axis == inaccuracy.candidate->axis;
+        }))
+      others.push_back(inaccuracy);
+  return others;
+}
+
+Effects Study::calibration_beside(const Effects& effects) const {
+  Effects beside = inaccuracies_beside(effects);
+  std::erase_if(beside, is_null);
+  return beside;
+}
+
 Crane Study::with(const Effects& effects) const {
   Crane crane = base_;
+  for (const Effect& inaccuracy : calibration_beside(effects))
+    crane.terms.push_back(inaccuracy.candidate->setting(inaccuracy.values));
   for (const Effect& effect : effects) crane.terms.push_back(effect.candidate->setting(effect.values));
   return holding(std::move(crane));
 }
@@ -86,30 +119,41 @@ void Study::learn_disturbance(const Effects& effects) {
     if (!train->empty()) train->learn_disturbance(crane);
   train_.equation_error.learn_disturbance(crane);
   evaluate_base();
+  uncalibrated_ = nuisance();
+  if (!effects.empty()) return;
+  // An error of the rig file within its accuracy belongs to the base model, not to the noise.
+  for (int round = 0; round < kCalibrations && !inaccuracies_.empty(); ++round) {
+    Fitted base;
+    base.train = base_train_;
+    fit_inaccuracies(base);
+    whiten_with(nuisance_of(base));
+  }
 }
 
-void Study::whiten_training(const Noise& noise) {
-  if (!train_.drive.empty()) train_.drive.whiten_with(noise.drive);
-  if (!train_.load.empty()) train_.load.whiten_with(noise.load);
-  train_.equation_error.whiten_with(noise.equation_error, replays_of(train_.runs, base_));
+void Study::whiten_training(const Nuisance& nuisance) {
+  inaccuracies_ = nuisance.inaccuracies;
+  if (!train_.drive.empty()) train_.drive.whiten_with(nuisance.drive);
+  if (!train_.load.empty()) train_.load.whiten_with(nuisance.load);
+  train_.equation_error.whiten_with(nuisance.equation_error, replays_of(train_.runs, base_));
 }
 
-void Study::whiten_test(const Noise& noise) {
-  if (!test_.drive.empty()) test_.drive.whiten_with(noise.drive);
-  if (!test_.load.empty()) test_.load.whiten_with(noise.load);
-  test_.equation_error.whiten_with(noise.equation_error, replays_of(test_.runs, base_));
+void Study::whiten_test(const Nuisance& nuisance) {
+  if (!test_.drive.empty()) test_.drive.whiten_with(nuisance.drive);
+  if (!test_.load.empty()) test_.load.whiten_with(nuisance.load);
+  test_.equation_error.whiten_with(nuisance.equation_error, replays_of(test_.runs, base_));
 }
 
-void Study::whiten_with(const Noise& noise) {
-  whiten_training(noise);
+void Study::whiten_with(const Nuisance& nuisance) {
+  whiten_training(nuisance);
   evaluate_base();
 }
 
-Noise Study::noise() const {
-  return {train_.drive.disturbances(), train_.equation_error.disturbances(), train_.load.disturbances()};
+Nuisance Study::nuisance() const {
+  return {train_.drive.disturbances(), train_.equation_error.disturbances(), train_.load.disturbances(),
+          inaccuracies_};
 }
 
-void Study::evaluate_base() { base_train_ = evaluated(train_, replays_of(train_.runs, base_)); }
+void Study::evaluate_base() { base_train_ = evaluated(train_, replays_of(train_.runs, with({}))); }
 
 Evaluation Study::evaluated(const Body& body, const Replays& base) const {
   return summed(body, fit_of(body.drive, base), fit_of(body.load, base), body.equation_error.residuals(base));

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "crane/diagnosis/accuracy.hpp"
 #include "crane/diagnosis/candidate.hpp"
 #include "crane/diagnosis/diagnosis.hpp"
 #include "robust.hpp"
@@ -36,17 +37,19 @@ struct Evaluation {
   double drive_loss = std::numeric_limits<double>::infinity(), load_loss = drive_loss, loss = drive_loss;
 };
 
-/// Noise and disturbance by output: of the drives, of the drives along the measured motion, of the load.
-struct Noise {
+/// Nuisance parameters of a hypothesis: noise and disturbance by output (of the drives, of the drives along
+/// the measured motion, of the load), and errors of the rig file within its accuracy (inaccuracies.hpp).
+struct Nuisance {
   std::vector<Disturbance> drive, equation_error, load;
+  Effects inaccuracies;
 };
 
 struct Fitted {
   Effects effects;
   Evaluation train;
-  Noise noise;        ///< model by which `train` is whitened
-  Noise first_noise;  ///< learnt from the residuals of its first fit
-  double misfit = 0;  ///< minus twice the log likelihood of the first fit, with free starts of windows
+  Nuisance nuisance;        ///< in which `train` is evaluated and whitened
+  Nuisance first_nuisance;  ///< learnt from the residuals of its first fit
+  double misfit = 0;        ///< minus twice the log likelihood of the first fit, with free starts of windows
   /// Minus twice the log likelihood of the training data by block, with the penalty of the fitted values.
   Blocks deviance;
   double penalty = 0;  ///< penalty of the fitted values; contained in `deviance`
@@ -90,36 +93,46 @@ struct BlockScores;
 class Study {
  public:
   /// @param train, test outlive the study
-  /// @param excluded causes that are no candidates
+  /// @param excluded causes that are no candidates @param accuracy of the rig file; by default it is exact
   Study(const configuration::Rig& rig, const Runs& train, const Runs& test,
-        const std::vector<std::string>& excluded = {});
+        const std::vector<std::string>& excluded = {}, const Accuracy& accuracy = {});
   Study(const configuration::Rig& rig, const Runs& train, Runs&& test,
-        const std::vector<std::string>& excluded = {}) = delete;
+        const std::vector<std::string>& excluded = {}, const Accuracy& accuracy = {}) = delete;
+  Study(const Study&) = delete;
+  Study& operator=(const Study&) = delete;
 
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
   [[nodiscard]] const Crane& base() const { return base_; }
   [[nodiscard]] double natural_radps() const { return natural_radps_; }  ///< of the load, rad/s
+  /// The crane of the rig file with its present inaccuracies and with these effects. The effects replace the
+  /// inaccuracies of the same cause.
   [[nodiscard]] Crane with(const Effects& effects) const;
 
   /// Learns noise and disturbance from the residuals of the base model with the effects, then evaluates the
-  /// base model. Must be the first call.
+  /// base model. Without effects, also fits the inaccuracies of the rig file. Must be the first call.
   void learn_disturbance(const Effects& effects = {});
-  /// The same with a noise that was learnt from the same runs before.
-  void whiten_with(const Noise& noise);
-  [[nodiscard]] Noise noise() const;
+  /// The same with nuisance parameters that were learnt from the same runs before.
+  void whiten_with(const Nuisance& nuisance);
+  [[nodiscard]] Nuisance nuisance() const;
+  /// Nuisance parameters of the base model with an exact rig file.
+  [[nodiscard]] const Nuisance& uncalibrated() const { return uncalibrated_; }
   /// Fits the effects from these values in the noise of `near`, then learns the noise of the residuals. Ranks
   /// hypotheses for refit_with_own_noise(). @param near  fit of some of the effects
   /// @pre the training data are whitened with the noise of `near`
   [[nodiscard]] Fitted first_fit(const Effects& effects, const Fitted& near) const;
-  /// Alternates fit and noise while the likelihood increases. Afterwards the training data are whitened with
-  /// the noise of the result.
+  /// Alternates the fit of effects and inaccuracies with the noise while the likelihood increases. Afterwards
+  /// the nuisance parameters of the result are set.
   [[nodiscard]] Fitted refit_with_own_noise(const Fitted& first_fit);
   /// The base model in its own noise. @pre learn_disturbance() was the last call
   [[nodiscard]] Fitted base_model() const;
-  /// Whitens the training data with the noise of a fit from now on.
-  void whiten_training(const Noise& noise);
-  /// Minus twice the log likelihood of the held-out data by block, in the noise of a fit.
+  /// Sets the nuisance parameters of a fit: the inaccuracies, and the noise that whitens the training data.
+  void whiten_training(const Nuisance& nuisance);
+  /// Minus twice the log likelihood of the held-out data by block. The noise is learnt from the residuals of
+  /// the held-out data, because the error of a model depends on the motion.
   [[nodiscard]] Blocks held_out_deviance(const Fitted& fitted);
+
+  /// Present inaccuracies of other causes than those of the effects, without those of size 0.
+  [[nodiscard]] Effects calibration_beside(const Effects& effects) const;
 
   /// The base model.
   [[nodiscard]] const Evaluation& base_train() const { return base_train_; }
@@ -159,8 +172,16 @@ class Study {
   [[nodiscard]] Slopes slopes(const Effects& effects, const Evaluation& at) const;
   /// Gauss-Newton rounds from `best`. @param along  slopes at `best` when known; those of the result on
   /// return
+  /// @param apart  number of leading effects whose values are also stepped alone
   /// @return false when the loss cannot fall below `loss_to_beat`
-  bool descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along) const;
+  bool descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along,
+               std::size_t apart) const;
+  /// Inaccuracies of other causes than those of the effects.
+  [[nodiscard]] Effects inaccuracies_beside(const Effects& effects) const;
+  /// Fits the effects jointly with the inaccuracies that are visible in the same parts of the data.
+  void fit_inaccuracies(Fitted& fitted);
+  /// Sets covariance and penalty of a fit. @param along slopes, of the effects first
+  void judge_values(Fitted& fitted, const Slopes& along, const Effects& beside) const;
   /// Pattern search with decreasing steps. @param hold_bounds  parameters that are usually at a bound stay
   void step_around(Fitted& best, double Evaluation::*loss, bool hold_bounds) const;
   /// Initial values of one effect with a rough loss: the best of its rough_starts and of a pattern search by
@@ -190,11 +211,15 @@ class Study {
   /// @pre the training data are whitened
   void evaluate_base();
   [[nodiscard]] Evaluation evaluate(const Body& body, const Effects& effects, const Evaluation& near) const;
-  /// Noise of the residuals of a fit; `unchanged` in the parts in which none of its effects is visible.
-  [[nodiscard]] Noise noise_of(const Fitted& fitted, const Noise& unchanged = {}) const;
+  /// Noise of the residuals of a fit, and the present inaccuracies; `unchanged` in the parts in which none of
+  /// its effects is visible. @param near noise with which the search begins; empty: none is known
+  [[nodiscard]] Nuisance nuisance_of(const Fitted& fitted, const Nuisance& unchanged = {},
+                                     const Nuisance& near = {}) const;
+  /// Noise of the residuals of one crane.
+  [[nodiscard]] static Nuisance nuisance_in(const Body& body, const Evaluation& at, const Replays& crane);
   /// Minus twice the log likelihood by block in the present noise.
   [[nodiscard]] static Blocks deviance_of(const Body& body, const Evaluation& at);
-  void whiten_test(const Noise& noise);
+  void whiten_test(const Nuisance& nuisance);
   /// Error of the simulation by output: mean over the windows of the rms error of each, m or rad.
   [[nodiscard]] std::array<double, kOutputs> errors_of(const Evaluation& at) const;
   /// Sets noise and deviance in the present noise.
@@ -202,7 +227,9 @@ class Study {
 
   double natural_radps_;
   Crane base_;
-  std::vector<Candidate> candidates_;
+  std::vector<Candidate> candidates_, inaccurate_;
+  Effects inaccuracies_;  ///< present ones
+  Nuisance uncalibrated_;
   Body train_, test_;
   Problem whole_runs_;  ///< of the load, training
   Evaluation base_train_;

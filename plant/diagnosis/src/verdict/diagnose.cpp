@@ -33,6 +33,20 @@ void give_values(const Fitted& best, const std::vector<bool>& within_accuracy, D
     if (ranked.label == label_of(best.effects)) ranked.parameters = values;
 }
 
+/// Adds the quantities of the rig file with the values that they have in the extended model.
+void give_calibration(const Effects& calibration, Diagnosis& result) {
+  for (const Effect& effect : calibration) {
+    Calibrated& given = result.calibrated.emplace_back(effect.candidate->cause, effect.candidate->axis);
+    for (std::size_t i = 0; i < effect.values.size(); ++i) {
+      const FreeParameter& p = effect.candidate->parameters[i];
+      given.parameters.push_back({p.name, std::string{plant::unit_on(given.axis, p.unit)}, effect.values[i],
+                                  p.null, std::max(p.high - p.null, p.null - p.low)});
+    }
+    result.extension.push_back(effect.candidate->setting(effect.values));
+  }
+  if (result.verdict == Verdict::none) result.sentence = sentence_of(result);
+}
+
 bool acts_on(const Effects& effects, const std::string& column) {
   return std::ranges::any_of(effects, [&](const Effect& effect) {
     return std::ranges::any_of(kAllOutputs, [&](Output output) {
@@ -136,9 +150,9 @@ bool nothing_wrong(Study& study, const Hypotheses& found, const StatedAccuracy& 
   if (matters && !insignificant_effect && proof.outcome != Proof::Outcome::no_consequence) return false;
   Hypotheses base = found;
   base.best = found.base;
-  study.whiten_with(found.base.noise);
+  study.whiten_with(found.base.nuisance);
   const bool nothing = judge(study, base, accuracy, {}, seed).diagnosis.verdict == Verdict::none;
-  study.whiten_with(found.best.noise);
+  study.whiten_with(found.best.nuisance);
   return nothing;
 }
 
@@ -161,6 +175,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
   }
   if (result.verdict == Verdict::none) {
     best = found.base;
+    study.whiten_with(best.nuisance);
     result.extension.clear();
   }
   request.progress(0.92, "held-out runs");
@@ -176,6 +191,7 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
         nothing_wrong(study, found, accuracy, best, proof, result.held_out, request.seed)) {
       best = found.base;
       nothing_found(result);
+      study.whiten_with(found.base.nuisance);
       result.held_out = held_out(study, as_measured, {}, request.seed);
     } else {
       doubt(result, proof.why);
@@ -185,7 +201,8 @@ Diagnosis diagnosed(const configuration::Rig& rig, Study& study, Study& as_measu
     request.progress(0.95, "which motion would tell them apart");
     result.next_experiment = propose_experiment(rig, best.effects, rival, disturbances_of(study));
   }
-  if (!losing.empty()) as_measured.whiten_with(study.noise());
+  give_calibration(study.calibration_beside(best.effects), result);
+  if (!losing.empty()) as_measured.whiten_with(study.nuisance());
   name_losing(losing, study, as_measured, result);
   if (result.verdict == Verdict::unknown) {  // encoders that lose counts are known by their jumps alone
     const auto first =
@@ -214,7 +231,7 @@ Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::v
   Data measured{prepared(train, rig, request.accuracy), prepared(test, rig, request.accuracy)};
   require_excitation(measured.train, measured.test, rig);
   hold_resting_drives(measured.train, measured.test);
-  Study as_measured(rig, measured.train, measured.test, request.excluded);
+  Study as_measured(rig, measured.train, measured.test, request.excluded, request.accuracy);
   std::vector<LosingEncoder> losing;
   if (considered(request, "position_drift")) losing = losing_encoders(train, rig);
   Diagnosis result;
@@ -224,7 +241,7 @@ Diagnosis diagnose(const configuration::Rig& rig, std::vector<Run> train, std::v
     Data mended{prepared(put_back(std::move(train), losing, rig), rig, request.accuracy),
                 prepared(put_back(std::move(test), losing, rig), rig, request.accuracy)};
     hold_resting_drives(mended.train, mended.test);
-    Study study(rig, mended.train, mended.test, request.excluded);
+    Study study(rig, mended.train, mended.test, request.excluded, request.accuracy);
     result = diagnosed(rig, study, as_measured, losing, request);
   }
   result.accuracy = request.accuracy;

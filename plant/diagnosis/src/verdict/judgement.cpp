@@ -135,7 +135,7 @@ class Judgement {
   [[nodiscard]] std::string drive_not_followed() const {
     if (study_.drive().empty()) return "";
     const Problem plain = study_.drive().plain();
-    const Fits fits = plain.fit(replays_of(plain.runs(), study_.base()));
+    const Fits fits = plain.fit(replays_of(plain.runs(), study_.with({})));
     for (std::size_t output = 0; output < plain.outputs().size(); ++output)
       if (const double share = share_not_followed(plain, fits, output); share > rules::kDriveNotFollowed)
         return (std::ostringstream{} << std::setprecision(2) << "the simulation of "
@@ -177,7 +177,7 @@ class Judgement {
       if (fitted.effects.size() == best_.effects.size() && lacks_a_cause(fitted) &&
           possible(fitted, all_.base, seed_))
         equals.push_back(&fitted);
-    const std::vector<double> picked = frequencies(best_, equals, seed_);
+    const std::vector<double> picked = frequencies(best_, equals, all_.base, seed_);
     double left = 1;
     for (std::size_t r = 0; r < equals.size(); ++r) {
       left -= picked[r];
@@ -252,7 +252,7 @@ std::string sentence_of(const Diagnosis& d) {
   for (const std::string& rival : d.ambiguous_with) add(rivals, ", ", rival);
   switch (d.verdict) {
     case Verdict::none:
-      return d.within_accuracy.empty()
+      return d.within_accuracy.empty() && d.calibrated.empty()
                  ? "These data show no error of the model."
                  : "These data show no error of the model beyond the accuracy of the rig file.";
     case Verdict::named:

@@ -68,10 +68,10 @@ std::vector<Pattern> patterns_left(const Study& study, const Hypotheses& hypothe
   std::vector<Pattern> left;
   const Runs& runs = study.drive().runs();
   const Effects& effects = hypotheses.best.effects;
-  // A ringing cause is itself a line of the spectrum.
+  // A cause with a free oscillation itself produces a line of the spectrum.
   const Crane crane = study.with(effects);
   const bool rings = !plant::Model(crane.parameters, crane.terms).ringing_coordinates().empty();
-  const Replays best = replays_of(runs, crane), base = replays_of(runs, study.base());
+  const Replays best = replays_of(runs, crane), base = replays_of(runs, study.with({}));
   for (const Output axis : study.drive().outputs()) {
     const Pieces pieces = pieces_of(runs, best, axis);
     const double of_base = squares_of(residuals_of(pieces, base));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "search/parts.hpp"
+#include "study/inaccuracies.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -26,37 +27,27 @@ StatedAccuracy::StatedAccuracy(const configuration::Rig& rig, const Accuracy& ac
       accuracy_(accuracy),
       friction_{known_friction(rig, "trolley"), known_friction(rig, "slew")} {}
 
-std::optional<double> StatedAccuracy::inaccurate_value(const Candidate& candidate) const {
-  const double time_s = accuracy_.times_periods * rig_.period_s;
-  const std::string& cause = candidate.cause;
-  if (cause == "motor_gain" || cause == "position_scale" || cause == "swing_scale")
-    return 1 + accuracy_.values;
-  if (cause == "cable_length") return accuracy_.values * rig_.start.position[plant::kHoist];
-  if (cause == "payload_mass") return accuracy_.values * rig_.plant.load_mass_kg;
-  if (cause == "command_delay" || cause == "swing_delay") return time_s;
-  if (cause == "coulomb_friction")
-    return accuracy_.friction * friction_[candidate.drive_output()].least_coulomb_v;
-  if (cause == "viscous_friction")
-    return accuracy_.friction * friction_[candidate.drive_output()].least_viscous;
-  return std::nullopt;
+std::vector<double> StatedAccuracy::limits_of(const Candidate& candidate) const {
+  return largest_inaccuracy(candidate.cause, candidate.axis, rig_, accuracy_);
 }
 
-bool StatedAccuracy::contains_value(const Effect& effect) const {
-  const std::optional<double> limit = inaccurate_value(*effect.candidate);
-  const double null = effect.candidate->parameters[0].null;
-  return limit && std::abs(effect.values[0] - null) <= std::abs(*limit - null);
+bool StatedAccuracy::contains_values(const Effect& effect) const {
+  const std::vector<double> limits = limits_of(*effect.candidate);
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    if (std::abs(effect.values[i] - effect.candidate->parameters[i].null) > limits[i]) return false;
+  return true;
 }
 
 std::vector<Crane> StatedAccuracy::inaccurate(const Study& study, const Crane& crane) const {
   std::vector<Crane> cranes;
   std::map<std::string, std::size_t> of_friction;  // by axis: one crane
   for (const Candidate& candidate : study.candidates()) {
-    const std::optional<double> value = inaccurate_value(candidate);
-    if (!value || *value == candidate.parameters[0].null || !is_limit(candidate)) continue;
+    const std::vector<double> limits = limits_of(candidate);
+    if (limits.size() != 1 || limits[0] == 0 || !is_limit(candidate)) continue;
     std::size_t at = cranes.size();
     if (candidate.law == GoesWith::speed) at = of_friction.try_emplace(candidate.axis, at).first->second;
     if (at == cranes.size()) cranes.push_back(crane);
-    cranes[at].terms.push_back(candidate.setting({*value}));
+    cranes[at].terms.push_back(candidate.setting({candidate.parameters[0].null + limits[0]}));
   }
   return cranes;
 }
@@ -82,8 +73,9 @@ std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Effect
     for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], changes[c][i]);
   std::vector<bool> contained;
   for (std::size_t i = 0; i < effects.size(); ++i)
-    contained.push_back(contains_value(effects[i]) ||
-                        std::ranges::equal(changes[inaccuracies + i], largest, std::less_equal{}));
+    contained.push_back(limits_of(*effects[i].candidate).empty()
+                            ? std::ranges::equal(changes[inaccuracies + i], largest, std::less_equal{})
+                            : contains_values(effects[i]));
   return contained;
 }
 

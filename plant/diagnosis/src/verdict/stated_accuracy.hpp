@@ -1,7 +1,6 @@
 #pragma once
 /// Effects and patterns that are no larger than the errors of an accurate rig file.
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "crane/diagnosis/accuracy.hpp"
@@ -15,9 +14,10 @@ class StatedAccuracy {
  public:
   StatedAccuracy(const configuration::Rig& rig, const Accuracy& accuracy);
 
-  /// Whether each effect has a value within the stated accuracy of its quantity, or changes the simulation of
-  /// no output by more than the largest of the stated inaccuracies of drives, positions and swing scale: rms
-  /// in the windows of the training data and, for a swing, over whole runs, from the same starts.
+  /// Whether each effect is within the accuracy of the rig file. An effect of a quantity with a stated
+  /// accuracy: whether its values are within it. Any other effect: whether it changes the simulation of no
+  /// output by more than the largest of the stated inaccuracies of drives, positions and swing scale: rms in
+  /// the windows of the training data and, for a swing, over whole runs, from the same starts.
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Effects& effects) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
   [[nodiscard]] bool contains(const Unexplained& pattern) const;
@@ -26,9 +26,10 @@ class StatedAccuracy {
   /// Sums of squares [m2 or rad2] by output: in windows, then over whole runs (swing only).
   using Changes = std::array<double, 2 * kOutputs>;
 
-  /// Value of the candidate that is wrong by the stated accuracy; nothing if its quantity has none.
-  [[nodiscard]] std::optional<double> inaccurate_value(const Candidate& candidate) const;
-  [[nodiscard]] bool contains_value(const Effect& effect) const;
+  /// Stated accuracy of the leading parameters; empty if its quantity has none.
+  [[nodiscard]] std::vector<double> limits_of(const Candidate& candidate) const;
+  /// @pre the quantity of the effect has a stated accuracy
+  [[nodiscard]] bool contains_values(const Effect& effect) const;
   /// Cranes whose rig file is wrong by one stated inaccuracy each.
   [[nodiscard]] std::vector<Crane> inaccurate(const Study& study, const Crane& crane) const;
 

@@ -60,6 +60,17 @@ struct HeldOut {
   double nats = 0, likelier = 0;
 };
 
+/// A quantity of the rig file with the value, within the accuracy of the rig file, that the data prefer.
+struct Calibrated {
+  std::string name, axis;  ///< of the term that changes the quantity
+  struct Parameter {
+    std::string name, unit;
+    double value = 0, null = 0;  ///< null: as in the rig file
+    double limit = 0;            ///< largest difference from `null` within the accuracy of the rig file
+  };
+  std::vector<Parameter> parameters;
+};
+
 /// Residual of the extended model, and the variables that it depends on.
 struct Remainder {
   double predictable_fraction = 0;  ///< cross-validated
@@ -99,6 +110,7 @@ struct Diagnosis {
   /// Effects that are likely and no larger than the stated accuracy of the rig file. They do not decide the
   /// verdict.
   std::vector<Cause> within_accuracy;
+  std::vector<Calibrated> calibrated;
   std::vector<Cause> attempted;  ///< with `unknown`: best explanation, unproven
   std::vector<std::string> ambiguous_with;
   std::optional<NextExperiment> next_experiment;

@@ -1,0 +1,77 @@
+/// Joint fit of effects and inaccuracies of the rig file; covariance and penalty of a fit.
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "study/blocks.hpp"
+
+namespace crane::diagnosis {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+void Study::fit_inaccuracies(Fitted& fitted) {
+  ShowsIn parts;
+  for (const Effect& effect : fitted.effects) {
+    parts.drive = parts.drive || effect.candidate->drive;
+    parts.load = parts.load || effect.candidate->load;
+  }
+  Effects beside = inaccuracies_beside(fitted.effects);
+  if (!fitted.effects.empty())
+    std::erase_if(beside, [&](const Effect& inaccuracy) {
+      return !(inaccuracy.candidate->drive && parts.drive) && !(inaccuracy.candidate->load && parts.load);
+    });
+  if (beside.empty()) return;
+  Fitted joint;
+  joint.effects = fitted.effects;
+  joint.effects.insert(joint.effects.end(), beside.begin(), beside.end());
+  joint.train = fitted.train;
+  std::optional<Slopes> along;
+  descend(joint, Loss::robust, std::numeric_limits<double>::infinity(), along, 0);
+  const auto first = joint.effects.begin() + static_cast<std::ptrdiff_t>(fitted.effects.size());
+  for (auto inaccuracy = first; inaccuracy != joint.effects.end(); ++inaccuracy)
+    for (Effect& present : inaccuracies_)
+      if (present.candidate == inaccuracy->candidate) present.values = inaccuracy->values;
+  fitted.effects.assign(joint.effects.begin(), first);
+  fitted.train = std::move(joint.train);
+  if (fitted.effects.empty()) return;
+  if (!along) along = slopes(joint.effects, fitted.train);
+  judge_values(fitted, *along, {first, joint.effects.end()});
+}
+
+void Study::judge_values(Fitted& fitted, const Slopes& along, const Effects& beside) const {
+  const BlockScores both = block_scores(fitted.train, along);
+  Index own = 0;
+  for (const Effect& effect : fitted.effects) own += static_cast<Index>(effect.values.size());
+  fitted.left_out = left_out(leading(both, own));
+  // An inaccuracy at its bound is no free value.
+  std::vector<Index> free(static_cast<std::size_t>(own));
+  std::iota(free.begin(), free.end(), 0);
+  Index next = own;
+  for (const Effect& inaccuracy : beside)
+    for (std::size_t k = 0; k < inaccuracy.values.size(); ++k, ++next) {
+      const FreeParameter& p = inaccuracy.candidate->parameters[k];
+      if (inaccuracy.values[k] > p.low && inaccuracy.values[k] < p.high) free.push_back(next);
+    }
+  const MatrixXd scores = both.by_block(Eigen::all, free);
+  const MatrixXd inverse =
+      MatrixXd(both.curvature(free, free)).completeOrthogonalDecomposition().pseudoInverse();
+  fitted.by_noise = inverse.diagonal().head(own).cwiseMax(0.0).cwiseSqrt();
+  // The replay and the equation error of a drive contain the same noise: together they have the information
+  // of one of them.
+  Index value = 0;
+  for (const Effect& effect : fitted.effects)
+    for (std::size_t k = 0; k < effect.values.size(); ++k, ++value)
+      if (effect.candidate->drive) fitted.by_noise[value] *= std::numbers::sqrt2;
+  fitted.covariance = (inverse * (scores.transpose() * scores) * inverse).topLeftCorner(own, own);
+  fitted.std_dev.clear();
+  for (const double variance : fitted.covariance.diagonal())
+    fitted.std_dev.push_back(std::sqrt(std::max(0.0, variance)));
+  fitted.parameters = fitted.std_dev.size();
+}
+
+}  // namespace crane::diagnosis

@@ -1,0 +1,49 @@
+#include "study/inaccuracies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "study/known_friction.hpp"
+
+namespace crane::diagnosis {
+
+std::vector<double> largest_inaccuracy(const std::string& cause, const std::string& axis,
+                                       const configuration::Rig& rig, const Accuracy& accuracy) {
+  if (cause == "motor_gain" || cause == "position_scale" || cause == "swing_scale") return {accuracy.values};
+  if (cause == "cable_length") return {accuracy.values * rig.start.position[plant::kHoist]};
+  if (cause == "payload_mass") return {accuracy.values * rig.plant.load_mass_kg};
+  const double time_s = accuracy.times_periods * rig.period_s;
+  if (cause == "command_delay" || cause == "swing_delay") return {time_s};
+  if (cause == "actuator_lag") return {time_s, time_s};
+  const KnownFriction friction = known_friction(rig, axis);
+  const double coulomb_v = accuracy.friction * friction.least_coulomb_v,
+               viscous = accuracy.friction * friction.least_viscous;
+  if (cause == "coulomb_friction") return {coulomb_v};
+  if (cause == "viscous_friction") return {viscous};
+  if (cause == "direction_asymmetry") return {coulomb_v, viscous};
+  return {};
+}
+
+std::vector<Candidate> inaccuracies_of(const std::vector<Candidate>& candidates,
+                                       const configuration::Rig& rig, const Accuracy& accuracy) {
+  constexpr std::array<std::string_view, 7> kCauses{
+      "motor_gain",    "coulomb_friction", "viscous_friction", "direction_asymmetry",
+      "command_delay", "cable_length",     "payload_mass"};
+  std::vector<Candidate> all;
+  for (const Candidate& candidate : candidates) {
+    if (std::ranges::find(kCauses, candidate.cause) == kCauses.end()) continue;
+    const std::vector<double> limits = largest_inaccuracy(candidate.cause, candidate.axis, rig, accuracy);
+    if (std::ranges::none_of(limits, [](double limit) { return limit > 0; })) continue;
+    Candidate& bounded = all.emplace_back(candidate);
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      FreeParameter& p = bounded.parameters[i];
+      p.low = std::max(p.low, p.null - limits[i]);
+      p.high = std::min(p.high, p.null + limits[i]);
+      p.step = std::min(p.step, 0.5 * limits[i]);
+    }
+  }
+  return all;
+}
+
+}  // namespace crane::diagnosis
