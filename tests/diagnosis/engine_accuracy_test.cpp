@@ -34,7 +34,7 @@ std::vector<Run> runs_of_gantry(const strange::Gantry& gantry, double delay_s, d
 
 Diagnosis diagnosed(const strange::Gantry& gantry, double delay_s) {
   Request request;
-  request.most_effects = 2;
+  request.most_effects = 1;
   return diagnose(accurate_lab(), runs_of_gantry(gantry, delay_s, 0), runs_of_gantry(gantry, delay_s, 40),
                   request);
 }

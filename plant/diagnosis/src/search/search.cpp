@@ -21,7 +21,7 @@ constexpr std::size_t kBeam = 2;
 /// Number of best single effects of which all pairs are fitted, because a pair may explain what neither
 /// effect explains.
 constexpr std::size_t kPaired = 3;
-/// Number of candidates that replace an effect in turn, beside those with the same effect on the data.
+/// Number of candidates that replace an effect in turn.
 constexpr std::size_t kExchanged = 2;
 /// Largest number of hypotheses of one size that are refitted with their own noise: the first fits with the
 /// largest likelihood, and of the others those with the smallest error. With fine sensors, small errors of
@@ -83,9 +83,9 @@ class Search {
     return std::move(found_);
   }
 
-  /// The base model, whitened with another noise.
-  [[nodiscard]] Fitted base_in(const Nuisance& noise) {
-    study_.whiten_with(noise);
+  /// The base model with other nuisance parameters.
+  [[nodiscard]] Fitted base_in(const Nuisance& nuisance) {
+    study_.whiten_with(nuisance);
     return study_.base_model();
   }
 

@@ -5,7 +5,6 @@
 
 #include "crane/plant/pendulum.hpp"
 #include "replay/standstill.hpp"
-
 #include "study/blocks.hpp"
 #include "study/inaccuracies.hpp"
 
