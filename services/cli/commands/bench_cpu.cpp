@@ -8,23 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/bench.hpp"
-#include "cli/number_range.hpp"
+#include "cli/measured_stack.hpp"
 #include "cli/processor_time.hpp"
 #include "cli/text_table.hpp"
 #include "experiments/realtime_session.hpp"
-#include "stack/data_files.hpp"
 #include "stack/launch.hpp"
-#include "stack/stack.hpp"
 
 namespace crane::cli {
 namespace {
-
-struct BenchCpuOptions {
-  stack::LaunchOptions launch;
-  std::string rig = "emulated_servo_to_go", plant = "hardware";
-  double seconds = 20;
-  bool json = false;
-};
 
 /// Lets the stack run. @throws std::runtime_error when a process ends
 void pass(stack::ChildProcesses& children, double seconds) {
@@ -35,12 +26,11 @@ void pass(stack::ChildProcesses& children, double seconds) {
   }
 }
 
-std::vector<ProcessShare> measure(const BenchCpuOptions& options) {
+std::vector<ProcessShare> measure(const MeasuredStack& options) {
   const auto rig = configuration::load_rig(options.launch.rig);
-  const bool hardware = options.plant == "hardware";
-  const auto specs = hardware ? stack::hardware_stack() : stack::simulated_stack();
+  const auto specs = options.processes();
   stack::ChildProcesses children;
-  if (hardware) stack::launch_rig(children, rig, options.launch);
+  if (options.hardware()) stack::launch_rig(children, rig, options.launch);
   stack::launch(children, specs, options.launch);
   {
     bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
@@ -52,10 +42,9 @@ std::vector<ProcessShare> measure(const BenchCpuOptions& options) {
   return processor.per_tick(static_cast<double>(runtime::monotonic_ns() - begin_ns) * 1e-9 / rig.period_s);
 }
 
-int bench_cpu(BenchCpuOptions options) {
+int bench_cpu(MeasuredStack options) {
   runtime::install_stop_signals();
-  options.launch.rig = stack::find_rig(options.rig).string();
-  options.launch.bus.crane = "bench_" + std::to_string(::getpid());
+  options.prepare();
   auto json = nlohmann::ordered_json::array();
   TextTable table{{"process", "loop us/tick", "DDS threads us/tick", "together"}};
   for (const auto& share : measure(options)) {
@@ -74,20 +63,10 @@ int bench_cpu(BenchCpuOptions options) {
 }  // namespace
 
 void add_bench_cpu(CLI::App& bench, Action& chosen) {
-  auto options = std::make_shared<BenchCpuOptions>();
+  auto options = std::make_shared<MeasuredStack>();
   auto* command = bench.add_subcommand(
       "cpu", "Measure the processor time per tick of each process (loop and DDS threads) in real time");
-  command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command
-      ->add_option("--plant", options->plant,
-                   "hardware: the bridge with the board of the rig file; sim: the simulated plant")
-      ->check(CLI::IsMember({"hardware", "sim"}))
-      ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "duration in s")
-      ->check(number_in(1.0, 86400.0))
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "print as JSON");
-  runtime::add_bus_options(*command, options->launch.bus);
+  add_measured_stack(*command, *options, 86400.0);
   command->footer("Example: crane bench cpu --seconds 20\nOther load on the computer increases the result.");
   command->callback([options, &chosen] { chosen = [options] { return bench_cpu(*options); }; });
 }

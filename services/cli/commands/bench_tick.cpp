@@ -12,28 +12,19 @@
 
 #include "cli/commands/bench.hpp"
 #include "cli/floors.hpp"
-#include "cli/number_range.hpp"
+#include "cli/measured_stack.hpp"
 #include "cli/processor_time.hpp"
 #include "cli/tick_report.hpp"
 #include "crane/bus/cdr.hpp"
 #include "crane/bus/seal.hpp"
 #include "experiments/realtime_session.hpp"
 #include "observation/arrival_statistics.hpp"
-#include "stack/data_files.hpp"
 #include "stack/launch.hpp"
-#include "stack/stack.hpp"
 
 namespace crane::cli {
 namespace {
 
 using namespace std::chrono_literals;
-
-struct BenchTickOptions {
-  stack::LaunchOptions launch;
-  std::string rig = "emulated_servo_to_go", plant = "hardware";
-  double seconds = 20;
-  bool json = false;
-};
 
 /// Shortest mean time of a call, over some batches: other programs delay some of the batches.
 template <class Work>
@@ -100,10 +91,9 @@ void collect(stack::ChildProcesses& children, Stamps& stamps, double seconds) {
   }
 }
 
-TickBench measure(const BenchTickOptions& options) {
+TickBench measure(const MeasuredStack& options) {
   const auto rig = configuration::load_rig(options.launch.rig);
-  const bool hardware = options.plant == "hardware";
-  TickBench bench{.processes = hardware ? stack::hardware_stack() : stack::simulated_stack(),
+  TickBench bench{.processes = options.processes(),
                   .period_s = rig.period_s,
                   .priority = options.launch.priority,
                   .floors = {},
@@ -115,7 +105,7 @@ TickBench measure(const BenchTickOptions& options) {
                  .priority = options.launch.priority}};
   Stamps stamps{bench.processes.size()};
   stack::ChildProcesses children;
-  if (hardware) stack::launch_rig(children, rig, options.launch);
+  if (options.hardware()) stack::launch_rig(children, rig, options.launch);
   stamps.launch(children, bench.processes, options.launch);
   {
     bus::Bus bus{runtime::bus_options(options.launch.bus, "crane_bench", crane_SOURCE_OPERATOR, 0)};
@@ -145,10 +135,9 @@ TickBench measure(const BenchTickOptions& options) {
   return bench;
 }
 
-int bench_tick(BenchTickOptions options) {
+int bench_tick(MeasuredStack options) {
   runtime::install_stop_signals();
-  options.launch.rig = stack::find_rig(options.rig).string();
-  options.launch.bus.crane = "bench_" + std::to_string(::getpid());
+  options.prepare();
   const auto bench = measure(options);
   if (options.json)
     std::cout << json_of(bench).dump(2) << '\n';
@@ -160,27 +149,17 @@ int bench_tick(BenchTickOptions options) {
 }  // namespace
 
 void add_bench_tick(CLI::App& bench, Action& chosen) {
-  auto options = std::make_shared<BenchTickOptions>();
+  auto options = std::make_shared<MeasuredStack>();
   auto* command = bench.add_subcommand(
       "tick",
       "Split the latency from state to command into hops and parts, beside chains of bare UDP, Cyclone DDS "
       "and Fast DDS in the same run");
-  command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command
-      ->add_option("--plant", options->plant,
-                   "hardware: the bridge with the board of the rig file; sim: the simulated plant")
-      ->check(CLI::IsMember({"hardware", "sim"}))
-      ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "duration in s")
-      ->check(number_in(1.0, 3600.0))
-      ->capture_default_str();
+  add_measured_stack(*command, *options, 3600.0);
   command
       ->add_option("--priority", options->launch.priority,
                    "SCHED_FIFO priority of stack and floors, 0: ordinary scheduling")
       ->check(CLI::Range(0, 98))
       ->capture_default_str();
-  command->add_flag("--json", options->json, "print as JSON");
-  runtime::add_bus_options(*command, options->launch.bus);
   command->footer(
       "Example: crane bench tick --seconds 60\n"
       "docs/benchmarks.md explains the parts. The floors use the next DDS domain on the loop-back.");
