@@ -37,10 +37,11 @@ inline constexpr Rule kClearWin{"clear_win", 0.8, "1", "minimum share of block r
                                 "level of the vote"};
 inline constexpr Rule kRunnerUp{"runner_up", 0.1, "1", "minimum share of block resamples for a rival",
                                 "level of the vote"};
-inline constexpr Rule kIndistinct{
-    "indistinct", 0.008, "1",
-    "maximum difference of two hypotheses / gain of the better one, in deviance, that distinguishes nothing",
-    "as pattern: the equations of the terms leave this share of a misfit"};
+inline constexpr Rule kIndistinct{"indistinct", 0.008, "1",
+                                  "largest difference of deviance between a rival and the best hypothesis / "
+                                  "gain of the best hypothesis over the "
+                                  "base model, at which both count as equal",
+                                  "as pattern: the equations of the terms leave this share of a misfit"};
 
 // Proof on held-out runs (verdict/diagnose.cpp).
 inline constexpr Rule kHeldOutWin{

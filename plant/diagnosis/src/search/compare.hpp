@@ -64,9 +64,9 @@ namespace crane::diagnosis {
 [[nodiscard]] double block_wins(const Blocks& now, const Blocks& before, std::uint64_t seed);
 
 /// Share of the votes for each rival; the remaining votes are for `best`. Each block resample is one vote,
-/// for the likeliest hypothesis over the blocks on which the effects act that only `best` has. Hypotheses
-/// whose deviance exceeds that of `best` by less than kIndistinct of the gain of `best` share the vote with
-/// it.
+/// over the blocks on which the effects act that only `best` has. A rival whose deviance is lower than that
+/// of `best` by more than kIndistinct of the gain of `best` gets the whole vote. Otherwise `best` shares the
+/// vote equally with all rivals whose deviance is not higher by as much.
 /// @param base the model without effects
 [[nodiscard]] std::vector<double> frequencies(const Fitted& best, const std::vector<const Fitted*>& rivals,
                                               const Fitted& base, std::uint64_t seed);

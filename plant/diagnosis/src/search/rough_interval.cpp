@@ -19,8 +19,8 @@ constexpr double kRoughUnit = 0.03, kRoughUnit_rad = 0.03;
 /// The distance is at least this share of the finite-difference step of the value.
 constexpr double kLeastUnit = 0.1;
 constexpr std::array kRoughDistances{1.0, 2.0, 4.0};
-/// If the standard deviation is below kResolvedDistances distances, the distance is halved and the loss is
-/// evaluated again, at most kClosest times.
+/// If the standard deviation is below kResolvedDistances times the distance, the distance is halved and the
+/// loss is evaluated again, at most kClosest times.
 constexpr double kResolvedDistances = 0.5;
 constexpr int kClosest = 4;
 

@@ -41,8 +41,8 @@ class Search {
 
   Hypotheses run() {
     request_.progress(0.05, "scores of all candidates");
-    // The inaccuracies of the base model also describe a part of a missing effect, which its own fit then
-    // lacks. Effects are therefore also fitted to the base model with an exact rig file.
+    // The fitted inaccuracies absorb a part of a missing effect. A fit of this effect beside them then finds
+    // too small a value. Effects are therefore also fitted beside the unchanged values of the rig file.
     if (!study_.uncalibrated().inaccuracies.empty()) extend(base_in(study_.uncalibrated()), kFirst);
     extend(found_.base, kFirst);
     Hypotheses& found = found_;
@@ -141,7 +141,7 @@ class Search {
   }
 
   /// Fits the hypotheses in which a candidate with the same effect on the data replaces an effect of the best
-  /// one. They are its rivals in the vote.
+  /// one. The likeliest can become the best one; the others are possible rivals in the vote.
   void try_alike() {
     const Fitted whole = found_.best;
     for (std::size_t i = 0; i < whole.effects.size(); ++i) {

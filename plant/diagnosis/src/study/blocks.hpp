@@ -24,7 +24,7 @@ struct BlockScores {
 /// Adds the scores of residuals that belong to `blocks`.
 void add_scores(const std::vector<std::size_t>& blocks, const std::vector<Eigen::VectorXd>& residuals,
                 const std::vector<std::vector<Eigen::VectorXd>>& slopes, Loss loss, BlockScores& scores);
-/// Of the first directions only.
+/// Scores and curvatures of the first `directions` directions.
 [[nodiscard]] BlockScores leading(const BlockScores& scores, Eigen::Index directions);
 /// Blocks of `a`, then those of `b`.
 [[nodiscard]] BlockScores joined(const BlockScores& a, const BlockScores& b);

@@ -18,8 +18,8 @@ namespace crane::diagnosis {
                                                      const configuration::Rig& rig, const Accuracy& accuracy);
 
 /// Candidates bounded by the accuracy of the rig file: gain, friction by direction and delay of each drive,
-/// length of the cable, mass of the load. Of scales and of the delay of the swing, the verdict takes account
-/// (verdict/stated_accuracy.hpp).
+/// length of the cable, mass of the load. Scales, lags and the delay of the swing are not free; the verdict
+/// compares them with their accuracy (verdict/stated_accuracy.hpp).
 [[nodiscard]] std::vector<Candidate> inaccuracies_of(const std::vector<Candidate>& candidates,
                                                      const configuration::Rig& rig, const Accuracy& accuracy);
 

@@ -131,7 +131,8 @@ class Study {
   /// the held-out data, because the error of a model depends on the motion.
   [[nodiscard]] Blocks held_out_deviance(const Fitted& fitted);
 
-  /// Present inaccuracies of other causes than those of the effects, without those of size 0.
+  /// Present inaccuracies whose cause and axis no effect has, without those that have the value of the rig
+  /// file.
   [[nodiscard]] Effects calibration_beside(const Effects& effects) const;
 
   /// The base model.
@@ -176,7 +177,7 @@ class Study {
   /// @return false when the loss cannot fall below `loss_to_beat`
   bool descend(Fitted& best, Loss loss, double loss_to_beat, std::optional<Slopes>& along,
                std::size_t apart) const;
-  /// Inaccuracies of other causes than those of the effects.
+  /// The same, with those that have the value of the rig file.
   [[nodiscard]] Effects inaccuracies_beside(const Effects& effects) const;
   /// Fits the effects jointly with the inaccuracies that are visible in the same parts of the data.
   void fit_inaccuracies(Fitted& fitted);

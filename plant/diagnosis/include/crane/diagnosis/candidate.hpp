@@ -16,7 +16,8 @@ struct FreeParameter {
   double null = 0;           ///< no effect
   double low = 0, high = 0;  ///< physical bounds, with sign
   double step = 0;  ///< step of the finite difference: large enough to be visible, small enough for a slope
-  bool at_a_bound = false;  ///< the value is usually one of its bounds: a rough fit first holds it at each
+  bool at_a_bound =
+      false;  ///< the value is usually at a bound: a rough fit first holds the value at each bound
 };
 
 /// One form of an effect: probes of a small amount each. The score test uses the probes of one shape jointly.
