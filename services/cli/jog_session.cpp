@@ -15,15 +15,26 @@ JogSession::JogSession(bus::Bus& bus)
       statuses_{bus.subscriber(topics::supervisor)},
       states_{bus.subscriber(topics::state)} {}
 
-Answer JogSession::begin(const std::array<bool, 3>& selected) {
+Answer JogSession::begin(const std::array<bool, 3>& selected, const Patience& patience) {
   accepted_ = false;
   hold_ticks_ = 0;
-  const auto answer = ask(bus_, {.kind = crane_REQUEST_JOG, .selected = selected});
+  await_state(patience.find_s);
+  const auto answer = ask(bus_, {.kind = crane_REQUEST_JOG, .selected = selected}, patience);
   id_ = answer.id;
   return answer;
 }
 
-void JogSession::receive() {
+/// A sample without the present tick is late for the supervisor, which then waits for a release of the stick.
+void JogSession::await_state(double patience_s) {
+  tick_ = 0;
+  const auto arrived = [this] {
+    receive_states();
+    return tick_ > 0;
+  };
+  if (!wait_until(bus_, patience_s, arrived)) throw NoAnswer("no state" + where_and_remedy(bus_));
+}
+
+void JogSession::receive_states() {
   while (const auto state = states_.take()) {
     tick_ = state->header.tick;
     const std::array now{state->trolley_position_m, state->slew_angle_rad, state->cable_length_m};
@@ -33,6 +44,10 @@ void JogSession::receive() {
     measured_.largest_swing_rad = std::max(measured_.largest_swing_rad,
                                            std::hypot(state->swing_radial_rad, state->swing_tangential_rad));
   }
+}
+
+void JogSession::receive() {
+  receive_states();
   while (const auto status = statuses_.take()) {
     if (status->move.request_id != id_) {
       if (accepted_) throw std::runtime_error("jog: replaced by a later move");

@@ -21,8 +21,9 @@ class JogSession {
  public:
   explicit JogSession(bus::Bus& bus);
 
-  /// Requests a session for the selected axes.
-  [[nodiscard]] Answer begin(const std::array<bool, 3>& selected);
+  /// Requests a session for the selected axes, after a state has arrived: the samples contain its tick.
+  /// @throws NoAnswer when no state or no answer arrives
+  [[nodiscard]] Answer begin(const std::array<bool, 3>& selected, const Patience& patience = {});
   /// Sends the deflection every 20 ms until `over` returns true.
   /// @param stops  true: a stop signal ends the wait
   /// @return false at the timeout or after a stop signal
@@ -42,6 +43,8 @@ class JogSession {
 
  private:
   static constexpr int kHoldTicks = 50;  // single ticks of HOLD occur between ticks of RUN
+  void await_state(double patience_s);
+  void receive_states();
   void receive();
   void send(const std::optional<Deflection>& stick);
 

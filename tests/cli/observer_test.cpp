@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include "cli/jog_session.hpp"
 #include "cli/log_export.hpp"
 #include "cli/move_follower.hpp"
 #include "cli/operator_request.hpp"
@@ -190,6 +191,34 @@ TEST_F(Observers, RefusalCarriesItsReason) {
   const auto answer = ask(tool_, {.kind = crane_REQUEST_ARM}, {.find_s = 10, .reply_s = 10});
   EXPECT_FALSE(answer.accepted);
   EXPECT_EQ(answer.reason, "the crane is LOCKED");
+}
+
+TEST_F(Observers, SessionOfTheStickIsNotRequestedBeforeAStateHasArrived) {
+  const FakeSupervisor supervisor{crane_, true, Planner::listening};
+  auto requests = crane_.subscriber(topics::request);
+  JogSession session{tool_};
+  EXPECT_THROW((void)session.begin({true, false, false}, {.find_s = 0.05, .reply_s = 10}), NoAnswer);
+  EXPECT_FALSE(requests.take());
+}
+
+TEST_F(Observers, EverySampleOfTheStickContainsTheTickOfAState) {
+  const FakeSupervisor supervisor{crane_, true, Planner::listening};
+  auto jogs = crane_.subscriber(topics::jog);
+  auto states = crane_.publisher(topics::state);
+  JogSession session{tool_};
+  msg::State state{};
+  state.header.tick = 4711;
+  ASSERT_TRUE(states.publish(state));
+  ASSERT_TRUE(session.begin({true, false, false}, {.find_s = 10, .reply_s = 10}).accepted);
+  session.drive(
+      0.05, false,
+      [] {
+        return Deflection{1, 0, 0};
+      },
+      [] { return false; });
+  int samples = 0;
+  for (; const auto sample = jogs.take(); ++samples) EXPECT_EQ(sample->header.tick, 4711U);
+  EXPECT_GT(samples, 0);
 }
 
 TEST_F(Observers, RequestWithoutASupervisorNamesTheSearchedCrane) {

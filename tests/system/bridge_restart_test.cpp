@@ -14,7 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-constexpr std::uint32_t kDomain = 77;
+constexpr std::uint32_t kDomain = 95;
 constexpr const char* kRig = "emulated_servo_to_go";
 
 class BridgeRestart : public testing::Test {
