@@ -43,6 +43,7 @@ void Observer::take() {
 }
 
 void Observer::forget() {
+  take();
   states_.clear();
   statuses_.clear();
   commands_.clear();

@@ -29,7 +29,7 @@ class Observer {
   [[nodiscard]] const std::vector<std::int64_t>& command_times_ns() const { return command_times_ns_; }
   /// The newest status of every process, by name.
   [[nodiscard]] const std::map<std::string, msg::NodeStatus>& nodes() const { return nodes_; }
-  /// Clears all samples except the status of the nodes.
+  /// Clears all samples that have arrived, those not taken yet included, except the status of the nodes.
   void forget();
 
  private:
