@@ -36,6 +36,7 @@ void add_play(CLI::App& app, Action& chosen);
 void add_replay(CLI::App& app, Action& chosen);
 void add_log(CLI::App& app, Action& chosen);
 void add_identify(CLI::App& app, Action& chosen);
+void add_tune(CLI::App& app, Action& chosen);
 void add_diagnose(CLI::App& app, Action& chosen);
 void add_analyse(CLI::App& app, Action& chosen);
 void add_hw(CLI::App& app, Action& chosen);

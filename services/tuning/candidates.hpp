@@ -1,0 +1,27 @@
+#pragma once
+/// Laws and gains that the tuning compares.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crane/configuration/rig.hpp"
+
+namespace crane::tuning {
+
+struct Candidate {
+  std::string controller;
+  /// Keys of [controller] with their values, on top of the rig file.
+  std::vector<std::pair<std::string, double>> gains;
+  bool observer = false;  ///< swing_observer
+
+  /// "gain_scheduling_full, full_feedback_gain_pm = 4, observer"
+  [[nodiscard]] std::string label() const;
+};
+
+/// @return the rig with the law and gains of the candidate
+[[nodiscard]] configuration::Rig with_candidate(configuration::Rig rig, const Candidate& candidate);
+
+/// All candidates, in the order of the registry of the laws.
+[[nodiscard]] std::vector<Candidate> candidates();
+
+}  // namespace crane::tuning

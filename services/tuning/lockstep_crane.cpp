@@ -1,0 +1,106 @@
+#include "tuning/lockstep_crane.hpp"
+
+#include "crane/bridge/bridge.hpp"
+#include "crane/simulator/component.hpp"
+#include "crane/simulator/simulated_board.hpp"
+#include "experiments/experiment_run.hpp"
+
+namespace crane::tuning {
+namespace {
+
+struct Board {
+  const configuration::Rig* truth;
+  simulator::Method integrator;
+};
+/// Board of the stack that this thread builds: ComponentSpec::make is a function pointer without a context.
+thread_local Board built{};
+
+/// Presets the counters of trolley and slew as the bridge of a real rig does: at the start the rig file shows
+/// the start position, also when sign or scale of an encoder are wrong.
+void preset_counters(simulator::SimulatedRig& simulated, const configuration::Rig& rig) {
+  const std::array start{simulated.start.trolley_m, simulated.start.slew_rad};
+  for (const std::size_t i : {plant::kTrolley, plant::kSlew}) {
+    auto& actual = simulated.encoders[i];
+    const auto& believed = rig.encoders[i];
+    if (!rig.measures(i) ||
+        (actual.sign == believed.sign && actual.counts_per_unit == believed.counts_per_unit))
+      continue;
+    const double counts = believed.sign * rig.start.position[i] * believed.counts_per_unit;
+    actual.zero = start[i] - actual.sign * counts / actual.counts_per_unit;
+  }
+}
+
+std::unique_ptr<runtime::Component> make_plant(const runtime::Context& context) {
+  auto simulated = simulator::simulated_rig_of(*built.truth);
+  simulated.integrator = built.integrator;
+  preset_counters(simulated, context.rig);
+  return std::make_unique<bridge::Bridge>(context, std::make_unique<simulator::SimulatedBoard>(simulated));
+}
+
+struct Outcome {
+  configuration::Rig started;
+  experiments::RunOutcome run;
+};
+
+/// The true rig at the start of a run: the axes are where the rig file says, the load is at the same swing.
+configuration::Rig started_truth(const configuration::Rig& truth, const configuration::Rig& started) {
+  configuration::Rig actual = truth;
+  const double cable_m = truth.start.position[plant::kHoist] + truth.start.cable_length_offset_m;
+  actual.start = started.start;
+  actual.start.cable_length_offset_m = cable_m - started.start.position[plant::kHoist];
+  return actual;
+}
+
+Outcome run_on(const configuration::Rig& truth, const configuration::Rig& rig,
+               const control::Controller& controller, const experiment::Scenario& scenario,
+               experiments::TickLog& log, simulator::Method integrator) {
+  Outcome outcome{experiment::started_by(rig, scenario), {}};
+  const auto actual = started_truth(truth, outcome.started);
+  auto components = stack::stack_with(stack::Plant::simulated);
+  components.front().make = make_plant;
+  built = {&actual, integrator};
+  outcome.run = experiments::run_in_process(components, outcome.started, controller, scenario, log);
+  return outcome;
+}
+
+}  // namespace
+
+experiment::ComparedRun simulate_on(const configuration::Rig& truth, const configuration::Rig& rig,
+                                    const control::Controller& controller,
+                                    const experiment::Scenario& scenario, simulator::Method integrator) {
+  experiment::ComparedRun run{.scenario = scenario.name,
+                              .variant = "",
+                              .controller = std::string{controller.name},
+                              .scenario_description = scenario.description,
+                              .stopped_because = "",
+                              .metrics = {},
+                              .samples = {}};
+  experiments::TickLog log{std::nullopt};
+  try {
+    const auto outcome = run_on(truth, rig, controller, scenario, log, integrator);
+    run.stopped_because = outcome.run.stopped_because;
+    run.samples = experiment::samples_from(log.table(outcome.run.hold_tick));
+    const auto maneuver = experiment::maneuver_of(scenario, outcome.started);
+    if (run.samples.empty() || run.samples.back().time_s < maneuver.last_action_s) return run;
+    run.metrics = experiment::evaluate(run.samples, maneuver);
+    if (!run.stopped_because.empty()) run.metrics->settling_time_s.reset();
+  } catch (const std::exception& error) {
+    if (runtime::stop_requested()) throw;
+    run.stopped_because = error.what();
+  }
+  return run;
+}
+
+Motion LockstepCrane::execute(const configuration::Rig& rig, const experiment::Scenario& scenario) {
+  experiments::TickLog log{std::nullopt};
+  try {
+    const auto outcome =
+        run_on(truth_, rig, *control::find_controller("none"), scenario, log, simulator::Method::cvode);
+    return {log.table(outcome.run.hold_tick), outcome.run.stopped_because};
+  } catch (const experiments::RunError& error) {
+    if (runtime::stop_requested()) throw;
+    return {log.table(0), error.what()};  // the rows show why, for example a motion against the voltage
+  }
+}
+
+}  // namespace crane::tuning

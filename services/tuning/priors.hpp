@@ -1,0 +1,42 @@
+#pragma once
+/// What is known about a rig before it is tuned. The rig file states geometry, inertias, drives, encoders and
+/// limits. Gains, friction, load, cable length, delay and rest angles of the swing are unknown within the
+/// ranges below.
+#include <string>
+#include <vector>
+
+#include "crane/configuration/rig.hpp"
+
+namespace crane::tuning {
+
+/// Ranges relative to the rig file; chosen: more than a wrong data sheet or another load explains.
+struct Priors {
+  double gain_share = 0.4;         ///< |true K_m / K_m of the rig file - 1|
+  double friction_share = 0.4;     ///< largest Coulomb friction / volt limit of the drive
+  double payload_low = 0.5;        ///< smallest true load mass / load mass of the rig file
+  double payload_high = 2;         ///< largest
+  double cable_low_m = 0.4;        ///< shortest true cable length
+  double cable_high_m = 2;         ///< longest
+  double delay_periods = 2;        ///< longest delay of a command, beside the tick of the loop
+  double rest_angle_rad = 0.0349;  ///< largest swing angle shown with the load at rest, 2 degrees
+};
+
+/// Bandwidth of the position loop during the tuning, rad/s. With the largest gain and delay of the priors the
+/// phase margin of the loop is about 35 degrees.
+inline constexpr double kLoop_radps = 7;
+
+/// The rig as control loop and checks of the bridge see it during the tuning. Tracking PD without swing
+/// feedback; the believed gains are the largest of the priors, so that the loop is never faster than
+/// designed; the believed load is the lightest of the priors, because a position loop that compensates more
+/// than the force of the load excites its swing; the believed friction is the largest, without compensation.
+/// The checks that need a known model are off (limits.model_checks); all other limits are those of the rig
+/// file.
+[[nodiscard]] configuration::Rig careful_rig(const configuration::Rig& rig, const Priors& priors);
+
+/// Stiffness of the position loop of careful_rig(), V/m or V/rad.
+[[nodiscard]] double stiffness_vpu(const configuration::Rig& careful, std::size_t axis);
+
+/// @return reasons why a rig of this kind cannot be tuned, "file: key: rule"; empty when there are none
+[[nodiscard]] std::vector<std::string> problems(const configuration::Rig& rig);
+
+}  // namespace crane::tuning

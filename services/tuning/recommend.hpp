@@ -1,0 +1,67 @@
+#pragma once
+/// Compares laws and gains in simulated maneuvers of one rig and selects one of them.
+///
+/// Every candidate runs the maneuvers on the rig; those that settle are ranked by their mean settling time.
+/// The best are tested with a longer delay, a larger gain, another cable length, load and friction. Those
+/// that hold all floors run the maneuvers on rigs drawn from the standard errors of the identification. Of
+/// the entries that settle on all of them, the one with the least expected settling time wins.
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "crane/experiment/scenario.hpp"
+#include "crane/simulator/integrator.hpp"
+#include "tuning/candidates.hpp"
+#include "tuning/margins.hpp"
+
+namespace crane::tuning {
+
+/// Settling times on the drawn rigs: mean over the maneuvers.
+struct Predicted {
+  double mean_s = 0, least_s = 0, largest_s = 0;
+};
+
+struct Entry {
+  Candidate candidate;
+  std::vector<std::optional<double>> settling_s{};  ///< by maneuver
+  std::optional<double> mean_settling_s{};          ///< nothing: not all maneuvers settle
+  double largest_swing_rad = 0;
+  std::string stopped_because{};         ///< of the first run that the supervisor stopped
+  std::optional<Margins> margins{};      ///< of the best entries
+  std::optional<Predicted> predicted{};  ///< of entries that hold the floors and settle on all drawn rigs
+};
+
+struct Recommendation {
+  std::vector<std::string> maneuvers;
+  std::vector<Entry> entries;         ///< by rank: settled ones first
+  std::optional<std::size_t> winner;  ///< nothing: no entry holds the floors and settles on all drawn rigs
+};
+/// @return entries that settle, that hold the floors, and that settle on all drawn rigs
+[[nodiscard]] std::array<std::size_t, 3> counts(const Recommendation& recommendation);
+
+struct Search {
+  const configuration::Rig& truth;              ///< the board simulates this rig
+  const configuration::Rig& rig;                ///< rig file of the control loop
+  std::span<const configuration::Rig> drawn{};  ///< drawn_rigs(); empty: the truth is known
+  std::span<const experiment::Scenario> maneuvers;
+  std::span<const Candidate> candidates;
+  unsigned processors = 1;  ///< number of threads
+  simulator::Method integrator = simulator::Method::fast;
+  /// Called after each run with the number of finished runs; calls do not overlap.
+  std::function<void(std::size_t)> progress{};
+};
+/// The candidates change [controller] of the rig file.
+[[nodiscard]] Recommendation recommend(const Search& search);
+
+/// Runs one candidate in all maneuvers, without margins.
+[[nodiscard]] Entry evaluate(const configuration::Rig& truth, const configuration::Rig& rig,
+                             const Candidate& candidate, std::span<const experiment::Scenario> maneuvers,
+                             simulator::Method integrator);
+
+/// Maneuvers 1 to 3 that this rig can execute: with its cable length, and within its axes and limits.
+/// @param files  of the scenarios
+[[nodiscard]] std::vector<experiment::Scenario> maneuvers_for(const configuration::Rig& rig,
+                                                              std::span<const std::filesystem::path> files);
+
+}  // namespace crane::tuning

@@ -1,0 +1,16 @@
+#pragma once
+/// Identifies the second mode of a load that hangs below a hook: the term double_pendulum of the rig file.
+#include <optional>
+#include <vector>
+
+#include "tuning/identify.hpp"
+
+namespace crane::tuning {
+
+/// Nothing when the load swings as one pendulum: the residual of `load` is quantisation noise, or a lower
+/// mass does not explain it.
+/// @throws identification::IdentificationError
+[[nodiscard]] std::optional<SecondMode> find_second_mode(const std::vector<diagnosis::PreparedRun>& runs,
+                                                         const configuration::Rig& rig, const LoadFit& load);
+
+}  // namespace crane::tuning

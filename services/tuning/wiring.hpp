@@ -1,0 +1,28 @@
+#pragma once
+/// Checks of the wiring on the first motion of each axis.
+#include <string>
+#include <vector>
+
+#include "tuning/crane_access.hpp"
+
+namespace crane::tuning {
+
+struct ProbeFinding {
+  bool moved = false;                 ///< in both directions
+  double friction_v = 0;              ///< mean voltage at the first motion of both directions
+  double friction_low_v = 0;          ///< at least this friction in both directions
+  std::vector<std::string> problems;  ///< names of wrong connections; empty: none
+};
+
+/// Compares the voltage of the axis with the motion of all encoders.
+/// @param largest  true: the last probe, in which every axis within the priors moves
+[[nodiscard]] ProbeFinding examine_probe(const Motion& motion, const configuration::Rig& rig,
+                                         std::size_t axis, bool largest);
+
+/// Compares the measured swing with the swing that the motion of the support causes.
+/// @param axis  trolley: radial swing, slew: tangential swing
+/// @return names of wrong connections; empty: none
+[[nodiscard]] std::vector<std::string> examine_swing(const Motion& motion, const configuration::Rig& rig,
+                                                     std::size_t axis);
+
+}  // namespace crane::tuning
