@@ -90,7 +90,8 @@ std::string way_problem(const Limits& limits, const control::Way& way) {
     names += (i == 0 ? "" : ", ") + limits.zones.at(way.blocking[i]).name;
   if (way.blocking.size() > kNamed) names += " and " + std::to_string(way.blocking.size() - kNamed) + " more";
   if (way.outcome == control::WayOutcome::target_inside) return "the target is inside zone " + names + kHint;
-  if (names.empty()) return "no way leads to the target: the position is not finite";
+  if (names.empty())
+    return "no way leads to the target: the measured position is not finite or far outside the limits";
   return "no way leads to the target past " + (way.blocking.size() == 1 ? "zone " : std::string{"zones "}) +
          names + ": choose another target, raise the load, or use crane jog" + kHint;
 }

@@ -1,17 +1,19 @@
 #include "crane/supervisor/component.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "crane/plant/coordinates.hpp"
 #include "crane/protection.hpp"
 #include "crane/runtime/convert.hpp"
 #include "crane/runtime/joined_component.hpp"
 #include "crane/runtime/request_inbox.hpp"
 #include "crane/supervisor/supervisor.hpp"
-#include "process/clock_offset.hpp"
+#include "process/announcements.hpp"
+#include "process/bridge_clock.hpp"
 #include "process/command_echo.hpp"
 #include "process/jog_reader.hpp"
 #include "process/request_rules.hpp"
@@ -59,23 +61,26 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   void on_tick(std::uint64_t tick, const msg::State* state, const msg::Demand* demand,
                const msg::Reference* reference) override {
     last_header_ = runtime::answer_to(state->header);
-    if (restarts() > bridge_restarts_) bridge_clock_ = {};
-    const auto sampled_ns = realtime_ ? bridge_clock_.local_ns(state->header.sample_time_ns, now_ns_)
-                                      : state->header.sample_time_ns;
-    expect_state_by(std::max(sampled_ns + periods_ns(kSilentPeriods), now_ns_ + periods_ns(kRespitePeriods)));
     TickInput input;
+    input.bridge_restarted = has_restarted();
+    const auto verdict = bridge_clock_.take(state->header);
+    if (verdict == BridgeClock::Verdict::begins_anew) input.bridge_restarted = true;
+    if (verdict == BridgeClock::Verdict::contradicts) {
+      if (!std::exchange(wrong_time_announced_, true)) announce_wrong_time(node(), state->header);
+      state = nullptr;
+    }
+    const auto sampled_ns = sample_time_ns(tick, state);
+    expect_state_by(std::max(sampled_ns + periods_ns(kSilentPeriods), now_ns_ + periods_ns(kRespitePeriods)));
     input.now_s = seconds(sampled_ns);
     input.tick = tick;
-    input.state_arrived = true;
-    input.sample = sample_of(*state);
+    input.state_arrived = state != nullptr;
+    if (state != nullptr) input.sample = sample_of(*state);
     if (demand != nullptr) {
       input.demand_arrived = true;
       input.demand_v = runtime::values(demand->total_v);
     }
     jogs_.take(tick, input.now_s);
     input.reference_moving = is_moving(reference) || jogs_.session().active(input.now_s);
-    input.bridge_restarted = restarts() > bridge_restarts_;
-    bridge_restarts_ = restarts();
     input.second_writer =
         (demand != nullptr && demand->second_writer) || (reference != nullptr && reference->second_writer);
     if (input.bridge_restarted) {
@@ -83,7 +88,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       echo_.restart();
     }
     input.self_test = self_test_.step(state);
-    const bool foreign = realtime_ && protection::enabled(protection::Protection::supervisor_echo) &&
+    const bool foreign = realtime_ && state != nullptr &&
+                         protection::enabled(protection::Protection::supervisor_echo) &&
                          echo_.contradicts(*state);
     if (foreign) note_foreign(input);
     step(input);
@@ -94,7 +100,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   /// sample. The command carries the number of the last tick, and the bridge discards the command. A late
   /// state does not end a move.
   bool on_idle(std::int64_t now_ns) override {
-    if (const auto* state = open_leader()) (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
+    if (const auto* state = open_leader(); state != nullptr && bridge_clock_.fits(state->header))
+      (void)bridge_clock_.local_ns(state->header.sample_time_ns, now_ns);
     if (now_ns < silence_ends_ns() || woke_late(now_ns)) return false;
     expect_state_by(now_ns + periods_ns(kSilentPeriods));
     TickInput input;
@@ -126,7 +133,22 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     if (ticks_to_take_up_ > 0) --ticks_to_take_up_;
     return reference_moving_ || ticks_to_take_up_ > 0;
   }
+  /// True in the first tick of another bridge.
+  bool has_restarted() {
+    if (restarts() == bridge_restarts_) return false;
+    bridge_restarts_ = restarts();
+    bridge_clock_ = BridgeClock{period_ns()};
+    return true;
+  }
+  /// Local time of the sample; without a usable sample: the present time, in lockstep the nominal time of the
+  /// tick.
+  [[nodiscard]] std::int64_t sample_time_ns(std::uint64_t tick, const msg::State* state) {
+    if (!realtime_)
+      return state != nullptr ? state->header.sample_time_ns : static_cast<std::int64_t>(tick) * period_ns();
+    return state != nullptr ? bridge_clock_.local_ns(state->header.sample_time_ns, now_ns_) : now_ns_;
+  }
   [[nodiscard]] static double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns) / 1e9; }
+  [[nodiscard]] std::int64_t period_ns() const { return std::llround(limits_.period_s * 1e9); }
   [[nodiscard]] std::int64_t periods_ns(double periods) const {
     return static_cast<std::int64_t>(periods * limits_.period_s * 1e9);
   }
@@ -187,7 +209,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     echo_.commanded(command);
     statuses_.publish(
         status_of(last_header_, output, limits_, move_, jogs_.session().deflection(input.now_s)));
-    announce(output);
+    if (output.state != announced_) announce(node(), limits_, output, memory_.homing_axis);
+    announced_ = output.state;
   }
 
   /// Requests that are due at this tick. Requests with invalid content are refused here.
@@ -223,38 +246,10 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     requests_.reply(request, last_header_, verdict.accepted, verdict.reason);
   }
 
-  void announce(const TickOutput& output) {
-    if (output.state == announced_) return;
-    announced_ = output.state;
-    const std::string what =
-        std::string{name_of(output.state)} +
-        (output.cause == Cause::none ? "" : std::string{" because of "} + name_of(output.cause));
-    const bool intended = output.cause == Cause::operator_stop || output.cause == Cause::operator_disarm ||
-                          output.cause == Cause::idle || output.cause == Cause::homed;
-    if (output.cause == Cause::homing_failed) announce_failure(output);
-    if (output.cause == Cause::zone && output.state == State::stop_c1) announce_zone(output);
-    const bool trouble = output.state >= State::stop_c1 && !intended;
-    if (trouble)
-      node().error("supervisor_state", what, remedy_for(output.cause));
-    else
-      node().info("supervisor_state", what);
-  }
-
-  void announce_failure(const TickOutput& output) {
-    const std::string axis = plant::kCoordinates[memory_.homing_axis].name;
-    node().error("homing_failed", "homing the " + axis + " axis: " + name_of(output.homing_failure),
-                 remedy_for(output.homing_failure));
-  }
-
-  void announce_zone(const TickOutput& output) {
-    node().error("zone", "the load could have swung into zone " + limits_.zones.at(output.zone).name,
-                 remedy_for(output.cause));
-  }
-
   Limits limits_;
   bool realtime_;
   CommandEcho echo_;
-  ClockOffset bridge_clock_;
+  BridgeClock bridge_clock_{period_ns()};
   runtime::RequestInbox requests_;
   JogReader jogs_;
   runtime::Output<msg::Command> commands_;
@@ -266,6 +261,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   std::int64_t state_due_ns_ = runtime::kNever;  ///< time by which a state is expected; kNever: no state yet
   bool has_respite_ = false;
   std::uint64_t bridge_restarts_ = 0;
+  bool wrong_time_announced_ = false;
   msg::AcceptedMove move_{};  ///< last accepted move; number 0: none
   int ticks_to_take_up_ = 0;
   bool reference_moving_ = false;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "crane/runtime/in_process.hpp"
 #include "crane/supervisor/component.hpp"
@@ -30,8 +31,10 @@ class SupervisorInRealTime : public testing::Test {
     EXPECT_EQ(missing(), 0U);
   }
 
-  void state_comes(std::uint64_t tick) {
+  /// @param wrong_time_ns  sample time of the state; 0: the correct one
+  void state_comes(std::uint64_t tick, std::int64_t wrong_time_ns = 0) {
     state_.header = header(tick);
+    if (wrong_time_ns != 0) state_.header.sample_time_ns = wrong_time_ns;
     EXPECT_TRUE(states_.publish(state_));
   }
   void demand_comes(std::uint64_t tick) {
@@ -176,6 +179,17 @@ TEST_F(RealTime, SilenceIsStateStaleAtTheThirdStepWithoutState) {
 TEST_F(RealTime, ItsOwnPausesDelayAStepByAtMostHalfAPeriod) {
   for (double at_ms = 120; at_ms < 170; at_ms += 5.01) wake_at(at_ms);
   EXPECT_TRUE(state_is_stale());
+}
+
+TEST_F(RealTime, AStateWithAWrongSampleTimeIsMissing) {
+  for (std::uint64_t tick = 11; tick <= 14; ++tick) {
+    const double at_ms = 10.0 * static_cast<double>(tick);
+    state_comes(tick, tick < 14 ? std::numeric_limits<std::int64_t>::max() : 0);
+    demand_comes(tick);
+    wake_at(at_ms + 0.5);
+    EXPECT_EQ(steps(), static_cast<int>(tick));
+    EXPECT_EQ(state_is_stale(), tick == 13) << "tick " << tick;
+  }
 }
 
 TEST_F(RealTime, FrequentStatesDoNotDelayTheStepForEver) {

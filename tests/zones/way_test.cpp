@@ -283,6 +283,20 @@ TEST(WayToATarget, DoesNotExistFromAPlaceThatIsNotFinite) {
   EXPECT_EQ(way_to(space, {0.4, 0, 1}, {0.4, nan, 1}).outcome, WayOutcome::no_way);
 }
 
+TEST(WayToATarget, DoesNotExistFromAPlaceFarOutsideTheCrane) {
+  auto space = tower();
+  space.zones = {{.name = "box", .position_x_m = 0.9, .size_x_m = 0.2, .size_y_m = 0.2, .top_m = 2}};
+  for (const double far : {1e4, 1e9, 1e15, 1e300, -1e300})
+    for (std::size_t axis = 0; axis < plant::kAxes; ++axis) {
+      PerAxis from{0.4, 0, 1};
+      from[axis] = far;
+      if (axis == plant::kHoist && far < 0) continue;  // a measured cable length is at least 0.05 m
+      const auto way = way_to(space, from, {0.4, 0, 1});
+      EXPECT_EQ(way.outcome, WayOutcome::no_way) << "axis " << axis << " at " << far;
+      EXPECT_TRUE(way.blocking.empty()) << "axis " << axis << " at " << far;
+    }
+}
+
 TEST(WayToATarget, IsRefusedAmongAHundredZonesThatFillTheSpace) {
   auto space = tower();
   Random random{3};

@@ -132,6 +132,8 @@ Way way_to(const WaySpace& space, const PerAxis& measured, const PerAxis& wanted
   const PerAxis from = completed(space, measured), to = completed(space, wanted);
   for (std::size_t i = 0; i < plant::kAxes; ++i)
     if (!std::isfinite(from[i]) || !std::isfinite(to[i])) return {.outcome = WayOutcome::no_way};
+  const double distance_m = ground_distance_m(from, to) + std::abs(to[kHoist] - from[kHoist]);
+  if (!(distance_m <= kLongestWay_m)) return {.outcome = WayOutcome::no_way};
   const bool straight =
       zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestGap_m) == nullptr;
   std::optional<TimedWay> way;

@@ -60,6 +60,9 @@ inline constexpr double kRestGap_m = 0.02;
 /// Least clearance of a way between its first and its last leg, m: the zone filter needs it at the lowest
 /// speed of a leg.
 inline constexpr double kPassGap_m = 0.05;
+/// Largest distance of start and target, m: longer than the way of any crane. It bounds the time of a search
+/// from a wrong position.
+inline constexpr double kLongestWay_m = 1000;
 
 /// End of a leg.
 struct Waypoint {
@@ -78,7 +81,7 @@ struct Way {
 /// 2 kPassGap_m is below the spacing of the grid (4 cm over the ground; more on a large crane).
 /// @param from  measured trolley position m, slew angle rad, cable length m
 /// @param to    target in the same units, inside the limits of the axes
-/// @return no_way without `blocking` when a value is not finite
+/// @return no_way without `blocking` when a value is not finite or the distance exceeds kLongestWay_m
 [[nodiscard]] Way way_to(const WaySpace& space, const plant::PerAxis& from, const plant::PerAxis& to);
 
 /// Replaces coordinates that the rig does not have or does not measure: slew angle 0, cable length
