@@ -26,14 +26,14 @@ Exit code: 0 done, 1 failed (the reason is on standard error), 2 bad arguments o
 
 /// All commands in the order of --help.
 constexpr std::array kCommands{
-    cli::add_up,         cli::add_demo,      cli::add_run,      cli::add_sweep,      cli::add_identify,
-    cli::add_tune,       cli::add_diagnose,  cli::add_status,   cli::add_top,        cli::add_scope,
-    cli::add_reset,      cli::add_home,      cli::add_arm,      cli::add_disarm,     cli::add_move,
-    cli::add_jog,        cli::add_stop,      cli::add_estop,    cli::add_topic,      cli::add_graph,
-    cli::add_doctor,     cli::add_dashboard, cli::add_record,   cli::add_play,       cli::add_black_box,
-    cli::add_review,     cli::add_replay,    cli::add_log,      cli::add_analyse,    cli::add_hw,
-    cli::add_keys,       cli::add_bench,     cli::add_campaign, cli::add_supervisor, cli::add_zone,
-    cli::add_completion, cli::add_man};
+    cli::add_up,        cli::add_demo,       cli::add_run,       cli::add_sweep,    cli::add_identify,
+    cli::add_tune,      cli::add_diagnose,   cli::add_status,    cli::add_top,      cli::add_scope,
+    cli::add_reset,     cli::add_home,       cli::add_arm,       cli::add_disarm,   cli::add_mode,
+    cli::add_move,      cli::add_jog,        cli::add_stop,      cli::add_estop,    cli::add_topic,
+    cli::add_graph,     cli::add_doctor,     cli::add_dashboard, cli::add_record,   cli::add_play,
+    cli::add_black_box, cli::add_review,     cli::add_replay,    cli::add_log,      cli::add_analyse,
+    cli::add_hw,        cli::add_keys,       cli::add_bench,     cli::add_campaign, cli::add_supervisor,
+    cli::add_zone,      cli::add_completion, cli::add_man};
 
 /// Logs go to standard error; standard output contains only the result of a command.
 void log_to_standard_error() {

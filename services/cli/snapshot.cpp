@@ -8,6 +8,7 @@
 #include "cli/tool_bus.hpp"
 #include "crane/bridge/last_line.hpp"
 #include "crane/fields/angle.hpp"
+#include "crane/supervisor/modes.hpp"
 #include "crane/supervisor/states.hpp"
 #include "observation/traffic.hpp"
 
@@ -83,6 +84,11 @@ void print_supervisor(std::ostream& out, const msg::SupervisorStatus& status) {
   out << "homing      " << supervisor::name_of(failure) << ": " << supervisor::remedy_for(failure) << '\n';
 }
 
+void print_mode(std::ostream& out, const msg::SupervisorStatus& status) {
+  const auto mode = static_cast<supervisor::Mode>(status.mode);
+  out << "mode        " << supervisor::name_of(mode) << ": " << supervisor::rule_of(mode).purpose << '\n';
+}
+
 void print_latch(std::ostream& out, const msg::State& state) {
   if (state.latch_reason == crane_LATCH_NONE) return;
   const auto reason = static_cast<bridge::Reason>(state.latch_reason);
@@ -138,7 +144,10 @@ nlohmann::ordered_json to_json(const Snapshot& snapshot) {
 void print(std::ostream& out, const Snapshot& snapshot) {
   print_nodes(out, snapshot);
   out << '\n';
-  if (snapshot.supervisor) print_supervisor(out, *snapshot.supervisor);
+  if (snapshot.supervisor) {
+    print_supervisor(out, *snapshot.supervisor);
+    print_mode(out, *snapshot.supervisor);
+  }
   if (snapshot.state) {
     print_latch(out, *snapshot.state);
     print_axes(out, *snapshot.state);

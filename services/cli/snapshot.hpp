@@ -28,6 +28,8 @@ struct Snapshot {
 void print(std::ostream& out, const Snapshot& snapshot);
 /// Prints the state of the supervisor with cause and remedy.
 void print_supervisor(std::ostream& out, const msg::SupervisorStatus& status);
+/// "mode        manual: an operator drives with the stick"
+void print_mode(std::ostream& out, const msg::SupervisorStatus& status);
 /// Prints the latched reason of the bridge, if any.
 void print_latch(std::ostream& out, const msg::State& state);
 /// Remedy for the cause; empty without a cause.

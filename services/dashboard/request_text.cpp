@@ -6,18 +6,20 @@
 #include <nlohmann/json.hpp>
 
 #include "crane/plant/coordinates.hpp"
+#include "crane/supervisor/modes.hpp"
 
 namespace crane::dashboard {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<const char*, crane_RequestKind>, 7> kKinds{{{"reset", crane_REQUEST_RESET},
+constexpr std::array<std::pair<const char*, crane_RequestKind>, 8> kKinds{{{"reset", crane_REQUEST_RESET},
                                                                            {"arm", crane_REQUEST_ARM},
                                                                            {"disarm", crane_REQUEST_DISARM},
                                                                            {"stop", crane_REQUEST_STOP},
                                                                            {"estop", crane_REQUEST_ESTOP},
                                                                            {"home", crane_REQUEST_HOME},
+                                                                           {"mode", crane_REQUEST_MODE},
                                                                            {"move", crane_REQUEST_MOVE}}};
 constexpr std::array<const char*, plant::kAxes> kTargets{"trolley_m", "slew_rad", "hoist_m"};
 
@@ -60,6 +62,15 @@ void read_reset(const json& body, stack::OperatorRequest& wanted) {
   wanted.selected.fill(confirm->get<bool>());
 }
 
+void read_mode(const json& body, stack::OperatorRequest& wanted) {
+  refuse_unknown(body, {"kind", "mode"});
+  const auto mode = body.find("mode");
+  const auto found = mode != body.end() && mode->is_string() ? supervisor::find_mode(mode->get<std::string>())
+                                                             : std::nullopt;
+  if (!found) throw BadRequest("mode: must be " + supervisor::mode_names());
+  wanted.mode = static_cast<crane_OperatingMode>(*found);
+}
+
 }  // namespace
 
 stack::OperatorRequest operator_request_of(std::string_view text) {
@@ -77,7 +88,8 @@ stack::OperatorRequest operator_request_of(std::string_view text) {
                          ? std::ranges::find(kKinds, kind->get<std::string>(),
                                              [](const auto& k) { return std::string{k.first}; })
                          : kKinds.end();
-  if (found == kKinds.end()) throw BadRequest("kind: must be reset, arm, disarm, stop, estop, home or move");
+  if (found == kKinds.end())
+    throw BadRequest("kind: must be reset, arm, disarm, stop, estop, home, mode or move");
   stack::OperatorRequest wanted{.kind = found->second};
   if (wanted.kind == crane_REQUEST_MOVE)
     read_move(body, wanted);
@@ -85,6 +97,8 @@ stack::OperatorRequest operator_request_of(std::string_view text) {
     read_home(body, wanted);
   else if (wanted.kind == crane_REQUEST_RESET)
     read_reset(body, wanted);
+  else if (wanted.kind == crane_REQUEST_MODE)
+    read_mode(body, wanted);
   else
     refuse_unknown(body, {"kind"});
   return wanted;

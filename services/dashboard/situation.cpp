@@ -5,6 +5,7 @@
 #include "crane/bridge/last_line.hpp"
 #include "crane/plant/coordinates.hpp"
 #include "crane/supervisor/explain.hpp"
+#include "crane/supervisor/modes.hpp"
 #include "crane/supervisor/states.hpp"
 
 namespace crane::dashboard {
@@ -83,6 +84,7 @@ ordered_json Situation::json(std::int64_t now_ns) const {
                       {"state", supervisor::name_of(static_cast<supervisor::State>(supervisor_->state))},
                       {"cause", supervisor::name_of(cause)},
                       {"remedy", cause == supervisor::Cause::none ? "" : supervisor::remedy_for(cause)},
+                      {"mode", supervisor::name_of(static_cast<supervisor::Mode>(supervisor_->mode))},
                       {"latch", state == nullptr ? ordered_json(nullptr) : latch_of(*state)},
                       {"homing", homing_of(*supervisor_)},
                       {"answers", ordered_json::array()},

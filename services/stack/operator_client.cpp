@@ -36,6 +36,7 @@ std::uint64_t OperatorClient::send(const OperatorRequest& wanted) {
   request.until_tick = wanted.until_tick;
   std::copy_n(wanted.sines.begin(), std::min(wanted.sines.size(), std::size(request.sine)), request.sine);
   request.duration_s = wanted.duration_s;
+  request.mode = wanted.mode;
   last_sent_ = request;
   if (!requests_.publish(request))
     throw bus::Error("the request could not be sent: the middleware refused it");

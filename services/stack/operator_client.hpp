@@ -20,6 +20,7 @@ struct OperatorRequest {
   std::uint64_t until_tick = 0;     ///< advance
   std::vector<crane_Sine> sines{};  ///< follow: at most four
   double duration_s = 0;            ///< follow
+  crane_OperatingMode mode = crane_MODE_SEMI_AUTOMATIC;  ///< mode
 };
 
 /// Request to follow an excitation.

@@ -74,6 +74,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     missing_statuses_ = status == nullptr ? missing_statuses_ + 1 : 0;
     if (status != nullptr) {
       supervisor_ = status->state;
+      mode_ = status->mode;
       homing_ = status->homing[0] || status->homing[1] || status->homing[2];
       homing_speed_ = runtime::values(status->homing_speed);
       if (status->header.epoch != supervisor_epoch_) known_moves_.reset();
@@ -140,8 +141,10 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       start_straight(target_of(move), tick);
   }
 
+  /// Time-optimal plans use the whole speed of the drives; in maintenance, a move is shaped instead.
   void start_straight(const MoveTarget& move, std::uint64_t tick) {
-    if (const auto problem = worker_ ? motion_.plan_for(move, tick) : std::nullopt)
+    if (const auto problem =
+            worker_ && mode_ != crane_MODE_MAINTENANCE ? motion_.plan_for(move, tick) : std::nullopt)
       pending_ = Pending{move, *problem, tick + planning_ticks_, worker_->ask(*problem)};
     else
       motion_.start(move, tick);
@@ -257,6 +260,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   control::ReferenceStart start_;
   std::optional<std::uint64_t> published_;
   crane_SupervisorState supervisor_ = crane_STATE_BOOT;
+  crane_OperatingMode mode_ = crane_MODE_SEMI_AUTOMATIC;
   std::array<double, control::kAxes> homing_speed_{}, deflection_{};
   bool homing_ = false;
   int missing_statuses_ = 0;

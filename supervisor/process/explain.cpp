@@ -4,6 +4,7 @@
 #include <array>
 
 #include "crane/supervisor/rules.hpp"
+#include "process/request_rules.hpp"
 #include "process/samples.hpp"
 
 namespace crane::supervisor {
@@ -55,6 +56,13 @@ Inputs inputs_of(const Limits& limits, const msg::SupervisorStatus& status, cons
   return in;
 }
 
+/// @return why the operating mode permits no move at all; empty when it permits some
+std::string moves_forbidden_in(const msg::SupervisorStatus& status) {
+  msg::Request move{};
+  move.kind = crane_REQUEST_MOVE;
+  return problem_in_mode(move, static_cast<Mode>(status.mode), {});
+}
+
 }  // namespace
 
 std::vector<Explained> explain(const msg::SupervisorStatus& status, const msg::State* state) {
@@ -74,7 +82,11 @@ std::vector<Explained> explain(const msg::SupervisorStatus& status, const msg::S
                   .self_test_passed = true,
                   .homing = std::ranges::any_of(status.homing, [](bool homing) { return homing; })};
     const auto answer = step(limits, in, memory).answers[static_cast<std::size_t>(request)];
-    explained.push_back({name, answer.accepted, answer.reason});
+    const auto forbidden = request == Request::move ? moves_forbidden_in(status) : std::string{};
+    if (answer.accepted && !forbidden.empty())
+      explained.push_back({name, false, forbidden});
+    else
+      explained.push_back({name, answer.accepted, answer.reason});
   }
   return explained;
 }

@@ -96,6 +96,22 @@ std::string way_problem(const Limits& limits, const control::Way& way) {
          names + ": choose another target, raise the load, or use crane jog" + kHint;
 }
 
+/// @return true when an axis of the request would move farther than kShortStep_m
+bool is_long(const msg::Request& request, const PerAxis& position) {
+  constexpr std::size_t kSlew = 1;
+  constexpr double kShortestRadius_m = 0.1;  // as for the inching steps of `crane jog`
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const double arm = i == kSlew ? std::max(std::abs(position[0]), kShortestRadius_m) : 1;
+    if (request.selected[i] && !(arm * std::abs(request.target[i] - position[i]) <= kShortStep_m))
+      return true;
+  }
+  return false;
+}
+
+std::string forbidden(Mode mode, const std::string& what, const char* remedy) {
+  return std::string{"the crane is in mode "} + name_of(mode) + ", which permits no " + what + ": " + remedy;
+}
+
 }  // namespace
 
 std::optional<Request> request_of(crane_RequestKind kind) {
@@ -166,6 +182,33 @@ std::string problem_at(const msg::Request& request, const Limits& limits, const 
   }
   problem = zone_problem(limits, from, low);
   return problem.empty() && excursion.distance > 0 ? zone_problem(limits, from, high) : problem;
+}
+
+std::string problem_in_mode(const msg::Request& request, Mode mode, const PerAxis& position) {
+  const ModeRule& rule = rule_of(mode);
+  constexpr const char* kChange = "disarm, then choose another one with `crane mode`";
+  if (request.kind == crane_REQUEST_JOG && !rule.stick) return forbidden(mode, "stick", kChange);
+  if (request.kind == crane_REQUEST_FOLLOW && !rule.excitation) return forbidden(mode, "excitation", kChange);
+  if (request.kind != crane_REQUEST_MOVE || rule.moves == Moves::all) return "";
+  if (rule.moves == Moves::none) return forbidden(mode, "moves", kChange);
+  if (!is_long(request, position)) return "";
+  return forbidden(mode, "move of more than " + std::to_string(std::lround(1e3 * kShortStep_m)) + " mm",
+                   "move in shorter steps, or drive with `crane jog`");
+}
+
+std::string mode_problem(const msg::Request& request, State state) {
+  if (static_cast<std::size_t>(request.mode) >= kModes) return "mode: must be " + mode_names();
+  switch (state) {
+    case State::boot:
+    case State::selftest:
+    case State::locked:
+    case State::ready:
+    case State::estop:
+    case State::fault:
+      return "";
+    default:
+      return "the brakes are open: the mode changes only while they are closed: disarm first";
+  }
 }
 
 std::size_t home_axis_of(const msg::Request& request) {

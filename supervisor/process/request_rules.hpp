@@ -4,6 +4,7 @@
 #include <string>
 
 #include "crane/supervisor/limits.hpp"
+#include "crane/supervisor/modes.hpp"
 #include "crane/supervisor/state_machine.hpp"
 #include "crane/topics.hpp"
 
@@ -20,6 +21,11 @@ namespace crane::supervisor {
 /// (in the coordinates of the axes) from `position` to the target.
 [[nodiscard]] std::string problem_at(const msg::Request& request, const Limits& limits,
                                      const PerAxis& position);
+/// @return why the operating mode does not permit the request at `position`; empty when it does
+[[nodiscard]] std::string problem_in_mode(const msg::Request& request, Mode mode, const PerAxis& position);
+/// @return why a request for an operating mode is refused in this state; empty when it is accepted. The mode
+/// changes only while the brakes are closed.
+[[nodiscard]] std::string mode_problem(const msg::Request& request, State state);
 /// Axis of a homing request. @pre problem_of() is empty
 [[nodiscard]] std::size_t home_axis_of(const msg::Request& request);
 

@@ -82,7 +82,7 @@ msg::AcceptedMove accepted_move(const msg::Request& request, std::uint64_t numbe
 }
 
 msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& output, const Limits& limits,
-                                const msg::AcceptedMove& move, const PerAxis& jog_deflection) {
+                                const msg::AcceptedMove& move, const PerAxis& jog_deflection, Mode mode) {
   msg::SupervisorStatus status{};
   status.header = header;
   status.state = static_cast<crane_SupervisorState>(output.state);
@@ -109,6 +109,7 @@ msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& out
   status.move = move;
   runtime::assign(status.homing_speed, output.homing_speed);
   runtime::assign(status.jog_deflection, jog_deflection);
+  status.mode = static_cast<crane_OperatingMode>(mode);
   status.homing_failure = static_cast<crane_HomingFailure>(output.homing_failure);
   return status;
 }

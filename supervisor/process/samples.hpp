@@ -1,5 +1,6 @@
 #pragma once
 /// Conversion between topic samples and the types of the supervisor's logic.
+#include "crane/supervisor/modes.hpp"
 #include "crane/supervisor/supervisor.hpp"
 #include "crane/topics.hpp"
 
@@ -13,6 +14,6 @@ namespace crane::supervisor {
 /// @param jog_deflection  checked deflection of the stick
 [[nodiscard]] msg::SupervisorStatus status_of(const msg::Header& header, const TickOutput& output,
                                               const Limits& limits, const msg::AcceptedMove& move,
-                                              const PerAxis& jog_deflection);
+                                              const PerAxis& jog_deflection, Mode mode);
 
 }  // namespace crane::supervisor

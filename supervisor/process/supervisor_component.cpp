@@ -42,7 +42,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
         requests_{context,
                   {crane_REQUEST_RESET, crane_REQUEST_ARM, crane_REQUEST_DISARM, crane_REQUEST_MOVE,
                    crane_REQUEST_FOLLOW, crane_REQUEST_JOG, crane_REQUEST_STOP, crane_REQUEST_ESTOP,
-                   crane_REQUEST_HOME}},
+                   crane_REQUEST_HOME, crane_REQUEST_MODE}},
         jogs_{context},
         commands_{context.ports.output(topics::command)},
         statuses_{context.ports.output(topics::supervisor)} {
@@ -201,14 +201,15 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     input.second_writer = input.second_writer || ports().disputed(now_ns_);
     input.configuration_differs = configuration() == 0;
     const auto due = collect(input);
+    input.speed_share = rule_of(mode_).speed_share;
     const auto output = supervisor::step(limits_, input, memory_);
     for (const auto& one : due) answer(one, output, input.now_s);
     jogs_.end_with(output.state, input.now_s);
     const auto command = command_of(last_header_, output);
     commands_.publish(command);
     echo_.commanded(command);
-    statuses_.publish(
-        status_of(last_header_, output, limits_, move_, jogs_.session().deflection(input.now_s)));
+    statuses_.publish(status_of(last_header_, output, limits_, move_,
+                                limited_stick(mode_, jogs_.session().deflection(input.now_s)), mode_));
     if (output.state != announced_) announce(node(), limits_, output, memory_.homing_axis);
     announced_ = output.state;
   }
@@ -222,7 +223,12 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     OncePerTick once;
     while (const auto request = requests_.take_due(input.tick, &sender)) {
       auto problem = once.problem_of(*request, limits_);
+      if (problem.empty()) problem = problem_in_mode(*request, mode_, position);
       if (problem.empty()) problem = problem_at(*request, limits_, position);
+      if (problem.empty() && request->kind == crane_REQUEST_MODE) {
+        change_mode(*request);
+        continue;
+      }
       if (!problem.empty()) {
         requests_.reply(*request, last_header_, false, problem);
         continue;
@@ -233,6 +239,15 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
       due.push_back({*request, sender});
     }
     return due;
+  }
+
+  void change_mode(const msg::Request& request) {
+    const auto problem = mode_problem(request, memory_.machine.state);
+    if (problem.empty() && mode_ != static_cast<Mode>(request.mode)) {
+      mode_ = static_cast<Mode>(request.mode);
+      node().info("operating_mode", std::string{"mode "} + name_of(mode_) + ": " + rule_of(mode_).purpose);
+    }
+    requests_.reply(request, last_header_, problem.empty(), problem);
   }
 
   void answer(const DueRequest& due, const TickOutput& output, double now_s) {
@@ -266,28 +281,29 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   int ticks_to_take_up_ = 0;
   bool reference_moving_ = false;
   State announced_ = State::boot;
+  Mode mode_ = Mode::semi_automatic;
 };
 
 }  // namespace
 
 runtime::ComponentSpec supervisor_spec() {
-  return {
-      .name = "supervisor",
-      .program = "crane_supervisor",
-      .summary = "Safety states, limits, brakes and the command gate: the only writer of crane/command.",
-      .source = crane_SOURCE_SUPERVISOR,
-      .runs_controller = false,
-      .reads = {{&topics::state.description, "what the rig measures: limits, brakes, latches"},
-                {&topics::demand.description, "volts for the gate"},
-                {&topics::reference.description, "whether a move is under way"},
-                {&topics::request.description, "reset, arm, disarm, move, follow, jog, home, stop, e-stop"},
-                {&topics::jog.description, "deflection of the operator's stick"}},
-      .writes = {{&topics::command.description, "volts, brakes, watchdog permission"},
-                 {&topics::supervisor.description, "safety state, and the move that was accepted"},
-                 {&topics::reply.description, "answers to requests"}},
-      .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
-        return std::make_unique<Supervisor>(context);
-      }};
+  return {.name = "supervisor",
+          .program = "crane_supervisor",
+          .summary = "Safety states, limits, brakes and the command gate: the only writer of crane/command.",
+          .source = crane_SOURCE_SUPERVISOR,
+          .runs_controller = false,
+          .reads = {{&topics::state.description, "what the rig measures: limits, brakes, latches"},
+                    {&topics::demand.description, "volts for the gate"},
+                    {&topics::reference.description, "whether a move is under way"},
+                    {&topics::request.description,
+                     "reset, arm, disarm, move, follow, jog, home, mode, stop, e-stop"},
+                    {&topics::jog.description, "deflection of the operator's stick"}},
+          .writes = {{&topics::command.description, "volts, brakes, watchdog permission"},
+                     {&topics::supervisor.description, "safety state, and the move that was accepted"},
+                     {&topics::reply.description, "answers to requests"}},
+          .make = [](const Context& context) -> std::unique_ptr<runtime::Component> {
+            return std::make_unique<Supervisor>(context);
+          }};
 }
 
 }  // namespace crane::supervisor

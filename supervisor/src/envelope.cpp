@@ -26,7 +26,7 @@ Envelope check_envelope(const Limits& limits, const EnvelopeInput& input) noexce
     found.stopping = found.stopping || !(ahead <= axis.high_limit) || !(behind >= axis.low_limit);
     found.position = found.position || !(x <= axis.high_limit && x >= axis.low_limit);
     found.limit_switch = found.limit_switch || input.limit_low[i] || input.limit_high[i];
-    found.overspeed = found.overspeed || !(std::abs(v) <= axis.max_speed);
+    found.overspeed = found.overspeed || !(std::abs(v) <= input.speed_share * axis.max_speed);
   }
   const auto beyond = [&input](double limit_rad) {
     return !(std::abs(input.swing_radial_rad) <= limit_rad &&

@@ -119,13 +119,14 @@ bool moved(const Limits& limits, const PerAxis& from, const PerAxis& to) {
   return false;
 }
 
-EnvelopeInput measured_now(const Limits& limits, const TickMemory& memory) {
+EnvelopeInput measured_now(const Limits& limits, const TickInput& input, const TickMemory& memory) {
   return {.position = memory.motion.position,
           .speed = memory.motion.speed,
           .swing_radial_rad = memory.sample.swing_radial_rad,
           .swing_tangential_rad = memory.sample.swing_tangential_rad,
           .limit_low = memory.sample.limit_low,
           .limit_high = memory.sample.limit_high,
+          .speed_share = input.speed_share,
           .unknown = unknown_axes(limits, memory)};
 }
 
@@ -210,7 +211,7 @@ Inputs machine_inputs(const Limits& limits, const TickInput& input, const Envelo
       .state_stale = !memory.motion.started || memory.state_missing_in_row >= limits.state_stale_after_ticks,
       .demand_stale = gated.stale,
       .gate_cause = gated.cause,
-      .measured = measured_now(limits, memory),
+      .measured = measured_now(limits, input, memory),
       .envelope = envelope,
       .estop_pressed = sample.estop_pressed,
       .bridge_latched = sample.command_stale || sample.command_invalid,
@@ -269,7 +270,7 @@ StatusFlags flags_of(const Inputs& in, const GateOutput& gated, State state) {
 TickOutput step(const Limits& limits, const TickInput& input, TickMemory& memory) noexcept {
   take_over_bridge(limits, input, memory);
   const bool sampled = take_sample(limits, input, memory);
-  const Envelope envelope = check_envelope(limits, measured_now(limits, memory));
+  const Envelope envelope = check_envelope(limits, measured_now(limits, input, memory));
   const bool brakes_failed = watch_brakes(limits, input, sampled, memory);
   const bool relay_stuck = watch_relay(limits, input, sampled, memory);
   GateOutput gated = run_gate(limits, input, envelope, memory);

@@ -22,6 +22,12 @@ TEST(RequestText, HomeAndResetHaveTheirFields) {
             (std::array{true, true, true}));
 }
 
+TEST(RequestText, ModeIsNamed) {
+  const auto wanted = operator_request_of(R"({"kind":"mode","mode":"maintenance"})");
+  EXPECT_EQ(wanted.kind, crane_REQUEST_MODE);
+  EXPECT_EQ(wanted.mode, crane_MODE_MAINTENANCE);
+}
+
 TEST(RequestText, OnlyStopsNeedNoSeat) {
   for (const auto* kind : {"reset", "arm", "disarm", "stop", "estop"}) {
     const auto wanted = operator_request_of(R"({"kind":")" + std::string{kind} + "\"}");
@@ -30,13 +36,27 @@ TEST(RequestText, OnlyStopsNeedNoSeat) {
 }
 
 TEST(RequestText, AnInvalidRequestOfAnOperatorIsRefused) {
-  for (const auto* text :
-       {"", "[]", "{}", R"({"kind":"advance"})", R"({"kind":"kick"})", R"({"kind":"follow"})",
-        R"({"kind":1})", R"({"kind":"move"})", R"({"kind":"move","trolley_m":"1"})",
-        R"({"kind":"move","trolley_m":1e999})", R"({"kind":"move","trolley":1})",
-        R"({"kind":"move","trolley_m":null})", R"({"kind":"arm","trolley_m":1})", R"({"kind":"home"})",
-        R"({"kind":"home","axis":"jib"})", R"({"kind":"reset","confirm_positions":1})",
-        R"({"kind":"move","trolley_m":[[[1]]]})"})
+  for (const auto* text : {"",
+                           "[]",
+                           "{}",
+                           R"({"kind":"advance"})",
+                           R"({"kind":"kick"})",
+                           R"({"kind":"follow"})",
+                           R"({"kind":1})",
+                           R"({"kind":"move"})",
+                           R"({"kind":"move","trolley_m":"1"})",
+                           R"({"kind":"move","trolley_m":1e999})",
+                           R"({"kind":"move","trolley":1})",
+                           R"({"kind":"move","trolley_m":null})",
+                           R"({"kind":"arm","trolley_m":1})",
+                           R"({"kind":"home"})",
+                           R"({"kind":"home","axis":"jib"})",
+                           R"({"kind":"reset","confirm_positions":1})",
+                           R"({"kind":"move","trolley_m":[[[1]]]})",
+                           R"({"kind":"mode"})",
+                           R"({"kind":"mode","mode":1})",
+                           R"({"kind":"mode","mode":"fast"})",
+                           R"({"kind":"arm","mode":"manual"})"})
     EXPECT_THROW((void)operator_request_of(text), BadRequest) << text;
 }
 

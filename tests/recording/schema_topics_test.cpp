@@ -35,6 +35,7 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
   for (double& value : s.homing_speed) value = f.real();
   s.homing_failure = crane_HOMING_MARK_STUCK;
   for (double& value : s.jog_deflection) value = f.real();
+  s.mode = crane_MODE_MANUAL;
   f.number(s.crc32c);
   const ordered_json want{{"header", expected(s.header)},
                           {"state", "STATE_STOP_C1"},
@@ -68,6 +69,7 @@ TEST(TopicSchema, ReadsEveryFieldOfSupervisor) {
                           {"homing_speed", expected(s.homing_speed)},
                           {"homing_failure", "HOMING_MARK_STUCK"},
                           {"jog_deflection", expected(s.jog_deflection)},
+                          {"mode", "MODE_MANUAL"},
                           {"crc32c", s.crc32c}};
   EXPECT_EQ(through_the_codec(topics::supervisor, s), want);
 }
@@ -107,6 +109,7 @@ TEST(TopicSchema, ReadsEveryFieldOfRequestAndReply) {
         {{"amplitude", sine.amplitude}, {"frequency_hz", sine.frequency_hz}, {"phase_rad", sine.phase_rad}});
   }
   q.duration_s = f.real();
+  q.mode = crane_MODE_MAINTENANCE;
   f.number(q.crc32c);
   EXPECT_EQ(through_the_codec(topics::request, q), (ordered_json{{"header", expected(q.header)},
                                                                  {"id", q.id},
@@ -118,6 +121,7 @@ TEST(TopicSchema, ReadsEveryFieldOfRequestAndReply) {
                                                                  {"until_tick", q.until_tick},
                                                                  {"sine", sines},
                                                                  {"duration_s", q.duration_s},
+                                                                 {"mode", "MODE_MAINTENANCE"},
                                                                  {"crc32c", q.crc32c}}));
   msg::Reply p{};
   f.header(p.header);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "crane/supervisor/modes.hpp"
 #include "crane/supervisor/rules.hpp"
 #include "stack/stack.hpp"
 #include "stack/wiring_graph.hpp"
@@ -45,6 +46,10 @@ TEST(Documents, ShowTheDiagramOfTheCommandPath) {
 TEST(Documents, ShowTheRulesThatTheSupervisorRuns) {
   EXPECT_EQ(output_of("crane supervisor explain", "docs/safety.md"), supervisor::rule_table())
       << "put the output of `crane supervisor explain` there";
+}
+
+TEST(Documents, ShowTheOperatingModes) {
+  EXPECT_EQ(output_of("operating modes", "docs/safety.md"), supervisor::mode_table());
 }
 
 TEST(Wiring, GivesEveryLoopTopicOneWriterInAStack) {

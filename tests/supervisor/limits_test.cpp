@@ -71,6 +71,25 @@ TEST(Envelope, TreatsNaNAsAViolation) {
   EXPECT_TRUE(check_envelope(test_limits(), {.position = {0.7, 0, 0}, .swing_radial_rad = nan}).swing);
 }
 
+TEST(Envelope, LimitsTheSpeedToTheShareOfTheOperatingMode) {
+  EnvelopeInput input{.position = {0.7, 0, 0}, .speed = {0.3, 0, 0}, .speed_share = 0.25};
+  EXPECT_TRUE(check_envelope(test_limits(), input).overspeed);
+  input.speed[0] = 0.24;
+  EXPECT_FALSE(check_envelope(test_limits(), input).overspeed);
+}
+
+TEST(OperatingMode, StopsAnAxisThatIsFasterThanTheModePermits) {
+  Timeline crane;
+  crane.to_run();
+  crane.speed[0] = 0.3;
+  crane.run(0.1);
+  EXPECT_EQ(crane.state(), State::run) << "0.3 m/s is below max_speed";
+  crane.world.speed_share = 0.25;
+  crane.tick();
+  EXPECT_EQ(crane.state(), State::stop_c0);
+  EXPECT_EQ(crane.cause(), Cause::overspeed);
+}
+
 TEST(Envelope, LooksAheadInTheDirectionOfMotionOnly) {
   const EnvelopeInput out{.position = {1.35, 0, 0}, .speed = {0.8, 0, 0}};
   const EnvelopeInput in{.position = {1.35, 0, 0}, .speed = {-0.8, 0, 0}};

@@ -52,6 +52,22 @@ TEST(JogProgram, KilledWithADeflectedStickLeavesACraneThatStopsInHold) {
   EXPECT_LT(std::abs(observer.states().back().trolley_speed_mps), 0.02);
 }
 
+TEST(ModeProgram, ChangesAndShowsTheModeOfALockedCraneAndIsRefusedByAnArmedOne) {
+  RunningStack stack{kDomain, "virginia_tech_tower"};
+  const auto mode = [&](std::vector<std::string> names) {
+    names.insert(names.begin(), "mode");
+    names.insert(names.end(), {"--domain", std::to_string(kDomain), "--crane", stack.bus_options().crane});
+    return run_program(stack::program_directory() / "crane", names);
+  };
+  EXPECT_EQ(mode({"manual"}).exit_code, 0);
+  EXPECT_NE(mode({}).output.find("manual"), std::string::npos);
+  EXPECT_EQ(mode({"fast"}).exit_code, 2);
+  stack.session().arm();
+  const auto refused = mode({"automatic"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.errors.find("disarm first"), std::string::npos) << refused.errors;
+}
+
 constexpr auto kUp = "\x1b[A", kRight = "\x1b[C";
 
 class JogKeyboard : public testing::Test {

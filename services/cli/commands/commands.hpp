@@ -21,6 +21,7 @@ void add_reset(CLI::App& app, Action& chosen);
 void add_arm(CLI::App& app, Action& chosen);
 void add_home(CLI::App& app, Action& chosen);
 void add_disarm(CLI::App& app, Action& chosen);
+void add_mode(CLI::App& app, Action& chosen);
 void add_move(CLI::App& app, Action& chosen);
 void add_jog(CLI::App& app, Action& chosen);
 void add_stop(CLI::App& app, Action& chosen);

@@ -26,6 +26,7 @@ export class OperateView {
     find("scene-legend").replaceChildren(...LEGEND.map(([name, style, text]) => element("span", {}, element("i", { className: style, "--c": `var(--${name})` }), text)));
     find("view-home").onclick = () => this.scene.lookFrom("side");
     find("view-top").onclick = () => this.scene.lookFrom("top");
+    find("mode").onchange = ({ target }) => desk.ask({ kind: "mode", mode: target.value });
     this.#buildAxes();
     this.#buildHud();
     desk.addEventListener("change", () => this.#drawDesk());
@@ -172,7 +173,9 @@ export class OperateView {
     const wanted = Object.keys(this.#wanted()).length > 0, moves = desk.answerTo("move");
     find("ask-move").disabled = !(wanted && desk.mine && moves.accepted);
     find("ask-move").title = !desk.mine ? "take the controls first" : moves.reason || (wanted ? "" : "enter a target, or click on the map");
+    find("mode").disabled = !desk.mine;
     if (!situation) return;
+    if (situation.mode && !desk.waiting.has("mode")) find("mode").value = situation.mode;
     this.#drawSituation(situation);
     situation.axes?.forEach((axis) => { find("axis-" + axis.name).hidden = !axis.present; });
     if (situation.axes) this.#configure(situation.axes);

@@ -18,7 +18,7 @@ export function meaningOf(idl, enumeration, name) {
   return text && text.charAt(0).toUpperCase() + text.slice(1) + (/[.)]$/.test(text) ? "" : ".");
 }
 
-export const REQUESTS = { reset: "Reset", arm: "Arm", disarm: "Disarm", home: "Home", move: "Move", stop: "Stop", estop: "Software stop" };
+export const REQUESTS = { reset: "Reset", arm: "Arm", disarm: "Disarm", home: "Home", mode: "Mode", move: "Move", stop: "Stop", estop: "Software stop" };
 
 export const AXES = [
   { key: "trolley", label: "Trolley", unit: "m", factor: 1, digits: 3, field: "trolley_m", state: "trolley_position_m", speed: "trolley_speed_mps", speedUnit: "m/s" },

@@ -10,6 +10,7 @@ struct EnvelopeInput {
   double swing_radial_rad = 0;
   double swing_tangential_rad = 0;
   AxisFlags limit_low{}, limit_high{};  ///< limit switches
+  double speed_share = 1;               ///< share of max_speed that the operating mode permits, (0, 1]
   AxisFlags unknown{};  ///< true: position without known origin; only the creeping speed is limited
 };
 

@@ -53,6 +53,7 @@ struct TickInput {
   SelfTest self_test = SelfTest::not_started;
   Requests requests{};
   std::size_t home_axis = 0;  ///< axis of Request::home, < kAxes
+  double speed_share = 1;     ///< share of max_speed that the operating mode permits, (0, 1]
   AxisFlags confirmed{};  ///< Request::reset: the operator has confirmed the measured position of the axis
 };
 
