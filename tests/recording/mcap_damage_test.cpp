@@ -111,6 +111,45 @@ TEST(CorruptedRecording, NeverGivesAWrongMessageAndReportsEachLoss) {
     expect_honest(directory / "bad.mcap", recording.bytes, at, 200);
 }
 
+TEST(HostileRecording, WithAChunkThatUnpacksToAMultipleOfItsSizeIsReadWithoutThisChunk) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "bomb.mcap";
+  constexpr std::size_t kTooLarge = (1U << 26U) + 1;
+  {
+    McapWriter writer{file, {.chunk_bytes = 1U << 30U}};
+    const std::uint16_t state = writer.channel(0, "crane/state", "cdr");
+    writer.message(state, 0, kStart_ns, kStart_ns, std::vector<std::uint8_t>(kTooLarge));
+    writer.close();
+  }
+  ASSERT_LT(std::filesystem::file_size(file), 20'000U);
+  McapReader reader{file};
+  EXPECT_EQ(reader.messages({}).next(), nullptr);
+  EXPECT_THAT(reader.problems(), testing::ElementsAre(HasSubstr("is above 64 MiB")));
+}
+
+TEST(HostileRecording, WhoseIndexNamesAChunkTwiceIsReadWithoutItsIndex) {
+  const TemporaryDirectory directory;
+  const Chunked recording = chunked_recording(directory);
+  std::string bytes = recording.bytes;
+  // opcode 8 and offsets of chunks 1 and 2 in their index records
+  const auto place_of = [](std::uint64_t offset) {
+    return std::string{reinterpret_cast<const char*>(&offset), sizeof offset};
+  };
+  constexpr std::size_t kMagic_bytes = 8, kCrc_bytes = 4;
+  const auto second = bytes.rfind(place_of(recording.ends[0]));
+  ASSERT_NE(second, std::string::npos);
+  const auto third = bytes.rfind(place_of(recording.ends[1]));
+  ASSERT_NE(third, std::string::npos);
+  bytes.replace(third, sizeof(std::uint64_t), place_of(recording.ends[0]));
+  bytes.replace(bytes.size() - kMagic_bytes - kCrc_bytes, kCrc_bytes, kCrc_bytes, '\0');  // 0: no CRC
+  put_contents(directory / "twice.mcap", bytes);
+  McapReader reader{directory / "twice.mcap"};
+  EXPECT_FALSE(reader.indexed());
+  bool genuine = false;
+  EXPECT_EQ(sequences_in(reader, &genuine), first_numbers(200));
+  EXPECT_TRUE(genuine);
+}
+
 TEST(CorruptedRecording, ReportsTheCrcOfTheDamagedChunkAndReadsTheOthers) {
   const TemporaryDirectory directory;
   const Chunked recording = chunked_recording(directory);

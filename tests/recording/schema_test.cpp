@@ -156,6 +156,31 @@ TEST(Schema, NamesTheLineOfAnUnsupportedConstruct) {
   EXPECT_EQ(schema_error("#pragma x"), "line 1: unexpected '#'");
 }
 
+std::string repeated(const std::string& text, std::size_t times) {
+  std::string all;
+  for (std::size_t i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+/// Texts of a few bytes per level that describe an unbounded depth or an unbounded number of values.
+TEST(Schema, RefusesATextThatWouldFillStackOrMemory) {
+  EXPECT_THAT(schema_error(repeated("module m {\n", 500'000)), HasSubstr("line 33: more than 32 modules"));
+  std::string doubled = "@final struct S0 { double a; };\n";
+  for (int i = 1; i < 64; ++i)
+    doubled += "@final struct S" + std::to_string(i) + " { S" + std::to_string(i - 1) + " a; S" +
+               std::to_string(i - 1) + " b; };\n";
+  EXPECT_THAT(schema_error(doubled), HasSubstr("line 18: S17 has more than 65536 values"));
+  EXPECT_THAT(schema_error("@final struct A { uint8 a[65536]; };\n@final struct B { A a[2]; };"),
+              HasSubstr("line 2: B has more than 65536 values"));
+  EXPECT_THAT(schema_error("@final struct E { };\n@final struct A { E a[65536]; E b; };"),
+              HasSubstr("line 2: A has more than 65536 values"));
+  std::string fields = "@final struct A {\n", values = "enum A { A0";
+  for (int i = 0; i < 5000; ++i)
+    fields += "uint8 f" + std::to_string(i) + ";\n", values += ", B" + std::to_string(i);
+  EXPECT_THAT(schema_error(fields + "};"), HasSubstr("A has more than 4096 fields"));
+  EXPECT_THAT(schema_error(values + "};"), HasSubstr("A has more than 256 values"));
+}
+
 TEST(Schema, ReadsConstants) {
   const Schema schema{"const uint32 A = 3; module m { const uint32 B = 4; @final struct S { uint8 a; }; };"};
   EXPECT_EQ(schema.constant("A"), 3U);

@@ -9,6 +9,11 @@ namespace crane::recording {
 namespace {
 
 constexpr std::uint32_t kMaxCount = 1U << 24U;  // largest array size and string bound
+// A recording may come from anywhere: a short text must not describe a type that fills stack or memory. The
+// types of crane.idl stay far below these limits.
+constexpr std::size_t kMaxModules = 32, kMaxFields = 4096, kMaxEnumerators = 256;
+constexpr std::uint64_t kMaxValues =
+    65'536;  // elementary values of one type, including the elements of arrays
 
 const std::map<std::string, Kind, std::less<>> kPrimitives{{"boolean", Kind::boolean},
                                                            {"octet", Kind::uint8},
@@ -115,6 +120,8 @@ class Parser {
   }
 
   void module() {
+    if (scope_.size() == kMaxModules)
+      fail("more than " + std::to_string(kMaxModules) + " modules are nested");
     scope_.push_back(word());
     expect("{");
     while (!accept("}")) definition();
@@ -139,8 +146,11 @@ class Parser {
   void enumeration() {
     Enumeration type{new_name(), {}};
     expect("{");
-    do type.values.push_back(word());
-    while (accept(","));
+    do {
+      if (type.values.size() == kMaxEnumerators)
+        fail(type.name + " has more than " + std::to_string(kMaxEnumerators) + " values");
+      type.values.push_back(word());
+    } while (accept(","));
     expect("}");
     expect(";");
     std::string name = type.name;
@@ -148,7 +158,7 @@ class Parser {
   }
 
   void structure() {
-    Structure type{new_name(), {}};
+    Structure type{.name = new_name()};
     expect("{");
     while (!accept("}")) fields(type);
     expect(";");
@@ -178,11 +188,22 @@ class Parser {
         expect("]");
         if (peek() == "[") fail("arrays of arrays are not supported");
       }
-      of.fields.push_back(std::move(named));
+      add(of, std::move(named), at);
     } while (accept(","));
     expect(";");
     const auto units = units_in(tokens_[at_ - 1].comment);
     for (std::size_t i = first; i < of.fields.size(); ++i) of.fields[i].units = units;
+  }
+
+  static void add(Structure& of, Field field, int at) {
+    const std::uint64_t each =
+        field.structure == nullptr ? 1 : std::max<std::uint64_t>(field.structure->values, 1);
+    of.values += field.count * each;
+    of.fields.push_back(std::move(field));
+    if (of.values > kMaxValues)
+      fail_at(at, of.name + " has more than " + std::to_string(kMaxValues) + " values");
+    if (of.fields.size() > kMaxFields)
+      fail_at(at, of.name + " has more than " + std::to_string(kMaxFields) + " fields");
   }
 
   void type_of(Field& field) {

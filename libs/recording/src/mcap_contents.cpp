@@ -13,9 +13,9 @@ using mcap::Cursor;
 using mcap::FormatError;
 using mcap::Op;
 
-/// Maximum size of a chunk, bytes. A larger value indicates a damaged size. The limit bounds the allocated
-/// memory.
-constexpr std::uint64_t kMaxChunk = 1ULL << 30U;
+/// Maximum size of an unpacked chunk, bytes: 64 times the size at which McapWriter closes a chunk. The limit
+/// bounds memory and time: 32 kB of a file can unpack to 1 GiB.
+constexpr std::uint64_t kMaxChunk = 1ULL << 26U;
 
 ChunkPlace read_chunk_index(Cursor content) {
   ChunkPlace chunk;
@@ -84,12 +84,21 @@ std::string unpack(std::string_view packed, std::string_view compression, std::u
     throw FormatError("compression \"" + std::string{compression} + "\" is not supported");
   const unsigned long long declared = ZSTD_getFrameContentSize(packed.data(), packed.size());
   const bool known = declared != ZSTD_CONTENTSIZE_UNKNOWN && declared != ZSTD_CONTENTSIZE_ERROR;
-  if (size > kMaxChunk || (known && declared != size)) throw FormatError("size does not match its content");
+  if (size > kMaxChunk) throw FormatError("unpacked size " + std::to_string(size) + " is above 64 MiB");
+  if (known && declared != size) throw FormatError("size does not match its content");
   std::string out(size, '\0');
   const std::size_t got = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
   if (ZSTD_isError(got) != 0U) throw FormatError(std::string{"zstd: "} + ZSTD_getErrorName(got));
   if (got != size) throw FormatError("size does not match its content");
   return out;
+}
+
+/// True when two entries of the index name the same bytes: a small file could then be read without end.
+bool overlap(std::vector<ChunkPlace> chunks) {
+  std::ranges::sort(chunks, {}, [](const ChunkPlace& chunk) { return chunk.place.offset; });
+  for (std::size_t i = 1; i < chunks.size(); ++i)
+    if (chunks[i].place.offset - chunks[i - 1].place.offset < chunks[i - 1].place.length) return true;
+  return false;
 }
 
 /// Scans a file; see walk().
@@ -222,6 +231,7 @@ std::optional<Contents> read_index(const InputFile& file) {
   }
   // A writer may omit the chunk index; walk() then finds the chunks.
   if (contents.chunks.empty() && contents.message_count > 0) return std::nullopt;
+  if (overlap(contents.chunks)) return std::nullopt;
   return contents;
 }
 

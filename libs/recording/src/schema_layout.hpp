@@ -46,7 +46,8 @@ struct Field {
 
 struct Structure {
   std::string name;  ///< full name: "crane::Header"
-  std::vector<Field> fields;
+  std::vector<Field> fields{};
+  std::uint64_t values = 0;  ///< elementary values, including the elements of arrays
 };
 
 struct IdlTypes {
