@@ -63,20 +63,20 @@ inline constexpr Rule kStillFollowed{
     "still_followed", 0.5, "1",
     "minimum share of a drive's motion that the model follows, extended / base model", "read off examples"};
 
-// Residual that is too large or predictable (verdict/judgement.cpp, verdict/leftovers.cpp).
+// Residual that is too large or predictable (verdict/judgement.cpp, drive_error.cpp, leftovers.cpp).
 inline constexpr Rule kWorstLoss{"worst_loss", 1.25, "1",
                                  "maximum mean loss of the innovations; 1 for noise as learnt",
                                  "read off examples"};
 inline constexpr Rule kNotFollowed{"not_followed", 0.4, "1",
                                    "maximum rms of the residual of a swing in windows / rms of the swing",
                                    "read off examples"};
-inline constexpr Rule kDriveNotFollowed{
-    "drive_not_followed", 0.1, "1",
-    "maximum rms of the residual of a drive in windows / rms of its motion, for the verdict none",
-    "definition: less than a tenth of the motion is unexplained"};
+inline constexpr Rule kDriveError{
+    "drive_error", 3, "standard uncertainties",
+    "error of a drive in a window above which the window counts as not explained; the verdict is not none if "
+    "significantly many windows are not explained",
+    "coverage factor 3 of a normal error: 0.27 % of the windows"};
 inline constexpr Rule kSwings{"swings", 0.01, "m or rad",
-                              "minimum rms of a motion to which not_followed and drive_not_followed apply",
-                              "read off examples"};
+                              "minimum rms of a motion to which not_followed applies", "read off examples"};
 inline constexpr Rule kCredibleForce{
     "credible_force", 0.03, "1", "maximum rms of the disturbance of the load / its weight",
     "half a newton on two kilograms: wind and hands at a laboratory's crane"};
@@ -114,7 +114,7 @@ inline constexpr std::array kAll{kFamilywiseLevel,
                                  kStillFollowed,
                                  kWorstLoss,
                                  kNotFollowed,
-                                 kDriveNotFollowed,
+                                 kDriveError,
                                  kSwings,
                                  kCredibleForce,
                                  kPattern,

@@ -125,24 +125,12 @@ class Judgement {
                        [&](const Pattern& pattern) { return pattern_share(pattern, best_.effects); });
   }
 
-  /// Tests for a swing whose missing force exceeds a credible disturbance, and for a drive that the base
-  /// model does not follow. @return description of the missing part; empty: nothing is missing
+  /// Tests for a swing whose missing force exceeds a credible disturbance, and for a drive whose error
+  /// the noise and the accuracy of the rig file do not explain. @return description of the missing part;
+  /// empty: nothing is missing
   [[nodiscard]] std::string not_followed() const {
-    const std::string drive = best_.effects.empty() ? drive_not_followed() : "";
+    const std::string drive = causes_.empty() ? accuracy_.drive_error_beyond(study_, best_.effects) : "";
     return drive.empty() ? swing_not_followed() : drive;
-  }
-
-  [[nodiscard]] std::string drive_not_followed() const {
-    if (study_.drive().empty()) return "";
-    const Problem plain = study_.drive().plain();
-    const Fits fits = plain.fit(replays_of(plain.runs(), study_.with({})));
-    for (std::size_t output = 0; output < plain.outputs().size(); ++output)
-      if (const double share = share_not_followed(plain, fits, output); share > rules::kDriveNotFollowed)
-        return (std::ostringstream{} << std::setprecision(2) << "the simulation of "
-                                     << kOutputNames[plain.outputs()[output]] << " misses " << 100 * share
-                                     << " % of its motion, rms")
-            .str();
-    return "";
   }
 
   [[nodiscard]] std::string swing_not_followed() const {

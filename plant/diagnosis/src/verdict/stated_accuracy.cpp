@@ -8,6 +8,7 @@
 
 #include "search/parts.hpp"
 #include "study/inaccuracies.hpp"
+#include "verdict/drive_error.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -84,6 +85,10 @@ bool StatedAccuracy::contains(const Unexplained& pattern) const {
   const bool slews = pattern.output == kSlewAngle;
   const double gain = slews ? rig_.plant.slew_gain_radps2pv : rig_.plant.trolley_gain_mps2pv;
   return pattern.acceleration <= accuracy_.friction * gain * friction_[pattern.output].least_coulomb_v;
+}
+
+std::string StatedAccuracy::drive_error_beyond(const Study& study, const Effects& effects) const {
+  return significant_drive_error(study, effects, rig_, accuracy_);
 }
 
 }  // namespace crane::diagnosis

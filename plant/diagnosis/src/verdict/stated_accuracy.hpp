@@ -1,6 +1,7 @@
 #pragma once
 /// Effects and patterns that are no larger than the errors of an accurate rig file.
 #include <array>
+#include <string>
 #include <vector>
 
 #include "crane/diagnosis/accuracy.hpp"
@@ -22,6 +23,8 @@ class StatedAccuracy {
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Effects& effects) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
   [[nodiscard]] bool contains(const Unexplained& pattern) const;
+  /// significant_drive_error() with this accuracy.
+  [[nodiscard]] std::string drive_error_beyond(const Study& study, const Effects& effects) const;
 
  private:
   /// Sums of squares [m2 or rad2] by output: in windows, then over whole runs (swing only).

@@ -1,0 +1,132 @@
+#include "verdict/drive_error.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
+#include <cmath>
+#include <iomanip>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+
+#include "rules.hpp"
+#include "study/inaccuracies.hpp"
+
+namespace crane::diagnosis {
+namespace {
+
+double squared(double x) { return x * x; }
+
+/// Mean square over the measured rows of an output in a window, of values of all outputs.
+double mean_square(const Problem& problem, std::size_t window, std::size_t output,
+                   const Eigen::VectorXd& values) {
+  const Window& w = problem.windows()[window];
+  const auto rows = static_cast<Eigen::Index>(w.rows);
+  return values.segment(static_cast<Eigen::Index>(output) * rows, rows).squaredNorm() /
+         static_cast<double>(problem.measured_rows(w, output));
+}
+
+/// A crane whose rig file is wrong by one stated inaccuracy, with the variance of the error over the square
+/// of the inaccuracy.
+struct Inaccurate {
+  Crane crane;
+  double variance = 0;
+};
+
+/// An error of a quantity is uniform between its bounds. Level and asymmetry of a friction are half the sum
+/// and half the difference of the frictions of the two directions, whose errors are independent.
+std::vector<Inaccurate> inaccurate_cranes(const Study& study, const Effects& effects,
+                                          const configuration::Rig& rig, const Accuracy& accuracy) {
+  constexpr double kUniform = 1.0 / 3;
+  std::vector<Inaccurate> cranes;
+  for (const Candidate& candidate : inaccuracies_of(study.candidates(), rig, accuracy)) {
+    if (!candidate.drive) continue;
+    std::vector<double> values;
+    for (const FreeParameter& p : candidate.parameters) values.push_back(p.null);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const FreeParameter& p = candidate.parameters[i];
+      if (!(p.high > p.null)) continue;
+      std::vector<double> wrong = values;
+      wrong[i] = p.high;
+      const bool one_of_two = candidate.law == GoesWith::speed;
+      cranes.push_back({study.with(effects), one_of_two ? kUniform / 2 : kUniform});
+      cranes.back().crane.terms.push_back(candidate.setting(wrong));
+    }
+  }
+  return cranes;
+}
+
+bool may_have_lost_edge(const Run& run, const Window& window, Output drive) {
+  for (std::size_t k = window.first; k < window.first + window.rows; ++k)
+    if (run.may_have_lost_edge(drive, k)) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<DriveError> drive_errors(const Study& study, const Effects& effects,
+                                     const configuration::Rig& rig, const Accuracy& accuracy) {
+  std::vector<DriveError> errors;
+  if (study.drive().empty()) return errors;
+  // Without a stated accuracy, the usual one bounds a disturbance.
+  const double least_accuracy = accuracy.values > 0 ? accuracy.values : kUsualAccuracy.values;
+  const Problem plain = study.drive().plain();
+  const Fits base = plain.fit(replays_of(plain.runs(), study.with(effects)));
+  const std::vector<Inaccurate> inaccurate = inaccurate_cranes(study, effects, rig, accuracy);
+  std::vector<Fits> wrong;
+  for (const Inaccurate& one : inaccurate) wrong.push_back(plain.fit(replays_of(plain.runs(), one.crane)));
+  for (std::size_t output = 0; output < plain.outputs().size(); ++output) {
+    DriveError& error = errors.emplace_back();
+    error.output = plain.outputs()[output];
+    std::vector<double> by_accuracy;
+    double motion = 0;
+    for (std::size_t w = 0; w < base.size(); ++w) {
+      const Window& window = plain.windows()[w];
+      if (may_have_lost_edge(plain.runs()[window.run].run, window, error.output)) continue;
+      error.rms.push_back(
+          std::sqrt(mean_square(plain, w, output, plain.measured(window) - base[w].simulated)));
+      double variance = 0;
+      for (std::size_t i = 0; i < wrong.size(); ++i)
+        variance +=
+            inaccurate[i].variance * mean_square(plain, w, output, wrong[i][w].simulated - base[w].simulated);
+      by_accuracy.push_back(variance);
+      const Eigen::VectorXd measured = plain.measured_values(window, output);
+      motion += (measured.array() - measured.mean()).square().mean();
+    }
+    const double windows = static_cast<double>(std::max<std::size_t>(1, by_accuracy.size())),
+                 usual = std::accumulate(by_accuracy.begin(), by_accuracy.end(), 0.0) / windows,
+                 noise = study.drive().disturbances()[output].noise;
+    for (const double variance : by_accuracy)
+      error.expected.push_back(
+          std::sqrt(squared(noise) + squared(least_accuracy) * motion / windows + std::max(variance, usual)));
+  }
+  return errors;
+}
+
+double p_value(const DriveError& error) {
+  double exceeding = 0;
+  for (std::size_t w = 0; w < error.rms.size(); ++w)
+    exceeding += error.rms[w] > rules::kDriveError * error.expected[w] ? 1 : 0;
+  if (exceeding == 0) return 1;
+  const double one_window = std::erfc(rules::kDriveError / std::numbers::sqrt2);
+  return boost::math::ibeta(exceeding, static_cast<double>(error.rms.size()) - exceeding + 1, one_window);
+}
+
+std::string significant_drive_error(const Study& study, const Effects& effects, const configuration::Rig& rig,
+                                    const Accuracy& accuracy) {
+  const std::vector<DriveError> errors = drive_errors(study, effects, rig, accuracy);
+  for (const DriveError& error : errors) {
+    if (p_value(error) * static_cast<double>(errors.size()) > rules::kSignificant) continue;
+    std::size_t worst = 0;
+    for (std::size_t w = 0; w < error.rms.size(); ++w)
+      if (error.rms[w] * error.expected[worst] > error.rms[worst] * error.expected[w]) worst = w;
+    return (std::ostringstream{} << std::setprecision(2) << "the simulation misses "
+                                 << kOutputNames[error.output] << " by " << error.rms[worst]
+                                 << (error.output == kSlewAngle ? " rad" : " m")
+                                 << " rms in a window, noise and accuracy of the rig file explain "
+                                 << error.expected[worst])
+        .str();
+  }
+  return "";
+}
+
+}  // namespace crane::diagnosis
