@@ -50,11 +50,12 @@ TEST(DriveErrorInWindows, HasTheBinomialPValue) {
   EXPECT_NEAR(p_value(error), 1 - std::pow(1 - kOne, 40) - 40 * kOne * std::pow(1 - kOne, 39), 1e-12);
 }
 
-/// No named effect has the form of a limited rate. Without the terms that imitate it, it is unknown.
+/// Without the term of a limited rate and the terms that imitate it, the cause is unknown.
 TEST(DriveErrorInWindows, MakesTheVerdictUnknown) {
   Request request;
   request.most_effects = 1;
-  request.excluded = {"actuator_lag", "command_delay", "backlash"};
+  request.excluded = {"command_rate_limit", "command_saturation", "actuator_lag", "command_delay",
+                      "backlash"};
   const Diagnosis found = diagnose(rig_of_axis(), runs_of_axis({.rate_vps = 100}, 6),
                                    runs_of_axis({.rate_vps = 100}, 7), request);
   EXPECT_EQ(found.verdict, Verdict::unknown) << found.sentence;

@@ -22,6 +22,8 @@ inline std::vector<plant::TermSetting> every_effect() {
       {"motor_gain", "trolley", {{"factor", 0.9}}},
       {"command_offset", "slew", {{"offset_v", 0.1}}},
       {"command_dead_zone", "trolley", {{"width_v", 0.2}}},
+      {"command_saturation", "slew", {{"limit_v", 1.5}}},
+      {"command_rate_limit", "trolley", {{"rate_vps", 8}}},
       {"command_delay", "trolley", {{"delay_s", 0.033}}},
       {"actuator_lag", "slew", {{"time_constant_s", 0.05}}},
       {"load_linear_drag", "", {{"coefficient_nspm", 0.1}}},

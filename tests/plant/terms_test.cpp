@@ -137,6 +137,48 @@ TEST(Terms, ADeadZoneTakesItsWidthFromEitherSide) {
   EXPECT_NEAR(model.drive_voltage({-1, 0, 0})[kTrolley], -0.7, 1e-15);
 }
 
+TEST(Terms, ASaturationLimitsEitherSide) {
+  Model model{{}, {{"command_saturation", "slew", {{"limit_v", 2.5}}}}};
+  EXPECT_EQ(model.drive_voltage({9, 2.4, 0})[kSlew], 2.4);
+  EXPECT_EQ(model.drive_voltage({9, 2.6, 0})[kSlew], 2.5);
+  EXPECT_EQ(model.drive_voltage({9, -10, 0})[kSlew], -2.5);
+  EXPECT_EQ(model.drive_voltage({9, -10, 0})[kTrolley], 9);
+}
+
+TEST(Terms, ARateLimitGivesTheMeanOfTheRampInEveryTick) {
+  constexpr double kRate_vps = 130, kPeriod_s = 0.01;
+  Model model{{}, {{"command_rate_limit", "trolley", {{"rate_vps", kRate_vps}}}}, kPeriod_s};
+  double v = 0;
+  for (const double command : {0.7, 3.0, 3.0, 3.0, -1.1, -1.1, -1.1, -1.1, -1.0}) {
+    constexpr int kParts = 100000;
+    constexpr double kStep_v = kRate_vps * kPeriod_s / kParts;
+    double sum = 0;
+    for (int i = 0; i < kParts; ++i) {  // the ramp in small steps
+      const double before = v;
+      v = std::abs(command - v) < kStep_v ? command : v + std::copysign(kStep_v, command - v);
+      sum += 0.5 * (before + v);
+    }
+    EXPECT_NEAR(model.drive_voltage({command, 0, 0})[kTrolley], sum / kParts, 1e-4);
+  }
+}
+
+/// After a step V from rest, the integral of the output is V t - V^2 / (2 r), and its slope V^2 / (2 r^2).
+TEST(Terms, ARateLimitDelaysAStepByHalfItsRamp) {
+  constexpr double kStep_v = 4, kPeriod_s = 0.01;
+  const auto integral = [](double rate_vps) {
+    Model model{{}, {{"command_rate_limit", "trolley", {{"rate_vps", rate_vps}}}}, kPeriod_s};
+    double sum = 0;
+    for (int tick = 0; tick < 40; ++tick) sum += kPeriod_s * model.drive_voltage({kStep_v, 0, 0})[kTrolley];
+    return sum;
+  };
+  for (const double rate : {17.0, 133.0, 1e5}) {
+    EXPECT_NEAR(integral(rate), kStep_v * 0.4 - kStep_v * kStep_v / (2 * rate), 1e-12);
+    const double change = 1e-3 * rate;
+    EXPECT_NEAR((integral(rate + change) - integral(rate - change)) / (2 * change),
+                kStep_v * kStep_v / (2 * rate * rate), 2e-6 * kStep_v * kStep_v / (2 * rate * rate) + 1e-13);
+  }
+}
+
 TEST(Terms, ADelayHoldsTheCommandBackByTicksAndTheirFractions) {
   Model model{{}, {{"command_delay", "slew", {{"delay_s", 0.025}}}}, 0.01};
   std::vector<double> output;

@@ -97,6 +97,7 @@ class Builder {
              InRigFile::yes);
     all_.add(reaching(amount("command_offset", axis, "offset_v", -3, 3, 0.02), offsets), Changes::drive);
     all_.add(amount("command_dead_zone", axis, "width_v", 0, 3, 0.02), Changes::drive);
+    add_limits(axis, output);
     // A small delay does not describe the effect of a long one.
     all_.add(reaching(amount("command_delay", axis, "delay_s", 0, 0.3, 0.005),
                       {{0.02}, {0.035}, {0.05}, {0.07}, {0.1}, {0.14}, {0.2}}),
@@ -107,6 +108,39 @@ class Builder {
     add_gap(axis, output, scale);
     all_.add(amount("position_scale", axis, "factor", 0.5, 2, 0.01), Changes::both);
     all_.add(amount("position_drift", axis, "rate", -0.3, 0.3, 0.002), Changes::both);
+  }
+
+  /// A limit with no effect at `high`, where no slope shows its effect: the fit begins at `settings`.
+  static Candidate limit(const std::string& cause, const std::string& axis, const std::string& name,
+                         double low, double high, const std::vector<std::vector<double>>& settings) {
+    FreeParameter p = free_parameter(cause, name, low, high, 0.05 * low);
+    p.null = p.high;
+    return at_once(cause, axis, {p}, settings);
+  }
+
+  /// Limits of the amplifier, below the largest command and below its largest change from row to row.
+  void add_limits(const std::string& axis, Output output) {
+    double largest_v = 0, fastest_vps = 0;
+    for (const PreparedRun& prepared : runs_) {
+      const std::vector<plant::PerAxis>& command_v = prepared.run.command_v;
+      for (std::size_t k = 0; k < command_v.size(); ++k) {
+        largest_v = std::max(largest_v, std::abs(command_v[k][output]));
+        if (k > 0)
+          fastest_vps = std::max(
+              fastest_vps, std::abs(command_v[k][output] - command_v[k - 1][output]) / prepared.run.period_s);
+      }
+    }
+    if (!(largest_v > 0)) return;
+    std::vector<std::vector<double>> limits, rates;
+    for (const double share : {0.9, 0.75, 0.6, 0.45, 0.3}) limits.push_back({share * largest_v});
+    all_.add(limit("command_saturation", axis, "limit_v", 0.05 * largest_v, largest_v, limits),
+             Changes::drive);
+    // A ramp of the whole command that takes longer hardly follows the command.
+    constexpr double kLongestRamp_s = 5;
+    const double slowest_vps = largest_v / kLongestRamp_s;
+    for (double rate = 0.5 * fastest_vps; rate > slowest_vps; rate *= 0.5) rates.push_back({rate});
+    if (rates.empty()) return;
+    all_.add(limit("command_rate_limit", axis, "rate_vps", slowest_vps, fastest_vps, rates), Changes::drive);
   }
 
   /// Whether the rig file contains a force on the axis that depends on its position.
