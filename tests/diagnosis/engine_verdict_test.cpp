@@ -41,6 +41,23 @@ TEST(Sentence, NamesTheCauseInDoubt) {
             "actuator_lag, command_offset.");
 }
 
+/// An inaccuracy at its bound may hide a larger one or an effect without a term.
+TEST(Sentence, NamesCalibratedValuesAtTheBoundOfTheStatedAccuracy) {
+  Diagnosis diagnosis = of(Verdict::none, {});
+  diagnosis.calibrated = {{"motor_gain", "slew", {{"factor", "1", 1.013, 1, 0.02}}},
+                          {"direction_asymmetry",
+                           "trolley",
+                           {{"coulomb_v", "V", 0, 0, 0}, {"viscous_vspm", "V s/m", -0.075, 0, 0.075}}},
+                          {"cable_length", "", {{"delta_m", "m", 0.02, 0, 0.02}}}};
+  EXPECT_EQ(sentence_of(diagnosis),
+            "These data show no error of the model beyond the accuracy of the rig file. At the bound of the "
+            "stated accuracy: direction_asymmetry (trolley) viscous_vspm, cable_length delta_m. The accuracy "
+            "of the rig file may be lower than stated, or an effect without a term may be the cause.");
+  diagnosis.calibrated.resize(1);
+  EXPECT_EQ(sentence_of(diagnosis),
+            "These data show no error of the model beyond the accuracy of the rig file.");
+}
+
 TEST(Sentence, OfADoubtGivesTheReasonAndNoCause) {
   Diagnosis diagnosis = of(Verdict::ambiguous, {kDelay}, {"actuator_lag"});
   doubt(diagnosis, "trolley: friction by position");

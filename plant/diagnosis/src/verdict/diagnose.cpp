@@ -44,7 +44,7 @@ void give_calibration(const Effects& calibration, Diagnosis& result) {
     }
     result.extension.push_back(effect.candidate->setting(effect.values));
   }
-  if (result.verdict == Verdict::none) result.sentence = sentence_of(result);
+  result.sentence = sentence_of(result);
 }
 
 bool acts_on(const Effects& effects, const std::string& column) {

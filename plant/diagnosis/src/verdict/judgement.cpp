@@ -15,6 +15,9 @@
 namespace crane::diagnosis {
 namespace {
 
+/// Share of the stated accuracy within which a calibrated value is at its bound: rounding of the fit.
+constexpr double kAtTheBound = 1e-6;
+
 /// Mean loss over its expectation: 1 if noise and disturbance are as learnt.
 double mean_loss(const Problem& problem, const Fits& fits) {
   double sum = 0, count = 0;
@@ -62,7 +65,6 @@ double lacking_force(const Problem& problem, const Fits& fits, std::size_t outpu
       if (!is_measured(k - span) || !is_measured(k) || !is_measured(k + span)) continue;
       const double force = scale * (left[k + span] - 2 * left[k] + left[k - span]) + left[k];
       squares += force * force;
-      ++count;
     }
   }
   return count > 0 ? std::sqrt(squares / count) : 0;
@@ -225,9 +227,22 @@ class Judgement {
   Diagnosis result_;
 };
 
-}  // namespace
+/// Calibrated values at the bound of the stated accuracy, as a sentence with a space before it; empty: none.
+std::string at_the_bound(const std::vector<Calibrated>& calibrated) {
+  std::string names;
+  for (const Calibrated& quantity : calibrated)
+    for (const Calibrated::Parameter& p : quantity.parameters) {
+      if (!(p.limit > 0) || std::abs(p.value - p.null) < (1 - kAtTheBound) * p.limit) continue;
+      names += (names.empty() ? "" : ", ") + quantity.name +
+               (quantity.axis.empty() ? "" : " (" + quantity.axis + ")") + " " + p.name;
+    }
+  if (names.empty()) return "";
+  return " At the bound of the stated accuracy: " + names +
+         ". The accuracy of the rig file may be lower than stated, or an effect without a term may be the "
+         "cause.";
+}
 
-std::string sentence_of(const Diagnosis& d) {
+std::string verdict_of(const Diagnosis& d) {
   std::string names, clear, contested, rivals;
   const auto add = [](std::string& list, const char* separator, const std::string& name) {
     list += (list.empty() ? "" : separator) + name;
@@ -257,6 +272,10 @@ std::string sentence_of(const Diagnosis& d) {
   return "The model has an error that no known cause explains" +
          (from.empty() ? std::string{"."} : " (" + from[0] + ").");
 }
+
+}  // namespace
+
+std::string sentence_of(const Diagnosis& d) { return verdict_of(d) + at_the_bound(d.calibrated); }
 
 void doubt(Diagnosis& diagnosis, const std::string& why) {
   diagnosis.verdict = Verdict::unknown;
