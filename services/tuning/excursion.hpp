@@ -33,9 +33,9 @@ struct Excursion {
 [[nodiscard]] Excursion largest_excursion(const configuration::Rig& careful, const Priors& priors,
                                           const Possible& possible, const experiment::Scenario& scenario);
 
-/// Used share of travel, speed and swing limit. The rest covers what largest_excursion() leaves out: viscous
-/// friction, filters of the measurement, large angles. Chosen; tests/tuning compares the bound with the
-/// measured swing of hidden rigs.
+/// Used share of travel, speed and swing limit. Chosen: the rest covers what largest_excursion() leaves out,
+/// viscous friction, filters of the measurement, large angles. Measured: no motion of 60 hidden rigs exceeds
+/// 0.97 of the predicted excursion (Long.MotionsOfHiddenRigsStayWithinThePrediction).
 inline constexpr double kUsedShare = 0.8;
 
 /// @return the motion stays within kUsedShare of the limits of the rig on every possible crane

@@ -44,7 +44,8 @@ configuration::Rig with_gain(configuration::Rig rig, double factor) {
 configuration::Rig with_change(configuration::Rig rig, std::size_t change) {
   const double sign = change % 2 == 0 ? -1 : 1;
   if (change / 2 == 0)
-    rig.start.cable_length_offset_m += sign * kCableChange * rig.start.position[plant::kHoist];
+    rig.start.cable_length_offset_m +=
+        sign * kCableChange * (rig.start.position[plant::kHoist] + rig.start.cable_length_offset_m);
   if (change / 2 == 1) rig.plant.load_mass_kg *= 1 + sign * kLoadChange;
   if (change / 2 == 2)
     for (auto& term : rig.terms)

@@ -10,8 +10,8 @@
 namespace crane::tuning {
 namespace {
 
-// A residual above this multiple of the quantisation noise needs an explanation. Chosen: the residuals of
-// hidden rigs with one mode are below 1.5.
+// A residual above this multiple of the quantisation noise needs an explanation. Chosen; hidden gantries with
+// one mode leave 1.0.
 constexpr double kUnexplained = 3;
 // A second mode must halve the residual. Chosen.
 constexpr double kExplains = 0.5;

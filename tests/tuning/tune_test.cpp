@@ -81,7 +81,10 @@ std::map<std::string, double> identify_hidden(std::uint64_t seed) {
   options.recommend = false;
   const auto result = tune(hidden.known, crane, options);
   EXPECT_LE(result.motion_s, 180);
-  return expect_truth(hidden, result.identification.values);
+  const auto& found = result.identification;
+  std::cout << "  residuals: swing " << found.swing_residual_rad << " rad, trolley "
+            << found.drive_residual[0] << " m, slew " << found.drive_residual[1] << " rad\n";
+  return expect_truth(hidden, found.values);
 }
 
 struct Outcome {
