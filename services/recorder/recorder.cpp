@@ -30,15 +30,38 @@ recording::Metadata origin(const bus::Options& options, std::int64_t started_ns)
           {"sequence", "tick"}};
 }
 
+/// Content of each file before its first sample.
+RecordingFiles::Prepare prepare(const recording::Metadata& crane, const std::string& rig_text,
+                                std::int64_t started_ns) {
+  return [=](recording::McapWriter& writer) {
+    recording::add_topic_channels(writer);
+    writer.metadata("crane", crane);
+    if (!rig_text.empty())
+      writer.attachment("rig.toml", "application/toml", started_ns,
+                        {reinterpret_cast<const std::uint8_t*>(rig_text.data()), rig_text.size()});
+    std::vector<std::string> topics;
+    for (const auto& topic : topics::kAll) topics.emplace_back(topic.name);
+    return topics;
+  };
+}
+
+/// Counts the samples that DDS reports as lost.
+bus::EventHandler counter_of_lost(const std::shared_ptr<std::atomic<std::uint64_t>>& lost) {
+  return [lost](const bus::Event& event) {
+    if (event.kind == bus::EventKind::sample_lost && event.current >= 0)
+      *lost = static_cast<std::uint64_t>(event.current);
+  };
+}
+
 }  // namespace
 
 Recorder::Recorder(bus::Bus& bus, const Options& options)
     : file_{options.file},
       node_{bus, {"recorder", ""}},
       wall_minus_monotonic_ns_{wall_ns() - runtime::monotonic_ns()} {
-  recording::McapWriter writer{options.file};
-  const auto channels = recording::add_topic_channels(writer);
-  writer.metadata("crane", origin(bus.options(), log_time_ns()));
+  const auto started_ns = log_time_ns();
+  RecordingFiles files{options.file, options.limits,
+                       prepare(origin(bus.options(), started_ns), options.rig_text, started_ns)};
   for (std::size_t i = 0; i < topics::kAll.size(); ++i) {
     const auto& topic = topics::kAll[i];
     const auto& wanted = options.topics;
@@ -46,15 +69,23 @@ Recorder::Recorder(bus::Bus& bus, const Options& options)
     bus::EndpointOptions endpoint;
     // the recorder receives earlier events; loop topics have no history
     endpoint.history = topic.qos == topics::Qos::log;
-    sources_.push_back(
-        {bus.cdr_subscriber(topic, endpoint), channels[i], topic.name == topics::event.description.name});
+    const auto lost = std::make_shared<std::atomic<std::uint64_t>>(0);
+    endpoint.on_event = counter_of_lost(lost);
+    sources_.push_back({.subscriber = bus.cdr_subscriber(topic, endpoint),
+                        .channel = static_cast<std::uint16_t>(i),
+                        .holds_events = topic.name == topics::event.description.name,
+                        .lost = lost});
   }
-  thread_ = std::make_unique<RecordingThread>(std::move(writer), options.queue_capacity);
+  thread_ = std::make_unique<RecordingThread>(std::move(files), options.queue_capacity);
 }
 
 bool Recorder::poll() {
-  for (auto& source : sources_) take_all(source);
+  for (auto& source : sources_) {
+    take_all(source);
+    note_losses(source);
+  }
   report();
+  announce_warnings();
   if (!thread_->failure()) return true;
   announce_failure();
   return false;
@@ -62,6 +93,7 @@ bool Recorder::poll() {
 
 bool Recorder::close() {
   thread_->close();
+  announce_warnings();
   if (!thread_->failure()) return true;
   announce_failure();
   return false;
@@ -72,6 +104,11 @@ void Recorder::take_all(Source& source) {
   std::vector<std::uint8_t> cdr;
   while (const auto header = source.subscriber.take(cdr, &info)) {
     if (!info.valid) continue;
+    if (!source.heard) {
+      // A vendor may report samples that were published before the reader joined as lost.
+      source.heard = true;
+      source.lost_noted = *source.lost;
+    }
     heard_others_ = heard_others_ || header->source != crane_SOURCE_RECORDER;
     Entry entry;
     entry.channel = source.channel;
@@ -82,6 +119,21 @@ void Recorder::take_all(Source& source) {
     entry.data = std::move(cdr);
     thread_->put(std::move(entry));
   }
+}
+
+void Recorder::note_losses(Source& source) {
+  const auto note = [&](std::uint64_t& noted, std::uint64_t total, recording::LossCause cause) {
+    if (total > noted) thread_->lose(source.channel, cause, total - noted, log_time_ns());
+    noted = std::max(noted, total);
+  };
+  if (source.heard) note(source.lost_noted, *source.lost, recording::LossCause::dds_lost);
+  note(source.rejected_noted, source.subscriber.counts().rejected, recording::LossCause::wrong_crc);
+}
+
+void Recorder::announce_warnings() {
+  for (const auto& warning : thread_->take_warnings())
+    node_.error("recording_incomplete", warning,
+                "do not move, delete or protect the files of a recording that is being written");
 }
 
 void Recorder::report() {

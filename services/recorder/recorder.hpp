@@ -1,12 +1,15 @@
 #pragma once
-/// Records topics of a running crane to one MCAP file: every sample with a correct CRC, without change.
+/// Records topics of a running crane to MCAP: every sample with a correct CRC, without change. What is
+/// missing is written to the recording too (crane/recording/loss.hpp).
 ///
 ///   log time      time of arrival: wall clock at the start of the recording plus monotonic time, so that a
 ///                 change of the system clock causes no jump
 ///   publish time  wall clock of the writer
 ///   sequence      tick (its lower 32 bits)
+#include <atomic>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "crane/runtime/node.hpp"
@@ -18,6 +21,8 @@ struct Options {
   std::filesystem::path file;
   std::vector<const topics::Description*> topics{};  ///< empty: all
   std::size_t queue_capacity = 16384;                ///< samples; about 20 s of a stack at 100 Hz
+  Limits limits{};
+  std::string rig_text{};  ///< rig file to attach; empty: none
 };
 
 class Recorder {
@@ -42,10 +47,15 @@ class Recorder {
     bus::CdrSubscriber subscriber;
     std::uint16_t channel;
     bool holds_events;
+    std::shared_ptr<const std::atomic<std::uint64_t>> lost;  ///< as DDS reports it
+    bool heard = false;                                      ///< a sample has arrived
+    std::uint64_t lost_noted = 0, rejected_noted = 0;        ///< in the recording
   };
   void take_all(Source& source);
+  void note_losses(Source& source);
   void report();
   void announce_failure();
+  void announce_warnings();
   [[nodiscard]] std::int64_t log_time_ns() const;
 
   std::filesystem::path file_;

@@ -7,9 +7,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <random>
-
 #include "crane/recording/mcap_reader.hpp"
+#include "recorder_entries.hpp"
 #include "temporary_directory.hpp"
 
 namespace crane::recorder {
@@ -17,26 +16,10 @@ namespace {
 
 using recording::TemporaryDirectory;
 
-Entry entry(std::uint32_t number, std::size_t bytes = 16) {
-  std::mt19937 random{number};  // random bytes do not compress, so that the file grows by their size
-  Entry result;
-  result.sequence = number;
-  result.log_time_ns = number;
-  result.data.resize(bytes);
-  for (auto& byte : result.data) byte = static_cast<std::uint8_t>(random());
-  return result;
-}
-
-recording::McapWriter writer_for(const std::filesystem::path& file) {
-  recording::McapWriter writer{file};
-  writer.channel(0, "test", "none");
-  return writer;
-}
-
 TEST(RecordingThread, WritesEverythingItTookInOrder) {
   const TemporaryDirectory directory;
   const auto file = directory / "run.mcap";
-  RecordingThread thread{writer_for(file), 1000};
+  RecordingThread thread{files_for(file), 1000};
   for (std::uint32_t i = 0; i < 500; ++i) ASSERT_TRUE(thread.put(entry(i)));
   thread.close();
   EXPECT_EQ(thread.written(), 500U);
@@ -50,18 +33,43 @@ TEST(RecordingThread, WritesEverythingItTookInOrder) {
 
 TEST(RecordingThread, CountsEveryEntryWhenTheQueueOverflows) {
   const TemporaryDirectory directory;
-  RecordingThread thread{writer_for(directory / "run.mcap"), 1};
+  RecordingThread thread{files_for(directory / "run.mcap"), 1};
   constexpr std::uint64_t kEntries = 2000;
   for (std::uint32_t i = 0; i < kEntries; ++i) thread.put(entry(i));
   thread.close();
   EXPECT_EQ(thread.written() + thread.dropped(), kEntries);
+  EXPECT_GT(thread.dropped(), 0U);
   EXPECT_EQ(thread.failure(), std::nullopt);
+  recording::McapReader reader{directory / "run.mcap"};
+  std::uint64_t lost = 0;
+  for (const auto& loss : recording::losses_in(reader)) {
+    EXPECT_EQ(loss.topic, "test");
+    EXPECT_EQ(loss.cause, recording::LossCause::queue_full);
+    EXPECT_LE(loss.from_ns, loss.until_ns);
+    lost += loss.samples;
+  }
+  EXPECT_EQ(lost, thread.dropped()) << "the file accounts for every dropped sample";
+  EXPECT_EQ(sequences_in(directory / "run.mcap").size(), thread.written());
+}
+
+TEST(RecordingThread, WritesTheLossesOfEachTopicAndCauseWithTheirTimes) {
+  const TemporaryDirectory directory;
+  RecordingThread thread{files_for(directory / "run.mcap"), 10};
+  thread.lose(0, recording::LossCause::dds_lost, 3, 1000);
+  thread.lose(1, recording::LossCause::wrong_crc, 1, 1500);
+  thread.lose(0, recording::LossCause::dds_lost, 2, 2000);
+  thread.close();
+  EXPECT_EQ(thread.lost(), 6U);
+  recording::McapReader reader{directory / "run.mcap"};
+  std::map<std::string, std::uint64_t> sums;
+  for (const auto& loss : recording::losses_in(reader)) sums[loss.topic] += loss.samples;
+  EXPECT_THAT(sums, testing::ElementsAre(testing::Pair("other", 1U), testing::Pair("test", 5U)));
 }
 
 TEST(RecordingThread, HasAnUrgentEntryInTheFileWithoutBeingClosed) {
   const TemporaryDirectory directory;
   const auto file = directory / "run.mcap";
-  RecordingThread thread{writer_for(file), 100};
+  RecordingThread thread{files_for(file), 100};
   auto urgent = entry(7);
   urgent.urgent = true;
   thread.put(std::move(urgent));
@@ -92,10 +100,12 @@ TEST(RecordingThread, LeavesAReadableFileWhenTheDiskIsFull) {
   std::optional<std::string> failure;
   {
     const FileSizeLimit full{4'000'000};
-    RecordingThread thread{writer_for(file), 100};
-    for (std::uint32_t i = 0; !thread.failure(); ++i) thread.put(entry(i, 100'000));
+    RecordingThread thread{files_for(file), 100};
+    std::uint32_t put = 0;
+    while (!thread.failure()) thread.put(entry(put++, 100'000));
     thread.close();
     failure = thread.failure();
+    EXPECT_EQ(thread.written() + thread.dropped(), put);
   }
   EXPECT_THAT(failure.value_or(""), testing::HasSubstr(file.string()));
   const auto repaired = directory / "repaired.mcap";

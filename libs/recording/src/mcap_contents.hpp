@@ -14,6 +14,7 @@ namespace crane::recording {
 /// Position of a record in the file, including opcode and length.
 struct Place {
   std::uint64_t offset = 0, length = 0;
+  std::size_t part = 0;  ///< index of the file in a recording of several parts
 };
 
 struct ChunkPlace {

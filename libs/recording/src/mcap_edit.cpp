@@ -1,7 +1,6 @@
 #include "crane/recording/mcap_edit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "crane/recording/csv.hpp"
@@ -77,7 +76,7 @@ void require_agreement(std::span<const path> files, std::vector<McapReader>& rea
   std::error_code ignored;
   for (std::size_t b = 1; b < readers.size(); ++b)
     for (std::size_t a = 0; a < b; ++a) {
-      if (std::filesystem::equivalent(files[a], files[b], ignored))
+      if (std::filesystem::equivalent(readers[a].files().front(), readers[b].files().front(), ignored))
         problems.push_back(files[b].string() + ": is given twice");
       Contradictions found{files[a], files[b]};
       found.compare_schemas(readers[a], readers[b]);
@@ -127,7 +126,7 @@ CheckReport cut(const path& file, const TimeRange& range, const path& out) {
                     shortest(range.until_s) + " s; the recording has " +
                     shortest(static_cast<double>(reader.last_time_ns() - reader.first_time_ns()) / 1e9) +
                     " s");
-  RecordingCopy copy{out, std::array{file}};
+  RecordingCopy copy{out, reader.files()};
   const auto channels = copy.add_channels(reader);
   copy.add_attachments(reader);
   copy.add_metadata("cut", {{"file", file.filename().string()},
@@ -144,7 +143,9 @@ CheckReport merge(std::span<const path> files, const path& out) {
   std::vector<McapReader> readers;
   for (const auto& file : files) readers.emplace_back(file);
   require_agreement(files, readers);
-  RecordingCopy copy{out, files};
+  std::vector<path> read;
+  for (const auto& reader : readers) read.insert(read.end(), reader.files().begin(), reader.files().end());
+  RecordingCopy copy{out, read};
   std::vector<Source> sources;
   Metadata names;
   for (std::size_t i = 0; i < readers.size(); ++i) {

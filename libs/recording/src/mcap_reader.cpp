@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <set>
 #include <tuple>
+#include <utility>
 
+#include "crane/recording/parts.hpp"
 #include "mcap_contents.hpp"
 #include "mcap_format.hpp"
 
@@ -12,6 +14,7 @@ namespace crane::recording {
 /// A message and the chunk that contains its data.
 struct Pending {
   Message message;
+  std::size_t part = 0;
   std::uint64_t chunk_offset = 0;
   std::size_t position = 0;  // in the chunk
   std::shared_ptr<const std::string> chunk;
@@ -28,8 +31,8 @@ Bytes as_bytes(std::string_view text) {
 }
 
 bool earlier(const Pending& a, const Pending& b) {
-  return std::tie(a.message.log_time_ns, a.chunk_offset, a.position) <
-         std::tie(b.message.log_time_ns, b.chunk_offset, b.position);
+  return std::tie(a.message.log_time_ns, a.part, a.chunk_offset, a.position) <
+         std::tie(b.message.log_time_ns, b.part, b.chunk_offset, b.position);
 }
 
 template <class Record>
@@ -43,41 +46,108 @@ std::vector<Record> values(const std::map<std::uint16_t, Record>& by_id) {
 }  // namespace
 
 struct McapReader::State {
-  explicit State(const std::filesystem::path& path) : file{path} {}
+  explicit State(const std::filesystem::path& recording) : names{files_of(recording)} {
+    if (names.size() > 1) find_gaps(parts_of(recording));
+  }
 
-  InputFile file;
-  Contents contents;
+  std::vector<std::filesystem::path> names;
+  std::vector<std::unique_ptr<InputFile>> files;  // by part
+  std::vector<Contents> opened;                   // moved to `contents`
+  Contents contents;                              // of all parts
   std::vector<SchemaRecord> schemas;
   std::vector<ChannelRecord> channels;
   std::vector<std::string> problems;
-  std::set<std::uint64_t> reported;  // offsets of reported problems, to report each problem once
-  bool indexed = false;
+  std::set<std::pair<std::size_t, std::uint64_t>> reported;  // places, to report each problem once
+  bool indexed = true;
 
+  void find_gaps(const std::vector<Part>& parts);
   void open();
-  void report(std::uint64_t at, const std::string& what);
+  void open(const std::filesystem::path& name);
+  void add(Contents part, std::size_t number);
+  void require_one_recording();
+  [[nodiscard]] MetadataRecord metadata_at(const Place& place) const;
+  void report(const Place& place, const std::string& what);
   void load(const ChunkPlace& chunk, const Selection& selection, std::vector<Pending>& pending);
   [[nodiscard]] std::string content_of(const Place& place) const;
   [[nodiscard]] const ChannelRecord* channel(std::uint16_t id) const;
 };
 
-void McapReader::State::open() {
-  if (file.size() == 0) throw ReadError(file.name() + ": is empty");
-  if (file.read(0, mcap::kMagic.size()) != mcap::kMagic)
-    throw ReadError(file.name() + ": is not an MCAP recording");
-  if (std::optional<Contents> index = read_index(file)) {
-    contents = std::move(*index);
-    indexed = true;
-  } else {
-    problems.push_back(file.name() + ": has no usable index: the file was truncated, damaged or not closed");
-    contents = walk(file, problems);
-  }
-  schemas = values(contents.schemas);
-  channels = values(contents.channels);
+/// The quota of a recording deletes its first parts only.
+void McapReader::State::find_gaps(const std::vector<Part>& parts) {
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    if (parts[i].number != parts[i - 1].number + 1)
+      problems.push_back(parts[i].file.string() + ": the part before it is missing");
 }
 
-void McapReader::State::report(std::uint64_t at, const std::string& what) {
-  if (reported.insert(at).second)
-    problems.push_back(file.name() + ": byte " + std::to_string(at) + ": " + what);
+void McapReader::State::open() {
+  for (const auto& name : names) try {
+      open(name);
+    } catch (const ReadError& error) {
+      if (names.size() == 1) throw;
+      indexed = false;  // the other parts are readable
+      problems.emplace_back(error.what());
+    }
+  if (files.empty()) throw ReadError(problems.front());
+  for (std::size_t part = 0; part < files.size(); ++part) add(std::move(opened[part]), part);
+  schemas = values(contents.schemas);
+  channels = values(contents.channels);
+  require_one_recording();
+}
+
+void McapReader::State::open(const std::filesystem::path& name) {
+  auto file = std::make_unique<InputFile>(name);
+  if (file->size() == 0) throw ReadError(file->name() + ": is empty");
+  if (file->read(0, mcap::kMagic.size()) != mcap::kMagic)
+    throw ReadError(file->name() + ": is not an MCAP recording");
+  std::optional<Contents> found = read_index(*file);
+  if (!found) {
+    indexed = false;
+    problems.push_back(file->name() + ": has no usable index: the file was truncated, damaged or not closed");
+    found = walk(*file, problems);
+  }
+  opened.push_back(std::move(*found));
+  files.push_back(std::move(file));
+}
+
+/// @throws ReadError when the part declares another type or topic with an id of an earlier part
+void McapReader::State::add(Contents part, std::size_t number) {
+  const auto take = [&](auto& all, auto& more) {
+    for (auto& [id, record] : more)
+      if (const auto [known, added] = all.try_emplace(id, record); !added && !(known->second == record))
+        throw ReadError(files[number]->name() + ": has other types or topics than " + files.front()->name() +
+                        ": it is no part of this recording");
+  };
+  take(contents.schemas, part.schemas);
+  take(contents.channels, part.channels);
+  const auto place = [&](auto& all, auto& more, auto& of) {
+    for (auto& each : more) of(each).part = number;
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  auto itself = [](Place& each) -> Place& { return each; };
+  auto chunk = [](ChunkPlace& each) -> Place& { return each.place; };
+  place(contents.chunks, part.chunks, chunk);
+  place(contents.metadata, part.metadata, itself);
+  place(contents.attachments, part.attachments, itself);
+}
+
+/// Parts of one recording have equal metadata "crane".
+void McapReader::State::require_one_recording() {
+  if (files.size() < 2) return;
+  std::map<std::size_t, Metadata> origins;
+  for (const Place& place : contents.metadata) try {
+      auto record = metadata_at(place);
+      if (record.name == "crane") origins.try_emplace(place.part, std::move(record.entries));
+    } catch (const FormatError&) {  // metadata() reports it
+    }
+  for (const auto& [part, origin] : origins)
+    if (origin != origins.begin()->second)
+      throw ReadError(files[part]->name() + ": belongs to another recording than " +
+                      files[origins.begin()->first]->name() + ": their metadata \"crane\" differ");
+}
+
+void McapReader::State::report(const Place& place, const std::string& what) {
+  if (reported.insert({place.part, place.offset}).second)
+    problems.push_back(files[place.part]->name() + ": byte " + std::to_string(place.offset) + ": " + what);
 }
 
 const ChannelRecord* McapReader::State::channel(std::uint16_t id) const {
@@ -89,17 +159,25 @@ const ChannelRecord* McapReader::State::channel(std::uint16_t id) const {
 
 /// Content of a record. @throws FormatError when the record is truncated
 std::string McapReader::State::content_of(const Place& place) const {
-  std::string bytes = file.read(place.offset, place.length);
+  std::string bytes = files[place.part]->read(place.offset, place.length);
   if (bytes.size() != place.length || bytes.size() < mcap::kRecordHead)
     throw FormatError("record is truncated");
   return bytes.substr(mcap::kRecordHead);
+}
+
+MetadataRecord McapReader::State::metadata_at(const Place& place) const {
+  const std::string content = content_of(place);
+  Cursor cursor{content};
+  auto name = fields::printable(cursor.text());
+  return {std::move(name), cursor.map()};
 }
 
 void McapReader::State::load(const ChunkPlace& chunk, const Selection& selection,
                              std::vector<Pending>& pending) {
   const std::size_t before = pending.size();
   try {
-    const auto records = std::make_shared<const std::string>(unpack_chunk(file, chunk.place));
+    const auto records =
+        std::make_shared<const std::string>(unpack_chunk(*files[chunk.place.part], chunk.place));
     Cursor cursor{*records};
     for (std::size_t position = 0; !cursor.empty(); ++position) {
       const auto op = static_cast<Op>(cursor.number<std::uint8_t>());
@@ -117,21 +195,22 @@ void McapReader::State::load(const ChunkPlace& chunk, const Selection& selection
       const bool wanted =
           topics.empty() || std::find(topics.begin(), topics.end(), of->topic) != topics.end();
       if (wanted && message.log_time_ns >= selection.from_ns && message.log_time_ns <= selection.until_ns)
-        pending.push_back({message, chunk.place.offset, position, records});
+        pending.push_back({message, chunk.place.part, chunk.place.offset, position, records});
     }
   } catch (const FormatError& error) {
     pending.resize(before);
-    report(chunk.place.offset, std::string{"chunk is damaged and skipped: "} + error.what());
+    report(chunk.place, std::string{"chunk is damaged and skipped: "} + error.what());
   }
 }
 
-McapReader::McapReader(const std::filesystem::path& file) : state_{std::make_unique<State>(file)} {
+McapReader::McapReader(const std::filesystem::path& recording) : state_{std::make_unique<State>(recording)} {
   state_->open();
 }
 McapReader::~McapReader() = default;
 McapReader::McapReader(McapReader&&) noexcept = default;
 McapReader& McapReader::operator=(McapReader&&) noexcept = default;
 
+const std::vector<std::filesystem::path>& McapReader::files() const { return state_->names; }
 const std::vector<SchemaRecord>& McapReader::schemas() const { return state_->schemas; }
 const std::vector<ChannelRecord>& McapReader::channels() const { return state_->channels; }
 bool McapReader::indexed() const { return state_->indexed; }
@@ -160,12 +239,9 @@ std::int64_t McapReader::last_time_ns() const {
 std::vector<MetadataRecord> McapReader::metadata() {
   std::vector<MetadataRecord> list;
   for (const Place& place : state_->contents.metadata) try {
-      const std::string content = state_->content_of(place);
-      Cursor cursor{content};
-      auto name = fields::printable(cursor.text());
-      list.push_back({std::move(name), cursor.map()});
+      list.push_back(state_->metadata_at(place));
     } catch (const FormatError& error) {
-      state_->report(place.offset, std::string{"metadata are damaged and skipped: "} + error.what());
+      state_->report(place, std::string{"metadata are damaged and skipped: "} + error.what());
     }
   return list;
 }
@@ -187,7 +263,7 @@ std::vector<AttachmentRecord> McapReader::attachments() {
       if (crc != 0 && crc != mcap::crc32(content.data(), covered)) throw FormatError("CRC is wrong");
       list.push_back(std::move(attachment));
     } catch (const FormatError& error) {
-      state_->report(place.offset, std::string{"attachment is damaged and skipped: "} + error.what());
+      state_->report(place, std::string{"attachment is damaged and skipped: "} + error.what());
     }
   return list;
 }

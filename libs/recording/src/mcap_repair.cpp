@@ -1,5 +1,3 @@
-#include <array>
-
 #include "crane/recording/mcap_reader.hpp"
 #include "recording_copy.hpp"
 
@@ -20,7 +18,7 @@ CheckReport check(const std::filesystem::path& file) {
 
 CheckReport repair(const std::filesystem::path& damaged, const std::filesystem::path& repaired) {
   McapReader reader{damaged};
-  RecordingCopy copy{repaired, std::array{damaged}};
+  RecordingCopy copy{repaired, reader.files()};
   const auto channels = copy.add_channels(reader);
   auto messages = reader.messages();
   while (const auto* message = messages.next()) copy.add(*message, channels);

@@ -39,7 +39,8 @@ std::string compress(std::string_view data, int level) {
 }  // namespace
 
 struct McapWriter::State {
-  State(const std::filesystem::path& path, const WriterOptions& chosen) : options{chosen}, file{path} {
+  State(const std::filesystem::path& path, const WriterOptions& chosen)
+      : options{chosen}, file{path, chosen.replace} {
     file.append(std::string{mcap::kMagic} + record(Op::header, Content{}.text("").text("crane").bytes()));
   }
 
@@ -64,12 +65,20 @@ struct McapWriter::State {
   std::map<std::uint16_t, std::uint64_t> counts;  // messages per channel
   // Records repeated in the summary at the end of the file.
   std::vector<std::string> schemas, channels, chunks, attachments, metadata;
+  std::uint64_t summary_bytes = 0;  // of these records
 
+  void keep(std::vector<std::string>& records, std::string record_bytes);
   void require_open() const;
   void end_chunk();
   void write_summary();
+  [[nodiscard]] std::uint64_t closed_bytes(std::size_t more) const;
   void close();
 };
+
+void McapWriter::State::keep(std::vector<std::string>& records, std::string record_bytes) {
+  summary_bytes += record_bytes.size();
+  records.push_back(std::move(record_bytes));
+}
 
 void McapWriter::State::require_open() const {
   if (closed) throw std::logic_error("recording is closed");
@@ -101,17 +110,17 @@ void McapWriter::State::end_chunk() {
   }
   file.append(out);
   if (options.sync) file.sync();
-  chunks.push_back(record(Op::chunk_index, Content{}
-                                               .time(chunk_span.first)
-                                               .time(chunk_span.last)
-                                               .number(start)
-                                               .number(length)
-                                               .text(offsets.bytes())
-                                               .number(static_cast<std::uint64_t>(out.size()) - length)
-                                               .text("zstd")
-                                               .number(packed_size)
-                                               .number(unpacked_size)
-                                               .bytes()));
+  keep(chunks, record(Op::chunk_index, Content{}
+                                           .time(chunk_span.first)
+                                           .time(chunk_span.last)
+                                           .number(start)
+                                           .number(length)
+                                           .text(offsets.bytes())
+                                           .number(static_cast<std::uint64_t>(out.size()) - length)
+                                           .text("zstd")
+                                           .number(packed_size)
+                                           .number(unpacked_size)
+                                           .bytes()));
   chunk.clear();
   chunk_index.clear();
   chunk_span = {};
@@ -169,6 +178,17 @@ void McapWriter::State::write_summary() {
   file.append(out);
 }
 
+std::uint64_t McapWriter::State::closed_bytes(std::size_t more) const {
+  // Upper bounds for one record without its variable parts, and for the parts per channel and per message.
+  constexpr std::uint64_t kRecord = 128, kPerChannel = 64, kPerMessage = 16, kSummary = 1024;
+  std::uint64_t entries = 0;
+  for (const auto& [channel, index] : chunk_index) entries += index.bytes().size();
+  std::uint64_t sum = file.size() + kSummary + kPerChannel * channels.size();
+  sum += ZSTD_compressBound(chunk.size() + kRecord + more) + entries + kPerMessage + kRecord;
+  sum += kRecord + kPerChannel * channels.size();  // index of the open chunk
+  return sum + summary_bytes;
+}
+
 void McapWriter::State::close() {
   if (closed) return;
   file.require_good();
@@ -190,7 +210,7 @@ std::uint16_t McapWriter::schema(std::string_view name, std::string_view encodin
   State& s = *state_;
   s.require_open();
   const auto id = static_cast<std::uint16_t>(s.schemas.size() + 1);
-  s.schemas.push_back(record(Op::schema, Content{}.number(id).text(name).text(encoding).text(text).bytes()));
+  s.keep(s.schemas, record(Op::schema, Content{}.number(id).text(name).text(encoding).text(text).bytes()));
   s.chunk += s.schemas.back();
   return id;
 }
@@ -202,7 +222,8 @@ std::uint16_t McapWriter::channel(std::uint16_t schema, std::string_view topic,
   if (schema > s.schemas.size())
     throw std::invalid_argument("schema " + std::to_string(schema) + " is not declared");
   const auto id = static_cast<std::uint16_t>(s.channels.size());
-  s.channels.push_back(
+  s.keep(
+      s.channels,
       record(Op::channel,
              Content{}.number(id).number(schema).text(topic).text(message_encoding).map(metadata).bytes()));
   s.chunk += s.channels.back();
@@ -237,9 +258,9 @@ void McapWriter::metadata(std::string_view name, const Metadata& entries) {
   const std::uint64_t start = s.file.size();
   const std::string out = record(Op::metadata, Content{}.text(name).map(entries).bytes());
   s.file.append(out);
-  s.metadata.push_back(
-      record(Op::metadata_index,
-             Content{}.number(start).number(static_cast<std::uint64_t>(out.size())).text(name).bytes()));
+  s.keep(s.metadata,
+         record(Op::metadata_index,
+                Content{}.number(start).number(static_cast<std::uint64_t>(out.size())).text(name).bytes()));
 }
 
 void McapWriter::attachment(std::string_view name, std::string_view media_type, std::int64_t time_ns,
@@ -254,15 +275,15 @@ void McapWriter::attachment(std::string_view name, std::string_view media_type, 
   content.number(mcap::crc32(content.bytes().data(), content.bytes().size()));
   const std::string out = record(Op::attachment, content.bytes());
   s.file.append(out);
-  s.attachments.push_back(record(Op::attachment_index, Content{}
-                                                           .number(start)
-                                                           .number(static_cast<std::uint64_t>(out.size()))
-                                                           .time(time_ns)
-                                                           .time(time_ns)
-                                                           .number(static_cast<std::uint64_t>(data.size()))
-                                                           .text(name)
-                                                           .text(media_type)
-                                                           .bytes()));
+  s.keep(s.attachments, record(Op::attachment_index, Content{}
+                                                         .number(start)
+                                                         .number(static_cast<std::uint64_t>(out.size()))
+                                                         .time(time_ns)
+                                                         .time(time_ns)
+                                                         .number(static_cast<std::uint64_t>(data.size()))
+                                                         .text(name)
+                                                         .text(media_type)
+                                                         .bytes()));
 }
 
 void McapWriter::flush() {
@@ -279,6 +300,10 @@ std::uint64_t McapWriter::message_count() const {
 }
 
 std::uint64_t McapWriter::bytes_written() const { return state_->file.size(); }
+
+std::uint64_t McapWriter::closed_bytes(std::size_t more) const { return state_->closed_bytes(more); }
+
+bool McapWriter::removed() const { return state_->file.removed(); }
 
 TopicChannels add_topic_channels(McapWriter& writer) {
   std::map<std::string_view, std::uint16_t> schemas;

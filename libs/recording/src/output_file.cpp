@@ -1,6 +1,7 @@
 #include "output_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -11,8 +12,8 @@
 
 namespace crane::recording {
 
-OutputFile::OutputFile(const std::filesystem::path& file) : name_{file.string()} {
-  descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+OutputFile::OutputFile(const std::filesystem::path& file, bool replace) : name_{file.string()} {
+  descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (replace ? O_TRUNC : O_EXCL), 0644);
   if (descriptor_ < 0) fail("cannot create");
 }
 
@@ -49,9 +50,15 @@ void OutputFile::append(std::string_view bytes) {
   size_ += bytes.size();
 }
 
+bool OutputFile::removed() const {
+  struct stat status {};
+  return descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0 && status.st_nlink == 0;
+}
+
 void OutputFile::sync() {
   require_good();
-  if (::fdatasync(descriptor_) != 0) fail("cannot write to the disk");
+  // a device or a pipe has nothing to synchronise (EINVAL)
+  if (::fdatasync(descriptor_) != 0 && errno != EINVAL) fail("cannot write to the disk");
 }
 
 void OutputFile::close() {

@@ -9,8 +9,8 @@ namespace crane::recording {
 
 class OutputFile {
  public:
-  /// Creates or truncates the file. @throws WriteError
-  explicit OutputFile(const std::filesystem::path& file);
+  /// Creates the file; truncates an existing one, or fails unless `replace`. @throws WriteError
+  explicit OutputFile(const std::filesystem::path& file, bool replace = true);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -22,6 +22,7 @@ class OutputFile {
   /// @throws WriteError; some file systems report a full disk only in this call
   void close();
   [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] bool removed() const;  ///< true: no directory contains the file any more
   /// @throws WriteError, with the first failure, when a call has failed
   void require_good() const;
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Reads MCAP recordings in the order of log time and checks every CRC. From a truncated or damaged file the
-/// reader returns all intact chunks, and problems() lists the losses.
+/// reader returns all intact chunks, and problems() lists the losses. The parts of a split recording
+/// (parts.hpp) are read as one recording.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -23,11 +24,13 @@ class ReadError : public std::runtime_error {
 struct SchemaRecord {
   std::uint16_t id = 0;
   std::string name, encoding, text;
+  bool operator==(const SchemaRecord&) const = default;
 };
 struct ChannelRecord {
   std::uint16_t id = 0, schema_id = 0;
   std::string topic, message_encoding;
   Metadata metadata;
+  bool operator==(const ChannelRecord&) const = default;
 };
 struct MetadataRecord {
   std::string name;
@@ -75,19 +78,22 @@ class MessageStream {
 
 class McapReader {
  public:
-  /// Reads the index. Without an intact index it scans the whole file. @throws ReadError
-  explicit McapReader(const std::filesystem::path& file);
+  /// Reads the index. Without an intact index it scans the whole file.
+  /// @param recording  a file, or the name of a recording whose parts exist
+  /// @throws ReadError, also when the parts belong to different recordings
+  explicit McapReader(const std::filesystem::path& recording);
   ~McapReader();
   McapReader(McapReader&&) noexcept;
   McapReader& operator=(McapReader&&) noexcept;
 
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const;  ///< the file, or all parts
   [[nodiscard]] const std::vector<SchemaRecord>& schemas() const;         ///< by id
   [[nodiscard]] const std::vector<ChannelRecord>& channels() const;       ///< by id
   [[nodiscard]] const SchemaRecord* find_schema(std::uint16_t id) const;  ///< nullptr: none
   [[nodiscard]] std::vector<MetadataRecord> metadata();                   ///< in file order
   [[nodiscard]] std::vector<AttachmentRecord> attachments();
   [[nodiscard]] bool indexed()
-      const;  ///< true: the file was closed correctly, with an intact index and footer
+      const;  ///< true: every file was closed correctly, with an intact index and footer
   [[nodiscard]] std::int64_t first_time_ns() const;  ///< first log time of all chunks; 0 without chunks
   [[nodiscard]] std::int64_t last_time_ns() const;   ///< last log time of all chunks; 0 without chunks
 

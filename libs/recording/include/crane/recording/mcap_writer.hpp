@@ -37,11 +37,12 @@ struct WriterOptions {
   std::int64_t flush_interval_ns = 1'000'000'000;  ///< log time after which a chunk is closed
   int compression_level = 1;                       ///< zstd, 1..19
   bool sync = false;  ///< true: fdatasync after each chunk, so that flushed data also survive a power failure
+  bool replace = true;  ///< false: an existing file is not overwritten; the constructor throws WriteError
 };
 
 class McapWriter {
  public:
-  /// Creates or truncates `file`. @throws WriteError
+  /// Creates `file`, or truncates it. @throws WriteError
   explicit McapWriter(const std::filesystem::path& file, const WriterOptions& options = {});
   /// Closes the file and ignores errors. Call close() before to receive the errors.
   ~McapWriter();
@@ -72,6 +73,10 @@ class McapWriter {
 
   [[nodiscard]] std::uint64_t message_count() const;
   [[nodiscard]] std::uint64_t bytes_written() const;  ///< size of the file, without the current chunk
+  /// Upper bound for the size of the file if close() were called after `more` bytes of message data.
+  [[nodiscard]] std::uint64_t closed_bytes(std::size_t more) const;
+  /// @return true when no directory contains the file any more: somebody has deleted it
+  [[nodiscard]] bool removed() const;
 
  private:
   struct State;
