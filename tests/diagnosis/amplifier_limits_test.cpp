@@ -50,6 +50,11 @@ TEST(AmplifierLimits, NameARateLimit) {
   expect_cause({.rate_vps = kRate_vps}, "command_rate_limit", kRate_vps);
 }
 
+/// The limit acts in few windows: its rms effect is smaller than that of the stated inaccuracies.
+TEST(AmplifierLimits, NameARateLimitWithASmallMeanEffect) {
+  expect_cause({.rate_vps = 2 * kRate_vps}, "command_rate_limit", 2 * kRate_vps);
+}
+
 TEST(AmplifierLimits, NameASaturation) {
   expect_cause({.limit_v = kLimit_v}, "command_saturation", kLimit_v);
 }

@@ -38,7 +38,7 @@ inline DriveError error_in(std::vector<Run> measured, const configuration::Rig& 
   const Runs none;
   Study study(rig, runs, none, {}, kUsualAccuracy);
   study.learn_disturbance();
-  return drive_errors(study, {}, rig, kUsualAccuracy).at(0);
+  return drive_errors(study, study.with({}), rig, kUsualAccuracy).at(0);
 }
 
 }  // namespace crane::diagnosis

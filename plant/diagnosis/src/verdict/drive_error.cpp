@@ -34,7 +34,7 @@ struct Inaccurate {
 
 /// An error of a quantity is uniform between its bounds. Level and asymmetry of a friction are half the sum
 /// and half the difference of the frictions of the two directions, whose errors are independent.
-std::vector<Inaccurate> inaccurate_cranes(const Study& study, const Effects& effects,
+std::vector<Inaccurate> inaccurate_cranes(const Study& study, const Crane& crane,
                                           const configuration::Rig& rig, const Accuracy& accuracy) {
   constexpr double kUniform = 1.0 / 3;
   std::vector<Inaccurate> cranes;
@@ -48,7 +48,7 @@ std::vector<Inaccurate> inaccurate_cranes(const Study& study, const Effects& eff
       std::vector<double> wrong = values;
       wrong[i] = p.high;
       const bool one_of_two = candidate.law == GoesWith::speed;
-      cranes.push_back({study.with(effects), one_of_two ? kUniform / 2 : kUniform});
+      cranes.push_back({crane, one_of_two ? kUniform / 2 : kUniform});
       cranes.back().crane.terms.push_back(candidate.setting(wrong));
     }
   }
@@ -63,15 +63,15 @@ bool may_have_lost_edge(const Run& run, const Window& window, Output drive) {
 
 }  // namespace
 
-std::vector<DriveError> drive_errors(const Study& study, const Effects& effects,
-                                     const configuration::Rig& rig, const Accuracy& accuracy) {
+std::vector<DriveError> drive_errors(const Study& study, const Crane& crane, const configuration::Rig& rig,
+                                     const Accuracy& accuracy) {
   std::vector<DriveError> errors;
   if (study.drive().empty()) return errors;
   // Without a stated accuracy, the usual one bounds a disturbance.
   const double least_accuracy = accuracy.values > 0 ? accuracy.values : kUsualAccuracy.values;
   const Problem plain = study.drive().plain();
-  const Fits base = plain.fit(replays_of(plain.runs(), study.with(effects)));
-  const std::vector<Inaccurate> inaccurate = inaccurate_cranes(study, effects, rig, accuracy);
+  const Fits base = plain.fit(replays_of(plain.runs(), crane));
+  const std::vector<Inaccurate> inaccurate = inaccurate_cranes(study, crane, rig, accuracy);
   std::vector<Fits> wrong;
   for (const Inaccurate& one : inaccurate) wrong.push_back(plain.fit(replays_of(plain.runs(), one.crane)));
   for (std::size_t output = 0; output < plain.outputs().size(); ++output) {
@@ -111,22 +111,24 @@ double p_value(const DriveError& error) {
   return boost::math::ibeta(exceeding, static_cast<double>(error.rms.size()) - exceeding + 1, one_window);
 }
 
-std::string significant_drive_error(const Study& study, const Effects& effects, const configuration::Rig& rig,
-                                    const Accuracy& accuracy) {
-  const std::vector<DriveError> errors = drive_errors(study, effects, rig, accuracy);
+std::optional<SignificantDriveError> significant_drive_error(const Study& study, const Crane& crane,
+                                                             const configuration::Rig& rig,
+                                                             const Accuracy& accuracy) {
+  const std::vector<DriveError> errors = drive_errors(study, crane, rig, accuracy);
   for (const DriveError& error : errors) {
     if (p_value(error) * static_cast<double>(errors.size()) > rules::kSignificant) continue;
     std::size_t worst = 0;
     for (std::size_t w = 0; w < error.rms.size(); ++w)
       if (error.rms[w] * error.expected[worst] > error.rms[worst] * error.expected[w]) worst = w;
-    return (std::ostringstream{} << std::setprecision(2) << "the simulation misses "
-                                 << kOutputNames[error.output] << " by " << error.rms[worst]
-                                 << (error.output == kSlewAngle ? " rad" : " m")
-                                 << " rms in a window, noise and accuracy of the rig file explain "
-                                 << error.expected[worst])
-        .str();
+    return SignificantDriveError{
+        error.output, (std::ostringstream{} << std::setprecision(2) << "the simulation misses "
+                                            << kOutputNames[error.output] << " by " << error.rms[worst]
+                                            << (error.output == kSlewAngle ? " rad" : " m")
+                                            << " rms in a window, noise and accuracy of the rig file explain "
+                                            << error.expected[worst])
+                          .str()};
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace crane::diagnosis

@@ -1,5 +1,6 @@
 #pragma once
 /// Test of "the error of a drive in windows is noise, or an error of the rig file within its accuracy".
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,12 @@ namespace crane::diagnosis {
 /// Error of one drive in the windows of the training data.
 struct DriveError {
   Output output = kTrolleyPosition;
-  std::vector<double> rms;       ///< rms residual of the calibrated model by window, m or rad
+  std::vector<double> rms;       ///< rms residual of the crane by window, m or rad
   std::vector<double> expected;  ///< its standard uncertainty, m or rad
 };
 
-/// Errors of the drives, with starts of the windows that minimise them. The variance of the error of a window
-/// is the sum of
+/// Errors of the drives of a crane, with starts of the windows that minimise them. The variance of the error
+/// of a window is the sum of
 /// - the variance of the sensor noise as learnt;
 /// - a third of the squared change of the simulation by the stated inaccuracy of each free quantity: variance
 ///   of a uniform distribution between the bounds (JCGM 100:2008, 4.3.7); of the friction of each direction
@@ -25,16 +26,23 @@ struct DriveError {
 ///   windows, because a simulation that sticks does not show the uncertainty of the friction;
 /// - the square of the stated accuracy of values times the rms motion in the windows, for disturbances.
 /// Windows in which an edge of the command may be lost are omitted.
-[[nodiscard]] std::vector<DriveError> drive_errors(const Study& study, const Effects& effects,
+[[nodiscard]] std::vector<DriveError> drive_errors(const Study& study, const Crane& crane,
                                                    const configuration::Rig& rig, const Accuracy& accuracy);
 
 /// p-value of the number of windows whose error exceeds kDriveError standard uncertainties, for a normal
 /// error in each window: tail of the binomial distribution.
 [[nodiscard]] double p_value(const DriveError& error);
 
-/// @return description of the drive whose error is significant at kSignificant (Bonferroni over the drives);
-/// empty: none is
-[[nodiscard]] std::string significant_drive_error(const Study& study, const Effects& effects,
-                                                  const configuration::Rig& rig, const Accuracy& accuracy);
+/// The drive whose error is significant.
+struct SignificantDriveError {
+  Output output = kTrolleyPosition;
+  std::string description;
+};
+
+/// Level kSignificant, Bonferroni over the drives.
+[[nodiscard]] std::optional<SignificantDriveError> significant_drive_error(const Study& study,
+                                                                           const Crane& crane,
+                                                                           const configuration::Rig& rig,
+                                                                           const Accuracy& accuracy);
 
 }  // namespace crane::diagnosis

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "replay/standstill.hpp"
 #include "robust.hpp"
 #include "rules.hpp"
 #include "search/compare.hpp"
@@ -81,6 +82,7 @@ class Judgement {
         losing_(losing),
         seed_(seed),
         within_(accuracy.contains_each(study, best_.effects)) {
+    if (std::ranges::find(within_, false) == within_.end()) test_drives();
     for (std::size_t i = 0; i < within_.size(); ++i)
       if (!within_[i]) causes_.push_back(best_.effects[i]);
     result_.ranking = hypotheses.ranking;
@@ -101,6 +103,21 @@ class Judgement {
   }
 
  private:
+  /// Tests the errors of the drives of the calibrated base model. An effect on a drive whose error noise and
+  /// accuracy do not explain is a cause, however little it changes the mean error, unless the accuracy of its
+  /// quantity is stated.
+  void test_drives() {
+    Crane base = study_.base();
+    for (const Effect& inaccuracy : all_.base.nuisance.inaccuracies)
+      base.terms.push_back(inaccuracy.candidate->setting(inaccuracy.values));
+    drive_error_ = accuracy_.drive_error_beyond(study_, holding(std::move(base)));
+    if (!drive_error_) return;
+    for (std::size_t i = 0; i < within_.size(); ++i) {
+      const Candidate& candidate = *best_.effects[i].candidate;
+      if (candidate.acts_on(drive_error_->output) && !accuracy_.is_stated(candidate)) within_[i] = false;
+    }
+  }
+
   /// True if the residual is not explained; adds the variables on which it depends.
   bool doubt() {
     const double load = mean_loss(study_.load(), best_.train.load),
@@ -131,7 +148,7 @@ class Judgement {
   /// the noise and the accuracy of the rig file do not explain. @return description of the missing part;
   /// empty: nothing is missing
   [[nodiscard]] std::string not_followed() const {
-    const std::string drive = causes_.empty() ? accuracy_.drive_error_beyond(study_, best_.effects) : "";
+    const std::string drive = causes_.empty() && drive_error_ ? drive_error_->description : "";
     return drive.empty() ? swing_not_followed() : drive;
   }
 
@@ -221,7 +238,8 @@ class Judgement {
   const std::vector<LosingEncoder>& losing_;
   std::uint64_t seed_;
   std::vector<bool> within_;  ///< by effect of `best_`: within the accuracy of the rig file
-  Effects causes_;            ///< the other effects of `best_`
+  std::optional<SignificantDriveError> drive_error_;  ///< of the base model, if no effect is a cause
+  Effects causes_;                                    ///< the other effects of `best_`
   std::map<const Candidate*, double> frequency_;
   Effects rival_;
   Diagnosis result_;

@@ -8,7 +8,6 @@
 
 #include "search/parts.hpp"
 #include "study/inaccuracies.hpp"
-#include "verdict/drive_error.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -87,8 +86,9 @@ bool StatedAccuracy::contains(const Unexplained& pattern) const {
   return pattern.acceleration <= accuracy_.friction * gain * friction_[pattern.output].least_coulomb_v;
 }
 
-std::string StatedAccuracy::drive_error_beyond(const Study& study, const Effects& effects) const {
-  return significant_drive_error(study, effects, rig_, accuracy_);
+std::optional<SignificantDriveError> StatedAccuracy::drive_error_beyond(const Study& study,
+                                                                        const Crane& crane) const {
+  return significant_drive_error(study, crane, rig_, accuracy_);
 }
 
 }  // namespace crane::diagnosis

@@ -1,13 +1,14 @@
 #pragma once
 /// Effects and patterns that are no larger than the errors of an accurate rig file.
 #include <array>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "crane/diagnosis/accuracy.hpp"
 #include "force/unexplained.hpp"
 #include "study/known_friction.hpp"
 #include "study/study.hpp"
+#include "verdict/drive_error.hpp"
 
 namespace crane::diagnosis {
 
@@ -24,7 +25,11 @@ class StatedAccuracy {
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
   [[nodiscard]] bool contains(const Unexplained& pattern) const;
   /// significant_drive_error() with this accuracy.
-  [[nodiscard]] std::string drive_error_beyond(const Study& study, const Effects& effects) const;
+  [[nodiscard]] std::optional<SignificantDriveError> drive_error_beyond(const Study& study,
+                                                                        const Crane& crane) const;
+
+  /// Whether the accuracy of the quantity that the effect changes is stated.
+  [[nodiscard]] bool is_stated(const Candidate& candidate) const { return !limits_of(candidate).empty(); }
 
  private:
   /// Sums of squares [m2 or rad2] by output: in windows, then over whole runs (swing only).
