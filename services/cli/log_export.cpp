@@ -96,6 +96,17 @@ void write_json_lines(std::ostream& out, recording::McapReader& recording, const
   });
 }
 
+ordered_json losses_json(const std::vector<recording::Loss>& losses) {
+  auto list = ordered_json::array();
+  for (const auto& loss : losses)
+    list.push_back({{"topic", loss.topic},
+                    {"cause", recording::to_string(loss.cause)},
+                    {"samples", loss.samples},
+                    {"from_ns", loss.from_ns},
+                    {"until_ns", loss.until_ns}});
+  return list;
+}
+
 ordered_json describe(recording::McapReader& recording, const std::filesystem::path& file) {
   std::map<std::uint16_t, std::uint64_t> counts;
   std::uint64_t messages = 0;
@@ -105,8 +116,14 @@ ordered_json describe(recording::McapReader& recording, const std::filesystem::p
     return true;
   });
   const double duration_s = static_cast<double>(recording.last_time_ns() - recording.first_time_ns()) * 1e-9;
+  std::uintmax_t bytes = 0;
+  for (const auto& each : recording.files()) bytes += std::filesystem::file_size(each);
+  const bool accounted = recording::has_losses_channel(recording);
+  const auto losses = recording::losses_in(recording);
+  std::map<std::string, std::uint64_t> missing;
+  for (const auto& loss : losses) missing[loss.topic] += loss.samples;
   ordered_json result{{"file", file.string()},
-                      {"bytes", std::filesystem::file_size(file)},
+                      {"bytes", bytes},
                       {"indexed", recording.indexed()},
                       {"first_time_ns", recording.first_time_ns()},
                       {"last_time_ns", recording.last_time_ns()},
@@ -119,6 +136,7 @@ ordered_json describe(recording::McapReader& recording, const std::filesystem::p
     result["topics"].push_back({{"topic", channel.topic},
                                 {"type", schema != nullptr ? schema->name : ""},
                                 {"messages", counts[channel.id]}});
+    if (accounted) result["topics"].back()["missing"] = missing[channel.topic];
   }
   result["metadata"] = ordered_json::array();
   for (const auto& record : recording.metadata())
@@ -127,6 +145,9 @@ ordered_json describe(recording::McapReader& recording, const std::filesystem::p
   for (const auto& attachment : recording.attachments())
     result["attachments"].push_back({{"name", attachment.name}, {"bytes", attachment.data.size()}});
   result["problems"] = recording.problems();
+  result["files"] = ordered_json::array();
+  for (const auto& each : recording.files()) result["files"].push_back(each.string());
+  if (accounted) result["losses"] = losses_json(losses);
   return result;
 }
 

@@ -4,7 +4,9 @@
 #include <iosfwd>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "crane/recording/loss.hpp"
 #include "crane/recording/mcap_reader.hpp"
 
 namespace crane::cli {
@@ -19,9 +21,13 @@ void write_topic_csv(std::ostream& out, recording::McapReader& recording, const 
 void write_json_lines(std::ostream& out, recording::McapReader& recording, const std::string& topic);
 
 /// {"file", "bytes", "indexed", "first_time_ns", "last_time_ns", "duration_s", "messages", "topics": [...],
-///  "metadata": [...], "attachments": [...], "problems": [...]}
+///  "metadata": [...], "attachments": [...], "problems": [...], "files": [...], "losses": [...]}
+/// "losses" is missing in a recording that does not account for them.
 [[nodiscard]] nlohmann::ordered_json describe(recording::McapReader& recording,
                                               const std::filesystem::path& file);
+
+/// [{"topic", "cause", "samples", "from_ns", "until_ns"}, ...]
+[[nodiscard]] nlohmann::ordered_json losses_json(const std::vector<recording::Loss>& losses);
 
 /// A cell of a CSV file (RFC 4180).
 [[nodiscard]] std::string csv_cell(const nlohmann::ordered_json& leaf);

@@ -1,7 +1,10 @@
 #include "cli/units.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "crane/fields/unit.hpp"
 
@@ -31,6 +34,33 @@ Kind kind_of(Dimension dimension) {
   return {{.time = 1}, "time", "1.5, 1.5s, 20ms"};
 }
 
+struct Scale {
+  std::string_view symbol;
+  double factor;
+};
+constexpr std::array kLongTimes{Scale{"min", 60}, Scale{"h", 3600}, Scale{"d", 86400}};
+constexpr std::array kSizes{Scale{"", 1},
+                            Scale{"B", 1},
+                            Scale{"kB", 1e3},
+                            Scale{"MB", 1e6},
+                            Scale{"GB", 1e9},
+                            Scale{"TB", 1e12},
+                            Scale{"KiB", 1024.0},
+                            Scale{"MiB", 1024.0 * 1024},
+                            Scale{"GiB", 1024.0 * 1024 * 1024}};
+
+struct NumberAndUnit {
+  double number;
+  std::string_view symbol;
+};
+std::optional<NumberAndUnit> split(std::string_view text) {
+  const auto rest = trimmed(text);
+  double number = 0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  if (error != std::errc{} || !std::isfinite(number)) return std::nullopt;
+  return NumberAndUnit{number, trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())))};
+}
+
 }  // namespace
 
 double parse_quantity(std::string_view text, Dimension dimension) {
@@ -51,6 +81,31 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   permitted.insert(permitted.find(','), " (default)");
   throw UnitError(quoted + ": unit '" + std::string{symbol} + "' is no unit of " + kind.name + ": use " +
                   permitted);
+}
+
+double parse_duration(std::string_view text) {
+  const auto parts = split(text);
+  double duration_s = 0;
+  const auto* const scale =
+      parts ? std::ranges::find(kLongTimes, parts->symbol, &Scale::symbol) : kLongTimes.end();
+  if (scale != kLongTimes.end())
+    duration_s = parts->number * scale->factor;
+  else
+    duration_s = parse_quantity(text, Dimension::time);
+  if (!(duration_s > 0)) throw UnitError("'" + std::string{text} + "' is not a positive time");
+  return duration_s;
+}
+
+std::uint64_t parse_bytes(std::string_view text) {
+  const auto quoted = "'" + std::string{text} + "'";
+  const auto parts = split(text);
+  const auto* const scale = parts ? std::ranges::find(kSizes, parts->symbol, &Scale::symbol) : kSizes.end();
+  if (scale == kSizes.end())
+    throw UnitError(quoted + " is not a size; for example 500MB, 2GB, 1GiB (without a unit: bytes)");
+  const double bytes = parts->number * scale->factor;
+  constexpr double kLargest = 1e18;
+  if (!(bytes >= 1 && bytes <= kLargest)) throw UnitError(quoted + " is not between 1 byte and 1e18 bytes");
+  return static_cast<std::uint64_t>(bytes);
 }
 
 }  // namespace crane::cli

@@ -20,4 +20,11 @@ class UnitError : public std::runtime_error {
 /// @return m, rad or s. @throws UnitError
 [[nodiscard]] double parse_quantity(std::string_view text, Dimension dimension);
 
+/// Parses a time of hours or days: as parse_quantity(), and with the units min, h and d. @return s
+/// @throws UnitError, also when the time is not positive
+[[nodiscard]] double parse_duration(std::string_view text);
+
+/// Parses a size: "500MB", "2 GB", "1GiB", "4096". @return bytes. @throws UnitError, also when it is 0
+[[nodiscard]] std::uint64_t parse_bytes(std::string_view text);
+
 }  // namespace crane::cli

@@ -39,5 +39,24 @@ TEST(Units, RefuseValuesThatAreNotFiniteNumbers) {
     EXPECT_THROW((void)parse_quantity(text, Dimension::length), UnitError) << text;
 }
 
+TEST(Units, ConvertLongTimesToSeconds) {
+  EXPECT_EQ(parse_duration("90"), 90);
+  EXPECT_EQ(parse_duration("1500ms"), 1.5);
+  EXPECT_EQ(parse_duration("10min"), 600);
+  EXPECT_EQ(parse_duration("1.5 h"), 5400);
+  EXPECT_EQ(parse_duration("2d"), 172'800);
+  for (const char* text : {"0", "0min", "-1h", "nan", "h", "10 minutes", ""})
+    EXPECT_THROW((void)parse_duration(text), UnitError) << text;
+}
+
+TEST(Units, ConvertSizesToBytes) {
+  EXPECT_EQ(parse_bytes("4096"), 4096U);
+  EXPECT_EQ(parse_bytes("500MB"), 500'000'000U);
+  EXPECT_EQ(parse_bytes("1.5 kB"), 1500U);
+  EXPECT_EQ(parse_bytes("2GiB"), 2147483648U);
+  for (const char* text : {"0", "0MB", "-1MB", "nan", "inf", "MB", "1 megabyte", "1mb", "1e30", ""})
+    EXPECT_THROW((void)parse_bytes(text), UnitError) << text;
+}
+
 }  // namespace
 }  // namespace crane::cli

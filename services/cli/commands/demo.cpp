@@ -10,6 +10,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/number_range.hpp"
 #include "crane/bridge/component.hpp"
+#include "crane/configuration/extended_file.hpp"
 #include "crane/experiment/metrics.hpp"
 #include "crane/experiment/picture.hpp"
 #include "crane/runtime/convert.hpp"
@@ -67,7 +68,8 @@ experiment::NamedMetrics run_maneuver(experiments::RealtimeSession& session, bus
   std::cerr << "  " << scenario.name << ": " << scenario.description << '\n';
   go_to_start(session, scenario);
   const fs::path directory{options.out};
-  recorder.emplace(bus, recorder::Options{.file = directory / (scenario.name + ".mcap"), .topics = {}});
+  recorder.emplace(bus, recorder::Options{.file = directory / (scenario.name + ".mcap"),
+                                          .rig_text = configuration::file_text(options.launch.rig)});
   session.start_table();
   const auto zero_ns = session.state()->header.sample_time_ns;
   for (auto& move : scenario.moves) {

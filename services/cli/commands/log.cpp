@@ -3,11 +3,14 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "cli/log_export.hpp"
 #include "cli/output_file.hpp"
+#include "cli/recording_argument.hpp"
 #include "cli/text_table.hpp"
 #include "commands.hpp"
+#include "crane/recording/loss.hpp"
 #include "crane/recording/mcap_edit.hpp"
 #include "crane/recording/run_table.hpp"
 
@@ -25,6 +28,19 @@ struct LogOptions {
 };
 using Shared = std::shared_ptr<LogOptions>;
 
+std::string seconds(std::int64_t time_ns, std::int64_t zero_ns) {
+  return fixed(static_cast<double>(time_ns - zero_ns) * 1e-9, 3) + " s";
+}
+
+/// Samples that the recorder did not record: topic, number, cause, times since the first sample.
+void print_losses(const std::vector<recording::Loss>& losses, std::int64_t zero_ns) {
+  for (const auto& loss : losses)
+    std::cout << "missing: " << loss.topic << ": " << loss.samples
+              << (loss.samples == 1 ? " sample " : " samples ") << recording::to_string(loss.cause)
+              << ", between " << seconds(loss.from_ns, zero_ns) << " and " << seconds(loss.until_ns, zero_ns)
+              << '\n';
+}
+
 /// Topics are decoded with the types that the recording contains.
 void note_other_version(const McapReader& recording) {
   const auto version = recording::messages_version(recording);
@@ -37,6 +53,12 @@ void print_problems(const std::vector<std::string>& problems) {
   for (const auto& problem : problems) std::cerr << problem << '\n';
 }
 
+void print_once(const std::vector<std::string>& lines) {
+  std::set<std::string> printed;
+  for (const auto& line : lines)
+    if (printed.insert(line).second) std::cout << line << '\n';
+}
+
 int info(const LogOptions& options) {
   McapReader recording{options.file};
   const auto found = describe(recording, options.file);
@@ -44,21 +66,30 @@ int info(const LogOptions& options) {
     std::cout << found.dump(2) << '\n';
     return runtime::kExitDone;
   }
+  const auto files = found["files"].size();
   std::cout << options.file.string() << ": " << found["messages"] << " samples, "
             << fixed(found["bytes"].get<double>() / 1e6, 2) << " MB, "
             << fixed(found["duration_s"].get<double>(), 3) << " s, "
+            << (files > 1 ? std::to_string(files) + " parts, " : "")
             << (recording.indexed() ? "closed correctly" : "not closed correctly (crane log repair)") << '\n';
-  TextTable table{{"topic", "type", "samples"}};
-  for (const auto& topic : found["topics"])
-    table.add({topic["topic"], topic["type"], topic["messages"].dump()});
+  const bool accounted = found.contains("losses");
+  TextTable table{accounted ? std::vector<std::string>{"topic", "type", "samples", "missing"}
+                            : std::vector<std::string>{"topic", "type", "samples"}};
+  for (const auto& topic : found["topics"]) {
+    std::vector<std::string> row{topic["topic"], topic["type"], topic["messages"].dump()};
+    if (accounted) row.push_back(topic["missing"].dump());
+    table.add(row);
+  }
   table.print(std::cout);
+  print_losses(recording::losses_in(recording), recording.first_time_ns());
+  std::vector<std::string> lines;
   for (const auto& record : found["metadata"])
     for (const auto& [key, value] : record["entries"].items())
-      std::cout << record["name"].get<std::string>() << '.' << key << " = " << value.get<std::string>()
-                << '\n';
+      lines.push_back(record["name"].get<std::string>() + '.' + key + " = " + value.get<std::string>());
   for (const auto& attachment : found["attachments"])
-    std::cout << "attachment " << attachment["name"].get<std::string>() << ", " << attachment["bytes"]
-              << " bytes\n";
+    lines.push_back("attachment " + attachment["name"].get<std::string>() + ", " +
+                    attachment["bytes"].dump() + " bytes");
+  print_once(lines);  // parts repeat them
   note_other_version(recording);
   print_problems(recording.problems());
   return runtime::kExitDone;
@@ -66,12 +97,19 @@ int info(const LogOptions& options) {
 
 int check(const LogOptions& options) {
   const auto found = recording::check(options.file);
-  if (options.json)
-    std::cout << nlohmann::ordered_json{{"messages", found.messages}, {"problems", found.problems}}.dump(2)
-              << '\n';
-  else
+  McapReader recording{options.file};
+  const auto losses = recording::losses_in(recording);
+  if (options.json) {
+    nlohmann::ordered_json report{{"messages", found.messages}, {"problems", found.problems}};
+    if (recording::has_losses_channel(recording)) report["losses"] = losses_json(losses);
+    std::cout << report.dump(2) << '\n';
+  } else {
     std::cout << options.file.string() << ": " << found.messages << " samples readable, "
-              << (found.problems.empty() ? "intact" : "damaged (crane log repair)") << '\n';
+              << (found.problems.empty() ? "intact" : "damaged (crane log repair)")
+              << (recording::has_losses_channel(recording) && losses.empty() ? ", none reported missing" : "")
+              << '\n';
+    print_losses(losses, recording.first_time_ns());
+  }
   print_problems(found.problems);
   return found.problems.empty() ? runtime::kExitDone : runtime::kExitFailed;
 }
@@ -150,7 +188,7 @@ int run(int (*action)(const LogOptions&), const LogOptions& options) {
 CLI::App* add(CLI::App& log, Action& chosen, const Shared& options, int (*action)(const LogOptions&),
               const char* name, const char* summary) {
   auto* command = log.add_subcommand(name, summary);
-  command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(CLI::ExistingFile);
+  command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(existing_recording());
   command->callback(
       [options, action, &chosen] { chosen = [options, action] { return run(action, *options); }; });
   return command;
@@ -178,13 +216,14 @@ void add_cut(CLI::App& log, Action& chosen, const Shared& options) {
 void add_merge(CLI::App& log, Action& chosen, const Shared& options) {
   auto* command =
       log.add_subcommand("merge", "Merge recordings into a new recording, in the order of log time");
-  constexpr int kFewest = 3, kMost = 1000;
+  constexpr int kFewest = 2, kMost = 1000;
   command->add_option("FILES", options->files, "recordings (.mcap), then the recording to write")
       ->required()
       ->expected(kFewest, kMost);
   add_force(command, options);
   command->footer(
       "Example: crane log merge first.mcap second.mcap both.mcap\n"
+      "         crane log merge run.mcap joined.mcap        (run.mcap: the name of a split recording)\n"
       "Refuses recordings with different schemas or rig files.");
   command->callback([options, &chosen] { chosen = [options] { return run(merge, *options); }; });
 }
@@ -213,13 +252,18 @@ void add_export(CLI::App& log, Action& chosen, const Shared& options) {
 void add_log(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<LogOptions>();
   auto* log = app.add_subcommand("log", "Inspect, check, repair, cut, merge and export recordings");
-  log->footer("Example: crane log info run.mcap\ndocs/data.md describes the recordings.");
+  log->footer(
+      "Example: crane log info run.mcap\n"
+      "FILE may be the name of a split recording (crane record --split-size): its parts are read as one.\n"
+      "docs/data.md describes the recordings.");
   auto* described = add(*log, chosen, options, info, "info", "Show topics, counts, times and metadata");
   described->add_flag("--json", options->json, "one JSON object");
   described->footer("Example: crane log info run.mcap");
   auto* checked = add(*log, chosen, options, check, "check", "Read the whole file and verify every CRC");
   checked->add_flag("--json", options->json, "one JSON object");
-  checked->footer("Example: crane log check run.mcap\nExit code 1 when anything is damaged.");
+  checked->footer(
+      "Example: crane log check run.mcap\nExit code 1 when anything is damaged.\n"
+      "Samples that the recorder did not receive or had to drop are listed as missing.");
   auto* repaired = add(*log, chosen, options, repair, "repair",
                        "Copy the readable part of a damaged recording to a new file");
   repaired->add_option("--out", options->out, "file to write; default: FILE with .repaired.mcap");

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/player.hpp"
+#include "cli/recording_argument.hpp"
 #include "cli/sample_json.hpp"
 #include "cli/text_table.hpp"
 #include "cli/tool_bus.hpp"
@@ -112,7 +113,7 @@ void add_play(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<PlayOptions>();
   auto* command =
       app.add_subcommand("play", "Publish the samples of a recording, for tools on a bus without a crane");
-  command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(CLI::ExistingFile);
+  command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(existing_recording());
   command->add_option("--rate", options->rate, "seconds of the recording per second")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();

@@ -5,17 +5,25 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/output_file.hpp"
+#include "cli/recording_argument.hpp"
+#include "cli/recording_limits.hpp"
 #include "cli/sample_json.hpp"
 #include "cli/text_table.hpp"
 #include "cli/tool_bus.hpp"
 #include "commands.hpp"
+#include "crane/configuration/extended_file.hpp"
+#include "crane/configuration/rig.hpp"
 #include "recorder/recorder.hpp"
+#include "stack/data_files.hpp"
 
 namespace crane::cli {
 namespace {
 
 struct RecordOptions {
   recorder::Options recorder;
+  LimitOptions limits;
+  std::string rig;
   double duration_s = 1e9;
   bool force = false;
   runtime::BusOptions bus = tool_bus();
@@ -25,9 +33,12 @@ std::string summary(const recorder::Recorder& recorder, double elapsed_s) {
   const auto& thread = recorder.thread();
   auto text = std::to_string(thread.written()) + " samples, " +
               fixed(static_cast<double>(thread.bytes()) / 1e6, 2) + " MB, " + fixed(elapsed_s, 1) + " s";
+  if (thread.parts() > 1) text += ", " + std::to_string(thread.parts()) + " parts";
   if (thread.dropped() > 0)
     text += ", " + std::to_string(thread.dropped()) + " dropped" +
             (thread.failure() ? "" : ": the disk is too slow");
+  if (thread.lost() > recorder.rejected())
+    text += ", " + std::to_string(thread.lost() - recorder.rejected()) + " lost on the bus";
   if (recorder.rejected() > 0) text += ", " + std::to_string(recorder.rejected()) + " rejected: wrong CRC";
   return text;
 }
@@ -58,7 +69,24 @@ class Progress {
   double next_s_ = 0;
 };
 
-int record(const RecordOptions& options) {
+/// @throws configuration::ConfigurationError when a file is in the way
+void make_way(const RecordOptions& options) {
+  for (const auto& file : files_in_the_way(options.recorder.file)) {
+    require_new(file, options.force);
+    std::error_code ignored;  // the recorder reports a file that it cannot create
+    const bool replaced = file == options.recorder.file && !options.recorder.limits.split();
+    if (!replaced && std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+  }
+}
+
+int record(RecordOptions options) {
+  options.recorder.limits = limits_of(options.limits);
+  if (!options.rig.empty()) {
+    const auto rig = stack::find_rig(options.rig);
+    (void)configuration::load_rig(rig);  // reports the problems of the file
+    options.recorder.rig_text = configuration::file_text(rig);
+  }
+  make_way(options);
   auto bus = open_bus(options.bus, crane_SOURCE_RECORDER);
   recorder::Recorder recorder{bus, options.recorder};
   Progress progress{bus.options()};
@@ -76,12 +104,6 @@ int record(const RecordOptions& options) {
   return complete ? runtime::kExitDone : runtime::kExitFailed;
 }
 
-void check_file(const RecordOptions& options) {
-  const auto& file = options.recorder.file;
-  if (!options.force && std::filesystem::exists(file))
-    throw CLI::ValidationError("FILE", file.string() + " exists; choose another name or --force");
-}
-
 }  // namespace
 
 void add_record(CLI::App& app, Action& chosen) {
@@ -97,16 +119,18 @@ void add_record(CLI::App& app, Action& chosen) {
           },
           "topic to record (repeatable); default: all")
       ->type_name("TOPIC");
-  command->add_flag("--force", options->force, "overwrite FILE");
+  add_limit_options(*command, options->limits);
+  command->add_option("--rig", options->rig, "rig file or name to attach to each file");
+  command->add_flag("--force", options->force, "overwrite FILE and its parts");
   runtime::add_bus_options(*command, options->bus);
   command->footer(
-      "Example: crane record run.mcap --duration 60\n"
+      "Examples: crane record run.mcap --duration 60\n"
+      "          crane record run.mcap --split-every 10min --quota 2GB\n"
+      "The parts are run_000001.mcap, run_000002.mcap, ...; `crane log info run.mcap` and every other\n"
+      "command that reads recordings read them as one. `crane log merge run.mcap joined.mcap` joins them.\n"
       "The file is complete up to the last second, also after a failure\n"
       "(crane log info, crane log repair).");
-  command->callback([options, &chosen] {
-    check_file(*options);
-    chosen = [options] { return record(*options); };
-  });
+  command->callback([options, &chosen] { chosen = [options] { return record(*options); }; });
 }
 
 }  // namespace crane::cli

@@ -1,5 +1,6 @@
 /// crane replay: repeats a recorded run with the present programs, and compares every sample.
 #include "replay/replay.hpp"
+#include "cli/recording_argument.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -140,7 +141,7 @@ void add_replay(CLI::App& app, Action& chosen) {
       "replay", "Repeat a recorded run with the present programs, and compare every sample bit for bit");
   command->add_option("FILE", options->file, "recording of crane run (.mcap)")
       ->required()
-      ->check(CLI::ExistingFile);
+      ->check(existing_recording());
   command->add_option("--swap", options->swap,
                       "controller=NAME: compute what this controller would have demanded at the recorded "
                       "states, and write a CSV file");

@@ -1,5 +1,6 @@
 /// crane review: reviews a recording.
 #include "review/review.hpp"
+#include "cli/recording_argument.hpp"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -43,7 +44,7 @@ void add_review(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<ReviewOptions>();
   auto* command =
       app.add_subcommand("review", "Explain the stop in a recording, first cause first, and write a page");
-  command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(CLI::ExistingFile);
+  command->add_option("FILE", options->file, "recording (.mcap)")->required()->check(existing_recording());
   command->add_option("--out", options->out, "page to write; default: FILE with the extension .html");
   command->add_flag("--json", options->json, "print sentences, figures and curves as one JSON object");
   command->footer("Example: crane review ~/.local/state/crane/black_box/20261125T035501Z_SWING_LIMIT.mcap");

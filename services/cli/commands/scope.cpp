@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/curves.hpp"
+#include "cli/recording_argument.hpp"
 #include "cli/scope_input.hpp"
 #include "cli/scope_picture.hpp"
 #include "cli/units.hpp"
@@ -234,7 +235,7 @@ void add_scope(CLI::App& app, Action& chosen) {
   normal->excludes(automatic);
   command->add_option("--out", options->out, "CSV file to write")->type_name("FILE");
   command->add_option("--file", options->file, "recording (.mcap) instead of the running crane")
-      ->check(CLI::ExistingFile)
+      ->check(existing_recording())
       ->type_name("FILE");
   command->add_option("--timeout", options->timeout_s, "longest wait for the trigger in s")
       ->check(CLI::PositiveNumber);

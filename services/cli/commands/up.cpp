@@ -6,6 +6,7 @@
 
 #include "black_box/black_box.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/recording_limits.hpp"
 #include "crane/bridge/component.hpp"
 #include "crane/runtime/node.hpp"
 #include "crane/supervisor/component.hpp"
@@ -26,6 +27,7 @@ struct UpOptions {
   std::string rig = stack::kDefaultRig;
   std::string plant = "sim";
   std::string record;
+  LimitOptions record_limits;
   std::filesystem::path black_box = black_box::default_directory();
   bool no_black_box = false;
   std::vector<std::string> vendors;
@@ -41,7 +43,8 @@ void start_recorder(stack::ChildProcesses& children, const UpOptions& options) {
   auto bus = options.launch.bus;
   bus.vendor = "fastdds";
   auto arguments = runtime::arguments(bus);
-  arguments.insert(arguments.begin(), {"record", options.record});
+  arguments.insert(arguments.begin(), {"record", options.record, "--rig", options.launch.rig});
+  for (auto& argument : cli::arguments(options.record_limits)) arguments.push_back(std::move(argument));
   children.start("recorder", "crane", arguments);
 }
 
@@ -114,6 +117,7 @@ bool watch(stack::ChildProcesses& children, DashboardKeeper& dashboard, std::opt
 
 int up(UpOptions options) {
   runtime::install_stop_signals();
+  (void)limits_of(options.record_limits);  // reports problems before any process is started
   options.launch.rig = stack::find_rig(options.rig).string();
   const auto rig = configuration::load_rig(options.launch.rig);
   const auto& controller = runtime::chosen_controller(options.launch.controller, rig);
@@ -176,6 +180,7 @@ void add_up(CLI::App& app, Action& chosen) {
       ->check(CLI::IsMember({"realtime", "lockstep"}))
       ->capture_default_str();
   command->add_option("--record", options->record, "record every topic to this MCAP file");
+  add_limit_options(*command, options->record_limits, "--record-");
   command
       ->add_option("--black-box", options->black_box, "directory in which every stop and fault is recorded")
       ->capture_default_str();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/recording_argument.hpp"
 #include "cli/taught_box.hpp"
 #include "cli/text_table.hpp"
 #include "commands.hpp"
@@ -159,7 +160,7 @@ void add_learn(CLI::App& group, const Options& options, Action& chosen) {
   command->add_option("NAME", options->name, "name of the zone")->required();
   command->add_option("RECORDING", options->recording, "recording (MCAP) of a drive around the obstacle")
       ->required()
-      ->check(CLI::ExistingFile);
+      ->check(existing_recording());
   command->add_option("--bottom", options->bottom_m,
                       "height of the lower end in m; default: the lowest position of the hook");
   command->add_option("--top", options->top_m,
