@@ -67,6 +67,10 @@ std::string csv_cell(const ordered_json& leaf) {
   return quoted + '"';
 }
 
+std::string recorded_topic(const recording::McapReader& recording, const std::string& topic) {
+  return channel_of(recording, topic).topic;
+}
+
 void write_topic_csv(std::ostream& out, recording::McapReader& recording, const std::string& topic) {
   Decoder decoder{recording};
   const auto& channel = channel_of(recording, topic);

@@ -11,6 +11,10 @@
 
 namespace crane::cli {
 
+/// Full name of a recorded topic: "crane/state" for "state". @throws std::runtime_error with the recorded
+/// topics
+[[nodiscard]] std::string recorded_topic(const recording::McapReader& recording, const std::string& topic);
+
 /// Writes one topic: log_time_ns, publish_time_ns, then every elementary value of its type. Booleans are 1
 /// and 0.
 /// @throws std::runtime_error when the recording has no such topic, or its type cannot be decoded

@@ -1,6 +1,8 @@
 // crane log and crane replay, started as by a user: exit codes, refusals, and protection of existing files.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "../replay/recorded_crane.hpp"
 #include "../system/program_run.hpp"
 #include "stack/child_processes.hpp"
@@ -44,6 +46,8 @@ TEST_F(RecordingCommands, RefuseToOverwriteAFileWithoutForce) {
       {"log", "export", "csv", run_, "--out", out},
       {"log", "export", "csv", run_, "--topic", "crane/state", "--out", out},
       {"log", "export", "json", run_, "--topic", "crane/demand", "--out", out},
+      {"log", "export", "hdf5", run_, "--topic", "demand", "--out", out},
+      {"log", "export", "matlab", run_, "--topic", "demand", "--out", out},
       {"replay", run_, "--swap", "controller=delayed_1", "--out", out}};
   for (auto command : commands) {
     SCOPED_TRACE(testing::PrintToString(command));
@@ -97,6 +101,45 @@ TEST_F(RecordingCommands, CutsOfARunAreMergedToARecordingThatIsReplayed) {
   const auto later = crane({"replay", path("b.mcap")});
   EXPECT_EQ(later.exit_code, 2);
   EXPECT_THAT(later.errors, HasSubstr("begins with tick 150"));
+}
+
+/// SciPy and h5py read the files; matio and the C interface of HDF5 wrote them.
+TEST_F(RecordingCommands, ExportToHdf5AndMatlabTheValuesOfTheCsvExport) {
+  const std::string python = "/usr/bin/python3";
+  if (system_test::run_program(python, {"-c", "import h5py, scipy.io"}).exit_code != 0)
+    GTEST_SKIP() << "needs python3-h5py and python3-scipy (deploy/install-dependencies)";
+  const std::vector<std::string> topics{"crane/state",   "crane/reference",  "crane/tracking",
+                                        "crane/demand",  "crane/anti_swing", "crane/command",
+                                        "crane/request", "crane/supervisor"};
+  for (auto topic : topics) {
+    auto file = topic;
+    std::ranges::replace(file, '/', '_');
+    const auto csv = crane({"log", "export", "csv", run_, "--topic", topic, "--out", path(file + ".csv")});
+    ASSERT_EQ(csv.exit_code, 0) << csv.errors;
+  }
+  for (const char* format : {"hdf5", "matlab"}) {
+    const auto exported = crane({"log", "export", format, run_});
+    ASSERT_EQ(exported.exit_code, 0) << exported.errors;
+    EXPECT_THAT(exported.output,
+                HasSubstr(std::string{"run."} + (format[0] == 'h' ? "h5" : "mat") + ": written"));
+  }
+  std::vector<std::string> arguments{CRANE_READ_EXPORTS, path("run.h5"), path("run.mat"), path(".")};
+  arguments.insert(arguments.end(), topics.begin(), topics.end());
+  const auto read = system_test::run_program(python, arguments);
+  EXPECT_EQ(read.exit_code, 0) << read.errors;
+  EXPECT_THAT(read.output, testing::ContainsRegex("^[0-9]{5,} values are equal"));
+}
+
+TEST_F(RecordingCommands, LeaveNoPartOfAnExportThatFails) {
+  for (const char* format : {"hdf5", "matlab"}) {
+    const auto failed = crane({"log", "export", format, run_, "--out", path("missing/run.out")});
+    EXPECT_EQ(failed.exit_code, 1);
+    EXPECT_THAT(failed.errors, HasSubstr("missing/run.out: cannot "));
+    const auto unknown = crane({"log", "export", format, run_, "--topic", "nothing", "--out", path("a.out")});
+    EXPECT_EQ(unknown.exit_code, 1);
+    EXPECT_THAT(unknown.errors, HasSubstr("the recording has no topic 'nothing'; it has crane/state"));
+    EXPECT_FALSE(std::filesystem::exists(path("a.out.partial")));
+  }
 }
 
 TEST_F(RecordingCommands, ReplayNamesTheDifferenceWithExitCode1) {

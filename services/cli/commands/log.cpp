@@ -13,6 +13,8 @@
 #include "crane/recording/loss.hpp"
 #include "crane/recording/mcap_edit.hpp"
 #include "crane/recording/run_table.hpp"
+#include "recording_export/hdf5_export.hpp"
+#include "recording_export/matlab_export.hpp"
 
 namespace crane::cli {
 namespace {
@@ -171,6 +173,29 @@ int export_json(const LogOptions& options) {
   return runtime::kExitDone;
 }
 
+/// Writes a file of a binary format. @param extension  of the default name
+int export_file(const LogOptions& options, const char* extension,
+                void (*write)(const std::filesystem::path&, McapReader&, const std::string&)) {
+  McapReader recording{options.file};
+  note_other_version(recording);
+  auto out = options.out;
+  if (out.empty()) out = std::filesystem::path{options.file}.replace_extension(extension);
+  require_new(out, options.force);
+  write(out, recording, options.topic.empty() ? "" : recorded_topic(recording, options.topic));
+  std::cout << out.string() << ": written, "
+            << fixed(static_cast<double>(std::filesystem::file_size(out)) / 1e6, 2) << " MB\n";
+  print_problems(recording.problems());
+  return runtime::kExitDone;
+}
+
+int export_hdf5(const LogOptions& options) {
+  return export_file(options, ".h5", recording_export::write_hdf5);
+}
+
+int export_matlab(const LogOptions& options) {
+  return export_file(options, ".mat", recording_export::write_matlab);
+}
+
 /// A file that is not a recording, or that must not be merged with the others, gives the exit code of a wrong
 /// argument.
 int run(int (*action)(const LogOptions&), const LogOptions& options) {
@@ -240,9 +265,24 @@ void add_export(CLI::App& log, Action& chosen, const Shared& options) {
   auto* json =
       add(*command, chosen, options, export_json, "json", "Write one JSON object per sample and line");
   json->footer("Example: crane log export json run.mcap --topic event");
-  for (auto* format : {csv, json}) {
+  auto* hdf5 =
+      add(*command, chosen, options, export_hdf5, "hdf5", "Write every topic as a group of datasets (HDF5)");
+  hdf5->footer(
+      "Example: crane log export hdf5 run.mcap\n"
+      "One group per topic (/crane/state), one dataset per field, units and names of enumerators as\n"
+      "attributes, metadata and rig file as attributes of the root (docs/data.md).");
+  auto* matlab = add(*command, chosen, options, export_matlab, "matlab",
+                     "Write every topic as a structure (MAT-file of level 5)");
+  matlab->footer(
+      "Example: crane log export matlab run.mcap --topic state --out state.mat\n"
+      "MATLAB, GNU Octave and SciPy read the file. One structure per topic (crane_state), at most 2 GiB\n"
+      "each, one member per field (docs/data.md).");
+  for (auto* format : {csv, json, hdf5, matlab}) {
     format->add_option("--topic", options->topic, "only this topic");
-    format->add_option("--out", options->out, "file to write; default: standard output");
+    const bool text = format == csv || format == json;
+    format->add_option(
+        "--out", options->out,
+        text ? "file to write; default: standard output" : "file to write; default: FILE with .h5 or .mat");
     add_force(format, options);
   }
 }

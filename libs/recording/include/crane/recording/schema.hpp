@@ -28,6 +28,7 @@ class DecodeError : public std::runtime_error {
 
 struct IdlTypes;
 class NumberReader;
+class ColumnTable;
 
 /// Type of an elementary value.
 struct LeafType {
@@ -65,6 +66,8 @@ class Schema {
   [[nodiscard]] std::vector<LeafType> leaves(std::string_view type) const;
   /// Reader of samples of this type as numbers (numbers.hpp). @throws std::out_of_range for an unknown type
   [[nodiscard]] NumberReader number_reader(std::string_view type) const;
+  /// Empty table for samples of this type (columns.hpp). @throws std::out_of_range for an unknown type
+  [[nodiscard]] ColumnTable column_table(std::string_view type) const;
 
  private:
   std::shared_ptr<const IdlTypes> types_;

@@ -1,0 +1,50 @@
+#include "recording_export/export_facts.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <system_error>
+
+#include "crane/recording/run_table.hpp"
+
+namespace crane::recording_export {
+
+std::map<std::string, std::string> export_facts(recording::McapReader& recording) {
+  std::map<std::string, std::string> facts{{"exported_by", "crane " CRANE_VERSION}};
+  std::string files;
+  for (const auto& file : recording.files()) files += (files.empty() ? "" : ", ") + file.filename().string();
+  facts["recording"] = files;
+  if (const auto version = recording::messages_version(recording))
+    facts["messages_version"] = std::to_string(*version);
+  for (const auto& record : recording.metadata()) {
+    if (record.name == "part") continue;  // "recording" names all parts
+    for (const auto& [key, value] : record.entries) facts.insert_or_assign(record.name + "." + key, value);
+  }
+  for (const auto& attachment : recording.attachments())
+    if (attachment.media_type.starts_with("application/toml") || attachment.media_type.starts_with("text/"))
+      facts.insert_or_assign(attachment.name, std::string{attachment.data.begin(), attachment.data.end()});
+  return facts;
+}
+
+std::optional<std::string> common_unit(const recording::Column& column) {
+  if (column.units.empty()) return std::string{};
+  const bool equal =
+      std::ranges::all_of(column.units, [&](const auto& unit) { return unit == column.units[0]; });
+  return equal ? std::optional{column.units[0]} : std::nullopt;
+}
+
+PartialFile::PartialFile(std::filesystem::path file)
+    : file_{std::move(file)}, partial_{file_.string() + ".partial"} {}
+
+PartialFile::~PartialFile() {
+  std::error_code ignored;
+  std::filesystem::remove(partial_, ignored);
+}
+
+void PartialFile::finish() const {
+  std::error_code failure;
+  std::filesystem::rename(partial_, file_, failure);
+  if (failure)
+    throw std::runtime_error(file_.string() + ": cannot rename " + name() + ": " + failure.message());
+}
+
+}  // namespace crane::recording_export
