@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "crane/bus/cdr.hpp"
 #include "crane/runtime/process.hpp"
@@ -83,6 +84,7 @@ bool Recorder::poll() {
   for (auto& source : sources_) {
     take_all(source);
     note_losses(source);
+    note_gaps(source, false);
   }
   report();
   announce_warnings();
@@ -92,6 +94,7 @@ bool Recorder::poll() {
 }
 
 bool Recorder::close() {
+  for (auto& source : sources_) note_gaps(source, true);
   thread_->close();
   announce_warnings();
   if (!thread_->failure()) return true;
@@ -109,6 +112,7 @@ void Recorder::take_all(Source& source) {
       source.heard = true;
       source.lost_noted = *source.lost;
     }
+    count_gap(source, *header);
     heard_others_ = heard_others_ || header->source != crane_SOURCE_RECORDER;
     Entry entry;
     entry.channel = source.channel;
@@ -123,11 +127,32 @@ void Recorder::take_all(Source& source) {
 
 void Recorder::note_losses(Source& source) {
   const auto note = [&](std::uint64_t& noted, std::uint64_t total, recording::LossCause cause) {
-    if (total > noted) thread_->lose(source.channel, cause, total - noted, log_time_ns());
-    noted = std::max(noted, total);
+    if (total <= noted) return;
+    thread_->lose(source.channel, cause, total - noted, log_time_ns());
+    const auto in_gap = std::min(total - noted, source.gap);
+    source.gap -= in_gap;
+    source.explained += total - noted - in_gap;
+    noted = total;
   };
   if (source.heard) note(source.lost_noted, *source.lost, recording::LossCause::dds_lost);
   note(source.rejected_noted, source.subscriber.counts().rejected, recording::LossCause::wrong_crc);
+}
+
+void Recorder::count_gap(Source& source, const msg::Header& header) {
+  const bool continues = source.subscriber.topic().every_tick && source.last.epoch == header.epoch &&
+                         source.last.source == header.source && header.tick > source.last.tick;
+  const auto absent = continues ? header.tick - source.last.tick - 1 : 0;
+  source.last = header;
+  if (absent == 0) return;
+  const auto explained = std::min(absent, std::exchange(source.explained, 0));
+  source.gap += absent - explained;
+  source.gap_ns = log_time_ns();
+}
+
+void Recorder::note_gaps(Source& source, bool all) {
+  constexpr std::int64_t kReport_ns = 1'000'000'000;  // longest time until DDS reports the loss of a gap
+  if (source.gap == 0 || (!all && log_time_ns() - source.gap_ns < kReport_ns)) return;
+  thread_->lose(source.channel, recording::LossCause::tick_gap, std::exchange(source.gap, 0), source.gap_ns);
 }
 
 void Recorder::announce_warnings() {

@@ -12,6 +12,7 @@
 #include "cli/operator_request.hpp"
 #include "cli/sample_json.hpp"
 #include "cli/snapshot.hpp"
+#include "crane/recording/loss.hpp"
 #include "recorder/recorder.hpp"
 #include "temporary_directory.hpp"
 
@@ -66,6 +67,33 @@ TEST_F(Observers, RecorderWritesWhatWasPublishedWithTheTickAsSequence) {
   });
   EXPECT_EQ(tick, 50U);
   EXPECT_TRUE(recording::check(file).problems.empty());
+}
+
+TEST_F(Observers, RecorderStatesHowManyTicksOfAWriterHaveNoSample) {
+  const TemporaryDirectory directory;
+  const auto file = directory / "run.mcap";
+  auto options = on(network_, crane_SOURCE_SUPERVISOR);
+  options.epoch = 2;
+  bus::Bus restarted{options};
+  auto demands = crane_.publisher(topics::demand), later = restarted.publisher(topics::demand);
+  recorder::Recorder recorder{tool_, {.file = file}};
+  const auto publish = [&](auto& publisher, std::uint64_t tick) {
+    msg::Demand demand{};
+    demand.header.tick = tick;
+    EXPECT_TRUE(publisher.publish(demand));
+    EXPECT_TRUE(recorder.poll());
+  };
+  for (const std::uint64_t tick : {100, 101, 105, 106, 109}) publish(demands, tick);
+  for (const std::uint64_t tick : {1, 2, 4}) publish(later, tick);
+  ASSERT_TRUE(recorder.close());
+  recording::McapReader reader{file};
+  std::uint64_t missing = 0;
+  for (const auto& loss : recording::losses_in(reader)) {
+    EXPECT_EQ(loss.topic, "crane/demand");
+    EXPECT_EQ(loss.cause, recording::LossCause::tick_gap);
+    missing += loss.samples;
+  }
+  EXPECT_EQ(missing, 3U + 2U + 1U) << "a restarted writer begins without a gap";
 }
 
 TEST_F(Observers, ExportQuotesTextAndKeepsNumbersAsTheyAre) {

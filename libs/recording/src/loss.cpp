@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kType = "recorder::Loss";
 constexpr std::string_view kIdl = R"(// Samples that are missing in this recording.
 module recorder {
-  enum Cause { QUEUE_FULL, DDS_LOST, WRONG_CRC, FILE_REMOVED };
+  enum Cause { QUEUE_FULL, DDS_LOST, WRONG_CRC, FILE_REMOVED, TICK_GAP };
 
   @final
   struct Loss {
@@ -30,10 +30,11 @@ struct CauseName {
   std::string_view idl, text;
 };
 /// By LossCause.
-constexpr std::array<CauseName, 4> kCauses{{{"QUEUE_FULL", "dropped: the disk was too slow"},
+constexpr std::array<CauseName, 5> kCauses{{{"QUEUE_FULL", "dropped: the disk was too slow"},
                                             {"DDS_LOST", "reported as lost by DDS"},
                                             {"WRONG_CRC", "rejected: wrong CRC"},
-                                            {"FILE_REMOVED", "in a file that was deleted"}}};
+                                            {"FILE_REMOVED", "in a file that was deleted"},
+                                            {"TICK_GAP", "ticks without a sample"}}};
 
 LossCause cause_named(const std::string& name) {
   const auto* const found = std::ranges::find(kCauses, name, &CauseName::idl);

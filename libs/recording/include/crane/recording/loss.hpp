@@ -1,7 +1,7 @@
 #pragma once
 /// Samples that are missing in a recording: which topic, how many, when and why. The recorder writes them to
 /// the channel recorder/loss of the recording, so that commands which cut, merge or export a recording keep
-/// them. Samples that DDS drops without a report are not stated; gaps of the ticks show them.
+/// them.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,10 +12,13 @@
 namespace crane::recording {
 
 enum class LossCause : std::uint8_t {
-  queue_full,   ///< the recorder dropped the samples: its disk was too slow
-  dds_lost,     ///< DDS reported the samples as lost (SAMPLE_LOST)
-  wrong_crc,    ///< the recorder rejected the samples: their CRC-32C was wrong
-  file_removed  ///< the file that contained the samples was deleted while the recorder wrote it
+  queue_full,    ///< the recorder dropped the samples: its disk was too slow
+  dds_lost,      ///< DDS reported the samples as lost (SAMPLE_LOST)
+  wrong_crc,     ///< the recorder rejected the samples: their CRC-32C was wrong
+  file_removed,  ///< the file that contained the samples was deleted while the recorder wrote it
+  tick_gap       ///< ticks between two samples of a writer without a sample and without another cause: the
+            ///< recorder stood still for longer than the history of its reader, or the loop left the ticks
+            ///< out
 };
 [[nodiscard]] std::string_view to_string(LossCause cause);
 
