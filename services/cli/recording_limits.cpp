@@ -9,7 +9,7 @@
 namespace crane::cli {
 namespace {
 
-/// With a quota alone, a part is a tenth of it: at least nine tenths of the quota hold past samples.
+/// With a quota and no size of the parts, a part is a tenth of the quota.
 constexpr std::uint64_t kPartsOfQuota = 10;
 /// Shorter parts would consist mostly of types and index.
 constexpr double kShortestPart_s = 1;
@@ -50,9 +50,10 @@ void add_limit_options(CLI::App& command, LimitOptions& options, const std::stri
                   "begin a new part after this time (10min, 1h, 30s; at least 1s)")
       ->type_name("TIME");
   command
-      .add_option(prefix + "quota", options.quota,
-                  "delete the oldest parts of this recording before all parts together exceed this size; "
-                  "at least two parts; without a size of the parts, a part is a tenth of it")
+      .add_option(
+          prefix + "quota", options.quota,
+          "delete the oldest parts of this recording before all parts together exceed this size; "
+          "at least the size of two parts; without a size of the parts, a part has a tenth of this size")
       ->type_name("SIZE");
 }
 

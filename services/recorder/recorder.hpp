@@ -59,7 +59,7 @@ class Recorder {
   void note_losses(Source& source);
   /// Counts the ticks between the last sample and this one of the same writer.
   void count_gap(Source& source, const msg::Header& header);
-  /// Notes the gaps of the ticks that no other loss has explained. @param all  also those since a moment ago
+  /// Notes the gaps of the ticks that no other loss has explained. @param all  also those of the last second
   void note_gaps(Source& source, bool all);
   void report();
   void announce_failure();

@@ -34,8 +34,8 @@ struct Excursion {
                                           const Possible& possible, const experiment::Scenario& scenario);
 
 /// Used share of travel, speed and swing limit. Chosen: the rest covers what largest_excursion() leaves out,
-/// viscous friction, filters of the measurement, large angles. Measured: no motion of 60 hidden rigs exceeds
-/// 0.97 of the predicted excursion (Long.MotionsOfHiddenRigsStayWithinThePrediction).
+/// viscous friction, measurement filters, large angles. Measured: no motion of 60 hidden rigs exceeds 0.97 of
+/// the predicted swing and distance (Long.MotionsOfHiddenRigsStayWithinThePrediction).
 inline constexpr double kUsedShare = 0.8;
 
 /// @return the motion stays within kUsedShare of the limits of the rig on every possible crane

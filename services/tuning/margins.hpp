@@ -9,8 +9,8 @@
 
 namespace crane::tuning {
 
-/// Floors, chosen. Delay: one period of the loop; a law without this margin oscillates as soon as one command
-/// acts a tick late. Gain: 2, the 6 dB that are common in practice.
+/// Floors, chosen. Delay: one period of the loop; a law without this margin is unstable when its commands act
+/// one tick late. Gain: 2, the 6 dB that are common in practice.
 inline constexpr double kDelayFloor_periods = 1, kGainFloor = 2;
 
 /// Tested delays, in periods, and gains, in ascending order.
@@ -20,9 +20,9 @@ inline constexpr std::array kTestedGains{1.5, 2.0, 3.0};
 inline constexpr double kCableChange = 0.2, kLoadChange = 0.5, kFrictionChange = 0.2;
 
 struct Margins {
-  double delay_periods = 0;       ///< largest tested delay with a stable loop, beside the delay of the rig
-  double gain = 1;                ///< largest tested factor of the volts with a stable loop
-  bool survives_changes = false;  ///< cable and load: stable; friction: no stop
+  double delay_periods = 0;                  ///< largest tested additional delay with a stable loop
+  double gain = 1;                           ///< largest tested factor of the volts with a stable loop
+  bool survives_changes = false;             ///< cable and load: stable; friction: no stop
   std::optional<double> changed_settling_s;  ///< worst mean settling time under the changes; nothing: not all
                                              ///< changes settle
   [[nodiscard]] bool holds() const {

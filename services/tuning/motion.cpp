@@ -15,13 +15,13 @@ namespace {
 
 // Swing of the sines / swing limit, for a load on a support that follows them exactly. Chosen: small angles.
 constexpr double kSineShare = 0.35;
-// Step of the support / cable length: largest swing of one step of a load at rest, rad. Chosen: sin x differs
-// from x by 0.2 %.
+// Swing by the first and the second step: step of the support / cable length, rad. The third step is 1.5
+// times as large. Chosen: at 0.15 rad, sin x differs from x by 0.4 %.
 constexpr double kStepSwing_rad = 0.1;
 constexpr double kProbe_s = 6, kProbeRest_s = 3, kSines_s = 30, kRest_s = 2;
 constexpr double kProbe_hz = 1.0 / 3;
 // Least time from step to step: 4 time constants of the slowest position loop of the priors. With the share
-// 0.6 / 1.4 of the believed gain, the poles of kLoop_radps = 7 rad/s have the real part -3 / s.
+// 0.6 / 1.4 of the assumed gain, the poles of kLoop_radps = 7 rad/s have the real part -3 / s.
 constexpr double kStepSpacing_s = 1.4;
 // The cable length lies within these bounds of its rough estimate: standard errors, share. Chosen.
 constexpr double kCableErrors = 4, kCableShare = 0.05;
@@ -90,8 +90,8 @@ control::Excitation times(control::Excitation excitation, double scale) {
   return excitation;
 }
 
-/// Three steps away from the middle and back. A step back a whole number of periods of the load after the
-/// step away ends the swing of both.
+/// Three steps away from the middle and back. A step back follows the step away after a whole number of
+/// periods of the load, so that both swings cancel.
 void add_steps(experiment::Scenario& scenario, std::size_t axis, double middle, double step,
                double spacing_s) {
   double at_s = kMotionBegin_s + kSines_s;

@@ -9,7 +9,7 @@
 
 namespace crane::tuning {
 
-/// Ranges relative to the rig file; chosen: more than a wrong data sheet or another load explains.
+/// Ranges of the unknown values. Chosen: wider than the errors of a wrong data sheet or another load.
 struct Priors {
   double gain_share = 0.4;         ///< |true K_m / K_m of the rig file - 1|
   double friction_share = 0.4;     ///< largest Coulomb friction / volt limit of the drive
@@ -17,7 +17,7 @@ struct Priors {
   double payload_high = 2;         ///< largest
   double cable_low_m = 0.4;        ///< shortest true cable length
   double cable_high_m = 2;         ///< longest
-  double delay_periods = 2;        ///< longest delay of a command, beside the tick of the loop
+  double delay_periods = 2;        ///< longest delay of a command, in addition to the tick of the loop
   double rest_angle_rad = 0.0349;  ///< largest swing angle shown with the load at rest, 2 degrees
 };
 
@@ -27,10 +27,10 @@ struct Priors {
 /// of the hold and of the speed lag by 33 degrees.
 inline constexpr double kLoop_radps = 7;
 
-/// The rig as control loop and checks of the bridge see it during the tuning. Tracking PD without swing
-/// feedback; the believed gains are the largest of the priors, so that the loop is never faster than
-/// designed; the believed load is the lightest of the priors, because a position loop that compensates more
-/// than the force of the load excites its swing; the believed friction is the largest, without compensation.
+/// The rig file of control loop and bridge during the tuning. Tracking PD without swing feedback. The assumed
+/// gains are the largest of the priors, so that the loop is never faster than designed. The assumed load is
+/// the lightest of the priors, because a position loop that compensates more than the force of the load
+/// excites the swing. The assumed friction is the largest of the priors and is not compensated.
 /// The checks that need a known model are off (limits.model_checks); all other limits are those of the rig
 /// file.
 [[nodiscard]] configuration::Rig careful_rig(const configuration::Rig& rig, const Priors& priors);

@@ -14,7 +14,7 @@ namespace crane::tuning {
 namespace {
 
 constexpr std::size_t kTested = 4;  // entries whose margins are computed together
-constexpr double kDuration_s = 15;  // of a maneuver; a slower law is not recommended
+constexpr double kDuration_s = 15;  // of a maneuver; a law that needs longer is not recommended
 
 /// Calls work(0) ... work(count - 1) on several threads. @throws the first exception of work
 void parallel(std::size_t count, unsigned processors, const std::function<void(std::size_t)>& work) {

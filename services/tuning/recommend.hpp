@@ -4,7 +4,7 @@
 /// Every candidate runs the maneuvers on the rig; those that settle are ranked by their mean settling time.
 /// The best are tested with a longer delay, a larger gain, another cable length, load and friction. Those
 /// that hold all floors run the maneuvers on rigs drawn from the standard errors of the identification. Of
-/// the entries that settle on all of them, the one with the least expected settling time wins.
+/// the entries that settle on all of them, the one with the least predicted settling time is recommended.
 #include <array>
 #include <functional>
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace crane::tuning {
 
-/// Settling times on the drawn rigs: mean over the maneuvers.
+/// Settling times on the identified and the drawn rigs: mean over the maneuvers.
 struct Predicted {
   double mean_s = 0, least_s = 0, largest_s = 0;
 };

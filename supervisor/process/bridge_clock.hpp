@@ -23,9 +23,9 @@ class BridgeClock {
 
   explicit BridgeClock(std::int64_t period_ns) : period_ns_{period_ns} {}
 
-  /// @return true when the sample may be used. The bridge latches tick k within the k-th period: the elapsed
-  /// time of two samples and the nominal time of their elapsed ticks differ by less than one period. A wrong
-  /// time would end the checks of speeds and positions, and all time-outs.
+  /// @return true when the sample may be used. The bridge latches tick k within the k-th period: the
+  /// difference of two sample times deviates by less than one period from the difference of the ticks times
+  /// the period. A wrong time would disable the checks of speeds and positions, and all time-outs.
   [[nodiscard]] bool fits(const msg::Header& header) const { return !last_ || agree(*last_, header); }
 
   /// Call once for each sample, in the order of arrival.

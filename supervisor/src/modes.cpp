@@ -6,9 +6,9 @@
 namespace crane::supervisor {
 namespace {
 
-// Maintenance limits the stick to the micro-speed of `crane jog`. Chosen: a quarter of max_speed, on the
-// tower crane the 250 mm/s of manual reduced speed in ISO 10218-1. A step of kShortStep_m takes at most
-// 0.16 m/s with any law (tests/jog/operating_modes_test.cpp).
+// Maintenance limits the stick to the micro-speed of `crane jog`. Chosen: a quarter of max_speed. On the
+// tower crane this is 0.375 m/s, above the 0.25 m/s of manual reduced speed in ISO 10218-1. With any law, a
+// step of kShortStep_m reaches at most 0.16 m/s (tests/jog/operating_modes_test.cpp prints the speeds).
 constexpr std::array<ModeRule, kModes> kModeRules{{
     {"semi_automatic", true, Moves::all, true, 1, 1,
      "an operator drives with the stick or requests moves; no restriction"},

@@ -161,9 +161,9 @@ std::string problems_of(Bench& bench, const Place& place, const Case& one) {
   bench.run(0.2);
   Run run{.begin_ns = begin_ns, .onset_ns = begin_ns};
   run.rows = bench.take_rows();
-  std::set<Invariant> told;
+  std::set<Invariant> reported;
   for (const auto& violation : judge(bench.setting().configured, run).violations)
-    if (is_evidence(violation, place) && told.insert(violation.invariant).second)
+    if (is_evidence(violation, place) && reported.insert(violation.invariant).second)
       found += std::string{"  "} + name_of(violation.invariant) + ": " + violation.what + "\n";
   return found;
 }

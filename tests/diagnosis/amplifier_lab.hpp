@@ -24,8 +24,8 @@ struct Axis {
   double disturbance_v = 0;  ///< standard deviation, first order, 0.5 s
 };
 
-/// Motion of the axis by a controller of 100 Hz. Every 1.3 s a new set point of up to 0.3 m; a reference of
-/// second order with 4 rad/s follows it. @return the file of the laboratory
+/// Motion of the axis under a position controller at 100 Hz. The set point changes every 1.3 s, within 0.3 m
+/// of the origin; a critically damped filter at `speed`, rad/s, makes the reference.
 inline recording::Table recorded_axis(const Axis& axis, double duration_s, std::uint64_t seed,
                                       double speed = 4) {
   constexpr double kStep_s = 1e-4, kCount_m = 2e-6;

@@ -34,7 +34,7 @@ constexpr std::array<CauseName, 5> kCauses{{{"QUEUE_FULL", "dropped: the disk wa
                                             {"DDS_LOST", "reported as lost by DDS"},
                                             {"WRONG_CRC", "rejected: wrong CRC"},
                                             {"FILE_REMOVED", "in a file that was deleted"},
-                                            {"TICK_GAP", "ticks without a sample"}}};
+                                            {"TICK_GAP", "not received: gap in the ticks"}}};
 
 LossCause cause_named(const std::string& name) {
   const auto* const found = std::ranges::find(kCauses, name, &CauseName::idl);

@@ -47,18 +47,18 @@ std::string list_of_modes() {
 
 void add_mode(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<ModeOptions>();
-  auto* command =
-      app.add_subcommand("mode", "Show or change the operating mode: who may move the crane, and how fast");
+  auto* command = app.add_subcommand(
+      "mode", "Show or change the operating mode: which requests may move the crane, and how fast");
   command->add_option("mode", options->name, supervisor::mode_names() + "; without it: show the mode")
       ->check([](const std::string& name) {
         return supervisor::find_mode(name) ? std::string{} : name + ": must be " + supervisor::mode_names();
       });
   runtime::add_bus_options(*command, options->bus);
-  command->footer(list_of_modes() +
-                  "A new stack is in semi_automatic. The brakes must be closed for a change; docs/safety.md "
-                  "contains the\n"
-                  "limits of each mode.\n"
-                  "Example: crane disarm && crane mode maintenance && crane reset && crane arm");
+  command->footer(
+      list_of_modes() +
+      "The supervisor starts in semi_automatic. It changes the mode only while the brakes are closed.\n"
+      "docs/safety.md states the limits of each mode.\n"
+      "Example: crane disarm && crane mode maintenance && crane reset && crane arm");
   command->callback([options, &chosen] {
     chosen = [options] { return options->name.empty() ? show(*options) : change(*options); };
   });

@@ -120,7 +120,8 @@ void add_record(CLI::App& app, Action& chosen) {
           "topic to record (repeatable); default: all")
       ->type_name("TOPIC");
   add_limit_options(*command, options->limits);
-  command->add_option("--rig", options->rig, "rig file or name to attach to each file");
+  command->add_option("--rig", options->rig,
+                      "rig file or name; each file of the recording contains this rig file");
   command->add_flag("--force", options->force, "overwrite FILE and its parts");
   runtime::add_bus_options(*command, options->bus);
   command->footer(

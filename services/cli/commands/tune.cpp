@@ -116,13 +116,17 @@ void add_tune(CLI::App& app, Action& chosen) {
   command->add_option("--rig", options->rig, "rig file or name: geometry, inertias, encoders, limits")
       ->capture_default_str();
   command->add_option("--hidden", options->hidden,
-                      "rig file or name of the true crane, for a simulation; default: --rig");
+                      "rig file or name of the crane that is simulated in lockstep; default: --rig");
   command->add_option("--out", options->out, "directory for tuned.toml, tune.html, tune.json, motion.csv")
       ->capture_default_str();
-  command->add_option("--clock", options->clock, "lockstep, or realtime as on a rig (three minutes)")
+  command
+      ->add_option("--clock", options->clock,
+                   "lockstep: simulated time; realtime: up to three minutes of motion")
       ->check(CLI::IsMember({"lockstep", "realtime"}))
       ->capture_default_str();
-  command->add_option("--plant", options->plant, "sim, or hardware: the board of the rig file, in realtime")
+  command
+      ->add_option("--plant", options->plant,
+                   "sim, or hardware: the board of the rig file; needs --clock realtime")
       ->check(CLI::IsMember({"sim", "hardware"}))
       ->capture_default_str();
   command->add_flag("--identify-only", options->identify_only,

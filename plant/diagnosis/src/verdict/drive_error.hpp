@@ -21,10 +21,10 @@ struct DriveError {
 /// of a window is the sum of
 /// - the variance of the sensor noise as learnt;
 /// - a third of the squared change of the simulation by the stated inaccuracy of each free quantity: variance
-///   of a uniform distribution between the bounds (JCGM 100:2008, 4.3.7); of the friction of each direction
-///   apart. The least value is the mean of all
-///   windows, because a simulation that sticks does not show the uncertainty of the friction;
-/// - the square of the stated accuracy of values times the rms motion in the windows, for disturbances.
+///   of a uniform distribution between the bounds (JCGM 100:2008, 4.3.7); a sixth for level and asymmetry of
+///   a friction. The mean of all windows is the lower bound of this sum, because a simulation that sticks
+///   does not show the uncertainty of the friction;
+/// - the square of the product of stated accuracy of values and rms motion in the windows, for disturbances.
 /// Windows in which an edge of the command may be lost are omitted.
 [[nodiscard]] std::vector<DriveError> drive_errors(const Study& study, const Crane& crane,
                                                    const configuration::Rig& rig, const Accuracy& accuracy);

@@ -16,9 +16,9 @@ enum class LossCause : std::uint8_t {
   dds_lost,      ///< DDS reported the samples as lost (SAMPLE_LOST)
   wrong_crc,     ///< the recorder rejected the samples: their CRC-32C was wrong
   file_removed,  ///< the file that contained the samples was deleted while the recorder wrote it
-  tick_gap       ///< ticks between two samples of a writer without a sample and without another cause: the
-            ///< recorder stood still for longer than the history of its reader, or the loop left the ticks
-            ///< out
+  tick_gap       ///< ticks without a sample between two samples of a writer, without another cause: the
+            ///< recorder stood still for more samples than its reader keeps, or the loop was late and skipped
+            ///< the ticks
 };
 [[nodiscard]] std::string_view to_string(LossCause cause);
 
