@@ -169,7 +169,8 @@ report::Page page_of(const TuneResult& result, const configuration::Rig& rig,
         {.title = "Recommendation",
          .blocks = {report::Verdict{
              .text = best.candidate.label() + ": predicted settling time " + text_of(*best.predicted) +
-                     " s, mean over the maneuvers; the range is that of " + std::to_string(kDrawnRigs) +
+                     " s, mean over the maneuvers; the range covers the identified rig and " +
+                     std::to_string(kDrawnRigs) +
                      " rigs drawn from the standard errors. Delay margin at least " +
                      recording::shortest(best.margins->delay_periods) + " periods, gain margin at least " +
                      recording::shortest(best.margins->gain) + ".",

@@ -120,13 +120,14 @@ std::optional<SignificantDriveError> significant_drive_error(const Study& study,
     std::size_t worst = 0;
     for (std::size_t w = 0; w < error.rms.size(); ++w)
       if (error.rms[w] * error.expected[worst] > error.rms[worst] * error.expected[w]) worst = w;
+    const char* const unit = error.output == kSlewAngle ? " rad" : " m";
     return SignificantDriveError{
-        error.output, (std::ostringstream{} << std::setprecision(2) << "the simulation misses "
-                                            << kOutputNames[error.output] << " by " << error.rms[worst]
-                                            << (error.output == kSlewAngle ? " rad" : " m")
-                                            << " rms in a window, noise and accuracy of the rig file explain "
-                                            << error.expected[worst])
-                          .str()};
+        error.output,
+        (std::ostringstream{} << std::setprecision(2) << "the simulation misses "
+                              << kOutputNames[error.output] << " by " << error.rms[worst] << unit
+                              << " rms in a window; noise and accuracy of the rig file explain "
+                              << error.expected[worst] << unit)
+            .str()};
   }
   return std::nullopt;
 }
