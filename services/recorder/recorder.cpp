@@ -94,7 +94,10 @@ bool Recorder::poll() {
 }
 
 bool Recorder::close() {
-  for (auto& source : sources_) note_gaps(source, true);
+  for (auto& source : sources_) {
+    note_losses(source);
+    note_gaps(source, true);
+  }
   thread_->close();
   announce_warnings();
   if (!thread_->failure()) return true;
