@@ -7,6 +7,17 @@
 #include "crane/recording/run_table.hpp"
 
 namespace crane::recording_export {
+namespace {
+
+struct RemovedAtTheEnd {
+  std::filesystem::path file;
+  ~RemovedAtTheEnd() {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  }
+};
+
+}  // namespace
 
 std::map<std::string, std::string> export_facts(recording::McapReader& recording) {
   std::map<std::string, std::string> facts{{"exported_by", "crane " CRANE_VERSION}};
@@ -32,19 +43,23 @@ std::optional<std::string> common_unit(const recording::Column& column) {
   return equal ? std::optional{column.units[0]} : std::nullopt;
 }
 
-PartialFile::PartialFile(std::filesystem::path file)
-    : file_{std::move(file)}, partial_{file_.string() + ".partial"} {}
-
-PartialFile::~PartialFile() {
-  std::error_code ignored;
-  std::filesystem::remove(partial_, ignored);
-}
-
-void PartialFile::finish() const {
+void write_completely(const std::filesystem::path& file,
+                      const std::function<void(const std::string& partial)>& write) {
+  const RemovedAtTheEnd partial{file.string() + ".partial"};
+  try {
+    write(partial.file.string());
+  } catch (const recording::DecodeError&) {
+    throw;
+  } catch (const recording::SchemaError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
+  }
   std::error_code failure;
-  std::filesystem::rename(partial_, file_, failure);
+  std::filesystem::rename(partial.file, file, failure);
   if (failure)
-    throw std::runtime_error(file_.string() + ": cannot rename " + name() + ": " + failure.message());
+    throw std::runtime_error(file.string() + ": cannot rename " + partial.file.string() + ": " +
+                             failure.message());
 }
 
 }  // namespace crane::recording_export

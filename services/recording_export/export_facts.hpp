@@ -1,6 +1,7 @@
 #pragma once
 /// Parts that the exports to HDF5 and MATLAB share.
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,21 +17,9 @@ namespace crane::recording_export {
 /// Unit of all elements of the column, empty: none. @return nothing when the elements have different units
 [[nodiscard]] std::optional<std::string> common_unit(const recording::Column& column);
 
-/// FILE.partial, which becomes FILE when it is complete.
-class PartialFile {
- public:
-  explicit PartialFile(std::filesystem::path file);
-  /// Removes FILE.partial, unless finish() was called.
-  ~PartialFile();
-  PartialFile(const PartialFile&) = delete;
-  PartialFile& operator=(const PartialFile&) = delete;
-
-  [[nodiscard]] std::string name() const { return partial_.string(); }
-  /// @throws std::runtime_error
-  void finish() const;
-
- private:
-  std::filesystem::path file_, partial_;
-};
+/// Calls `write` with the name FILE.partial and renames the result to FILE. When `write` throws, no file
+/// remains. @throws std::runtime_error that names FILE; DecodeError, SchemaError of the recording unchanged
+void write_completely(const std::filesystem::path& file,
+                      const std::function<void(const std::string& partial)>& write);
 
 }  // namespace crane::recording_export

@@ -244,21 +244,13 @@ void write_contents(hid_t file, recording::McapReader& recording, const std::str
 void write_hdf5(const std::filesystem::path& file, recording::McapReader& recording,
                 const std::string& topic) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported by exceptions
-  const PartialFile partial{file};
-  try {
+  write_completely(file, [&](const std::string& partial) {
     errno = 0;
-    Handle out{H5Fcreate(partial.name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose};
+    Handle out{H5Fcreate(partial.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose};
     write_contents(out, recording, topic);
     Handle::check(H5Fflush(out, H5F_SCOPE_GLOBAL));
     out.close();
-  } catch (const recording::DecodeError&) {
-    throw;
-  } catch (const recording::SchemaError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
-  }
-  partial.finish();
+  });
 }
 
 }  // namespace crane::recording_export

@@ -237,25 +237,16 @@ std::size_t write_contents(mat_t* file, recording::McapReader& recording, const 
 
 void write_matlab(const std::filesystem::path& file, recording::McapReader& recording,
                   const std::string& topic) {
-  const PartialFile partial{file};
-  try {
+  write_completely(file, [&](const std::string& partial) {
     errno = 0;
     std::unique_ptr<mat_t, decltype(&Mat_Close)> out{
-        Mat_CreateVer(partial.name().c_str(), "MATLAB 5.0 MAT-file, exported by crane", MAT_FT_MAT5),
-        Mat_Close};
+        Mat_CreateVer(partial.c_str(), "MATLAB 5.0 MAT-file, exported by crane", MAT_FT_MAT5), Mat_Close};
     if (!out) throw std::runtime_error(std::string{"cannot create: "} + std::strerror(errno));
     const auto variables = write_contents(out.get(), recording, topic);
     errno = 0;
     if (Mat_Close(out.release()) != 0) fail_to_write();
-    require_complete(partial.name(), variables);
-  } catch (const recording::DecodeError&) {
-    throw;
-  } catch (const recording::SchemaError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
-  }
-  partial.finish();
+    require_complete(partial, variables);
+  });
 }
 
 }  // namespace crane::recording_export
