@@ -24,18 +24,18 @@ class JogSession {
   /// Requests a session for the selected axes, after a state has arrived: the samples contain its tick.
   /// @throws NoAnswer when no state or no answer arrives
   [[nodiscard]] Answer begin(const std::array<bool, 3>& selected, const Patience& patience = {});
-  /// Sends the deflection every 20 ms until `over` returns true.
+  /// Sends the value of `stick` every 20 ms until `over` returns true. Nothing: the stick is released.
   /// @param stops  true: a stop signal ends the wait
   /// @return false at the timeout or after a stop signal
   /// @throws std::runtime_error when the crane stops, or another move or session replaces this one
   bool drive(double timeout_s, bool stops, const std::function<std::optional<Deflection>()>& stick,
              const std::function<bool()>& over);
 
-  /// Sends the release until the crane is in HOLD.
+  /// Sends a released stick until in_hold().
   /// @throws std::runtime_error like drive(), and at the timeout
   void release(double timeout_s);
 
-  /// True when the supervisor has been in HOLD for some ticks.
+  /// True when the last kHoldTicks samples of the supervisor reported HOLD.
   [[nodiscard]] bool in_hold() const { return hold_ticks_ >= kHoldTicks; }
   /// Begins a new measurement.
   void measure() { begins_ = true; }

@@ -1,6 +1,6 @@
 #pragma once
-/// Records topics of a running crane to MCAP: every sample with a correct CRC, without change. What is
-/// missing is written to the recording too (crane/recording/loss.hpp).
+/// Records topics of a running crane to MCAP: the received samples with a correct CRC, without
+/// change. What is missing is written to the recording too (crane/recording/loss.hpp).
 ///
 ///   log time      time of arrival: wall clock at the start of the recording plus monotonic time, so that a
 ///                 change of the system clock causes no jump
@@ -33,7 +33,8 @@ class Recorder {
   /// Passes arrived samples to the recording thread, and publishes crane/node.
   /// @return false when the file can no longer be written; crane/event reports the reason
   bool poll();
-  /// Writes all waiting samples and closes the file. @return false when the file is incomplete
+  /// Notes the remaining losses, writes the queued samples and closes the file. Samples that poll() has not
+  /// taken are not recorded. @return false when the file is incomplete
   bool close();
 
   [[nodiscard]] const RecordingThread& thread() const { return *thread_; }
@@ -51,7 +52,7 @@ class Recorder {
     bool heard = false;                                      ///< a sample has arrived
     std::uint64_t lost_noted = 0, rejected_noted = 0;        ///< in the recording
     msg::Header last{};                                      ///< of the last sample
-    std::uint64_t gap = 0;        ///< ticks without a sample, for which DDS may still report a loss
+    std::uint64_t gap = 0;        ///< ticks without a sample that no other loss has explained yet
     std::uint64_t explained = 0;  ///< samples noted as lost before their gap was seen
     std::int64_t gap_ns = 0;      ///< log time at which the last gap was seen
   };

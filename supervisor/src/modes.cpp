@@ -28,7 +28,7 @@ std::string percent(double share) { return std::to_string(std::lround(100 * shar
 
 std::string stick_in_words(const ModeRule& rule) {
   if (!rule.stick) return "refused";
-  return rule.stick_share < 1 ? "deflection at most " + percent(rule.stick_share) : "permitted";
+  return rule.stick_share < 1 ? "limited to " + percent(rule.stick_share) + " deflection" : "permitted";
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ enum class Moves : std::uint8_t {
   all
 };
 
-/// Longest move of Moves::short_steps, m; for the slewing jib m of arc at the trolley. It permits inching
-/// steps up to 20 mm of an axis that rests up to 10 mm from its reference.
+/// Longest move of Moves::short_steps, m: an inching step of 20 mm plus a position error of 10 mm at rest.
+/// For the slewing jib m of arc at the present radius of the trolley, at least 0.1 m.
 inline constexpr double kShortStep_m = 0.03;
 
 struct ModeRule {
