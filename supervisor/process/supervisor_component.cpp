@@ -18,6 +18,7 @@
 #include "process/jog_reader.hpp"
 #include "process/request_rules.hpp"
 #include "process/samples.hpp"
+#include "process/sole_reader.hpp"
 #include "process/start_up_test.hpp"
 
 namespace crane::supervisor {
@@ -44,6 +45,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
                    crane_REQUEST_FOLLOW, crane_REQUEST_JOG, crane_REQUEST_STOP, crane_REQUEST_ESTOP,
                    crane_REQUEST_HOME, crane_REQUEST_MODE}},
         jogs_{context},
+        sole_{context},
         commands_{context.ports.output(topics::command)},
         statuses_{context.ports.output(topics::supervisor)} {
     if (auto found = problems(limits_); !found.empty()) {
@@ -55,6 +57,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
  protected:
   void handle_requests(std::int64_t now_ns) override {
     now_ns_ = now_ns;
+    sole_.take(now_ns);
     requests_.receive();
   }
 
@@ -198,7 +201,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   }
 
   void step(TickInput& input) {
-    input.second_writer = input.second_writer || ports().disputed(now_ns_);
+    input.second_writer = input.second_writer || ports().disputed(now_ns_) || sole_.disputed(now_ns_);
     input.configuration_differs = configuration() == 0;
     const auto due = collect(input);
     input.speed_share = rule_of(mode_).speed_share;
@@ -210,6 +213,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     echo_.commanded(command);
     statuses_.publish(status_of(last_header_, output, limits_, move_,
                                 limited_stick(mode_, jogs_.session().deflection(input.now_s)), mode_));
+    sole_.stepped(output.state);
     if (output.state != announced_) announce(node(), limits_, output, memory_.homing_axis);
     announced_ = output.state;
   }
@@ -267,6 +271,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   BridgeClock bridge_clock_{period_ns()};
   runtime::RequestInbox requests_;
   JogReader jogs_;
+  SoleReader sole_;
   runtime::Output<msg::Command> commands_;
   runtime::Output<msg::SupervisorStatus> statuses_;
   StartUpTest self_test_;
@@ -297,7 +302,9 @@ runtime::ComponentSpec supervisor_spec() {
                     {&topics::reference.description, "whether a move is under way"},
                     {&topics::request.description,
                      "reset, arm, disarm, move, follow, jog, home, mode, stop, e-stop"},
-                    {&topics::jog.description, "deflection of the operator's stick"}},
+                    {&topics::jog.description, "deflection of the operator's stick"},
+                    {&topics::supervisor.description, "another supervisor of this crane"},
+                    {&topics::node.description, "start-up number, process id and age of another supervisor"}},
           .writes = {{&topics::command.description, "volts, brakes, watchdog permission"},
                      {&topics::supervisor.description, "safety state, and the move that was accepted"},
                      {&topics::reply.description, "answers to requests"}},

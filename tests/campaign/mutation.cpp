@@ -120,7 +120,7 @@ std::vector<Need> needs() {
 }
 
 /// Tests of the protections that no run can prove necessary, because another protection detects the same
-/// fault or because the rigs of the campaign have no zones.
+/// fault, because the rigs of the campaign have no zones, or because a run has only one stack.
 struct Elsewhere {
   std::string_view protection;
   const char* test;
@@ -131,6 +131,8 @@ constexpr std::array kElsewhere{
     Elsewhere{"bus_checksum_of_topic", "Intact.IsFalseOnAnotherTopicOfTheSameType"},
     Elsewhere{"supervisor_configuration_differs",
               "AnotherConfiguration.OfTheDemandRemovesPowerInTheSameTick"},
+    Elsewhere{"supervisor_sole", "TwoSupervisors.ThatStartTogetherLeaveOneThatTheOperatorCanUse"},
+    Elsewhere{"supervisor_bridge_clock", "TimesOfTheBridge.ThatStandStillOrJumpContradict"},
     Elsewhere{"supervisor_zone", "HostileRuns.NeverLeadTheLoadIntoAZone"},
     Elsewhere{"supervisor_zone_ahead", "ZoneStop.OfAFastCraneIsControlledFirst"}};
 

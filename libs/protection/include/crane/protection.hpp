@@ -13,6 +13,8 @@ namespace crane::protection {
 // Bridge: checks in the order of hardware_bridge/src/checks.cpp. Bus: checksum and writer binding.
 #define CRANE_PROTECTIONS(X)   \
   X(supervisor_echo)           \
+  X(supervisor_sole)           \
+  X(supervisor_bridge_clock)   \
   X(gate_range)                \
   X(gate_rate)                 \
   X(gate_block_outwards)       \

@@ -1,0 +1,62 @@
+#pragma once
+/// Detects another supervisor of the same crane, at the start and later. Pure; the time is an argument.
+///
+/// While another supervisor publishes crane/supervisor, both refuse reset and arming (disputed()). Of two
+/// supervisors that have started together, one ends (yields()): the one with the larger start-up number, or
+/// the one that is new beside one that is established. At most one of two ends: only a new supervisor ends,
+/// an established one is never new again, and two start-up numbers have one order.
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "crane/bus/bus.hpp"
+
+namespace crane::supervisor {
+
+class SoleSupervisor {
+ public:
+  /// A supervisor is new during its first ticks, until its first reset. 5 s at 100 Hz: discovery between two
+  /// DDS vendors takes up to 1 s.
+  static constexpr std::uint64_t kNewTicks = 500;
+  /// As WriterBinding::kDispute_ns: the causes of a stop must be inactive for the same time before a reset.
+  static constexpr std::int64_t kDispute_ns = 1'000'000'000;
+
+  /// @param epoch  start-up number of this process
+  explicit SoleSupervisor(std::uint32_t epoch) : epoch_{epoch} {}
+
+  /// A sample of crane/supervisor, own samples included. @param writer  DDS writer of the sample
+  void heard(const msg::SupervisorStatus& status, const bus::WriterId& writer, std::int64_t now_ns);
+  /// A sample of crane/node of any process.
+  void heard(const msg::NodeStatus& status);
+  /// Call once for each published status of this process.
+  void stepped(crane_SupervisorState state);
+
+  /// @return true while another supervisor has published crane/supervisor within the last kDispute_ns
+  [[nodiscard]] bool disputed(std::int64_t now_ns) const {
+    return disputed_ns_ && now_ns - *disputed_ns_ < kDispute_ns;
+  }
+  /// @return true when this process must end
+  [[nodiscard]] bool yields() const {
+    return is_new_ && rival_ && (rival_->established || rival_->epoch < epoch_);
+  }
+  /// The other supervisor, for messages: "supervisor with start-up number 4711, process 123 (fastdds)".
+  [[nodiscard]] std::string rival() const;
+
+ private:
+  struct Rival {
+    std::uint32_t epoch = 0;
+    bool established = false;
+    std::uint32_t pid = 0;  ///< 0: not known yet
+    std::string vendor;
+  };
+  Rival& rival_with(std::uint32_t epoch);
+
+  std::uint32_t epoch_;
+  std::uint64_t ticks_ = 0;
+  bool is_new_ = true;
+  std::optional<bus::WriterId> own_writer_;
+  std::optional<Rival> rival_;
+  std::optional<std::int64_t> disputed_ns_;
+};
+
+}  // namespace crane::supervisor
