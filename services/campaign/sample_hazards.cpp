@@ -1,6 +1,7 @@
-/// Hazards 5 to 10: processes that publish wrong samples, and foreign writers.
+/// Hazards 5 to 10 and 47: processes that publish wrong samples, and foreign writers.
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "campaign/hazards.hpp"
 #include "campaign/traffic.hpp"
@@ -196,6 +197,23 @@ Injection unauthorised(Bench& bench, Random& random) {
   return intruder(bench, any_loop_topic(random), kWrong[random.pick(kWrong.size())], random);
 }
 
+/// The clock of the bridge stands still, jumps, or runs at another rate.
+Injection wrong_times(Bench& bench, Random& random) {
+  static constexpr std::array kRates{0.0, 0.5, 1.9};
+  const double rate = kRates[random.pick(kRates.size())];
+  const auto jump_ns = static_cast<std::int64_t>(random.pick(2) * random.pick(20'000'000'000));
+  bench.publish_fault = falsify(
+      topics::state, [rate, jump_ns, first = std::optional<std::int64_t>{}](msg::State& state) mutable {
+        auto& time_ns = state.header.sample_time_ns;
+        if (!first) first = time_ns;
+        time_ns = *first + jump_ns + static_cast<std::int64_t>(rate * static_cast<double>(time_ns - *first));
+      });
+  // The first state at half the rate deviates by less than a period and is used: its speeds are doubled.
+  return {.expectation = {.reasons = {because(crane_CAUSE_STATE_STALE), because(crane_CAUSE_FOLLOWING_ERROR),
+                                      because(crane_CAUSE_OVERSPEED)},
+                          .detection_ms = 60}};
+}
+
 constexpr std::array kSampleHazards{
     Hazard{.number = 5, .name = "samples stale, duplicate, out of order", .inject = stale},
     Hazard{.number = 6, .name = "values not finite, out of range", .inject = not_finite},
@@ -203,6 +221,7 @@ constexpr std::array kSampleHazards{
     Hazard{.number = 8, .name = "corrupted payload", .inject = corrupted},
     Hazard{.number = 9, .name = "second writer", .inject = second_writer},
     Hazard{.number = 10, .name = "unauthorised writer", .inject = unauthorised},
+    Hazard{.number = 47, .name = "sample times of the bridge wrong", .inject = wrong_times},
 };
 
 }  // namespace

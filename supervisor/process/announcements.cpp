@@ -27,6 +27,15 @@ void announce(runtime::Node& node, const Limits& limits, const TickOutput& outpu
     node.info("supervisor_state", what);
 }
 
+void announce_unchecked(runtime::Node& node) {
+  node.warning(
+      "model_checks_off",
+      "the crane is armed with model_checks = false: a wrong or exchanged encoder may stop an axis only "
+      "at its limit switch",
+      "test drives and encoders with `crane hw selftest` first; set model_checks = true when the model "
+      "of the rig file is known");
+}
+
 void announce_wrong_time(runtime::Node& node, const msg::Header& header) {
   node.error("sample_time",
              "the sample time of tick " + std::to_string(header.tick) +

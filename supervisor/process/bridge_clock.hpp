@@ -2,7 +2,6 @@
 /// Clock of the bridge. The bridge stamps its samples with its monotonic clock, which has an arbitrary
 /// origin; the supervisor measures silence with its own clock. Pure.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -24,26 +23,28 @@ class BridgeClock {
 
   explicit BridgeClock(std::int64_t period_ns) : period_ns_{period_ns} {}
 
-  /// @return true when the sample may be used. The bridge latches tick k within the k-th period: the
-  /// difference of two sample times deviates by less than one period from the difference of the ticks times
-  /// the period. A wrong time would disable the checks of speeds and positions, and all time-outs.
+  /// @return true when the sample may be used. The bridge latches tick k within the k-th period: the times of
+  /// all its samples minus their ticks times the period lie in an interval shorter than one period. A wrong
+  /// time would disable the checks of speeds and positions, and all time-outs.
   [[nodiscard]] bool fits(const msg::Header& header) const {
-    return !last_ || agree(*last_, header) ||
+    return !accepted_ || continued(*accepted_, header) ||
            !protection::enabled(protection::Protection::supervisor_bridge_clock);
   }
 
   /// Call once for each sample, in the order of arrival.
   Verdict take(const msg::Header& header) {
     if (fits(header)) {
-      last_ = header;
+      accepted_ = accepted_ ? continued(*accepted_, header).value_or(Series{header}) : Series{header};
       agreeing_ = 0;
       return Verdict::fits;
     }
-    agreeing_ = agreeing_ > 0 && agree(rejected_, header) ? agreeing_ + 1 : 1;
-    rejected_ = header;
+    const auto continuation = agreeing_ > 0 ? continued(rejected_, header) : std::nullopt;
+    agreeing_ = continuation ? agreeing_ + 1 : 1;
+    rejected_ = continuation.value_or(Series{header});
     if (agreeing_ < kAgreeing) return Verdict::contradicts;
+    const Series series = rejected_;
     *this = BridgeClock{period_ns_};
-    last_ = header;
+    accepted_ = series;
     return Verdict::begins_anew;
   }
 
@@ -63,20 +64,33 @@ class BridgeClock {
   /// 100 ppm of a period of 10 ms: twice the frequency error of the quartz of a computer.
   static constexpr std::int64_t kDrift_ns = 1000;
 
-  [[nodiscard]] bool agree(const msg::Header& earlier, const msg::Header& later) const {
+  /// Samples of one clock. Deviation: time minus tick times period, relative to the first sample.
+  struct Series {
+    explicit Series(const msg::Header& one) : first{one}, tick{one.tick} {}
+    msg::Header first;
+    std::uint64_t tick;                     ///< of the last sample
+    double earliest_ns = 0, latest_ns = 0;  ///< smallest and largest deviation
+  };
+  /// @return the series with one more sample; nothing when the sample contradicts the series
+  [[nodiscard]] std::optional<Series> continued(Series series, const msg::Header& next) const {
     std::int64_t elapsed_ns = 0;
-    if (later.tick <= earlier.tick ||
-        __builtin_sub_overflow(later.sample_time_ns, earlier.sample_time_ns, &elapsed_ns))
-      return false;
+    if (next.tick <= series.tick ||
+        __builtin_sub_overflow(next.sample_time_ns, series.first.sample_time_ns, &elapsed_ns))
+      return std::nullopt;
     const double nominal_ns =
-        static_cast<double>(later.tick - earlier.tick) * static_cast<double>(period_ns_);
-    return std::abs(static_cast<double>(elapsed_ns) - nominal_ns) < static_cast<double>(period_ns_);
+        static_cast<double>(next.tick - series.first.tick) * static_cast<double>(period_ns_);
+    const double deviation_ns = static_cast<double>(elapsed_ns) - nominal_ns;
+    series.tick = next.tick;
+    series.earliest_ns = std::min(series.earliest_ns, deviation_ns);
+    series.latest_ns = std::max(series.latest_ns, deviation_ns);
+    if (series.latest_ns - series.earliest_ns >= static_cast<double>(period_ns_)) return std::nullopt;
+    return series;
   }
 
   std::int64_t period_ns_;
-  std::optional<msg::Header> last_;  ///< last sample that fits
-  msg::Header rejected_{};           ///< last sample that does not fit
-  int agreeing_ = 0;  ///< samples up to rejected_ that agree with each other; 0: the last sample fits
+  std::optional<Series> accepted_;  ///< the samples that fit
+  Series rejected_{msg::Header{}};  ///< the last samples that agree with each other and do not fit
+  int agreeing_ = 0;                ///< number of samples in rejected_; 0: the last sample fits
   std::optional<std::int64_t> offset_ns_;
 };
 

@@ -214,6 +214,8 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
     statuses_.publish(status_of(last_header_, output, limits_, move_,
                                 limited_stick(mode_, jogs_.session().deflection(input.now_s)), mode_));
     sole_.stepped(output.state);
+    if (realtime_ && !limits_.machine.known && output.state == State::arming && announced_ != State::arming)
+      announce_unchecked(node());
     if (output.state != announced_) announce(node(), limits_, output, memory_.homing_axis);
     announced_ = output.state;
   }

@@ -87,6 +87,7 @@ std::vector<Need> needs() {
           {"supervisor_idle", {36}},
           {"supervisor_bridge_restarted", {35}},
           {"supervisor_echo", {43}},
+          {supervisor_bridge_clock, {47}},
           {gate_range, {44}},
           {gate_rate, {7}},
           {gate_block_outwards, {22}},
@@ -132,7 +133,6 @@ constexpr std::array kElsewhere{
     Elsewhere{"supervisor_configuration_differs",
               "AnotherConfiguration.OfTheDemandRemovesPowerInTheSameTick"},
     Elsewhere{"supervisor_sole", "TwoSupervisors.ThatStartTogetherLeaveOneThatTheOperatorCanUse"},
-    Elsewhere{"supervisor_bridge_clock", "TimesOfTheBridge.ThatStandStillOrJumpContradict"},
     Elsewhere{"supervisor_zone", "HostileRuns.NeverLeadTheLoadIntoAZone"},
     Elsewhere{"supervisor_zone_ahead", "ZoneStop.OfAFastCraneIsControlledFirst"}};
 

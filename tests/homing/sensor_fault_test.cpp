@@ -106,6 +106,52 @@ Spoil rewired(std::array<std::size_t, 2> source, std::array<int, 2> sign) {
   };
 }
 
+class EncoderWiredWrongWithoutModel : public testing::TestWithParam<WrongWires> {};
+
+/// Without model checks the limit switch is the last protection: it operates at the true position. The axis
+/// stops within the stopping distance at full speed, which is the soft margin.
+TEST_P(EncoderWiredWrongWithoutModel, StopsAtTheLimitSwitchAtTheLatest) {
+  const auto& [name, axis, spoil] = GetParam();
+  std::array<double, 2> worst{};
+  for (const double distance : {0.1, 0.5, -0.1, -0.3})
+    for (const auto& controller : control::controllers()) {
+      auto rig = tower();
+      rig.controller = controller.name;
+      LockstepCrane crane{"simulated", rig, rig};
+      crane.spoil = spoil;
+      crane.arm();
+      const std::array<double, 2> start{crane.truth(0), crane.truth(1)};
+      stack::OperatorRequest move{.kind = crane_REQUEST_MOVE};
+      move.selected[axis] = true;
+      move.target[axis] = crane.shown(axis) + distance;
+      if (!crane.ask(move).empty()) continue;  // beyond the soft limits
+      std::array<double, 2> beyond{};
+      crane.every_tick = [&] {
+        for (std::size_t i = 0; i < 2; ++i) {
+          const double truth = crane.truth(i);
+          worst[i] = std::max(worst[i], std::abs(truth - start[i]));
+          beyond[i] =
+              std::max({beyond[i], rig.drives[i].low_limit - truth, truth - rig.drives[i].high_limit});
+        }
+      };
+      crane.run_until([&crane] { return crane.status().state == crane_STATE_LOCKED; }, 10);
+      for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_LT(beyond[i], rig.drives[i].soft_margin)
+            << controller.name << ", " << distance << ", " << plant::kCoordinates[i].name;
+      const bool stopped = crane.status().state == crane_STATE_LOCKED;
+      EXPECT_TRUE(stopped ? crane.safe() : beyond[0] <= 0 && beyond[1] <= 0) << controller.name;
+    }
+  std::cout << name << ": farthest " << worst[0] << " m, " << worst[1] << " rad\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    InAMove, EncoderWiredWrongWithoutModel,
+    testing::Values(WrongWires{"exchanged_trolley", plant::kTrolley, rewired({1, 0}, {1, 1})},
+                    WrongWires{"exchanged_slew", plant::kSlew, rewired({1, 0}, {1, 1})},
+                    WrongWires{"sign_trolley", plant::kTrolley, rewired({0, 1}, {-1, 1})},
+                    WrongWires{"sign_slew", plant::kSlew, rewired({0, 1}, {1, -1})}),
+    [](const auto& test) { return std::string{test.param.name}; });
+
 INSTANTIATE_TEST_SUITE_P(
     InAMove, EncoderWiredWrong,
     testing::Values(WrongWires{"exchanged_trolley", plant::kTrolley, rewired({1, 0}, {1, 1})},

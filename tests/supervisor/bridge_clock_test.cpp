@@ -54,6 +54,17 @@ TEST_F(TimesOfTheBridge, ThatStandStillOrJumpContradict) {
   EXPECT_EQ(clock_.take(stamped(12)), fits);
 }
 
+/// Each step from one sample to the next deviates by less than a period; the sum of the steps does not.
+TEST_F(TimesOfTheBridge, ThatRunTooFastOrTooSlowlyContradict) {
+  for (const std::int64_t step_ns : {kTick_ns / 2, kTick_ns * 19 / 10, kTick_ns + kTick_ns / 100}) {
+    BridgeClock clock{kTick_ns};
+    std::uint64_t tick = 0;
+    std::int64_t time_ns = kFirst_ns;
+    while (tick < 150 && clock.take(with_time(tick, time_ns)) == fits) ++tick, time_ns += step_ns;
+    EXPECT_LT(tick, 102U) << step_ns;
+  }
+}
+
 TEST_F(TimesOfTheBridge, ThatContradictDoNotChangeTheClock) {
   EXPECT_EQ(clock_.local_ns(stamped(10).sample_time_ns, 500), 500);
   EXPECT_EQ(clock_.take(with_time(11, kLatest_ns)), contradicts);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "crane/runtime/in_process.hpp"
 #include "crane/supervisor/component.hpp"
@@ -18,7 +19,9 @@ class SupervisorInRealTime : public testing::Test {
 
   /// Ten complete ticks in time; the step of tick 10 is at 100.5 ms.
   /// @param bridge_ahead_ns  offset of the clock of the bridge's host relative to that of the supervisor
-  explicit SupervisorInRealTime(std::int64_t bridge_ahead_ns = 0) : bridge_ahead_ns_{bridge_ahead_ns} {
+  /// @param model_checks     of the rig file
+  explicit SupervisorInRealTime(std::int64_t bridge_ahead_ns = 0, bool model_checks = true)
+      : bridge_ahead_ns_{bridge_ahead_ns}, rig_{tower(model_checks)} {
     state_.configuration = demand_.configuration = reference_.configuration =
         configuration::digest(rig_, rig_.controller);
     for (std::uint64_t tick = 1; tick <= 10; ++tick) {
@@ -72,6 +75,11 @@ class SupervisorInRealTime : public testing::Test {
   std::shared_ptr<bus::MemoryNetwork> network_ = bus::make_memory_network();
 
  private:
+  [[nodiscard]] static configuration::Rig tower(bool model_checks) {
+    auto rig = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+    rig.limits.model_checks = model_checks;
+    return rig;
+  }
   [[nodiscard]] msg::Header header(std::uint64_t tick) const {
     msg::Header header{};
     header.tick = tick;
@@ -87,7 +95,7 @@ class SupervisorInRealTime : public testing::Test {
   bus::Publisher<msg::Demand> demands_ = friction_.publisher(topics::demand);
   bus::Publisher<msg::Reference> references_ = planner_.publisher(topics::reference);
   bus::Subscriber<msg::SupervisorStatus> statuses_ = planner_.subscriber(topics::supervisor);
-  configuration::Rig rig_ = configuration::load_rig(CRANE_RIGS "/virginia_tech_tower.toml");
+  configuration::Rig rig_;
   bus::Bus bus_{runtime::memory_options(network_, "crane_supervisor", crane_SOURCE_SUPERVISOR)};
   runtime::HostedComponent hosted_{bus_, supervisor_spec(), rig_, runtime::chosen_controller("", rig_),
                                    runtime::Clock::realtime};
@@ -204,7 +212,7 @@ TEST_F(RealTime, FrequentStatesDoNotDelayTheStepForEver) {
 /// A crane at rest whose brakes and relay obey the commands, in RUN: the reference moves.
 class RunInRealTime : public RealTime {
  protected:
-  RunInRealTime() {
+  explicit RunInRealTime(bool model_checks = true) : RealTime{0, model_checks} {
     state_.trolley_position_m = 0.5;
     state_.cable_length_m = 1;
     std::ranges::fill(state_.position_known, true);
@@ -243,12 +251,27 @@ class RunInRealTime : public RealTime {
     }
   }
   [[nodiscard]] double now_ms() const { return 10.0 * static_cast<double>(tick_); }
+  [[nodiscard]] int events_with(std::string_view code) {
+    int count = 0;
+    while (const auto event = events_.take()) count += event->code == code ? 1 : 0;
+    return count;
+  }
 
   std::uint64_t tick_ = 10, last_id_ = 0;
   bus::Bus operator_{runtime::memory_options(network_, "operator", crane_SOURCE_OPERATOR)};
   bus::Publisher<msg::Request> requests_ = operator_.publisher(topics::request);
   bus::Subscriber<msg::Command> commands_ = operator_.subscriber(topics::command);
+  bus::Subscriber<msg::Event> events_ = operator_.subscriber(topics::event);
 };
+
+class RunWithoutModelChecks : public RunInRealTime {
+ protected:
+  RunWithoutModelChecks() : RunInRealTime{false} {}
+};
+
+TEST_F(RunInRealTime, ReportsNothingAboutItsModelChecks) { EXPECT_EQ(events_with("model_checks_off"), 0); }
+
+TEST_F(RunWithoutModelChecks, IsReportedOncePerArming) { EXPECT_EQ(events_with("model_checks_off"), 1); }
 
 TEST_F(RunInRealTime, ALateStateDoesNotEndTheMove) {
   const int before = steps();
