@@ -61,11 +61,13 @@ class OtherTopic {
 };
 
 /// One reader for every loop topic that the components write and that is not collected.
-std::vector<OtherTopic> other_topics(bus::Bus& bus, std::span<const runtime::ComponentSpec> components) {
-  const auto is_written = [components](const topics::Description& topic) {
+std::vector<OtherTopic> other_topics(bus::Bus& bus, std::span<const runtime::ComponentSpec> components,
+                                     const control::Design& design) {
+  const auto is_written = [&](const topics::Description& topic) {
     return std::ranges::any_of(components, [&](const auto& component) {
-      return std::ranges::any_of(component.writes,
-                                 [&](const auto& write) { return write.topic->name == topic.name; });
+      return std::ranges::any_of(component.writes, [&](const auto& write) {
+        return write.topic->name == topic.name && runtime::is_written(write, design);
+      });
     });
   };
   std::vector<OtherTopic> others;
@@ -87,7 +89,7 @@ class LockstepRun {
         bus_{bus.options()},
         operator_{bus, "crane_run", 1},
         collected_{collect_from(bus)},
-        others_{other_topics(bus, components)} {}
+        others_{other_topics(bus, components, rig.design)} {}
 
   RunOutcome execute() {
     until([this] { return operator_.listeners() >= kListeners && operator_.answerers() >= kListeners; },

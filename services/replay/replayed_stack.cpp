@@ -18,9 +18,11 @@ std::optional<T> decoded(const topics::Topic<T>& topic, const Cdr& cdr) {
   return sample;
 }
 
-bool writes(const runtime::ComponentSpec& component, const topics::Description& topic) {
-  return std::ranges::any_of(component.writes,
-                             [&](const auto& write) { return write.topic->name == topic.name; });
+bool writes(const runtime::ComponentSpec& component, const topics::Description& topic,
+            const control::Design& design) {
+  return std::ranges::any_of(component.writes, [&](const auto& write) {
+    return write.topic->name == topic.name && runtime::is_written(write, design);
+  });
 }
 
 }  // namespace
@@ -30,12 +32,13 @@ ReplayedStack::ReplayedStack(std::span<const runtime::ComponentSpec> components,
     : stack_{components, rig, controller},
       configuration_{configuration::digest(rig, controller.name)},
       bus_{runtime::memory_options(stack_.network(), "crane_replay", crane_SOURCE_MONITOR)},
-      has_supervisor_{std::ranges::any_of(components, [](const auto& component) {
-        return writes(component, topics::supervisor.description);
+      has_supervisor_{std::ranges::any_of(components, [&rig](const auto& component) {
+        return writes(component, topics::supervisor.description, rig.design);
       })} {
   for (const auto& topic : topics::kAll)
-    if (topic.every_tick &&
-        std::ranges::any_of(components, [&](const auto& component) { return writes(component, topic); }))
+    if (topic.every_tick && std::ranges::any_of(components, [&](const auto& component) {
+          return writes(component, topic, rig.design);
+        }))
       outputs_.emplace(
           topic.name,
           Output{bus_.cdr_subscriber(topic, runtime::loop_endpoint(runtime::Clock::lockstep)), {}});

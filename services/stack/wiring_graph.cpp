@@ -29,13 +29,18 @@ bool is_observers_business(const Description& topic) {
   return names(&topics::node.description, topic) || names(&topics::event.description, topic);
 }
 
+/// Empty for an output that the component always writes.
+std::string condition_of(const Write& write) {
+  return write.written_with == nullptr ? "" : " (some rig files)";
+}
+
 std::vector<std::string> writers_of(const std::vector<ComponentSpec>& components, const Description& topic) {
   if (is_observers_business(topic)) return {kEveryProcess};
   if (topics::may_write(topic, crane_SOURCE_OPERATOR)) return {kOperator};
   std::vector<std::string> writers;
   for (const auto& component : components)
-    if (std::ranges::any_of(component.writes, [&](const Write& write) { return names(write.topic, topic); }))
-      writers.emplace_back(component.name);
+    for (const auto& write : component.writes)
+      if (names(write.topic, topic)) writers.push_back(std::string{component.name} + condition_of(write));
   return writers;
 }
 
@@ -138,7 +143,7 @@ std::string component_table(const std::vector<ComponentSpec>& components) {
       reads.push_back(short_name(*read.topic) + ": " + std::string{read.purpose} +
                       (read.needed_by == nullptr ? "" : " (some controllers)"));
     for (const auto& write : component.writes)
-      writes.push_back(short_name(*write.topic) + ": " + std::string{write.purpose});
+      writes.push_back(short_name(*write.topic) + ": " + std::string{write.purpose} + condition_of(write));
     table += "| `" + std::string{component.name} + "` | " + joined(reads, "<br>") + " | " +
              joined(writes, "<br>") + " |\n";
   }
@@ -189,7 +194,9 @@ nlohmann::ordered_json wiring_json(const std::vector<ComponentSpec>& components)
                        {"purpose", read.purpose},
                        {"all_controllers", read.needed_by == nullptr}});
     for (const auto& write : component.writes)
-      writes.push_back({{"topic", write.topic->name}, {"purpose", write.purpose}});
+      writes.push_back({{"topic", write.topic->name},
+                        {"purpose", write.purpose},
+                        {"all_rig_files", write.written_with == nullptr}});
     result.push_back({{"component", component.name},
                       {"program", component.program},
                       {"summary", component.summary},

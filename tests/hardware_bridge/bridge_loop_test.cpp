@@ -78,7 +78,8 @@ class BridgeLoop : public testing::Test {
   runtime::Node node_{own_, {"bridge", ""}};
   runtime::ComponentSpec spec_ = hardware_bridge_spec();
   const control::Controller& none_ = *control::find_controller("none");
-  runtime::Ports ports_{own_, spec_, none_, runtime::Clock::realtime};
+  control::Design design_;
+  runtime::Ports ports_{own_, spec_, none_, design_, runtime::Clock::realtime};
   PausingBoard* board_ = new PausingBoard{rig_, std::make_unique<emulated_rig::WiredRig>(rig_)};
   Bridge bridge_{
       {ports_, node_, rig_, none_, own_.options(), runtime::Clock::realtime, [] { return now_ns; }},

@@ -1,5 +1,5 @@
 // Compares the schema that is read from crane.idl with the C structs of idlc and the codec of the bus in
-// every field of every topic of the loop, and in those of the twin.
+// every field of every topic of the loop, and in those of twin and adaptation.
 #include "topic_schema.hpp"
 
 namespace crane::recording {
@@ -164,6 +164,76 @@ TEST(TopicSchema, ReadsEveryFieldOfTwin) {
                                                               {"judged_ticks", t.judged_ticks},
                                                               {"gaps", t.gaps},
                                                               {"crc32c", t.crc32c}}));
+}
+
+ordered_json levels(const msg::AdaptedFriction& a) {
+  return {{"coulomb_v", a.coulomb_v},
+          {"coulomb_std_v", a.coulomb_std_v},
+          {"viscous_v", a.viscous_v},
+          {"viscous_std_v", a.viscous_std_v},
+          {"static_v", a.static_v},
+          {"static_std_v", a.static_std_v},
+          {"used_coulomb_v", a.used_coulomb_v},
+          {"used_viscous_v", a.used_viscous_v},
+          {"used_static_v", a.used_static_v},
+          {"blocks", a.blocks},
+          {"break_aways", a.break_aways}};
+}
+
+void fill(Filler& f, msg::AdaptedFriction& a) {
+  for (double* value : {&a.coulomb_v, &a.coulomb_std_v, &a.viscous_v, &a.viscous_std_v, &a.static_v,
+                        &a.static_std_v, &a.used_coulomb_v, &a.used_viscous_v, &a.used_static_v})
+    *value = f.real();
+  f.number(a.blocks);
+  f.number(a.break_aways);
+}
+
+TEST(TopicSchema, ReadsEveryFieldOfAdaptation) {
+  Filler f;
+  msg::Adaptation a{};
+  f.header(a.header);
+  auto axes = ordered_json::array();
+  for (auto& axis : a.axis) {
+    axis.phase = crane_ADAPTATION_FROZEN;
+    axis.freeze = crane_FREEZE_IMPLAUSIBLE;
+    fill(f, axis.positive);
+    fill(f, axis.negative);
+    for (double* value : {&axis.innovation_v, &axis.innovation_std_v, &axis.move_residual_v,
+                          &axis.previous_residual_v, &axis.confidence})
+      *value = f.real();
+    for (auto* count : {&axis.installed, &axis.roll_backs, &axis.limit_cycles, &axis.refused_blocks})
+      f.number(*count);
+    axes.push_back({{"phase", "ADAPTATION_FROZEN"},
+                    {"freeze", "FREEZE_IMPLAUSIBLE"},
+                    {"positive", levels(axis.positive)},
+                    {"negative", levels(axis.negative)},
+                    {"innovation_v", axis.innovation_v},
+                    {"innovation_std_v", axis.innovation_std_v},
+                    {"move_residual_v", axis.move_residual_v},
+                    {"previous_residual_v", axis.previous_residual_v},
+                    {"confidence", axis.confidence},
+                    {"installed", axis.installed},
+                    {"roll_backs", axis.roll_backs},
+                    {"limit_cycles", axis.limit_cycles},
+                    {"refused_blocks", axis.refused_blocks}});
+  }
+  for (double* value : {&a.load_mass_kg, &a.load_mass_std_kg, &a.pendulum_length_m, &a.pendulum_length_std_m,
+                        &a.swing_offset_rad[0], &a.swing_offset_rad[1], &a.swing_offset_std_rad[0],
+                        &a.swing_offset_std_rad[1]})
+    *value = f.real();
+  f.number(a.moves);
+  f.number(a.crc32c);
+  EXPECT_EQ(through_the_codec(topics::adaptation, a),
+            (ordered_json{{"header", expected(a.header)},
+                          {"axis", axes},
+                          {"load_mass_kg", a.load_mass_kg},
+                          {"load_mass_std_kg", a.load_mass_std_kg},
+                          {"pendulum_length_m", a.pendulum_length_m},
+                          {"pendulum_length_std_m", a.pendulum_length_std_m},
+                          {"swing_offset_rad", expected(a.swing_offset_rad)},
+                          {"swing_offset_std_rad", expected(a.swing_offset_std_rad)},
+                          {"moves", a.moves},
+                          {"crc32c", a.crc32c}}));
 }
 
 }  // namespace

@@ -23,8 +23,9 @@ class PortsTest : public testing::Test {
             .make = nullptr};
   }
   Ports ports(const ComponentSpec& spec, const char* controller = "delayed_1") {
-    return {bus_, spec, *control::find_controller(controller), Clock::realtime};
+    return {bus_, spec, *control::find_controller(controller), design_, Clock::realtime};
   }
+  control::Design design_;
   bus::Bus bus_{memory_options(bus::make_memory_network(), "tracking", crane_SOURCE_TRACKING)};
 };
 
@@ -58,6 +59,19 @@ TEST_F(PortsTest, AnInputMayBeNeededBySomeControllersOnly) {
   EXPECT_THROW((void)without.loop_input(topics::anti_swing), std::logic_error);
   auto with = ports(spec, "delayed_2");
   EXPECT_NO_THROW((void)with.loop_input(topics::anti_swing));
+}
+
+TEST_F(PortsTest, AnOutputMayBeWrittenWithSomeRigFilesOnly) {
+  auto spec = tracking();
+  spec.writes.push_back({&topics::anti_swing.description, "with the observer", true,
+                         [](const control::Design& design) { return design.swing_observer; }});
+  spec.source = crane_SOURCE_ANTI_SWING;
+  design_.swing_observer = false;
+  auto without = ports(spec);
+  EXPECT_THROW((void)without.output(topics::anti_swing), std::logic_error);
+  design_.swing_observer = true;
+  auto with = ports(spec);
+  EXPECT_NO_THROW((void)with.output(topics::anti_swing));
 }
 
 TEST_F(PortsTest, AreConnectedWhenInputsHaveWritersAndOutputsReaders) {

@@ -42,7 +42,8 @@ class Inbox : public testing::Test {
                       .writes = {{&topics::reply.description, ""}},
                       .make = nullptr};
   const control::Controller& none_ = *control::find_controller("none");
-  Ports ports_{own_, spec_, none_, clock_};
+  control::Design design_;
+  Ports ports_{own_, spec_, none_, design_, clock_};
   Node node_{own_, {"supervisor", ""}};
   configuration::Rig rig_;
   RequestInbox inbox_{{ports_, node_, rig_, none_, own_.options(), clock_},

@@ -32,6 +32,7 @@ Rig parse_rig(const std::string& text, const std::string& file) {
   read_start(root, rig);
   read_zones(root, rig);
   read_controller(root, rig);
+  read_adaptation(root, rig);
   root.finish();
   return rig;
 }

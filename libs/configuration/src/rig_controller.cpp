@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "rig_sections.hpp"
@@ -61,6 +62,14 @@ void read_controller(TomlTable& root, Rig& rig) {
   read_section(believes, plant::kParameterFields, rig.design.crane, nullptr);
   read_frictions(table, rig);
   check_controller(table, rig);
+}
+
+void read_adaptation(TomlTable& root, Rig& rig) {
+  TomlTable table = root.table("adaptation");
+  read_section(table, control::kAdaptationFields, rig.design.adaptation, &rig);
+  const auto compensates = [](const control::DriveFriction& friction) { return friction.factor > 0; };
+  if (rig.design.adaptation.enabled && std::ranges::none_of(rig.design.friction, compensates))
+    table.problem("enabled", "must be false: no [controller.friction] of this rig has a factor above 0");
 }
 
 }  // namespace crane::configuration

@@ -147,7 +147,8 @@ std::vector<SectionTable> section_tables() {
           section_table("zone", control::kZoneFields),
           section_table("clearance", control::kClearanceFields),
           section_table("controller", kControllerFields, kPlanningFields, control::kDesignFields),
-          section_table("controller.friction", control::kFrictionFields)};
+          section_table("controller.friction", control::kFrictionFields),
+          section_table("adaptation", control::kAdaptationFields)};
 }
 
 std::string with_section_tables(const std::string& document) {

@@ -35,5 +35,6 @@ void read_limits(TomlTable& root, Rig& rig);
 void read_start(TomlTable& root, Rig& rig);
 void read_zones(TomlTable& root, Rig& rig);
 void read_controller(TomlTable& root, Rig& rig);
+void read_adaptation(TomlTable& root, Rig& rig);
 
 }  // namespace crane::configuration

@@ -63,6 +63,7 @@ std::vector<std::string> problems(const Design& design) {
     found.push_back(fields::complaint("period_s", design.period_s, plant::kPeriods.rule()));
   check_lengths(design, found);
   fields::check(design, kDesignFields, "", found);
+  fields::check(design.adaptation, kAdaptationFields, "adaptation.", found);
   for (const auto& [key, value, rule] : contradictions(design))
     found.push_back(fields::complaint(std::string{key}, value, rule));
   for (std::size_t axis = 0; axis < kAxes; ++axis) {

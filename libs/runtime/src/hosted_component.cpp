@@ -9,7 +9,7 @@ HostedComponent::HostedComponent(bus::Bus& bus, const ComponentSpec& spec, const
       node_{bus,
             {std::string{spec.name}, spec.runs_controller ? std::string{controller.name} : "",
              configuration::digest(rig, controller.name)}},
-      ports_{bus, spec_, controller, clock},
+      ports_{bus, spec_, controller, rig.design, clock},
       component_{spec_.make(Context{ports_, node_, rig, controller, bus.options(), clock, monotonic_ns})} {
   ports_.require_complete();
 }

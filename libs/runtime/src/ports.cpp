@@ -29,8 +29,9 @@ void Ports::declared_read(const topics::Description& topic) {
 }
 
 bool Ports::declared_write(const topics::Description& topic) {
-  const auto write = std::ranges::find_if(
-      spec_.writes, [&](const Write& declared) { return same_topic(*declared.topic, topic); });
+  const auto write = std::ranges::find_if(spec_.writes, [&](const Write& declared) {
+    return same_topic(*declared.topic, topic) && is_written(declared, design_);
+  });
   if (write == spec_.writes.end()) throw wrong_wiring(spec_, topic, "does not declare that it writes");
   if (!topics::may_write(topic, spec_.source)) throw wrong_wiring(spec_, topic, "is no permitted writer of");
   made_.push_back(&topic);
@@ -45,7 +46,8 @@ void Ports::require_complete() const {
     if (is_needed(read, controller_) && !made(*read.topic))
       throw wrong_wiring(spec_, *read.topic, "declares and does not read");
   for (const auto& write : spec_.writes)
-    if (!made(*write.topic)) throw wrong_wiring(spec_, *write.topic, "declares and does not write");
+    if (is_written(write, design_) && !made(*write.topic))
+      throw wrong_wiring(spec_, *write.topic, "declares and does not write");
 }
 
 bool Ports::connected() const {

@@ -246,6 +246,7 @@ void for_each_section(AnyRig& rig, Visit&& visit) {
   visit(std::string{"controller"}, kControllerFields, rig, "");
   visit(std::string{"controller"}, kPlanningFields, rig.planning, "");
   visit(std::string{"controller"}, control::kDesignFields, rig.design, "");
+  visit(std::string{"adaptation"}, control::kAdaptationFields, rig.design.adaptation, "");
   visit(std::string{"controller.believes"}, plant::kParameterFields, rig.design.crane, "");
 }
 

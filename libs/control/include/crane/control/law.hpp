@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "crane/control/adaptation_settings.hpp"
 #include "crane/plant/parameters.hpp"
 
 namespace crane::control {
@@ -124,6 +125,7 @@ struct Design {
   double shortest_cable_length_m = 0.1;  ///< lower limit for the measured length in the laws
   double longest_cable_length_m = 100;   ///< upper limit; determines the memory of the delayed laws
   bool swing_observer = false;           ///< the laws use the estimate of pendulum_observer.hpp
+  AdaptationSettings adaptation;         ///< of the friction compensation
 
   bool operator==(const Design&) const = default;
 };

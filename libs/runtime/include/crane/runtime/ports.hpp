@@ -44,8 +44,9 @@ class Output {
 class Ports {
  public:
   /// All arguments must outlive the ports.
-  Ports(bus::Bus& bus, const ComponentSpec& spec, const control::Controller& controller, Clock clock)
-      : bus_{bus}, spec_{spec}, controller_{controller}, clock_{clock} {}
+  Ports(bus::Bus& bus, const ComponentSpec& spec, const control::Controller& controller,
+        const control::Design& design, Clock clock)
+      : bus_{bus}, spec_{spec}, controller_{controller}, design_{design}, clock_{clock} {}
 
   /// Reader of a loop topic. @throws std::logic_error when the spec does not declare the topic in `reads`
   template <class T>
@@ -95,6 +96,7 @@ class Ports {
   bus::Bus& bus_;
   const ComponentSpec& spec_;
   const control::Controller& controller_;
+  const control::Design& design_;
   Clock clock_;
   std::vector<std::shared_ptr<LoopInput>> loop_inputs_;
   std::vector<std::function<int()>> readers_;  ///< number of readers of each output that needs a reader

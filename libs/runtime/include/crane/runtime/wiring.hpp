@@ -28,6 +28,8 @@ struct Write {
   std::string_view purpose;
   /// True: the component reports PHASE_READY only when this output has a reader.
   bool needs_reader = true;
+  /// True for the designs with which the component writes this output; null: for all designs.
+  bool (*written_with)(const control::Design&) = nullptr;
 };
 
 /// Description of one component. `crane up` starts one process per ComponentSpec.
@@ -44,6 +46,10 @@ struct ComponentSpec {
 
 [[nodiscard]] inline bool is_needed(const Read& read, const control::Controller& controller) {
   return read.needed_by == nullptr || read.needed_by(controller);
+}
+
+[[nodiscard]] inline bool is_written(const Write& write, const control::Design& design) {
+  return write.written_with == nullptr || write.written_with(design);
 }
 
 }  // namespace crane::runtime
