@@ -150,6 +150,7 @@ TEST(RigServer, MissesNoToggleDuringADelayOfItsStep) {
   const auto toggling =
       static_cast<std::uint16_t>(1U << static_cast<unsigned>(rig.wiring.watchdog_output - 16));
   constexpr std::int64_t kLongEnough_ns = 60'000'000;  // for the relay to close
+  card.set_outputs(toggling);  // a late first toggle must not shorten the time of toggling
   const auto begin_ns = runtime::monotonic_ns();
   for (std::int64_t at_ns = 0; at_ns < kLongEnough_ns; at_ns += 2 * kToggle_ns) {
     wait_until(begin_ns + at_ns + kToggle_ns);

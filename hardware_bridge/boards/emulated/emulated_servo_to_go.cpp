@@ -116,6 +116,7 @@ void EmulatedServoToGo::set_value(std::size_t channel, std::uint32_t counts_24_b
 }
 
 void EmulatedServoToGo::latch(std::size_t channel) noexcept {
+  if (connector_.latch_is_stuck()) return;
   const auto now = value(channel);
   auto& bytes = state_.counters[channel].latch;
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(now >> (8U * i));

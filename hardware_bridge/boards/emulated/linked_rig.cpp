@@ -50,6 +50,7 @@ std::uint16_t LinkedRig::inputs() noexcept { return lines_->inputs; }
 std::int64_t LinkedRig::now_ns() noexcept { return lines_->rig_time_ns; }
 
 void LinkedRig::set_converter(std::size_t channel, std::uint16_t code) noexcept {
+  if ((lines_->faults & kStuckConverters) != 0) return;
   lines_->codes[channel] = code;
   ++lines_->changes;
 }

@@ -57,6 +57,7 @@ void RigServer::run_to(std::int64_t time_ns, std::int64_t at_ns) {
   constexpr std::int64_t kStep_ns = 1'000'000;
   const auto offset_ns = at_ns - time_ns;
   const bridge::OutputChange* change = next_output_change();
+  rig_.inject(lines_->faults);
   while (rig_.now_ns() < time_ns || (change != nullptr && change->at_ns <= time_ns + offset_ns)) {
     const auto change_ns = change != nullptr ? change->at_ns - offset_ns : time_ns;
     const auto now_ns = std::max(rig_.now_ns(), std::min({rig_.now_ns() + kStep_ns, change_ns, time_ns}));

@@ -1,5 +1,6 @@
 #include "crane/emulated_rig/wired_rig.hpp"
 
+#include "crane/boards/shared_lines.hpp"
 #include "crane/bridge/converter.hpp"
 #include "crane/simulator/component.hpp"
 
@@ -56,13 +57,20 @@ void WiredRig::set_converter(std::size_t channel, std::uint16_t code) noexcept {
 
 void WiredRig::set_outputs(std::uint16_t levels) noexcept {
   for (std::size_t i = 0; i < bridge::kDrives; ++i)
-    outputs_.brake_release[i] = drives_[i].present && is_on(levels, wiring_.drives[i].brake_release_output);
+    outputs_.brake_release[i] =
+        drives_[i].present && (is_on(levels, wiring_.drives[i].brake_release_output) ||
+                               (outputs_.brake_release[i] && (faults_ & bridge::kStuckBrakeOutputs) != 0));
   outputs_.watchdog_level = is_on(levels, wiring_.watchdog_output);
   changed_ = true;
 }
 
 /// Writes the changes of several lines together: the command terms of the model act once per tick.
 void WiredRig::advance_to(std::int64_t time_ns) {
+  if ((faults_ & bridge::kWeldedRelay) !=
+      0) {  // a relay that is kept closed cannot be told from a welded one
+    outputs_.watchdog_level = !outputs_.watchdog_level;
+    changed_ = true;
+  }
   if (changed_) crane_.write(outputs_);
   changed_ = false;
   crane_.advance_to(time_ns);

@@ -30,6 +30,8 @@ class Connector {
   virtual void set_outputs(std::uint16_t levels) noexcept = 0;
   /// Time of the rig.
   [[nodiscard]] virtual std::int64_t now_ns() noexcept = 0;
+  /// True: a fault of the card; the output latches of the counters keep their value.
+  [[nodiscard]] virtual bool latch_is_stuck() noexcept { return false; }
 };
 
 /// State of the card. Plain data, so that it can be in shared memory and survive the process of the driver.

@@ -19,6 +19,7 @@ class LinkedRig final : public EmulatedRig {
   [[nodiscard]] std::uint16_t inputs() noexcept override;
   void set_converter(std::size_t channel, std::uint16_t code) noexcept override;
   void set_outputs(std::uint16_t levels) noexcept override;
+  [[nodiscard]] bool latch_is_stuck() noexcept override { return (lines_->faults & kStuckLatches) != 0; }
   [[nodiscard]] std::int64_t now_ns() noexcept override;
   [[nodiscard]] CardState& card() noexcept override { return lines_->card; }
   void advance_to(std::int64_t time_ns) override;
@@ -32,12 +33,14 @@ class LinkedRig final : public EmulatedRig {
   SharedLines* lines_ = nullptr;
 };
 
-/// Observes the lines of a running rig without changing them.
+/// Observes the lines of a running rig without changing them. Tests also inject faults of the card.
 class RigMonitor {
  public:
   /// @throws BoardError when no rig of this name runs
   explicit RigMonitor(const std::string& name);
   [[nodiscard]] const SharedLines& lines() const { return *lines_; }
+  /// @param faults  sum of CardFault; 0: none
+  void inject(std::uint32_t faults) { lines_->faults = faults; }
 
  private:
   std::unique_ptr<SharedFile> file_;

@@ -21,6 +21,14 @@ struct OutputChange {
   std::array<std::atomic<std::uint16_t>, kCardChannels> codes{};
 };
 
+/// Faults of the emulated card and of the wiring, for tests; one bit each.
+enum CardFault : std::uint32_t {
+  kStuckConverters = 1U << 0U,    ///< the converters keep their voltage whatever is written
+  kStuckLatches = 1U << 1U,       ///< the output latches of the counters keep their value
+  kWeldedRelay = 1U << 2U,        ///< the watchdog relay stays closed without a toggle
+  kStuckBrakeOutputs = 1U << 3U,  ///< a brake output that is on stays on
+};
+
 struct SharedLines {
   std::atomic<std::uint32_t> ready{0};  ///< kReady when the rig has initialised the memory
   static constexpr std::uint32_t kReady = 0x51A6E001;
@@ -42,6 +50,8 @@ struct SharedLines {
   std::atomic<std::uint64_t> output_change_count{0};
   std::atomic<std::uint32_t> kicks{0};
   std::atomic<double> kick_radial_radps{0}, kick_tangential_radps{0};
+
+  std::atomic<std::uint32_t> faults{0};  ///< sum of CardFault
 
   // request of the card: advance to `until_ns`, the rig's time in lockstep, CLOCK_MONOTONIC in real time
   sem_t advance{}, reached{};

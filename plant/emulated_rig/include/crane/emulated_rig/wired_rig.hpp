@@ -18,6 +18,8 @@ class WiredRig final : public bridge::EmulatedRig {
   void set_outputs(std::uint16_t levels) noexcept override;
   [[nodiscard]] std::int64_t now_ns() noexcept override { return crane_.now_ns(); }
   [[nodiscard]] bridge::CardState& card() noexcept override { return card_; }
+  /// @param faults  sum of bridge::CardFault
+  void inject(std::uint32_t faults) noexcept { faults_ = faults; }
   /// @throws std::runtime_error when the integration fails
   void advance_to(std::int64_t time_ns) override;
   void kick(double radial_radps, double tangential_radps) override {
@@ -38,6 +40,7 @@ class WiredRig final : public bridge::EmulatedRig {
   simulator::SimulatedBoard crane_;
   std::array<std::int32_t, bridge::kCounters> first_counts_;
   bridge::Outputs outputs_;
+  std::uint32_t faults_ = 0;
   bool changed_ = false;  ///< true: outputs_ was not yet written to the crane
 };
 
