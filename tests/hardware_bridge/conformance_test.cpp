@@ -94,7 +94,7 @@ TEST_P(Conformance, IsSafeAfterAnExceptionInTheBridge) {
   runtime::Node node{bus, {"bridge", ""}};
   const runtime::ComponentSpec spec = hardware_bridge_spec();
   const auto& none = *control::find_controller("none");
-  runtime::Ports ports{bus, spec, none, runtime::Clock::realtime};
+  runtime::Ports ports{bus, spec, none, rig_.design, runtime::Clock::realtime};
   const runtime::Context context{ports, node, rig_, none, bus.options(), runtime::Clock::realtime};
   const auto run_into_it = [&] {
     Bridge bridge{context, std::make_unique<Lent>(subject_->board())};
