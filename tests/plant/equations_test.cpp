@@ -32,9 +32,9 @@ void expect_lagrange(const Parameters& p, const State& s, const Accelerations& a
 
 TEST(Equations, FulfilLagrangesEquationsFromPositionsOverGround) {
   std::mt19937 random{kSeed};
-  for (int i = 0; i < kCases; ++i) {
+  for (unsigned i = 0; i < kCases; ++i) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + " case " + std::to_string(i));
-    const Parameters p = test::random_crane(random);
+    const Parameters p = test::random_inclined_crane(random, i);
     const State s = test::random_state(random);
     const Forces f = test::random_forces(random);
     const double hoisting = std::uniform_real_distribution{-3.0, 3.0}(random);
@@ -51,7 +51,7 @@ TEST(Equations, HoldLockedCoordinatesAndMoveTheOthersByTheReducedEquations) {
     const Locks locks{.axis = {(i & 1) != 0, (i & 2) != 0, (i & 4) != 0},
                       .radial = (i & 8) != 0,
                       .tangential = (i & 16) != 0};
-    const Parameters p = test::random_crane(random);
+    const Parameters p = test::random_inclined_crane(random, i);
     State s = test::random_state(random);
     if (locks.axis[kTrolley]) s.trolley_mps = 0;
     if (locks.axis[kSlew]) s.slew_radps = 0;
@@ -81,8 +81,8 @@ TEST(Equations, HoldLockedCoordinatesAndMoveTheOthersByTheReducedEquations) {
 
 TEST(Equations, MassMatrixIsTheDerivativeOfTheMomenta) {
   std::mt19937 random{kSeed};
-  for (int i = 0; i < kCases; ++i) {
-    const Parameters p = test::random_crane(random);
+  for (unsigned i = 0; i < kCases; ++i) {
+    const Parameters p = test::random_inclined_crane(random, i);
     State s = test::random_state(random);
     const Eigen::Matrix4d m = mass_matrix(p, s);
     s.cable_mps = 0;
@@ -94,8 +94,8 @@ TEST(Equations, MassMatrixIsTheDerivativeOfTheMomenta) {
 
 TEST(Equations, AnImpactOfAnAxisConservesTheOtherMomenta) {
   std::mt19937 random{kSeed};
-  for (int i = 0; i < kCases; ++i) {
-    const Parameters p = test::random_crane(random);
+  for (unsigned i = 0; i < kCases; ++i) {
+    const Parameters p = test::random_inclined_crane(random, i);
     const State s = test::random_state(random);
     const test::Q<double> before = test::momenta(p, s);
     for (const Axis axis : {kTrolley, kSlew, kHoist}) {
@@ -113,8 +113,8 @@ TEST(Equations, AnImpactOfAnAxisConservesTheOtherMomenta) {
 
 TEST(Equations, AnImpactOfAnAxisDissipatesEnergy) {
   std::mt19937 random{kSeed};
-  for (int i = 0; i < kCases; ++i) {
-    const Parameters p = test::random_crane(random);
+  for (unsigned i = 0; i < kCases; ++i) {
+    const Parameters p = test::random_inclined_crane(random, i);
     State s = test::random_state(random);
     s.cable_mps = 0;  // a moving winch could add energy to the impact
     for (const Axis axis : {kTrolley, kSlew}) EXPECT_LT(energy_j(p, stop_dead(p, s, axis)), energy_j(p, s));
@@ -123,8 +123,8 @@ TEST(Equations, AnImpactOfAnAxisDissipatesEnergy) {
 
 TEST(Equations, EnergyIsKineticPlusPotential) {
   std::mt19937 random{kSeed};
-  for (int i = 0; i < kCases; ++i) {
-    const Parameters p = test::random_crane(random);
+  for (unsigned i = 0; i < kCases; ++i) {
+    const Parameters p = test::random_inclined_crane(random, i);
     const State s = test::random_state(random);
     // T is quadratic in the rates: 2 T = p q'; L = T - V
     const test::Q<double> momentum = test::momenta(p, s), v = test::rates(s);
@@ -137,12 +137,13 @@ TEST(Equations, EnergyIsKineticPlusPotential) {
 
 TEST(Equations, LoadVelocityIsTheDerivativeOfThePositionOverGround) {
   std::mt19937 random{kSeed};
-  for (int i = 0; i < kCases; ++i) {
+  for (unsigned i = 0; i < kCases; ++i) {
+    const Parameters p = test::random_inclined_crane(random, i);
     const State s = test::random_state(random);
     test::Q<test::Dual<double>> moving;
     for (std::size_t j = 0; j < kQ; ++j) moving[j] = {test::coordinates(s)[j], test::rates(s)[j]};
-    const auto load = test::load_over_ground(moving);
-    const Eigen::Vector3d v = load_velocity_mps(s);
+    const auto load = test::load_over_ground(p, moving);
+    const Eigen::Vector3d v = load_velocity_mps(p, s);
     EXPECT_NEAR(v[0], std::cos(s.slew_rad) * load[0].slope + std::sin(s.slew_rad) * load[1].slope,
                 kAgreement);
     EXPECT_NEAR(v[1], -std::sin(s.slew_rad) * load[0].slope + std::cos(s.slew_rad) * load[1].slope,
@@ -188,8 +189,9 @@ TEST(Equations, WithoutLoadADriveAxisIsAnInertia) {
 }
 
 /// Energy gained minus work done over 4 s by Runge-Kutta steps of h, cable length moved by L''.
-double energy_gap_j(double h_s, double hoisting_mps2, const Forces& f) {
-  const Parameters p;
+double energy_gap_j(double h_s, double hoisting_mps2, const Forces& f, double tilt_rad) {
+  Parameters p;
+  p.tilt_sine = std::sin(tilt_rad), p.tilt_cosine = std::cos(tilt_rad);
   using Row = Eigen::Matrix<double, 11, 1>;
   const auto slope = [&](double t, const Row& y) {
     StateArray values{};
@@ -230,12 +232,14 @@ TEST(Equations, EnergyChangesByTheWorkOfDrivesAndHoistOnly) {
     const char* name;
     double hoisting_mps2;
     Forces forces;
+    double tilt_rad = 0;
   };
   for (const Case& c : {Case{"free", 0, {}}, Case{"driven", 0, {.trolley_n = 3, .slew_nm = 1}},
-                        Case{"driven and hoisting", 0.4, {.trolley_n = 3, .slew_nm = 1}}}) {
+                        Case{"driven and hoisting", 0.4, {.trolley_n = 3, .slew_nm = 1}},
+                        Case{"tilted, driven and hoisting", 0.4, {.trolley_n = 3, .slew_nm = 1}, 0.2}}) {
     SCOPED_TRACE(c.name);
-    const double coarse = std::abs(energy_gap_j(0.008, c.hoisting_mps2, c.forces));
-    const double fine = std::abs(energy_gap_j(0.004, c.hoisting_mps2, c.forces));
+    const double coarse = std::abs(energy_gap_j(0.008, c.hoisting_mps2, c.forces, c.tilt_rad));
+    const double fine = std::abs(energy_gap_j(0.004, c.hoisting_mps2, c.forces, c.tilt_rad));
     EXPECT_LT(fine, 1e-6);         // of about 20 J
     EXPECT_GT(coarse / fine, 12);  // the remaining error is that of the integrator, of order h^4 or higher
     EXPECT_GT(coarse, 1e-12);

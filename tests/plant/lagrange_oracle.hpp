@@ -41,22 +41,32 @@ inline constexpr std::size_t kQ = 5;  // x, phi, gamma, theta, L
 template <class T>
 using Q = std::array<T, kQ>;
 
-/// Position of the load relative to the ground: (2.11), rotated by the slew angle.
+/// Position relative to the ground of the point (ahead, across, up) of the jib frame: rotated by the tilt
+/// about the horizontal across the jib, then by the slew angle about the vertical.
 template <class T>
-std::array<T, 3> load_over_ground(const Q<T>& q) {
+std::array<T, 3> over_ground(const plant::Parameters& p, const T& gamma, const T& ahead, const T& across,
+                             const T& up) {
+  using std::cos;
+  using std::sin;
+  const T c(p.tilt_cosine), s(p.tilt_sine);
+  const T level = c * ahead - s * up;
+  return {level * cos(gamma) - across * sin(gamma), level * sin(gamma) + across * cos(gamma),
+          s * ahead + c * up};
+}
+
+/// Position of the load relative to the ground, from (2.11).
+template <class T>
+std::array<T, 3> load_over_ground(const plant::Parameters& p, const Q<T>& q) {
   using std::cos;
   using std::sin;
   const auto& [x, phi, gamma, theta, l] = q;
-  const T ahead = x - l * cos(theta) * sin(phi), across = l * sin(theta);
-  return {ahead * cos(gamma) - across * sin(gamma), ahead * sin(gamma) + across * cos(gamma),
-          T(0.0) - l * cos(theta) * cos(phi)};
+  return over_ground(p, gamma, x - l * cos(theta) * sin(phi), l * sin(theta),
+                     T(0.0) - l * cos(theta) * cos(phi));
 }
 
 template <class T>
-std::array<T, 2> trolley_over_ground(const Q<T>& q) {
-  using std::cos;
-  using std::sin;
-  return {q[0] * cos(q[2]), q[0] * sin(q[2])};
+std::array<T, 3> trolley_over_ground(const plant::Parameters& p, const Q<T>& q) {
+  return over_ground(p, q[2], q[0], T(0.0), T(0.0));
 }
 
 /// T - V. The inertia of the leadscrew, M - M_j, moves with x' only.
@@ -64,14 +74,16 @@ template <class T>
 T lagrangian(const plant::Parameters& p, const Q<T>& q, const Q<T>& rate) {
   Q<Dual<T>> moving;
   for (std::size_t i = 0; i < kQ; ++i) moving[i] = Dual<T>{q[i], rate[i]};
-  const auto load = load_over_ground(moving);
-  const auto trolley = trolley_over_ground(moving);
+  const auto load = load_over_ground(p, moving);
+  const auto trolley = trolley_over_ground(p, moving);
   T load2{0.0}, trolley2{0.0};
   for (const auto& c : load) load2 = load2 + c.slope * c.slope;
   for (const auto& c : trolley) trolley2 = trolley2 + c.slope * c.slope;
   return T(0.5 * p.load_mass_kg) * load2 + T(0.5 * p.trolley_mass_kg) * trolley2 +
          T(0.5 * (p.trolley_inertia_kg - p.trolley_mass_kg)) * rate[0] * rate[0] +
-         T(0.5 * p.jib_inertia_kgm2) * rate[2] * rate[2] - T(p.load_mass_kg * p.gravity_mps2) * load[2].value;
+         T(0.5 * p.jib_inertia_kgm2) * rate[2] * rate[2] -
+         T(p.load_mass_kg * p.gravity_mps2) * load[2].value -
+         T(p.trolley_mass_kg * p.gravity_mps2) * trolley[2].value;
 }
 
 inline Q<double> coordinates(const plant::State& s) {
@@ -148,6 +160,16 @@ inline plant::Parameters random_crane(std::mt19937& random) {
   p.trolley_inertia_kg = p.trolley_mass_kg + in(0.1, 30);
   p.load_mass_kg = in(0.1, 10);
   p.jib_inertia_kgm2 = in(1, 20);
+  return p;
+}
+
+/// The same; the jib of odd cases is inclined by up to 0.3 rad.
+inline plant::Parameters random_inclined_crane(std::mt19937& random, unsigned number) {
+  plant::Parameters p = random_crane(random);
+  if (number % 2 == 0) return p;
+  const double tilt_rad = std::uniform_real_distribution{-0.3, 0.3}(random);
+  p.tilt_sine = std::sin(tilt_rad);
+  p.tilt_cosine = std::cos(tilt_rad);
   return p;
 }
 

@@ -35,8 +35,8 @@ double period_s(const Model& model, StructureMotion motion, double seconds, Sign
 
 TEST(CableTension, IsTheForceThatLagrangesEquationForTheLengthAsksFor) {
   std::mt19937 random{test::kSeed};
-  for (int i = 0; i < 200; ++i) {
-    const Parameters p = test::random_crane(random);
+  for (unsigned i = 0; i < 200; ++i) {
+    const Parameters p = test::random_inclined_crane(random, i / 2);
     const State s = test::random_state(random);
     const Accelerations a = accelerations(p, s, test::random_forces(random), i % 2 == 0 ? 0 : 0.7);
     EXPECT_NEAR(cable_tension_n(p, s, a), -test::required_forces(p, s, a)[4], 1e-9);

@@ -4,6 +4,7 @@
 
 #include "crane/plant/matrices.hpp"
 #include "crane/plant/motion_terms.hpp"
+#include "tilted_jib.hpp"
 
 namespace crane::plant {
 namespace {
@@ -23,12 +24,21 @@ Angles angles_of(const Parameters& p, const State& s) {
   return p.load_mass_kg > 0 ? Angles{s.radial_rad, s.tangential_rad} : Angles{0, 0};
 }
 
-Mass mass(const Parameters& p, const State& s) {
-  return motion::mass(p, angles_of(p, s), s.trolley_m, s.cable_m);
+bool tilts(const Parameters& p) { return p.tilt_sine != 0; }
+
+Mass mass(const Parameters& p, const State& s, const Angles& angles) {
+  return tilts(p) ? tilted::mass(p, angles, s.trolley_m, s.cable_m)
+                  : motion::mass(p, angles, s.trolley_m, s.cable_m);
+}
+Mass mass(const Parameters& p, const State& s) { return mass(p, s, angles_of(p, s)); }
+
+/// Angles in the slewing frame.
+Angles level_angles(const Parameters& p, const State& s) {
+  return tilted::level(p, Angles{s.radial_rad, s.tangential_rad});
 }
 
-motion::Motion<double> motion_of(const Parameters& p, const State& s, double cable_mps2) {
-  return {.angles = angles_of(p, s),
+motion::Motion<double> motion_of(const State& s, const Angles& angles, double cable_mps2) {
+  return {.angles = angles,
           .trolley_m = s.trolley_m,
           .trolley_mps = s.trolley_mps,
           .radial_radps = s.radial_radps,
@@ -75,14 +85,18 @@ Column solve(const Mass& m, const Column& r, const Locks& locks) {
 Accelerations accelerations(const Parameters& p, const State& s, const Forces& forces, double cable_mps2,
                             const Locks& locks) noexcept {
   const double hoisting = locks.axis[kHoist] ? locks.acceleration[kHoist] : cable_mps2;
-  const auto at = motion_of(p, s, hoisting);
+  const Angles angles = angles_of(p, s);
+  motion::Motion<double> at = motion_of(s, angles, hoisting);
+  if (tilts(p)) at = tilted::level(p, at);
   constexpr auto kMoving = motion::Cable::moving;
   Column right{};  // the equations of locked coordinates are not used
-  if (!locks.axis[kTrolley]) right.x = forces.trolley_n - motion::trolley_bias<kMoving>(p, at);
+  if (!locks.axis[kTrolley])
+    right.x =
+        forces.trolley_n - (tilts(p) ? tilted::trolley_bias(p, at) : motion::trolley_bias<kMoving>(p, at));
   if (!locks.radial) right.phi = forces.radial_nm - motion::radial_bias<kMoving>(p, at);
   if (!locks.axis[kSlew]) right.gamma = forces.slew_nm - motion::slew_bias<kMoving>(p, at);
   if (!locks.tangential) right.theta = forces.tangential_nm - motion::tangential_bias<kMoving>(p, at);
-  const Column q = solve(motion::mass(p, at.angles, s.trolley_m, s.cable_m), right, locks);
+  const Column q = solve(mass(p, s, angles), right, locks);
   return {.trolley_mps2 = q.x,
           .radial_radps2 = q.phi,
           .slew_radps2 = q.gamma,
@@ -111,21 +125,22 @@ DriveResponse drive_response(const Parameters& p, const State& s, const Locks& l
 }
 
 double cable_tension_n(const Parameters& p, const State& s, const Accelerations& q) noexcept {
-  const Angles a{s.radial_rad, s.tangential_rad};
+  const Angles a = level_angles(p, s);
   const double l = s.cable_m, f = s.radial_radps, g = s.slew_radps, t = s.tangential_radps;
-  // horizontal components of the cable's unit vector in the jib frame, and their rates
+  const double x = p.tilt_cosine * s.trolley_m, x_rate = p.tilt_cosine * s.trolley_mps;
+  // horizontal components of the cable's unit vector in the slewing frame, and their rates
   const double ex = -a.ct * a.sf, ey = a.st;
   const double ex_rate = a.st * a.sf * t - a.ct * a.cf * f, ey_rate = a.ct * t;
-  const double turning = q.trolley_mps2 * ex + q.cable_mps2 - l * (f * f * a.ct * a.ct + t * t);
-  const double coriolis = 2 * g * (s.trolley_mps * ey + l * (ex_rate * ey - ey_rate * ex));
-  const double frame =
-      q.slew_radps2 * s.trolley_m * ey - g * g * (s.trolley_m * ex + l * (ex * ex + ey * ey));
+  const double along_jib = -a.ct * std::sin(s.radial_rad);  // component of the unit vector
+  const double turning = q.trolley_mps2 * along_jib + q.cable_mps2 - l * (f * f * a.ct * a.ct + t * t);
+  const double coriolis = 2 * g * (x_rate * ey + l * (ex_rate * ey - ey_rate * ex));
+  const double frame = q.slew_radps2 * x * ey - g * g * (x * ex + l * (ex * ex + ey * ey));
   return p.load_mass_kg * (p.gravity_mps2 * a.ct * a.cf - turning - coriolis - frame);
 }
 
 State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& locks) noexcept {
   const Angles a{s.radial_rad, s.tangential_rad};
-  const Mass m = motion::mass(p, a, s.trolley_m, s.cable_m);
+  const Mass m = mass(p, s, a);
   const double lost = speed(s, axis);
   Column impulse{};  // M_fs q'_s with s the stopped coordinate
   if (axis == kTrolley) {
@@ -134,7 +149,7 @@ State stop_dead(const Parameters& p, const State& s, Axis axis, const Locks& loc
     impulse = {.x = m.m13 * lost, .phi = m.m23 * lost, .gamma = 0, .theta = m.m34 * lost};
   } else {  // the coupling of L'' in (2.17) and (2.19)
     impulse.x = -p.load_mass_kg * a.sf * a.ct * lost;
-    impulse.gamma = p.load_mass_kg * s.trolley_m * a.st * lost;
+    impulse.gamma = p.load_mass_kg * p.tilt_cosine * s.trolley_m * a.st * lost;
   }
   Locks held = locks;
   held.axis[axis] = true;
@@ -161,30 +176,32 @@ Eigen::Matrix4d mass_matrix(const Parameters& p, const State& s) noexcept {
   return matrix;
 }
 
-Eigen::Matrix<double, 3, 4> load_jacobian(const State& s) noexcept {
-  const Angles a{s.radial_rad, s.tangential_rad};
+Eigen::Matrix<double, 3, 4> load_jacobian(const Parameters& p, const State& s) noexcept {
+  const Angles a = level_angles(p, s);
   const double l = s.cable_m;
   Eigen::Matrix<double, 3, 4> j;
-  j << 1, -l * a.ct * a.cf, -l * a.st, l * a.st * a.sf,  //
-      0, 0, s.trolley_m - l * a.ct * a.sf, l * a.ct,     //
-      0, l * a.ct * a.sf, 0, l * a.st * a.cf;
+  j << p.tilt_cosine, -l * a.ct * a.cf, -l * a.st, l * a.st * a.sf,   //
+      0, 0, p.tilt_cosine * s.trolley_m - l * a.ct * a.sf, l * a.ct,  //
+      p.tilt_sine, l * a.ct * a.sf, 0, l * a.st * a.cf;
   return j;
 }
 
-Eigen::Vector3d load_velocity_mps(const State& s) noexcept {
-  const Angles a{s.radial_rad, s.tangential_rad};
+Eigen::Vector3d load_velocity_mps(const Parameters& p, const State& s) noexcept {
+  const Angles a = level_angles(p, s);
   const Eigen::Vector4d rates{s.trolley_mps, s.radial_radps, s.slew_radps, s.tangential_radps};
   const Eigen::Vector3d along_cable{-a.ct * a.sf, a.st, -a.ct * a.cf};
-  return load_jacobian(s) * rates + along_cable * s.cable_mps;
+  return load_jacobian(p, s) * rates + along_cable * s.cable_mps;
 }
 
 double energy_j(const Parameters& p, const State& s) noexcept {
-  const double slewing = p.jib_inertia_kgm2 + p.trolley_mass_kg * s.trolley_m * s.trolley_m;
+  const double reach_m = p.tilt_cosine * s.trolley_m, height_m = p.tilt_sine * s.trolley_m;
+  const double slewing = p.jib_inertia_kgm2 + p.trolley_mass_kg * reach_m * reach_m;
   const double kinetic =
       0.5 * (p.trolley_inertia_kg * s.trolley_mps * s.trolley_mps + slewing * s.slew_radps * s.slew_radps +
-             p.load_mass_kg * load_velocity_mps(s).squaredNorm());
-  return kinetic -
-         p.load_mass_kg * p.gravity_mps2 * s.cable_m * std::cos(s.tangential_rad) * std::cos(s.radial_rad);
+             p.load_mass_kg * load_velocity_mps(p, s).squaredNorm());
+  const Angles a = level_angles(p, s);
+  return kinetic + (p.trolley_mass_kg + p.load_mass_kg) * p.gravity_mps2 * height_m -
+         p.load_mass_kg * p.gravity_mps2 * s.cable_m * a.ct * a.cf;
 }
 
 GantryAccelerations gantry_accelerations(const Parameters& p, double swing_rad, double swing_radps,

@@ -9,6 +9,9 @@ namespace {
 constexpr double kMotorShare = 0.35;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 void add(Vector& sum, double factor, const Vector& a) {
   for (std::size_t i = 0; i < 3; ++i) sum[i] += factor * a[i];
 }
@@ -30,8 +33,8 @@ struct Direction {
 }  // namespace
 
 Mechanics::Mechanics(const Physics& physics) : physics_(physics) {
-  gravity_ = {physics.gravity_mps2 * std::sin(physics.tilt_rad), 0,
-              -physics.gravity_mps2 * std::cos(physics.tilt_rad)};
+  up_ = {-std::sin(physics.tilt_rad), 0, std::cos(physics.tilt_rad)};
+  add(gravity_, -physics.gravity_mps2, up_);
   length_m_ = physics.cable_m + physics.cable_error_m;
   const Drive &trolley = physics.drive[0], &slew = physics.drive[1];
   const bool load = physics.load_kg > 0, sling = load && physics.sling_m > 0;
@@ -79,14 +82,15 @@ void Mechanics::hang(Point& point, double length, bool elastic, std::size_t radi
 }
 
 /// Converts from the frame of the jib to velocities and accelerations relative to the ground: w x r, 2 w x
-/// r', w x (w x r).
+/// r', w x (w x r). The jib turns about the vertical, also when it is tilted.
 void Mechanics::turn(Point& point, const Coordinates& rate) const {
   const double w = rate[of(kJib)];
   Vector relative{};
   for (const std::size_t i : moving_) add(relative, rate[i], point.jacobian[i]);
-  point.bias[0] += -2 * w * relative[1] - w * w * point.position[0];
-  point.bias[1] += 2 * w * relative[0] - w * w * point.position[1];
-  add(point.jacobian[of(kJib)], 1, {-point.position[1], point.position[0], 0});
+  const Vector moved = cross(up_, point.position);
+  const Vector coriolis = cross(up_, relative), centripetal = cross(up_, moved);
+  for (std::size_t i = 0; i < 3; ++i) point.bias[i] += 2 * w * coriolis[i] + w * w * centripetal[i];
+  add(point.jacobian[of(kJib)], 1, moved);
 }
 
 Mechanics::Points Mechanics::points(const Coordinates& q, const Coordinates& rate) const {

@@ -71,7 +71,7 @@ class Mechanics {
   [[nodiscard]] std::array<double, kCoordinates> own_inertia() const;
 
   Physics physics_;
-  Vector gravity_{};
+  Vector up_{}, gravity_{};  ///< in the jib's frame
   std::array<bool, kCoordinates> moves_{};
   std::array<std::size_t, kCoordinates> stands_for_{};
   std::vector<std::size_t> moving_;

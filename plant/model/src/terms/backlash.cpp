@@ -59,7 +59,8 @@ class Backlash final : public Term {
     const double guide = guide_deceleration_ * smooth_sign(speed, kGuideSmoothing);
     acceleration[0] = far_.acceleration(crane, state, contact(inner[0]) - guide) - motor;
     // Centrifugal acceleration of the trolley. The force acts on the motor only while a flank touches.
-    if (!slew_) acceleration[0] += state.trolley_m * state.slew_radps * state.slew_radps;
+    const double c = crane.tilt_cosine;
+    if (!slew_) acceleration[0] += c * c * state.trolley_m * state.slew_radps * state.slew_radps;
   }
   /// An unexplained change of the motor's speed is an impact of the flanks. The load side has lost the
   /// momentum that the motor has gained, and is at the flank that transmitted it. When the model predicted an

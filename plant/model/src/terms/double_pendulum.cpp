@@ -6,7 +6,8 @@
 namespace crane::plant {
 namespace {
 
-/// Direction of a cable and its derivatives, in the jib frame: e(phi, theta) of (2.11).
+/// Direction of a cable and its derivatives, in the slewing frame: e(phi, theta) of (2.11), phi from the
+/// vertical.
 struct Direction {
   Direction(double phi, double theta, double phi_rate, double theta_rate, double turn) {
     const double sf = std::sin(phi), cf = std::cos(phi), st = std::sin(theta), ct = std::cos(theta);
@@ -20,8 +21,8 @@ struct Direction {
            theta_rate * theta_rate * unit;
   }
   Eigen::Vector3d unit, by_phi, by_theta;  ///< e, its derivatives by the angles
-  Eigen::Vector3d rate, rate_over_ground;  ///< e' in the turning jib frame, and relative to the ground
-  Eigen::Vector3d bend;                    ///< e'' in the jib frame without phi'' and theta''
+  Eigen::Vector3d rate, rate_over_ground;  ///< e' in the slewing frame, and relative to the ground
+  Eigen::Vector3d bend;                    ///< e'' in the slewing frame without phi'' and theta''
 };
 
 /// Tensions of both cables divided by the mass of the hook, m/s^2.
@@ -50,9 +51,9 @@ class DoublePendulum final : public Term {
   void add_inner_force(const Parameters& crane, const State& state, const Inner* inner,
                        Forces& sum) const noexcept override {
     if (lower_share_ == 0) return;
-    const Direction upper = upper_cable(state), lower = lower_cable(state, inner);
+    const Direction upper = upper_cable(crane, state), lower = lower_cable(crane, state, inner);
     const double force_n = crane.load_mass_kg * tensions(crane, state, upper, lower).lower;
-    add_load_force(state, force_n * lower.unit, sum);
+    add_load_force(crane, state, force_n * lower.unit, sum);
   }
 
   /// Newton's law of both masses, subtracted: l e_2'' = T_1 / m_1 e_1 - (...) e_2, projected on the
@@ -60,7 +61,7 @@ class DoublePendulum final : public Term {
   void accelerate(const Parameters& crane, const State& state, const Accelerations& drives,
                   const Inner* inner, double* acceleration) const noexcept override {
     if (lower_share_ == 0) return;
-    const Direction upper = upper_cable(state), lower = lower_cable(state, inner);
+    const Direction upper = upper_cable(crane, state), lower = lower_cable(crane, state, inner);
     const double turn = state.slew_radps, turning = drives.slew_radps2;
     const Eigen::Vector3d& e = lower.unit;
     const Eigen::Vector3d rotation = 2 * turn * Eigen::Vector3d{-lower.rate.y(), lower.rate.x(), 0} +
@@ -73,11 +74,15 @@ class DoublePendulum final : public Term {
   }
 
  private:
-  [[nodiscard]] static Direction upper_cable(const State& s) {
-    return {s.radial_rad, s.tangential_rad, s.radial_radps, s.tangential_radps, s.slew_radps};
+  [[nodiscard]] static double tilt_rad(const Parameters& crane) {
+    return std::atan2(crane.tilt_sine, crane.tilt_cosine);
   }
-  [[nodiscard]] static Direction lower_cable(const State& s, const Inner* inner) {
-    return {s.radial_rad + inner[0].position, s.tangential_rad + inner[1].position,
+  [[nodiscard]] static Direction upper_cable(const Parameters& crane, const State& s) {
+    return {s.radial_rad - tilt_rad(crane), s.tangential_rad, s.radial_radps, s.tangential_radps,
+            s.slew_radps};
+  }
+  [[nodiscard]] static Direction lower_cable(const Parameters& crane, const State& s, const Inner* inner) {
+    return {s.radial_rad - tilt_rad(crane) + inner[0].position, s.tangential_rad + inner[1].position,
             s.radial_radps + inner[0].rate, s.tangential_radps + inner[1].rate, s.slew_radps};
   }
   /// Newton's law of both masses along the cables, whose lengths do not change:

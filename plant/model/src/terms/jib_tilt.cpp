@@ -1,24 +1,23 @@
 #include <cmath>
 
 #include "crane/plant/term.hpp"
-#include "terms/load_force.hpp"
 
 namespace crane::plant {
 namespace {
 
 class JibTilt final : public Term {
  public:
-  explicit JibTilt(const TermSetting& s)
-      : along_(std::sin(s.parameters.at("angle_rad"))), lost_(1 - std::cos(s.parameters.at("angle_rad"))) {}
+  explicit JibTilt(const TermSetting& s) : angle_rad_(s.parameters.at("angle_rad")) {}
 
-  void add_force(const Parameters& crane, const State& state, Forces& sum) const noexcept override {
-    const double g = crane.gravity_mps2;
-    sum.trolley_n -= crane.trolley_mass_kg * g * along_;
-    add_load_force(state, crane.load_mass_kg * g * Eigen::Vector3d{-along_, 0, lost_}, sum);
+  void change_parameters(Parameters& crane) const noexcept override {
+    if (angle_rad_ == 0) return;
+    const double total_rad = std::atan2(crane.tilt_sine, crane.tilt_cosine) + angle_rad_;
+    crane.tilt_sine = std::sin(total_rad);
+    crane.tilt_cosine = std::cos(total_rad);
   }
 
  private:
-  double along_, lost_;  // shares of gravity: towards the tower, and decrease perpendicular to the jib
+  double angle_rad_;
 };
 
 }  // namespace
@@ -26,10 +25,12 @@ class JibTilt final : public Term {
 TermKind jib_tilt() {
   return {.name = "jib_tilt",
           .equation =
-              "g = {-g sin(a), 0, -g cos(a)} in the jib frame: F_x = -M_j g sin(a) on the trolley, "
-              "m g {-sin(a), 0, 1 - cos(a)} on the load",
-          .source = "the jib is not level; the load at rest has phi = a relative to the normal of the jib",
-          .acts_on = ActsOn::load,
+              "the jib is inclined by a, the slew axis is vertical: gravity g {-sin(a), 0, -cos(a)} and "
+              "angular velocity gamma' {sin(a), 0, cos(a)} in the jib frame",
+          .source =
+              "the jib or the rail of a gantry is not level; the load at rest has phi = a relative to the "
+              "normal of the jib",
+          .acts_on = ActsOn::parameters,
           .axes = {""},
           .parameters = {{"angle_rad", "rad", 0, -0.3, 0.3,
                           "a, inclination of the jib; positive: the tip is raised"}},

@@ -1,11 +1,12 @@
 #pragma once
-/// Converts a force F on the load [N, jib frame] to generalised forces Q = J^T F.
+/// Converts a force F on the load [N, slewing frame] to generalised forces Q = J^T F.
 #include "crane/plant/matrices.hpp"
 
 namespace crane::plant {
 
-inline void add_load_force(const State& state, const Eigen::Vector3d& force_n, Forces& sum) {
-  const Eigen::Vector4d q = load_jacobian(state).transpose() * force_n;
+inline void add_load_force(const Parameters& crane, const State& state, const Eigen::Vector3d& force_n,
+                           Forces& sum) {
+  const Eigen::Vector4d q = load_jacobian(crane, state).transpose() * force_n;
   sum.trolley_n += q[0];
   sum.radial_nm += q[1];
   sum.slew_nm += q[2];

@@ -2,9 +2,10 @@
 /// Equations of motion of the tower crane, (2.11)-(2.20):
 ///   M(q) q'' + h(q, q', L', L'') = F,   q = (x, phi, gamma, theta)
 /// The cable length L is a prescribed motion: the hoist drive is speed-controlled, and the load does not
-/// affect it. A gantry is a tower crane with slew and tangential swing locked. A single drive axis has no
-/// load mass. A free pendulum has all drives locked. Source: H. M. Omar, Control of Gantry and Tower Cranes,
-/// Virginia Tech, 2003, chapter 2, with the misprints corrected (docs/equations.md).
+/// affect it. The slew axis is vertical; terms may tilt the jib out of the horizontal. A gantry is a tower
+/// crane with slew and tangential swing locked. A single drive axis has no load mass. A free pendulum has all
+/// drives locked. Source: H. M. Omar, Control of Gantry and Tower Cranes, Virginia Tech, 2003, chapter 2,
+/// with the misprints corrected (docs/equations.md).
 #include "crane/plant/parameters.hpp"
 #include "crane/plant/state.hpp"
 
@@ -74,7 +75,8 @@ struct DriveResponse {
 [[nodiscard]] State stop_dead(const Parameters& parameters, const State& state, Axis axis,
                               const Locks& locks = {}) noexcept;
 
-/// Kinetic (2.13) plus potential (2.14) energy [J]; 0 for a crane at rest with the load at jib height.
+/// Kinetic (2.13) plus potential (2.14) energy [J]; 0 for a crane at rest with trolley and load at the height
+/// of the tower end of the jib.
 [[nodiscard]] double energy_j(const Parameters& parameters, const State& state) noexcept;
 
 /// Equations of the gantry, (2.5), (2.6), with the swing sign of the source's gantry chapter:

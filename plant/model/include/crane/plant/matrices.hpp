@@ -9,12 +9,15 @@ namespace crane::plant {
 /// Mass matrix M(q), symmetric; rows and columns (x, phi, gamma, theta).
 [[nodiscard]] Eigen::Matrix4d mass_matrix(const Parameters& parameters, const State& state) noexcept;
 
-/// Jacobian J = d r_L' / d q' of the load's velocity, in the jib frame; columns (x, phi, gamma, theta). A
-/// force F on the load has the generalised forces J^T F.
-[[nodiscard]] Eigen::Matrix<double, 3, 4> load_jacobian(const State& state) noexcept;
+/// Jacobian J = d r_L' / d q' of the load's velocity, in the slewing frame, which turns with the jib and has
+/// a vertical third axis (the jib frame without tilt); columns (x, phi, gamma, theta). A force F on the load
+/// has the generalised forces J^T F.
+[[nodiscard]] Eigen::Matrix<double, 3, 4> load_jacobian(const Parameters& parameters,
+                                                        const State& state) noexcept;
 
-/// Velocity of the load relative to the ground, including the cable speed, in the jib frame [m/s], (2.12).
-[[nodiscard]] Eigen::Vector3d load_velocity_mps(const State& state) noexcept;
+/// Velocity of the load relative to the ground, including the cable speed, in the slewing frame [m/s],
+/// (2.12).
+[[nodiscard]] Eigen::Vector3d load_velocity_mps(const Parameters& parameters, const State& state) noexcept;
 
 /// Linear model of one drive with its swing: d(state)/dt = a state + b volts, with the state (x, phi, x',
 /// phi') or (gamma, theta, gamma', theta').

@@ -30,9 +30,12 @@ struct Parameters {
   /// Share of M_j that the slew motor accelerates; 0 when a structure term separates the motor from the jib.
   /// Set by terms, not by rig files.
   double rotating_share = 1;
-  /// Share of M_j whose centrifugal force acts on the trolley motor; 0 when a structure term separates the
-  /// motor from the trolley. Set by terms, not by rig files.
+  /// Share of M_j whose centrifugal force and weight along a tilted jib act on the trolley motor; 0 when a
+  /// structure term separates the motor from the trolley. Set by terms, not by rig files.
   double centrifugal_share = 1;
+  /// Sine and cosine of the jib's inclination a, positive when the tip is raised. The slew axis is vertical.
+  /// Set by terms, not by rig files.
+  double tilt_sine = 0, tilt_cosine = 1;
 
   /// Ratios (2.25), with M and M_j for the two trolley masses: m_t = m / M, m_r = m / J_o, M_r = M_j / J_o.
   [[nodiscard]] double load_to_trolley_ratio() const { return load_mass_kg / trolley_inertia_kg; }
