@@ -102,9 +102,11 @@ Injection brake_closes(Bench& bench, Random& random) {
 Injection relay_stays_closed(Bench& bench, Random& /*random*/) {
   bench.rig().change_inputs = [](bridge::Inputs& inputs) { inputs.watchdog_dropped = false; };
   bench.request(crane_REQUEST_ESTOP);
-  const double timeout_s = bench.setting().configured.wiring.relay_timeout_s;
+  const double bound_ms = 1000 * bench.setting().configured.wiring.relay_timeout_s + 110 + 20;
   return {.expectation = {.reasons = {because(crane_CAUSE_RELAY_DID_NOT_OPEN)},
-                          .detection_ms = 1000 * timeout_s + 110 + 20},
+                          .detection_ms = bound_ms,
+                          .supervisor_must_find = crane_CAUSE_RELAY_DID_NOT_OPEN,
+                          .independent_ms = bound_ms},
           .watched_s = 1};
 }
 

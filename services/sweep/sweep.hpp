@@ -22,6 +22,7 @@ struct Draw {
   std::string key;  ///< key of the rig file: "plant.load_mass_kg", "start.swing_radial_rad", or
                     ///< "model.terms.NAME.AXIS.PARAMETER"
   double low = 0, high = 0;
+  std::string place{};  ///< of the key in its file, for messages: "FILE:LINE: "
 };
 
 /// One scenario on one rig.

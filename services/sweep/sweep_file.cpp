@@ -62,6 +62,7 @@ void read_seeds(TomlTable& root, Sweep& sweep) {
   std::set<std::string> seen;
   for (TomlTable& table : root.tables("draw")) {
     Draw draw{.key = table.text("key")};
+    draw.place = table.place("key");
     draw.low = table.number("low", Range::any());
     draw.high = table.number("high", Range::any());
     if (draw.low >= draw.high) table.problem("low", "must be below high");
@@ -127,19 +128,19 @@ void check_draws(const Sweep& sweep, const std::string& file, Problems& problems
     for (const Draw& draw : sweep.draws) {
       const Number number = number_of(low, draw.key);
       if (number.value == nullptr) {
-        report(file + ": draw.key = " + draw.key + ": the rig " + on.rig.name +
+        report(draw.place + "draw.key = " + draw.key + ": the rig " + on.rig.name +
                " has no such number in [plant], [start] or [[model.terms]]");
         continue;
       }
       for (const double value : {draw.low, draw.high})
         if (!number.range.contains(value))
-          report(file + ": " + fields::complaint("draw " + draw.key, value, number.range.rule()));
+          report(draw.place + fields::complaint("draw " + draw.key, value, number.range.rule()));
       *number.value = draw.low;
       *number_of(high, draw.key).value = draw.high;
     }
     for (const Rig* rig : {&low, &high})
       for (const auto& problem : simulator::simulated_rig_of(*rig).problems())
-        report(file + ": rig " + on.rig.name + ", scenario " + on.scenario.name +
+        report(file + ":1: rig " + on.rig.name + ", scenario " + on.scenario.name +
                ", an end of the draws: " + problem);
   }
 }
@@ -175,7 +176,7 @@ Sweep parse_sweep(const std::string& text, const std::string& file, const Finder
     check_controllers(sweep, problems);
   }
   if (sweep.size() > kMostRuns)
-    problems.add(file + ": " + std::to_string(sweep.size()) + " runs: must be at most " +
+    problems.add(file + ":1: " + std::to_string(sweep.size()) + " runs: must be at most " +
                  std::to_string(kMostRuns));
   problems.throw_if_any();
   return sweep;

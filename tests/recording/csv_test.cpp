@@ -81,8 +81,8 @@ TEST(Csv, NamesFileLineAndReasonOfBadInput) {
   const auto parse = [](const std::string& text) {
     return error_of([&] { (void)parse_csv(text, "a.csv"); });
   };
-  EXPECT_EQ(parse(""), "a.csv: has no header line");
-  EXPECT_EQ(parse("# only\n\n"), "a.csv: has no header line");
+  EXPECT_EQ(parse(""), "a.csv:1: has no header line");
+  EXPECT_EQ(parse("# only\n\n"), "a.csv:2: has no header line");
   EXPECT_EQ(parse("time_s,time_s\n"), "a.csv:1: column time_s occurs twice");
   EXPECT_EQ(parse("time_s,,x\n"), "a.csv:1: column 2 has no name");
   EXPECT_EQ(parse("time_s,x\n0,1\n0\n"), "a.csv:3: 1 cells, the header has 2");

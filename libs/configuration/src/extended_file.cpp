@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "crane/configuration/rig.hpp"
+#include "crane/fields/printable.hpp"
 #include "toml_limits.hpp"
 
 namespace crane::configuration {
@@ -11,7 +12,9 @@ namespace {
 
 /// Reports only the missing base, because all other checks depend on it.
 [[noreturn]] void refuse(const TomlTable& document, const std::string& extended, const std::string& rule) {
-  throw ConfigurationError({document.place("extends") + "extends = \"" + extended + "\": " + rule});
+  constexpr std::size_t kShown = 60;
+  throw ConfigurationError(
+      {document.place("extends") + "extends = \"" + fields::printable(extended, kShown) + "\": " + rule});
 }
 
 TomlTable with_base_outside(const std::string& text, const std::filesystem::path& file,
@@ -23,7 +26,8 @@ TomlTable with_base_outside(const std::string& text, const std::filesystem::path
   const auto base = (file.parent_path() / extended).lexically_normal();
   if (std::find(chain.begin(), chain.end(), base) != chain.end())
     refuse(document, extended, "must not lead back to this file");
-  if (!std::filesystem::is_regular_file(base))
+  std::error_code unusable;  // also of a name that no file can have
+  if (!std::filesystem::is_regular_file(base, unusable))
     refuse(document, extended, "must name a file, relative to this one");
   document.inherit(with_base_outside(file_text(base), base, chain));
   return document;

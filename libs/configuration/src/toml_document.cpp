@@ -49,10 +49,13 @@ void TomlTable::Document::report(const toml::node* node, const Place& place, con
 
 void TomlTable::Document::report_unknown_and_missing(Place& place) {
   if (place.table == nullptr) return;
+  // More keys than a table can have: the search for the nearest names of a huge file must not take seconds.
+  constexpr int kMostHints = 100;
+  int hints = 0;
   std::set<std::string> meant;
   for (const auto& [key, node] : *place.table) {
     if (place.known.contains(key.str())) continue;
-    const KeyHint hint = key_hint(key.str(), place.known);
+    const KeyHint hint = ++hints <= kMostHints ? key_hint(key.str(), place.known) : KeyHint{};
     meant.insert(hint.meant);
     report(&node, place, place.name_of(key.str()) + " = " + written(node) + ": " + hint.rule);
   }

@@ -67,7 +67,8 @@ class Parser {
   }
 
   Table take() {
-    if (table_.columns.empty()) throw CsvError(file_ + ": has no header line");
+    if (table_.columns.empty())
+      throw CsvError(file_ + ":" + std::to_string(std::max(line_, 1)) + ": has no header line");
     if (wanted_.empty()) return std::move(table_);
     Table chosen;
     for (const std::string& name : wanted_)
