@@ -147,6 +147,26 @@ TEST_F(ServerTest, AForeignNameForThisComputerGetsNoWebSocket) {
   EXPECT_THROW(viewer.handshake("evil.example:8765", "/"), boost::system::system_error);
 }
 
+/// A browser sends the true Host of this computer with the Origin of the foreign page.
+TEST_F(ServerTest, APageOfAnotherOriginGetsNoWebSocket) {
+  for (const auto* origin : {"http://evil.example", "null", "http://127.0.0.1:1"}) {
+    Viewer viewer{connect()};
+    viewer.set_option(beast::websocket::stream_base::decorator(
+        [origin](beast::websocket::request_type& request) { request.set(http::field::origin, origin); }));
+    EXPECT_THROW(viewer.handshake("127.0.0.1:8765", "/"), boost::system::system_error) << origin;
+  }
+}
+
+TEST_F(ServerTest, ASeatOfAnotherOperatorIsNotGuessedByOneWhoHeldItBefore) {
+  const auto first =
+      json::parse(post("/api/operator/take", {{"name", "Ada"}}).body())["seat"].get<std::string>();
+  post("/api/operator/release", json::object(), first);
+  EXPECT_EQ(post("/api/operator/take", {{"name", "Bob"}}).result_int(), 200U);
+  for (std::size_t i = 0; i <= first.size(); ++i)  // every beginning of the old key, and the whole of it
+    EXPECT_EQ(post("/api/request", {{"kind", "arm"}}, first.substr(0, i)).result_int(), 409U) << i;
+  EXPECT_EQ(requests_, 0);
+}
+
 long resident_kb() {
   std::ifstream file{"/proc/self/statm"};
   long all = 0, resident = 0;

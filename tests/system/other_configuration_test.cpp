@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 
 #include "../recording/temporary_directory.hpp"
 #include "crane/runtime/node.hpp"
 #include "crane/security/keys.hpp"
 #include "running_stack.hpp"
+#include "stack/data_files.hpp"
 
 namespace crane::system_test {
 namespace {
@@ -54,6 +56,41 @@ TEST_F(OtherConfiguration, OfThePlannerRefusesTheResetUntilThePlannerHasTheSameR
   EXPECT_THAT(refusal(), HasSubstr("rig file"));
   restart("trajectory_planner", "");
   running_.session().arm();
+}
+
+/// The running processes keep the rig file that they have read. A process that restarts reads the new one.
+TEST(ZoneEditedDuringAMove, ChangesNothingUntilAProcessRestartsAndThenRefusesTheReset) {
+  const recording::TemporaryDirectory directory;
+  const auto rig = directory / "edited.toml";
+  const std::string text = "extends = \"" + stack::find_rig(kOtherRig).string() + "\"\nname = \"edited\"\n";
+  recording::put_contents(rig, text);
+  RunningStack running{kDomain, rig.string()};
+  running.session().arm();
+  running.session().request(
+      {.kind = crane_REQUEST_MOVE, .selected = {true, false, false}, .target = {0.95, 0, 0}}, "move");
+  ASSERT_TRUE(running.until(
+      [&] { return std::abs(running.observer().states().back().trolley_speed_mps) > 0.1; }, 5s));
+  running.forget();
+  // The file becomes invalid first, as while an editor writes it, then has another limit.
+  recording::put_contents(rig, text.substr(0, text.size() / 2));
+  running.listen(200ms);
+  recording::put_contents(rig, text + "[clearance]\nload_radius_m = 0.06\n");
+  EXPECT_NO_THROW(running.session().wait_for(crane_STATE_HOLD, 10s));
+  EXPECT_NEAR(running.observer().states().back().trolley_position_m, 0.95, 0.05);
+  for (const auto& status : running.observer().statuses())
+    ASSERT_THAT(status.state, testing::AnyOf(crane_STATE_RUN, crane_STATE_HOLD));
+  running.send("trajectory_planner", SIGKILL);
+  running.start_again("trajectory_planner");
+  ASSERT_TRUE(
+      running.until([&] { return running.observer().statuses().back().state == crane_STATE_LOCKED; }, 10s));
+  running.listen(3s);
+  std::string refusal;
+  try {
+    running.session().request({.kind = crane_REQUEST_RESET}, "reset");
+  } catch (const experiments::SessionError& error) {
+    refusal = error.what();
+  }
+  EXPECT_THAT(refusal, HasSubstr("rig file"));
 }
 
 /// Every process may write crane/node, also with keys, and any of them may state the name of another one.
