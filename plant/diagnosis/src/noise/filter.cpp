@@ -47,12 +47,16 @@ PredictionCovariance::PredictionCovariance(const Disturbance& d, const WindowMot
       noise_variance_(d.noise * d.noise),
       unit_(d.unit) {
   const double a = d.acceleration * d.acceleration, t = motion.period_s;
-  p_.xx = start_variance;
-  p_.vv = start_variance / (t * t);
-  p_.aa = a;
+  become({.xx = start_variance, .vv = start_variance / (t * t), .aa = a});
   process_noise_ = a * (1 - step_(2, 2) * step_(2, 2));
   friction_ = std::pow(d.friction * t, 2);
   unknown_speed_ = kUnknownSpeedVariance * noise_variance_ / (t * t);
+}
+
+void PredictionCovariance::become(const Symmetric& p) {
+  p_ = p;
+  variance_ = p.xx + noise_variance_;
+  gain_ = Eigen::Vector3d{p.xx, p.xv, p.xa} / variance_;
 }
 
 PredictionCovariance::Symmetric PredictionCovariance::propagated(const Symmetric& p) const {
@@ -96,7 +100,7 @@ void PredictionCovariance::advance(std::size_t row) {
   p = propagated(p);
   p.aa += process_noise_;
   steady_ = usual && steady(p_.xx, p.xx) && steady(p_.vv, p.vv) && steady(p_.aa, p.aa);
-  p_ = p;
+  become(p);
 }
 
 }  // namespace crane::diagnosis

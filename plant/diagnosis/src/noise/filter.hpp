@@ -24,8 +24,8 @@ class PredictionCovariance {
   PredictionCovariance(const Disturbance& disturbance, const WindowMotion& motion, double start_variance);
 
   /// Variance f of the innovation.
-  [[nodiscard]] double variance() const { return p_.xx + noise_variance_; }
-  [[nodiscard]] Eigen::Vector3d gain() const { return Eigen::Vector3d{p_.xx, p_.xv, p_.xa} / variance(); }
+  [[nodiscard]] double variance() const { return variance_; }
+  [[nodiscard]] const Eigen::Vector3d& gain() const { return gain_; }
   [[nodiscard]] MotionPhase phase(std::size_t row) const {
     return sticks_ ? motion_.profile[row].phase : MotionPhase::moving;
   }
@@ -36,6 +36,8 @@ class PredictionCovariance {
   struct Symmetric {
     double xx = 0, xv = 0, xa = 0, vv = 0, va = 0, aa = 0;
   };
+  /// Sets P with the variance and gain that follow from it.
+  void become(const Symmetric& p);
   /// F p F'.
   [[nodiscard]] Symmetric propagated(const Symmetric& p) const;
 
@@ -43,6 +45,8 @@ class PredictionCovariance {
   bool sticks_ = false, steady_ = false;
   Eigen::Matrix3d step_;
   Symmetric p_;
+  double variance_ = 0;
+  Eigen::Vector3d gain_;
   double noise_variance_ = 0, process_noise_ = 0, friction_ = 0, unknown_speed_ = 0, unit_ = 1;
 };
 

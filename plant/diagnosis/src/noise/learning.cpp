@@ -78,8 +78,8 @@ class Learning {
 
   Disturbance search(const Disturbance& start) {
     best_ = start;
-    found_ = {};
-    found_ = likelihood(residuals_, motions_, best_, found_.variance);
+    rejected_.clear();
+    found_ = likelihood(residuals_, motions_, best_, {});
     if (best_.acceleration == 0) begin();
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       const double before = found_.value;
@@ -99,6 +99,21 @@ class Learning {
     return found;
   }
 
+  /// Whether a disturbance is likelier than all before; if so, sets found_. What was once rejected is not
+  /// tried again: the likelihood to exceed only increases.
+  bool is_likelier(const Disturbance& d) {
+    const std::array<double, 5> place{d.acceleration, d.correlation_s, d.damping_ps, d.friction,
+                                      d.sticks ? 1.0 : 0.0};
+    if (std::ranges::find(rejected_, place) != rejected_.end()) return false;
+    const Likelihood tried = likelihood(residuals_, motions_, d, found_);
+    const bool likelier = tried.value < found_.value;
+    if (likelier)
+      found_ = tried;
+    else
+      rejected_.push_back(place);
+    return likelier;
+  }
+
   /// Grid of strength and colour: the likelihood has several maxima, for example a weak slow force with a
   /// coarse sensor and a strong fast one with a fine sensor. u is proportional to a.
   void begin() {
@@ -111,8 +126,7 @@ class Learning {
         best_.correlation_s = correlation_s;
         best_.acceleration = std::pow(10, decade);
         best_.friction = share * best_.acceleration;
-        const Likelihood tried = likelihood(residuals_, motions_, best_, found_.variance);
-        if (tried.value < found_.value) found_ = tried, likeliest = best_;
+        if (is_likelier(best_)) likeliest = best_;
       }
     best_ = likeliest;
   }
@@ -144,8 +158,7 @@ class Learning {
         tried.acceleration *= share;
         tried.friction *= share;
         tried.damping_ps = damping_ps;
-        const Likelihood found = likelihood(residuals_, motions_, tried, found_.variance);
-        if (found.value < found_.value) found_ = found, best_ = tried;
+        if (is_likelier(tried)) best_ = tried;
       }
   }
 
@@ -163,11 +176,7 @@ class Learning {
     const Number before = number;
     if (value == before) return;
     number = value;
-    const Likelihood tried = likelihood(residuals_, motions_, best_, found_.variance);
-    if (tried.value < found_.value)
-      found_ = tried;
-    else
-      number = before;
+    if (!is_likelier(best_)) number = before;
   }
 
   const std::vector<VectorXd>& residuals_;
@@ -175,6 +184,9 @@ class Learning {
   double least_noise_;
   Disturbance best_;
   Likelihood found_;
+  /// Acceleration, correlation time, damping, friction and sticking of the disturbances that this search has
+  /// rejected.
+  std::vector<std::array<double, 5>> rejected_;
 };
 
 }  // namespace

@@ -87,10 +87,23 @@ double robust_variance(const std::vector<Innovations>& of_windows, double near) 
   return variance;
 }
 
+/// Whether the robust variance is at least `variance`. The mean loss decreases with the variance: one
+/// evaluation of the loss decides.
+bool robust_variance_is_at_least(double variance, const std::vector<Innovations>& of_windows, double count) {
+  const double least = kMeanLoss / kCauchyScaleSquared * count;
+  const double scale = 1 / (kCauchyScaleSquared * variance);
+  SumOfLogs logs;
+  for (const Innovations& window : of_windows) {
+    for (const double square : window.squares) logs.add(1 + scale * square);
+    if (logs.value() >= least) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Likelihood likelihood(const std::vector<VectorXd>& residuals, const std::vector<WindowMotion>& motions,
-                      const Disturbance& d, double near) {
+                      const Disturbance& d, const Likelihood& best) {
   std::vector<Innovations> of_windows(residuals.size());
   parallel_for(residuals.size(),
                [&](std::size_t w) { of_windows[w] = innovations(residuals[w], motions[w], d); });
@@ -101,7 +114,10 @@ Likelihood likelihood(const std::vector<VectorXd>& residuals, const std::vector<
     count += static_cast<double>(window.squares.size());
   }
   if (!(squares > 0)) return {};
-  const double variance = robust_variance(of_windows, near > 0 ? near : squares / count);
+  if (best.variance > 0 &&
+      robust_variance_is_at_least(std::exp((best.value - logs) / count), of_windows, count))
+    return {};
+  const double variance = robust_variance(of_windows, best.variance > 0 ? best.variance : squares / count);
   return {logs + count * std::log(variance), variance};
 }
 

@@ -17,9 +17,10 @@ struct Likelihood {
 
 /// Likelihood of the innovations of the Kalman filter (filter.hpp). The first two measured rows of a window
 /// determine its start and are not counted.
-/// @param near guess of the variance; 0: none
+/// @param best another likelihood of the same residuals; its variance is the initial value of the scale
+/// @return without a value if it would not be smaller than that of `best`
 [[nodiscard]] Likelihood likelihood(const std::vector<Eigen::VectorXd>& residuals,
                                     const std::vector<WindowMotion>& motions, const Disturbance& disturbance,
-                                    double near);
+                                    const Likelihood& best);
 
 }  // namespace crane::diagnosis
