@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <map>
 #include <random>
 
 #include "search/rough_interval.hpp"
+#include "study/uncertainty.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -36,12 +38,14 @@ double value_of(const Effects& effects, Index number) {
 }
 
 /// Evaluates outwards in both directions until the loss exceeds kFarLoss or the value reaches its bound.
-Profile profile_of(const Study& study, const Fitted& fitted, const VectorXd& direction, Index value) {
+/// @param effects of the fit, then inaccuracies of the rig file @param direction of all of them
+Profile profile_of(const Study& study, const Fitted& fitted, const Effects& effects,
+                   const VectorXd& direction, Index value) {
   Profile profile{{0, fitted.train.blocks}};
   for (const double side : {-1.0, 1.0}) {
-    double last = value_of(fitted.effects, value);
+    double last = value_of(effects, value);
     for (const double distance : kDistances) {
-      const Effects there = moved(fitted.effects, side * distance * direction);
+      const Effects there = moved(effects, side * distance * direction);
       if (value_of(there, value) == last) break;
       last = value_of(there, value);
       const Evaluation found = study.train(there, fitted.train);
@@ -65,14 +69,16 @@ double least_at(const std::vector<double>& at, const std::vector<double>& loss) 
 }
 
 /// Root mean square of the minimum of the profile over resamples of the blocks, about 0.
-double spread(const Profile& profile, std::uint64_t seed) {
+/// @param bend increase of the loss that every resample contains, per squared distance
+double spread(const Profile& profile, double bend, std::uint64_t seed) {
   std::vector<double> at;
   for (const auto& [t, blocks] : profile) at.push_back(t);
   const std::size_t count = profile.at(0).size();
   std::mt19937_64 random(seed);
   double squares = 0;
   for (int i = 0; i < kResamplings; ++i) {
-    std::vector<double> loss(at.size(), 0.0);
+    std::vector<double> loss;
+    for (const double t : at) loss.push_back(bend * t * t);
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t block = static_cast<std::size_t>(random() % count);
       std::size_t t = 0;
@@ -95,6 +101,30 @@ Best best_of(const Profile& profile) {
   return best;
 }
 
+/// Factor by which a 95 % interval of Student's distribution exceeds that of the normal distribution, for the
+/// effective degrees of freedom of a combined uncertainty (JCGM 100:2008, G.4).
+/// @param by_blocks standard deviation that is known with `freedom` only
+/// @param total combined standard deviation; what exceeds `by_blocks` is known
+double coverage_factor(double by_blocks, double total, double freedom) {
+  constexpr double kNormal = 1.959964, kUpper = 0.975, kNormalFrom = 1e4;
+  const double effective = freedom * std::pow(total / by_blocks, 4);
+  if (!(effective < kNormalFrom)) return 1;
+  return boost::math::quantile(boost::math::students_t(effective), kUpper) / kNormal;
+}
+
+double std_dev_of(const ValueUncertainty& value, double spread, double by_parabola) {
+  // Slopes do not describe a loss with steps: the scatter of the minimum replaces the sandwich.
+  const double by_blocks = std::max(by_parabola > 0 ? 0.0 : value.std_dev, spread);
+  const double random = std::max({by_blocks, value.by_noise, by_parabola});
+  const double total = std::hypot(random, value.systematic);
+  return total > 0 ? total * coverage_factor(by_blocks, total, value.freedom) : 0;
+}
+
+/// The effects of a fit without the inaccuracies that follow them.
+Effects first_of(const Effects& effects, std::size_t count) {
+  return {effects.begin(), effects.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
 }  // namespace
 
 Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
@@ -103,22 +133,34 @@ Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed) {
     const LossParabola parabola = fit_loss_parabola(study, fitted);
     Effects better;
     if (!last && parabola.best_loss < fitted.train.loss - kBetter) better = parabola.best;
-    std::vector<double> std_dev = fitted.std_dev;
-    for (Index i = 0; i < fitted.covariance.cols() && better.empty(); ++i) {
-      double& own = std_dev[static_cast<std::size_t>(i)];
-      if (!(own > 0)) continue;
-      const VectorXd direction = fitted.covariance.col(i) / own;
-      const Profile profile = profile_of(study, fitted, direction, i);
+    const Uncertainty uncertainty = study.uncertainty_of(fitted);
+    std::vector<double> std_dev;
+    for (const ValueUncertainty& value : uncertainty.values) {
+      if (!better.empty()) break;
+      const auto i = static_cast<Index>(std_dev.size());
+      if (!(value.std_dev > 0)) {
+        std_dev.push_back(0);
+        continue;
+      }
+      const VectorXd direction = value.std_dev * value.line;
+      const Profile profile = profile_of(study, fitted, uncertainty.effects, direction, i);
       const Best best = best_of(profile);
-      if (!last && best.gain > kBetter) better = moved(fitted.effects, best.at * direction);
-      own = std::max({own * spread(profile, seed + static_cast<std::uint64_t>(i)), fitted.by_noise[i],
-                      parabola.std_dev[i]});
+      if (!last && best.gain > kBetter)
+        better = first_of(moved(uncertainty.effects, best.at * direction), fitted.effects.size());
+      const double bend = value.bend * value.std_dev * value.std_dev;
+      const double scatter = value.std_dev * spread(profile, bend, seed + static_cast<std::uint64_t>(i));
+      std_dev.push_back(std_dev_of(value, scatter, parabola.std_dev[i]));
     }
     if (better.empty()) {
       fitted.std_dev = std::move(std_dev);
       return fitted;
     }
-    fitted = study.fit(better);
+    Fitted refit = study.fit(better);
+    // A profile along the inaccuracies may decrease the loss where the values alone cannot.
+    if (refit.train.loss < fitted.train.loss)
+      fitted = std::move(refit);
+    else
+      attempt = kAttempts - 2;
   }
 }
 

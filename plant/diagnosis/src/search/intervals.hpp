@@ -4,9 +4,11 @@
 
 namespace crane::diagnosis {
 
-/// Sets the standard deviations to the scatter under resampling of the blocks. Where an axis sticks and
-/// slips, the loss is a stepped function of a value, not a parabola, and the slope at the best value does not
-/// give the scatter. If a profile finds a better value, the fit is repeated from this value.
+/// Sets the standard deviations, marginal over the inaccuracies of the rig file; +-1.96 of them is a 95 %
+/// interval. Where an axis sticks and slips, the loss is a stepped function of a value, not a parabola, and
+/// the slope at the best value does not give the scatter: the scatter of the minimum of the profile under
+/// resampling of the blocks replaces it. If a profile finds a better value, the fit is repeated from this
+/// value.
 [[nodiscard]] Fitted with_intervals(const Study& study, Fitted fitted, std::uint64_t seed);
 
 }  // namespace crane::diagnosis

@@ -15,16 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 void Study::fit_inaccuracies(Fitted& fitted) {
-  ShowsIn parts;
-  for (const Effect& effect : fitted.effects) {
-    parts.drive = parts.drive || effect.candidate->drive;
-    parts.load = parts.load || effect.candidate->load;
-  }
-  Effects beside = inaccuracies_beside(fitted.effects);
-  if (!fitted.effects.empty())
-    std::erase_if(beside, [&](const Effect& inaccuracy) {
-      return !(inaccuracy.candidate->drive && parts.drive) && !(inaccuracy.candidate->load && parts.load);
-    });
+  const Effects beside =
+      fitted.effects.empty() ? inaccuracies_beside({}) : visible_inaccuracies_beside(fitted.effects);
   if (beside.empty()) return;
   Fitted joint;
   joint.effects = fitted.effects;

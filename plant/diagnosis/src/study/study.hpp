@@ -89,6 +89,7 @@ struct ScoreTable {
 };
 
 struct BlockScores;
+struct Uncertainty;
 
 class Study {
  public:
@@ -152,6 +153,9 @@ class Study {
   /// The same, with the starts of the windows of `near`, an evaluation of some of the effects.
   [[nodiscard]] Fitted fit(Effects effects, double loss_to_beat, const Evaluation& near) const;
 
+  /// @pre the training data are whitened with the nuisance parameters of the fit
+  [[nodiscard]] Uncertainty uncertainty_of(const Fitted& fitted) const;
+
   [[nodiscard]] const Problem& drive() const { return train_.drive; }
   [[nodiscard]] const Problem& load() const { return train_.load; }
   [[nodiscard]] const Problem& whole_runs() const { return whole_runs_; }  ///< of the load, training
@@ -179,6 +183,11 @@ class Study {
                std::size_t apart) const;
   /// The same, with those that have the value of the rig file.
   [[nodiscard]] Effects inaccuracies_beside(const Effects& effects) const;
+  /// Those that are visible in the same parts of the data as an effect.
+  [[nodiscard]] Effects visible_inaccuracies_beside(const Effects& effects) const;
+  struct HeldError;
+  /// Errors of the zeros of the swing sensors. Appends the effects of those that no effect describes.
+  [[nodiscard]] std::vector<HeldError> zero_errors(Effects& effects) const;
   /// Fits the effects jointly with the inaccuracies that are visible in the same parts of the data.
   void fit_inaccuracies(Fitted& fitted);
   /// Sets covariance and penalty of a fit. @param along slopes, of the effects first

@@ -1,0 +1,34 @@
+#pragma once
+/// Uncertainty of the values of a fit, marginal over the inaccuracies of the rig file.
+#include "study/study.hpp"
+
+namespace crane::diagnosis {
+
+/// Uncertainty of one value.
+struct ValueUncertainty {
+  /// Of the sandwich covariance of all values and inaccuracies, from the jackknife over blocks.
+  double std_dev = 0;
+  double freedom = 1;   ///< degrees of freedom of the jackknife
+  double by_noise = 0;  ///< standard deviation for the learnt noise and disturbance
+  /// Standard deviation by the errors of the zeros of the swing sensors, and by the inaccuracies at their
+  /// bounds.
+  double systematic = 0;
+  /// Changes of all values and inaccuracies along which the others minimise the loss, per unit of this value.
+  Eigen::VectorXd line;
+  double bend = 0;  ///< increase of the loss along the line by the bounds of the inaccuracies, per unit^2
+};
+
+struct Uncertainty {
+  Effects effects;  ///< of the fit, then the inaccuracies that are visible in the same parts of the data
+  std::vector<ValueUncertainty> values;  ///< of the effects of the fit
+};
+
+/// A quantity that the fit holds although it has an error: the column of its slope and its standard
+/// deviation. The zero of a swing sensor: an incremental encoder is zeroed to one of its counts, and the data
+/// do not show the error. An inaccuracy at its bound: the data prefer a value that the rig file excludes.
+struct Study::HeldError {
+  Eigen::Index column = 0;
+  double std_dev = 0;
+};
+
+}  // namespace crane::diagnosis
