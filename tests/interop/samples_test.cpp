@@ -1,5 +1,8 @@
 // Samples of one vendor arrive unchanged at the other one; history, instances and partitions behave equally.
+#include <atomic>
 #include <cstring>
+#include <optional>
+#include <string_view>
 
 #include "../bus/random_sample.hpp"
 #include "crane/bus/seal.hpp"
@@ -77,6 +80,36 @@ TEST_P(Samples, OfALockstepChunkArriveCompleteAndInOrder) {
     ASSERT_TRUE(sample) << "tick " << tick;
     ASSERT_EQ(sample->header.tick, tick);
   }
+}
+
+TEST_P(Samples, AreAnsweredOnArrival) {
+  constexpr std::uint64_t kTicks = 500;
+  std::atomic<bool> ready = false;
+  std::atomic<int> unsent = 0;
+  std::optional<Subscriber<msg::State>> states;
+  std::optional<Publisher<msg::Reference>> answers;
+  to.call_on_arrival([&](std::string_view /*topic*/) {
+    if (!ready) return;
+    while (const auto sample = states->take()) {
+      msg::Reference answer{};
+      answer.header = sample->header;
+      if (!answers->publish(answer)) ++unsent;
+    }
+  });
+  states.emplace(to.subscriber(topics::state));
+  answers.emplace(to.publisher(topics::reference));
+  auto writer = from.publisher(topics::state);
+  auto reader = from.subscriber(topics::reference);
+  ASSERT_TRUE(matched(from, writer, reader) && matched(from, *answers, *states));
+  ready = true;
+  for (std::uint64_t tick = 0; tick < kTicks; ++tick) {
+    auto sample = state(tick);
+    ASSERT_TRUE(writer.publish(sample));
+    const auto answer = next(from, reader);
+    ASSERT_TRUE(answer) << "tick " << tick;
+    ASSERT_EQ(answer->header.tick, tick);
+  }
+  EXPECT_EQ(unsent, 0);
 }
 
 TEST_P(Samples, OfThePastReachALateReaderWhenBothSidesAskForIt) {

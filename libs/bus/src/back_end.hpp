@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "crane/bus/path_stamps.hpp"
 #include "endpoint.hpp"
@@ -22,7 +23,7 @@ class Doorbell {
   /// A sample of `topic` has arrived.
   void ring(std::string_view topic) {
     if (auto* const stamps = path_stamps()) stamps->arrived(topic);
-    ring();
+    on_arrival_ ? on_arrival_(topic) : ring();
   }
   void ring() {
     if (rung_) return;
@@ -32,6 +33,8 @@ class Doorbell {
     }
     condition_.notify_one();
   }
+  /// Replaces the wake-up of wait() by samples. Call before the first endpoint exists.
+  void call(ArrivalHandler on_arrival) { on_arrival_ = std::move(on_arrival); }
   bool wait(std::chrono::nanoseconds timeout) {
     if (timeout.count() <= 0) return rung_ && rung_.exchange(false);
     std::unique_lock lock{mutex_};
@@ -40,6 +43,7 @@ class Doorbell {
   }
 
  private:
+  ArrivalHandler on_arrival_;
   std::mutex mutex_;
   std::condition_variable condition_;
   std::atomic<bool> rung_ = false;  ///< set under the mutex

@@ -63,6 +63,7 @@ Bus::Bus(Bus&&) noexcept = default;
 Bus& Bus::operator=(Bus&&) noexcept = default;
 
 bool Bus::wait(std::chrono::nanoseconds timeout) { return state_->doorbell->wait(timeout); }
+void Bus::call_on_arrival(ArrivalHandler on_arrival) { state_->doorbell->call(std::move(on_arrival)); }
 const Options& Bus::options() const { return state_->options; }
 
 UntypedPublisher Bus::make_publisher(const topics::Description& topic, const EndpointOptions& endpoint) {

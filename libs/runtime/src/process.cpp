@@ -19,6 +19,7 @@
 #include "crane/runtime/hosted_component.hpp"
 #include "crane/runtime/signals.hpp"
 #include "crane/runtime/spin_limit.hpp"
+#include "crane/runtime/turn.hpp"
 
 namespace crane::runtime {
 namespace {
@@ -58,18 +59,31 @@ void log_without_waiting() {
   spdlog::set_default_logger(spdlog::create_async_nb<spdlog::sinks::stderr_color_sink_mt>(""));
 }
 
-void loop(Component& component, bus::Bus& bus) {
-  constexpr std::int64_t kLongest_ns = 100'000'000;  // longest reaction time to a stop signal
+constexpr std::int64_t kLongest_ns = 100'000'000;  // longest reaction time to a stop signal
+
+/// A clock master sleeps until its next tick; samples do not wake it.
+void loop_paced(Component& component) {
   auto* const stamps = bus::path_stamps();
   while (!stop_requested()) {
     const auto now_ns = monotonic_ns();
     if (stamps != nullptr) stamps->polled(now_ns);
-    if (component.poll(now_ns)) continue;
-    const auto wake_ns = std::min(component.wake_at_ns(), now_ns + kLongest_ns);
-    if (component.paced())
-      sleep_until(wake_ns);
-    else
-      bus.wait(std::chrono::nanoseconds{std::max<std::int64_t>(wake_ns - now_ns, 0)});
+    if (!component.poll(now_ns)) sleep_until(std::min(component.wake_at_ns(), now_ns + kLongest_ns));
+  }
+}
+
+/// No receive thread runs the component after the loop, also when an exception ends it.
+struct EndOfTurn {
+  Turn& turn;
+  ~EndOfTurn() { turn.end(); }
+};
+
+/// The receive threads of the bus run the component when a sample arrives, this thread when a time has come.
+void loop_on_arrival(Component& component, std::int64_t period_ns, Turn& turn) {
+  const EndOfTurn end_of_turn{turn};
+  turn.begin(component, period_ns);
+  while (!stop_requested()) {
+    turn.wait(kLongest_ns);
+    turn.run();
   }
 }
 
@@ -85,11 +99,20 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   const auto clock = clock_from(options.clock);
   const auto epoch = options.epoch != 0 ? options.epoch : random_epoch();
   bus::stamp_paths_if_asked();
+  Turn turn{monotonic_ns};  // outlives the bus, whose threads call it
   bus::Bus bus{bus_options(options.bus, std::string{spec.program}, spec.source, epoch)};
   refuse_second_writer(bus, spec.writes);
+  bus.call_on_arrival([&turn, &spec](std::string_view topic) {
+    // The delivery of a sample must not publish the same topic (see Bus::call_on_arrival).
+    writes(spec, topic) ? turn.wake() : turn.run();
+  });
   HostedComponent hosted{bus, spec, rig, controller, clock, monotonic_ns};
   if (clock == Clock::realtime) enter_realtime(hosted.node(), options.priority);
-  loop(hosted.component(), bus);
+  if (hosted.component().paced())
+    loop_paced(hosted.component());
+  else
+    loop_on_arrival(hosted.component(),
+                    clock == Clock::realtime ? static_cast<std::int64_t>(rig.period_s * 1e9) : 0, turn);
   hosted.node().stopping();
   return kExitDone;
 }

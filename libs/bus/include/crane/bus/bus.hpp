@@ -250,8 +250,12 @@ class CdrSubscriber : public UntypedSubscriber {
   std::vector<std::uint8_t> sample_;
 };
 
-/// One DDS participant in one domain. One thread calls publish, take and wait; event handlers run on other
-/// threads. Publishers and subscribers keep the participant alive, and may outlive their Bus.
+/// A sample of the topic with this name has arrived.
+using ArrivalHandler = std::function<void(std::string_view topic)>;
+
+/// One DDS participant in one domain. The calls of publish, take and wait must not overlap; event handlers
+/// run on threads of the vendor. Publishers and subscribers keep the participant alive, and may outlive their
+/// Bus.
 class Bus {
  public:
   explicit Bus(Options options);  ///< @throws Error
@@ -276,6 +280,14 @@ class Bus {
   /// Sleeps until a sample arrives at any subscriber of this bus, or until the timeout. Returns at once when
   /// a sample has arrived since the last call. @return true when a sample has arrived since the last call
   bool wait(std::chrono::nanoseconds timeout);
+
+  /// From now on, `on_arrival` is called whenever a sample of `topic` has arrived at a subscriber of this
+  /// bus, and wait() sleeps until its timeout. The calling thread is a receive thread of the vendor, or a
+  /// thread of this process that publishes. It may hold locks of the vendor, and several threads may call at
+  /// the same time: `on_arrival` may publish and take, but must not wait for another thread, and must not
+  /// publish `topic` itself, because Cyclone DDS calls back one sample of a reader at a time. Call before the
+  /// first subscriber exists.
+  void call_on_arrival(ArrivalHandler on_arrival);
 
   /// Participants of this crane whose messages have another version. This bus drops all their samples.
   [[nodiscard]] std::vector<OtherVersion> other_versions();

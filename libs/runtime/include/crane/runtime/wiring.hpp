@@ -2,6 +2,7 @@
 /// The wiring of a stack as data: every component declares the topics that it reads and writes, with the
 /// purpose of each. The host permits only these endpoints (ports.hpp). The start-up check, the check for a
 /// second writer, `crane graph` and the tables in the documents use the same declarations.
+#include <algorithm>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -50,6 +51,12 @@ struct ComponentSpec {
 
 [[nodiscard]] inline bool is_written(const Write& write, const control::Design& design) {
   return write.written_with == nullptr || write.written_with(design);
+}
+
+/// @return true when the process of `spec` may write the topic
+[[nodiscard]] inline bool writes(const ComponentSpec& spec, std::string_view topic) {
+  return topic == topics::node.description.name || topic == topics::event.description.name ||
+         std::ranges::any_of(spec.writes, [&](const Write& write) { return write.topic->name == topic; });
 }
 
 }  // namespace crane::runtime
