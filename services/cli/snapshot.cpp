@@ -65,6 +65,54 @@ void print_twin(std::ostream& out, const msg::Twin& twin) {
   out << '\n';
 }
 
+/// "0.90 +- 0.01"
+std::string with_deviation(double value, double deviation, int digits) {
+  return fixed(value, digits) + " +- " + fixed(deviation, digits);
+}
+
+const char* freeze_text(crane_AdaptationFreeze reason) {
+  constexpr std::array kTexts{"learns",
+                              "oscillated about its rest",
+                              "rolled back",
+                              "waits for consecutive ticks",
+                              "brake closed",
+                              "demand not executed",
+                              "at the voltage limit",
+                              "load swings too far",
+                              "cable moves",
+                              "at rest",
+                              "implausible"};
+  const auto number = static_cast<std::size_t>(reason);
+  return number < kTexts.size() ? kTexts[number] : "unknown";
+}
+
+void print_adaptation(std::ostream& out, const msg::Adaptation& adaptation) {
+  TextTable table{{"adaptation", "direction", "coulomb V", "viscous V", "static V", "used V", "confidence",
+                   "now", "roll-backs"}};
+  constexpr std::array kAxes{"trolley", "slew"};
+  for (std::size_t i = 0; i < kAxes.size(); ++i) {
+    const auto& axis = adaptation.axis[i];
+    if (axis.phase == crane_ADAPTATION_OFF) continue;
+    for (const auto* direction : {&axis.positive, &axis.negative})
+      table.add({kAxes.at(i), direction == &axis.positive ? "positive" : "negative",
+                 with_deviation(direction->coulomb_v, direction->coulomb_std_v, 3),
+                 with_deviation(direction->viscous_v, direction->viscous_std_v, 3),
+                 with_deviation(direction->static_v, direction->static_std_v, 3),
+                 fixed(direction->used_coulomb_v, 3), fixed(100 * axis.confidence, 0) + " %",
+                 freeze_text(axis.freeze), std::to_string(axis.roll_backs)});
+  }
+  table.print(out);
+  out << "payload " << with_deviation(adaptation.load_mass_kg, adaptation.load_mass_std_kg, 2)
+      << " kg, pendulum " << with_deviation(adaptation.pendulum_length_m, adaptation.pendulum_length_std_m, 3)
+      << " m, swing offset radial "
+      << with_deviation(adaptation.swing_offset_rad[0] * kDegPerRad,
+                        adaptation.swing_offset_std_rad[0] * kDegPerRad, 2)
+      << " deg, tangential "
+      << with_deviation(adaptation.swing_offset_rad[1] * kDegPerRad,
+                        adaptation.swing_offset_std_rad[1] * kDegPerRad, 2)
+      << " deg  (" << adaptation.moves << " moves)\n";
+}
+
 }  // namespace
 
 const char* remedy(const msg::SupervisorStatus& status) {
@@ -104,6 +152,7 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
   auto supervisors = bus.subscriber(topics::supervisor);
   auto states = bus.subscriber(topics::state);
   auto twins = bus.subscriber(topics::twin);
+  auto adaptations = bus.subscriber(topics::adaptation);
   Snapshot snapshot;
   std::int64_t changed_ns = runtime::monotonic_ns();
   int writers = 0;
@@ -112,12 +161,15 @@ Snapshot listen(bus::Bus& bus, double timeout_s) {
     keep_newest(supervisors, snapshot.supervisor);
     keep_newest(states, snapshot.state);
     keep_newest(twins, snapshot.twin);
+    keep_newest(adaptations, snapshot.adaptation);
     const auto now_ns = runtime::monotonic_ns();
     if (nodes.matched() != writers) changed_ns = now_ns;
     writers = nodes.matched();
     const bool all = writers > 0 && snapshot.nodes.size() >= static_cast<std::size_t>(writers);
     const bool twin_heard = twins.matched() == 0 || snapshot.twin;
-    return all && twin_heard && snapshot.supervisor && snapshot.state && now_ns - changed_ns > quiet_ns;
+    const bool adaptation_heard = adaptations.matched() == 0 || snapshot.adaptation;
+    return all && twin_heard && adaptation_heard && snapshot.supervisor && snapshot.state &&
+           now_ns - changed_ns > quiet_ns;
   });
   snapshot.other_versions = bus.other_versions();
   return snapshot;
@@ -135,6 +187,8 @@ nlohmann::ordered_json to_json(const Snapshot& snapshot) {
   result["state"] =
       snapshot.state ? to_json(topics::state, *snapshot.state) : nlohmann::ordered_json(nullptr);
   result["twin"] = snapshot.twin ? to_json(topics::twin, *snapshot.twin) : nlohmann::ordered_json(nullptr);
+  result["adaptation"] = snapshot.adaptation ? to_json(topics::adaptation, *snapshot.adaptation)
+                                             : nlohmann::ordered_json(nullptr);
   result["other_versions"] = nlohmann::ordered_json::array();
   for (const auto& other : snapshot.other_versions)
     result["other_versions"].push_back({{"participant", other.participant}, {"version", other.version}});
@@ -153,6 +207,7 @@ void print(std::ostream& out, const Snapshot& snapshot) {
     print_axes(out, *snapshot.state);
   }
   if (snapshot.twin) print_twin(out, *snapshot.twin);
+  if (snapshot.adaptation) print_adaptation(out, *snapshot.adaptation);
   for (const auto& other : snapshot.other_versions) out << "version     " << bus::refusal(other) << '\n';
   if (!snapshot.supervisor) out << "supervisor  no status received: the crane cannot move\n";
   if (!snapshot.state) out << "crane/state  no sample received: neither bridge nor plant publishes it\n";

@@ -12,7 +12,8 @@ struct Snapshot {
   std::map<std::uint32_t, msg::NodeStatus> nodes;  ///< by node number (Source)
   std::optional<msg::SupervisorStatus> supervisor;
   std::optional<msg::State> state;
-  std::optional<msg::Twin> twin;  ///< nothing: no twin runs
+  std::optional<msg::Twin> twin;              ///< nothing: no twin runs
+  std::optional<msg::Adaptation> adaptation;  ///< nothing: the rig file adapts no axis
   std::vector<bus::OtherVersion> other_versions;
   [[nodiscard]] bool empty() const { return nodes.empty() && !supervisor && !state; }
 };
@@ -21,8 +22,8 @@ struct Snapshot {
 /// `timeout_s`.
 [[nodiscard]] Snapshot listen(bus::Bus& bus, double timeout_s);
 
-/// {"nodes": [...], "supervisor": {..., "remedy": ...} or null, "state": {...} or null, "twin": likewise,
-/// "other_versions": [{"participant", "version"}]}
+/// {"nodes": [...], "supervisor": {..., "remedy": ...} or null, "state": {...} or null, "twin", "adaptation":
+/// likewise, "other_versions": [{"participant", "version"}]}
 [[nodiscard]] nlohmann::ordered_json to_json(const Snapshot& snapshot);
 /// Prints the processes, the state of the supervisor with cause and remedy, and the axes.
 void print(std::ostream& out, const Snapshot& snapshot);

@@ -1,7 +1,12 @@
 #include "friction_compensation/friction_compensation.hpp"
 
+#include <algorithm>
+#include <optional>
+
+#include "crane/control/adaptation.hpp"
 #include "crane/control/friction_compensation.hpp"
 #include "crane/runtime/convert.hpp"
+#include "friction_compensation/adaptation_sample.hpp"
 
 namespace crane::services {
 namespace {
@@ -19,13 +24,15 @@ class FrictionCompensation
       : JoinedComponent{context, kWaitShare, topics::state, topics::tracking, topics::anti_swing},
         friction_{context.rig.design.friction},
         output_{context.ports.output(topics::demand)} {
-    if (adapts(context.rig.design)) adaptation_.emplace(context.ports.output(topics::adaptation));
+    if (adapts(context.rig.design))
+      adaptation_.emplace(control::Adaptation{context.rig.design}, context.ports.output(topics::adaptation));
   }
 
  protected:
-  void on_tick(std::uint64_t /*tick*/, const msg::State* state, const msg::Contribution* tracking,
+  void on_tick(std::uint64_t tick, const msg::State* state, const msg::Contribution* tracking,
                const msg::Contribution* anti_swing) override {
     const auto speed = runtime::measurement(*state).speed;
+    if (adaptation_) adapt(tick, *state);
     msg::Demand sample{};
     sample.header = runtime::answer_to(state->header);
     for (std::size_t i = 0; i < control::kAxes; ++i) {
@@ -36,29 +43,35 @@ class FrictionCompensation
     sample.second_writer = disputed() || tracking->second_writer || anti_swing->second_writer;
     sample.configuration = configuration();
     output_.publish(sample);
-    if (adaptation_) publish_levels(sample.header);
+    if (!adaptation_) return;
+    std::ranges::copy(sample.total_v, demand_v_.begin());
+    adaptation_->output.publish(
+        adaptation_sample(runtime::answer_to(state->header), adaptation_->law.report()));
   }
 
  private:
-  void publish_levels(const msg::Header& header) {
-    msg::Adaptation sample{};
-    sample.header = header;
-    for (std::size_t i = 0; i < std::size(sample.axis); ++i) {
-      const auto& used = friction_[i];
-      auto& axis = sample.axis[i];
-      axis.positive.used_coulomb_v = used.coulomb_positive_v;
-      axis.positive.used_viscous_v = used.viscous_positive_vspm;
-      axis.positive.used_static_v = used.stiction_positive_v;
-      axis.negative.used_coulomb_v = used.coulomb_negative_v;
-      axis.negative.used_viscous_v = used.viscous_negative_vspm;
-      axis.negative.used_static_v = used.stiction_negative_v;
-    }
-    adaptation_->publish(sample);
+  /// Updates the levels of the compensation from what acts on the crane at this tick.
+  void adapt(std::uint64_t tick, const msg::State& state) {
+    control::AdaptationInput input{
+        .measured = runtime::measurement(state),
+        .demand_v = demand_v_,
+        .brake_closed = {},
+        .consecutive = tick == last_tick_ + 1 && state.applied_command_tick == last_tick_};
+    std::ranges::copy(state.brake_closed, input.brake_closed.begin());
+    last_tick_ = tick;
+    adaptation_->law.step(input);
+    friction_ = adaptation_->law.friction();
   }
 
+  struct Adapting {
+    control::Adaptation law;
+    runtime::Output<msg::Adaptation> output;
+  };
   std::array<control::DriveFriction, control::kAxes> friction_;
   runtime::Output<msg::Demand> output_;
-  std::optional<runtime::Output<msg::Adaptation>> adaptation_;  ///< nothing: the rig file adapts no axis
+  std::optional<Adapting> adaptation_;  ///< nothing: the rig file adapts no axis
+  control::Volts demand_v_{};           ///< of the last tick
+  std::uint64_t last_tick_ = 0;
 };
 
 }  // namespace

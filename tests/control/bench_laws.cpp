@@ -1,7 +1,9 @@
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <string>
 
+#include "crane/control/adaptation.hpp"
 #include "crane/control/friction_compensation.hpp"
 #include "crane/control/law.hpp"
 #include "crane/control/shaper.hpp"
@@ -31,6 +33,27 @@ void friction(benchmark::State& state) {
     benchmark::DoNotOptimize(friction_compensation_v(parameters, control_v = -control_v, 0));
 }
 
+/// A trolley that moves to and fro: every tick evaluates the force balance, every sixth tick updates the
+/// filter.
+void adaptation(benchmark::State& state) {
+  Design design;
+  design.friction.fill({1.5, 6.0, 0.9, 1.2, 0.9, 1.2, 100, 0.005, 1});
+  design.adaptation.enabled = true;
+  Adaptation law{design};
+  AdaptationInput input;
+  input.consecutive = true;
+  input.measured.position = {0.7, 0.3, 1.2};
+  double time_s = 0;
+  for (auto _ : state) {
+    time_s += design.period_s;
+    input.measured.position[kTrolley] = 0.7 + 0.3 * std::sin(time_s);
+    input.measured.position[kSlew] = 0.5 * std::sin(time_s);
+    input.measured.swing_radial_rad = input.measured.swing_tangential_rad = 0.05 * std::sin(3 * time_s);
+    law.step(input);
+    benchmark::DoNotOptimize(law.friction());
+  }
+}
+
 void reference(benchmark::State& state) {
   const auto profile = limited_profile(0, 1, {0.5, 1, 10});
   const Shaper shaper(Shaping::ei, 2);
@@ -56,6 +79,7 @@ const bool kRegistered = [] {
   benchmark::RegisterBenchmark("s_curve_shaped_ei", reference);
   benchmark::RegisterBenchmark("zero_phase_6000_samples", zero_phase_of_a_minute);
   benchmark::RegisterBenchmark("friction_compensation", friction);
+  benchmark::RegisterBenchmark("adaptation", adaptation);
   return true;
 }();
 

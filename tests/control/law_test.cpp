@@ -1,5 +1,6 @@
 /// Rules for every registered controller (docs/adding_a_law.md).
 #include "crane/control/law.hpp"
+#include "crane/control/adaptation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -239,6 +240,24 @@ TEST(EveryLaw, GivesZeroVoltsAtRestOnItsReference) {
       law->reset(m);
       for (const double v : law->step(m, r).drive_v) EXPECT_EQ(v, 0) << controller.name;
     }
+}
+
+TEST(Adaptation, AllocatesNothingInItsSteps) {
+  Design design;
+  design.friction.fill({1.5, 6.0, 0.9, 1.2, 0.9, 1.2, 100, 0.005, 1});
+  design.adaptation.enabled = true;
+  Adaptation adaptation{design};
+  AdaptationInput input;
+  input.consecutive = true;
+  input.measured.position = {0.7, 0.3, 1.2};
+  const long before = allocations;
+  for (int k = 0; k < 2000; ++k) {
+    input.measured.position[kTrolley] = 0.7 + 0.3 * std::sin(0.02 * k);
+    input.measured.swing_radial_rad = 0.05 * std::sin(0.03 * k);
+    adaptation.step(input);
+  }
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(adaptation.report().axis[kTrolley].direction[0].blocks, 0U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "../runtime/component_bench.hpp"
 #include "crane/control/friction_compensation.hpp"
@@ -62,6 +63,50 @@ TEST_F(FrictionComponent, PassesOnASecondWriterThatAnEarlierProcessDetected) {
 
 TEST_F(FrictionComponent, KeepsVoltsThatAreNotFiniteSoThatTheGateRejectsThem) {
   EXPECT_TRUE(std::isnan(demand(state_at(1), contribution(std::nan(""), 0), contribution(0, 0)).total_v[0]));
+}
+
+configuration::Rig adapting_tower() {
+  auto rig = runtime::test::tower();
+  rig.design.adaptation.enabled = true;
+  return rig;
+}
+
+TEST(FrictionComponentWithAdaptation, PublishesItsLevelsInEveryTick) {
+  ComponentBench bench{friction_compensation_spec(), adapting_tower()};
+  auto levels = bench.listen(topics::adaptation);
+  for (std::uint64_t tick = 1; tick <= 3; ++tick) {
+    auto state = state_at(tick);
+    state.brake_closed[control::kSlew] = true;
+    state.applied_command_tick = tick - 1;
+    auto none = contribution(0, 0);
+    none.header = runtime::test::tick(tick);
+    bench.publish(topics::state, crane_SOURCE_PLANT, state);
+    bench.publish(topics::tracking, crane_SOURCE_TRACKING, none);
+    bench.publish(topics::anti_swing, crane_SOURCE_ANTI_SWING, none);
+    bench.step();
+    const auto sample = levels.take();
+    ASSERT_TRUE(sample);
+    EXPECT_EQ(sample->header.tick, tick);
+    EXPECT_EQ(sample->axis[0].positive.used_coulomb_v, bench.rig().design.friction[0].coulomb_positive_v);
+    EXPECT_EQ(sample->axis[1].phase, crane_ADAPTATION_FROZEN);
+    EXPECT_EQ(sample->axis[1].freeze, tick > 1 ? crane_FREEZE_BRAKE : crane_FREEZE_GAP);
+    EXPECT_FALSE(levels.take());
+  }
+}
+
+TEST(FrictionComponentWithAdaptation, HasNoSuchTopicByDefault) {
+  ComponentBench bench{friction_compensation_spec(), runtime::test::tower()};
+  EXPECT_EQ(bench.listen(topics::adaptation).matched(), 0);
+}
+
+TEST(Adaptation, IsOffInEveryRigFile) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator{CRANE_RIGS}) {
+    if (entry.path().extension() != ".toml") continue;
+    ++files;
+    EXPECT_FALSE(configuration::load_rig(entry.path()).design.adaptation.enabled) << entry.path();
+  }
+  EXPECT_GT(files, 5);
 }
 
 }  // namespace

@@ -86,6 +86,20 @@ TEST_F(Lockstep, AlternatingVendorsGiveTheSameBytes) {
   expect_same_bytes(run_in_process(), run("alternating"));
 }
 
+TEST_F(Lockstep, ACraneThatAdaptsGivesTheSameBytesInOneProcessAsInSeparateProcesses) {
+  const auto tower = "extends = \"" + options_.rig.string() + "\"\nname = \"adapting\"\n";
+  const auto fixed = contents_of(run_in_process() / "run.csv");
+  options_.rig = directory_ / "fixed.toml";
+  put_contents(options_.rig, tower + "[adaptation]\nenabled = false\n");
+  EXPECT_TRUE(fixed == contents_of(run_in_process() / "run.csv"))
+      << "the switch changes a run while it is off";
+  options_.rig = directory_ / "adapting.toml";
+  put_contents(options_.rig, tower +
+                                 "[adaptation]\nenabled = true\n[controller.friction.trolley]\n"
+                                 "coulomb_positive_v = 1.3\ncoulomb_negative_v = 1.6\n");
+  expect_same_bytes(run_in_process(), run("processes"));
+}
+
 TEST_F(Lockstep, AnotherScenarioGivesOtherBytes) {
   const auto files = run_in_process();
   std::string text{kShort};

@@ -1,0 +1,309 @@
+#include "adaptation/axis_adaptation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace crane::control::adaptation {
+namespace {
+
+constexpr int kBlock_ticks = 6;         // quantisation of the slew encoder: 0.01 V over 6 ticks
+constexpr int kSkipped_ticks = 2;       // of a motion: span of the second difference
+constexpr double kLearnBands = 2;       // zero bands: the break-away excess has decayed above this speed
+constexpr double kMargin = 1;           // standard deviations between an estimate and the level in use
+constexpr double kLowerMargin = 2;      // standard deviations of the friction that a motion shows
+constexpr double kExcitedShare = 0.06;  // of the level: largest standard deviation of a level in use
+constexpr int kLeastBlocks = 3;         // of a direction before its levels are used
+constexpr double kDeadShare = 0.003;    // of the level: smaller changes are not installed
+constexpr double kLowerShare = 0.01;    // of the level: least excess that lowers it during a motion
+constexpr int kLowerBlocks = 2;         // in a row that show the excess
+constexpr double kRamp_vps = 1;         // largest rate of a level in use
+constexpr int kRefused = 5;             // blocks in a row: the friction has changed
+constexpr double kExcessShare = 0.15;   // of the break-away level: standard deviation of its excess
+constexpr double kBreakAway_v = 0.04;   // standard deviation of one break-away
+constexpr int kRest_ticks = 5;          // within the zero band before a break-away
+constexpr int kMean_ticks = 3;          // of a break-away
+constexpr double kCreepBands = 0.4;     // zero bands: the break-away excess acts below this speed
+constexpr double kMeanScatter = 2;      // of a mean over kMean_ticks, scatters of a block: 1 / duration
+constexpr double kCeilingCut = 0.9;     // of the used level, after an oscillation
+constexpr double kLeastUnknown =
+    0.75;  // of the rig file's level: an oscillation lowers an unknown level to it
+constexpr double kCeilingRise = 1.02;  // per move without one
+constexpr int kFrozenMoves = 2;        // after a roll-back
+constexpr int kJudgedBlocks = 4;       // of a move that judges a set
+constexpr double kWorse = 1.5;         // rms of the used set against the one before
+constexpr double kWorse_v = 0.03;
+
+constexpr std::size_t direction_of(double speed) { return speed > 0 ? 0 : 1; }
+double squared_v(double value) noexcept { return value * value; }
+
+}  // namespace
+
+AxisAdaptation::AxisAdaptation(const Design& design, std::size_t axis)
+    : axis_{axis},
+      adapts_{design.adaptation.enabled && design.friction[axis].factor > 0 &&
+              std::min(design.friction[axis].coulomb_positive_v, design.friction[axis].coulomb_negative_v) >
+                  0},
+      zero_band_{design.friction[axis].zero_band_mps},
+      share_{design.adaptation.friction_share},
+      viscous_share_{design.adaptation.viscous_share},
+      period_s_{design.period_s},
+      gain_{axis == kTrolley ? design.crane.trolley_gain_mps2pv : design.crane.slew_gain_radps2pv},
+      friction_{design.friction[axis]},
+      limit_cycle_{zero_band_, period_s_} {
+  file_ = {{{friction_.coulomb_positive_v, friction_.viscous_positive_vspm, friction_.stiction_positive_v},
+            {friction_.coulomb_negative_v, friction_.viscous_negative_vspm, friction_.stiction_negative_v}}};
+  used_ = target_ = good_ = file_;
+  for (std::size_t d = 0; d < 2; ++d)
+    excess_[d] = {std::max(0.0, file_[d].static_v - file_[d].coulomb_v),
+                  squared_v(kExcessShare * file_[d].static_v)};
+  ceiling_.fill(1 + share_);
+}
+
+void AxisAdaptation::step(const AxisBalance* balance, AdaptationFreeze reason, LevelFilter& filter) noexcept {
+  if (!adapts_) return;
+  approach_target();
+  report_.freeze = reason;
+  if (balance == nullptr || reason != AdaptationFreeze::none) {
+    leave_block();
+    rest_ticks_ = skipped_ticks_ = 0;
+    limit_cycle_.reset();
+    if (balance == nullptr) report_.freeze = AdaptationFreeze::gap;
+    speed_ = balance == nullptr ? 0 : std::abs(balance->speed);
+    moves_ = speed_ > kLearnBands * zero_band_;
+  } else {
+    speed_ = std::abs(balance->speed);
+    // the acceleration of a block is the difference of two speeds over its duration
+    const double noise = filter.noise_v(axis_) * gain_ * kBlock_ticks * period_s_ / std::numbers::sqrt2;
+    if (limit_cycle_.step(balance->speed, noise)) oscillates(filter);
+    moves_ = std::abs(limit_cycle_.mean_speed()) > kLearnBands * zero_band_;
+    report_.freeze = held_;
+    learn(*balance, filter);
+  }
+  report_.phase =
+      report_.freeze == AdaptationFreeze::none ? AdaptationPhase::learning : AdaptationPhase::frozen;
+  describe(filter);
+}
+
+void AxisAdaptation::learn(const AxisBalance& balance, LevelFilter& filter) noexcept {
+  const std::size_t direction = direction_of(balance.speed);
+  if (speed_ <= zero_band_) return rest(balance, filter);
+  if (rest_ticks_ >= kRest_ticks) break_away(direction, filter);
+  rest_ticks_ = 0;
+  if (speed_ <= kLearnBands * zero_band_) {
+    leave_block();
+    skipped_ticks_ = 0;
+    if (held_ == AdaptationFreeze::none) report_.freeze = AdaptationFreeze::standstill;
+    return;
+  }
+  if (direction != block_direction_) leave_block(), skipped_ticks_ = 0;
+  const double side = direction == 0 ? 1 : -1;
+  block_direction_ = direction;
+  if (++skipped_ticks_ <= kSkipped_ticks) return;  // the balance still covers a time at rest
+  skipped_ticks_ = kSkipped_ticks;
+  block_.free_v += side * balance.free_v;
+  block_.load_vpkg += side * balance.load_vpkg;
+  block_.inertia_v += side * balance.inertia_v;
+  block_.speed += speed_;
+  if (++block_ticks_ == kBlock_ticks) finish_block(filter);
+  if (refused_in_a_row_ > 0 && report_.freeze == AdaptationFreeze::none)
+    report_.freeze = AdaptationFreeze::implausible;
+}
+
+void AxisAdaptation::rest(const AxisBalance& balance, const LevelFilter& filter) noexcept {
+  leave_block();
+  skipped_ticks_ = 0;
+  if (held_ == AdaptationFreeze::none) report_.freeze = AdaptationFreeze::standstill;
+  const auto slot = static_cast<std::size_t>(rest_ticks_ % kHistory);
+  resting_v_[slot] = filter.friction_v(
+      axis_, {.free_v = balance.free_v, .load_vpkg = balance.load_vpkg, .inertia_v = balance.inertia_v});
+  creeping_[slot] = speed_ <= kCreepBands * zero_band_;
+  ++rest_ticks_;
+}
+
+/// The largest friction while the axis hardly moved, as a mean over kMean_ticks, minus the scatter of such a
+/// mean.
+void AxisAdaptation::break_away(std::size_t direction, const LevelFilter& filter) noexcept {
+  if (held_ != AdaptationFreeze::none || report_.direction[direction].blocks < kLeastBlocks) return;
+  const int known = std::min(rest_ticks_, kHistory);
+  const double side = direction == 0 ? 1 : -1;
+  double largest = -1e9;
+  for (int i = 0; i + kMean_ticks <= known; ++i) {
+    double mean = 0;
+    bool creeps = true;
+    for (int j = 0; j < kMean_ticks; ++j) {
+      const auto slot = static_cast<std::size_t>((rest_ticks_ - 1 - i - j) % kHistory);
+      mean += side * resting_v_[slot] / kMean_ticks;
+      creeps = creeps && creeping_[slot];
+    }
+    if (creeps) largest = std::max(largest, mean);
+  }
+  largest -= kMeanScatter * filter.scatter_v(axis_);
+  if (largest < (1 - share_) * file_[direction].static_v) return;  // a fast step shows no break-away level
+  Excess& excess = excess_[direction];
+  const double error = largest - filter.coulomb_v(axis_, direction).value - excess.value_v;
+  const double variance = excess.variance + squared_v(kBreakAway_v);
+  if (squared_v(error) > 25 * variance) return;
+  const double gain = excess.variance / variance;
+  excess.value_v = std::max(0.0, excess.value_v + gain * error);
+  excess.variance = std::max((1 - gain) * excess.variance, squared_v(kBreakAway_v / 4));
+  ++report_.direction[direction].break_aways;
+}
+
+void AxisAdaptation::finish_block(LevelFilter& filter) noexcept {
+  Block mean = block_;
+  for (double* value : {&mean.free_v, &mean.load_vpkg, &mean.inertia_v, &mean.speed}) *value /= kBlock_ticks;
+  leave_block();
+  const std::size_t d = block_direction_;
+  const auto innovation = filter.innovation(axis_, d, mean);
+  report_.innovation_v = innovation.value_v;
+  report_.innovation_std_v = innovation.deviation_v;
+  const double friction_v = filter.friction_v(axis_, mean);
+  const auto missed = [&](const FrictionLevels& levels) {
+    return squared_v(friction_v - levels.coulomb_v - levels.viscous_vspm * mean.speed);
+  };
+  used_squares_ += missed(used_[d]);
+  good_squares_ += missed(good_[d]);
+  ++judged_blocks_;
+  if (held_ != AdaptationFreeze::none) return;
+  if (!innovation.plausible) {
+    ++report_.refused_blocks;
+    if (++refused_in_a_row_ < kRefused) return;
+    filter.forget(axis_, d);
+  }
+  refused_in_a_row_ = 0;
+  filter.update(axis_, d, mean);
+  ++report_.direction[d].blocks;
+  lower(d, mean.speed, filter);
+}
+
+bool AxisAdaptation::excited(std::size_t direction, const LevelFilter& filter) const noexcept {
+  return report_.direction[direction].blocks >= kLeastBlocks &&
+         filter.coulomb_v(axis_, direction).deviation <= kExcitedShare * file_[direction].coulomb_v;
+}
+
+FrictionLevels AxisAdaptation::wanted(std::size_t direction, const LevelFilter& filter) const noexcept {
+  const FrictionLevels& file = file_[direction];
+  const Estimated c = filter.coulomb_v(axis_, direction), b = filter.viscous_vspm(axis_, direction);
+  const Excess& excess = excess_[direction];
+  const double lowest = 1 - share_, highest = std::min(1 + share_, ceiling_[direction]);
+  FrictionLevels levels;
+  levels.coulomb_v =
+      std::clamp(c.value - kMargin * c.deviation, lowest * file.coulomb_v, highest * file.coulomb_v);
+  levels.viscous_vspm =
+      std::clamp(b.value, (1 - viscous_share_) * file.viscous_vspm, (1 + viscous_share_) * file.viscous_vspm);
+  const double certain_excess =
+      excess.value_v - kMargin * std::sqrt(excess.variance + squared_v(c.deviation)) + kMargin * c.deviation;
+  const double static_v = levels.coulomb_v + std::max(0.0, certain_excess);
+  levels.static_v = std::clamp(static_v, lowest * file.static_v, highest * file.static_v);
+  return levels;
+}
+
+void AxisAdaptation::lower(std::size_t d, double speed, const LevelFilter& filter) noexcept {
+  if (report_.direction[d].blocks < kLeastBlocks) return;
+  FrictionLevels& target = target_[d];
+  const Estimated shown = filter.moving_v(axis_, d, speed);
+  const double compensated_v = target.coulomb_v + target.viscous_vspm * speed;
+  const double least_v = shown.value + kLowerMargin * shown.deviation + kLowerShare * file_[d].coulomb_v;
+  excess_blocks_ = compensated_v > least_v ? excess_blocks_ + 1 : 0;
+  if (excess_blocks_ < kLowerBlocks) return;
+  const double kept = std::max(shown.value / compensated_v, 0.0);
+  target.coulomb_v = std::max(kept * target.coulomb_v, (1 - share_) * file_[d].coulomb_v);
+  target.static_v = std::max(kept * target.static_v, (1 - share_) * file_[d].static_v);
+  target.viscous_vspm = std::max(kept * target.viscous_vspm, (1 - viscous_share_) * file_[d].viscous_vspm);
+  on_trial_ = true;
+}
+
+void AxisAdaptation::oscillates(const LevelFilter& filter) noexcept {
+  ++report_.limit_cycles;
+  for (std::size_t d = 0; d < 2; ++d) {
+    FrictionLevels& target = target_[d];
+    if (on_trial_ && good_[d].static_v < target.static_v) target.static_v = good_[d].static_v;
+    if (on_trial_ && good_[d].coulomb_v < target.coulomb_v) target.coulomb_v = good_[d].coulomb_v;
+    // a level below kCeilingCut of the known friction does not cause an oscillation
+    const bool known = excited(d, filter);
+    const double coulomb_v =
+        known ? kCeilingCut * filter.coulomb_v(axis_, d).value : kLeastUnknown * file_[d].coulomb_v;
+    const double static_v = known ? coulomb_v : kLeastUnknown * file_[d].static_v;
+    target.static_v = std::max(kCeilingCut * target.static_v, std::min(static_v, target.static_v));
+    target.coulomb_v = std::max(kCeilingCut * target.coulomb_v, std::min(coulomb_v, target.coulomb_v));
+    const double kept = std::max(target.coulomb_v / file_[d].coulomb_v, target.static_v / file_[d].static_v);
+    ceiling_[d] = std::max(1 - share_, std::min(ceiling_[d], kept));
+    target.static_v = std::max(target.static_v, (1 - share_) * file_[d].static_v);
+    target.coulomb_v = std::max(target.coulomb_v, (1 - share_) * file_[d].coulomb_v);
+  }
+  on_trial_ = false;
+  good_ = target_;
+  held_ = AdaptationFreeze::limit_cycle;
+  frozen_moves_ = 1;
+}
+
+void AxisAdaptation::judge(LevelFilter& filter) noexcept {
+  const double used_v = std::sqrt(used_squares_ / judged_blocks_);
+  const double good_v = std::sqrt(good_squares_ / judged_blocks_);
+  report_.move_residual_v = used_v;
+  report_.previous_residual_v = good_v;
+  if (on_trial_ && used_v > kWorse * good_v + kWorse_v) {
+    target_ = good_;
+    ++report_.roll_backs;
+    held_ = AdaptationFreeze::rolled_back;
+    frozen_moves_ = kFrozenMoves;
+    for (std::size_t d = 0; d < 2; ++d) filter.forget(axis_, d);
+  } else {
+    good_ = target_;
+  }
+  on_trial_ = false;
+}
+
+void AxisAdaptation::end_move(LevelFilter& filter) noexcept {
+  if (!adapts_) return;
+  if (held_ != AdaptationFreeze::none && --frozen_moves_ <= 0) held_ = AdaptationFreeze::none;
+  if (judged_blocks_ >= kJudgedBlocks) judge(filter);
+  used_squares_ = good_squares_ = 0;
+  judged_blocks_ = 0;
+  if (held_ != AdaptationFreeze::none) return;
+  bool changed = false;
+  for (std::size_t d = 0; d < 2; ++d) {
+    ceiling_[d] = std::min(1 + share_, ceiling_[d] * kCeilingRise);
+    if (!excited(d, filter)) continue;
+    const FrictionLevels levels = wanted(d, filter);
+    if (std::abs(levels.coulomb_v - target_[d].coulomb_v) < kDeadShare * file_[d].coulomb_v &&
+        std::abs(levels.static_v - target_[d].static_v) < kDeadShare * file_[d].static_v &&
+        std::abs(levels.viscous_vspm - target_[d].viscous_vspm) <= kDeadShare * file_[d].viscous_vspm)
+      continue;
+    target_[d] = levels;
+    changed = true;
+  }
+  if (!changed) return;
+  on_trial_ = true;
+  ++report_.installed;
+}
+
+void AxisAdaptation::approach_target() noexcept {
+  const double most = kRamp_vps * period_s_;
+  for (std::size_t d = 0; d < 2; ++d)
+    for (auto level : {&FrictionLevels::coulomb_v, &FrictionLevels::viscous_vspm, &FrictionLevels::static_v})
+      used_[d].*level += std::clamp(target_[d].*level - used_[d].*level, -most, most);
+  friction_.coulomb_positive_v = used_[0].coulomb_v;
+  friction_.coulomb_negative_v = used_[1].coulomb_v;
+  friction_.viscous_positive_vspm = used_[0].viscous_vspm;
+  friction_.viscous_negative_vspm = used_[1].viscous_vspm;
+  friction_.stiction_positive_v = used_[0].static_v;
+  friction_.stiction_negative_v = used_[1].static_v;
+}
+
+void AxisAdaptation::describe(const LevelFilter& filter) noexcept {
+  double known = 0;
+  for (std::size_t d = 0; d < 2; ++d) {
+    const Estimated c = filter.coulomb_v(axis_, d), b = filter.viscous_vspm(axis_, d);
+    DirectionReport& shown = report_.direction[d];
+    shown.estimate = {c.value, b.value, c.value + excess_[d].value_v};
+    shown.deviation = {c.deviation, b.deviation, std::sqrt(squared_v(c.deviation) + excess_[d].variance)};
+    shown.used = used_[d];
+    const double prior = filter.prior_coulomb_deviation(axis_, d);
+    if (prior > 0) known += std::clamp(1 - c.deviation / prior, 0.0, 1.0) / 2;
+  }
+  report_.confidence = known;
+}
+
+}  // namespace crane::control::adaptation

@@ -1,0 +1,69 @@
+#pragma once
+/// Adaptation of one axis: collects blocks and break-aways, decides which levels the compensation uses.
+///   down at once: the levels of a direction whose motion shows less friction than is compensated
+///   up at rest: the levels of both directions, at the end of a move
+///   back: when the next move contradicts the installed set, or when the axis oscillates about its rest
+#include "adaptation/force_balance.hpp"
+#include "adaptation/level_filter.hpp"
+#include "adaptation/limit_cycle.hpp"
+
+namespace crane::control::adaptation {
+
+class AxisAdaptation {
+ public:
+  AxisAdaptation(const Design& design, std::size_t axis);
+
+  [[nodiscard]] bool adapts() const noexcept { return adapts_; }
+  /// @param balance  nullptr: not known at this tick
+  /// @param reason   why the axis must not learn from this tick
+  void step(const AxisBalance* balance, AdaptationFreeze reason, LevelFilter& filter) noexcept;
+  /// All axes have come to rest after a motion.
+  void end_move(LevelFilter& filter) noexcept;
+  [[nodiscard]] bool moves() const noexcept { return moves_; }
+  [[nodiscard]] const AxisReport& report() const noexcept { return report_; }
+  [[nodiscard]] const DriveFriction& friction() const noexcept { return friction_; }
+
+ private:
+  using Set = std::array<FrictionLevels, 2>;  ///< positive, negative
+  struct Excess {                             ///< of the break-away level over the Coulomb level
+    double value_v = 0, variance = 0;
+  };
+  void learn(const AxisBalance& balance, LevelFilter& filter) noexcept;
+  void rest(const AxisBalance& balance, const LevelFilter& filter) noexcept;
+  void break_away(std::size_t direction, const LevelFilter& filter) noexcept;
+  void finish_block(LevelFilter& filter) noexcept;
+  void leave_block() noexcept { block_ticks_ = 0, block_ = {}; }
+  void lower(std::size_t direction, double speed, const LevelFilter& filter) noexcept;
+  [[nodiscard]] FrictionLevels wanted(std::size_t direction, const LevelFilter& filter) const noexcept;
+  [[nodiscard]] bool excited(std::size_t direction, const LevelFilter& filter) const noexcept;
+  void oscillates(const LevelFilter& filter) noexcept;
+  void judge(LevelFilter& filter) noexcept;
+  void approach_target() noexcept;
+  void describe(const LevelFilter& filter) noexcept;
+
+  std::size_t axis_;
+  bool adapts_;
+  double zero_band_, share_, viscous_share_, period_s_, gain_;
+  DriveFriction friction_;  ///< with the used levels
+  Set file_, used_, target_, good_;
+  std::array<Excess, 2> excess_;
+  std::array<double, 2> ceiling_{};  ///< largest levels, share of the rig file's
+  LimitCycle limit_cycle_;
+  Block block_;
+  int block_ticks_ = 0, skipped_ticks_ = 0;
+  std::size_t block_direction_ = 0;
+  int refused_in_a_row_ = 0, excess_blocks_ = 0;
+  int rest_ticks_ = 0;
+  static constexpr int kHistory = 12;
+  std::array<double, kHistory> resting_v_{};  ///< friction of the last ticks within the zero band
+  std::array<bool, kHistory> creeping_{};     ///< true: the axis hardly moved at this tick
+  double speed_ = 0;                          ///< magnitude
+  bool moves_ = false;
+  double used_squares_ = 0, good_squares_ = 0;
+  int judged_blocks_ = 0, frozen_moves_ = 0;
+  bool on_trial_ = false;  ///< the target differs from the last good set
+  AdaptationFreeze held_ = AdaptationFreeze::none;
+  AxisReport report_;
+};
+
+}  // namespace crane::control::adaptation

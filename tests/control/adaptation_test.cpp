@@ -1,0 +1,275 @@
+/// The adaptation on line in closed loop: convergence from a wrong friction compensation, hostile situations,
+/// what freezes it, and what it never does. Random values come from the seeds in the names of the failures.
+#include "crane/control/adaptation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "adaptation_draw.hpp"
+
+namespace crane::control::test {
+namespace {
+
+constexpr double kLongest_s = 12;
+
+/// Scales the levels of a compensation by direction.
+void scale(DriveFriction& f, double positive, double negative) {
+  f.coulomb_positive_v *= positive;
+  f.viscous_positive_vspm *= positive;
+  f.stiction_positive_v *= positive;
+  f.coulomb_negative_v *= negative;
+  f.viscous_negative_vspm *= negative;
+  f.stiction_negative_v *= negative;
+}
+
+struct Maneuver {
+  const char* name;
+  bool tower;
+  Target from, to;
+};
+const std::array kManeuvers{Maneuver{"maneuver_1", true, {0.25, 0}, {1, 0}},
+                            Maneuver{"maneuver_2", true, {0.9, 0}, {0.9, std::numbers::pi / 2}},
+                            Maneuver{"maneuver_3", true, {0.25, 0}, {1, std::numbers::pi / 2}},
+                            Maneuver{"gantry", false, {0.25, 0}, {1, 0}}};
+
+std::vector<MoveResult> there_and_back(const AdaptedRig& rig, const Maneuver& maneuver, int moves,
+                                       const std::function<void(const Adaptation&)>& look = {},
+                                       const std::function<void(AdaptedCrane&, int)>& before = {}) {
+  AdaptedCrane crane{rig};
+  crane.place(maneuver.from.trolley_m, maneuver.from.slew_rad, rig.design.cable_length_m);
+  std::vector<MoveResult> results;
+  for (int i = 0; i < moves; ++i) {
+    if (before) before(crane, i);
+    results.push_back(crane.move(i % 2 == 0 ? maneuver.to : maneuver.from, kLongest_s));
+  }
+  if (look) look(crane.adaptation());
+  return results;
+}
+
+AdaptedRig rig_of(const Maneuver& maneuver) { return maneuver.tower ? adapted_tower() : adapted_gantry(); }
+
+AdaptedRig not_adapting(AdaptedRig rig) {
+  rig.design.adaptation.enabled = false;
+  return rig;
+}
+
+struct Wrong {
+  const char* name;
+  std::array<double, 4> factor;  ///< trolley positive, negative, slew positive, negative
+};
+
+class WrongCompensation : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongCompensation, SettlesAfterFiveMovesWithinFivePercentOfTheExactOne) {
+  constexpr int kMoves = 7;
+  const auto& factor = GetParam().factor;
+  for (const auto& maneuver : kManeuvers) {
+    const auto exact = there_and_back(not_adapting(rig_of(maneuver)), maneuver, kMoves);
+    auto rig = rig_of(maneuver);
+    scale(rig.design.friction[kTrolley], factor[0], factor[1]);
+    scale(rig.design.friction[kSlew], factor[2], factor[3]);
+    const auto adapted = there_and_back(rig, maneuver, kMoves, [&](const Adaptation& adaptation) {
+      for (const auto& axis : adaptation.report().axis) EXPECT_EQ(axis.limit_cycles, 0U) << maneuver.name;
+    });
+    for (std::size_t i = 5; i < kMoves; ++i) {
+      EXPECT_LE(adapted[i].settled_s, 1.05 * exact[i].settled_s) << maneuver.name << ", move " << i + 1;
+      EXPECT_LT(adapted[i].late_reversals, 4) << maneuver.name << ", move " << i + 1;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Levels, WrongCompensation,
+    testing::Values(Wrong{"exact", {1, 1, 1, 1}}, Wrong{"all_low", {0.8, 0.8, 0.8, 0.8}},
+                    Wrong{"all_high", {1.2, 1.2, 1.2, 1.2}}, Wrong{"trolley_out_high", {1.2, 1, 1, 1}},
+                    Wrong{"trolley_in_low", {1, 0.8, 1, 1}}, Wrong{"slew_left_high", {1, 1, 1.2, 1}},
+                    Wrong{"slew_right_low", {1, 1, 1, 0.8}}, Wrong{"directions_apart", {1.2, 0.8, 0.8, 1.2}}),
+    [](const auto& test) { return std::string{test.param.name}; });
+
+TEST(Adaptation, WithoutItAWrongCompensationDoesNotSettle) {
+  for (const double factor : {0.8, 1.2}) {
+    auto rig = not_adapting(adapted_tower());
+    for (auto& f : rig.design.friction) scale(f, factor, factor);
+    EXPECT_EQ(there_and_back(rig, kManeuvers[0], 2)[1].settled_s, kLongest_s) << factor;
+  }
+}
+
+TEST(Adaptation, StaysWithinTheBoundsOfTheRigFile) {
+  auto rig = adapted_tower();
+  rig.design.adaptation.friction_share = 0.1;
+  scale(rig.true_friction[kTrolley], 1.4, 0.6);
+  there_and_back(rig, kManeuvers[0], 6, [&](const Adaptation& adaptation) {
+    const auto &file = rig.design.friction[kTrolley], &used = adaptation.friction()[kTrolley];
+    EXPECT_LE(used.coulomb_positive_v, 1.1 * file.coulomb_positive_v + 1e-12);
+    EXPECT_GE(used.coulomb_negative_v, 0.9 * file.coulomb_negative_v - 1e-12);
+    EXPECT_LE(used.stiction_positive_v, 1.1 * file.stiction_positive_v + 1e-12);
+  });
+}
+
+TEST(Adaptation, CompensatesLessThanTheTrueBreakAwayLevel) {
+  for (const double excess : {1.0, 1.3}) {
+    auto rig = adapted_tower();
+    for (auto& f : rig.true_friction) f.stiction_positive_v *= excess, f.stiction_negative_v *= excess;
+    there_and_back(rig, kManeuvers[2], 8, [&](const Adaptation& adaptation) {
+      for (const auto axis : {kTrolley, kSlew}) {
+        const auto &used = adaptation.friction()[axis], &truth = rig.true_friction[axis];
+        EXPECT_LT(used.stiction_positive_v, truth.stiction_positive_v) << excess << ", axis " << axis;
+        EXPECT_LT(used.stiction_negative_v, truth.stiction_negative_v) << excess << ", axis " << axis;
+      }
+    });
+  }
+}
+
+TEST(Adaptation, EstimatesPayloadLengthAndOffset) {
+  for (const double share : {0.5, 1.5}) {
+    auto rig = adapted_tower();
+    rig.truth.load_mass_kg *= share;
+    rig.cable_offset_m = 0.2 * (share - 1) / 0.5;
+    rig.swing_offset_rad = {0.005, -0.004};
+    there_and_back(rig, kManeuvers[2], 6, [&](const Adaptation& adaptation) {
+      const auto& report = adaptation.report();
+      EXPECT_NEAR(report.load_mass_kg.value, rig.truth.load_mass_kg, 3 * report.load_mass_kg.deviation);
+      EXPECT_LT(report.load_mass_kg.deviation, 0.1);
+      EXPECT_NEAR(report.pendulum_length_m.value, 1 + rig.cable_offset_m, 0.02);
+      EXPECT_LT(report.pendulum_length_m.deviation, 0.02);
+      EXPECT_NEAR(report.swing_offset_rad[0].value, 0.005, 0.0005);
+      EXPECT_NEAR(report.swing_offset_rad[1].value, -0.004, 0.0005);
+    });
+  }
+}
+
+TEST(Adaptation, FollowsAStepOfTheFriction) {
+  const auto step = [](AdaptedCrane& crane, int move) {
+    if (move == 2)
+      crane.change([](AdaptedRig& rig) {
+        for (auto& f : rig.true_friction) scale(f, 1.25, 1.25);
+      });
+  };
+  there_and_back(
+      adapted_tower(), kManeuvers[0], 7,
+      [](const Adaptation& adaptation) {
+        const auto& direction = adaptation.report().axis[kTrolley].direction;
+        EXPECT_NEAR(direction[0].estimate.coulomb_v, 0.9 * 1.25, 0.03);
+        EXPECT_NEAR(direction[1].estimate.coulomb_v, 1.2 * 1.25, 0.03);
+      },
+      step);
+}
+
+TEST(Adaptation, LeavesNoLimitCycleInRandomCranes) {
+  constexpr unsigned kFirst = 7000, kCases = 16;
+  for (unsigned seed = kFirst; seed < kFirst + kCases; ++seed) {
+    const auto drawn = drawn_case(seed, 8);
+    EXPECT_FALSE(oscillates(drawn, made_moves(drawn, drawn.wrong, seed))) << "seed " << seed;
+  }
+}
+
+/// The adaptation alone, with inputs of the test.
+class Frozen : public testing::Test {
+ protected:
+  Frozen() {
+    input_.measured.position = {0.5, 0.1, 1};
+    input_.consecutive = true;
+    for (int i = 0; i < 5; ++i) adaptation_.step(input_);
+  }
+  AdaptationFreeze reason(const AdaptationInput& input) {
+    adaptation_.step(input);
+    return adaptation_.report().axis[kTrolley].freeze;
+  }
+  AdaptationInput input_;
+  Adaptation adaptation_{adapted_tower().design};
+};
+
+TEST_F(Frozen, AtRest) { EXPECT_EQ(reason(input_), AdaptationFreeze::standstill); }
+
+TEST_F(Frozen, WithAClosedBrake) {
+  input_.brake_closed[kTrolley] = true;
+  EXPECT_EQ(reason(input_), AdaptationFreeze::brake);
+  EXPECT_EQ(adaptation_.report().axis[kSlew].freeze, AdaptationFreeze::standstill);
+}
+
+TEST_F(Frozen, WhenTheGateAppliesAnotherVoltage) {
+  input_.demand_v[kTrolley] = 1;
+  EXPECT_EQ(reason(input_), AdaptationFreeze::not_executed);
+}
+
+TEST_F(Frozen, AtTheVoltageLimit) {
+  input_.demand_v[kTrolley] = 12;
+  input_.measured.applied_v[kTrolley] = 10;
+  EXPECT_EQ(reason(input_), AdaptationFreeze::saturation);
+}
+
+TEST_F(Frozen, WithALargeSwing) {
+  input_.measured.swing_tangential_rad = 0.4;
+  EXPECT_EQ(reason(input_), AdaptationFreeze::swing);
+}
+
+TEST_F(Frozen, WhileTheCableMoves) {
+  input_.measured.speed[kHoist] = 0.2;
+  for (int i = 0; i < 3; ++i) adaptation_.step(input_);
+  EXPECT_EQ(reason(input_), AdaptationFreeze::hoist);
+}
+
+TEST_F(Frozen, AfterAMissingTickAndForValuesThatAreNotFinite) {
+  input_.consecutive = false;
+  EXPECT_EQ(reason(input_), AdaptationFreeze::gap);
+  input_.consecutive = true;
+  input_.measured.position[kTrolley] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(reason(input_), AdaptationFreeze::gap);
+  for (const double value :
+       {adaptation_.friction()[kTrolley].coulomb_positive_v, adaptation_.report().load_mass_kg.value,
+        adaptation_.report().pendulum_length_m.value})
+    EXPECT_TRUE(std::isfinite(value));
+}
+
+TEST_F(Frozen, KeepsEveryLevel) {
+  input_.brake_closed.fill(true);
+  std::mt19937 random{11};
+  std::uniform_real_distribution<double> value{-1, 1};
+  const auto before = adaptation_.friction();
+  for (int i = 0; i < 500; ++i) {
+    input_.measured.position[kTrolley] += 0.01 * value(random);
+    input_.measured.applied_v[kTrolley] = 5 * value(random);
+    input_.demand_v = input_.measured.applied_v;
+    adaptation_.step(input_);
+  }
+  EXPECT_EQ(adaptation_.friction(), before);
+}
+
+TEST(Adaptation, LeavesAnAxisWithoutCompensationAlone) {
+  auto design = adapted_tower().design;
+  design.friction[kSlew].factor = 0;
+  const Adaptation adaptation{design};
+  EXPECT_EQ(adaptation.report().axis[kSlew].phase, AdaptationPhase::off);
+  EXPECT_EQ(adaptation.friction(), design.friction);
+}
+
+TEST(Adaptation, GivesFiniteLevelsForEveryFiniteInput) {
+  std::mt19937 random{5};
+  std::uniform_real_distribution<double> exponent{-6, 12}, side{-1, 1};
+  Adaptation adaptation{adapted_tower().design};
+  const auto number = [&] { return std::copysign(std::pow(10, exponent(random)), side(random)); };
+  for (int i = 0; i < 20000; ++i) {
+    AdaptationInput input;
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      input.measured.position[axis] = number();
+      input.measured.speed[axis] = number();
+      input.measured.applied_v[axis] = input.demand_v[axis] = side(random) * 9;
+    }
+    input.measured.swing_radial_rad = 0.3 * side(random);
+    input.measured.swing_tangential_rad = 0.3 * side(random);
+    input.consecutive = true;
+    adaptation.step(input);
+    for (const auto& f : adaptation.friction())
+      ASSERT_TRUE(std::isfinite(f.coulomb_positive_v + f.coulomb_negative_v + f.viscous_positive_vspm +
+                                f.viscous_negative_vspm + f.stiction_positive_v + f.stiction_negative_v))
+          << i;
+    ASSERT_TRUE(
+        std::isfinite(adaptation.report().load_mass_kg.value + adaptation.report().pendulum_length_m.value))
+        << i;
+  }
+}
+
+}  // namespace
+}  // namespace crane::control::test
