@@ -89,7 +89,7 @@ TEST(FrictionComponentWithAdaptation, PublishesItsLevelsInEveryTick) {
     EXPECT_EQ(sample->header.tick, tick);
     EXPECT_EQ(sample->axis[0].positive.used_coulomb_v, bench.rig().design.friction[0].coulomb_positive_v);
     EXPECT_EQ(sample->axis[1].phase, crane_ADAPTATION_FROZEN);
-    EXPECT_EQ(sample->axis[1].freeze, tick > 1 ? crane_FREEZE_BRAKE : crane_FREEZE_GAP);
+    EXPECT_EQ(sample->axis[1].freeze, tick > 2 ? crane_FREEZE_BRAKE : crane_FREEZE_GAP);
     EXPECT_FALSE(levels.take());
   }
 }
