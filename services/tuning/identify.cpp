@@ -112,18 +112,18 @@ FitParameter held(FitParameter parameter) {
 
 /// Starts of the delay, in periods: the loss has several minima where the axis sticks often. The fine ones
 /// are used when no coarse one explains the motion.
-constexpr std::array kCoarseStarts{0.25, 0.75, 1.25, 1.75};
-constexpr std::array kFineStarts{0.05,  0.125, 0.375, 0.5,   0.625, 0.875, 1.0,
-                                 1.125, 1.375, 1.5,   1.625, 1.875, 2.0};
+constexpr std::array kCoarseDelays_periods{0.25, 0.75, 1.25, 1.75};
+constexpr std::array kFineDelays_periods{0.05,  0.125, 0.375, 0.5,   0.625, 0.875, 1.0,
+                                         1.125, 1.375, 1.5,   1.625, 1.875, 2.0};
 
 /// Residual of a drive, m or rad, above which a fit may be a wrong minimum. Measured: the hidden rigs of
 /// seeds 203, 204, 205 and 224 leave at most 8e-5 in the right minimum, that of seed 224 leaves 4e-4 to 9e-4
 /// in wrong ones.
 constexpr double kWrongMinimum = 1e-4;
 
-/// Fits from one start of the delay. The delay is held until gain and friction fit: from a wrong friction, a
-/// step of all parameters at once lets the delay explain the times at which the axis breaks away, and ends in
-/// a minimum far from the true delay.
+/// Fits from one initial value of the delay. The delay is held until gain and friction fit: from a wrong
+/// friction, a step of all parameters at once lets the delay explain the times at which the axis breaks away,
+/// and ends in a minimum far from the true delay.
 FitResult fit_from(std::vector<FitParameter> parameters, const std::vector<PreparedRun>& runs,
                    const WindowedFit& fit) {
   const auto bounds = std::exchange(parameters[kDelay], held(parameters[kDelay]));
@@ -152,16 +152,16 @@ FitResult fit_drive(const recording::Table& table, const configuration::Rig& rig
                         const auto& command_v) { return delayed(command_v, rig, axis, values[kDelay]); }};
   auto first = first_values(table, rig, axis);
   std::optional<FitResult> best;
-  const auto try_starts = [&](std::span<const double> starts) {
-    for (const double periods : starts) {
+  const auto try_delays = [&](std::span<const double> delays_periods) {
+    for (const double periods : delays_periods) {
       auto result =
           fit_from(drive_parameters(first, rig, axis, periods * rig.period_s, with_load), runs, fit);
       if (!best || result.residual_rms < best->residual_rms) best = std::move(result);
       first = best->values;
     }
   };
-  try_starts(kCoarseStarts);
-  if (best->residual_rms > kWrongMinimum) try_starts(kFineStarts);
+  try_delays(kCoarseDelays_periods);
+  if (best->residual_rms > kWrongMinimum) try_delays(kFineDelays_periods);
   return *best;
 }
 

@@ -9,9 +9,9 @@
 
 namespace crane::tuning {
 
-/// Floors, chosen. Delay: one period of the loop; a law without this margin is unstable when its commands act
-/// one tick late. Gain: 2, the 6 dB that are common in practice.
-inline constexpr double kDelayFloor_periods = 1, kGainFloor = 2;
+/// Required margins, chosen. Delay: one period of the loop; a law without this margin is unstable when its
+/// commands act one tick late. Gain: 2, the 6 dB that are common in practice.
+inline constexpr double kRequiredDelay_periods = 1, kRequiredGain = 2;
 
 /// Tested delays, in periods, and gains, in ascending order.
 inline constexpr std::array kTestedDelays_periods{1.0, 2.0, 3.0, 5.0};
@@ -26,7 +26,7 @@ struct Margins {
   std::optional<double> changed_settling_s;  ///< worst mean settling time under the changes; nothing: not all
                                              ///< changes settle
   [[nodiscard]] bool holds() const {
-    return delay_periods >= kDelayFloor_periods && gain >= kGainFloor && survives_changes;
+    return delay_periods >= kRequiredDelay_periods && gain >= kRequiredGain && survives_changes;
   }
 };
 

@@ -66,9 +66,9 @@ report::Section ranking(const Recommendation& recommendation) {
       const auto& margins = *entry.margins;
       row.push_back(report::number(
           margins.delay_periods, 0,
-          margins.delay_periods < kDelayFloor_periods ? report::Tone::bad : report::Tone::neutral));
+          margins.delay_periods < kRequiredDelay_periods ? report::Tone::bad : report::Tone::neutral));
       row.push_back(report::number(margins.gain, 1,
-                                   margins.gain < kGainFloor ? report::Tone::bad : report::Tone::neutral));
+                                   margins.gain < kRequiredGain ? report::Tone::bad : report::Tone::neutral));
       row.push_back(margins.survives_changes ? seconds(margins.changed_settling_s)
                                              : report::Cell{"unstable", report::Tone::bad});
       if (margins.holds())
@@ -139,7 +139,7 @@ ordered_json to_json(const TuneResult& result, const configuration::Rig& rig) {
   if (rig.drives[plant::kSlew].present)
     json["slew_residual_rad"] = result.identification.drive_residual[plant::kSlew];
   const auto& recommendation = result.recommendation;
-  json["floors"] = {{"delay_periods", kDelayFloor_periods}, {"gain", kGainFloor}};
+  json["required_margins"] = {{"delay_periods", kRequiredDelay_periods}, {"gain", kRequiredGain}};
   json["drawn_rigs"] = {{"count", kDrawnRigs}, {"seed", result.seed}};
   if (recommendation.winner)
     json["recommended"] = to_json(recommendation.entries[*recommendation.winner], recommendation.maneuvers);

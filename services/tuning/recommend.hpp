@@ -3,8 +3,8 @@
 ///
 /// Every candidate runs the maneuvers on the rig; those that settle are ranked by their mean settling time.
 /// The best are tested with a longer delay, a larger gain, another cable length, load and friction. Those
-/// that hold all floors run the maneuvers on rigs drawn from the standard errors of the identification. Of
-/// the entries that settle on all of them, the one with the least predicted settling time is recommended.
+/// with the required margins run the maneuvers on rigs drawn from the standard errors of the identification.
+/// Of the entries that settle on all of them, the one with the least predicted settling time is recommended.
 #include <array>
 #include <functional>
 #include <optional>
@@ -27,17 +27,20 @@ struct Entry {
   std::vector<std::optional<double>> settling_s{};  ///< by maneuver
   std::optional<double> mean_settling_s{};          ///< nothing: not all maneuvers settle
   double largest_swing_rad = 0;
-  std::string stopped_because{};         ///< of the first run that the supervisor stopped
-  std::optional<Margins> margins{};      ///< of the best entries
-  std::optional<Predicted> predicted{};  ///< of entries that hold the floors and settle on all drawn rigs
+  std::string stopped_because{};     ///< of the first run that the supervisor stopped
+  std::optional<Margins> margins{};  ///< of the best entries
+  std::optional<Predicted>
+      predicted{};  ///< of entries with the required margins that settle on all drawn rigs
 };
 
 struct Recommendation {
   std::vector<std::string> maneuvers;
-  std::vector<Entry> entries;         ///< by rank: settled ones first
-  std::optional<std::size_t> winner;  ///< nothing: no entry holds the floors and settles on all drawn rigs
+  std::vector<Entry> entries;  ///< by rank: settled ones first
+  std::optional<std::size_t>
+      winner;  ///< nothing: no entry has the required margins and settles on all drawn rigs
 };
-/// @return entries that settle, that hold the floors, and that settle on all drawn rigs
+/// @return number of entries that settle; of these, that have the required margins; of these, that settle on
+///   all drawn rigs
 [[nodiscard]] std::array<std::size_t, 3> counts(const Recommendation& recommendation);
 
 struct Search {

@@ -38,19 +38,20 @@ std::vector<FitParameter> parameters(const LoadFit& load, bool tower, double sha
   return list;
 }
 
-/// The two of six starts with the least residual. The first mode of each has about the frequency of the
-/// single pendulum.
-std::vector<std::vector<FitParameter>> best_starts(const std::vector<diagnosis::PreparedRun>& runs,
-                                                   const WindowedFit& fit, const LoadFit& load, bool tower) {
-  std::vector<std::pair<double, std::vector<FitParameter>>> starts;
+/// The two of six sets of initial values with the least residual. The first mode of each has about the
+/// frequency of the single pendulum.
+std::vector<std::vector<FitParameter>> best_initial_values(const std::vector<diagnosis::PreparedRun>& runs,
+                                                           const WindowedFit& fit, const LoadFit& load,
+                                                           bool tower) {
+  std::vector<std::pair<double, std::vector<FitParameter>>> sets;
   for (const double share : {0.2, 0.6})
     for (const double of_cable : {0.1, 0.25, 0.5}) {
       const double length_m = of_cable * load.cable_m.value;
-      auto start = parameters(load, tower, share, length_m, share * length_m);
-      starts.emplace_back(residual_rms(runs, fit, start), std::move(start));
+      auto set = parameters(load, tower, share, length_m, share * length_m);
+      sets.emplace_back(residual_rms(runs, fit, set), std::move(set));
     }
-  std::ranges::sort(starts, {}, [](const auto& start) { return start.first; });
-  return {starts[0].second, starts[1].second};
+  std::ranges::sort(sets, {}, [](const auto& set) { return set.first; });
+  return {sets[0].second, sets[1].second};
 }
 
 }  // namespace
@@ -66,11 +67,11 @@ std::optional<SecondMode> find_second_mode(const std::vector<diagnosis::Prepared
     return crane;
   };
   std::optional<FitResult> best;
-  for (const auto& start : best_starts(runs, fit, load, tower)) try {
-      auto result = fit_windows(runs, fit, start);
+  for (const auto& initial : best_initial_values(runs, fit, load, tower)) try {
+      auto result = fit_windows(runs, fit, initial);
       if (!best || result.residual_rms < best->residual_rms) best = std::move(result);
     } catch (const identification::IdentificationError&) {
-      continue;  // this start does not determine the second mode
+      continue;  // these initial values do not lead to the second mode
     }
   if (!best || best->residual_rms > kExplains * load.residual_rms ||
       best->values[0] < kSignificant * best->standard_errors[0])

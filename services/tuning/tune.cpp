@@ -172,8 +172,8 @@ class Tuner {
     return "no law can be recommended: of " + std::to_string(result_.recommendation.entries.size()) +
            " combinations of law and gains, " + std::to_string(settled) +
            " settle in every maneuver on the identified rig, " + std::to_string(held) +
-           " of these have a delay margin of " + recording::shortest(kDelayFloor_periods) +
-           " period, a gain margin of " + recording::shortest(kGainFloor) +
+           " of these have a delay margin of " + recording::shortest(kRequiredDelay_periods) +
+           " period, a gain margin of " + recording::shortest(kRequiredGain) +
            " and survive the changes of the rig, and " + std::to_string(certain) +
            " of these settle on all " + std::to_string(kDrawnRigs) + " rigs drawn from the standard errors";
   }

@@ -14,13 +14,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostSteps = 25, kMostHalvings = 8;
-constexpr double kConverged = 1e-7;       // relative decrease of the loss
-constexpr double kStartStep = 1e-5;       // m, rad and per s: difference quotient of a start
-constexpr double kWorstCondition = 1e12;  // of the normalised normal matrix
+constexpr double kConverged = 1e-7;         // relative decrease of the loss
+constexpr double kInitialStateStep = 1e-5;  // m, rad and per s: difference quotient of an initial state
+constexpr double kWorstCondition = 1e12;    // of the normalised normal matrix
 
 struct Window {
   std::size_t run = 0, first = 0, rows = 0;
-  std::vector<double> start;
+  std::vector<double> initial_state;
 };
 
 class Fitter {
@@ -79,10 +79,10 @@ class Fitter {
 
   /// Measured minus replayed, of the compared outputs.
   VectorXd residual_of(const diagnosis::Replay& replay, const Window& window,
-                       const std::vector<double>& start) const {
+                       const std::vector<double>& initial_state) const {
     const auto simulated = diagnosis::simulated_outputs(runs_[window.run], fit_.part);
     std::vector<double> out(simulated.size() * window.rows);
-    replay.run(fit_.part, window.first, window.rows, start, out);
+    replay.run(fit_.part, window.first, window.rows, initial_state, out);
     VectorXd residual{static_cast<Eigen::Index>(fit_.outputs.size() * window.rows)};
     Eigen::Index at = 0;
     for (const auto output : fit_.outputs) {
@@ -113,7 +113,8 @@ class Fitter {
   Linear linearise(const std::vector<double>& values, const std::vector<FitParameter>& parameters) {
     const auto base = trial(values);
     for (auto& window : windows_)
-      if (window.start.empty()) window.start = base[window.run].measured_start(fit_.part, window.first);
+      if (window.initial_state.empty())
+        window.initial_state = base[window.run].measured_start(fit_.part, window.first);
     std::vector<Trial> stepped;
     std::vector<double> steps;
     for (std::size_t p = 0; p < parameters.size(); ++p) {
@@ -129,31 +130,35 @@ class Fitter {
     linear.normal = MatrixXd::Zero(count, count);
     linear.gradient = VectorXd::Zero(count);
     for (const auto& window : windows_) {
-      const VectorXd residual = residual_of(base[window.run], window, window.start);
+      const VectorXd residual = residual_of(base[window.run], window, window.initial_state);
       MatrixXd slope{residual.size(), count};
       for (Eigen::Index p = 0; p < count; ++p) {
         const auto i = static_cast<std::size_t>(p);
-        slope.col(p) = (residual - residual_of(stepped[i][window.run], window, window.start)) / steps[i];
+        slope.col(p) =
+            (residual - residual_of(stepped[i][window.run], window, window.initial_state)) / steps[i];
       }
-      add(linear, residual, slope, start_slopes(base[window.run], window, residual));
+      add(linear, residual, slope, initial_state_slopes(base[window.run], window, residual));
     }
     return linear;
   }
 
-  MatrixXd start_slopes(const diagnosis::Replay& replay, const Window& window, const VectorXd& residual) {
-    MatrixXd slopes{residual.size(), static_cast<Eigen::Index>(window.start.size())};
-    for (std::size_t i = 0; i < window.start.size(); ++i) {
-      auto start = window.start;
-      start[i] += kStartStep;
-      slopes.col(static_cast<Eigen::Index>(i)) = (residual - residual_of(replay, window, start)) / kStartStep;
+  MatrixXd initial_state_slopes(const diagnosis::Replay& replay, const Window& window,
+                                const VectorXd& residual) {
+    MatrixXd slopes{residual.size(), static_cast<Eigen::Index>(window.initial_state.size())};
+    for (std::size_t i = 0; i < window.initial_state.size(); ++i) {
+      auto changed = window.initial_state;
+      changed[i] += kInitialStateStep;
+      slopes.col(static_cast<Eigen::Index>(i)) =
+          (residual - residual_of(replay, window, changed)) / kInitialStateStep;
     }
     return slopes;
   }
 
-  static void add(Linear& linear, const VectorXd& residual, const MatrixXd& slope, const MatrixXd& start) {
-    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> of_start{start};
-    linear.residual.emplace_back(residual - start * of_start.solve(residual));
-    linear.slope.emplace_back(slope - start * of_start.solve(slope));
+  static void add(Linear& linear, const VectorXd& residual, const MatrixXd& slope,
+                  const MatrixXd& initial_state) {
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> of_initial_state{initial_state};
+    linear.residual.emplace_back(residual - initial_state * of_initial_state.solve(residual));
+    linear.slope.emplace_back(slope - initial_state * of_initial_state.solve(slope));
     linear.loss += linear.residual.back().squaredNorm();
     linear.normal += linear.slope.back().transpose() * linear.slope.back();
     linear.gradient += linear.slope.back().transpose() * linear.residual.back();

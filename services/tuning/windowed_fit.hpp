@@ -1,7 +1,8 @@
 #pragma once
 /// Nonlinear least squares over windows of a run (Gauss-Newton with halved steps). The model is the replay of
-/// plant/diagnosis. Each window has its own start (position and rate of each fitted output), which the fit
-/// eliminates: residuals and slopes are projected on the complement of the slopes of the start.
+/// plant/diagnosis. Each window has its own initial state (position and rate of each fitted output). The
+/// fit eliminates this state: residuals and slopes are projected on the complement of the slopes with respect
+/// to it.
 ///
 /// Standard errors allow residuals of any correlation within a window: with g_w = J_w' r_w and H the sum of
 /// J_w' J_w, the covariance is W/(W-p) H^-1 (sum g_w g_w') H^-1, W windows, p parameters (H. White,
@@ -43,8 +44,8 @@ struct FitResult {
 [[nodiscard]] FitResult fit_windows(const std::vector<diagnosis::PreparedRun>& runs, const WindowedFit& fit,
                                     const std::vector<FitParameter>& parameters);
 
-/// The same residual without a fit, at the values of the parameters; the starts of the windows and the
-/// parameters after the first are eliminated linearly.
+/// The same residual without a fit, at the values of the parameters; the initial states of the windows
+/// and the parameters after the first are eliminated linearly.
 [[nodiscard]] double residual_rms(const std::vector<diagnosis::PreparedRun>& runs, const WindowedFit& fit,
                                   const std::vector<FitParameter>& parameters);
 

@@ -110,8 +110,8 @@ Outcome tune_hidden(const HiddenRig& hidden) {
   for (const char* name : {kMotionFile, kJsonFile, kRigFile, kPageFile})
     EXPECT_TRUE(std::filesystem::exists(directory / "out" / name)) << name;
   const auto& winner = outcome.winner();
-  EXPECT_GE(winner.margins->delay_periods, kDelayFloor_periods);
-  EXPECT_GE(winner.margins->gain, kGainFloor);
+  EXPECT_GE(winner.margins->delay_periods, kRequiredDelay_periods);
+  EXPECT_GE(winner.margins->gain, kRequiredGain);
   const auto on_hidden = evaluate(hidden.truth, outcome.tuned, winner.candidate,
                                   maneuvers_for(outcome.tuned, options.maneuvers), simulator::Method::cvode);
   EXPECT_EQ(on_hidden.stopped_because, "") << hidden.description;

@@ -140,7 +140,7 @@ void add_tune(CLI::App& app, Action& chosen) {
   command->footer(
       "Example: crane tune --rig virginia_tech_tower --hidden my_crane.toml --out out/tune\n"
       "         crane run maneuver_3 --rig out/tune/tuned.toml\n"
-      "docs/tune.md explains the motion, the priors and the floors of the recommendation.");
+      "docs/tune.md explains the motion, the priors and the required margins.");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 
