@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "crane/bus/cdr.hpp"
+#include "crane/plant/coordinates.hpp"
 #include "crane/runtime/process.hpp"
 #include "crane/supervisor/component.hpp"
 #include "replay/replay.hpp"
@@ -11,8 +12,6 @@
 
 namespace crane::replay {
 namespace {
-
-constexpr std::array kAxisNames{"trolley", "slew", "hoist"};
 
 std::optional<msg::Demand> demand_of(const Cdr* cdr) {
   msg::Demand demand{};
@@ -36,9 +35,8 @@ recording::Table empty_table() {
   recording::Table table;
   table.columns.push_back({"time_s", {}});
   table.columns.push_back({"tick", {}});
-  for (const auto* axis : kAxisNames)
-    for (const auto* who : {"recorded", "other"})
-      table.columns.push_back({std::string{axis} + "_" + who + "_v", {}});
+  for (const auto& axis : plant::drive_names())
+    for (const auto* who : {"recorded", "other"}) table.columns.push_back({axis + "_" + who + "_v", {}});
   return table;
 }
 
@@ -75,7 +73,7 @@ class Swap {
     auto column = result_.table.columns.begin();
     (column++)->values.push_back(time_s);
     (column++)->values.push_back(static_cast<double>(tick));
-    for (std::size_t i = 0; i < kAxisNames.size(); ++i) {
+    for (std::size_t i = 0; i < plant::kAxes; ++i) {
       const double was_v = recorded.total_v[i], would_v = other.total_v[i];
       (column++)->values.push_back(was_v);
       (column++)->values.push_back(would_v);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "crane/plant/parameters.hpp"
 #include "crane/recording/csv.hpp"
 #include "replay/recorded_run.hpp"
 
@@ -23,10 +24,10 @@ struct LargestDifference {
 };
 
 struct SwapResult {
-  std::string recorded, other;                 ///< controllers
-  std::uint64_t ticks = 0;                     ///< compared
-  std::optional<std::uint64_t> first_differs;  ///< first tick with another demand
-  std::array<LargestDifference, 3> largest;    ///< trolley, slew, hoist
+  std::string recorded, other;                          ///< controllers
+  std::uint64_t ticks = 0;                              ///< compared
+  std::optional<std::uint64_t> first_differs;           ///< first tick with another demand
+  std::array<LargestDifference, plant::kAxes> largest;  ///< by axis (plant::Axis)
   recording::Table table;  ///< time_s, tick, and recorded and other demand of each axis in V
   std::vector<std::string> problems;
 };

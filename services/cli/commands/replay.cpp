@@ -1,7 +1,4 @@
 /// crane replay: repeats a recorded run with the present programs, and compares every sample.
-#include "replay/replay.hpp"
-#include "cli/recording_argument.hpp"
-
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -10,8 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/output_file.hpp"
+#include "cli/recording_argument.hpp"
 #include "cli/text_table.hpp"
 #include "commands.hpp"
+#include "crane/plant/coordinates.hpp"
+#include "replay/replay.hpp"
 #include "replay/swap.hpp"
 
 namespace crane::cli {
@@ -57,19 +57,17 @@ int compare(const ReplayOptions& options) {
   return found.first ? runtime::kExitFailed : runtime::kExitDone;
 }
 
-constexpr std::array kAxisNames{"trolley", "slew", "hoist"};
-
 nlohmann::ordered_json to_json(const replay::SwapResult& found) {
   nlohmann::ordered_json json{{"recorded", found.recorded}, {"other", found.other}, {"ticks", found.ticks}};
   json["first_different_tick"] =
       found.first_differs ? nlohmann::json(*found.first_differs) : nlohmann::json();
-  for (std::size_t i = 0; i < kAxisNames.size(); ++i) {
+  for (std::size_t i = 0; i < plant::kAxes; ++i) {
     const auto& largest = found.largest[i];
-    json["largest"][kAxisNames[i]] = {{"difference_v", largest.difference_v},
-                                      {"tick", largest.tick},
-                                      {"time_s", largest.time_s},
-                                      {"recorded_v", largest.recorded_v},
-                                      {"other_v", largest.other_v}};
+    json["largest"][plant::kCoordinates[i].name] = {{"difference_v", largest.difference_v},
+                                                    {"tick", largest.tick},
+                                                    {"time_s", largest.time_s},
+                                                    {"recorded_v", largest.recorded_v},
+                                                    {"other_v", largest.other_v}};
   }
   json["problems"] = found.problems;
   return json;
@@ -85,13 +83,13 @@ void print(const replay::SwapResult& found) {
             << " ticks; first other demand in tick " << *found.first_differs << '\n';
   TextTable table{
       {"axis", "largest difference [V]", "at [s]", "tick", found.recorded + " [V]", found.other + " [V]"}};
-  for (std::size_t i = 0; i < kAxisNames.size(); ++i) {
+  for (std::size_t i = 0; i < plant::kAxes; ++i) {
     const auto& largest = found.largest[i];
     if (largest.difference_v > 0)
-      table.add({kAxisNames[i], fixed(largest.difference_v, 3), fixed(largest.time_s, 2),
+      table.add({plant::kCoordinates[i].name, fixed(largest.difference_v, 3), fixed(largest.time_s, 2),
                  std::to_string(largest.tick), fixed(largest.recorded_v, 3), fixed(largest.other_v, 3)});
     else
-      table.add({kAxisNames[i], "0", "", "", "", ""});
+      table.add({plant::kCoordinates[i].name, "0", "", "", "", ""});
   }
   table.print(std::cout);
 }
