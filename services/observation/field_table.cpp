@@ -112,15 +112,15 @@ std::optional<expression::Symbol> FieldTable::symbol_of(const Field& field) cons
   const auto& leaf = leaf_of(field);
   expression::Symbol symbol;
   switch (leaf.kind) {
-    case LeafType::Kind::text:
+    case recording::Kind::string:
       return std::nullopt;
-    case LeafType::Kind::boolean:
+    case recording::Kind::boolean:
       symbol.type.kind = expression::Type::Kind::condition;
       break;
-    case LeafType::Kind::enumeration:
+    case recording::Kind::enumeration:
       symbol.type = {.kind = expression::Type::Kind::enumeration, .enumeration = leaf.enumeration};
       break;
-    case LeafType::Kind::number:
+    default:
       if (const auto* const unit = fields::unit_with_symbol(leaf.unit)) {
         symbol.type.dimension = unit->dimension;
         symbol.factor = unit->factor;

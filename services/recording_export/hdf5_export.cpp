@@ -18,6 +18,7 @@ namespace {
 
 using recording::Column;
 using recording::ColumnTable;
+using recording::Kind;
 
 /// Rows that are collected before they are written; also the rows of a chunk of the file.
 constexpr std::size_t kRows = 4096;
@@ -55,28 +56,31 @@ class Handle {
   Close close_;
 };
 
-hid_t type_of(Column::Type type) {
-  switch (type) {
-    case Column::Type::int8:
+hid_t type_of(Kind kind) {
+  switch (kind) {
+    case Kind::int8:
       return H5T_NATIVE_INT8;
-    case Column::Type::uint8:
+    case Kind::boolean:
+    case Kind::uint8:
       return H5T_NATIVE_UINT8;
-    case Column::Type::int16:
+    case Kind::int16:
       return H5T_NATIVE_INT16;
-    case Column::Type::uint16:
+    case Kind::uint16:
       return H5T_NATIVE_UINT16;
-    case Column::Type::int32:
+    case Kind::int32:
       return H5T_NATIVE_INT32;
-    case Column::Type::uint32:
+    case Kind::enumeration:
+    case Kind::uint32:
       return H5T_NATIVE_UINT32;
-    case Column::Type::int64:
+    case Kind::int64:
       return H5T_NATIVE_INT64;
-    case Column::Type::uint64:
+    case Kind::uint64:
       return H5T_NATIVE_UINT64;
-    case Column::Type::float32:
+    case Kind::float32:
       return H5T_NATIVE_FLOAT;
-    case Column::Type::float64:
-    case Column::Type::text:
+    case Kind::float64:
+    case Kind::string:
+    case Kind::structure:
       break;
   }
   return H5T_NATIVE_DOUBLE;
@@ -163,7 +167,7 @@ class Group {
     }
     for (const auto& column : table.columns()) {
       auto value =
-          column.type == Column::Type::text ? text_type() : Handle{H5Tcopy(type_of(column.type)), H5Tclose};
+          column.kind == Kind::string ? text_type() : Handle{H5Tcopy(type_of(column.kind)), H5Tclose};
       sets_.emplace_back(group_, column.name, std::move(value), column.array ? column.width : 0);
       describe(sets_.back().id(), column);
     }
@@ -174,7 +178,7 @@ class Group {
     sets_[1].append(table.publish_times_ns().data(), table.rows());
     for (std::size_t i = 0; i < table.columns().size(); ++i) {
       const auto& column = table.columns()[i];
-      if (column.type != Column::Type::text) {
+      if (column.kind != Kind::string) {
         sets_[i + 2].append(column.bytes.data(), table.rows());
         continue;
       }
@@ -197,7 +201,7 @@ class Group {
       add_text(set, "unit", *unit);
     else if (!unit)
       add_texts(set, "unit", column.units);
-    if (column.boolean) add_texts(set, "enumerators", {"false", "true"});
+    if (column.kind == Kind::boolean) add_texts(set, "enumerators", {"false", "true"});
     if (column.enumeration.empty()) return;
     add_text(set, "enumeration", column.enumeration);
     add_texts(set, "enumerators", column.enumerators);

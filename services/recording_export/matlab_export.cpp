@@ -18,6 +18,7 @@ namespace {
 
 using recording::Column;
 using recording::ColumnTable;
+using recording::Kind;
 
 /// Level 5 states the size of a variable in a signed 32-bit number of bytes. The reserve is for the names and
 /// the heads of the members.
@@ -79,28 +80,31 @@ struct MatType {
   matio_classes variable;
   matio_types data;
 };
-MatType mat_type(Column::Type type) {
-  switch (type) {
-    case Column::Type::int8:
+MatType mat_type(Kind kind) {
+  switch (kind) {
+    case Kind::int8:
       return {MAT_C_INT8, MAT_T_INT8};
-    case Column::Type::uint8:
+    case Kind::boolean:
+    case Kind::uint8:
       return {MAT_C_UINT8, MAT_T_UINT8};
-    case Column::Type::int16:
+    case Kind::int16:
       return {MAT_C_INT16, MAT_T_INT16};
-    case Column::Type::uint16:
+    case Kind::uint16:
       return {MAT_C_UINT16, MAT_T_UINT16};
-    case Column::Type::int32:
+    case Kind::int32:
       return {MAT_C_INT32, MAT_T_INT32};
-    case Column::Type::uint32:
+    case Kind::enumeration:
+    case Kind::uint32:
       return {MAT_C_UINT32, MAT_T_UINT32};
-    case Column::Type::int64:
+    case Kind::int64:
       return {MAT_C_INT64, MAT_T_INT64};
-    case Column::Type::uint64:
+    case Kind::uint64:
       return {MAT_C_UINT64, MAT_T_UINT64};
-    case Column::Type::float32:
+    case Kind::float32:
       return {MAT_C_SINGLE, MAT_T_SINGLE};
-    case Column::Type::float64:
-    case Column::Type::text:
+    case Kind::float64:
+    case Kind::string:
+    case Kind::structure:
       break;
   }
   return {MAT_C_DOUBLE, MAT_T_DOUBLE};
@@ -108,7 +112,7 @@ MatType mat_type(Column::Type type) {
 
 /// The values in the order of MATLAB: element by element.
 std::vector<std::uint8_t> by_element(const Column& column, std::size_t rows) {
-  const auto size = recording::size_of(column.type);
+  const auto size = recording::size_of(column.kind);
   std::vector<std::uint8_t> values(column.bytes.size());
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t i = 0; i < column.width; ++i)
@@ -117,12 +121,12 @@ std::vector<std::uint8_t> by_element(const Column& column, std::size_t rows) {
 }
 
 Variable values_variable(const Column& column, std::size_t rows) {
-  if (column.type == Column::Type::text) return cell_variable("", column.texts, column.width);
+  if (column.kind == Kind::string) return cell_variable("", column.texts, column.width);
   auto values = by_element(column, rows);
-  const auto type = mat_type(column.type);
+  const auto type = mat_type(column.kind);
   std::array<std::size_t, 2> size{rows, column.width};
   return checked(Mat_VarCreate("", type.variable, type.data, 2, size.data(), values.data(),
-                               column.boolean ? MAT_F_LOGICAL : 0));
+                               column.kind == Kind::boolean ? MAT_F_LOGICAL : 0));
 }
 
 Variable times_variable(std::vector<std::int64_t> times_ns) {

@@ -44,7 +44,7 @@ TEST(Columns, JoinTheElementsOfArraysOfStructures) {
   EXPECT_EQ(table.columns()[0].width, 2U);
   EXPECT_TRUE(table.columns()[0].array);
   EXPECT_EQ(table.columns()[1].name, "axis.flags");
-  EXPECT_TRUE(table.columns()[2].boolean);
+  EXPECT_EQ(table.columns()[2].kind, Kind::boolean);
   EXPECT_FALSE(table.columns()[2].array);
   EXPECT_THAT(table.columns()[3].enumerators, ElementsAre("ZERO", "ONE"));
 }

@@ -28,9 +28,9 @@ std::vector<std::uint8_t> payload_of(const topics::Description& topic, bus::test
 }
 
 double number_of(const nlohmann::ordered_json& value, const LeafType& leaf) {
-  if (leaf.kind == LeafType::Kind::text) return NAN;
-  if (leaf.kind == LeafType::Kind::boolean) return value.get<bool>() ? 1 : 0;
-  if (leaf.kind == LeafType::Kind::enumeration)
+  if (leaf.kind == Kind::string) return NAN;
+  if (leaf.kind == Kind::boolean) return value.get<bool>() ? 1 : 0;
+  if (leaf.kind == Kind::enumeration)
     return static_cast<double>(std::ranges::find(leaf.enumerators, value.get<std::string>()) -
                                leaf.enumerators.begin());
   return value.is_null() ? NAN : value.get<double>();

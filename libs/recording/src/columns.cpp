@@ -9,37 +9,6 @@
 namespace crane::recording {
 namespace {
 
-Column::Type column_type(Kind kind) {
-  switch (kind) {
-    case Kind::boolean:
-    case Kind::uint8:
-      return Column::Type::uint8;
-    case Kind::int8:
-      return Column::Type::int8;
-    case Kind::int16:
-      return Column::Type::int16;
-    case Kind::uint16:
-      return Column::Type::uint16;
-    case Kind::int32:
-      return Column::Type::int32;
-    case Kind::enumeration:
-    case Kind::uint32:
-      return Column::Type::uint32;
-    case Kind::int64:
-      return Column::Type::int64;
-    case Kind::uint64:
-      return Column::Type::uint64;
-    case Kind::float32:
-      return Column::Type::float32;
-    case Kind::float64:
-      return Column::Type::float64;
-    case Kind::string:
-    case Kind::structure:  // for_each_leaf() visits the members of the structure instead
-      break;
-  }
-  return Column::Type::text;
-}
-
 /// "axis[1].position" -> "axis.position"
 std::string without_indices(std::string_view leaf) {
   std::string name;
@@ -67,28 +36,6 @@ void store(std::uint64_t raw, std::size_t bytes, std::uint8_t* to) {
 
 }  // namespace
 
-std::size_t size_of(Column::Type type) {
-  switch (type) {
-    case Column::Type::int8:
-    case Column::Type::uint8:
-      return 1;
-    case Column::Type::int16:
-    case Column::Type::uint16:
-      return 2;
-    case Column::Type::int32:
-    case Column::Type::uint32:
-    case Column::Type::float32:
-      return 4;
-    case Column::Type::int64:
-    case Column::Type::uint64:
-    case Column::Type::float64:
-      return 8;
-    case Column::Type::text:
-      break;
-  }
-  return 0;
-}
-
 ColumnTable Schema::column_table(std::string_view type) const {
   const auto leaf_types = leaves(type);
   ColumnTable table;
@@ -102,8 +49,7 @@ ColumnTable Schema::column_table(std::string_view type) const {
         if (added) {
           Column column;
           column.name = entry->first;
-          column.type = column_type(field.kind);
-          column.boolean = field.kind == Kind::boolean;
+          column.kind = field.kind;
           column.array = name != column.name;
           column.enumeration = described.enumeration;
           column.enumerators = described.enumerators;
@@ -128,20 +74,20 @@ std::size_t ColumnTable::bytes() const {
 void ColumnTable::add(const Message& message) {
   PayloadCursor cursor{type_, message.data};
   for (auto& column : columns_) {
-    if (column.type == Column::Type::text)
+    if (column.kind == Kind::string)
       column.texts.resize((rows_ + 1) * column.width);
     else
-      column.bytes.resize((rows_ + 1) * column.width * size_of(column.type));
+      column.bytes.resize((rows_ + 1) * column.width * size_of(column.kind));
   }
   for (const auto& element : elements_) {
     auto& column = columns_[element.column];
     const auto cell = rows_ * column.width + element.index;
-    if (column.type == Column::Type::text) {
+    if (column.kind == Kind::string) {
       auto text = cursor.text();
       if (text.ends_with('\0')) text.remove_suffix(1);
       column.texts[cell] = fields::printable(text);
     } else {
-      const auto size = size_of(column.type);
+      const auto size = size_of(column.kind);
       store(cursor.raw(size), size, &column.bytes[cell * size]);
     }
   }

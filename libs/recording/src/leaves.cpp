@@ -6,10 +6,9 @@
 namespace crane::recording {
 namespace {
 
-LeafType::Kind kind_of(Kind kind) {
-  if (kind == Kind::boolean) return LeafType::Kind::boolean;
-  if (kind == Kind::enumeration) return LeafType::Kind::enumeration;
-  return kind == Kind::string ? LeafType::Kind::text : LeafType::Kind::number;
+/// A boolean, an enumerator and a text have no unit.
+bool has_unit(Kind kind) {
+  return kind != Kind::boolean && kind != Kind::enumeration && kind != Kind::string;
 }
 
 std::string unit_of(const Field& field, std::uint32_t index) {
@@ -31,9 +30,8 @@ std::vector<LeafType> Schema::leaves(std::string_view type) const {
   std::vector<LeafType> leaves;
   for_each_leaf(
       structure_named(*types_, type), [&](const std::string& name, const Field& field, std::uint32_t index) {
-        LeafType leaf{
-            .name = name, .kind = kind_of(field.kind), .unit = "", .enumeration = "", .enumerators = {}};
-        if (leaf.kind == LeafType::Kind::number) leaf.unit = unit_of(field, index);
+        LeafType leaf{.name = name, .kind = field.kind, .unit = "", .enumeration = "", .enumerators = {}};
+        if (has_unit(leaf.kind)) leaf.unit = unit_of(field, index);
         if (field.enumeration != nullptr) {
           leaf.enumeration = field.enumeration->name;
           leaf.enumerators = field.enumeration->values;

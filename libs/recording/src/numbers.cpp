@@ -18,6 +18,38 @@ double float32(std::uint64_t raw) {
 }
 double float64(std::uint64_t raw) { return std::bit_cast<double>(raw); }
 
+/// @return conversion of the bytes of a value to a number; null for a type that is no number
+double (*conversion_of(Kind kind))(std::uint64_t) {
+  switch (kind) {
+    case Kind::boolean:
+    case Kind::uint8:
+      return integer<std::uint8_t>;
+    case Kind::int8:
+      return integer<std::int8_t>;
+    case Kind::int16:
+      return integer<std::int16_t>;
+    case Kind::uint16:
+      return integer<std::uint16_t>;
+    case Kind::int32:
+      return integer<std::int32_t>;
+    case Kind::enumeration:
+    case Kind::uint32:
+      return integer<std::uint32_t>;
+    case Kind::int64:
+      return integer<std::int64_t>;
+    case Kind::uint64:
+      return integer<std::uint64_t>;
+    case Kind::float32:
+      return float32;
+    case Kind::float64:
+      return float64;
+    case Kind::string:
+    case Kind::structure:  // for_each_leaf() visits the members of the structure instead
+      break;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 void NumberReader::read(std::span<const std::uint8_t> payload, std::span<double> values) const {
@@ -36,38 +68,8 @@ void NumberReader::read(std::span<const std::uint8_t> payload, std::span<double>
 NumberReader Schema::number_reader(std::string_view type) const {
   NumberReader reader;
   reader.type_ = type;
-  const auto step_of = [](Kind kind) -> NumberReader::Step {
-    switch (kind) {
-      case Kind::boolean:
-      case Kind::uint8:
-        return {1, integer<std::uint8_t>};
-      case Kind::int8:
-        return {1, integer<std::int8_t>};
-      case Kind::int16:
-        return {2, integer<std::int16_t>};
-      case Kind::uint16:
-        return {2, integer<std::uint16_t>};
-      case Kind::int32:
-        return {4, integer<std::int32_t>};
-      case Kind::enumeration:
-      case Kind::uint32:
-        return {4, integer<std::uint32_t>};
-      case Kind::int64:
-        return {8, integer<std::int64_t>};
-      case Kind::uint64:
-        return {8, integer<std::uint64_t>};
-      case Kind::float32:
-        return {4, float32};
-      case Kind::float64:
-        return {8, float64};
-      case Kind::string:
-      case Kind::structure:  // for_each_leaf() visits the members of the structure instead
-        break;
-    }
-    return {};
-  };
   for_each_leaf(structure_named(*types_, type), [&](const std::string&, const Field& field, std::uint32_t) {
-    reader.steps_.push_back(step_of(field.kind));
+    reader.steps_.push_back({size_of(field.kind), conversion_of(field.kind)});
   });
   return reader;
 }

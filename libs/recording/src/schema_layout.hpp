@@ -6,24 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace crane::recording {
+#include "crane/recording/kind.hpp"
 
-enum class Kind : std::uint8_t {
-  boolean,
-  int8,
-  uint8,
-  int16,
-  uint16,
-  int32,
-  uint32,
-  int64,
-  uint64,
-  float32,
-  float64,
-  string,
-  enumeration,
-  structure
-};
+namespace crane::recording {
 
 struct Enumeration {
   std::string name;

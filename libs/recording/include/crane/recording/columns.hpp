@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "crane/recording/kind.hpp"
 #include "crane/recording/mcap_reader.hpp"
 #include "crane/recording/schema.hpp"
 
@@ -14,33 +15,16 @@ namespace crane::recording {
 
 /// One field of a topic. The elements of arrays, also of arrays of structures, are one column.
 struct Column {
-  enum class Type : std::uint8_t {
-    int8,
-    uint8,
-    int16,
-    uint16,
-    int32,
-    uint32,
-    int64,
-    uint64,
-    float32,
-    float64,
-    text
-  };
   std::string name;  ///< "applied_v", "axis.position"
-  Type type = Type::float64;
-  bool boolean = false;                  ///< uint8 with the values 0 and 1
+  Kind kind = Kind::float64;
   bool array = false;                    ///< also of one element
   std::size_t width = 0;                 ///< elements of one sample
   std::vector<std::string> units;        ///< by element; empty texts: none
-  std::string enumeration;               ///< name of its type: uint32; empty: no enumeration
+  std::string enumeration;               ///< name of its type; empty: no enumeration
   std::vector<std::string> enumerators;  ///< by number
   std::vector<std::uint8_t> bytes;       ///< values in the byte order of the processor, sample by sample
-  std::vector<std::string> texts;        ///< of Type::text, instead of `bytes`
+  std::vector<std::string> texts;        ///< of Kind::string, instead of `bytes`
 };
-
-/// Size of a value, bytes; of a text: 0.
-[[nodiscard]] std::size_t size_of(Column::Type type);
 
 class ColumnTable {
  public:

@@ -25,7 +25,7 @@ class NumberReader {
  private:
   friend class Schema;
   struct Step {
-    std::uint8_t bytes = 0;  ///< of the value; of a text: 0
+    std::size_t bytes = 0;  ///< of the value; of a text: 0
     double (*value)(std::uint64_t raw) = nullptr;
   };
   std::string type_;

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "crane/recording/kind.hpp"
+
 namespace crane::recording {
 
 /// The IDL is malformed or not supported: "line 12: expected ';', found '}'".
@@ -32,9 +34,8 @@ class ColumnTable;
 
 /// Type of an elementary value.
 struct LeafType {
-  enum class Kind : std::uint8_t { number, boolean, enumeration, text };
   std::string name;  ///< "axis[1].position"
-  Kind kind = Kind::number;
+  Kind kind = Kind::float64;
   /// "m", "rad/s"; empty: none. The comment of the field declares it where it depends on an index
   /// (idl/README.md); otherwise the name of the field ends in it.
   std::string unit;
