@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mcap_format.hpp"
+#include "mcap_summary.hpp"
 #include "output_file.hpp"
 
 namespace crane::recording {
@@ -16,17 +17,6 @@ using mcap::Op;
 using mcap::record;
 
 std::string_view view(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
-
-/// First and last log time of the added messages.
-struct TimeSpan {
-  std::int64_t first = 0, last = 0;
-  bool empty = true;
-  void add(std::int64_t time_ns) {
-    first = empty ? time_ns : std::min(first, time_ns);
-    last = empty ? time_ns : std::max(last, time_ns);
-    empty = false;
-  }
-};
 
 std::string compress(std::string_view data, int level) {
   std::string out(ZSTD_compressBound(data.size()), '\0');
@@ -57,28 +47,17 @@ struct McapWriter::State {
   WriterOptions options;
   OutputFile file;
   bool closed = false;
-  std::string chunk;    // records of the open chunk
-  TimeSpan chunk_span;  // log times of its messages
+  std::string chunk;          // records of the open chunk
+  mcap::TimeSpan chunk_span;  // log times of its messages
   std::map<std::uint16_t, Content>
       chunk_index;  // per channel: (log time, offset in the chunk) of each message
-  TimeSpan file_span;
-  std::map<std::uint16_t, std::uint64_t> counts;  // messages per channel
-  // Records repeated in the summary at the end of the file.
-  std::vector<std::string> schemas, channels, chunks, attachments, metadata;
-  std::uint64_t summary_bytes = 0;  // of these records
+  mcap::Summary summary;
 
-  void keep(std::vector<std::string>& records, std::string record_bytes);
   void require_open() const;
   void end_chunk();
-  void write_summary();
   [[nodiscard]] std::uint64_t closed_bytes(std::size_t more) const;
   void close();
 };
-
-void McapWriter::State::keep(std::vector<std::string>& records, std::string record_bytes) {
-  summary_bytes += record_bytes.size();
-  records.push_back(std::move(record_bytes));
-}
 
 void McapWriter::State::require_open() const {
   if (closed) throw std::logic_error("recording is closed");
@@ -110,7 +89,8 @@ void McapWriter::State::end_chunk() {
   }
   file.append(out);
   if (options.sync) file.sync();
-  keep(chunks, record(Op::chunk_index, Content{}
+  summary.keep(summary.chunks,
+               record(Op::chunk_index, Content{}
                                            .time(chunk_span.first)
                                            .time(chunk_span.last)
                                            .number(start)
@@ -126,74 +106,22 @@ void McapWriter::State::end_chunk() {
   chunk_span = {};
 }
 
-void McapWriter::State::write_summary() {
-  std::string out = record(Op::data_end, Content{}.number(std::uint32_t{0}).bytes());
-  const std::size_t summary_at = out.size();
-  const std::uint64_t base = file.size();
-  std::string offsets;
-  const auto group = [&](Op op, const std::vector<std::string>& records) {
-    const std::size_t at = out.size();
-    for (const std::string& each : records) out += each;
-    if (out.size() == at) return;
-    offsets += record(Op::summary_offset, Content{}
-                                              .number(static_cast<std::uint8_t>(op))
-                                              .number(base + at)
-                                              .number(static_cast<std::uint64_t>(out.size() - at))
-                                              .bytes());
-  };
-  Content per_channel;
-  std::uint64_t total = 0;
-  for (const auto& [channel, count] : counts) {
-    per_channel.number(channel).number(count);
-    total += count;
-  }
-  const auto size32 = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-  group(Op::schema, schemas);
-  group(Op::channel, channels);
-  group(Op::statistics, {record(Op::statistics, Content{}
-                                                    .number(total)
-                                                    .number(static_cast<std::uint16_t>(schemas.size()))
-                                                    .number(size32(channels))
-                                                    .number(size32(attachments))
-                                                    .number(size32(metadata))
-                                                    .number(size32(chunks))
-                                                    .time(file_span.first)
-                                                    .time(file_span.last)
-                                                    .text(per_channel.bytes())
-                                                    .bytes())});
-  group(Op::chunk_index, chunks);
-  group(Op::attachment_index, attachments);
-  group(Op::metadata_index, metadata);
-  const std::uint64_t offsets_at = base + out.size();
-  out += offsets;
-  const Content footer = Content{}.number(base + summary_at).number(offsets_at);
-  // The CRC covers the summary and the footer up to the CRC field.
-  Content head;
-  head.number(static_cast<std::uint8_t>(Op::footer))
-      .number(std::uint64_t{mcap::kFooterSize})
-      .raw(footer.bytes());
-  out += head.bytes();
-  out += Content{}.number(mcap::crc32(out.data() + summary_at, out.size() - summary_at)).bytes();
-  out += mcap::kMagic;
-  file.append(out);
-}
-
 std::uint64_t McapWriter::State::closed_bytes(std::size_t more) const {
   // Upper bounds for one record without its variable parts, and for the parts per channel and per message.
   constexpr std::uint64_t kRecord = 128, kPerChannel = 64, kPerMessage = 16, kSummary = 1024;
   std::uint64_t entries = 0;
   for (const auto& [channel, index] : chunk_index) entries += index.bytes().size();
-  std::uint64_t sum = file.size() + kSummary + kPerChannel * channels.size();
+  std::uint64_t sum = file.size() + kSummary + kPerChannel * summary.channels.size();
   sum += ZSTD_compressBound(chunk.size() + kRecord + more) + entries + kPerMessage + kRecord;
-  sum += kRecord + kPerChannel * channels.size();  // index of the open chunk
-  return sum + summary_bytes;
+  sum += kRecord + kPerChannel * summary.channels.size();  // index of the open chunk
+  return sum + summary.bytes();
 }
 
 void McapWriter::State::close() {
   if (closed) return;
   file.require_good();
   end_chunk();
-  write_summary();
+  file.append(summary.closing(file.size()));
   if (options.sync) file.sync();
   file.close();
   closed = true;
@@ -209,9 +137,10 @@ McapWriter& McapWriter::operator=(McapWriter&&) noexcept = default;
 std::uint16_t McapWriter::schema(std::string_view name, std::string_view encoding, std::string_view text) {
   State& s = *state_;
   s.require_open();
-  const auto id = static_cast<std::uint16_t>(s.schemas.size() + 1);
-  s.keep(s.schemas, record(Op::schema, Content{}.number(id).text(name).text(encoding).text(text).bytes()));
-  s.chunk += s.schemas.back();
+  const auto id = static_cast<std::uint16_t>(s.summary.schemas.size() + 1);
+  s.summary.keep(s.summary.schemas,
+                 record(Op::schema, Content{}.number(id).text(name).text(encoding).text(text).bytes()));
+  s.chunk += s.summary.schemas.back();
   return id;
 }
 
@@ -219,14 +148,14 @@ std::uint16_t McapWriter::channel(std::uint16_t schema, std::string_view topic,
                                   std::string_view message_encoding, const Metadata& metadata) {
   State& s = *state_;
   s.require_open();
-  if (schema > s.schemas.size())
+  if (schema > s.summary.schemas.size())
     throw std::invalid_argument("schema " + std::to_string(schema) + " is not declared");
-  const auto id = static_cast<std::uint16_t>(s.channels.size());
-  s.keep(
-      s.channels,
+  const auto id = static_cast<std::uint16_t>(s.summary.channels.size());
+  s.summary.keep(
+      s.summary.channels,
       record(Op::channel,
              Content{}.number(id).number(schema).text(topic).text(message_encoding).map(metadata).bytes()));
-  s.chunk += s.channels.back();
+  s.chunk += s.summary.channels.back();
   return id;
 }
 
@@ -234,7 +163,7 @@ void McapWriter::message(std::uint16_t channel, std::uint32_t sequence, std::int
                          std::int64_t publish_time_ns, Bytes data) {
   State& s = *state_;
   s.require_open();
-  if (channel >= s.channels.size())
+  if (channel >= s.summary.channels.size())
     throw std::invalid_argument("channel " + std::to_string(channel) + " is not declared");
   s.chunk_index[channel].time(log_time_ns).number(static_cast<std::uint64_t>(s.chunk.size()));
   s.chunk += record(Op::message, Content{}
@@ -244,9 +173,9 @@ void McapWriter::message(std::uint16_t channel, std::uint32_t sequence, std::int
                                      .time(publish_time_ns)
                                      .raw(view(data))
                                      .bytes());
-  ++s.counts[channel];
+  ++s.summary.counts[channel];
   s.chunk_span.add(log_time_ns);
-  s.file_span.add(log_time_ns);
+  s.summary.span.add(log_time_ns);
   const bool long_enough = s.chunk_span.last - s.chunk_span.first >= s.options.flush_interval_ns;
   if (long_enough || s.chunk.size() >= s.options.chunk_bytes) s.end_chunk();
 }
@@ -258,9 +187,10 @@ void McapWriter::metadata(std::string_view name, const Metadata& entries) {
   const std::uint64_t start = s.file.size();
   const std::string out = record(Op::metadata, Content{}.text(name).map(entries).bytes());
   s.file.append(out);
-  s.keep(s.metadata,
-         record(Op::metadata_index,
-                Content{}.number(start).number(static_cast<std::uint64_t>(out.size())).text(name).bytes()));
+  s.summary.keep(
+      s.summary.metadata,
+      record(Op::metadata_index,
+             Content{}.number(start).number(static_cast<std::uint64_t>(out.size())).text(name).bytes()));
 }
 
 void McapWriter::attachment(std::string_view name, std::string_view media_type, std::int64_t time_ns,
@@ -275,15 +205,16 @@ void McapWriter::attachment(std::string_view name, std::string_view media_type, 
   content.number(mcap::crc32(content.bytes().data(), content.bytes().size()));
   const std::string out = record(Op::attachment, content.bytes());
   s.file.append(out);
-  s.keep(s.attachments, record(Op::attachment_index, Content{}
-                                                         .number(start)
-                                                         .number(static_cast<std::uint64_t>(out.size()))
-                                                         .time(time_ns)
-                                                         .time(time_ns)
-                                                         .number(static_cast<std::uint64_t>(data.size()))
-                                                         .text(name)
-                                                         .text(media_type)
-                                                         .bytes()));
+  s.summary.keep(s.summary.attachments,
+                 record(Op::attachment_index, Content{}
+                                                  .number(start)
+                                                  .number(static_cast<std::uint64_t>(out.size()))
+                                                  .time(time_ns)
+                                                  .time(time_ns)
+                                                  .number(static_cast<std::uint64_t>(data.size()))
+                                                  .text(name)
+                                                  .text(media_type)
+                                                  .bytes()));
 }
 
 void McapWriter::flush() {
@@ -293,11 +224,7 @@ void McapWriter::flush() {
 
 void McapWriter::close() { state_->close(); }
 
-std::uint64_t McapWriter::message_count() const {
-  std::uint64_t total = 0;
-  for (const auto& [channel, count] : state_->counts) total += count;
-  return total;
-}
+std::uint64_t McapWriter::message_count() const { return state_->summary.messages(); }
 
 std::uint64_t McapWriter::bytes_written() const { return state_->file.size(); }
 
