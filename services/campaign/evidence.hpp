@@ -37,10 +37,11 @@ class Evidence {
   double sum_above_ = 0, sum_below_ = 0;
 };
 
-/// Same for a frozen swing encoder: relative to the ground, (2.11) and (2.18), the acceleration of trolley
-/// and measured load and gravity at the measured angle do not balance in the direction of the encoder.
-/// Tolerances: zero error 20 mrad, wind 0.25 m/s^2, cable length 55 %, which leaves this share of the
-/// measured change of the swing rate. The fault is visible at twice 50 mm/s and two counts per four samples.
+/// Same for a frozen swing encoder: relative to the ground, (2.11) and (2.18) of H. M. Omar, Control of
+/// Gantry and Tower Cranes, the acceleration of trolley and measured load and gravity at the measured angle
+/// do not balance in the direction of the encoder. Tolerances: zero error 20 mrad, wind 0.25 m/s^2, cable
+/// length 55 %, which leaves this share of the measured change of the swing rate. The fault is visible at
+/// twice 50 mm/s and two counts per four samples.
 class SwingEvidence {
  public:
   SwingEvidence(Bench& bench, std::size_t counter);

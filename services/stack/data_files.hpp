@@ -13,8 +13,7 @@ inline constexpr const char* kDefaultRig = "virginia_tech_tower";
 inline constexpr std::array kManeuvers{"maneuver_1", "maneuver_2", "maneuver_3"};
 
 /// @return the file itself, or the installed file with this name. @throws configuration::ConfigurationError
-/// with
-///   the list of installed names
+///   with the list of installed names
 [[nodiscard]] std::filesystem::path find_rig(const std::string& name_or_path);
 [[nodiscard]] std::filesystem::path find_scenario(const std::string& name_or_path);
 [[nodiscard]] std::filesystem::path find_sweep(const std::string& name_or_path);

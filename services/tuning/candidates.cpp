@@ -52,7 +52,9 @@ configuration::Rig with_candidate(configuration::Rig rig, const Candidate& candi
     if (!set_in(control::kDesignFields, rig.design, name, value) &&
         !set_in(configuration::kPlanningFields, rig.planning, name, value))
       throw std::logic_error("no key " + key + " of [controller]");
-    if (key == "tracking_proportional") rig.design.tracking_derivative = 2 * std::sqrt(value);  // (3.42)
+    if (key == "tracking_proportional")
+      rig.design.tracking_derivative =
+          2 * std::sqrt(value);  // (3.42) of H. M. Omar, Control of Gantry and Tower Cranes
   }
   return rig;
 }

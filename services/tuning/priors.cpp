@@ -14,7 +14,8 @@ configuration::Rig careful_rig(const configuration::Rig& rig, const Priors& prio
   design.crane.slew_gain_radps2pv *= 1 + priors.gain_share;
   design.crane.load_mass_kg *= priors.payload_low;
   design.swing_observer = false;
-  // K_p and K_d are normalised to the load period T: K_p / T^2 = kLoop^2, K_d / T = 2 kLoop (3.42).
+  // K_p and K_d are normalised to the load period T: K_p / T^2 = kLoop^2, K_d / T = 2 kLoop, (3.42) of H. M.
+  // Omar, Control of Gantry and Tower Cranes.
   const double period_s = plant::swing_period_s(design.crane.gravity_mps2, rig.start.position[plant::kHoist]);
   design.tracking_proportional = kLoop_radps * kLoop_radps * period_s * period_s;
   design.tracking_derivative = 2 * kLoop_radps * period_s;

@@ -32,7 +32,7 @@ Plane turned(const Plane& a, double angle_rad) {
   return {c * a[0] - s * a[1], s * a[0] + c * a[1]};
 }
 
-/// Depth and offsets by (2.11).
+/// Depth and offsets by (2.11) of H. M. Omar, Control of Gantry and Tower Cranes.
 PendulumMemory::PastSample past_sample(const Limits& limits, const PendulumInput& input) {
   const double cable_m = limits.machine.cable(input.position[2]);
   const double radial = input.radial_rad, tangential = input.tangential_rad;

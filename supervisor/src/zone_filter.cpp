@@ -280,7 +280,8 @@ void observe_load(const Limits& limits, const ZoneInput& input, ZoneMemory& memo
   const bool slews = limits.axis[kSlew].present;
   const double slew_rad = slews ? input.position[kSlew] : 0, c = std::cos(slew_rad), s = std::sin(slew_rad);
   const double phi = input.swing_radial_rad, theta = slews ? input.swing_tangential_rad : 0;
-  const double along = -std::cos(theta) * std::sin(phi), across = std::sin(theta);  // (2.11)
+  const double along = -std::cos(theta) * std::sin(phi),
+               across = std::sin(theta);  // (2.11) of H. M. Omar, Control of Gantry and Tower Cranes
   std::shift_right(memory.recent.begin(), memory.recent.end(), 1);
   memory.recent[0] = {
       .sampled_s = input.sampled_s,

@@ -10,7 +10,7 @@ using std::numbers::pi;
 using std::numbers::sqrt2;
 
 const Polynomial kSquare{0, 0, 1};              // s^2
-const Polynomial kPendulum{4 * pi * pi, 0, 1};  // (3.28)
+const Polynomial kPendulum{4 * pi * pi, 0, 1};  // (3.28) of H. M. Omar, Control of Gantry and Tower Cranes
 
 Polynomial scaled(double factor, Polynomial p) {
   for (double& c : p) c *= factor;

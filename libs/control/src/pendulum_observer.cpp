@@ -39,7 +39,7 @@ bool finite(const plant::State& state) noexcept {
   return std::isfinite(sum);
 }
 
-/// Friction of a moving drive, (3.1).
+/// Friction of a moving drive, (3.1) of H. M. Omar, Control of Gantry and Tower Cranes.
 double friction_v(const DriveFriction& f, double speed) noexcept {
   const double moving = speed > 0 ? f.coulomb_positive_v + f.viscous_positive_vspm * speed
                                   : -f.coulomb_negative_v + f.viscous_negative_vspm * speed;

@@ -1,4 +1,5 @@
-/// The forces (2.17), (2.19) of the trolley and of the jib along the path of a stick.
+/// The forces of the trolley and of the jib along the path of a stick, (2.17), (2.19) of H. M. Omar, Control
+/// of Gantry and Tower Cranes.
 #include "crane/control/stick.hpp"
 #include "crane/plant/motion_terms.hpp"
 

@@ -120,6 +120,7 @@ const std::vector<Variant> kVariants{
      [](Rig& rig) { rig.design.swing_observer = true; }},
     {"filtered_angle", "the swing angles pass the low-pass filter, too",
      [](Rig& rig) { rig.sensing.filter_swing_angle = true; }},
+    // (4.22) of H. M. Omar, Control of Gantry and Tower Cranes
     {"slow_reference", "references take twice the time, (4.22)", [](Rig& rig) { slow_down(rig, 2); }},
     {"full_gain_0.4", "full state feedback with K = 0.4", forward_gain<4>},
     {"full_gain_2", "full state feedback with K = 2", forward_gain<20>},

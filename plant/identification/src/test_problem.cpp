@@ -6,7 +6,7 @@
 namespace crane::identification {
 namespace {
 
-double reference_m(double time_s) {  // (3.18)
+double reference_m(double time_s) {  // (3.18) of H. M. Omar, Control of Gantry and Tower Cranes
   using std::numbers::pi;
   return 0.3 * std::sin(pi / 2 * time_s) - 0.4 * std::sin(2 * pi / 3 * time_s);
 }

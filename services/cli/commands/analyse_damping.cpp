@@ -1,4 +1,5 @@
-/// crane analyse damping: damping over the gain plane, as table, picture and summary.
+/// crane analyse damping: damping over the gain plane, as table, picture and summary. Equation numbers:
+/// H. M. Omar, Control of Gantry and Tower Cranes.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>

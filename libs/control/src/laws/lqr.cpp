@@ -9,12 +9,14 @@
 ///   a = -(k_p p + k_v p' + k_s s + k_r s')
 /// minimise the integral of (p - s)^2 + w a^2, the squared distance of the load from its reference and the
 /// effort. With a plan, its feed-forward volts are added, and p and s are distances from the planned state.
+/// Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes.
 #include <Eigen/Dense>
 #include <cmath>
 
 #include "crane/control/hoist.hpp"
 #include "crane/control/pendulum_observer.hpp"
 #include "crane/control/schedule.hpp"
+#include "crane/plant/pendulum.hpp"
 
 namespace crane::control {
 namespace {
@@ -52,9 +54,9 @@ LqrGains lqr_gains(double effort_weight) {
 
 /// Gains of one tick in SI units: acceleration of the support per m, m/s, rad, rad/s.
 LqrGains at_length(const LqrGains& k, double gravity_mps2, double length_m) noexcept {
-  const double rate_ps = std::sqrt(gravity_mps2 / length_m);
-  return {k.position * rate_ps * rate_ps, k.speed * rate_ps, k.swing * gravity_mps2,
-          k.swing_rate * gravity_mps2 / rate_ps};
+  const double rate_radps = plant::swing_radps(gravity_mps2, length_m);
+  return {k.position * rate_radps * rate_radps, k.speed * rate_radps, k.swing * gravity_mps2,
+          k.swing_rate * gravity_mps2 / rate_radps};
 }
 
 /// Volts per acceleration of the suspension point, along the jib and across it.

@@ -1,12 +1,13 @@
 #pragma once
 /// Following error: compares the motion of each axis with the equations of motion under its voltage.
 ///
-/// From one sample to the next the speed v of a free axis changes by (2.16) to (2.20) under the voltages of
-/// the last two ticks. Each parameter is known only within a tolerance. The model therefore gives an interval
-/// [low, high] of accelerations:
+/// From one sample to the next, the speed v of a free axis changes by (2.16) to (2.20) of H. M. Omar, Control
+/// of Gantry and Tower Cranes, under the voltages of the last two ticks. Each parameter is known only within
+/// a tolerance. The model therefore gives an interval [low, high] of accelerations:
 ///   gain of the drive  1 +- kGainTolerance, offset +- kOffset_v
 ///   friction           0 to kFrictionRatioMax times the rig file's, plus kFrictionExtra_v, against the
-///   motion load               0 to kLoadRatioMax times the rig file's
+///                      motion
+///   load               0 to kLoadRatioMax times the rig file's
 /// Two sums add the changes of speed outside the interval (run_length.hpp):
 ///   above := max(0, above + dv - high dt),   below := max(0, below + low dt - dv)
 /// A sum above limit = kSpeedShare (max_speed + |v|) + noise stops the crane. noise = two counts per sample

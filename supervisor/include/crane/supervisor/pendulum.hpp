@@ -1,6 +1,6 @@
 #pragma once
 /// Check of the swing encoders: compares the measured load with a pendulum under the measured trolley. In
-/// coordinates of the ground
+/// coordinates of the ground, with the equation numbers of H. M. Omar, Control of Gantry and Tower Cranes,
 ///   r'' = -(g + z'') (r - p) / h                                                     (2.11), (2.18), (2.19)
 /// r: horizontal position of the load, p: of the trolley, z: height of the load relative to the jib, h: its
 /// depth below the jib. All of them are measured. Therefore the balance of one sample

@@ -13,8 +13,7 @@
 /// favourable end of this interval.
 ///
 /// 1. Travel of an axis. The voltages V of the previous, the present and the next tick are known. Friction
-/// may
-///    or may not act. Therefore only voltages in the direction of the travel count:
+///    may or may not act. Therefore only voltages in the direction of the travel count:
 ///      v_most = v + k K (V_previous / 2 + V_present + V_next) T + a_load (t_r + T / 2)
 ///      D = v_most t_r + v_most^2 / (2 b)
 ///    v_most: largest speed of the axis; k = 1 + kGainTolerance; K: gain of the drive; a_load: acceleration

@@ -1,7 +1,8 @@
 #pragma once
 /// Tables of the fields of a rig file, one per section. plant/parameter_fields.hpp has the table of [plant],
 /// control/design_fields.hpp that of [controller]. control/drive_limit_fields.hpp and
-/// control/operating_limits.hpp have the limits, which the supervisor checks as well.
+/// control/operating_limits.hpp have the limits, which the supervisor checks as well. Equation numbers:
+/// H. M. Omar, Control of Gantry and Tower Cranes.
 #include <span>
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
 /// Section [plant] of a rig file, and ranges that several sections use. Within the ranges every quotient of
-/// the equations is finite.
+/// the equations is finite. Equation numbers: H. M. Omar, Control of Gantry and Tower Cranes.
 #include "crane/fields/field.hpp"
 #include "crane/plant/parameters.hpp"
 
