@@ -6,13 +6,14 @@
 #include <gtest/gtest.h>
 #include <libevdev/libevdev-uinput.h>
 #include <libevdev/libevdev.h>
+#include <poll.h>
+#include <sys/inotify.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
-#include <chrono>
 #include <filesystem>
 #include <optional>
-#include <thread>
 
 #include "cli/gamepad.hpp"
 #include "temporary_directory.hpp"
@@ -104,17 +105,31 @@ class VirtualGamepad {
   int error_ = 0;
 };
 
+/// Waits until udev has set the permissions of a new device. @return false after 5 s
+bool wait_until_readable(const std::string& path) {
+  constexpr int kPatience_ms = 5000;
+  const int changes = ::inotify_init1(IN_CLOEXEC);
+  ::inotify_add_watch(changes, path.c_str(), IN_ATTRIB);
+  pollfd event{changes, POLLIN, 0};
+  bool readable = ::access(path.c_str(), R_OK) == 0;
+  while (!readable && ::poll(&event, 1, kPatience_ms) > 0) {
+    std::array<char, 4096> ignored{};
+    if (::read(changes, ignored.data(), ignored.size()) < 0) break;
+    readable = ::access(path.c_str(), R_OK) == 0;
+  }
+  ::close(changes);
+  return readable;
+}
+
 TEST(GamepadDevice, OfTheKernelReportsItsEventsAndItsEnd) {
-  using namespace std::chrono_literals;
   VirtualGamepad pad;
   if (pad.error() != 0)
     GTEST_SKIP() << "no virtual gamepad: /dev/uinput: " << std::generic_category().message(pad.error());
-  std::this_thread::sleep_for(500ms);  // udev sets the permissions
+  ASSERT_TRUE(wait_until_readable(pad.path()));
   GamepadDevice device{pad.path(), kAllAxes};
   EXPECT_THAT([&] { open_device(pad.path()); }, ThrowsMessage<GamepadError>(HasSubstr("another program")));
   pad.send(EV_KEY, BTN_TL, 1);
-  pad.send(EV_ABS, ABS_X, 32767);
-  std::this_thread::sleep_for(50ms);
+  pad.send(EV_ABS, ABS_X, 32767);  // the kernel queues the events for all readers before it returns
   GamepadLaw law{device.ranges(), kAllAxes};
   std::vector<GamepadEvent> events;
   ASSERT_EQ(device.read(events), 0);
@@ -122,7 +137,6 @@ TEST(GamepadDevice, OfTheKernelReportsItsEventsAndItsEnd) {
   EXPECT_TRUE(law.engaged(1));
   EXPECT_EQ(law.deflection()[1], 1);
   pad.unplug();
-  std::this_thread::sleep_for(50ms);
   EXPECT_EQ(device.read(events), ENODEV);
 }
 
@@ -130,6 +144,7 @@ TEST(GamepadDevice, OfTheKernelWithoutRangeIsNamed) {
   VirtualGamepad pad{0};
   if (pad.error() != 0)
     GTEST_SKIP() << "no virtual gamepad: /dev/uinput: " << std::generic_category().message(pad.error());
+  ASSERT_TRUE(wait_until_readable(pad.path()));
   EXPECT_THAT([&] { open_device(pad.path()); }, ThrowsMessage<GamepadError>(HasSubstr("has no range")));
 }
 
