@@ -6,18 +6,19 @@
 
 #include "crane/runtime/wiring.hpp"
 #include "stack/launch.hpp"
+#include "stack/stack.hpp"
 
 namespace crane::cli {
 
 struct MeasuredStack {
   stack::LaunchOptions launch;
   std::string rig = "emulated_servo_to_go";  ///< file or name
-  std::string plant = "hardware";            ///< "hardware" or "sim"
+  stack::Plant plant = stack::Plant::hardware;
   double seconds = 20;
   bool json = false;
 
   /// Whether the bridge runs with the board of the rig file instead of the simulated plant.
-  [[nodiscard]] bool hardware() const { return plant == "hardware"; }
+  [[nodiscard]] bool hardware() const { return plant == stack::Plant::hardware; }
   [[nodiscard]] std::vector<runtime::ComponentSpec> processes() const;
   /// Finds the rig file, and gives the crane a name that no other process has.
   /// @throws configuration::ConfigurationError when there is no such rig file

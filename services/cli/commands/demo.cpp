@@ -9,6 +9,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/number_range.hpp"
+#include "cli/plant_option.hpp"
 #include "crane/bridge/component.hpp"
 #include "crane/configuration/extended_file.hpp"
 #include "crane/experiment/metrics.hpp"
@@ -30,7 +31,7 @@ using namespace std::chrono_literals;
 struct DemoOptions {
   stack::LaunchOptions launch;
   std::string rig = stack::kDefaultRig;
-  std::string plant = "sim";
+  stack::Plant plant = stack::Plant::simulated;
   std::string out = "out/demo";
   double seconds_per_maneuver = 10;
   bool dashboard = false;
@@ -110,7 +111,7 @@ int demo(DemoOptions options) {
     scenarios.push_back(experiment::load_scenario(stack::find_scenario(name), &rig));
   fs::create_directories(options.out);
 
-  const auto plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
+  const auto plant = options.plant;
   if (plant == stack::Plant::hardware) bridge::board_kind_of(rig);
   const auto specs = stack::stack_with(plant);
   stack::ChildProcesses children;
@@ -153,9 +154,7 @@ void add_demo(CLI::App& app, Action& chosen) {
   auto* command =
       app.add_subcommand("demo", "Run three maneuvers in real time; write a table, recordings and pictures");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command->add_option("--plant", options->plant, "sim: simulated plant; hardware: the board of the rig file")
-      ->check(CLI::IsMember({"sim", "hardware"}))
-      ->capture_default_str();
+  add_plant_option(*command, options->plant);
   command->add_option("--controller", options->launch.controller,
                       "controller; default: the controller of the rig file");
   command->add_option("--out", options->out, "directory for recordings, CSV files and pictures")

@@ -7,6 +7,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/number_range.hpp"
+#include "cli/plant_option.hpp"
 #include "cli/text_table.hpp"
 #include "crane/identification/study.hpp"
 #include "identification/axis_data.hpp"
@@ -23,7 +24,8 @@ namespace id = identification;
 struct IdentifyOptions {
   identification::FrictionExperimentOptions experiment;
   std::string rig = stack::kDefaultRig, axis, out = "out/identify", from;
-  std::string clock = "lockstep", plant = "sim";
+  std::string clock = "lockstep";
+  stack::Plant plant = stack::Plant::simulated;
   double from_s = 0, to_s = 1e9;
   bool json = false, no_picture = false;
   std::vector<std::string> vendors;
@@ -93,7 +95,7 @@ int identify_friction(IdentifyOptions options) {
   experiment.directory = options.out;
   experiment.picture = !options.no_picture;
   experiment.realtime = options.clock == "realtime";
-  experiment.plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
+  experiment.plant = options.plant;
   const auto rig = configuration::load_rig(experiment.rig);
   if (!options.from.empty()) return estimate_from(options, rig);
   experiment.vendors = stack::vendors_from(options.vendors, stack::stack_with(experiment.plant));
@@ -173,11 +175,7 @@ void add_friction(CLI::App& identify, Action& chosen) {
       command->add_option("--clock", options->clock, "lockstep, or realtime as on a rig (five minutes)")
           ->check(CLI::IsMember({"lockstep", "realtime"}))
           ->capture_default_str();
-  command
-      ->add_option("--plant", options->plant,
-                   "sim: simulated plant; hardware: the board of the rig file (real boards in realtime only)")
-      ->check(CLI::IsMember({"sim", "hardware"}))
-      ->capture_default_str();
+  add_plant_option(*command, options->plant, " (real boards in realtime only)");
   command->add_flag("--in-process", experiment.in_process, "all components in this process, without DDS")
       ->excludes(clock);
   command->add_flag("--json", options->json, "print the estimates as JSON");

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/commands.hpp"
+#include "cli/plant_option.hpp"
 #include "crane/experiment/variant.hpp"
 #include "crane/twin/component.hpp"
 #include "experiments/comparison_run.hpp"
@@ -26,7 +27,8 @@ using Names = std::vector<std::string>;
 
 struct RunOptions {
   Names scenarios, controllers, variants;
-  std::string rig, integrator = "cvode", out = "out", plant = "sim", clock = "lockstep";
+  std::string rig, integrator = "cvode", out = "out", clock = "lockstep";
+  stack::Plant plant = stack::Plant::simulated;
   bool compare = false, in_process = false, json = false, no_picture = false;
   runtime::BusOptions bus;
   Names vendors;
@@ -84,13 +86,9 @@ std::string directory_name(const RunOptions& options, const experiments::Planned
          (plan.variant.empty() ? "" : "_" + plan.variant);
 }
 
-stack::Plant plant_of(const RunOptions& options) {
-  return options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
-}
-
 int run_each(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   experiments::ExperimentOptions experiment;
-  experiment.plant = plant_of(options);
+  experiment.plant = options.plant;
   experiment.in_process = options.in_process;
   experiment.integrator = simulator::method_named(options.integrator);
   experiment.picture = !options.no_picture;
@@ -147,15 +145,14 @@ void require_possible_in_realtime(const RunOptions& options,
 
 int run_each_in_realtime(const RunOptions& options, const std::vector<experiments::PlannedRun>& plans) {
   require_possible_in_realtime(options, plans);
-  const auto plant = plant_of(options);
-  const auto vendors = stack::vendors_from(options.vendors, stack::stack_with(plant));
+  const auto vendors = stack::vendors_from(options.vendors, stack::stack_with(options.plant));
   for (const auto& plan : plans) {
     std::filesystem::path directory{options.out};
     if (plans.size() > 1) directory /= directory_name(options, plan);
     std::filesystem::create_directories(directory);  // an error is reported before any motion
     const auto table = experiments::run_in_realtime({.rig = plan.rig.path,
                                                      .controller = std::string{plan.controller->name},
-                                                     .plant = plant,
+                                                     .plant = options.plant,
                                                      .bus = options.bus,
                                                      .vendors = vendors},
                                                     plan.scenario);
@@ -248,13 +245,8 @@ void add_run(CLI::App& app, Action& chosen) {
                    "--in-process or --compare)")
       ->check(CLI::IsMember(Names{simulator::kMethodNames.begin(), simulator::kMethodNames.end()}))
       ->capture_default_str();
-  command
-      ->add_option("--plant", options->plant,
-                   "sim: simulated plant; hardware: the bridge with the board of the rig file, in lockstep "
-                   "an emulated "
-                   "one (emulated_servo_to_go); not with --compare")
-      ->check(CLI::IsMember({"sim", "hardware"}))
-      ->capture_default_str();
+  add_plant_option(*command, options->plant,
+                   ", in lockstep an emulated one (emulated_servo_to_go); not with --compare");
   command
       ->add_option(
           "--clock", options->clock,

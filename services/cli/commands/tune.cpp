@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/commands.hpp"
+#include "cli/plant_option.hpp"
 #include "cli/text_table.hpp"
 #include "crane/workers/process_pool.hpp"
 #include "stack/data_files.hpp"
@@ -20,7 +21,8 @@ namespace crane::cli {
 namespace {
 
 struct TuneCommand {
-  std::string rig = stack::kDefaultRig, hidden, out = "out/tune", clock = "lockstep", plant = "sim";
+  std::string rig = stack::kDefaultRig, hidden, out = "out/tune", clock = "lockstep";
+  stack::Plant plant = stack::Plant::simulated;
   bool json = false, identify_only = false;
   std::uint64_t seed = 1;
   runtime::BusOptions bus;
@@ -67,22 +69,20 @@ void print(const tuning::TuneResult& result, const std::filesystem::path& direct
 
 std::unique_ptr<tuning::CraneAccess> access_to_crane(const TuneCommand& command,
                                                      const configuration::Rig& rig) {
-  const bool hardware = command.plant == "hardware";
   if (command.clock == "lockstep") {
-    if (hardware)
+    if (command.plant == stack::Plant::hardware)
       throw configuration::ConfigurationError({"--plant hardware: a real crane needs --clock realtime"});
     return std::make_unique<tuning::LockstepCrane>(
         command.hidden.empty() ? rig : configuration::load_rig(stack::find_rig(command.hidden)));
   }
   if (!command.hidden.empty())
     throw configuration::ConfigurationError({"--hidden: only with --clock lockstep"});
-  const auto plant = hardware ? stack::Plant::hardware : stack::Plant::simulated;
   std::filesystem::create_directories(command.out);
-  return std::make_unique<tuning::RealtimeCrane>(
-      tuning::RealtimeOptions{.directory = command.out,
-                              .plant = plant,
-                              .bus = command.bus,
-                              .vendors = stack::vendors_from(command.vendors, stack::stack_with(plant))});
+  return std::make_unique<tuning::RealtimeCrane>(tuning::RealtimeOptions{
+      .directory = command.out,
+      .plant = command.plant,
+      .bus = command.bus,
+      .vendors = stack::vendors_from(command.vendors, stack::stack_with(command.plant))});
 }
 
 int run(const TuneCommand& command) {
@@ -124,11 +124,7 @@ void add_tune(CLI::App& app, Action& chosen) {
                    "lockstep: simulated time; realtime: up to three minutes of motion")
       ->check(CLI::IsMember({"lockstep", "realtime"}))
       ->capture_default_str();
-  command
-      ->add_option("--plant", options->plant,
-                   "sim, or hardware: the board of the rig file; needs --clock realtime")
-      ->check(CLI::IsMember({"sim", "hardware"}))
-      ->capture_default_str();
+  add_plant_option(*command, options->plant, ", with --clock realtime");
   command->add_flag("--identify-only", options->identify_only,
                     "identify the rig; keep law and gains of the rig file");
   command->add_option("--seed", options->seed, "seed of the rigs that are drawn from the standard errors")

@@ -6,6 +6,7 @@
 
 #include "black_box/black_box.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/plant_option.hpp"
 #include "cli/recording_limits.hpp"
 #include "crane/bridge/component.hpp"
 #include "crane/runtime/node.hpp"
@@ -25,7 +26,7 @@ namespace {
 struct UpOptions {
   stack::LaunchOptions launch;
   std::string rig = stack::kDefaultRig;
-  std::string plant = "sim";
+  stack::Plant plant = stack::Plant::simulated;
   std::string record;
   LimitOptions record_limits;
   std::filesystem::path black_box = black_box::default_directory();
@@ -121,7 +122,7 @@ int up(UpOptions options) {
   options.launch.rig = stack::find_rig(options.rig).string();
   const auto rig = configuration::load_rig(options.launch.rig);
   const auto& controller = runtime::chosen_controller(options.launch.controller, rig);
-  const auto plant = options.plant == "hardware" ? stack::Plant::hardware : stack::Plant::simulated;
+  const auto plant = options.plant;
   if (plant == stack::Plant::hardware) bridge::board_kind_of(rig);
   auto specs = stack::stack_with(plant);
   const auto loop = specs;
@@ -169,9 +170,7 @@ void add_up(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<UpOptions>();
   auto* command = app.add_subcommand("up", "Start all processes of a crane (the stack); run until Ctrl-C");
   command->add_option("--rig", options->rig, "rig file or name")->capture_default_str();
-  command->add_option("--plant", options->plant, "sim: simulated plant; hardware: the board of the rig file")
-      ->check(CLI::IsMember({"sim", "hardware"}))
-      ->capture_default_str();
+  add_plant_option(*command, options->plant);
   command->add_option("--controller", options->launch.controller,
                       "controller; default: the controller of the rig file");
   command
