@@ -75,7 +75,7 @@ const std::vector<ConfoundedGroup>& confounded_groups() {
       {{"command_delay", "actuator_lag"}, "two frequencies"},
       {{"swing_delay", "swing_moving_average"}, "two cable lengths"},
       {{"direction_asymmetry", "jib_tilt", "command_offset"}, "break-away, payload"},
-      {{"steady_wind", "swing_offset", "jib_tilt"}, "half a turn"},
+      {{"steady_wind", "swing_offset", "jib_tilt"}, "half a turn (wind), a known added mass (tilt)"},
       {{"stribeck_friction", "position_dependent_friction"}, "the same places at several speeds"},
       {{"motor_gain", "position_scale"}, "a load"},
       {{"cable_elasticity", "cable_length"}, "no experiment: the bounce of the load is not measured"}};
