@@ -15,7 +15,7 @@ namespace {
 
 configuration::Rig accurate_lab() { return configuration::load_rig(CRANE_RIGS "/gantry.toml"); }
 
-constexpr double kFileRow_s = 0.01;
+constexpr double kFileRow_s = 0.01, kCount_rad = 1e-3;
 
 /// The command of the file, constant from row to row.
 double file_command(double begin_s, double time_s) {
@@ -75,6 +75,33 @@ TEST(StatedAccuracy, KeepsTheValueOfACauseApartFromErrorsOfOtherQuantities) {
   ASSERT_EQ(found.causes.size(), 1U);
   EXPECT_EQ(found.causes[0].name, "cable_length");
   EXPECT_NEAR(found.causes[0].parameters.at(0).value, 0.3 * strange::Gantry{}.cable_m, 0.02);
+}
+
+/// Free swings of a load; noise makes the mean of the encoder finer than its count.
+std::vector<Run> free_swings(const std::vector<double>& starts_rad, double offset_rad) {
+  std::vector<Run> runs;
+  for (const double start_rad : starts_rad) {
+    auto truth = strange::moved(
+        {}, 8, [](double) { return 0.0; }, start_rad);
+    for (strange::Instant& instant : truth) instant.swing_rad += offset_rad;
+    const auto table = strange::recorded(
+        truth, {.row_s = kFileRow_s, .swing_step_rad = kCount_rad, .swing_noise_rad = 3e-4});
+    for (Run& run : load_run(table, accurate_lab(), "swing.csv").runs) runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+/// The load hangs somewhere within one count when an incremental encoder is zeroed.
+TEST(StatedAccuracy, ContainsTheErrorOfTheZeroOfAnEncoderUpToHalfACount) {
+  for (const double counts : {0.35, 3.0}) {
+    const double offset_rad = counts * kCount_rad;
+    const Diagnosis found = diagnose(accurate_lab(), free_swings({0.15, -0.1}, offset_rad),
+                                     free_swings({0.12}, offset_rad), {.most_effects = 1, .accuracy = {}});
+    if (counts < 0.5)
+      EXPECT_EQ(found.verdict, Verdict::none) << found.sentence;
+    else
+      EXPECT_TRUE(found.verdict == Verdict::named || found.verdict == Verdict::ambiguous) << found.sentence;
+  }
 }
 
 TEST(StatedAccuracy, ContainsAPatternThatIsSmallBesideTheFriction) {

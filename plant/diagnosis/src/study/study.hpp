@@ -109,6 +109,9 @@ class Study {
   /// inaccuracies of the same cause.
   [[nodiscard]] Crane with(const Effects& effects) const;
 
+  /// Standard deviation of the unknown zero of a swing sensor: it is somewhere within one resolution.
+  [[nodiscard]] double zero_std_dev(Output swing) const;
+
   /// Learns noise and disturbance from the residuals of the base model with the effects, then evaluates the
   /// base model. Without effects, also fits the inaccuracies of the rig file. Must be the first call.
   void learn_disturbance(const Effects& effects = {});

@@ -71,11 +71,16 @@ Effects Study::visible_inaccuracies_beside(const Effects& effects) const {
   return beside;
 }
 
+double Study::zero_std_dev(Output swing) const {
+  double std_dev = 0;
+  for (const PreparedRun& run : train_.runs) std_dev = std::max(std_dev, run.least_noise[swing]);
+  return std_dev;
+}
+
 std::vector<Study::HeldError> Study::zero_errors(Effects& effects) const {
   std::vector<HeldError> errors;
   for (const Output output : {kRadialSwing, kTangentialSwing}) {
-    double std_dev = 0;
-    for (const PreparedRun& run : train_.runs) std_dev = std::max(std_dev, run.least_noise[output]);
+    const double std_dev = zero_std_dev(output);
     const auto is_offset = [output](const Candidate& c) {
       return c.cause == "swing_offset" && c.axis == axis_of(output);
     };

@@ -20,6 +20,14 @@ bool is_limit(const Candidate& candidate) {
          candidate.cause != "swing_delay";
 }
 
+/// The load hangs anywhere within one resolution of the sensor when the sensor is zeroed.
+bool is_error_of_zero(const Study& study, const Effect& effect) {
+  if (effect.candidate->cause != "swing_offset") return false;
+  const Output output = effect.candidate->axis == axis_of(kRadialSwing) ? kRadialSwing : kTangentialSwing;
+  const double half_a_resolution = std::sqrt(3.0) * study.zero_std_dev(output);
+  return std::abs(effect.values[0]) <= half_a_resolution;
+}
+
 }  // namespace
 
 StatedAccuracy::StatedAccuracy(const configuration::Rig& rig, const Accuracy& accuracy)
@@ -74,7 +82,8 @@ std::vector<bool> StatedAccuracy::contains_each(const Study& study, const Effect
   std::vector<bool> contained;
   for (std::size_t i = 0; i < effects.size(); ++i)
     contained.push_back(limits_of(*effects[i].candidate).empty()
-                            ? std::ranges::equal(changes[inaccuracies + i], largest, std::less_equal{})
+                            ? is_error_of_zero(study, effects[i]) ||
+                                  std::ranges::equal(changes[inaccuracies + i], largest, std::less_equal{})
                             : contains_values(effects[i]));
   return contained;
 }

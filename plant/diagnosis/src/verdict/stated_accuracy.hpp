@@ -19,8 +19,8 @@ class StatedAccuracy {
   /// True for each effect within the accuracy of the rig file. If the accuracy of its quantity is stated, the
   /// effect is within the accuracy when its values are. Any other effect is within the accuracy when it
   /// changes the simulation of no output more than the largest stated inaccuracy of a drive, a position or
-  /// the swing scale does. A change is an rms in the windows of the training data and, for a swing, over
-  /// whole runs, from the same starts.
+  /// the swing scale does, or when it is a swing offset of at most half a resolution of the sensor. A change
+  /// is an rms in the windows of the training data and, for a swing, over whole runs, from the same starts.
   [[nodiscard]] std::vector<bool> contains_each(const Study& study, const Effects& effects) const;
   /// Whether the acceleration of a pattern of a drive is within the stated accuracy of its friction.
   [[nodiscard]] bool contains(const Unexplained& pattern) const;
