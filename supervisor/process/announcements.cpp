@@ -30,8 +30,8 @@ void announce(runtime::Node& node, const Limits& limits, const TickOutput& outpu
 void announce_unchecked(runtime::Node& node) {
   node.warning(
       "model_checks_off",
-      "the crane is armed with model_checks = false: a wrong or exchanged encoder may stop an axis only "
-      "at its limit switch",
+      "the crane is armed with model_checks = false: with a wrong or exchanged encoder, an axis may stop "
+      "only at its limit switch",
       "test drives and encoders with `crane hw selftest` first; set model_checks = true when the model "
       "of the rig file is known");
 }

@@ -15,8 +15,8 @@ class BridgeClock {
   enum class Verdict : std::uint8_t {
     fits,         ///< the sample may be used
     contradicts,  ///< the time of the sample contradicts its tick: the sample must not be used
-    begins_anew   ///< kAgreeing samples contradict the earlier ones and agree with each other: as after a
-                  ///< restart of the bridge
+    begins_anew   ///< kAgreeing samples contradict the earlier ones and agree with each other: the bridge has
+                  ///< been restarted
   };
   /// Longer than the time in which missing samples stop an armed crane.
   static constexpr int kAgreeing = 100;

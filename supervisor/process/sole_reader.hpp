@@ -15,8 +15,8 @@ class SoleReader {
         node_{context.node},
         realtime_{context.clock == runtime::Clock::realtime} {}
 
-  /// Takes a bounded number of samples: a flood must not delay the step. In lockstep the samples have no
-  /// effect: a tick without the plant's advance has no duration.
+  /// Takes a bounded number of samples: a flood must not delay the step. The samples have no effect in
+  /// lockstep, because there the time does not advance without the plant.
   /// @throws std::runtime_error that names the other supervisor when this process must end
   void take(std::int64_t now_ns);
   /// Call once for each published status of this process.

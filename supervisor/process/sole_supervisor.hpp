@@ -3,8 +3,9 @@
 ///
 /// While another supervisor publishes crane/supervisor, both refuse reset and arming (disputed()). Of two
 /// supervisors that have started together, one ends (yields()): the one with the larger start-up number, or
-/// the one that is new beside one that is established. At most one of two ends: only a new supervisor ends,
-/// an established one is never new again, and two start-up numbers have one order.
+/// the one that is new beside one that is established (in use). At most one of two ends: only a new
+/// supervisor ends, an established one never becomes new again, and of two start-up numbers only one is the
+/// larger one.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,8 +16,8 @@ namespace crane::supervisor {
 
 class SoleSupervisor {
  public:
-  /// A supervisor is new during its first ticks, until its first reset. 5 s at 100 Hz: discovery between two
-  /// DDS vendors takes up to 1 s.
+  /// A supervisor is new until this tick or its first reset, whichever comes first. 5 s at 100 Hz: discovery
+  /// between two DDS vendors takes up to 1 s.
   static constexpr std::uint64_t kNewTicks = 500;
   /// As WriterBinding::kDispute_ns: the causes of a stop must be inactive for the same time before a reset.
   static constexpr std::int64_t kDispute_ns = 1'000'000'000;

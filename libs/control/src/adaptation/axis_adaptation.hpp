@@ -1,8 +1,9 @@
 #pragma once
 /// Adaptation of one axis: collects blocks and break-aways, decides which levels the compensation uses.
-///   down at once: the levels of a direction whose motion shows less friction than is compensated
-///   up at rest: the levels of both directions, at the end of a move
-///   back: when the next move contradicts the installed set, or when the axis oscillates about its rest
+///   reduction in motion: the levels of a direction whose blocks show less friction than is compensated
+///   installation at rest: the levels of the excited directions, at the end of a move
+///   return to the previous set: when the next move contradicts the installed set, or when the axis
+///   oscillates about its rest
 #include "adaptation/force_balance.hpp"
 #include "adaptation/level_filter.hpp"
 #include "adaptation/limit_cycle.hpp"

@@ -6,10 +6,11 @@ namespace crane::diagnosis {
 
 /// Uncertainty of one value.
 struct ValueUncertainty {
-  /// Of the sandwich covariance of all values and inaccuracies, from the jackknife over blocks.
+  /// Standard deviation by the sandwich covariance of all values and inaccuracies, from the jackknife over
+  /// blocks.
   double std_dev = 0;
   double freedom = 1;   ///< degrees of freedom of the jackknife
-  double by_noise = 0;  ///< standard deviation for the learnt noise and disturbance
+  double by_noise = 0;  ///< standard deviation by the learnt noise and disturbance alone
   /// Standard deviation by the errors of the zeros of the swing sensors, and by the inaccuracies at their
   /// bounds.
   double systematic = 0;
@@ -23,9 +24,10 @@ struct Uncertainty {
   std::vector<ValueUncertainty> values;  ///< of the effects of the fit
 };
 
-/// A quantity that the fit holds although it has an error: the column of its slope and its standard
-/// deviation. The zero of a swing sensor: an incremental encoder is zeroed to one of its counts, and the data
-/// do not show the error. An inaccuracy at its bound: the data prefer a value that the rig file excludes.
+/// Error of a quantity that the fit holds constant: the column of the slope of this quantity, and the
+/// standard deviation of the error. There are two kinds. The zero of a swing sensor: an incremental encoder
+/// is zeroed to one of its counts, and the data do not show this error. An inaccuracy at its bound: the data
+/// prefer a value that the rig file excludes.
 struct Study::HeldError {
   Eigen::Index column = 0;
   double std_dev = 0;
