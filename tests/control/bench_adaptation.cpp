@@ -60,10 +60,11 @@ void random(unsigned first, unsigned count) {
       for (const auto& axis : adaptation.report().axis)
         roll_backs += axis.roll_backs, detections += axis.limit_cycles;
     });
-    exact_cycles += oscillates(drawn, exact);
+    const bool exact_cycle = oscillates(drawn, exact);
+    exact_cycles += exact_cycle;
     const bool cycle = oscillates(drawn, adapted);
     adapted_cycles += cycle;
-    if (cycle) std::printf("seed %u oscillates\n", seed);
+    if (cycle) std::printf("seed %u oscillates%s\n", seed, exact_cycle ? ", also with the exact levels" : "");
     const bool calm = drawn.exact.noise_counts == 0 && drawn.exact.more_terms.empty() &&
                       drawn.moves.back().friction_factor == 1;
     for (std::size_t i = 5; i < 8; ++i) {
