@@ -144,21 +144,15 @@ TEST_P(EncoderWiredWrongWithoutModel, StopsAtTheLimitSwitchAtTheLatest) {
   std::cout << name << ": farthest " << worst[0] << " m, " << worst[1] << " rad\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    InAMove, EncoderWiredWrongWithoutModel,
+const auto kWrongWires =
     testing::Values(WrongWires{"exchanged_trolley", plant::kTrolley, rewired({1, 0}, {1, 1})},
                     WrongWires{"exchanged_slew", plant::kSlew, rewired({1, 0}, {1, 1})},
                     WrongWires{"sign_trolley", plant::kTrolley, rewired({0, 1}, {-1, 1})},
-                    WrongWires{"sign_slew", plant::kSlew, rewired({0, 1}, {1, -1})}),
-    [](const auto& test) { return std::string{test.param.name}; });
+                    WrongWires{"sign_slew", plant::kSlew, rewired({0, 1}, {1, -1})});
+std::string name_of(const testing::TestParamInfo<WrongWires>& test) { return test.param.name; }
 
-INSTANTIATE_TEST_SUITE_P(
-    InAMove, EncoderWiredWrong,
-    testing::Values(WrongWires{"exchanged_trolley", plant::kTrolley, rewired({1, 0}, {1, 1})},
-                    WrongWires{"exchanged_slew", plant::kSlew, rewired({1, 0}, {1, 1})},
-                    WrongWires{"sign_trolley", plant::kTrolley, rewired({0, 1}, {-1, 1})},
-                    WrongWires{"sign_slew", plant::kSlew, rewired({0, 1}, {1, -1})}),
-    [](const auto& test) { return std::string{test.param.name}; });
+INSTANTIATE_TEST_SUITE_P(InAMove, EncoderWiredWrongWithoutModel, kWrongWires, name_of);
+INSTANTIATE_TEST_SUITE_P(InAMove, EncoderWiredWrong, kWrongWires, name_of);
 
 }  // namespace
 }  // namespace crane::homing_test
