@@ -71,13 +71,13 @@ void loop_paced(Component& component) {
   }
 }
 
-/// No receive thread runs the component after the loop, also when an exception ends it.
+/// Ends the turn when the loop ends, normally or by an exception: then no thread runs the component any more.
 struct EndOfTurn {
   Turn& turn;
   ~EndOfTurn() { turn.end(); }
 };
 
-/// The receive threads of the bus run the component when a sample arrives, this thread when a time has come.
+/// The thread that delivers a sample runs the component; this thread runs it when turn.wait() returns.
 void loop_on_arrival(Component& component, std::int64_t period_ns, Turn& turn) {
   const EndOfTurn end_of_turn{turn};
   turn.begin(component, period_ns);

@@ -59,9 +59,10 @@ void Turn::wait(std::int64_t longest_ns) {
   std::unique_lock lock{mutex_};
   const auto now_ns = monotonic_ns_();
   sleeps_until_ns_ = std::min(wake_at_ns_, now_ns + longest_ns);
-  // In most ticks all inputs arrive in time. If the main thread slept for long, the first input of a tick
-  // would wake it to wait for the others. The main thread therefore wakes once per period, shortly before the
-  // expected time.
+  // After the first input of a tick, the component requests the time until which it waits for the other
+  // inputs. If the main thread slept longer, each tick would have to wake it to shorten its sleep, although
+  // all inputs usually arrive before this time. The main thread therefore wakes by itself, a tenth of a
+  // period before the time that it expects: one period after the last one.
   const auto expected_ns = due_ns_ + period_ns_ - period_ns_ / 10;
   if (wake_at_ns_ == kNever && expected_ns > now_ns)
     sleeps_until_ns_ = std::min(sleeps_until_ns_, expected_ns);

@@ -1,7 +1,7 @@
 #pragma once
-/// Runs the component of a process in the thread that has a reason to run it: a receive thread of the vendor,
-/// which has just delivered a sample, or the main thread, when a time has come. A hand-over to another thread
-/// would delay each sample by one wake-up.
+/// Runs the component of a process in the thread that has just delivered a sample, or in the main thread,
+/// after wake() and at the times that the component requests. A hand-over to another thread would delay each
+/// sample by one wake-up.
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -12,16 +12,17 @@
 
 namespace crane::runtime {
 
-/// One thread at a time runs the component. No thread waits for another one, except in end(): a thread that
-/// finds the component running leaves its request to the running thread. A receive thread may hold locks of
-/// the vendor that the running thread needs; if it waited, both could wait forever.
+/// One thread at a time runs the component. Only end() waits for another thread to finish its polls. If
+/// another thread runs the component, run() leaves a request to this thread and returns: a receive thread may
+/// hold a lock of the vendor that the running thread needs, and if the receive thread waited, both could wait
+/// forever. The mutex is never held during a poll.
 class Turn {
  public:
   /// @param monotonic_ns  clock of Component::poll()
   explicit Turn(std::int64_t (*monotonic_ns)()) : monotonic_ns_{monotonic_ns} {}
 
   /// Polls `component` and lets run() poll it until end(). The main thread calls begin(), wait() and end().
-  /// @param period_ns  the component waits for a time about once in this period; 0: it does not
+  /// @param period_ns interval of the times that the component requests; 0: it requests no regular times
   void begin(Component& component, std::int64_t period_ns);
   /// Returns when no thread runs the component any more.
   void end();
