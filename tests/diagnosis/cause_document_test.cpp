@@ -1,8 +1,8 @@
-/// docs/diagnosis.md shows the causes of the code: terms of the model (plant/model), candidates of the
-/// diagnosis, causes of the twin, and the confounded groups of the score.
+/// docs/terms.md shows the terms of the model (plant/model), the candidates of the diagnosis and the causes
+/// of the twin. docs/diagnosis.md shows the confounded groups of the score.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -12,6 +12,7 @@
 #include "crane/twin/hypothesis.hpp"
 #include "data_of_truth.hpp"
 #include "judgement.hpp"
+#include "term_document.hpp"
 
 namespace crane::diagnosis {
 namespace {
@@ -32,21 +33,10 @@ Names candidate_causes() {
   return names;
 }
 
-std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
-
-std::string cause_table() {
-  const Names candidates = candidate_causes();
-  std::string table =
-      "| cause | what it describes | candidate of `crane diagnose` | cause of the twin "
-      "|\n|---|---|---|---|\n";
-  for (const plant::TermKind& term : plant::term_kinds()) {
-    const std::string name{term.name};
-    const bool of_twin = std::ranges::any_of(
-        twin::cause_kinds(), [&](const twin::CauseKind& kind) { return kind.name == term.name; });
-    table += "| `" + name + "` | " + std::string{term.source} + " | " + yes_or_no(candidates.contains(name)) +
-             " | " + yes_or_no(of_twin) + " |\n";
-  }
-  return table;
+Names causes_of_the_twin() {
+  Names names;
+  for (const twin::CauseKind& kind : twin::cause_kinds()) names.insert(kind.name);
+  return names;
 }
 
 std::string group_table() {
@@ -59,19 +49,32 @@ std::string group_table() {
   return table;
 }
 
-/// The text between "<!-- NAME -->" and "<!-- end -->" of docs/diagnosis.md.
-std::string shown(const std::string& name) {
-  std::ifstream in{CRANE_RIGS "/../../docs/diagnosis.md"};
-  const std::string text{std::istreambuf_iterator<char>{in}, {}}, begin = "<!-- " + name + " -->\n";
-  const auto at = text.find(begin);
-  if (at == std::string::npos) return "no " + begin;
-  return text.substr(at + begin.size(), text.find("<!-- end -->", at) - at - begin.size());
+std::string document(const std::string& name) {
+  std::ifstream in{CRANE_RIGS "/../../docs/" + name};
+  return {std::istreambuf_iterator<char>{in}, {}};
 }
 
-TEST(DiagnosisDocument, ShowsTheCauses) { EXPECT_EQ(shown("causes"), cause_table()); }
+/// Replaces the text between "<!-- MARK -->" and "<!-- end -->".
+std::string with(std::string text, const std::string& mark, const std::string& generated) {
+  const std::string begin = "<!-- " + mark + " -->\n";
+  const auto at = text.find(begin);
+  if (at == std::string::npos) return text + begin + generated + "<!-- end -->\n";
+  return text.replace(at + begin.size(), text.find("<!-- end -->", at) - at - begin.size(), generated);
+}
+
+void expect_document(const std::string& name, const std::string& mark, const std::string& generated) {
+  const std::string shown = document(name), right = with(shown, mark, generated);
+  const auto copy = std::filesystem::path{testing::TempDir()} / name;
+  std::ofstream{copy} << right;
+  EXPECT_EQ(shown, right) << "put " << copy << " there";
+}
+
+TEST(TermDocument, ShowsTheTermsAndWhatFindsThem) {
+  expect_document("terms.md", "terms", test::term_list(candidate_causes(), causes_of_the_twin()));
+}
 
 TEST(DiagnosisDocument, ShowsTheConfoundedGroupsOfTheScore) {
-  EXPECT_EQ(shown("confounded causes"), group_table());
+  expect_document("diagnosis.md", "confounded causes", group_table());
 }
 
 TEST(Causes, OfTheConfoundedGroupsAreTerms) {

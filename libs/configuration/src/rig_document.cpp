@@ -1,7 +1,6 @@
 #include "crane/configuration/rig_document.hpp"
 
 #include "crane/configuration/rig_fields.hpp"
-#include "crane/plant/term.hpp"
 #include "section_reader.hpp"
 
 namespace crane::configuration {
@@ -95,32 +94,6 @@ SectionTable section_table(std::string section, const std::array<Field<Sections>
                                   (rows(tables, Sections{}) + ...)};
 }
 
-const char* acts_on_text(plant::ActsOn acts_on) {
-  constexpr std::array kTexts{"parameters", "command", "drive", "load", "structure", "sensor"};
-  return kTexts.at(static_cast<std::size_t>(acts_on));
-}
-
-/// "`level_v` V, [-10, 10], 0: c / K_m"
-std::string parameter_text(const plant::TermParameter& parameter) {
-  return '`' + std::string{parameter.name} + "` " + std::string{parameter.unit} + ", " +
-         Range::closed(parameter.low, parameter.high).interval() + ", " +
-         shortest_number(parameter.default_value) + ": " + std::string{parameter.meaning};
-}
-
-SectionTable terms_table() {
-  std::string rows = "| name | acts on | axes | parameters: unit, range, default |\n|---|---|---|---|\n";
-  for (const auto& kind : plant::term_kinds()) {
-    std::string axes, parameters;
-    for (const auto& axis : kind.axes)
-      axes += (axes.empty() ? "" : ", ") + (axis.empty() ? std::string{"none"} : std::string{axis});
-    for (const auto& parameter : kind.parameters)
-      parameters += (parameters.empty() ? "" : "; ") + parameter_text(parameter);
-    rows += "| `" + std::string{kind.name} + "` | " + acts_on_text(kind.acts_on) + " | " + axes + " | " +
-            parameters + " |\n";
-  }
-  return {"model.terms", rows};
-}
-
 SectionTable boards_table() {
   std::string rows = "| `board` | meaning |\n|---|---|\n";
 #define CRANE_BOARD(name, meaning) rows += "| `" #name "` | " meaning " |\n";
@@ -132,8 +105,7 @@ SectionTable boards_table() {
 }  // namespace
 
 std::vector<SectionTable> section_tables() {
-  return {terms_table(),
-          boards_table(),
+  return {boards_table(),
           section_table("rig", kRigFields),
           section_table("plant", plant::kParameterFields),
           section_table("drive", kDriveFields, control::kDriveLimitFields),

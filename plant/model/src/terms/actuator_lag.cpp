@@ -42,7 +42,8 @@ class ActuatorLag final : public Term {
 TermKind actuator_lag() {
   return {
       .name = "actuator_lag",
-      .equation = "tau V_1' = V_command - V_1, tau_2 V' = V_1 - V",
+      .equation =
+          "tau V_1' = V_command - V_1, tau_2 V' = V_1 - V, each averaged over each tick; tau_2 = 0: one lag",
       .source =
           "a current loop or a filter between converter and motor delays the voltage; tau_2 > 0: two lags in "
           "series",
@@ -50,6 +51,7 @@ TermKind actuator_lag() {
       .axes = {"trolley", "slew", "hoist"},
       .parameters = {{"time_constant_s", "s", 0, 0, 2, "tau, time constant of the first lag"},
                      {"second_s", "s", 0, 0, 2, "tau_2, time constant of the second lag; 0: no second lag"}},
+      .example = {"actuator_lag", "slew", {{"time_constant_s", 0.05}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<ActuatorLag>(s); }};
 }
 

@@ -121,6 +121,7 @@ TermKind backlash() {
             "r, share of the guide's friction j J a that the friction of the rig file contains: the "
             "friction of the motor is smaller by this share"},
            {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1, "width of the step of r j a / K at v = 0"}},
+      .example = {"backlash", "trolley", {{"gap", 0.004}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<Backlash>(s); }};
 }
 

@@ -54,6 +54,7 @@ TermKind cable_elasticity() {
                      {"damping_ratio", "1", 0.02, 0, 1, "z, damping ratio of the vertical oscillation"},
                      {"unmeasured_stretch", "1", 0, 0, 1,
                       "u, share of the stretch at rest that the measured length does not include"}},
+      .example = {"cable_elasticity", "", {{"compliance_mpn", 0.002}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<CableElasticity>(s);
       }};

@@ -28,6 +28,7 @@ TermKind cable_length() {
       .acts_on = ActsOn::structure,
       .axes = {""},
       .parameters = {{"delta_m", "m", 0, -10, 10, "d, true minus measured cable length"}},
+      .example = {"cable_length", "", {{"delta_m", 0.05}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<CableLength>(s); }};
 }
 

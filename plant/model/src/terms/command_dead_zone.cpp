@@ -31,6 +31,7 @@ TermKind command_dead_zone() {
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"width_v", "V", 0, 0, 10,
                           "w, half the width: the output is 0 for inputs between -w and w"}},
+          .example = {"command_dead_zone", "trolley", {{"width_v", 0.2}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<CommandDeadZone>(s);
           }};

@@ -26,11 +26,14 @@ class CommandDelay final : public Term {
 
 TermKind command_delay() {
   return {.name = "command_delay",
-          .equation = "V(t) = V_command(t - tau), in addition to the delay of one tick of the loop",
+          .equation =
+              "V(t) = V_command(t - tau), averaged over each tick; in addition to the delay of one tick of "
+              "the loop",
           .source = "bus, converter or amplifier delays the command",
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"delay_s", "s", 0, 0, 0.5, "tau, delay"}},
+          .example = {"command_delay", "trolley", {{"delay_s", 0.033}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<CommandDelay>(s);
           }};

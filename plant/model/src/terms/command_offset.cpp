@@ -26,6 +26,7 @@ TermKind command_offset() {
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"offset_v", "V", 0, -10, 10, "d, added voltage"}},
+          .example = {"command_offset", "slew", {{"offset_v", 0.1}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<CommandOffset>(s);
           }};

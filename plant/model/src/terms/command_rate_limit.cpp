@@ -32,15 +32,18 @@ class CommandRateLimit final : public Term {
 }  // namespace
 
 TermKind command_rate_limit() {
-  return {.name = "command_rate_limit",
-          .equation = "V(t + dt) = V(t) + max(-r dt, min(r dt, V_command - V(t)))",
-          .source = "the ramp of a frequency converter or the slew rate of an amplifier",
-          .acts_on = ActsOn::command,
-          .axes = {"trolley", "slew", "hoist"},
-          .parameters = {{"rate_vps", "V/s", 0, 0, 1e6, "r, largest rate of the output; 0: no limit"}},
-          .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
-            return std::make_unique<CommandRateLimit>(s);
-          }};
+  return {
+      .name = "command_rate_limit",
+      .equation =
+          "V(t + dt) = V(t) + max(-r dt, min(r dt, V_command - V(t))); the output is the mean over each tick",
+      .source = "the ramp of a frequency converter or the slew rate of an amplifier",
+      .acts_on = ActsOn::command,
+      .axes = {"trolley", "slew", "hoist"},
+      .parameters = {{"rate_vps", "V/s", 0, 0, 1e6, "r, largest rate of the output; 0: no limit"}},
+      .example = {"command_rate_limit", "trolley", {{"rate_vps", 8}}},
+      .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
+        return std::make_unique<CommandRateLimit>(s);
+      }};
 }
 
 }  // namespace crane::plant

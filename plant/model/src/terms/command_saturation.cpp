@@ -30,6 +30,7 @@ TermKind command_saturation() {
           .acts_on = ActsOn::command,
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"limit_v", "V", 0, 0, 1000, "V_max, largest output; 0: no limit"}},
+          .example = {"command_saturation", "slew", {{"limit_v", 1.5}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<CommandSaturation>(s);
           }};

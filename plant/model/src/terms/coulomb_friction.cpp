@@ -34,6 +34,7 @@ TermKind coulomb_friction() {
                           "c / K_m, added Coulomb friction; negative: less friction than in the rig file"},
                          {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
                           "v_s, width of the step at v = 0"}},
+          .example = {"coulomb_friction", "slew", {{"level_v", 0.2}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<CoulombFriction>(s);
           }};

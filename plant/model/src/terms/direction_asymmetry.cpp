@@ -43,6 +43,7 @@ TermKind direction_asymmetry() {
                       "b / K_m, viscous friction added for v > 0, subtracted for v < 0"},
                      {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
                       "v_s, width of the step at v = 0"}},
+      .example = {"direction_asymmetry", "trolley", {{"coulomb_v", 0.1}, {"viscous_vspm", 0.3}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<DirectionAsymmetry>(s);
       }};

@@ -121,6 +121,7 @@ TermKind double_pendulum() {
                       "u, distance from the hook down to the end of the measured cable length; 0: the "
                       "measured length ends at "
                       "the hook; l: at the load"}},
+      .example = {"double_pendulum", "", {{"lower_share", 0.4}, {"lower_length_m", 0.25}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<DoublePendulum>(s);
       }};

@@ -59,6 +59,7 @@ TermKind drive_friction() {
            {"stiction_speed", "m/s or rad/s", 0.005, 1e-4, 1,
             "v_st, speed at which the excess s - c has decayed to 37 %"},
            {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1, "v_s, width of the step at v = 0"}},
+      .example = {"drive_friction", "trolley", {{"coulomb_positive_v", 0.5}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<DriveFriction>(s);
       }};

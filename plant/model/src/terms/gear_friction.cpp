@@ -36,6 +36,7 @@ TermKind gear_friction() {
       .parameters = {{"share", "1", 0, 0, 0.95, "mu, friction / transmitted force"},
                      {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
                       "v_s, width of the step at v = 0"}},
+      .example = {"gear_friction", "slew", {{"share", 0.3}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<GearFriction>(s);
       }};

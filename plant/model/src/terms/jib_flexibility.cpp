@@ -58,6 +58,7 @@ TermKind jib_flexibility() {
             "c, deflection per angular acceleration; a jib with a natural frequency above 12 Hz is rigid"},
            {"damping_ratio", "1", 0.02, 0, 1, "z, damping ratio of the bending mode"},
            {"jib_share", "1", 0, 0, 0.9, "j, inertia on the load side of the spring / J_o"}},
+      .example = {"jib_flexibility", "", {{"compliance_s2", 0.003}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<JibFlexibility>(s);
       }};

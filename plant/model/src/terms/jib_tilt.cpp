@@ -34,6 +34,7 @@ TermKind jib_tilt() {
           .axes = {""},
           .parameters = {{"angle_rad", "rad", 0, -0.3, 0.3,
                           "a, inclination of the jib; positive: the tip is raised"}},
+          .example = {"jib_tilt", "", {{"angle_rad", 0.01}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<JibTilt>(s); }};
 }
 

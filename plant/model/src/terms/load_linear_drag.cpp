@@ -26,6 +26,7 @@ TermKind load_linear_drag() {
       .acts_on = ActsOn::load,
       .axes = {""},
       .parameters = {{"coefficient_nspm", "N s/m", 0, 0, 1000, "d, force / speed"}},
+      .example = {"load_linear_drag", "", {{"coefficient_nspm", 0.1}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<LoadLinearDrag>(s);
       }};

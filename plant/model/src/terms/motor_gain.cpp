@@ -24,6 +24,7 @@ TermKind motor_gain() {
       .acts_on = ActsOn::command,
       .axes = {"trolley", "slew", "hoist"},
       .parameters = {{"factor", "1", 1, 0, 5, "k, true gain / gain of the rig file"}},
+      .example = {"motor_gain", "trolley", {{"factor", 0.9}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<MotorGain>(s); }};
 }
 

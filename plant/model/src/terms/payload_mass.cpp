@@ -24,6 +24,7 @@ TermKind payload_mass() {
       .axes = {""},
       .parameters = {{"delta_kg", "kg", 0, -1000, 1000,
                       "d, true load mass minus that of the rig file; the true mass must not be negative"}},
+      .example = {"payload_mass", "", {{"delta_kg", 0.5}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<PayloadMass>(s); }};
 }
 

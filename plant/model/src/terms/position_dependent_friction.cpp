@@ -40,6 +40,7 @@ TermKind position_dependent_friction() {
                          {"tight_at", "m or rad", 0, -100, 100, "p_0, position of one tight spot"},
                          {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
                           "v_s, width of the step at v = 0"}},
+          .example = {"position_dependent_friction", "trolley", {{"amplitude_v", 0.3}, {"wavelength", 0.2}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<PositionDependentFriction>(s);
           }};

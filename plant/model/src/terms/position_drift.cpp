@@ -44,6 +44,7 @@ TermKind position_drift() {
       .axes = {"trolley", "slew"},
       .parameters = {{"rate", "m/m or rad/rad", 0, -0.5, 0.5, "r, error / distance travelled"},
                      {"jump", "m or rad", 0, 0, 1, "j, size of one loss; 0: continuous loss"}},
+      .example = {"position_drift", "trolley", {{"rate", 0.01}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<PositionDrift>(s);
       }};

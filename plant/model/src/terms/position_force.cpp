@@ -32,6 +32,7 @@ TermKind position_force() {
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"stiffness_vpm", "V/m or V/rad", 0, -1000, 1000, "k / K_m, stiffness"},
                          {"offset_v", "V", 0, -10, 10, "o / K_m, force at position 0"}},
+          .example = {"position_force", "trolley", {{"stiffness_vpm", 0.5}, {"offset_v", 0.1}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<PositionForce>(s);
           }};

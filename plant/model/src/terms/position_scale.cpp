@@ -26,6 +26,7 @@ TermKind position_scale() {
           .acts_on = ActsOn::sensor,
           .axes = {"trolley", "slew"},
           .parameters = {{"factor", "1", 1, 0.1, 10, "k, measured / true position"}},
+          .example = {"position_scale", "slew", {{"factor", 1.02}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<PositionScale>(s);
           }};

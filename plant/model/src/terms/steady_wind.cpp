@@ -33,6 +33,7 @@ TermKind steady_wind() {
       .parameters = {{"force_n", "N", 0, 0, 1000, "F_w, force"},
                      {"direction_rad", "rad", 0, -7, 7,
                       "a, direction of the force; 0: along the jib at gamma = 0"}},
+      .example = {"steady_wind", "", {{"force_n", 0.3}, {"direction_rad", 1}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SteadyWind>(s); }};
 }
 

@@ -40,6 +40,7 @@ TermKind stribeck_friction() {
                           "v_d, speed at which the excess has decayed to 37 %"},
                          {"smoothing_speed", "m/s or rad/s", 0.0005, 1e-6, 0.1,
                           "v_s, width of the step at v = 0"}},
+          .example = {"stribeck_friction", "slew", {{"excess_v", 0.3}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<StribeckFriction>(s);
           }};

@@ -35,6 +35,7 @@ TermKind swing_delay() {
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential", ""},
       .parameters = {{"delay_s", "s", 0, 0, 0.5, "tau, delay"}},
+      .example = {"swing_delay", "radial", {{"delay_s", 0.025}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SwingDelay>(s); }};
 }
 

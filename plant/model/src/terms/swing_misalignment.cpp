@@ -29,6 +29,7 @@ TermKind swing_misalignment() {
           .acts_on = ActsOn::sensor,
           .axes = {""},
           .parameters = {{"angle_rad", "rad", 0, -0.8, 0.8, "a, angle of the rotation"}},
+          .example = {"swing_misalignment", "", {{"angle_rad", 0.1}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<SwingMisalignment>(s);
           }};

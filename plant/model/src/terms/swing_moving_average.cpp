@@ -49,6 +49,7 @@ TermKind swing_moving_average() {
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential", ""},
       .parameters = {{"window_s", "s", 0, 0, 0.5, "w, length of the window"}},
+      .example = {"swing_moving_average", "tangential", {{"window_s", 0.05}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<SwingMovingAverage>(s);
       }};

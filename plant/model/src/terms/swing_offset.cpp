@@ -27,6 +27,7 @@ TermKind swing_offset() {
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential"},
       .parameters = {{"offset_rad", "rad", 0, -0.5, 0.5, "d, measured angle at phi = 0"}},
+      .example = {"swing_offset", "radial", {{"offset_rad", 0.01}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SwingOffset>(s); }};
 }
 

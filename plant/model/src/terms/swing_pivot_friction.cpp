@@ -39,6 +39,7 @@ TermKind swing_pivot_friction() {
           .parameters = {{"viscous_nmsprad", "N m s/rad", 0, 0, 100, "b, viscous friction"},
                          {"coulomb_nm", "N m", 0, 0, 100, "c, Coulomb friction"},
                          {"smoothing_radps", "rad/s", 0.01, 1e-6, 1, "w_s, width of the step at w = 0"}},
+          .example = {"swing_pivot_friction", "", {{"coulomb_nm", 0.02}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<SwingPivotFriction>(s);
           }};

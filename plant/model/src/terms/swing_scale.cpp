@@ -27,6 +27,7 @@ TermKind swing_scale() {
       .acts_on = ActsOn::sensor,
       .axes = {"radial", "tangential"},
       .parameters = {{"factor", "1", 1, 0.1, 10, "k, measured / true angle"}},
+      .example = {"swing_scale", "tangential", {{"factor", 1.1}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<SwingScale>(s); }};
 }
 

@@ -39,6 +39,7 @@ TermKind torque_ripple() {
       .parameters = {{"amplitude_v", "V", 0, -10, 10, "a, amplitude"},
                      {"phase_rad", "rad", 0, -7, 7, "psi, phase at position 0"},
                      {"period", "m or rad", 0.1, 1e-3, 100, "w, distance between two maxima"}},
+      .example = {"torque_ripple", "slew", {{"amplitude_v", 0.3}, {"period", 0.14}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
         return std::make_unique<TorqueRipple>(s);
       }};

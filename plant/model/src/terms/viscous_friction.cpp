@@ -27,6 +27,7 @@ TermKind viscous_friction() {
           .axes = {"trolley", "slew", "hoist"},
           .parameters = {{"vspm", "V s/m or V s/rad", 0, -1000, 1000,
                           "b / K_m, added viscous friction; negative: less friction than in the rig file"}},
+          .example = {"viscous_friction", "trolley", {{"vspm", 0.5}}},
           .make = [](const TermSetting& s) -> std::unique_ptr<Term> {
             return std::make_unique<ViscousFriction>(s);
           }};

@@ -48,7 +48,9 @@ class WindGust final : public Term {
 TermKind wind_gust() {
   return {
       .name = "wind_gust",
-      .equation = "F = d |w| w, w = (V + u) {cos(a - gamma), sin(a - gamma), 0} - r_L'",
+      .equation =
+          "F = d |w| w, w = (V + u) {cos(a - gamma), sin(a - gamma), 0} - r_L'; u_k+1 = q u_k + sigma sqrt(1 "
+          "- q^2) n_k, q = exp(-V T / L), T the period, n_k normal with variance 1",
       .source =
           "drag of the load in moving air; gust u of the Dryden model (MIL-F-8785C, section 3.7.2), "
           "longitudinal component",
@@ -62,6 +64,7 @@ TermKind wind_gust() {
                      {"direction_rad", "rad", 0, -7, 7,
                       "a, direction of the wind; 0: along the jib at gamma = 0"},
                      {"seed", "1", 1, 0, 1e6, "whole number; the same seed gives the same gusts"}},
+      .example = {"wind_gust", "", {{"coefficient_ns2pm2", 0.015}, {"mean_mps", 5}, {"scatter_mps", 1.5}}},
       .make = [](const TermSetting& s) -> std::unique_ptr<Term> { return std::make_unique<WindGust>(s); }};
 }
 

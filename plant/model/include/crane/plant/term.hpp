@@ -122,14 +122,15 @@ struct TermParameter {
   std::string_view meaning;
 };
 
-/// Description of a term for rig files and documents.
+/// Description of a term for rig files, tests and docs/terms.md.
 struct TermKind {
   std::string_view name;
-  std::string_view equation;
-  std::string_view source;
+  std::string_view equation;  ///< clauses separated by "; ". x' is the derivative of x
+  std::string_view source;    ///< the physical effect, in words
   ActsOn acts_on = ActsOn::drive;
   std::vector<std::string_view> axes;  ///< permitted values of TermSetting::axis; "": the term needs no axis
   std::vector<TermParameter> parameters;
+  TermSetting example;  ///< an effect large enough for the encoders of a laboratory crane
   /// @pre the setting has no problems and contains every parameter
   std::unique_ptr<Term> (*make)(const TermSetting& setting) = nullptr;
 };
