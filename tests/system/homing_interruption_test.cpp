@@ -24,11 +24,12 @@ constexpr double kCreeping_mps = 0.02;
 constexpr double kWrong_m = 0.003;
 
 enum class Phase : std::uint8_t {
+  arming,    ///< the supervisor opens the brake
   approach,  ///< the axis moves towards its mark
   at_mark,   ///< the mark is active
   back_off   ///< the axis leaves the mark
 };
-constexpr std::array kPhases{"approach", "at_mark", "back_off"};
+constexpr std::array kPhases{"arming", "approach", "at_mark", "back_off"};
 
 using Case = std::tuple<const char*, int, Phase>;
 
@@ -55,6 +56,8 @@ class HomingInterruption : public testing::TestWithParam<Case> {
     if (states.empty() || running_->observer().statuses().empty()) return false;
     seen_mark_ = seen_mark_ || states.back().mark_active[0];
     switch (phase) {
+      case Phase::arming:
+        return supervisor_state() == crane_STATE_ARMING;
       case Phase::approach:
         return !seen_mark_ && std::abs(states.back().trolley_speed_mps) > kCreeping_mps;
       case Phase::at_mark:
@@ -145,7 +148,8 @@ constexpr std::array kProcesses{"hardware_bridge", "trajectory_planner", "superv
 
 INSTANTIATE_TEST_SUITE_P(InEachPhase, HomingInterruption,
                          testing::Combine(testing::ValuesIn(kProcesses), testing::Values(SIGKILL, SIGSTOP),
-                                          testing::Values(Phase::approach, Phase::at_mark, Phase::back_off)),
+                                          testing::Values(Phase::arming, Phase::approach, Phase::at_mark,
+                                                          Phase::back_off)),
                          name_of_case);
 
 }  // namespace
