@@ -13,8 +13,11 @@ namespace {
 
 using observation::Note;
 
-constexpr std::array kNames{"trolley", "slew", "cable"};
-constexpr std::array kUnits{"m", "deg", "m"};
+const char* name_of(std::size_t axis) { return plant::kCoordinates.at(axis).name; }
+/// Unit in which the page shows the position of an axis.
+const char* unit_of(std::size_t axis) {
+  return plant::kCoordinates.at(axis).unit == std::string_view{"rad"} ? "deg" : "m";
+}
 
 template <class... Values>
 std::string text(const char* format, Values... values) {
@@ -91,7 +94,7 @@ report::Section figures(const Review& review) {
                      .rows = {}};
   for (std::size_t i = 0; i < review.axes.size(); ++i) {
     const auto& axis = review.axes[i];
-    axes.rows.push_back({{std::string{kNames[i]} + " [" + kUnits[i] + "]"},
+    axes.rows.push_back({{std::string{name_of(i)} + " [" + unit_of(i) + "]"},
                          report::number(axis.largest_speed, 3),
                          report::number(axis.largest_error, 3),
                          report::number(axis.largest_volts, 2),
@@ -129,14 +132,14 @@ report::Section curves(const Review& review) {
   const auto line = [](std::string name, std::vector<double> y, bool dashed = false) {
     return report::Series{.name = std::move(name), .x = {}, .y = std::move(y), .upper = {}, .dashed = dashed};
   };
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    plot(kNames[i], kUnits[i],
+  for (std::size_t i = 0; i < plant::kAxes; ++i)
+    plot(name_of(i), unit_of(i),
          {line("measured", review.curves.position[i]), line("reference", review.curves.reference[i], true)});
   plot("swing", "deg",
        {line("radial", review.curves.radial_deg), line("tangential", review.curves.tangential_deg)});
-  plot("drives", "V",
-       {line("trolley", review.curves.volts[0]), line("slew", review.curves.volts[1]),
-        line("cable", review.curves.volts[2])});
+  std::vector<report::Series> volts;
+  for (std::size_t i = 0; i < plant::kAxes; ++i) volts.push_back(line(name_of(i), review.curves.volts[i]));
+  plot("drives", "V", std::move(volts));
   return section;
 }
 

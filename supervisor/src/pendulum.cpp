@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crane/plant/pendulum.hpp"
+
 namespace crane::supervisor {
 namespace {
 
@@ -81,7 +83,7 @@ void add(const Limits& limits, double cable_m, double slew_rad, double span_s, P
   const auto& [newest, middle, oldest] = memory.recent;
   const double swing_mps =
       norm((1 / (newest.sampled_s - oldest.sampled_s)) * (newest.load_offset_m - oldest.load_offset_m));
-  const double omega_radps = std::sqrt(limits.machine.crane.gravity_mps2 / cable_m);
+  const double omega_radps = plant::swing_radps(limits.machine.crane.gravity_mps2, cable_m);
   const double unknown =
       pendulum_drift(limits, span_s) + 2 * kDampingRatio * omega_radps * swing_mps * span_s;
   const Plane sum =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "crane/plant/pendulum.hpp"
 #include "crane/supervisor/following.hpp"
 
 namespace crane::supervisor {
@@ -256,7 +257,7 @@ double deceleration_travel(const Limits& limits, std::size_t axis, double speed,
 bool is_ahead(const Limits& limits, const ZoneInput& input, const Stop& stop,
               const ReachedSpace& now) noexcept {
   constexpr int kPoints = 8;
-  const double omega = std::sqrt(limits.machine.crane.gravity_mps2 / stop.load.longest_m);
+  const double omega = plant::swing_radps(limits.machine.crane.gravity_mps2, stop.load.longest_m);
   const double trolley = deceleration_travel(limits, kTrolley, input.speed[kTrolley], omega);
   const double slew = deceleration_travel(limits, kSlew, input.speed[kSlew], omega);
   const double lower = std::max(0.0, deceleration_travel(limits, kHoist, input.speed[kHoist], omega));

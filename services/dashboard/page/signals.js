@@ -1,13 +1,16 @@
 // Signals: columns of topics over time, kept for two minutes, filled from the dashboard's history when they are
 // first asked for. Time is that of the sample: s since 1970 by the clock of the crane, mapped to this dashboard's.
 
+import { COORDINATES } from "./coordinates.js";
+
 export const KEPT_S = 120;
 const CAPACITY = 16384;
 
-const AXES = ["trolley", "slew", "hoist"];
-const COLUMNS = ["trolley", "slew", "radial swing", "tangential swing"];
+const NAMES_OF_COORDINATES = COORDINATES.map((coordinate) => coordinate.driven ? coordinate.name : `${coordinate.axis} swing`);
+const PREDICTED = COORDINATES.map((_, i) => i).filter((i) => COORDINATES[i].name !== "hoist"); // columns of the twin
 const UNITS = { mps: "m/s", mps2: "m/s²", radps: "°/s", rad: "°", m: "m", v: "V", us: "µs", ns: "s", s: "s" };
-const OF_AXIS = { position: ["m", "°", "m"], speed: ["m/s", "°/s", "m/s"], acceleration: ["m/s²", "°/s²", "m/s²"] };
+const OF_AXIS = { position: "", speed: "/s", acceleration: "/s²" };
+const unitOf = (index) => UNITS[COORDINATES[index].unit];
 const SOURCES = { "crane/state": "measured", "crane/reference": "reference", "crane/twin": "predicted" };
 const NAMES = { "applied_v": "drive voltage", "drive_v": "drive voltage", "swing_radial_rad": "radial swing", "swing_tangential_rad": "tangential swing", "swing_radial_radps": "radial swing rate", "swing_tangential_radps": "tangential swing rate", "predicted": "position" };
 
@@ -18,14 +21,15 @@ export function describe(topic, path) {
   const suffix = bare.match(/_(mps2|mps|radps|rad|m|v|us|ns|s)$/)?.[1];
   let unit = UNITS[suffix] ?? "", where = "", source = SOURCES[topic] ?? topic.replace("crane/", "").replace(/_/g, " ");
   if (path.startsWith("column[")) {
-    where = COLUMNS[index];
-    unit = index === "0" ? "m" : "°";
+    where = NAMES_OF_COORDINATES[PREDICTED[index]];
+    unit = unitOf(PREDICTED[index]);
     if (bare !== "predicted") source = "twin";
   } else if (path.startsWith("counts[")) {
-    where = [...AXES, "radial swing", "tangential swing"][index];
+    where = NAMES_OF_COORDINATES[index];
   } else if (index !== undefined) {
-    where = AXES[index] ?? index;
-    unit = OF_AXIS[bare]?.[index] ?? unit;
+    const coordinate = COORDINATES[index];
+    where = coordinate?.driven ? coordinate.name : index;
+    if (coordinate?.driven && bare in OF_AXIS) unit = unitOf(index) + OF_AXIS[bare];
   }
   const words = where.endsWith("swing") && bare === "predicted" ? "" : NAMES[bare] ?? bare.replace(suffix ? new RegExp(`_${suffix}$`) : "", "").replace(/[_.]/g, " ");
   const factor = unit.startsWith("°") ? 180 / Math.PI : suffix === "ns" ? 1e-9 : 1;

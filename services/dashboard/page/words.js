@@ -1,4 +1,5 @@
 // What the names of the interface mean to a person.
+import { COORDINATES } from "./coordinates.js";
 
 export const STATES = {
   BOOT: ["Starting", "attention"], SELFTEST: ["Self-test", "attention"], LOCKED: ["Locked", "attention"], READY: ["Ready", "calm"],
@@ -20,11 +21,15 @@ export function meaningOf(idl, enumeration, name) {
 
 export const REQUESTS = { reset: "Reset", arm: "Arm", disarm: "Disarm", home: "Home", mode: "Mode", move: "Move", stop: "Stop", estop: "Software stop" };
 
-export const AXES = [
-  { key: "trolley", label: "Trolley", unit: "m", factor: 1, digits: 3, field: "trolley_m", state: "trolley_position_m", speed: "trolley_speed_mps", speedUnit: "m/s" },
-  { key: "slew", label: "Slew", unit: "°", factor: 180 / Math.PI, digits: 1, field: "slew_rad", state: "slew_angle_rad", speed: "slew_speed_radps", speedUnit: "°/s" },
-  { key: "hoist", label: "Cable", unit: "m", factor: 1, digits: 3, field: "hoist_m", state: "cable_length_m", speed: "cable_speed_mps", speedUnit: "m/s" },
+const ON_PAGE = [ // of the driven coordinates, in their order
+  { label: "Trolley", digits: 3, speed: "trolley_speed_mps" },
+  { label: "Slew", digits: 1, speed: "slew_speed_radps" },
+  { label: "Cable", digits: 3, speed: "cable_speed_mps" },
 ];
+export const AXES = COORDINATES.filter((coordinate) => coordinate.driven).map(({ name, unit, column }, i) => {
+  const angle = unit === "rad", shown = angle ? "°" : unit;
+  return { ...ON_PAGE[i], key: name, unit: shown, factor: angle ? 180 / Math.PI : 1, field: `${name}_${unit}`, state: column, speedUnit: `${shown}/s` };
+});
 
 export function element(name, properties = {}, ...children) {
   const made = document.createElement(name);

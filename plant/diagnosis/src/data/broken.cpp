@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "crane/plant/pendulum.hpp"
 #include "data/sensor.hpp"
 
 namespace crane::diagnosis {
@@ -129,7 +130,7 @@ double largest_credible_change(const configuration::Rig& rig, Output output, dou
   if (output == kTrolleyPosition || output == kSlewAngle)
     return kDriveSpeedRatio * std::max(rig.drives[output].max_speed, kSlowestDrive) * time_s;
   const double length_m = std::max(rig.start.position[plant::kHoist], 0.05);
-  return kSwingSpeedRatio * 2 * std::sqrt(rig.plant.gravity_mps2 / length_m) * time_s;
+  return kSwingSpeedRatio * 2 * plant::swing_radps(rig.plant.gravity_mps2, length_m) * time_s;
 }
 
 double largest_change_from_rest(const configuration::Rig& rig, Output output, double time_s) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "crane/plant/pendulum.hpp"
 #include "data/broken.hpp"
 #include "data/columns.hpp"
 #include "data/grid.hpp"
@@ -36,7 +36,7 @@ std::string joined(const std::vector<std::string>& lines) {
 double lost_after_s(const configuration::Rig& rig) {
   const double cable_m = rig.start.position[plant::kHoist];
   if (!(rig.plant.load_mass_kg > 0 && cable_m > 0)) return kLost_s;
-  return kLostPeriods * 2 * std::numbers::pi * std::sqrt(cable_m / rig.plant.gravity_mps2);
+  return kLostPeriods * plant::swing_period_s(rig.plant.gravity_mps2, cable_m);
 }
 
 /// Splits checked columns into runs where the state is lost.
