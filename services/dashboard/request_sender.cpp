@@ -65,9 +65,12 @@ void RequestSender::advance(Pending& pending, std::int64_t now_ns) {
   if (due && (!pending.ids.empty() || client_.listeners() > 0)) publish(pending, now_ns);
 }
 
-/// If the middleware refuses the request, the next poll tries again, until kPatience_ns is over.
+/// If the middleware refuses the request, the next poll tries again, until kPatience_ns is over. A stop that
+/// several requests have not achieved is repeated by a new writer.
 void RequestSender::publish(Pending& pending, std::int64_t now_ns) {
+  constexpr std::size_t kRepetitionsPerWriter = 4;
   try {
+    if (!pending.ids.empty() && pending.ids.size() % kRepetitionsPerWriter == 0) client_.renew_writer();
     pending.ids.push_back(client_.send(pending.wanted));
     pending.repeat_ns = now_ns + kRepeat_ns;
   } catch (const bus::Error&) {

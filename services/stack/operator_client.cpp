@@ -18,7 +18,8 @@ OperatorRequest request_to_follow(const control::Excitation& excitation) {
 }
 
 OperatorClient::OperatorClient(bus::Bus& bus, std::string client, std::uint64_t first_id)
-    : requests_{bus.publisher(topics::request)},
+    : bus_{bus},
+      requests_{bus.publisher(topics::request)},
       replies_{bus.subscriber(topics::reply)},
       client_{std::move(client)},
       next_id_{first_id} {}
@@ -42,6 +43,8 @@ std::uint64_t OperatorClient::send(const OperatorRequest& wanted) {
     throw bus::Error("the request could not be sent: the middleware refused it");
   return request.id;
 }
+
+void OperatorClient::renew_writer() { requests_ = bus_.publisher(topics::request); }
 
 void OperatorClient::probe() {
   msg::Request request{};

@@ -37,6 +37,9 @@ class OperatorClient {
   [[nodiscard]] int answerers() const { return replies_.matched(); }
   /// @return id of the request
   std::uint64_t send(const OperatorRequest& wanted);
+  /// Replaces the DDS writer of the requests. A forged packet can make the readers skip all later samples of
+  /// one writer; they receive the samples of a new writer as soon as discovery has found it.
+  void renew_writer();
   /// The newest request of send(), without header and checksum, which the bus adds.
   [[nodiscard]] const msg::Request& last_sent() const { return last_sent_; }
   /// Sends a request that is always refused, because its id is 0 (kProbe). The reply proves that requests
@@ -51,6 +54,7 @@ class OperatorClient {
                                                      bool scheduled = false);
 
  private:
+  bus::Bus& bus_;
   bus::Publisher<msg::Request> requests_;
   bus::Subscriber<msg::Reply> replies_;
   std::string client_;

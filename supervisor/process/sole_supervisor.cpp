@@ -32,6 +32,7 @@ void SoleSupervisor::heard(const msg::SupervisorStatus& status, const bus::Write
     if (writer == *own_writer_) return;
   }
   auto& rival = rival_with(status.header.epoch);
+  rival.publishes = true;
   rival.established = rival.established || serves(status.state);
   disputed_ns_ = now_ns;
 }

@@ -5,7 +5,8 @@
 /// supervisors that have started together, one ends (yields()): the one with the larger start-up number, or
 /// the one that is new beside one that is established (in use). At most one of two ends: only a new
 /// supervisor ends, an established one never becomes new again, and of two start-up numbers only one is the
-/// larger one.
+/// larger one. A sample of crane/node alone ends no supervisor: every process may write this topic, while
+/// crane/supervisor has one writer, whom keys authenticate.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -38,7 +39,7 @@ class SoleSupervisor {
   }
   /// @return true when this process must end
   [[nodiscard]] bool yields() const {
-    return is_new_ && rival_ && (rival_->established || rival_->epoch < epoch_);
+    return is_new_ && rival_ && rival_->publishes && (rival_->established || rival_->epoch < epoch_);
   }
   /// The other supervisor, for messages: "supervisor with start-up number 4711, process 123 (fastdds)".
   [[nodiscard]] std::string rival() const;
@@ -46,6 +47,7 @@ class SoleSupervisor {
  private:
   struct Rival {
     std::uint32_t epoch = 0;
+    bool publishes = false;  ///< true: it has published crane/supervisor
     bool established = false;
     std::uint32_t pid = 0;  ///< 0: not known yet
     std::string vendor;

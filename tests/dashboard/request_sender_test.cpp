@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <set>
+
 #include "crane/runtime/process.hpp"
 
 namespace crane::dashboard {
@@ -63,6 +66,26 @@ TEST_F(RequestSenderTest, AStopIsSentWhileManyOtherRequestsWait) {
   const auto sent = take_all();
   ASSERT_EQ(sent.size(), 1U);
   EXPECT_EQ(sent.front().kind, crane_REQUEST_ESTOP);
+}
+
+/// A forged packet can make the supervisor skip all samples of one writer.
+TEST_F(RequestSenderTest, AStopWithoutAnswerIsRepeatedByOtherWriters) {
+  std::optional<Reply> reply;
+  sender_.send({.kind = crane_REQUEST_ESTOP}, [&](const Reply& received) { reply = received; });
+  std::set<bus::WriterId> writers;
+  bus::SampleInfo info;
+  constexpr std::int64_t kStep_ns = 50'000'000, kDuration_ns = 1'500'000'000;
+  const auto begin_ns = runtime::monotonic_ns();
+  for (std::int64_t passed_ns = 0; passed_ns < kDuration_ns; passed_ns += kStep_ns) {
+    sender_.poll(begin_ns + passed_ns);
+    while (const auto request = requests_.take(&info)) {
+      writers.insert(info.writer);
+      if (writers.size() == 3) answer(*request, true);
+    }
+  }
+  EXPECT_GE(writers.size(), 3U);
+  ASSERT_TRUE(reply);
+  EXPECT_TRUE(reply->accepted);
 }
 
 TEST_F(RequestSenderTest, AnAnsweredRequestFreesItsPlaceAtOnce) {

@@ -14,6 +14,7 @@
 #include "../system/program_run.hpp"
 #include "../system/running_stack.hpp"
 #include "crane/bus/seal.hpp"
+#include "false_supervisor.hpp"
 #include "stack/data_files.hpp"
 
 namespace crane::hostile {
@@ -43,47 +44,6 @@ runtime::BusOptions on_this_crane() {
   return options;
 }
 
-/// Commands of a supervisor that arms: permission, relay, brakes, then volts that rise no faster than
-/// permitted.
-void arm_and_push(msg::Command& command, std::uint64_t tick, int count) {
-  constexpr int kPermission = 3, kRelease = 25, kPush = 30;
-  constexpr double kStep_v = 0.2, kMost_v = 3;
-  command = {};
-  command.header.tick = tick;
-  command.watchdog_permission = count > kPermission;
-  for (std::size_t i = 0; i < 2; ++i) {
-    command.brake_release[i] = count > kRelease;
-    command.drive_v[i] = std::clamp((count - kPush) * kStep_v, 0.0, kMost_v);
-  }
-}
-
-/// Commands for every received tick, as a supervisor would send them.
-class FalseSupervisor {
- public:
-  explicit FalseSupervisor(std::uint32_t epoch = 7)
-      : bus_{runtime::bus_options(on_this_crane(), "stranger", crane_SOURCE_SUPERVISOR, epoch)},
-        states_{bus_.subscriber(topics::state)},
-        commands_{bus_.publisher(topics::command)} {}
-  void speak() {
-    bus_.wait(2ms);
-    while (const auto state = states_.take()) {
-      arm_and_push(command_, state->header.tick, ++spoken_);
-      (void)commands_.publish(command_);
-      seen_.push_back(*state);
-    }
-  }
-  [[nodiscard]] const std::vector<msg::State>& seen() const { return seen_; }
-  bus::Publisher<msg::Command>& commands() { return commands_; }
-
- private:
-  bus::Bus bus_;
-  bus::Subscriber<msg::State> states_;
-  bus::Publisher<msg::Command> commands_;
-  msg::Command command_{};
-  int spoken_ = 0;
-  std::vector<msg::State> seen_;
-};
-
 void expect_nothing_moved(const std::vector<msg::State>& states) {
   ASSERT_GT(states.size(), 50U);
   for (const auto& state : states)
@@ -93,7 +53,7 @@ void expect_nothing_moved(const std::vector<msg::State>& states) {
 }
 
 TEST(Attack, BeforeTheStackStartsIsNamedAndTheStackRefuses) {
-  FalseSupervisor stranger;
+  FalseSupervisor stranger{on_this_crane()};
   const auto ended = system_test::run_program(
       stack::program_directory() / "crane",
       {"up", "--domain", std::to_string(kDomain), "--crane", system_test::crane_name()});
@@ -102,7 +62,7 @@ TEST(Attack, BeforeTheStackStartsIsNamedAndTheStackRefuses) {
 }
 
 TEST(Attack, WhileTheBridgeWaitsForItsSupervisorMovesNothing) {
-  FalseSupervisor stranger;
+  FalseSupervisor stranger{on_this_crane()};
   stack::ChildProcesses children;
   auto arguments = runtime::arguments(on_this_crane());
   arguments.insert(arguments.end(),
@@ -142,7 +102,7 @@ TEST_F(AttackOnAStack, AfterTheSupervisorDiedMovesNothingAndTheNextSupervisorIsO
   {
     stack_.listen(500ms);  // the crane has stopped by then
     stack_.forget();
-    FalseSupervisor stranger;
+    FalseSupervisor stranger{on_this_crane()};
     attack_for(1500ms, [&] { stranger.speak(); });
     expect_nothing_moved(stack_.observer().states());
     stack_.start_again("supervisor");  // it detects the foreign writer and refuses to start
@@ -164,7 +124,7 @@ TEST_F(AttackOnAStack, WithCommandsThatWereRecordedMovesNothingOfALockedCrane) {
   stack_.session().request({.kind = crane_REQUEST_ESTOP}, "estop");
   stack_.listen(500ms);
   stack_.forget();
-  FalseSupervisor stranger{recorded.front().header.epoch};
+  FalseSupervisor stranger{on_this_crane(), recorded.front().header.epoch};
   std::size_t next = 0;
   attack_for(1500ms, [&] {
     for (const bool as_recorded : {true, false}) {
@@ -179,7 +139,7 @@ TEST_F(AttackOnAStack, WithCommandsThatWereRecordedMovesNothingOfALockedCrane) {
 TEST_F(AttackOnAStack, WithTheLargestTickAndStartUpNumberHasNoLastingEffect) {
   wait_for(crane_STATE_LOCKED);
   {
-    FalseSupervisor stranger{std::numeric_limits<std::uint32_t>::max()};
+    FalseSupervisor stranger{on_this_crane(), std::numeric_limits<std::uint32_t>::max()};
     msg::Command command{};
     open_and_push(command, std::numeric_limits<std::uint64_t>::max());
     attack_for(700ms, [&] { (void)stranger.commands().publish(command); });

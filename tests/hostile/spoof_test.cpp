@@ -11,6 +11,7 @@
 #include "../system/running_stack.hpp"
 #include "crane/boards/linked_rig.hpp"
 #include "crane/security/keys.hpp"
+#include "impostor.hpp"
 #include "wire.hpp"
 
 namespace crane::hostile {
@@ -114,54 +115,6 @@ TEST_F(Spoof, NoneOf10000ForgedOrReplayedPacketsMovesACraneWithKeys) {
   EXPECT_EQ(states.front().trolley_position_m, states.back().trolley_position_m);
   EXPECT_NO_THROW(stack.session().arm()) << "the packets have disturbed the crane";
 }
-
-/// Forges the next packets of the supervisor: a HEARTBEAT makes the reader of the bridge skip the next
-/// samples of the supervisor, and the forged sequence numbers continue there.
-class Impostor {
- public:
-  explicit Impostor(Packet model)
-      : packet_{std::move(model)}, found_{find(packet_.message, topics::command).value()} {
-    constexpr std::uint64_t kAhead = 1'000'000;
-    number_ = sequence_number_of(packet_.message, found_.data) + kAhead;
-    auto heartbeat = packet_;
-    auto& bytes = heartbeat.message;
-    const auto entities = packet_.message.begin() + static_cast<std::ptrdiff_t>(found_.data.content) + 4;
-    const Bytes writer(entities + 4, entities + 8);
-    bytes.resize(kHeaderBytes);
-    bytes.insert(bytes.end(), {kHeartbeat, 3, 28, 0, 0, 0, 0, 0});  // little endian, final; to any reader
-    bytes.insert(bytes.end(), writer.begin(), writer.end());
-    for (const std::uint64_t sequence : {number_, number_}) {  // first and last available number
-      bytes.insert(bytes.end(), 4, 0);
-      for (unsigned byte = 0; byte < 4; ++byte)
-        bytes.push_back(static_cast<std::uint8_t>(sequence >> 8U * byte));
-    }
-    bytes.insert(bytes.end(), {0, 0, 0, 0x7F});  // a later count than that of the supervisor
-    mouth_.send(heartbeat);
-  }
-  /// A command for a tick, as a supervisor that arms would send it: permission, brakes, then rising volts.
-  void command(std::uint64_t tick) {
-    auto command = found_.sample;
-    command.header.tick = tick;
-    ++ticks_;
-    command.watchdog_permission = ticks_ > 10;
-    constexpr double kStep_v = 0.2;
-    for (std::size_t i = 0; i < 2; ++i) {
-      command.brake_release[i] = ticks_ > 40;
-      command.drive_v[i] = std::clamp((ticks_ - 40) * kStep_v, 0.0, 3.0);
-    }
-    replace(packet_.message, found_.data, topics::command, command);
-    set_sequence_number(packet_.message, found_.data, number_++);
-    mouth_.send(packet_);
-  }
-  [[nodiscard]] std::uint64_t sent() const { return mouth_.sent(); }
-
- private:
-  Packet packet_;
-  Found<msg::Command> found_;
-  std::uint64_t number_ = 0;
-  int ticks_ = 0;
-  Mouth mouth_;
-};
 
 /// No check above the middleware can prevent that the bridge receives such packets. The supervisor detects
 /// their effect and ends. `crane up` would then end the bridge; this test does not end it.

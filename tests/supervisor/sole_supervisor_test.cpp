@@ -61,21 +61,31 @@ TEST(SoleSupervisor, WithTheLargerStartUpNumberEndsAndNamesTheOther) {
   EXPECT_FALSE(smaller.disputed(SoleSupervisor::kDispute_ns));
 }
 
-TEST(SoleSupervisor, ThatIsSilentIsKnownFromItsNodeStatus) {
+TEST(SoleSupervisor, DoesNotEndBecauseOfAStatusThatEveryProcessMayWrite) {
   SoleSupervisor larger{7};
-  larger.heard(sole_node(3, 0));
+  larger.heard(sole_node(3, SoleSupervisor::kNewTicks + 1));
+  EXPECT_FALSE(larger.yields());
+  larger.heard(sole_status(5), sole_writer(2), 0);  // of another start-up number: a third program
+  larger.heard(sole_node(3, SoleSupervisor::kNewTicks + 1));
+  EXPECT_FALSE(larger.yields());
+  larger.heard(sole_status(3), sole_writer(1), 0);
   EXPECT_TRUE(larger.yields());
+}
+
+TEST(SoleSupervisor, IgnoresTheStatusOfASupervisorThatStops) {
   SoleSupervisor other{7};
-  auto stopping = sole_node(3, 0);
+  auto stopping = sole_node(3, SoleSupervisor::kNewTicks + 1);
   stopping.phase = crane_PHASE_STOPPING;
   other.heard(stopping);
-  EXPECT_FALSE(other.yields());
+  EXPECT_EQ(other.rival(), "");
 }
 
 TEST(SoleSupervisor, BesideAnEstablishedOneEndsWhateverItsStartUpNumber) {
   SoleSupervisor of_state{3}, of_age{3};
   of_state.heard(sole_status(7, crane_STATE_HOLD), sole_writer(2), 0);
   EXPECT_TRUE(of_state.yields());
+  of_age.heard(sole_status(7), sole_writer(2), 0);
+  EXPECT_FALSE(of_age.yields());
   of_age.heard(sole_node(7, SoleSupervisor::kNewTicks + 1));
   EXPECT_TRUE(of_age.yields());
 }

@@ -17,6 +17,7 @@
 
 #include "crane/bus/path_stamps.hpp"
 #include "crane/runtime/hosted_component.hpp"
+#include "crane/runtime/memory_limit.hpp"
 #include "crane/runtime/signals.hpp"
 #include "crane/runtime/spin_limit.hpp"
 #include "crane/runtime/turn.hpp"
@@ -108,6 +109,7 @@ int run(const ComponentSpec& spec, const LoopOptions& options) {
   });
   HostedComponent hosted{bus, spec, rig, controller, clock, monotonic_ns};
   if (clock == Clock::realtime) enter_realtime(hosted.node(), options.priority);
+  end_when_growing();
   if (hosted.component().paced())
     loop_paced(hosted.component());
   else

@@ -1,0 +1,157 @@
+#include "forged.hpp"
+
+#include <algorithm>
+
+namespace crane::hostile {
+namespace {
+
+constexpr std::uint8_t kLittle = 1, kQos = 2, kWithData = 4, kWithKey = 8, kFinal = 2;
+constexpr std::uint16_t kSentinel = 1, kLease = 0x02, kProtocol = 0x15, kVendor = 0x16, kDomainId = 0x0F,
+                        kGuid = 0x50, kBuiltIn = 0x58, kDefaultLocator = 0x31, kMetaLocator = 0x32,
+                        kStatusInfo = 0x71;
+
+void put(Bytes& bytes, std::uint64_t value, unsigned count) {
+  for (unsigned i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> 8U * i));
+}
+template <std::size_t N>
+void put(Bytes& bytes, const std::array<std::uint8_t, N>& value) {
+  bytes.insert(bytes.end(), value.begin(), value.end());
+}
+void put_number(Bytes& bytes, std::uint64_t number) {
+  put(bytes, number >> 32U, 4);
+  put(bytes, number, 4);
+}
+void parameter(Bytes& bytes, std::uint16_t id, const Bytes& value) {
+  put(bytes, id, 2);
+  put(bytes, value.size(), 2);
+  bytes.insert(bytes.end(), value.begin(), value.end());
+}
+void sentinel(Bytes& bytes) { put(bytes, kSentinel, 4); }
+
+Bytes guid(const GuidPrefix& prefix) {
+  Bytes bytes;
+  put(bytes, prefix);
+  put(bytes, kParticipant);
+  return bytes;
+}
+/// UDP over IPv4: 127.0.0.1 and a port on which nobody listens.
+Bytes locator() {
+  constexpr std::uint64_t kUdp4 = 1, kDiscard = 9;
+  Bytes bytes;
+  put(bytes, kUdp4, 4);
+  put(bytes, kDiscard, 4);
+  bytes.insert(bytes.end(), 12, 0);
+  bytes.insert(bytes.end(), {127, 0, 0, 1});
+  return bytes;
+}
+Bytes number32(std::uint64_t value) {
+  Bytes bytes;
+  put(bytes, value, 4);
+  return bytes;
+}
+/// Content of DATA up to the sequence number.
+Bytes data_head(const Entities& entities, std::uint64_t number) {
+  Bytes content;
+  put(content, 0, 2);
+  put(content, 16, 2);  // octets to the inline QoS
+  put(content, entities.reader);
+  put(content, entities.writer);
+  put_number(content, number);
+  return content;
+}
+constexpr std::array<std::uint8_t, 4> kParameterList{0, 3, 0, 0};  // encapsulation: PL_CDR, little endian
+
+}  // namespace
+
+Bytes header(const GuidPrefix& prefix) {
+  Bytes bytes{'R', 'T', 'P', 'S', 2, 1, 1, 0x10};
+  put(bytes, prefix);
+  return bytes;
+}
+
+void append(Bytes& message, std::uint8_t kind, std::uint8_t flags, const Bytes& content) {
+  message.push_back(kind);
+  message.push_back(flags | kLittle);
+  put(message, content.size(), 2);
+  message.insert(message.end(), content.begin(), content.end());
+}
+
+Entities entities_of(const Bytes& message, const Submessage& data) {
+  Entities entities;
+  const auto at = message.begin() + static_cast<std::ptrdiff_t>(data.content) + 4;
+  std::copy_n(at, 4, entities.reader.begin());
+  std::copy_n(at + 4, 4, entities.writer.begin());
+  return entities;
+}
+
+Bytes participant(const GuidPrefix& prefix, std::uint32_t domain) {
+  constexpr std::uint64_t kAllEndpoints = 0x0C3F;
+  auto content = data_head({kNoEntity, kSpdpWriter}, 1);
+  put(content, kParameterList);
+  parameter(content, kProtocol, {2, 1, 0, 0});
+  parameter(content, kVendor, {1, 0x10, 0, 0});
+  parameter(content, kGuid, guid(prefix));
+  parameter(content, kDomainId, number32(domain));
+  parameter(content, kDefaultLocator, locator());
+  parameter(content, kMetaLocator, locator());
+  parameter(content, kBuiltIn, number32(kAllEndpoints));
+  parameter(content, kLease, {0xFF, 0xFF, 0xFF, 0x7F, 0xFF, 0xFF, 0xFF, 0xFF});
+  sentinel(content);
+  auto message = header(prefix);
+  append(message, kData, kWithData, content);
+  return message;
+}
+
+Bytes end_of_participant(const GuidPrefix& prefix) {
+  auto content = data_head({kNoEntity, kSpdpWriter}, 2);
+  parameter(content, kStatusInfo, {0, 0, 0, 3});  // disposed and unregistered
+  sentinel(content);
+  put(content, kParameterList);
+  parameter(content, kGuid, guid(prefix));
+  sentinel(content);
+  auto message = header(prefix);
+  append(message, kData, kQos | kWithKey, content);
+  return message;
+}
+
+Bytes heartbeat(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t number) {
+  Bytes content;
+  put(content, kNoEntity);
+  put(content, writer);
+  put_number(content, number);
+  put_number(content, number);
+  put(content, 0x7F000000, 4);  // a later count than that of the writer
+  auto message = header(prefix);
+  append(message, kHeartbeat, kFinal, content);
+  return message;
+}
+
+Bytes fragment(const GuidPrefix& prefix, const EntityId& writer, std::uint64_t number) {
+  constexpr std::uint64_t kSample_bytes = 0x7FFFFFFF, kFragment_bytes = 1024;
+  constexpr std::uint8_t kDataFragment = 0x16;
+  Bytes content;
+  put(content, 0, 2);
+  put(content, 28, 2);  // octets to the payload
+  put(content, kNoEntity);
+  put(content, writer);
+  put_number(content, number);
+  put(content, 1, 4);  // number of the first fragment
+  put(content, 1, 2);  // fragments in this submessage
+  put(content, kFragment_bytes, 2);
+  put(content, kSample_bytes, 4);
+  content.insert(content.end(), kFragment_bytes, 0);
+  auto message = header(prefix);
+  append(message, kDataFragment, 0, content);
+  return message;
+}
+
+Bytes repeat_all(Bytes entities, std::uint64_t first, std::uint32_t count) {
+  constexpr std::uint64_t kSamples = 256;
+  put_number(entities, first);
+  put(entities, kSamples, 4);
+  entities.insert(entities.end(), kSamples / 8, 0xFF);
+  put(entities, count, 4);
+  return entities;
+}
+
+}  // namespace crane::hostile
