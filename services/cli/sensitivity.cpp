@@ -58,7 +58,7 @@ void filter_swing_in_place_of_delay(PlannedRun& plan, double ratio) {
 
 /// Gains of a controller that a rig file can set; empty when the crane determines every gain.
 std::vector<double Design::*> gains_of(std::string_view controller) {
-  if (controller == "gain_scheduling_full") return {&Design::full_feedback_gain_pm};
+  if (controller == "gain_scheduling_full") return {&Design::full_state_forward_gain_vpm};
   if (controller == "anti_swing_pd")
     return {&Design::anti_swing_proportional, &Design::anti_swing_derivative};
   if (controller == "delayed_1") return {&Design::delayed_1_gain};

@@ -30,10 +30,11 @@ std::uint64_t OperatorClient::send(const OperatorRequest& wanted) {
   runtime::assign(request.client, client_);
   request.kind = wanted.kind;
   request.apply_tick = wanted.apply_tick;
-  for (std::size_t i = 0; i < wanted.selected.size(); ++i) {
-    request.selected[i] = wanted.selected[i];
-    request.target[i] = wanted.target[i];
-  }
+  std::ranges::copy(wanted.selected, request.selected);
+  if (wanted.kind == crane_REQUEST_KICK)
+    runtime::assign_kick(request, wanted.kick);
+  else
+    runtime::assign(request.target, wanted.target);
   request.until_tick = wanted.until_tick;
   std::copy_n(wanted.sines.begin(), std::min(wanted.sines.size(), std::size(request.sine)), request.sine);
   request.duration_s = wanted.duration_s;

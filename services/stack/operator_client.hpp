@@ -8,6 +8,7 @@
 
 #include "crane/bus/bus.hpp"
 #include "crane/control/excitation.hpp"
+#include "crane/runtime/convert.hpp"
 
 namespace crane::stack {
 
@@ -15,11 +16,12 @@ namespace crane::stack {
 struct OperatorRequest {
   crane_RequestKind kind = crane_REQUEST_NONE;
   std::array<bool, 3> selected{};
-  std::array<double, 3> target{};   ///< move: m, rad, m of cable; kick: rad/s radial, tangential
-  std::uint64_t apply_tick = 0;     ///< 0: at once
-  std::uint64_t until_tick = 0;     ///< advance
-  std::vector<crane_Sine> sines{};  ///< follow: at most four
-  double duration_s = 0;            ///< follow
+  std::array<double, 3> target{};                        ///< move, follow: m, rad, m of cable
+  runtime::Kick kick{};                                  ///< kick
+  std::uint64_t apply_tick = 0;                          ///< 0: at once
+  std::uint64_t until_tick = 0;                          ///< advance
+  std::vector<crane_Sine> sines{};                       ///< follow: at most four
+  double duration_s = 0;                                 ///< follow
   crane_OperatingMode mode = crane_MODE_SEMI_AUTOMATIC;  ///< mode
 };
 

@@ -31,9 +31,9 @@ class Motion {
   void follow(const control::Measurement& measured, std::uint64_t tick) noexcept;
   /// Begins a move at `tick` from the present reference.
   void start(const MoveTarget& move, std::uint64_t tick);
-  /// Begins to follow a way around zones at `tick` from the present reference.
-  /// @param way  around zones, for `move` from the present reference
-  void start(const MoveTarget& move, const control::Way& way, const control::WaySpace& space,
+  /// Begins to follow a path around zones at `tick` from the present reference.
+  /// @param path  around zones, for `move` from the present reference
+  void start(const MoveTarget& move, const control::Path& path, const control::PathSpace& space,
              std::uint64_t tick);
   /// Slows the present reference down on its own path, which is free of zones. A reference that rests, is
   /// slowing down, or follows a stick does not change. @return tick at which the reference rests
@@ -78,7 +78,7 @@ class Motion {
   /// Cable length within the range of the rig file: > 0 also without a load, where the measured length is 0.
   [[nodiscard]] double usable_cable_m(double cable_m) const noexcept;
   [[nodiscard]] control::Shaper shaper(control::Shaping shaping, double cable_m) const;
-  /// How the controller follows a way. @pre shaper_ is that of the way
+  /// How the controller follows a path. @pre shaper_ is that of the path
   [[nodiscard]] control::RouteStyle route_style() const noexcept;
   /// Time on the path of the reference: passed since its start, or less while it slows down.
   [[nodiscard]] double time_s(std::uint64_t tick) const noexcept;

@@ -1,4 +1,4 @@
-/// Motion around zones: ways, and the slowing down of the reference before another way begins.
+/// Motion around zones: paths, and the slowing down of the reference before another path begins.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace crane::services {
 
 using control::kAxes;
 
-void Motion::start(const MoveTarget& move, const control::Way& way, const control::WaySpace& space,
+void Motion::start(const MoveTarget& move, const control::Path& path, const control::PathSpace& space,
                    std::uint64_t tick) {
   const auto now = at(tick);
   plant::PerAxis start{};
@@ -22,8 +22,8 @@ void Motion::start(const MoveTarget& move, const control::Way& way, const contro
   // by the Coriolis force of a trolley on a turning jib.
   const bool shapes = shape_ != control::ReferenceShape::step;
   const auto shaping = shaping_ == control::Shaping::ei ? shaping_ : control::Shaping::zvd;
-  shaper_ = shapes ? shaper(shaping, way.points.front().position[control::kHoist]) : control::Shaper{};
-  route_.emplace(space, start, way.points, route_style());
+  shaper_ = shapes ? shaper(shaping, path.points.front().position[control::kHoist]) : control::Shaper{};
+  route_.emplace(space, start, path.points, route_style());
   is_braking_ = stick_.follows = false;
   creeping_.reset();
   planned_.reset();

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "crane/configuration/way_space.hpp"
+#include "crane/configuration/path_space.hpp"
 #include "crane/control/reference_start.hpp"
 #include "crane/runtime/convert.hpp"
 #include "trajectory_planner/motion.hpp"
@@ -50,7 +50,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
             std::lround(context.rig.planning.planning_time_s / context.rig.period_s))},
         period_s_{context.rig.period_s},
         steps_{context.controller.reference == control::ReferenceShape::step},
-        way_space_{configuration::way_space_of(context.rig)},
+        path_space_{configuration::path_space_of(context.rig)},
         motion_{context.rig, context.controller.reference} {
     for (std::size_t i = 0; i < control::kAxes; ++i)
       if (context.rig.drives[i].present) max_speed_[i] = context.rig.drives[i].max_speed;
@@ -130,7 +130,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
     if (!known_moves_ || move.number <= *known_moves_) return;
     known_moves_ = move.number;
     drop_waiting_moves();
-    if (move.kind == crane_REQUEST_MOVE && !way_space_.zones.empty())
+    if (move.kind == crane_REQUEST_MOVE && !path_space_.zones.empty())
       return wait_for_rest(move, measured, tick);
     move_number_ = move.number;
     if (move.kind == crane_REQUEST_JOG)
@@ -150,8 +150,8 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       motion_.start(move, tick);
   }
 
-  /// With zones, a move begins at a place on the accepted way of the move before it, at rest: the supervisor
-  /// has found a way from this place, too, because both places are connected.
+  /// With zones, a move begins at a place on the accepted path of the move before it, at rest: the supervisor
+  /// has found a path from this place, too, because both places are connected.
   void wait_for_rest(const msg::AcceptedMove& move, const control::Measurement& measured,
                      std::uint64_t tick) {
     // longest wait for rest; friction may hold an axis away from its reference
@@ -172,30 +172,30 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
       from[i] = now[i].position;
       target[i] = move.selected[i] ? move.target[i] : from[i];
     }
-    auto way = control::way_to(way_space_, from, target);
-    if (way.outcome == control::WayOutcome::straight && steps_ && !is_free_for_step(from, target))
-      way = {.outcome = control::WayOutcome::around, .points = {{.position = target}}};
+    auto path = control::path_to(path_space_, from, target);
+    if (path.outcome == control::PathOutcome::straight && steps_ && !is_free_for_step(from, target))
+      path = {.outcome = control::PathOutcome::around, .points = {{.position = target}}};
     const bool leads =
-        way.outcome == control::WayOutcome::straight || way.outcome == control::WayOutcome::around;
+        path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::around;
     if (leads) move_number_ = number;
-    if (way.outcome == control::WayOutcome::straight)
+    if (path.outcome == control::PathOutcome::straight)
       start_straight(move, tick);
-    else if (way.outcome == control::WayOutcome::around)
-      motion_.start(move, way, way_space_, tick);
+    else if (path.outcome == control::PathOutcome::around)
+      motion_.start(move, path, path_space_, tick);
     else
-      node().error("no_way", "no way leads from the place where the crane rests to the target",
+      node().error("no_path", "no path leads from the place where the crane rests to the target",
                    "move the load away from the zones, then to the target");
   }
 
   /// A law for step references may move the axes with any speed up to max_speed.
   [[nodiscard]] bool is_free_for_step(const plant::PerAxis& from, const plant::PerAxis& to) const {
-    const auto begin = control::completed(way_space_, from), end = control::completed(way_space_, to);
-    const double clearance_m = control::straight_clearance_m(way_space_, begin, end);
+    const auto begin = control::completed(path_space_, from), end = control::completed(path_space_, to);
+    const double clearance_m = control::straight_clearance_m(path_space_, begin, end);
     const double radius_m = std::max(std::abs(begin[control::kTrolley]), std::abs(end[control::kTrolley]));
     const double fastest_mps =
         std::hypot(max_speed_[control::kTrolley], radius_m * max_speed_[control::kSlew]);
     const double cable_m = std::max(begin[control::kHoist], end[control::kHoist]);
-    return control::passing_speed_mps(way_space_, clearance_m, cable_m) >= fastest_mps;
+    return control::passing_speed_mps(path_space_, clearance_m, cable_m) >= fastest_mps;
   }
 
   void drop_waiting_moves() {
@@ -255,7 +255,7 @@ class TrajectoryPlanner : public runtime::JoinedComponent<msg::State, msg::Super
   double period_s_;
   bool steps_;                  ///< the reference of the controller jumps to the target
   plant::PerAxis max_speed_{};  ///< of the present axes, unit/s
-  control::WaySpace way_space_;
+  control::PathSpace path_space_;
   Motion motion_;
   control::ReferenceStart start_;
   std::optional<std::uint64_t> published_;

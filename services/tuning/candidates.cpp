@@ -64,7 +64,7 @@ std::vector<Candidate> candidates() {
   for (const bool observer : {false, true}) {
     list.add("gain_scheduling_partial", {}, observer);
     for (const double gain : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
-      list.add("gain_scheduling_full", {{"full_feedback_gain_pm", gain}}, observer);
+      list.add("gain_scheduling_full", {{"full_state_forward_gain_vpm", gain}}, observer);
     list.add("lqr", {}, observer);
   }
   list.grid("anti_swing_pd", "anti_swing_proportional", {-20, -30, -40}, "anti_swing_derivative", {5, 8, 11});

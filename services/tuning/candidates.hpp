@@ -14,7 +14,7 @@ struct Candidate {
   std::vector<std::pair<std::string, double>> gains;
   bool observer = false;  ///< swing_observer
 
-  /// "gain_scheduling_full, full_feedback_gain_pm = 4, observer"
+  /// "gain_scheduling_full, full_state_forward_gain_vpm = 4, observer"
   [[nodiscard]] std::string label() const;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "crane/configuration/way_space.hpp"
+#include "crane/configuration/path_space.hpp"
 #include "crane/plant/term.hpp"
 
 namespace crane::supervisor {
@@ -64,7 +64,7 @@ Limits limits_of(const configuration::Rig& rig) {
   limits.machine = machine_of(rig);
   limits.clearance = rig.clearance;
   limits.zones = rig.zones;
-  limits.way_space = configuration::way_space_of(rig);
+  limits.path_space = configuration::path_space_of(rig);
   for (std::size_t i = 0; i < kAxes; ++i) {
     const auto& drive = rig.drives[i];
     if (!drive.present) continue;

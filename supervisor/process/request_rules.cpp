@@ -7,6 +7,7 @@
 
 #include "crane/plant/coordinates.hpp"
 #include "crane/protection.hpp"
+#include "crane/runtime/convert.hpp"
 #include "crane/supervisor/zone_filter.hpp"
 
 namespace crane::supervisor {
@@ -33,7 +34,8 @@ Excursion excursion_of(const msg::Request& request) {
 
 std::string target_problem(const msg::Request& request, const AxisLimits& axis, std::size_t i) {
   const auto excursion = excursion_of(request);
-  for (const double target : {request.target[i] - excursion.distance, request.target[i] + excursion.distance})
+  const double wanted = runtime::axis_targets(request)[i];
+  for (const double target : {wanted - excursion.distance, wanted + excursion.distance})
     if (!target_allowed(axis, target) && enabled(request_target))
       return std::string{plant::kCoordinates[i].name} + " target " + std::to_string(target) +
              " must lie in [" + std::to_string(axis.low_limit + axis.soft_margin) + ", " +
@@ -59,8 +61,9 @@ std::string follow_problem(const msg::Request& request, const Limits& limits) {
 /// voltage. Without sines the reference is a step; its response is the purpose of the request.
 std::string begin_problem(const msg::Request& request, const Limits& limits, const PerAxis& position) {
   if (excursion_of(request).distance == 0) return "";
+  const PerAxis target = runtime::axis_targets(request);
   for (std::size_t i = 0; i < kAxes; ++i) {
-    const double distance = std::abs(request.target[i] - position[i]);
+    const double distance = std::abs(target[i] - position[i]);
     if (!request.selected[i] || distance <= limits.largest_follow_jump[i]) continue;
     return "follow: the reference begins " + std::to_string(distance) + " from the " +
            plant::kCoordinates[i].name + ", at most " + std::to_string(limits.largest_follow_jump[i]) +
@@ -76,23 +79,26 @@ std::string zone_problem(const Limits& limits, const PerAxis& from, const PerAxi
   const auto* zone = control::zone_in_path(limits.zones, limits.clearance, limits.machine.crane.gravity_mps2,
                                            from, to, control::kRestGap_m);
   if (zone == nullptr) return "";
-  const bool inside = control::closest_zone(limits.way_space, to).clearance_m < control::kRestGap_m;
+  const bool inside = control::closest_zone(limits.path_space, to).clearance_m < control::kRestGap_m;
   return std::string{inside ? "the target is inside zone "
                             : "the straight path to the target leads through zone "} +
          zone->name + (inside ? "" : ": move around it first") + kHint;
 }
 
-std::string way_problem(const Limits& limits, const control::Way& way) {
+std::string path_problem(const Limits& limits, const control::Path& path) {
   constexpr std::size_t kNamed = 4;
-  if (way.outcome == control::WayOutcome::straight || way.outcome == control::WayOutcome::around) return "";
+  if (path.outcome == control::PathOutcome::straight || path.outcome == control::PathOutcome::around)
+    return "";
   std::string names;
-  for (std::size_t i = 0; i < std::min(kNamed, way.blocking.size()); ++i)
-    names += (i == 0 ? "" : ", ") + limits.zones.at(way.blocking[i]).name;
-  if (way.blocking.size() > kNamed) names += " and " + std::to_string(way.blocking.size() - kNamed) + " more";
-  if (way.outcome == control::WayOutcome::target_inside) return "the target is inside zone " + names + kHint;
+  for (std::size_t i = 0; i < std::min(kNamed, path.blocking.size()); ++i)
+    names += (i == 0 ? "" : ", ") + limits.zones.at(path.blocking[i]).name;
+  if (path.blocking.size() > kNamed)
+    names += " and " + std::to_string(path.blocking.size() - kNamed) + " more";
+  if (path.outcome == control::PathOutcome::target_inside)
+    return "the target is inside zone " + names + kHint;
   if (names.empty())
-    return "no way leads to the target: the measured position is not finite or far outside the limits";
-  return "no way leads to the target past " + (way.blocking.size() == 1 ? "zone " : std::string{"zones "}) +
+    return "no path leads to the target: the measured position is not finite or far outside the limits";
+  return "no path leads to the target past " + (path.blocking.size() == 1 ? "zone " : std::string{"zones "}) +
          names + ": choose another target, raise the load, or use crane jog" + kHint;
 }
 
@@ -100,10 +106,10 @@ std::string way_problem(const Limits& limits, const control::Way& way) {
 bool is_long(const msg::Request& request, const PerAxis& position) {
   constexpr std::size_t kSlew = 1;
   constexpr double kShortestRadius_m = 0.1;  // as for the inching steps of `crane jog`
+  const PerAxis target = runtime::axis_targets(request);
   for (std::size_t i = 0; i < kAxes; ++i) {
     const double arm = i == kSlew ? std::max(std::abs(position[0]), kShortestRadius_m) : 1;
-    if (request.selected[i] && !(arm * std::abs(request.target[i] - position[i]) <= kShortStep_m))
-      return true;
+    if (request.selected[i] && !(arm * std::abs(target[i] - position[i]) <= kShortStep_m)) return true;
   }
   return false;
 }
@@ -166,19 +172,20 @@ std::string problem_at(const msg::Request& request, const Limits& limits, const 
   const bool moves = request.kind == crane_REQUEST_MOVE, follows = request.kind == crane_REQUEST_FOLLOW;
   if (problem.empty() && follows) problem = begin_problem(request, limits, position);
   if (!problem.empty() || (!moves && !follows) || limits.zones.empty()) return problem;
+  const PerAxis wanted = runtime::axis_targets(request);
   if (moves) {
     PerAxis target = position;
     for (std::size_t i = 0; i < kAxes; ++i)
-      if (request.selected[i]) target[i] = request.target[i];
-    return way_problem(limits, control::way_to(limits.way_space, position, target));
+      if (request.selected[i]) target[i] = wanted[i];
+    return path_problem(limits, control::path_to(limits.path_space, position, target));
   }
   const auto excursion = excursion_of(request);
-  const PerAxis from = control::completed(limits.way_space, position);
+  const PerAxis from = control::completed(limits.path_space, position);
   PerAxis low = from, high = from;
   for (std::size_t i = 0; i < kAxes; ++i) {
     if (!request.selected[i]) continue;
-    low[i] = request.target[i] - excursion.distance;
-    high[i] = request.target[i] + excursion.distance;
+    low[i] = wanted[i] - excursion.distance;
+    high[i] = wanted[i] + excursion.distance;
   }
   problem = zone_problem(limits, from, low);
   return problem.empty() && excursion.distance > 0 ? zone_problem(limits, from, high) : problem;

@@ -29,7 +29,7 @@ namespace crane::supervisor {
 /// Axis of a homing request. @pre problem_of() is empty
 [[nodiscard]] std::size_t home_axis_of(const msg::Request& request);
 
-/// Requests of which only the first in each tick is executed. The search for the way of a move may take a
+/// Requests of which only the first in each tick is executed. The search for the path of a move may take a
 /// third of a tick, and a flood of moves must not delay the command. Only one axis is homed at a time.
 class OncePerTick {
  public:

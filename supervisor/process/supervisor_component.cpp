@@ -224,7 +224,7 @@ class Supervisor : public runtime::JoinedComponent<msg::State, msg::Demand, msg:
   std::vector<DueRequest> collect(TickInput& input) {
     std::vector<DueRequest> due;
     bus::ParticipantId sender{};
-    // The planner starts its search for the way of an accepted move from the sample of the same tick.
+    // The planner starts its search for the path of an accepted move from the sample of the same tick.
     const PerAxis& position = input.state_arrived ? input.sample.position : memory_.motion.position;
     OncePerTick once;
     while (const auto request = requests_.take_due(input.tick, &sender)) {

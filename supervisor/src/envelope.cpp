@@ -18,9 +18,9 @@ Envelope check_envelope(const Limits& limits, const EnvelopeInput& input) noexce
       found.overspeed = found.overspeed || !(std::abs(v) <= limits.creeping_ratio * axis.homing.speed);
       continue;
     }
-    const double way = stopping_distance(limits, i, v);
-    const double ahead = v > 0 ? x + way : x;
-    const double behind = v < 0 ? x - way : x;
+    const double distance = stopping_distance(limits, i, v);
+    const double ahead = v > 0 ? x + distance : x;
+    const double behind = v < 0 ? x - distance : x;
     found.block_positive[i] = !(ahead <= axis.high_limit) || input.limit_high[i];
     found.block_negative[i] = !(behind >= axis.low_limit) || input.limit_low[i];
     found.stopping = found.stopping || !(ahead <= axis.high_limit) || !(behind >= axis.low_limit);

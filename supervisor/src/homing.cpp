@@ -12,7 +12,8 @@ constexpr double kMargin = 1.1;          // longest search / travel of the axis,
 constexpr double kStill_s = 1;           // longest time without progress
 constexpr double kShareOfSpeed = 0.005;  // progress / commanded distance; a drive breaks loose slowly
 constexpr double kLongestBack = 4;       // longest distance away from the mark / back_off
-constexpr double kWrongWay = 2;  // longest motion in the wrong direction / back_off, while the axis reverses
+constexpr double kWrongDirection =
+    2;  // longest motion in the wrong direction / back_off, while the axis reverses
 constexpr int kTicksToBeFound = 5;  // ticks from the active mark until the bridge reports it as found
 
 struct Leg {
@@ -83,7 +84,7 @@ void advance(const AxisLimits& axis, const Leg& leg, const HomingInput& in, Homi
 HomingFailure failure_of(const Limits& limits, const AxisLimits& axis, const Leg& leg, const HomingInput& in,
                          HomingMemory& m) {
   m.other_left = m.other_left || !in.other_switch;
-  const double way = leg.direction * (in.position - m.from);
+  const double moved = leg.direction * (in.position - m.from);
   const double least = kShareOfSpeed * leg.speed * kStill_s;
   if (std::abs(in.position - m.progress_at) >= least) {
     m.progress_at = in.position;
@@ -92,10 +93,10 @@ HomingFailure failure_of(const Limits& limits, const AxisLimits& axis, const Leg
   const bool still = ++m.still_ticks * limits.period_s > kStill_s;
   const double back = kLongestBack * axis.homing.back_off;
   if (in.mark_active && in.other_switch && axis.homing.mark != Mark::input) return HomingFailure::mark_stuck;
-  if (in.other_switch && (m.other_left || way > back)) return HomingFailure::other_switch;
-  if (way > leg.longest) return leg.too_long;
-  const bool wrong_way = way < -kWrongWay * axis.homing.back_off;
-  return still || wrong_way ? HomingFailure::no_motion : HomingFailure::none;
+  if (in.other_switch && (m.other_left || moved > back)) return HomingFailure::other_switch;
+  if (moved > leg.longest) return leg.too_long;
+  const bool wrong_direction = moved < -kWrongDirection * axis.homing.back_off;
+  return still || wrong_direction ? HomingFailure::no_motion : HomingFailure::none;
 }
 
 }  // namespace

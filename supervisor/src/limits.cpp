@@ -94,7 +94,7 @@ void check_margins(const Limits& limits, Problems& problems) {
     const double distance = stopping_distance(limits, i, axis.max_speed);
     problems.require(axis.soft_margin >= distance, prefix + "soft_margin", axis.soft_margin,
                      "must be >= " + std::to_string(distance) +
-                         ", the way to a stop from max_speed: v (t_detect + t_react + t_brake) + v^2/2a");
+                         ", the stopping distance from max_speed: v (t_detect + t_react + t_brake) + v^2/2a");
     problems.require(axis.brake_open_time_s < limits.brake_test_time_s, prefix + "brake_open_time_s",
                      axis.brake_open_time_s, "must be below brake_test_time_s");
   }

@@ -49,7 +49,7 @@ TEST(Departures, ChangeTheNamedQuantity) {
   EXPECT_TRUE(filtered.rig.sensing.filter_swing_angle);
   EXPECT_EQ(filtered.rig.sensing.swing_filter_ratio, 0.02);
   EXPECT_DOUBLE_EQ(departed("delayed_1", "gain", 50).rig.design.delayed_1_gain, -135);
-  EXPECT_DOUBLE_EQ(departed("gain_scheduling_full", "gain", -50).rig.design.full_feedback_gain_pm, 2);
+  EXPECT_DOUBLE_EQ(departed("gain_scheduling_full", "gain", -50).rig.design.full_state_forward_gain_vpm, 2);
 }
 
 TEST(Departures, ReduceTheDelayByThatOfTheFilter) {

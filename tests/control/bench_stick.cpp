@@ -18,7 +18,7 @@ using namespace crane::control::test;
 
 struct Stop {
   double residual_deg = 0;  ///< swing that remains when the reference is at rest
-  double time_s = 0, way = 0;
+  double time_s = 0, distance = 0;
 };
 
 struct Motions {
@@ -53,7 +53,7 @@ Stop stop_after(const StickLimits& limits, const Motions& motions, double cable_
   const std::size_t axis = motions.used[kTrolley] ? kTrolley : kSlew;
   const double from = at[axis].position;
   for (; !at_rest(memory); stop.time_s += limits.period_s) tick({});
-  stop.way = std::abs(at[axis].position - from);
+  stop.distance = std::abs(at[axis].position - from);
   stop.residual_deg = load.residual_rad() * to_deg;
   return stop;
 }
@@ -73,19 +73,20 @@ int main(int argc, char** argv) {
       Motions{"trolley", {true, false, false}}, Motions{"trolley, hoist", {true, false, true}},
       Motions{"slew", {false, true, false}}, Motions{"trolley, slew", {true, true, false}}};
   std::printf(
-      "| motion | cable | shaper | residual swing, median | 99 %% | largest [deg] | stop time [s] | stop way "
+      "| motion | cable | shaper | residual swing, median | 99 %% | largest [deg] | stop time [s] | stop "
+      "distance "
       "|\n|---|---|---|---|---|---|---|---|\n");
   for (const auto& motions : kMotions)
     for (const double ratio : {1.0, 0.8, 1.2})
       for (const auto& [name, shaping] : kShapings) {
-        std::vector<double> swing, time, way;
+        std::vector<double> swing, time, distance;
         for (int i = 0; i < histories; ++i) {
           const auto stop =
               stop_after(tower_stick(shaping, motions.used), motions, ratio, static_cast<unsigned>(i));
-          swing.push_back(stop.residual_deg), time.push_back(stop.time_s), way.push_back(stop.way);
+          swing.push_back(stop.residual_deg), time.push_back(stop.time_s), distance.push_back(stop.distance);
         }
         std::printf("| %s | %+.0f %% | %s | %.3f | %.3f | %.3f | %.2f | %.3f |\n", motions.name,
                     100 * ratio - 100, name, share_of(swing, 0.5), share_of(swing, 0.99), share_of(swing, 1),
-                    share_of(time, 0.5), share_of(way, 0.5));
+                    share_of(time, 0.5), share_of(distance, 0.5));
       }
 }

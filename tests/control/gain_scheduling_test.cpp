@@ -92,7 +92,7 @@ TEST(GainSchedule, PlacesTheClosedLoopPolesOfTheDesign) {
     Design design = printed_rig();
     design.cable_length_m = uniform(0.3, 10);
     design.crane.load_mass_kg = uniform(0, 40);
-    design.full_feedback_gain_pm = uniform(0.5, 20);
+    design.full_state_forward_gain_vpm = uniform(0.5, 20);
     design.volt_limit_v.fill(1000);  // no voltage limit lowers K for probes of 1 m and 1 rad
     const double x = uniform(0.1, 3);
     for (const char* name : {"gain_scheduling_partial", "gain_scheduling_full"}) {
@@ -103,8 +103,8 @@ TEST(GainSchedule, PlacesTheClosedLoopPolesOfTheDesign) {
                                                          : slew_axis(design.crane, design.cable_length_m, x);
         const bool partial = std::string(name) == "gain_scheduling_partial";
         const double w0 = std::sqrt(9.8 / design.cable_length_m), a = 2 / pi * w0;
-        const double w =
-            partial ? 1.383413 * w0 : pi / 2 * std::sqrt(design.full_feedback_gain_pm * axis.drive_gain);
+        const double w = partial ? 1.383413 * w0
+                                 : pi / 2 * std::sqrt(design.full_state_forward_gain_vpm * axis.drive_gain);
         const std::complex<double> load(-w / sqrt2, w / sqrt2);
         const double mismatch = worst_mismatch(closed_loop(*find_controller(name), design, motion, x),
                                                {load, std::conj(load), -a, -a});
@@ -127,7 +127,7 @@ TEST(GainSchedule, SplitsTheLawExactly) {
     m.swing_tangential_rad = any(random), m.swing_tangential_radps = any(random);
     Reference r;
     for (auto& axis : r) axis.position = any(random);
-    const double k = design.full_feedback_gain_pm;
+    const double k = design.full_state_forward_gain_vpm;
     const TowerGains gains = full_state_gains(design, schedule(design, m), {k, k});
     const auto& [kt, ks] = gains;
     const double trolley_v =
@@ -187,7 +187,7 @@ TEST(ForwardGain, KeepsTheFirstVoltsOfAStepWithinTheDrive) {
 /// The dissertation's friction, fully compensated.
 Design design_with_friction() {
   Design design = printed_rig();
-  design.full_feedback_gain_pm = 8;
+  design.full_state_forward_gain_vpm = 8;
   design.friction[kTrolley] = {1.5, 6, 0.9, 1.2, 1.0, 1.2, 100, 0.005, 1};
   design.friction[kSlew] = {0.15, 0.05, 0.7, 0.6, 0.7, 0.6, 100, 0.005, 1};
   return design;
@@ -245,7 +245,7 @@ TEST(ForwardGain, KeepsTheFirstDemandOfAnyMoveWithinTheDrive) {
   };
   for (int trial = 0; trial < 500; ++trial) {
     Design design = design_with_friction();
-    design.full_feedback_gain_pm = uniform(0.5, 50);
+    design.full_state_forward_gain_vpm = uniform(0.5, 50);
     for (const auto axis : {kTrolley, kSlew}) design.friction[axis].factor = uniform(0, 1.5);
     Measurement m;
     m.position = {uniform(-5, 5), uniform(-3, 3), 1};
@@ -257,7 +257,7 @@ TEST(ForwardGain, KeepsTheFirstDemandOfAnyMoveWithinTheDrive) {
       const double demand = v[axis] + friction_compensation_v(design.friction[axis], v[axis], 0);
       EXPECT_LE(std::abs(demand), design.volt_limit_v[axis] + 1e-9) << "seed " << seed << " trial " << trial;
       const double distance = std::abs(r[axis].position - m.position[axis]);
-      EXPECT_LE(std::abs(v[axis]), design.full_feedback_gain_pm * distance * (1 + 1e-12));
+      EXPECT_LE(std::abs(v[axis]), design.full_state_forward_gain_vpm * distance * (1 + 1e-12));
     }
   }
 }

@@ -122,7 +122,7 @@ Design extreme_design(std::mt19937& random) {
   design.period_s = pick({0.01, 0.1});
   design.shortest_cable_length_m = pick({1e-3, 0.5});
   design.cable_length_m = design.longest_cable_length_m = pick({0.5, 1000});
-  design.full_feedback_gain_pm = pick({1e-6, 4, 1000});
+  design.full_state_forward_gain_vpm = pick({1e-6, 4, 1000});
   design.tracking_proportional = pick({1e-6, 1e5});
   design.tracking_derivative = pick({0, 1e5});
   design.minimum_trolley_position_m = pick({1e-3, 100});

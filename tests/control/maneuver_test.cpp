@@ -104,7 +104,7 @@ double settling_time_s(const Controller& controller, const Design& design, const
 
 void expect_settling_s(const char* name, double forward_gain, const std::array<double, 3>& expected_s) {
   Design design;
-  design.full_feedback_gain_pm = forward_gain;
+  design.full_state_forward_gain_vpm = forward_gain;
   // no voltage limit lowers K; K = 8 would saturate the slew drive in maneuvers 2 and 3
   design.volt_limit_v.fill(1000);
   for (std::size_t i = 0; i < 3; ++i)
@@ -123,7 +123,7 @@ TEST(Maneuvers, SettleWithGainSchedulingAsComputedIndependently) {
 TEST(Maneuvers, SettleWithTheForwardGainThatTheVoltsAllow) {
   // K = 8 demands 12.6 V of the slew drive at the start; 10 V permit K = 6.37 for 90 degrees.
   Design design;
-  design.full_feedback_gain_pm = 8;
+  design.full_state_forward_gain_vpm = 8;
   const auto& full = *find_controller("gain_scheduling_full");
   for (std::size_t i = 0; i < 3; ++i) {
     const double settled_s = settling_time_s(full, design, kManeuvers[i]);

@@ -43,12 +43,12 @@ class Hand {
   }
   /// Search, back-off, approach, back-off. Starts 0.05 m from the mark, on either side.
   void run_course(double approach_mps = 0.01) {
-    const double way = drive_.homing.direction();
+    const double direction = drive_.homing.direction();
     const double to_mark_m = std::abs(true_m - drive_.homing.position);
-    move(way * 0.05, to_mark_m / 0.05 + 0.01);
-    move(-way * 0.05, 0.6);
-    move(way * approach_mps, 0.04 / approach_mps);
-    move(-way * 0.05, 1);
+    move(direction * 0.05, to_mark_m / 0.05 + 0.01);
+    move(-direction * 0.05, 0.6);
+    move(direction * approach_mps, 0.04 / approach_mps);
+    move(-direction * 0.05, 1);
   }
   void end() {
     requested = free = false;

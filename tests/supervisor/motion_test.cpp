@@ -29,10 +29,10 @@ TEST(Supervisor, DividesByTheTimeBetweenTwoSamplesNotByThePeriod) {
   for (int i = 0; i < 20; ++i) {
     const bool late = i % 4 == 2;
     t.late_s = late ? 0.5 * t.limits.period_s : 0;
-    const double way = t.speed[0] * t.late_s;
-    t.world.sample.position[0] += way;
+    const double travel = t.speed[0] * t.late_s;
+    t.world.sample.position[0] += travel;
     t.tick();
-    t.world.sample.position[0] -= way;
+    t.world.sample.position[0] -= travel;
     ASSERT_EQ(t.state(), State::run) << name_of(t.cause()) << ", tick " << i;
     ASSERT_NEAR(t.memory.motion.speed[0], 0.9, 1e-9);
   }

@@ -68,7 +68,7 @@ TEST(Recommend, NeverRecommendsALawThatDoesNotSettleOnADrawnRig) {
   const auto maneuvers = maneuvers_for(hidden.ideal, files);
   ASSERT_EQ(maneuvers.size(), 1U);
   const std::vector<Candidate> list{
-      {.controller = "gain_scheduling_full", .gains = {{"full_feedback_gain_pm", 8}}}};
+      {.controller = "gain_scheduling_full", .gains = {{"full_state_forward_gain_vpm", 8}}}};
   std::vector<configuration::Rig> drawn{hidden.ideal};
   const auto search = [&] {
     return recommend({.truth = hidden.ideal,

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "crane/configuration/way_space.hpp"
+#include "crane/configuration/path_space.hpp"
 #include "guarded_crane.hpp"
 #include "jog/operated_crane.hpp"
 
@@ -92,7 +92,7 @@ TEST_P(EveryControllerAroundZones, FollowsAChangedTargetWhileItGoesAround) {
   EXPECT_GT(carrier.closest_m, 0);
 }
 
-TEST_P(EveryControllerAroundZones, RaisesTheLoadAboveAZoneThatFillsTheWay) {
+TEST_P(EveryControllerAroundZones, RaisesTheLoadAboveAZoneThatFillsThePath) {
   Carrier carrier{GetParam()};
   ASSERT_EQ(carrier.move(0.8, -2.2, 0.9), "");
   carrier.arrive();
@@ -138,20 +138,20 @@ configuration::Rig random_rig(Draw& draw) {
 }
 
 TEST_P(EveryControllerAroundZones, ArrivesAtRandomTargetsAmongRandomZonesWithoutACause) {
-  // CRANE_WAY_RUNS sets the number of random cranes per controller.
-  const char* runs = std::getenv("CRANE_WAY_RUNS");
+  // CRANE_PATH_RUNS sets the number of random cranes per controller.
+  const char* runs = std::getenv("CRANE_PATH_RUNS");
   const int seeds = runs == nullptr ? 3 : std::atoi(runs);
   int accepted = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
     Draw draw{static_cast<unsigned>(seed)};
     const auto rig = random_rig(draw);
-    const auto space = configuration::way_space_of(rig);
+    const auto space = configuration::path_space_of(rig);
     Carrier carrier{GetParam(), rig};
     for (int i = 0; i < 3; ++i) {
       const std::array target{draw.in(0.2, 1.3), draw.in(-2.7, 2.7), draw.in(0.6, 1.2)};
       if (control::closest_zone(space, target).clearance_m < 0.1) continue;
       if (const auto reason = carrier.move(target[0], target[1], target[2]); !reason.empty()) {
-        EXPECT_THAT(reason, HasSubstr("no way"));
+        EXPECT_THAT(reason, HasSubstr("no path"));
         continue;
       }
       ++accepted;
@@ -196,7 +196,7 @@ TEST(MovesAroundZones, AreSearchedOncePerTickWhateverTheNumberOfRequests) {
   EXPECT_EQ(repeat, kFlood - 1);
 }
 
-TEST(MovesAroundZones, AreRefusedWithTheZonesThatLeaveNoWay) {
+TEST(MovesAroundZones, AreRefusedWithTheZonesThatLeaveNoPath) {
   auto rig = silo_rig();
   rig.zones = {{.name = "wall",
                 .position_x_m = 0,
@@ -206,7 +206,7 @@ TEST(MovesAroundZones, AreRefusedWithTheZonesThatLeaveNoWay) {
                 .top_m = 1.99}};
   Carrier carrier{"lqr", rig};
   EXPECT_THAT(carrier.move({}, 2.0),
-              HasSubstr("no way leads to the target past zone wall: choose another target"));
+              HasSubstr("no path leads to the target past zone wall: choose another target"));
   EXPECT_EQ(carrier.crane.status().state, crane_STATE_HOLD);
 }
 

@@ -110,7 +110,7 @@ TEST_P(EveryControllerNearZones, StopsTheStickBeforeAZone) {
   EXPECT_GT(watched.closest_m, 0);
 }
 
-TEST_P(EveryControllerNearZones, NeverSwingsTheLoadIntoAZoneOnItsWayToATargetCloseToIt) {
+TEST_P(EveryControllerNearZones, NeverSwingsTheLoadIntoAZoneOnItsPathToATargetCloseToIt) {
   Watched watched{GetParam()};
   ASSERT_EQ(watched.move(0, 1.15), "");
   watched.crane.run(10);

@@ -96,11 +96,11 @@ void step_axis(const StickAxisLimits& limits, const ShaperImpulses& shares, doub
                StickAxis& axis) noexcept {
   if (!(limits.speed > 0)) return;
   const RateLimit pace{limits.acceleration * period_s, period_s};
-  const double braking = limits.acceleration / shares.largest_weight, tick_way = limits.speed * period_s;
+  const double braking = limits.acceleration / shares.largest_weight, tick_travel = limits.speed * period_s;
   // position at the end of the pending changes, without the braking distance from u
   const double end = axis.position - axis.lag;
-  const double up = speed_for(limits.high - end - tick_way, braking, shares.mean_s);
-  const double down = speed_for(end - limits.low - tick_way, braking, shares.mean_s);
+  const double up = speed_for(limits.high - end - tick_travel, braking, shares.mean_s);
+  const double down = speed_for(end - limits.low - tick_travel, braking, shares.mean_s);
   StickAxis trial = axis;
   advance(shares, pace, std::clamp(wanted, -down, up), trial);
   trial.release = release_in(limits, shares, pace, trial);

@@ -50,7 +50,7 @@ void remove_filters(Rig& rig) {
 
 template <int tenths>
 void forward_gain(Rig& rig) {
-  rig.design.full_feedback_gain_pm = tenths / 10.0;
+  rig.design.full_state_forward_gain_vpm = tenths / 10.0;
 }
 
 /// Scales the true friction of every drive; the compensation keeps the values of the rig file.

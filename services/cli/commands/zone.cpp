@@ -18,7 +18,7 @@
 #include "crane/recording/run_table.hpp"
 #include "crane/runtime/process.hpp"
 #include "stack/data_files.hpp"
-#include "zone_way.hpp"
+#include "zone_path.hpp"
 
 namespace crane::cli {
 namespace {
@@ -184,7 +184,7 @@ void add_learn(CLI::App& group, const Options& options, Action& chosen) {
 void add_zone(CLI::App& app, Action& chosen) {
   auto options = std::make_shared<ZoneOptions>();
   auto* group = app.add_subcommand(
-      "zone", "List, learn and remove no-go zones of a rig file, and find ways around them");
+      "zone", "List, learn and remove no-go zones of a rig file, and find paths around them");
   group->require_subcommand(1);
   group->footer(
       "The supervisor keeps load, hook and cable out of the zones; docs/zones.md states how, and what it "
@@ -192,7 +192,7 @@ void add_zone(CLI::App& app, Action& chosen) {
   auto* listing = add_command(*group, "list", "List the zones", options);
   listing->add_flag("--json", options->json, "print a JSON array");
   listing->callback([options, &chosen] { chosen = [options] { return list(*options); }; });
-  add_zone_way(*group, chosen);
+  add_zone_path(*group, chosen);
   add_learn(*group, options, chosen);
   auto* removal = add_command(*group, "remove", "Remove a zone from the file", options);
   removal->add_option("NAME", options->name, "name of the zone")->required();

@@ -168,7 +168,7 @@ ForwardGains forward_gains(const Design& design, const Reference& reference) noe
   const auto gain = [&](plant::Axis axis) {
     const double distance = reference[axis].position - reference[axis].start;
     return forward_gain_within(available_control_v(design, axis, distance > 0), distance,
-                               design.full_feedback_gain_pm);
+                               design.full_state_forward_gain_vpm);
   };
   return {gain(kTrolley), gain(kSlew)};
 }

@@ -15,7 +15,7 @@ constexpr double kStartBarrier = 3e-3, kEndBarrier = 2e-5;  // s of T per bound 
 constexpr double kBarrierFactor = 0.3;
 constexpr double kEffort = 5e-3;      // s: effort of full volts on both drives during the whole move
 constexpr double kEndSlack = 1e-8;    // regularises the end condition
-constexpr double kToBoundary = 0.99;  // largest share of the way to a bound in one step
+constexpr double kToBoundary = 0.99;  // largest share of the distance to a bound in one step
 constexpr double kClosed = 1e-4;      // sum of the absolute gaps of a solution, m, rad and their rates
 constexpr double kMostChange = 0.2;   // largest relative change of T in one step
 constexpr int kMostHalvings = 12;
@@ -71,9 +71,9 @@ Solver::Solver(const Design& design, const PlanProblem& problem) noexcept
 
 void Solver::guess(const Plan* warm) noexcept {
   const double g = tower_.design.crane.gravity_mps2;
-  const double way_m = std::abs(to_[0] - from_[0]) +
-                       std::abs(to_[2] - from_[2]) * std::max(std::abs(from_[0]), std::abs(to_[0]));
-  const double by_swing_s = 2.4 * std::sqrt(way_m / (g * high_[1]));
+  const double distance_m = std::abs(to_[0] - from_[0]) +
+                            std::abs(to_[2] - from_[2]) * std::max(std::abs(from_[0]), std::abs(to_[0]));
+  const double by_swing_s = 2.4 * std::sqrt(distance_m / (g * high_[1]));
   at_.duration_s = std::max(by_swing_s, 0.7 * plant::swing_period_s(g, tower_.cable_m));
   for (int k = 0; k <= kIntervals; ++k) {
     const double u = static_cast<double>(k) / kIntervals;

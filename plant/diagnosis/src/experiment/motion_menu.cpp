@@ -94,18 +94,19 @@ class Menu {
     SafeMotion motion = begun(std::string{"break_away_"} + name_of_axis(axis),
                               std::string{"Let the "} + name_of_axis(axis) +
                                   " creep from rest to both sides, again and again, over short distances.");
-    constexpr double kFrequency_hz = 0.1, kWay_s = 0.05;  // distance at reference speed in that time
-    const double way = std::min(kWay_s * rig_.drives[axis].reference_speed, amplitude(axis, kFrequency_hz));
-    append(motion, axis, {{rounded(way), kFrequency_hz, 0}}, 40);
+    constexpr double kFrequency_hz = 0.1, kTravel_s = 0.05;  // distance at reference speed in that time
+    const double chosen =
+        std::min(kTravel_s * rig_.drives[axis].reference_speed, amplitude(axis, kFrequency_hz));
+    append(motion, axis, {{rounded(chosen), kFrequency_hz, 0}}, 40);
     add(std::move(motion));
   }
 
   void append_two_speeds(SafeMotion& motion, Axis axis) const {
     // The centripetal force acts at twice the frequency of slewing, which must not excite the swing either.
     const double fast_hz = rounded(0.35 * swing_hz_), slow_hz = rounded(fast_hz / 3);
-    const double way = amplitude(axis, fast_hz);
-    append(motion, axis, {{way, slow_hz, 0}}, std::round(1.5 / slow_hz));
-    append(motion, axis, {{way, fast_hz, 0}}, std::round(3 / fast_hz));
+    const double chosen = amplitude(axis, fast_hz);
+    append(motion, axis, {{chosen, slow_hz, 0}}, std::round(1.5 / slow_hz));
+    append(motion, axis, {{chosen, fast_hz, 0}}, std::round(3 / fast_hz));
   }
   void add_two_speeds(Axis axis) {
     SafeMotion motion = begun(std::string{"two_speeds_"} + name_of_axis(axis),

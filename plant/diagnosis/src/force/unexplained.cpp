@@ -41,8 +41,8 @@ std::vector<std::vector<double>> since_reversal(const Runs& runs, Output axis, d
     for (std::size_t k = 0; k < motion.position.size(); ++k) {
       if (direction * motion.rate[k] < -kStandstillSpeed)
         direction = -direction, turned_at = motion.position[k];
-      const double way = std::max(0.0, direction * (motion.position[k] - turned_at));
-      since.push_back(direction * std::sqrt(std::min(1.0, way / far)));
+      const double distance = std::max(0.0, direction * (motion.position[k] - turned_at));
+      since.push_back(direction * std::sqrt(std::min(1.0, distance / far)));
     }
   }
   return all;
@@ -71,7 +71,7 @@ std::vector<Variable> variables_of(const Runs& runs, Output axis) {
   return {{name + ": position", GoesWith::position, 16, travel, position, push},
           {name + ": position, closely", GoesWith::position, 64, travel, position, push},
           {name + ": speed", GoesWith::speed, 12, speeds, speed, push},
-          {name + ": way since the last reversal", GoesWith::reversals, 13, {-1, 1}, since, push},
+          {name + ": distance since the last reversal", GoesWith::reversals, 13, {-1, 1}, since, push},
           {name + ": friction by position", GoesWith::position, 16, travel, position, friction},
           {name + ": friction over time", GoesWith::time, 5, times, time, friction},
           {name + ": command over time", GoesWith::time, 5, times, time, command},

@@ -31,9 +31,9 @@ Eigen::Matrix3d transition_of(const Disturbance& d, const WindowMotion& motion) 
         0, 1, t,                //
         0, 0, kept;
   } else {
-    const double slowed = std::exp(-c * t), way = (1 - slowed) / c;
-    step << 1, way, (t - way) / c,  //
-        0, slowed, way,             //
+    const double slowed = std::exp(-c * t), distance = (1 - slowed) / c;
+    step << 1, distance, (t - distance) / c,  //
+        0, slowed, distance,                  //
         0, 0, kept;
   }
   return step;

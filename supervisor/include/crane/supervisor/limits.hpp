@@ -6,7 +6,7 @@
 
 #include "crane/control/drive_limits.hpp"
 #include "crane/control/operating_limits.hpp"
-#include "crane/control/way.hpp"
+#include "crane/control/path.hpp"
 #include "crane/control/zone.hpp"
 #include "crane/plant/parameters.hpp"
 #include "crane/supervisor/states.hpp"
@@ -68,7 +68,7 @@ struct Limits : control::OperatingLimits {
   MachineModel machine{};
   control::Clearance clearance{};
   std::vector<control::Zone> zones{};  ///< empty: the zone filter has no effect
-  control::WaySpace way_space{};       ///< input of the search for moves around zones
+  control::PathSpace path_space{};     ///< input of the search for moves around zones
   PerAxis reference_acceleration{};  ///< deceleration of the planner's stop, unit/s^2; 0: no controlled stop
                                      ///< before the ramped stop
   /// Largest distance between an axis and the start of a reference of sines, unit: reference_speed^2 /

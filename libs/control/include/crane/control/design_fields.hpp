@@ -31,12 +31,13 @@ inline constexpr std::array<fields::Field<Design>, 18> kDesignFields{{
                 "a hoist that of "
                 "`[start]`",
      .default_text = "that of `[start]`"},
-    {.key = "full_feedback_gain_pm",
-     .member = &Design::full_feedback_gain_pm,
+    {.key = "full_state_forward_gain_vpm",
+     .member = &Design::full_state_forward_gain_vpm,
      .range = fields::Range::above(0, 1000),
      .unit = "V/m, V/rad",
-     .meaning = "largest K of (3.26); the law lowers K for moves whose first command would exceed the volts "
-                "of the drive"},
+     .meaning = "largest forward gain K of the full-state feedback (3.26), V/m on the trolley, V/rad on the "
+                "slew axis; "
+                "the law lowers K for moves whose first command would exceed the volts of the drive"},
     {.key = "tracking_proportional",
      .member = &Design::tracking_proportional,
      .range = fields::Range::above(0, 1e5),

@@ -104,8 +104,8 @@ struct Design {
   double period_s = 0.01;          ///< sampling period
   double cable_length_m = 1.0;     ///< nominal length; the laws use the measured length
   Volts volt_limit_v{10, 10, 10};  ///< largest |V| of the drives
-  /// Largest K of the full-state feedback (3.26): V/m on the trolley, V/rad on the slew axis.
-  double full_feedback_gain_pm = 4.0;
+  /// Largest forward gain K of the full-state feedback (3.26): V/m on the trolley, V/rad on the slew axis.
+  double full_state_forward_gain_vpm = 4.0;
   double tracking_proportional = 100;            ///< K_p of (3.41), normalised
   double tracking_derivative = 20;               ///< K_d of (3.41), normalised; 2 sqrt(K_p) by (3.42)
   double delayed_1_gain = -90;                   ///< K_del of (3.47), normalised

@@ -1,5 +1,5 @@
 #pragma once
-/// Reference along a way: straight legs with parabolic blends (J. J. Craig, Introduction to Robotics, 7.3).
+/// Reference along a path: straight legs with parabolic blends (J. J. Craig, Introduction to Robotics, 7.3).
 ///
 /// Leg k runs from P_(k-1) to P_k with the profile sigma_k (0 to 1, trajectory.hpp) from the time t_k on:
 ///   r(t) = P_0 + sum over k of (P_k - P_(k-1)) sigma_k(t - t_k)
@@ -10,8 +10,8 @@
 /// opposite to the corner is free at the speeds of both legs.
 #include <vector>
 
+#include "crane/control/path.hpp"
 #include "crane/control/trajectory.hpp"
-#include "crane/control/way.hpp"
 
 namespace crane::control {
 
@@ -28,7 +28,7 @@ class Route {
   /// @param start  present reference (m, rad, m of cable). An axis that the rig does not have stays there
   /// @throws std::invalid_argument when speeds or accelerations of `space` are outside the ranges of
   /// AxisLimits
-  Route(const WaySpace& space, const plant::PerAxis& start, const std::vector<Waypoint>& points,
+  Route(const PathSpace& space, const plant::PerAxis& start, const std::vector<Waypoint>& points,
         const RouteStyle& style);
 
   [[nodiscard]] double duration_s() const noexcept { return duration_s_; }

@@ -1,4 +1,4 @@
-#include "crane/control/way.hpp"
+#include "crane/control/path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +11,18 @@
 namespace crane::control {
 namespace {
 
-struct TimedWay {
+struct TimedPath {
   std::vector<Waypoint> points;
   double duration_s = 0;
 };
 
-/// Leg between two places of a way.
-Leg leg_between(const WaySpace& space, const std::vector<PerAxis>& places, std::size_t i, std::size_t j) {
+/// Leg between two places of a path.
+Leg leg_between(const PathSpace& space, const std::vector<PerAxis>& places, std::size_t i, std::size_t j) {
   if (i == 0 || j + 1 == places.size()) return end_leg(space, places[i], places[j]);
   return leg_of(space, places[i], places[j], kPassGap_m);
 }
 
-/// Corners of a way over the grid, and places between them.
+/// Corners of a path over the grid, and places between them.
 std::vector<PerAxis> thinned(const std::vector<PerAxis>& nodes) {
   constexpr std::size_t kRun = 4;  // nodes of a straight run between two places
   constexpr double kSameDirection = 1e-9;
@@ -41,9 +41,9 @@ std::vector<PerAxis> thinned(const std::vector<PerAxis>& nodes) {
   return kept;
 }
 
-/// Fastest sequence of straight legs through places of the way: shortest path in the graph of all free legs
-/// over at most kWindow places. The graph contains the way over the grid. Therefore a result exists.
-TimedWay straightened(const WaySpace& space, const std::vector<PerAxis>& places) {
+/// Fastest sequence of straight legs through places of the path: shortest path in the graph of all free legs
+/// over at most kWindow places. The graph contains the path over the grid. Therefore a result exists.
+TimedPath straightened(const PathSpace& space, const std::vector<PerAxis>& places) {
   constexpr std::size_t kWindow = 12;
   struct Best {
     double time_s = std::numeric_limits<double>::infinity();
@@ -58,11 +58,11 @@ TimedWay straightened(const WaySpace& space, const std::vector<PerAxis>& places)
       if (leg.is_free && best[i].time_s + leg.duration_s < best[j].time_s)
         best[j] = {best[i].time_s + leg.duration_s, i, leg.speed_share};
     }
-  TimedWay way{.points = {}, .duration_s = best.back().time_s};
+  TimedPath path{.points = {}, .duration_s = best.back().time_s};
   for (std::size_t j = places.size() - 1; j > 0; j = best[j].before)
-    way.points.push_back({places[j], best[j].share});
-  std::ranges::reverse(way.points);
-  return way;
+    path.points.push_back({places[j], best[j].share});
+  std::ranges::reverse(path.points);
+  return path;
 }
 
 PerAxis at_cable(PerAxis position, double cable_m) noexcept {
@@ -70,31 +70,31 @@ PerAxis at_cable(PerAxis position, double cable_m) noexcept {
   return position;
 }
 
-/// The way at one cable length, with vertical legs at both ends.
-TimedWay with_lifts(const WaySpace& space, const PerAxis& from, const PerAxis& to, double cable_m,
-                    TimedWay way) {
+/// The path at one cable length, with vertical legs at both ends.
+TimedPath with_lifts(const PathSpace& space, const PerAxis& from, const PerAxis& to, double cable_m,
+                     TimedPath path) {
   const auto add = [&](const PerAxis& a, const PerAxis& b) {
-    if (a[kHoist] != b[kHoist]) way.duration_s += cruise_time_s(space, a, b, 1);
+    if (a[kHoist] != b[kHoist]) path.duration_s += cruise_time_s(space, a, b, 1);
     return a[kHoist] != b[kHoist];
   };
   if (add(from, at_cable(from, cable_m)))
-    way.points.insert(way.points.begin(), {.position = at_cable(from, cable_m)});
-  if (add(at_cable(to, cable_m), to)) way.points.push_back({.position = to});
-  return way;
+    path.points.insert(path.points.begin(), {.position = at_cable(from, cable_m)});
+  if (add(at_cable(to, cable_m), to)) path.points.push_back({.position = to});
+  return path;
 }
 
-std::optional<TimedWay> around(const WaySpace& space, const PerAxis& from, const PerAxis& to, double cable_m,
-                               std::vector<char>& blocking) {
+std::optional<TimedPath> around(const PathSpace& space, const PerAxis& from, const PerAxis& to,
+                                double cable_m, std::vector<char>& blocking) {
   const auto nodes = search_grid(space, at_cable(from, cable_m), at_cable(to, cable_m), blocking);
   if (!nodes) return std::nullopt;
-  TimedWay way = straightened(space, thinned(*nodes));
-  if (!std::isfinite(way.duration_s)) return std::nullopt;
-  return with_lifts(space, from, to, cable_m, std::move(way));
+  TimedPath path = straightened(space, thinned(*nodes));
+  if (!std::isfinite(path.duration_s)) return std::nullopt;
+  return with_lifts(space, from, to, cable_m, std::move(path));
 }
 
 /// Straight leg above the zones, with the longest cable at which it is free.
-std::optional<TimedWay> over(const WaySpace& space, const PerAxis& from, const PerAxis& to, double shortest_m,
-                             double longest_m) {
+std::optional<TimedPath> over(const PathSpace& space, const PerAxis& from, const PerAxis& to,
+                              double shortest_m, double longest_m) {
   constexpr int kHalvings = 8;
   const auto leg_at = [&](double cable_m) {
     return leg_of(space, at_cable(from, cable_m), at_cable(to, cable_m), kPassGap_m);
@@ -105,18 +105,18 @@ std::optional<TimedWay> over(const WaySpace& space, const PerAxis& from, const P
     const double middle_m = (high_m + low_m) / 2;
     (leg_at(middle_m).is_free ? high_m : low_m) = middle_m;
   }
-  std::optional<TimedWay> fastest;
+  std::optional<TimedPath> fastest;
   for (const double cable_m : {high_m, shortest_m}) {  // with a higher hook, the move is faster
     const Leg leg = leg_at(cable_m);
-    TimedWay way{.points = {{at_cable(to, cable_m), leg.speed_share}}, .duration_s = leg.duration_s};
-    way = with_lifts(space, from, to, cable_m, std::move(way));
-    if (!fastest || way.duration_s < fastest->duration_s) fastest = std::move(way);
+    TimedPath path{.points = {{at_cable(to, cable_m), leg.speed_share}}, .duration_s = leg.duration_s};
+    path = with_lifts(space, from, to, cable_m, std::move(path));
+    if (!fastest || path.duration_s < fastest->duration_s) fastest = std::move(path);
   }
   return fastest;
 }
 
-void take_faster(std::optional<TimedWay> other, std::optional<TimedWay>& way) {
-  if (other && (!way || other->duration_s < way->duration_s)) way = std::move(other);
+void take_faster(std::optional<TimedPath> other, std::optional<TimedPath>& path) {
+  if (other && (!path || other->duration_s < path->duration_s)) path = std::move(other);
 }
 
 std::vector<std::size_t> indices_of(const std::vector<char>& flags) {
@@ -128,36 +128,36 @@ std::vector<std::size_t> indices_of(const std::vector<char>& flags) {
 
 }  // namespace
 
-Way way_to(const WaySpace& space, const PerAxis& measured, const PerAxis& wanted) {
+Path path_to(const PathSpace& space, const PerAxis& measured, const PerAxis& wanted) {
   const PerAxis from = completed(space, measured), to = completed(space, wanted);
   for (std::size_t i = 0; i < plant::kAxes; ++i)
-    if (!std::isfinite(from[i]) || !std::isfinite(to[i])) return {.outcome = WayOutcome::no_way};
+    if (!std::isfinite(from[i]) || !std::isfinite(to[i])) return {.outcome = PathOutcome::no_path};
   const double distance_m = ground_distance_m(from, to) + std::abs(to[kHoist] - from[kHoist]);
-  if (!(distance_m <= kLongestWay_m)) return {.outcome = WayOutcome::no_way};
+  if (!(distance_m <= kLargestDistance_m)) return {.outcome = PathOutcome::no_path};
   const bool straight =
       zone_in_path(space.zones, space.clearance, space.gravity_mps2, from, to, kRestGap_m) == nullptr;
-  std::optional<TimedWay> way;
+  std::optional<TimedPath> path;
   if (straight) {
     const Leg leg = end_leg(space, from, to);
     if (leg.is_free && leg.speed_share >= 1) return {};
-    way =
-        TimedWay{.points = {{.position = to, .speed_share = speed_share(space, from, to, leg.clearance_m)}}};
-    way->duration_s = cruise_time_s(space, from, to, way->points[0].speed_share);
+    path =
+        TimedPath{.points = {{.position = to, .speed_share = speed_share(space, from, to, leg.clearance_m)}}};
+    path->duration_s = cruise_time_s(space, from, to, path->points[0].speed_share);
   } else if (const auto target = closest_zone(space, to); !(target.clearance_m >= kRestGap_m)) {
-    return {.outcome = WayOutcome::target_inside, .blocking = {target.zone}};
+    return {.outcome = PathOutcome::target_inside, .blocking = {target.zone}};
   }
   const double longest_m = std::min(from[kHoist], to[kHoist]);
   const bool lifts = space.axis[kHoist].present && space.cable_measured;
   const double shortest_m = lifts ? std::min(longest_m, space.axis[kHoist].low) : longest_m;
   std::vector<char> blocking(space.zones.size(), 0);
-  take_faster(around(space, from, to, longest_m, blocking), way);
-  take_faster(over(space, from, to, shortest_m, longest_m), way);
-  if (!way && shortest_m < longest_m) {
+  take_faster(around(space, from, to, longest_m, blocking), path);
+  take_faster(over(space, from, to, shortest_m, longest_m), path);
+  if (!path && shortest_m < longest_m) {
     std::ranges::fill(blocking, 0);
-    way = around(space, from, to, shortest_m, blocking);
+    path = around(space, from, to, shortest_m, blocking);
   }
-  if (!way) return {.outcome = WayOutcome::no_way, .blocking = indices_of(blocking)};
-  return {.outcome = WayOutcome::around, .points = std::move(way->points)};
+  if (!path) return {.outcome = PathOutcome::no_path, .blocking = indices_of(blocking)};
+  return {.outcome = PathOutcome::around, .points = std::move(path->points)};
 }
 
 }  // namespace crane::control

@@ -1,13 +1,13 @@
-#include "crane/configuration/way_space.hpp"
+#include "crane/configuration/path_space.hpp"
 
 namespace crane::configuration {
 
-control::WaySpace way_space_of(const Rig& rig) {
-  control::WaySpace space{.zones = rig.zones,
-                          .clearance = rig.clearance,
-                          .gravity_mps2 = rig.design.crane.gravity_mps2,
-                          .cable_measured = rig.measures(plant::kHoist),
-                          .cable_m = rig.start.position[plant::kHoist]};
+control::PathSpace path_space_of(const Rig& rig) {
+  control::PathSpace space{.zones = rig.zones,
+                           .clearance = rig.clearance,
+                           .gravity_mps2 = rig.design.crane.gravity_mps2,
+                           .cable_measured = rig.measures(plant::kHoist),
+                           .cable_m = rig.start.position[plant::kHoist]};
   for (std::size_t i = 0; i < plant::kAxes; ++i) {
     const Drive& drive = rig.drives[i];
     if (!drive.present) continue;

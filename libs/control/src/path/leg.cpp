@@ -31,14 +31,14 @@ double ground_distance_m(const PerAxis& from, const PerAxis& to) noexcept {
   return std::hypot(to[kTrolley] - from[kTrolley], radius_m * (to[kSlew] - from[kSlew]));
 }
 
-double passing_speed_mps(const WaySpace& space, double clearance_m, double cable_m) noexcept {
+double passing_speed_mps(const PathSpace& space, double clearance_m, double cable_m) noexcept {
   // A stop from the speed v leaves a swing of v sqrt(L/g). The acceleration before the stop may have left the
   // same swing.
   const double swing_s = 2 * std::sqrt(cable_m * (1 + space.clearance.cable_error) / space.gravity_mps2);
   return std::max(kSlowest_mps, (clearance_m - kRestGap_m - kBlend_m) / (swing_s + kReaction_s));
 }
 
-double cruise_time_s(const WaySpace& space, const PerAxis& from, const PerAxis& to, double share) noexcept {
+double cruise_time_s(const PathSpace& space, const PerAxis& from, const PerAxis& to, double share) noexcept {
   double longest_s = 0;
   for (std::size_t i = 0; i < kAxes; ++i)
     if (space.axis[i].present)
@@ -46,7 +46,7 @@ double cruise_time_s(const WaySpace& space, const PerAxis& from, const PerAxis& 
   return longest_s;
 }
 
-double speed_share(const WaySpace& space, const PerAxis& from, const PerAxis& to,
+double speed_share(const PathSpace& space, const PerAxis& from, const PerAxis& to,
                    double clearance_m) noexcept {
   const double full_s = cruise_time_s(space, from, to, 1), distance_m = ground_distance_m(from, to);
   if (!(full_s > 0) || !(distance_m > 0)) return 1;
@@ -54,14 +54,14 @@ double speed_share(const WaySpace& space, const PerAxis& from, const PerAxis& to
   return std::clamp(passing_speed_mps(space, clearance_m, cable_m) * full_s / distance_m, kSlowestShare, 1.0);
 }
 
-PerAxis completed(const WaySpace& space, PerAxis position) noexcept {
+PerAxis completed(const PathSpace& space, PerAxis position) noexcept {
   constexpr double kShortest_m = 0.05;
   if (!space.axis[kSlew].present) position[kSlew] = 0;
   position[kHoist] = space.cable_measured ? std::max(position[kHoist], kShortest_m) : space.cable_m;
   return position;
 }
 
-ClosestZone closest_zone(const WaySpace& space, const PerAxis& position) noexcept {
+ClosestZone closest_zone(const PathSpace& space, const PerAxis& position) noexcept {
   const auto reach = resting_reach(space.clearance, space.gravity_mps2, position[kTrolley], position[kSlew],
                                    position[kHoist]);
   ClosestZone closest{.clearance_m = std::numeric_limits<double>::infinity()};
@@ -78,11 +78,12 @@ ClosestZone closest_zone(const WaySpace& space, const PerAxis& position) noexcep
   return closest;
 }
 
-double straight_clearance_m(const WaySpace& space, const PerAxis& from, const PerAxis& to) noexcept {
+double straight_clearance_m(const PathSpace& space, const PerAxis& from, const PerAxis& to) noexcept {
   return leg_of(space, from, to, kRestGap_m).clearance_m;
 }
 
-Leg leg_of(const WaySpace& space, const PerAxis& from, const PerAxis& to, double least_clearance_m) noexcept {
+Leg leg_of(const PathSpace& space, const PerAxis& from, const PerAxis& to,
+           double least_clearance_m) noexcept {
   const double growth = std::abs(to[kHoist] - from[kHoist]) * (1 + space.clearance.cable_error) *
                         (1 + 2 * space.clearance.wind_mps2 / space.gravity_mps2);
   const double distance_m = ground_distance_m(from, to) + growth;

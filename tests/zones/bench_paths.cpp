@@ -1,16 +1,16 @@
-// Duration of the search for ways, and of the ways compared with straight moves without zones.
+// Duration of the search for paths, and of the paths compared with straight moves without zones.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <random>
 
-#include "crane/configuration/way_space.hpp"
+#include "crane/configuration/path_space.hpp"
 
 namespace crane {
 namespace {
 
-using control::WayOutcome;
+using control::PathOutcome;
 
 double cpu_ms() {
   timespec now{};
@@ -31,7 +31,7 @@ control::Zone random_zone(std::mt19937& bits, int number) {
           .top_m = in(0.6, 2)};
 }
 
-plant::PerAxis random_place(const control::WaySpace& space, std::mt19937& bits) {
+plant::PerAxis random_place(const control::PathSpace& space, std::mt19937& bits) {
   plant::PerAxis place{};
   for (int i = 0; i < 100; ++i) {
     for (std::size_t axis = 0; axis < plant::kAxes; ++axis)
@@ -42,24 +42,24 @@ plant::PerAxis random_place(const control::WaySpace& space, std::mt19937& bits) 
   return place;
 }
 
-void measure(const control::WaySpace& rig, int zones) {
+void measure(const control::PathSpace& rig, int zones) {
   std::vector<double> searched_ms;
-  int straight = 0, no_way = 0;
+  int straight = 0, no_path = 0;
   for (unsigned seed = 1; seed <= 400; ++seed) {
     std::mt19937 bits{seed};
     auto space = rig;
     for (int i = 0; i < zones; ++i) space.zones.push_back(random_zone(bits, i));
     const auto from = random_place(space, bits), to = random_place(space, bits);
     const double begin_ms = cpu_ms();
-    const auto way = control::way_to(space, from, to);
+    const auto path = control::path_to(space, from, to);
     searched_ms.push_back(cpu_ms() - begin_ms);
-    straight += way.outcome == WayOutcome::straight ? 1 : 0;
-    no_way += way.outcome == WayOutcome::no_way || way.outcome == WayOutcome::target_inside ? 1 : 0;
+    straight += path.outcome == PathOutcome::straight ? 1 : 0;
+    no_path += path.outcome == PathOutcome::no_path || path.outcome == PathOutcome::target_inside ? 1 : 0;
   }
   std::ranges::sort(searched_ms);
-  std::printf("%5d zones: p50 %7.3f ms, p99 %7.3f ms, max %7.3f ms; %d straight, %d without way, of 400\n",
+  std::printf("%5d zones: p50 %7.3f ms, p99 %7.3f ms, max %7.3f ms; %d straight, %d without path, of 400\n",
               zones, searched_ms[searched_ms.size() / 2], searched_ms[searched_ms.size() * 99 / 100],
-              searched_ms.back(), straight, no_way);
+              searched_ms.back(), straight, no_path);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ void measure(const control::WaySpace& rig, int zones) {
 int main() {
   auto rig = crane::configuration::load_rig(CRANE_RIGS "/virginia_tech_tower_silo.toml");
   rig.zones.clear();
-  const auto space = crane::configuration::way_space_of(rig);
+  const auto space = crane::configuration::path_space_of(rig);
   for (const int zones : {1, 10, 100}) crane::measure(space, zones);
   return 0;
 }

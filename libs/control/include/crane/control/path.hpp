@@ -1,15 +1,15 @@
 #pragma once
-/// Search for the way of a move around the no-go zones. A way is a sequence of legs; a leg is straight in the
-/// coordinates of the axes. Pure. Supervisor and planner call way_to() with the same data.
-/// docs/zones.md#ways-around-zones.
+/// Search for the path of a move around the no-go zones. A path is a sequence of legs; a leg is straight in
+/// the coordinates of the axes. Pure. Supervisor and planner call path_to() with the same data.
+/// docs/zones.md#paths-around-zones.
 ///
 /// The clearance of a position is the distance between a load that rests there (resting_reach) and the
 /// closest zone. A position is free when its clearance is at least kPassGap_m.
 ///
 /// Cable length. A position that is free is also free with a shorter cable, because the space of the resting
-/// load shrinks on all sides and its lower end rises. Therefore a free way in three coordinates stays free
+/// load shrinks on all sides and its lower end rises. Therefore a free path in three coordinates stays free
 /// when all its cable lengths are replaced by the shortest one: a search over trolley and slew with the
-/// shortest cable decides whether a way exists. Raising the load at the start and lowering the load at the
+/// shortest cable decides whether a path exists. Raising the load at the start and lowering the load at the
 /// target are also free.
 ///
 /// Legs. Along a leg the clearance changes by at most the distance d over the ground. Therefore a sample with
@@ -29,9 +29,9 @@
 
 namespace crane::control {
 
-/// Input of the search that depends on the rig only. configuration::way_space_of() reads it from the rig
+/// Input of the search that depends on the rig only. configuration::path_space_of() reads it from the rig
 /// file.
-struct WaySpace {
+struct PathSpace {
   struct Axis {
     bool present = false;
     double low = 0, high = 0;  ///< permitted targets, unit: m, rad, m of cable
@@ -47,22 +47,22 @@ struct WaySpace {
   double cable_m = 1;  ///< length of a cable that is not measured
 };
 
-enum class WayOutcome : std::uint8_t {
+enum class PathOutcome : std::uint8_t {
   straight,       ///< the straight leg to the target is free at the reference speeds; no waypoints
   around,         ///< `points` lead to the target: around zones, or straight at reduced speed
   target_inside,  ///< the clearance of the target from the first zone of `blocking` is below kRestGap_m
-  no_way          ///< the zones of `blocking` enclose the free space around the start
+  no_path         ///< the zones of `blocking` enclose the free space around the start
 };
 
-/// Least clearance of a target, and of the start and the end of a way, m. The noise of the zone filter at
+/// Least clearance of a target, and of the start and the end of a path, m. The noise of the zone filter at
 /// rest is smaller.
 inline constexpr double kRestGap_m = 0.02;
-/// Least clearance of a way between its first and its last leg, m: the zone filter needs it at the lowest
+/// Least clearance of a path between its first and its last leg, m: the zone filter needs it at the lowest
 /// speed of a leg.
 inline constexpr double kPassGap_m = 0.05;
-/// Largest distance of start and target, m: longer than the way of any crane. It bounds the time of a search
+/// Largest distance of start and target, m: longer than any move of a crane. It bounds the time of a search
 /// from a wrong position.
-inline constexpr double kLongestWay_m = 1000;
+inline constexpr double kLargestDistance_m = 1000;
 
 /// End of a leg.
 struct Waypoint {
@@ -70,38 +70,38 @@ struct Waypoint {
   double speed_share = 1;     ///< speed of the leg / reference speeds, in (0, 1]
 };
 
-struct Way {
-  WayOutcome outcome = WayOutcome::straight;
+struct Path {
+  PathOutcome outcome = PathOutcome::straight;
   std::vector<Waypoint> points{};       ///< without the start; the last one is the target
   std::vector<std::size_t> blocking{};  ///< indices of zones, without repetition
 };
 
-/// The way from `from` to `to`. Equal arguments give equal ways, bit for bit. The number of zones and the
+/// The path from `from` to `to`. Equal arguments give equal paths, bit for bit. The number of zones and the
 /// 8000 nodes of the grid bound time and memory. The search may miss a passage whose width beyond
 /// 2 kPassGap_m is below the spacing of the grid (4 cm over the ground; more on a large crane).
 /// @param from  measured trolley position m, slew angle rad, cable length m
 /// @param to    target in the same units, inside the limits of the axes
-/// @return no_way without `blocking` when a value is not finite or the distance exceeds kLongestWay_m
-[[nodiscard]] Way way_to(const WaySpace& space, const plant::PerAxis& from, const plant::PerAxis& to);
+/// @return no_path without `blocking` when a value is not finite or the distance exceeds kLargestDistance_m
+[[nodiscard]] Path path_to(const PathSpace& space, const plant::PerAxis& from, const plant::PerAxis& to);
 
 /// Replaces coordinates that the rig does not have or does not measure: slew angle 0, cable length
 /// `space.cable_m`. A measured cable length is at least 0.05 m.
-[[nodiscard]] plant::PerAxis completed(const WaySpace& space, plant::PerAxis position) noexcept;
+[[nodiscard]] plant::PerAxis completed(const PathSpace& space, plant::PerAxis position) noexcept;
 
 /// The clearance of a position, m, and its zone (index); infinity without zones.
 struct ClosestZone {
   double clearance_m = 0;
   std::size_t zone = 0;
 };
-[[nodiscard]] ClosestZone closest_zone(const WaySpace& space, const plant::PerAxis& position) noexcept;
+[[nodiscard]] ClosestZone closest_zone(const PathSpace& space, const plant::PerAxis& position) noexcept;
 
 /// Smallest clearance on the straight leg between two completed positions, m. A value below kRestGap_m is an
 /// upper bound: the first such sample ends the calculation.
-[[nodiscard]] double straight_clearance_m(const WaySpace& space, const plant::PerAxis& from,
+[[nodiscard]] double straight_clearance_m(const PathSpace& space, const plant::PerAxis& from,
                                           const plant::PerAxis& to) noexcept;
 
 /// Largest speed of the suspension point over the ground at this clearance, m/s, at which the zone filter
-/// does not stop the crane. docs/zones.md#ways-around-zones states the formula.
-[[nodiscard]] double passing_speed_mps(const WaySpace& space, double clearance_m, double cable_m) noexcept;
+/// does not stop the crane. docs/zones.md#paths-around-zones states the formula.
+[[nodiscard]] double passing_speed_mps(const PathSpace& space, double clearance_m, double cable_m) noexcept;
 
 }  // namespace crane::control

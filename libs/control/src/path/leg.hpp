@@ -1,6 +1,6 @@
 #pragma once
-/// Straight legs of a way.
-#include "crane/control/way.hpp"
+/// Straight legs of a path.
+#include "crane/control/path.hpp"
 
 namespace crane::control {
 
@@ -23,14 +23,14 @@ struct Leg {
 [[nodiscard]] double ground_distance_m(const PerAxis& from, const PerAxis& to) noexcept;
 
 /// Permitted speed / reference speeds on this leg at this clearance.
-[[nodiscard]] double speed_share(const WaySpace& space, const PerAxis& from, const PerAxis& to,
+[[nodiscard]] double speed_share(const PathSpace& space, const PerAxis& from, const PerAxis& to,
                                  double clearance_m) noexcept;
 /// Duration of the leg at `share` of the reference speeds, without ramps, s.
-[[nodiscard]] double cruise_time_s(const WaySpace& space, const PerAxis& from, const PerAxis& to,
+[[nodiscard]] double cruise_time_s(const PathSpace& space, const PerAxis& from, const PerAxis& to,
                                    double share) noexcept;
 /// Conservative advancement: each sample proves that the leg is free for the distance by which its clearance
 /// exceeds `least_clearance_m`.
-[[nodiscard]] Leg leg_of(const WaySpace& space, const PerAxis& from, const PerAxis& to,
+[[nodiscard]] Leg leg_of(const PathSpace& space, const PerAxis& from, const PerAxis& to,
                          double least_clearance_m) noexcept;
 
 }  // namespace crane::control

@@ -9,7 +9,7 @@ namespace crane::control {
 namespace {
 
 /// Profile of the share of a leg, within the limits of all axes.
-AxisProfile profile_of(const WaySpace& space, const PerAxis& displacement, double share) {
+AxisProfile profile_of(const PathSpace& space, const PerAxis& displacement, double share) {
   AxisLimits limits{.speed = 1e9, .acceleration = 1e9, .jerk = std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < kAxes; ++i) {
     const auto& axis = space.axis[i];
@@ -36,7 +36,7 @@ double speed_over_ground_mps(const PerAxis& at, const PerAxis& displacement,
 
 }  // namespace
 
-Route::Route(const WaySpace& space, const PerAxis& start, const std::vector<Waypoint>& points,
+Route::Route(const PathSpace& space, const PerAxis& start, const std::vector<Waypoint>& points,
              const RouteStyle& style)
     : start_{start}, target_{start} {
   constexpr double kNegligible = 1e-6;  // m, rad: shorter legs are left out

@@ -24,7 +24,7 @@ struct Nodes {
   }
 };
 
-Nodes nodes_of(const WaySpace::Axis& axis, double fixed, double spacing) noexcept {
+Nodes nodes_of(const PathSpace::Axis& axis, double fixed, double spacing) noexcept {
   if (!axis.present || !(axis.high > axis.low)) return {.low = fixed};
   const int cells = std::max(1, static_cast<int>(std::ceil((axis.high - axis.low) / spacing)));
   return {.low = axis.low, .step = (axis.high - axis.low) / cells, .count = cells + 1};
@@ -32,7 +32,7 @@ Nodes nodes_of(const WaySpace::Axis& axis, double fixed, double spacing) noexcep
 
 class Grid {
  public:
-  Grid(const WaySpace& space, const PerAxis& from, const PerAxis& to, std::vector<char>& blocking)
+  Grid(const PathSpace& space, const PerAxis& from, const PerAxis& to, std::vector<char>& blocking)
       : space_{space}, from_{from}, to_{to}, blocking_{blocking} {
     const auto &trolley = space.axis[kTrolley], &slew = space.axis[kSlew];
     const double radius_m = std::max({std::abs(trolley.low), std::abs(trolley.high), 0.1});
@@ -76,7 +76,7 @@ class Grid {
 
  private:
   static constexpr int kFromStart = -1;
-  using Open = std::pair<double, int>;  // estimated duration of the whole way, node; of equal durations the
+  using Open = std::pair<double, int>;  // estimated duration of the whole path, node; of equal durations the
                                         // smaller node is first
 
   static std::size_t index(int node) noexcept { return static_cast<std::size_t>(node); }
@@ -162,7 +162,7 @@ class Grid {
     return places;
   }
 
-  const WaySpace& space_;
+  const PathSpace& space_;
   PerAxis from_, to_;
   std::vector<char>& blocking_;
   Nodes trolley_, slew_;
@@ -180,7 +180,7 @@ class Grid {
 
 }  // namespace
 
-Leg end_leg(const WaySpace& space, const PerAxis& from, const PerAxis& to) {
+Leg end_leg(const PathSpace& space, const PerAxis& from, const PerAxis& to) {
   Leg leg = leg_of(space, from, to, kRestGap_m);
   if (leg.is_free || closest_zone(space, from).clearance_m >= kRestGap_m) return leg;
   leg.is_free =
@@ -190,8 +190,8 @@ Leg end_leg(const WaySpace& space, const PerAxis& from, const PerAxis& to) {
   return leg;
 }
 
-std::optional<std::vector<PerAxis>> search_grid(const WaySpace& space, const PerAxis& from, const PerAxis& to,
-                                                std::vector<char>& blocking) {
+std::optional<std::vector<PerAxis>> search_grid(const PathSpace& space, const PerAxis& from,
+                                                const PerAxis& to, std::vector<char>& blocking) {
   return Grid{space, from, to, blocking}.search();
 }
 

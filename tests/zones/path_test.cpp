@@ -1,4 +1,4 @@
-// The search for ways against independent code: a dense check of each way, and a flood fill of the free
+// The search for paths against independent code: a dense check of each path, and a flood fill of the free
 // space.
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "crane/control/path.hpp"
 #include "crane/control/route.hpp"
-#include "crane/control/way.hpp"
 
 namespace crane::control {
 namespace {
@@ -18,8 +18,8 @@ using plant::PerAxis;
 
 constexpr double kGravity = 9.81;
 
-WaySpace tower() {
-  WaySpace space;
+PathSpace tower() {
+  PathSpace space;
   space.clearance = {.load_radius_m = 0.05, .suspension_height_m = 2, .cable_error = 0.1, .wind_mps2 = 0.1};
   space.gravity_mps2 = kGravity;
   space.axis[0] = {.present = true, .low = 0.19, .high = 1.31, .speed = 0.5, .acceleration = 1};
@@ -27,7 +27,7 @@ WaySpace tower() {
   space.axis[2] = {.present = true, .low = 0.4, .high = 1.5, .speed = 0.2, .acceleration = 0.5};
   return space;
 }
-WaySpace gantry() {
+PathSpace gantry() {
   auto space = tower();
   space.axis[0].low = 0.2, space.axis[0].high = 2.8;
   space.axis[1] = {};
@@ -36,7 +36,7 @@ WaySpace gantry() {
 
 /// Distance of the resting load, its wind margin and its cable from the zones, from docs/zones.md, without
 /// the code of the library.
-double gap_at(const WaySpace& space, const PerAxis& at) {
+double gap_at(const PathSpace& space, const PerAxis& at) {
   const double longest = at[2] * (1 + space.clearance.cable_error);
   const double radius = space.clearance.load_radius_m + 2 * space.clearance.wind_mps2 * longest / kGravity;
   const double lowest = space.clearance.suspension_height_m - longest - space.clearance.load_radius_m;
@@ -69,7 +69,7 @@ class Random {
   std::mt19937 bits_;
 };
 
-void add_zones(WaySpace& space, Random& random, int count) {
+void add_zones(PathSpace& space, Random& random, int count) {
   const bool slews = space.axis[1].present;
   for (int i = 0; i < count; ++i) {
     const double radius = random.in(0.3, slews ? 1.3 : 2.6), angle = slews ? random.in(-3, 3) : 0;
@@ -85,7 +85,7 @@ void add_zones(WaySpace& space, Random& random, int count) {
   }
 }
 
-PerAxis free_place(const WaySpace& space, Random& random, double gap_m) {
+PerAxis free_place(const PathSpace& space, Random& random, double gap_m) {
   for (int i = 0; i < 1000; ++i) {
     PerAxis at{};
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -95,8 +95,8 @@ PerAxis free_place(const WaySpace& space, Random& random, double gap_m) {
   return {};
 }
 
-/// Smallest distance on the way, and an error text when it leaves the limits or does not end at the target.
-double closest_on(const WaySpace& space, PerAxis from, const std::vector<PerAxis>& corners) {
+/// Smallest distance on the path, and an error text when it leaves the limits or does not end at the target.
+double closest_on(const PathSpace& space, PerAxis from, const std::vector<PerAxis>& corners) {
   double closest = gap_at(space, from);
   for (const auto& corner : corners) {
     const double length = std::hypot(corner[0] - from[0], 1.4 * (corner[1] - from[1]), corner[2] - from[2]);
@@ -113,9 +113,9 @@ double closest_on(const WaySpace& space, PerAxis from, const std::vector<PerAxis
 }
 
 /// True when cells of 1 cm connect both positions with the shortest cable; the flood fill passes where the
-/// load has the clearance `gap_m`. Every way, with any cable length, has a counterpart with the shortest
+/// load has the clearance `gap_m`. Every path, with any cable length, has a counterpart with the shortest
 /// cable.
-bool flood_connects(const WaySpace& space, const PerAxis& from, const PerAxis& to, double gap_m) {
+bool flood_connects(const PathSpace& space, const PerAxis& from, const PerAxis& to, double gap_m) {
   const double cable = std::min({from[2], to[2], space.axis[2].low});
   const bool slews = space.axis[1].present;
   const double low = std::min(space.axis[0].low, from[0]), step = 0.01, turn = 0.01 / 1.31;
@@ -147,17 +147,17 @@ bool flood_connects(const WaySpace& space, const PerAxis& from, const PerAxis& t
   return false;
 }
 
-std::vector<PerAxis> corners_of(const Way& way) {
+std::vector<PerAxis> corners_of(const Path& path) {
   std::vector<PerAxis> corners;
-  for (const auto& point : way.points) corners.push_back(point.position);
+  for (const auto& point : path.points) corners.push_back(point.position);
   return corners;
 }
 
 struct Count {
-  int straight = 0, around = 0, no_way = 0;
+  int straight = 0, around = 0, no_path = 0;
 };
 
-Count check_random_ways(const WaySpace& rig, unsigned seeds, int most_zones) {
+Count check_random_paths(const PathSpace& rig, unsigned seeds, int most_zones) {
   Count count;
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     Random random{seed};
@@ -165,15 +165,15 @@ Count check_random_ways(const WaySpace& rig, unsigned seeds, int most_zones) {
     add_zones(space, random, 1 + random.below(most_zones));
     const PerAxis from = free_place(space, random, 0.021), to = free_place(space, random, 0.021);
     if (from[2] == 0 || to[2] == 0) continue;
-    const Way way = way_to(space, from, to);
-    if (way.outcome == WayOutcome::straight) {
+    const Path path = path_to(space, from, to);
+    if (path.outcome == PathOutcome::straight) {
       ++count.straight;
       EXPECT_GE(closest_on(space, from, {to}), kRestGap_m - 1e-3) << "seed " << seed;
-    } else if (way.outcome == WayOutcome::around) {
+    } else if (path.outcome == PathOutcome::around) {
       ++count.around;
-      EXPECT_GE(closest_on(space, from, corners_of(way)), kRestGap_m - 1e-3) << "seed " << seed;
-      EXPECT_EQ(way.points.back().position, to) << "seed " << seed;
-      for (const auto& point : way.points) {
+      EXPECT_GE(closest_on(space, from, corners_of(path)), kRestGap_m - 1e-3) << "seed " << seed;
+      EXPECT_EQ(path.points.back().position, to) << "seed " << seed;
+      for (const auto& point : path.points) {
         EXPECT_GT(point.speed_share, 0) << "seed " << seed;
         for (std::size_t axis = 0; axis < 3; ++axis)
           if (space.axis[axis].present) {
@@ -182,9 +182,9 @@ Count check_random_ways(const WaySpace& rig, unsigned seeds, int most_zones) {
           }
       }
     } else {
-      ++count.no_way;
-      EXPECT_EQ(way.outcome, WayOutcome::no_way) << "seed " << seed;
-      EXPECT_FALSE(way.blocking.empty()) << "seed " << seed;
+      ++count.no_path;
+      EXPECT_EQ(path.outcome, PathOutcome::no_path) << "seed " << seed;
+      EXPECT_FALSE(path.blocking.empty()) << "seed " << seed;
       // Passages narrower than a cell of the search (4 cm) beside kPassGap_m may remain unknown.
       EXPECT_FALSE(flood_connects(space, from, to, kPassGap_m + 0.04)) << "seed " << seed;
     }
@@ -192,25 +192,25 @@ Count check_random_ways(const WaySpace& rig, unsigned seeds, int most_zones) {
   return count;
 }
 
-TEST(RandomWays, OfATowerStayOutOfTheZonesAndExistWhereTheFloodFindsThem) {
-  const auto count = check_random_ways(tower(), 600, 40);
+TEST(RandomPaths, OfATowerStayOutOfTheZonesAndExistWhereTheFloodFindsThem) {
+  const auto count = check_random_paths(tower(), 600, 40);
   EXPECT_GT(count.straight, 20);
   EXPECT_GT(count.around, 100);
-  EXPECT_GT(count.no_way, 10);
+  EXPECT_GT(count.no_path, 10);
 }
 
-TEST(RandomWays, OfAGantryStayOutOfTheZonesAndExistWhereTheFloodFindsThem) {
-  const auto count = check_random_ways(gantry(), 600, 4);
+TEST(RandomPaths, OfAGantryStayOutOfTheZonesAndExistWhereTheFloodFindsThem) {
+  const auto count = check_random_paths(gantry(), 600, 4);
   EXPECT_GT(count.around, 100);
-  EXPECT_GT(count.no_way, 10);
+  EXPECT_GT(count.no_path, 10);
 }
 
-TEST(RandomWays, AreEqualForEqualArguments) {
+TEST(RandomPaths, AreEqualForEqualArguments) {
   Random random{7};
   auto space = tower();
   add_zones(space, random, 6);
   const PerAxis from = free_place(space, random, 0.05), to = free_place(space, random, 0.05);
-  const auto first = way_to(space, from, to), second = way_to(space, from, to);
+  const auto first = path_to(space, from, to), second = path_to(space, from, to);
   EXPECT_EQ(corners_of(first), corners_of(second));
 }
 
@@ -221,9 +221,9 @@ TEST(RandomRoutes, StayOutOfTheZonesWithBlendedCorners) {
     auto space = tower();
     add_zones(space, random, 1 + random.below(6));
     const PerAxis from = free_place(space, random, 0.06), to = free_place(space, random, 0.06);
-    const Way way = way_to(space, from, to);
-    if (way.outcome != WayOutcome::around) continue;
-    const Route route{space, from, way.points, {.blends = true, .overlaps = true}};
+    const Path path = path_to(space, from, to);
+    if (path.outcome != PathOutcome::around) continue;
+    const Route route{space, from, path.points, {.blends = true, .overlaps = true}};
     double rests_s = 0;
     for (double t = 0; t <= route.duration_s() + 0.1; t += 0.005) {
       const std::array at{route.at(0, t), route.at(1, t), route.at(2, t)};
@@ -236,54 +236,54 @@ TEST(RandomRoutes, StayOutOfTheZonesWithBlendedCorners) {
       if (std::abs(at[0].speed) + std::abs(at[1].speed) + std::abs(at[2].speed) < 1e-6) rests_s += 0.005;
     }
     EXPECT_EQ(route.at(0, route.duration_s()).position, to[0]);
-    if (way.points.size() > 1 && rests_s < 0.15) ++blended;
+    if (path.points.size() > 1 && rests_s < 0.15) ++blended;
   }
   EXPECT_GT(blended, 10);
 }
 
-TEST(WayToATarget, NamesTheZoneAroundTheTarget) {
+TEST(PathToATarget, NamesTheZoneAroundTheTarget) {
   auto space = tower();
   space.zones = {
       {.name = "far", .shape = ZoneShape::cylinder, .position_x_m = -1, .radius_m = 0.1, .top_m = 2},
       {.name = "silo", .shape = ZoneShape::cylinder, .position_y_m = 0.7, .radius_m = 0.1, .top_m = 2}};
-  const auto way = way_to(space, {0.7, 0, 1}, {0.7, std::numbers::pi / 2, 1});
-  EXPECT_EQ(way.outcome, WayOutcome::target_inside);
-  EXPECT_EQ(way.blocking, std::vector<std::size_t>{1});
+  const auto path = path_to(space, {0.7, 0, 1}, {0.7, std::numbers::pi / 2, 1});
+  EXPECT_EQ(path.outcome, PathOutcome::target_inside);
+  EXPECT_EQ(path.blocking, std::vector<std::size_t>{1});
 }
 
-TEST(WayToATarget, NamesTheWallThatEnclosesTheStart) {
+TEST(PathToATarget, NamesTheWallThatEnclosesTheStart) {
   auto space = tower();
   space.zones = {{.name = "wall", .position_y_m = 0.75, .size_x_m = 0.1, .size_y_m = 1.5, .top_m = 1.99}};
-  const auto way = way_to(space, {0.7, 0.2, 1}, {0.7, 2.5, 1});
-  EXPECT_EQ(way.outcome, WayOutcome::no_way);
-  EXPECT_EQ(way.blocking, std::vector<std::size_t>{0});
+  const auto path = path_to(space, {0.7, 0.2, 1}, {0.7, 2.5, 1});
+  EXPECT_EQ(path.outcome, PathOutcome::no_path);
+  EXPECT_EQ(path.blocking, std::vector<std::size_t>{0});
 }
 
-TEST(WayToATarget, RaisesTheLoadOfAGantryAboveAZone) {
+TEST(PathToATarget, RaisesTheLoadOfAGantryAboveAZone) {
   auto space = gantry();
   space.zones = {{.name = "box", .position_x_m = 1.5, .size_x_m = 0.4, .size_y_m = 1, .top_m = 1}};
-  const auto way = way_to(space, {0.5, 0, 1.2}, {2.5, 0, 1.2});
-  ASSERT_EQ(way.outcome, WayOutcome::around);
-  EXPECT_LT(way.points.front().position[2], 0.9);
-  EXPECT_EQ(way.points.back().position, (PerAxis{2.5, 0, 1.2}));
+  const auto path = path_to(space, {0.5, 0, 1.2}, {2.5, 0, 1.2});
+  ASSERT_EQ(path.outcome, PathOutcome::around);
+  EXPECT_LT(path.points.front().position[2], 0.9);
+  EXPECT_EQ(path.points.back().position, (PerAxis{2.5, 0, 1.2}));
 }
 
-TEST(WayToATarget, LeavesTheMarginOfAZoneThatContainsTheStart) {
+TEST(PathToATarget, LeavesTheMarginOfAZoneThatContainsTheStart) {
   auto space = tower();
   space.zones = {{.name = "box", .position_x_m = 0.9, .size_x_m = 0.2, .size_y_m = 0.2, .top_m = 2}};
-  EXPECT_EQ(way_to(space, {0.74, 0, 1}, {0.4, 0, 1}).outcome, WayOutcome::around);
-  EXPECT_EQ(way_to(space, {0.74, 0, 1}, {0.76, 0, 1}).outcome, WayOutcome::target_inside);
+  EXPECT_EQ(path_to(space, {0.74, 0, 1}, {0.4, 0, 1}).outcome, PathOutcome::around);
+  EXPECT_EQ(path_to(space, {0.74, 0, 1}, {0.76, 0, 1}).outcome, PathOutcome::target_inside);
 }
 
-TEST(WayToATarget, DoesNotExistFromAPlaceThatIsNotFinite) {
+TEST(PathToATarget, DoesNotExistFromAPlaceThatIsNotFinite) {
   auto space = tower();
   space.zones = {{.name = "box", .position_x_m = 0.9, .size_x_m = 0.2, .size_y_m = 0.2, .top_m = 2}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(way_to(space, {nan, 0, 1}, {0.4, 0, 1}).outcome, WayOutcome::no_way);
-  EXPECT_EQ(way_to(space, {0.4, 0, 1}, {0.4, nan, 1}).outcome, WayOutcome::no_way);
+  EXPECT_EQ(path_to(space, {nan, 0, 1}, {0.4, 0, 1}).outcome, PathOutcome::no_path);
+  EXPECT_EQ(path_to(space, {0.4, 0, 1}, {0.4, nan, 1}).outcome, PathOutcome::no_path);
 }
 
-TEST(WayToATarget, DoesNotExistFromAPlaceFarOutsideTheCrane) {
+TEST(PathToATarget, DoesNotExistFromAPlaceFarOutsideTheCrane) {
   auto space = tower();
   space.zones = {{.name = "box", .position_x_m = 0.9, .size_x_m = 0.2, .size_y_m = 0.2, .top_m = 2}};
   for (const double far : {1e4, 1e9, 1e15, 1e300, -1e300})
@@ -291,20 +291,20 @@ TEST(WayToATarget, DoesNotExistFromAPlaceFarOutsideTheCrane) {
       PerAxis from{0.4, 0, 1};
       from[axis] = far;
       if (axis == plant::kHoist && far < 0) continue;  // a measured cable length is at least 0.05 m
-      const auto way = way_to(space, from, {0.4, 0, 1});
-      EXPECT_EQ(way.outcome, WayOutcome::no_way) << "axis " << axis << " at " << far;
-      EXPECT_TRUE(way.blocking.empty()) << "axis " << axis << " at " << far;
+      const auto path = path_to(space, from, {0.4, 0, 1});
+      EXPECT_EQ(path.outcome, PathOutcome::no_path) << "axis " << axis << " at " << far;
+      EXPECT_TRUE(path.blocking.empty()) << "axis " << axis << " at " << far;
     }
 }
 
-TEST(WayToATarget, IsRefusedAmongAHundredZonesThatFillTheSpace) {
+TEST(PathToATarget, IsRefusedAmongAHundredZonesThatFillTheSpace) {
   auto space = tower();
   Random random{3};
   add_zones(space, random, 100);
   for (auto& zone : space.zones) zone.top_m = 2;
   const PerAxis from{0.7, 0, 1}, to{0.7, 2.5, 1};
-  const auto way = way_to(space, from, to);
-  EXPECT_TRUE(way.outcome == WayOutcome::no_way || way.outcome == WayOutcome::target_inside);
+  const auto path = path_to(space, from, to);
+  EXPECT_TRUE(path.outcome == PathOutcome::no_path || path.outcome == PathOutcome::target_inside);
 }
 
 }  // namespace
