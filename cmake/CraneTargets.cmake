@@ -23,7 +23,8 @@ endif()
 
 # crane_library(NAME [SOURCES ...] [LINK ...] [PRIVATE_LINK ...])
 #   Library target crane_NAME with alias crane::NAME and public headers in include/.
-#   LINK is public, PRIVATE_LINK stays inside.
+#   LINK is public, PRIVATE_LINK stays inside. The target libraries builds all of them.
+add_custom_target(libraries)
 function(crane_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   if(ARG_SOURCES)
@@ -31,6 +32,7 @@ function(crane_library name)
     target_include_directories(crane_${name} PUBLIC include PRIVATE src)
     target_link_libraries(crane_${name} PUBLIC ${ARG_LINK} PRIVATE crane_build_flags ${ARG_PRIVATE_LINK})
     target_compile_features(crane_${name} PUBLIC cxx_std_20)
+    add_dependencies(libraries crane_${name})
   else()
     add_library(crane_${name} INTERFACE)
     target_include_directories(crane_${name} INTERFACE include)
