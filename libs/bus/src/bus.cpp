@@ -69,7 +69,12 @@ const Options& Bus::options() const { return state_->options; }
 UntypedPublisher Bus::make_publisher(const topics::Description& topic, const EndpointOptions& endpoint) {
   require_sealable(topic);
   try {
-    return {topic, state_->back_end->writer(topic, endpoint), state_->options};
+    return UntypedPublisher{std::make_unique<UntypedPublisher::State>(
+        UntypedPublisher::State{.topic = topic,
+                                .writer = state_->back_end->writer(topic, endpoint),
+                                .source = state_->options.source,
+                                .epoch = state_->options.epoch,
+                                .messages_version = state_->options.messages_version})};
   } catch (const Error& error) {
     if (!state_->options.credentials) throw;
     throw Error{std::string{error.what()} + "; may the role of " +
@@ -80,7 +85,11 @@ UntypedPublisher Bus::make_publisher(const topics::Description& topic, const End
 
 UntypedSubscriber Bus::make_subscriber(const topics::Description& topic, const EndpointOptions& endpoint) {
   require_sealable(topic);
-  return {topic, state_->back_end->reader(topic, endpoint), state_->options};
+  return UntypedSubscriber{std::make_unique<UntypedSubscriber::State>(
+      UntypedSubscriber::State{.topic = topic,
+                               .has_texts = CdrCodec::of(*topic.descriptor).has_texts(),
+                               .reader = state_->back_end->reader(topic, endpoint),
+                               .messages_version = state_->options.messages_version})};
 }
 
 CdrPublisher Bus::cdr_publisher(const topics::Description& topic, const EndpointOptions& endpoint) {

@@ -2,7 +2,8 @@
 /// Writer and reader of one topic, without its type. Each back end implements both.
 #include "crane/bus/bus.hpp"
 
-namespace crane::bus::detail {
+namespace crane::bus {
+namespace detail {
 
 class Writer {
  public:
@@ -24,4 +25,21 @@ class Reader {
   [[nodiscard]] virtual int matched() const = 0;
 };
 
-}  // namespace crane::bus::detail
+}  // namespace detail
+
+struct UntypedPublisher::State {
+  const topics::Description& topic;
+  std::unique_ptr<detail::Writer> writer;
+  crane_Source source;
+  std::uint32_t epoch, messages_version;
+};
+
+struct UntypedSubscriber::State {
+  const topics::Description& topic;
+  bool has_texts;
+  std::unique_ptr<detail::Reader> reader;
+  std::uint32_t messages_version;
+  ReaderCounts counts{};
+};
+
+}  // namespace crane::bus

@@ -22,32 +22,35 @@ bool take_next(detail::Reader& reader, const topics::Description& topic, std::ui
   return taken;
 }
 
+/// Any program may write any text. Every reader (terminal, page, recording, log) gets only visible text, and
+/// the CRC of this text.
+void make_printable(const topics::Description& topic, std::uint32_t messages_version, void* sample) {
+  if (!CdrCodec::of(*topic.descriptor).make_texts_printable(sample)) return;
+  const auto header = *static_cast<const msg::Header*>(sample);
+  seal(topic, sample, header.source, header.epoch, messages_version);
+}
+
 }  // namespace
 
-UntypedPublisher::UntypedPublisher(const topics::Description& topic, std::unique_ptr<detail::Writer> writer,
-                                   const Options& options)
-    : topic_{&topic},
-      writer_{std::move(writer)},
-      source_{options.source},
-      epoch_{options.epoch},
-      messages_version_{options.messages_version} {}
+UntypedPublisher::UntypedPublisher(std::unique_ptr<State> state) : state_{std::move(state)} {}
 UntypedPublisher::~UntypedPublisher() = default;
 UntypedPublisher::UntypedPublisher(UntypedPublisher&&) noexcept = default;
 UntypedPublisher& UntypedPublisher::operator=(UntypedPublisher&&) noexcept = default;
 
 bool UntypedPublisher::send(void* sample) {
-  auto* const stamps = topic_->every_tick ? path_stamps() : nullptr;
+  const topics::Description& topic = state_->topic;
+  auto* const stamps = topic.every_tick ? path_stamps() : nullptr;
   const auto begin_ns = stamps != nullptr ? PathStamps::now_ns() : 0;
-  seal(*topic_, sample, source_, epoch_, messages_version_);
+  seal(topic, sample, state_->source, state_->epoch, state_->messages_version);
   const auto sealed_ns = stamps != nullptr ? PathStamps::now_ns() : 0;
-  const bool sent = writer_->write(sample);
+  const bool sent = state_->writer->write(sample);
   if (stamps != nullptr)
-    stamps->published(*topic_, *static_cast<const msg::Header*>(sample), begin_ns, sealed_ns);
+    stamps->published(topic, *static_cast<const msg::Header*>(sample), begin_ns, sealed_ns);
   return sent;
 }
-bool UntypedPublisher::dispose_of(const void* sample) { return writer_->dispose(sample); }
-bool UntypedPublisher::assert_liveliness() { return writer_->assert_liveliness(); }
-int UntypedPublisher::matched() const { return writer_->matched(); }
+bool UntypedPublisher::dispose_of(const void* sample) { return state_->writer->dispose(sample); }
+bool UntypedPublisher::assert_liveliness() { return state_->writer->assert_liveliness(); }
+int UntypedPublisher::matched() const { return state_->writer->matched(); }
 
 CdrPublisher::CdrPublisher(const topics::Description& topic, UntypedPublisher&& untyped)
     : UntypedPublisher{std::move(untyped)},
@@ -60,39 +63,29 @@ bool CdrPublisher::publish(std::span<const std::uint8_t> cdr) {
          send(sample_.data());
 }
 
-UntypedSubscriber::UntypedSubscriber(const topics::Description& topic, std::unique_ptr<detail::Reader> reader,
-                                     const Options& options)
-    : topic_{&topic},
-      has_texts_{CdrCodec::of(*topic.descriptor).has_texts()},
-      reader_{std::move(reader)},
-      messages_version_{options.messages_version} {}
+UntypedSubscriber::UntypedSubscriber(std::unique_ptr<State> state) : state_{std::move(state)} {}
 UntypedSubscriber::~UntypedSubscriber() = default;
 UntypedSubscriber::UntypedSubscriber(UntypedSubscriber&&) noexcept = default;
 UntypedSubscriber& UntypedSubscriber::operator=(UntypedSubscriber&&) noexcept = default;
 
-int UntypedSubscriber::matched() const { return reader_->matched(); }
-
-/// Any program may write any text. Every reader (terminal, page, recording, log) gets only visible text, and
-/// the CRC of this text.
-void UntypedSubscriber::make_printable(void* sample) const {
-  if (!CdrCodec::of(*topic_->descriptor).make_texts_printable(sample)) return;
-  const auto header = *static_cast<const msg::Header*>(sample);
-  seal(*topic_, sample, header.source, header.epoch, messages_version_);
-}
+int UntypedSubscriber::matched() const { return state_->reader->matched(); }
+const ReaderCounts& UntypedSubscriber::counts() const { return state_->counts; }
+const topics::Description& UntypedSubscriber::topic() const { return state_->topic; }
 
 bool UntypedSubscriber::receive(void* sample, SampleInfo* info) {
+  State& state = *state_;
   SampleInfo local;
   bool is_intact = true;
-  while (take_next(*reader_, *topic_, messages_version_, sample, local, is_intact)) {
+  while (take_next(*state.reader, state.topic, state.messages_version, sample, local, is_intact)) {
     if (!is_intact) {
-      ++counts_.rejected;
+      ++state.counts.rejected;
       continue;
     }
     if (!local.valid && info == nullptr) continue;
     if (info != nullptr) *info = local;
     if (local.valid) {
-      ++counts_.taken;
-      if (has_texts_) make_printable(sample);
+      ++state.counts.taken;
+      if (state.has_texts) make_printable(state.topic, state.messages_version, sample);
     }
     return true;
   }
